@@ -1,0 +1,72 @@
+#include "base/context.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/sundials_impl.h"
+
+struct iso_context {
+    SUNContext sun; /* made when the first SUNDIALS method asks for it */
+    char message[1024];
+    char field[32];
+};
+
+const char *iso_status_text(iso_status status)
+{
+    static const char *const texts[] = {
+#define ISO_STATUS_TEXT(name, text) text,
+        ISO_STATUS_LIST(ISO_STATUS_TEXT)
+#undef ISO_STATUS_TEXT
+    };
+    const unsigned i = (unsigned)status;
+    return i < sizeof texts / sizeof *texts ? texts[i] : "unknown status";
+}
+
+iso_context *iso_context_create(void)
+{
+    return calloc(1, sizeof(iso_context));
+}
+
+void iso_context_free(iso_context *ctx)
+{
+    if (!ctx) return;
+    if (ctx->sun) SUNContext_Free(&ctx->sun);
+    free(ctx);
+}
+
+const char *iso_context_message(const iso_context *ctx)
+{
+    return ctx->message;
+}
+
+const char *iso_context_field(const iso_context *ctx)
+{
+    return ctx->field;
+}
+
+iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *field, const char *format, ...)
+{
+    va_list args;
+    char message[sizeof ctx->message]; /* the arguments may point into the old message */
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    snprintf(ctx->message, sizeof ctx->message, "%s", message);
+    snprintf(ctx->field, sizeof ctx->field, "%s", field);
+    return status;
+}
+
+SUNContext iso_context_sundials(iso_context *ctx)
+{
+    if (!ctx->sun && ISO_SUN_CONTEXT_CREATE(&ctx->sun) != 0) ctx->sun = NULL;
+    if (ctx->sun) ISO_SUN_CONTEXT_QUIET(ctx->sun);
+    return ctx->sun;
+}
+
+#if SUNDIALS_VERSION_MAJOR < 7
+void iso_sundials_quiet(int code, const char *module, const char *function, char *message, void *user)
+{
+    (void)code, (void)module, (void)function, (void)message, (void)user;
+}
+#endif

@@ -1,0 +1,39 @@
+/* context.h - one per thread: carries the words of the last failure and the SUNDIALS context.
+ *
+ *     iso_context *ctx = iso_context_create();
+ *     if (iso_params_reduced(ctx, k, J, &p) != ISO_OK) puts(iso_context_message(ctx));
+ *     iso_context_free(ctx);
+ *
+ * Contexts share nothing; objects made with a context must not outlive it. GSL's error handler is global and
+ * aborts by default: the library keeps away from calls that raise it, but a program that must survive a failing
+ * malloc inside GSL calls gsl_set_error_handler_off() once at its start.
+ */
+#ifndef ISO_BASE_CONTEXT_H
+#define ISO_BASE_CONTEXT_H
+
+#include "base/status.h"
+
+typedef struct iso_context iso_context;
+
+/* A new context, or NULL when there is no memory. */
+iso_context *iso_context_create(void);
+
+/* Releases it; NULL is allowed. */
+void iso_context_free(iso_context *ctx);
+
+/* What went wrong last, one line without a newline; "" when nothing did. Valid until the next failing call. */
+const char *iso_context_message(const iso_context *ctx);
+
+/* The name of the input quantity the last failure is about ("inertia", "normal", ...); "" when there is none.
+ * Readers of files use it to point at the place where that quantity was written. */
+const char *iso_context_field(const iso_context *ctx);
+
+/* Records a failure about `field` ("" for none) in printf's words and returns `status`, so that a check reads
+ * `return iso_context_fail(ctx, ISO_BAD_INPUT, "mass", "...", ...)`. */
+iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *field, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 4, 5)))
+#endif
+    ;
+
+#endif

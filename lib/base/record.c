@@ -1,0 +1,196 @@
+#include "base/record.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+
+#define NAME_SIZE 32
+
+typedef struct line {
+    char *key, *value;
+} line;
+
+struct iso_record {
+    size_t columns, rows, room;
+    char (*names)[NAME_SIZE];
+    double *data;
+    size_t lines;
+    line *line;
+};
+
+static iso_status no_memory(iso_context *ctx)
+{
+    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a trajectory record");
+}
+
+iso_status iso_record_create(iso_context *ctx, size_t columns, const char *const names[], iso_record **record)
+{
+    *record = NULL;
+    for (size_t i = 0; i < columns; i++) {
+        if (strlen(names[i]) >= NAME_SIZE)
+            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "column name '%s' is longer than %d characters",
+                                    names[i], NAME_SIZE - 1);
+        for (size_t j = 0; j < i; j++)
+            if (strcmp(names[i], names[j]) == 0)
+                return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "column '%s' appears twice", names[i]);
+    }
+    iso_record *r = calloc(1, sizeof *r);
+    if (!r) return no_memory(ctx);
+    r->columns = columns;
+    r->names = calloc(columns ? columns : 1, sizeof *r->names);
+    if (!r->names) return iso_record_free(r), no_memory(ctx);
+    for (size_t i = 0; i < columns; i++) memcpy(r->names[i], names[i], strlen(names[i]) + 1);
+    *record = r;
+    return ISO_OK;
+}
+
+void iso_record_free(iso_record *r)
+{
+    if (!r) return;
+    for (size_t i = 0; i < r->lines; i++) {
+        free(r->line[i].key);
+        free(r->line[i].value);
+    }
+    free(r->line);
+    free(r->names);
+    free(r->data);
+    free(r);
+}
+
+size_t iso_record_columns(const iso_record *r)
+{
+    return r->columns;
+}
+
+size_t iso_record_rows(const iso_record *r)
+{
+    return r->rows;
+}
+
+const char *iso_record_name(const iso_record *r, size_t column)
+{
+    return r->names[column];
+}
+
+int iso_record_find(const iso_record *r, const char *name)
+{
+    for (size_t i = 0; i < r->columns; i++)
+        if (strcmp(r->names[i], name) == 0) return (int)i;
+    return -1;
+}
+
+bool iso_record_find_all(const iso_record *r, size_t count, const char *const names[], int columns[],
+                         const char **missing)
+{
+    for (size_t i = 0; i < count; i++) {
+        columns[i] = iso_record_find(r, names[i]);
+        if (columns[i] >= 0) continue;
+        if (missing) *missing = names[i];
+        return false;
+    }
+    return true;
+}
+
+double *iso_record_row(iso_record *r, size_t row)
+{
+    return r->data + row * r->columns;
+}
+
+const double *iso_record_const_row(const iso_record *r, size_t row)
+{
+    return r->data + row * r->columns;
+}
+
+iso_status iso_record_append(iso_context *ctx, iso_record *r, double **row)
+{
+    if (r->rows == r->room) {
+        const size_t room = r->room ? 2 * r->room : 64;
+        double *data = realloc(r->data, room * (r->columns ? r->columns : 1) * sizeof *data);
+        if (!data) return no_memory(ctx);
+        r->data = data;
+        r->room = room;
+    }
+    *row = iso_record_row(r, r->rows++);
+    memset(*row, 0, r->columns * sizeof **row);
+    return ISO_OK;
+}
+
+static line *find_line(const iso_record *r, const char *key)
+{
+    for (size_t i = 0; i < r->lines; i++)
+        if (strcmp(r->line[i].key, key) == 0) return &r->line[i];
+    return NULL;
+}
+
+const char *iso_record_get(const iso_record *r, const char *key)
+{
+    const line *l = find_line(r, key);
+    return l ? l->value : NULL;
+}
+
+iso_status iso_record_set(iso_context *ctx, iso_record *r, const char *key, const char *value)
+{
+    char *copy = strdup(value);
+    if (!copy) return no_memory(ctx);
+    line *l = find_line(r, key);
+    if (l) {
+        free(l->value);
+        l->value = copy;
+        return ISO_OK;
+    }
+    line *grown = realloc(r->line, (r->lines + 1) * sizeof *grown);
+    if (grown) r->line = grown;
+    char *name = grown ? strdup(key) : NULL;
+    if (!name) return free(copy), no_memory(ctx);
+    r->line[r->lines++] = (line){.key = name, .value = copy};
+    return ISO_OK;
+}
+
+iso_status iso_record_set_numbers(iso_context *ctx, iso_record *r, const char *key, size_t count,
+                                  const double values[])
+{
+    char *text = malloc(count * ISO_NUMBER_SIZE + 1), *end = text;
+    if (!text) return no_memory(ctx);
+    *text = '\0';
+    for (size_t i = 0; i < count; i++) {
+        if (i > 0) *end++ = ' ';
+        end += iso_number_print(end, values[i]);
+    }
+    const iso_status status = iso_record_set(ctx, r, key, text);
+    free(text);
+    return status;
+}
+
+bool iso_record_line(const iso_record *r, size_t i, const char **key, const char **value)
+{
+    if (i >= r->lines) return false;
+    *key = r->line[i].key;
+    *value = r->line[i].value;
+    return true;
+}
+
+bool iso_record_get_numbers(iso_context *ctx, const iso_record *r, const char *key, size_t count, double values[],
+                            iso_status *status)
+{
+    *status = ISO_OK;
+    const char *text = iso_record_get(r, key);
+    if (!text) return false;
+    const char *at = text;
+    size_t found = 0;
+    for (;;) {
+        at += strspn(at, " \t,");
+        const size_t length = strcspn(at, " \t,");
+        if (length == 0) break;
+        if (found == count || !iso_number_read(at, length, &values[found])) {
+            found = count + 1;
+            break;
+        }
+        found++;
+        at += length;
+    }
+    if (found == count) return true;
+    *status = iso_context_fail(ctx, ISO_BAD_INPUT, key, "'%s: %s' should be %zu finite number%s", key, text, count,
+                               count == 1 ? "" : "s");
+    return false;
+}

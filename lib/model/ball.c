@@ -1,0 +1,214 @@
+/* ball.c - the rubber Chaplygin ball (9), in its own time t.
+ *
+ *     J w' = J w x w + lambda n,     n' = k n x w,     (w,n) = 0,     |n| = 1
+ *
+ * lambda n is the torque that keeps the ball from twisting. It follows from (w,n)' = (w',n) = 0 (n' is orthogonal to
+ * w), so with u = J^-1 n and g = (n, u)
+ *
+ *     lambda = -(J w x w, u) / g .
+ */
+#include <math.h>
+
+#include "base/vec3_impl.h"
+#include "model/integrals_impl.h"
+#include "model/system.h"
+
+static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STATE])
+{
+    const iso_params *p = &f->p;
+    const double *w = y, *n = y + 3;
+    double Jw[3], u[3], c[3], turn[3];
+    diag(p->J, w, Jw);
+    diag(p->inv_J, n, u);
+    cross(Jw, w, c);
+    const double lambda = -dot(c, u) / dot(n, u);
+    cross(n, w, turn);
+    for (int i = 0; i < 3; i++) {
+        dy[i] = p->inv_J[i] * c[i] + lambda * u[i];
+        dy[3 + i] = p->k * turn[i];
+    }
+}
+
+/* With c = J w x w:  dc/dw_j = J_j e_j x w + J w x e_j,
+ * dlambda/dw_j = -(dc/dw_j, u)/g,   dlambda/dn_j = -(c_j/J_j + 2 lambda u_j)/g. */
+static void jacobian(const iso_field *f, const double y[ISO_STATE], double jac[ISO_STATE * ISO_STATE])
+{
+    const iso_params *p = &f->p;
+    const double *w = y, *n = y + 3;
+    double Jw[3], u[3], c[3];
+    diag(p->J, w, Jw);
+    diag(p->inv_J, n, u);
+    cross(Jw, w, c);
+    const double g = dot(n, u), lambda = -dot(c, u) / g;
+    for (int j = 0; j < 3; j++) {
+        const double e[3] = {j == 0, j == 1, j == 2};
+        double e_w[3], Jw_e[3], n_e[3], dc[3];
+        cross(e, w, e_w);
+        cross(Jw, e, Jw_e);
+        cross(n, e, n_e);
+        for (int i = 0; i < 3; i++) dc[i] = p->J[j] * e_w[i] + Jw_e[i];
+        const double dlambda_dw = -dot(dc, u) / g;
+        const double dlambda_dn = -(p->inv_J[j] * c[j] + 2 * lambda * u[j]) / g;
+        for (int i = 0; i < 3; i++) {
+            jac[6 * i + j] = p->inv_J[i] * dc[i] + dlambda_dw * u[i];
+            jac[6 * i + 3 + j] = dlambda_dn * u[i] + lambda * p->inv_J[i] * e[i];
+            jac[6 * (3 + i) + j] = p->k * n_e[i];
+            jac[6 * (3 + i) + 3 + j] = p->k * e_w[i];
+        }
+    }
+}
+
+/* q = (gamma, J gamma) = 1/(n, J^-1 n), taken at the direction of n */
+static double ball_q(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE])
+{
+    const double *n = y + 3, q = 1 / dot_diag(n, p->inv_J, n);
+    if (gradient)
+        for (int i = 0; i < 3; i++) {
+            gradient[i] = 0;
+            gradient[3 + i] = -2 * q * q * p->inv_J[i] * n[i];
+        }
+    return q;
+}
+
+static double energy(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    const double h = dot_diag(y, f->p.J, y) / 2;
+    *size = h;
+    return h;
+}
+
+static double spin(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    (void)f;
+    *size = norm(y);
+    return dot(y, y + 3);
+}
+
+static double normal_length(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    (void)f;
+    *size = 1;
+    return norm(y + 3);
+}
+
+static double f_plane(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    double Jw[3], K[3];
+    diag(f->p.J, y, Jw);
+    cross(Jw, y + 3, K);
+    *size = dot(Jw, Jw);
+    return dot(K, K);
+}
+
+/* (11), with n^2 = 1 */
+static double f_shell(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    const double *n = y + 3;
+    double Jw[3], u[3];
+    diag(f->p.J, y, Jw);
+    diag(f->p.inv_J, n, u);
+    return *size = (dot(Jw, Jw) + f->p.det_J * dot(y, Jw) * dot(u, u)) / dot(n, u);
+}
+
+/* g^(1/(2k)) w_axis, for a body that is symmetric about that axis */
+static double f_axis(const iso_field *f, const double y[ISO_STATE], int axis, double *size)
+{
+    const double density = pow(ball_q(&f->p, y, NULL), -1 / (2 * f->p.k));
+    *size = density * norm(y);
+    return density * y[axis];
+}
+
+static double f_axis1(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    return f_axis(f, y, 0, size);
+}
+
+static double f_axis2(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    return f_axis(f, y, 1, size);
+}
+
+static double f_axis3(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    return f_axis(f, y, 2, size);
+}
+
+/* The three relations are restored one after the other, none disturbing the one before: |n| = 1 by scaling n,
+ * (w,n) = 0 by taking the spin out of w, h by scaling w. */
+static double project(const iso_field *f, double y[ISO_STATE])
+{
+    const double length_error = make_unit(y + 3) - 1;
+    const double speed = norm(y);
+    if (speed == 0) return fabs(length_error);
+    const double spin_error = remove_along(y, y + 3) / speed;
+    double h;
+    energy(f, y, &h);
+    const double stretch = sqrt(f->energy / h);
+    scale(y, stretch);
+    return fmax(fmax(fabs(length_error), fabs(spin_error)), fabs(stretch - 1));
+}
+
+static double speed(const iso_field *f, const double y[ISO_STATE])
+{
+    (void)f;
+    return norm(y);
+}
+
+static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
+{
+    double unused;
+    iso_random_direction(r, y + 3);
+    for (int i = 0; i < 3; i++) y[i] = iso_random_normal(r);
+    remove_along(y, y + 3);
+    f->eps = 0;
+    f->energy = energy(f, y, &unused);
+}
+
+static const char *const state_names[] = {"omega1", "omega2", "omega3", "n1", "n2", "n3"};
+
+static const iso_integral integrals[] = {
+    {.name = "h", .doc = "energy (w,Jw)/2", .dimension = {1, 0, 2}, .value = energy},
+    {.name = "omega.n", .doc = "no twist: (w,n) = 0", .dimension = {0, 0, 1}, .value = spin},
+    {.name = "|n|", .doc = "unit normal: 1", .value = normal_length},
+    {.name = "F_plane",
+     .doc = "(Jw x n, Jw x n), k = 1",
+     .dimension = {2, 0, 2},
+     .holds = holds_plane,
+     .value = f_plane},
+    {.name = "F_shell",
+     .doc = "[(Jw,Jw) + det J (w,Jw)(J^-1 n,J^-1 n)]/(n,J^-1 n), k = -1 (11)",
+     .dimension = {3, 0, 2},
+     .holds = holds_shell,
+     .value = f_shell},
+    {.name = "F_axis1",
+     .doc = "(n,J^-1 n)^(1/(2k)) w1, J2 = J3",
+     .dimension = {0, -1, 1},
+     .holds = holds_axis1,
+     .value = f_axis1},
+    {.name = "F_axis2",
+     .doc = "(n,J^-1 n)^(1/(2k)) w2, J3 = J1",
+     .dimension = {0, -1, 1},
+     .holds = holds_axis2,
+     .value = f_axis2},
+    {.name = "F_axis3",
+     .doc = "(n,J^-1 n)^(1/(2k)) w3, J1 = J2",
+     .dimension = {0, -1, 1},
+     .holds = holds_axis3,
+     .value = f_axis3},
+    {0},
+};
+
+const iso_system iso_system_ball = {
+    .name = "ball",
+    .doc = "rubber Chaplygin ball on a sphere or plane, no slip, no twist (9)",
+    .clock = ISO_CLOCK_T,
+    .state = state_names,
+    .fast_dimension = {0, 0, 1},
+    .integrals = integrals,
+    .rhs = rhs,
+    .jacobian = jacobian,
+    .q = ball_q,
+    .project = project,
+    .speed = speed,
+    .sample = sample,
+};

@@ -1,0 +1,139 @@
+#include "model/params.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+
+const iso_dimension iso_dimension_h = {1, 0, 2}, iso_dimension_eps = {4, 0, 2};
+
+const char *iso_surface_name(int surface)
+{
+    static const char *const names[] = {"reduced", "plane", "outside", "inside", "shell"};
+    return surface >= 0 && surface < (int)(sizeof names / sizeof *names) ? names[surface] : NULL;
+}
+
+static bool is_positive(double x)
+{
+    return isnormal(x) && x > 0;
+}
+
+/* The derived numbers; J already checked. */
+static void fill(double k, const double J[3], iso_params *p)
+{
+    p->k = k;
+    for (int i = 0; i < 3; i++) {
+        p->J[i] = J[i];
+        p->inv_J[i] = 1 / J[i];
+        p->root_J[i] = sqrt(J[i]);
+    }
+    p->det_J = J[0] * J[1] * J[2];
+}
+
+iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso_params *p)
+{
+    if (!isfinite(k) || !isnormal(k))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "k",
+                                "k = %.17g: the geometry number must be finite and not 0 (at k = 0 the normal does "
+                                "not move and the isomorphism does not exist)",
+                                k);
+    for (int i = 0; i < 3; i++)
+        if (!is_positive(J[i]))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "J",
+                                    "J%d = %.17g: moments of inertia must be positive "
+                                    "and finite",
+                                    i + 1, J[i]);
+    memset(p, 0, sizeof *p);
+    p->body.surface = ISO_REDUCED;
+    fill(k, J, p);
+    return ISO_OK;
+}
+
+/* k = a/(a+b) from the true radii, each formula written so that nothing cancels but the radii themselves. */
+static double geometry_number(iso_surface surface, double A, double B)
+{
+    switch (surface) {
+    case ISO_OUTSIDE: return A / (A + B);
+    case ISO_INSIDE:
+    case ISO_SHELL: return A / (A - B);
+    default: return 1;
+    }
+}
+
+static iso_status check_radii(iso_context *ctx, const iso_body *b)
+{
+    const double A = b->surface_radius, B = b->radius;
+    if (b->surface == ISO_PLANE) return ISO_OK;
+    if (!is_positive(A))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "surface_radius",
+                                "surface radius %.17g: must be positive and finite (a plane is 'kind: plane')", A);
+    if (b->surface == ISO_INSIDE && !(B < A))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "surface_radius",
+                                "a ball of radius %.17g does not roll inside a sphere of radius %.17g: give a larger "
+                                "surface radius, or 'kind: shell' for a hollow ball around a smaller sphere",
+                                B, A);
+    if (b->surface == ISO_SHELL && !(B > A))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "surface_radius",
+                                "a shell of radius %.17g does not go around a sphere of radius %.17g: give a smaller "
+                                "surface radius, or 'kind: inside' for a ball in a larger sphere",
+                                B, A);
+    return ISO_OK;
+}
+
+iso_status iso_params_physical(iso_context *ctx, const iso_body *b, iso_params *p)
+{
+    const double *I = b->inertia;
+    if (!is_positive(b->mass))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "mass", "mass %.17g: must be positive and finite", b->mass);
+    if (!is_positive(b->radius))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "radius", "radius %.17g: must be positive and finite", b->radius);
+    for (int i = 0; i < 3; i++)
+        if (!is_positive(I[i]))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "inertia",
+                                    "inertia %d is %.17g: principal moments must be "
+                                    "positive and finite",
+                                    i + 1, I[i]);
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, l = (i + 2) % 3;
+        /* the sum of two numbers typed in decimal may miss the third by their rounding: a flat body is allowed */
+        if (I[i] > (I[j] + I[l]) * (1 + 8 * DBL_EPSILON))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "inertia",
+                                    "no solid body has these moments: I%d = %g exceeds I%d + I%d = %g (triangle "
+                                    "inequality); for k and J without a body use 'reduced:'",
+                                    i + 1, I[i], j + 1, l + 1, I[j] + I[l]);
+    }
+    const iso_status status = check_radii(ctx, b);
+    if (status != ISO_OK) return status;
+    double J[3];
+    const double D = b->mass * b->radius * b->radius;
+    for (int i = 0; i < 3; i++) J[i] = I[i] + D;
+    const double k = geometry_number(b->surface, b->surface_radius, b->radius);
+    if (!isnormal(k))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "surface_radius", "radii %g and %g give no geometry number k",
+                                b->surface_radius, b->radius);
+    if (!is_positive(max3(J)))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "mass", "m B^2 does not fit a double: use other units");
+    memset(p, 0, sizeof *p);
+    p->body = *b;
+    fill(k, J, p);
+    return ISO_OK;
+}
+
+void iso_units_choose(const iso_params *p, double speed, iso_units *u)
+{
+    const double mean_log2 = (log2(p->J[0]) + log2(p->J[1]) + log2(p->J[2])) / 3;
+    double J[3];
+    u->J = ldexp(1, (int)lrint(mean_log2));
+    u->w = speed > 0 ? ldexp(1, ilogb(speed)) : 1;
+    for (int i = 0; i < 3; i++) J[i] = p->J[i] / u->J;
+    u->own = *p;
+    fill(p->k, J, &u->own);
+}
+
+double iso_unit(const iso_units *u, iso_dimension d)
+{
+    const double fraction = d.J_2k == 0 ? 1 : pow(u->J, d.J_2k / (2 * u->own.k));
+    return ldexp(fraction, d.J * ilogb(u->J) + d.w * ilogb(u->w));
+}

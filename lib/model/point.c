@@ -1,0 +1,218 @@
+/* point.c - a point on the unit sphere in the Neumann/Braden potential (24), in its time s.
+ *
+ *     H = M^2/2 + V(gamma),     V = -eps q^(-1/k),     q = (gamma, J gamma)
+ *     M' = gamma x dV/dgamma = a gamma x J gamma,      a = (2 eps/k) q^(-1-1/k)
+ *     gamma' = gamma x M,     (M,gamma) = 0,     |gamma| = 1
+ *
+ * k = -1: V = -eps (gamma, J gamma), Neumann's problem;  k = 1: V = -eps/(gamma, J gamma), Braden's. An orbit on the
+ * level H = 0 is a free ball's; the ball's integrals follow from (18) and, completed by terms with H, hold on every level.
+ */
+#include <math.h>
+
+#include "base/vec3_impl.h"
+#include "model/integrals_impl.h"
+#include "model/system.h"
+
+static double point_q(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE])
+{
+    const double *gamma = y + 3;
+    if (gradient)
+        for (int i = 0; i < 3; i++) {
+            gradient[i] = 0;
+            gradient[3 + i] = 2 * p->J[i] * gamma[i];
+        }
+    return dot_diag(gamma, p->J, gamma);
+}
+
+static double torque_factor(const iso_field *f, double q)
+{
+    const double k = f->p.k;
+    return 2 * f->eps / k * (k == -1 ? 1 : pow(q, -1 - 1 / k));
+}
+
+static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STATE])
+{
+    const double *M = y, *gamma = y + 3;
+    double Jgamma[3];
+    diag(f->p.J, gamma, Jgamma);
+    cross(gamma, Jgamma, dy);
+    scale(dy, torque_factor(f, dot(gamma, Jgamma)));
+    cross(gamma, M, dy + 3);
+}
+
+/* dM'/dgamma_j = a [(-1 - 1/k) (2 J_j gamma_j/q) gamma x J gamma + e_j x J gamma + gamma x J_j e_j] */
+static void jacobian(const iso_field *f, const double y[ISO_STATE], double jac[ISO_STATE * ISO_STATE])
+{
+    const iso_params *p = &f->p;
+    const double *M = y, *gamma = y + 3;
+    double Jgamma[3], turn[3];
+    diag(p->J, gamma, Jgamma);
+    cross(gamma, Jgamma, turn);
+    const double q = dot(gamma, Jgamma), a = torque_factor(f, q);
+    for (int j = 0; j < 3; j++) {
+        const double e[3] = {j == 0, j == 1, j == 2};
+        double e_Jgamma[3], gamma_e[3], e_M[3];
+        cross(e, Jgamma, e_Jgamma);
+        cross(gamma, e, gamma_e);
+        cross(e, M, e_M);
+        const double dlog_a = (-1 - 1 / p->k) * 2 * Jgamma[j] / q;
+        for (int i = 0; i < 3; i++) {
+            jac[6 * i + j] = 0;
+            jac[6 * i + 3 + j] = a * (dlog_a * turn[i] + e_Jgamma[i] + p->J[j] * gamma_e[i]);
+            jac[6 * (3 + i) + j] = gamma_e[i];
+            jac[6 * (3 + i) + 3 + j] = e_M[i];
+        }
+    }
+}
+
+static double potential(const iso_field *f, const double y[ISO_STATE])
+{
+    return -f->eps * pow(point_q(&f->p, y, NULL), -1 / f->p.k);
+}
+
+static double energy(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    const double T = dot(y, y) / 2, V = potential(f, y);
+    *size = T + fabs(V);
+    return T + V;
+}
+
+static double spin(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    *size = iso_system_point.speed(f, y);
+    return dot(y, y + 3);
+}
+
+static double gamma_length(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    (void)f;
+    *size = 1;
+    return norm(y + 3);
+}
+
+/* (gamma', J^-1 gamma') + 2 H (gamma, J^-1 gamma), where (gamma', J^-1 gamma')' = -2 H (gamma, J^-1 gamma)' */
+static double f_plane(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    const double *M = y, *gamma = y + 3, *inv_J = f->p.inv_J;
+    double velocity[3], H_size;
+    cross(gamma, M, velocity);
+    const double kinetic = dot_diag(velocity, inv_J, velocity), shift = 2 * dot_diag(gamma, inv_J, gamma);
+    const double F = kinetic + shift * energy(f, y, &H_size);
+    *size = kinetic + shift * H_size;
+    return F;
+}
+
+/* Neumann's integral (M, J M)/det J + 2 eps (gamma, J^-1 gamma) */
+static double f_shell(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    const double *M = y, *gamma = y + 3;
+    const double kinetic = dot_diag(M, f->p.J, M) / f->p.det_J,
+                 rest = 2 * f->eps * dot_diag(gamma, f->p.inv_J, gamma);
+    *size = kinetic + fabs(rest);
+    return kinetic + rest;
+}
+
+/* M_axis, divided by what (18) multiplies with: the ball's integral of the same name */
+static double f_axis(const iso_field *f, const double y[ISO_STATE], int axis, double *size)
+{
+    const double factor = f->p.k / (sqrt(f->p.det_J) * f->p.root_J[axis]);
+    *size = fabs(factor) * iso_system_point.speed(f, y);
+    return factor * y[axis];
+}
+
+static double f_axis1(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    return f_axis(f, y, 0, size);
+}
+
+static double f_axis2(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    return f_axis(f, y, 1, size);
+}
+
+static double f_axis3(const iso_field *f, const double y[ISO_STATE], double *size)
+{
+    return f_axis(f, y, 2, size);
+}
+
+/* As for the ball. Off the level H = 0 the point turns back where M = 0, and no scaling of M restores H there: only
+ * the geometry is restored then. */
+static double project(const iso_field *f, double y[ISO_STATE])
+{
+    const double length_error = make_unit(y + 3) - 1;
+    const double size = iso_system_point.speed(f, y);
+    if (size == 0) return fabs(length_error);
+    double correction = fmax(fabs(length_error), fabs(remove_along(y, y + 3)) / size);
+    if (f->energy == 0) {
+        const double stretch = sqrt(-2 * potential(f, y)) / norm(y);
+        scale(y, stretch);
+        correction = fmax(correction, fabs(stretch - 1));
+    }
+    return correction;
+}
+
+/* |M|, or what it would be on the level H = 0: off that level M goes through zero */
+static double speed(const iso_field *f, const double y[ISO_STATE])
+{
+    return fmax(norm(y), sqrt(2 * fabs(potential(f, y))));
+}
+
+/* On the level H = 0, for a ball that spins at about one turn per unit of time. */
+static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
+{
+    f->eps = iso_random_uniform(r, 0.5, 2) * f->p.det_J / (f->p.k * f->p.k);
+    f->energy = 0;
+    iso_random_direction(r, y + 3);
+    iso_random_direction(r, y);
+    remove_along(y, y + 3);
+    scale(y, sqrt(-2 * potential(f, y)) / norm(y));
+}
+
+static const char *const state_names[] = {"M1", "M2", "M3", "gamma1", "gamma2", "gamma3"};
+
+static const iso_integral integrals[] = {
+    {.name = "H", .doc = "energy M^2/2 - eps (gamma,J gamma)^(-1/k) (24)", .dimension = {4, -2, 2}, .value = energy},
+    {.name = "M.gamma", .doc = "(M,gamma) = 0 (19)", .dimension = {2, -1, 1}, .value = spin},
+    {.name = "|gamma|", .doc = "point on the unit sphere: 1 (19)", .value = gamma_length},
+    {.name = "F_plane",
+     .doc = "(gamma',J^-1 gamma') + 2 H (gamma,J^-1 gamma), k = 1",
+     .dimension = {2, 0, 2},
+     .holds = holds_plane,
+     .value = f_plane},
+    {.name = "F_shell",
+     .doc = "(M,J M)/det J + 2 eps (gamma,J^-1 gamma), k = -1",
+     .dimension = {3, 0, 2},
+     .holds = holds_shell,
+     .value = f_shell},
+    {.name = "F_axis1",
+     .doc = "k M1/sqrt(J1 det J), J2 = J3",
+     .dimension = {0, -1, 1},
+     .holds = holds_axis1,
+     .value = f_axis1},
+    {.name = "F_axis2",
+     .doc = "k M2/sqrt(J2 det J), J3 = J1",
+     .dimension = {0, -1, 1},
+     .holds = holds_axis2,
+     .value = f_axis2},
+    {.name = "F_axis3",
+     .doc = "k M3/sqrt(J3 det J), J1 = J2",
+     .dimension = {0, -1, 1},
+     .holds = holds_axis3,
+     .value = f_axis3},
+    {0},
+};
+
+const iso_system iso_system_point = {
+    .name = "point",
+    .doc = "point on a sphere in the potential -eps (gamma,J gamma)^(-1/k) (24)",
+    .clock = ISO_CLOCK_S,
+    .state = state_names,
+    .fast_dimension = {2, -1, 1},
+    .integrals = integrals,
+    .rhs = rhs,
+    .jacobian = jacobian,
+    .q = point_q,
+    .project = project,
+    .speed = speed,
+    .sample = sample,
+};

@@ -1,0 +1,82 @@
+/* system.h - the two systems of the isomorphism behind one table: `ball` (9) and `point` (24).
+ *
+ * A row is everything the rest of the library knows of a system. Adding one is one file and one line in
+ * system.c. All functions work in any consistent units; iso_orbit calls them in the ball's own units.
+ *
+ *     ball    y = (omega, n)   clock t    J w' = J w x w + lambda n,  n' = k n x w,  (w,n) = 0,  |n| = 1       (9)
+ *     point   y = (M, gamma)   clock s    M' = gamma x dV/dgamma,     gamma' = gamma x M,
+ *                                         V = -eps (gamma, J gamma)^(-1/k),  (M,gamma) = 0,  |gamma| = 1       (24)
+ */
+#ifndef ISO_MODEL_SYSTEM_H
+#define ISO_MODEL_SYSTEM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/random.h"
+#include "model/params.h"
+
+enum { ISO_STATE = 6 }; /* numbers in a state of either system: two vectors of R^3 */
+
+/* Clocks: the ball's time t, the time tau in which the ball is Hamiltonian (16), the point's time s (24). */
+typedef enum iso_clock { ISO_CLOCK_T, ISO_CLOCK_TAU, ISO_CLOCK_S, ISO_CLOCKS } iso_clock;
+
+/* "t", "tau", "s" and their dimensions. */
+const char *iso_clock_name(iso_clock clock);
+iso_dimension iso_clock_dimension(iso_clock clock);
+
+/* Rate d clock / dt > 0 where q = (gamma, J gamma) = 1/(n, J^-1 n), and its exponent e in rate ~ q^e:
+ *     t: 1,   tau: N = q^(1 - 1/(2k)),   s: G N = (k^2/det J) q^(1 + 1/(2k)). */
+double iso_clock_rate(const iso_params *p, iso_clock clock, double q, double *exponent);
+
+/* What distinguishes one orbit's equations from another's. */
+typedef struct iso_field {
+    iso_params p;
+    double eps;    /* coupling of the point's potential, (24); 0 for the ball                             */
+    double energy; /* the level the orbit lives on: h of the ball, H of the point (0 for a ball's twin)    */
+} iso_field;
+
+/* A first integral. `value` gives I(y), and in *size the magnitude of the terms it is made of, the measure for
+ * drift: |I(y) - I(y0)| / size is of the order of the rounding error when I is conserved. */
+typedef struct iso_integral {
+    const char *name, *doc;
+    iso_dimension dimension;
+    bool (*holds)(const iso_params *p); /* for which k and J; NULL: always */
+    double (*value)(const iso_field *f, const double y[ISO_STATE], double *size);
+} iso_integral;
+
+typedef struct iso_system {
+    const char *name, *doc;
+    iso_clock clock;               /* the clock its equations are written in                               */
+    const char *const *state;      /* the six names, as in trajectory files                                */
+    iso_dimension fast_dimension;  /* of the first vector, omega or M; the second is a unit vector         */
+    const iso_integral *integrals; /* ended by a row without a name                                        */
+
+    void (*rhs)(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STATE]);
+    void (*jacobian)(const iso_field *f, const double y[ISO_STATE], double jac[ISO_STATE * ISO_STATE]); /* d dy_i / d y_j at [6 i + j]  */
+
+    /* q = (gamma, J gamma), which fixes all clock rates, and its gradient (may be NULL). */
+    double (*q)(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE]);
+
+    /* Restores the unit vector, orthogonality and f->energy; gives the relative size of the correction. */
+    double (*project)(const iso_field *f, double y[ISO_STATE]);
+
+    /* The size of the first vector against which its errors are measured. */
+    double (*speed)(const iso_field *f, const double y[ISO_STATE]);
+
+    /* A random valid state of order one; sets f->eps and f->energy to match (f->p given). */
+    void (*sample)(iso_field *f, iso_random *r, double y[ISO_STATE]);
+} iso_system;
+
+extern const iso_system iso_system_ball, iso_system_point;
+
+/* The registry, ended by NULL. */
+extern const iso_system *const iso_systems[];
+
+/* The system called `name`, or NULL. */
+const iso_system *iso_system_find(const char *name);
+
+/* Whether two moments of inertia are equal (to 4 units in the last place), making axis `axis` (0-2) one of symmetry. */
+bool iso_params_symmetric(const iso_params *p, int axis);
+
+#endif

@@ -1,0 +1,95 @@
+#include "orbit/scene.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+
+const char *const iso_trajectory_columns[ISO_TRAJECTORY_COLUMNS] = {
+    "t", "tau", "s", "omega1", "omega2", "omega3", "n1", "n2", "n3", "M1", "M2", "M3", "gamma1", "gamma2", "gamma3",
+};
+
+const char *iso_picture_name(int picture)
+{
+    static const char *const names[] = {"ball", "point", "both", "auto"};
+    return picture >= 0 && picture < (int)(sizeof names / sizeof *names) ? names[picture] : NULL;
+}
+
+/* A unit vector and a vector orthogonal to it, from numbers typed by hand. */
+static iso_status check_pair(iso_context *ctx, const char *unit_name, const char *vector_name, bool project,
+                             double unit[3], double vector[3])
+{
+    for (int i = 0; i < 3; i++) {
+        if (!isfinite(unit[i])) return iso_context_fail(ctx, ISO_BAD_INPUT, unit_name, "%s is not finite", unit_name);
+        if (!isfinite(vector[i]))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, vector_name, "%s is not finite", vector_name);
+    }
+    const double length = hypot(hypot(unit[0], unit[1]), unit[2]);
+    if (!(fabs(length - 1) <= 1e-6))
+        return iso_context_fail(
+            ctx, ISO_BAD_INPUT, unit_name,
+            "%s has length %.10g, it must be a unit vector (to 1e-6): write [%.10g, %.10g, %.10g]", unit_name, length,
+            unit[0] / length, unit[1] / length, unit[2] / length);
+    make_unit(unit);
+    const double largest = fmax(fabs(vector[0]), fmax(fabs(vector[1]), fabs(vector[2])));
+    if (largest == 0) return ISO_OK;
+    const double size = ldexp(1, ilogb(largest)); /* a power of two: dividing by it rounds nothing */
+    double v[3] = {vector[0] / size, vector[1] / size, vector[2] / size}; /* no overflow in the products */
+    const double along = remove_along(v, unit);
+    if (!project && fabs(along) > 1e-9 * hypot(norm(v), along))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, vector_name,
+                                "%s has a part %.6g along %s, it must be orthogonal to it (to 1e-9): write "
+                                "[%.17g, %.17g, %.17g], or 'project: true'",
+                                vector_name, along * size, unit_name, v[0] * size, v[1] * size, v[2] * size);
+    remove_along(v, unit);
+    for (int i = 0; i < 3; i++) vector[i] = v[i] * size;
+    return ISO_OK;
+}
+
+iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], bool project,
+                          iso_start *start)
+{
+    *start = (iso_start){.model = ISO_BALL};
+    copy(omega, start->y, 3);
+    copy(normal, start->y + 3, 3);
+    return check_pair(ctx, "normal", "angular_velocity", project, start->y + 3, start->y);
+}
+
+iso_status iso_start_point(iso_context *ctx, const iso_params *p, const double M[3], const double gamma[3],
+                           const double *eps, bool project, iso_start *start)
+{
+    *start = (iso_start){.model = ISO_POINT};
+    copy(M, start->y, 3);
+    copy(gamma, start->y + 3, 3);
+    const iso_status status = check_pair(ctx, "gamma", "M", project, start->y + 3, start->y);
+    if (status != ISO_OK) return status;
+    const double q = dot_diag(start->y + 3, p->J, start->y + 3);
+    start->eps = eps ? *eps : dot(start->y, start->y) * pow(q, 1 / p->k) / 2;
+    if (!isfinite(start->eps))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "eps = %g: the coupling must be finite", start->eps);
+    return ISO_OK;
+}
+
+iso_scene iso_scene_default(void)
+{
+    return (iso_scene){.backend = ISO_AUTO, .method = "auto", .tolerance = 1e-12, .as = ISO_AUTO};
+}
+
+/* A time grid that misses the end by rounding alone ends there. */
+static double steps_to_end(const iso_scene *scene)
+{
+    const double step = scene->step > 0 ? scene->step : fabs(scene->end) / 100;
+    return step > 0 ? fabs(scene->end) / step : 0;
+}
+
+size_t iso_scene_rows(const iso_scene *scene)
+{
+    return 1 + (size_t)ceil(steps_to_end(scene) * (1 - 1e-12));
+}
+
+double iso_scene_time(const iso_scene *scene, size_t row)
+{
+    if (row + 1 >= iso_scene_rows(scene)) return scene->end;
+    if (scene->step > 0) return copysign(scene->step * (double)row, scene->end);
+    return scene->end * ((double)row / 100);
+}

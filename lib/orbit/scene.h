@@ -1,0 +1,64 @@
+/* scene.h - one problem to be solved, as a scene file states it: a ball, its start, times, how to solve.
+ *
+ * Fill it by hand or with iso_scene_read (io/scene_file.h). All numbers are in the user's units.
+ */
+#ifndef ISO_ORBIT_SCENE_H
+#define ISO_ORBIT_SCENE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "model/system.h"
+
+/* The two models an orbit can be computed in, or shown in. */
+typedef enum iso_picture { ISO_BALL, ISO_POINT, ISO_BOTH, ISO_AUTO } iso_picture;
+
+/* "ball", "point", "both", "auto"; NULL past the end. */
+const char *iso_picture_name(int picture);
+
+/* Where an orbit starts (its clock at 0), in one of the models. */
+typedef struct iso_start {
+    iso_picture model;   /* ISO_BALL or ISO_POINT                                                        */
+    double y[ISO_STATE]; /* omega [1/time], n; or M, gamma                                               */
+    double eps;          /* coupling of the point's potential (24); not read for a ball                  */
+} iso_start;
+
+/* Makes a valid start of a ball. The normal is made a unit vector if its length is within 1e-6 of 1; spin about the
+ * normal, (omega, n), is removed if it is at most 1e-9 |omega|, or whatever it is when `project` is set.
+ * Errors: ISO_BAD_INPUT about "normal" or "angular_velocity", saying what to write instead. */
+iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], bool project,
+                          iso_start *start);
+
+/* Makes a valid start of a point: |gamma| within 1e-6 of 1, (M, gamma) at most 1e-9 |M| (or `project`).
+ * *eps NULL: the coupling that puts this start on the level H = 0, on which the point has a free ball.
+ * Errors: ISO_BAD_INPUT about "gamma", "M" or "eps". */
+iso_status iso_start_point(iso_context *ctx, const iso_params *params, const double M[3], const double gamma[3],
+                           const double *eps, bool project, iso_start *start);
+
+enum { ISO_MAX_COLUMNS = 32, ISO_NAME_SIZE = 32 };
+
+typedef struct iso_scene {
+    iso_params params;
+    iso_start start;
+    double end;                 /* last time, in t for a ball's start, in s for a point's; < 0: backwards  */
+    double step;                /* between output rows, > 0; 0: a hundredth of |end|                       */
+    iso_picture backend;        /* the model that is integrated: ISO_BALL, ISO_POINT, ISO_AUTO             */
+    char method[ISO_NAME_SIZE]; /* a name of iso_methods, or "auto"                                        */
+    double tolerance;           /* largest relative error of one step, in [1e-15, 0.1]                     */
+    iso_picture as;             /* what is written: ISO_BALL, ISO_POINT or ISO_BOTH                        */
+    size_t columns;             /* names of the columns wanted; 0: those of `as`                           */
+    char column[ISO_MAX_COLUMNS][ISO_NAME_SIZE];
+} iso_scene;
+
+/* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_AUTO (the model of the start). */
+iso_scene iso_scene_default(void);
+
+/* Output times: row i of a scene's time grid, i = 0 ... iso_scene_rows() - 1; the last row is exactly `end`. */
+size_t iso_scene_rows(const iso_scene *scene);
+double iso_scene_time(const iso_scene *scene, size_t row);
+
+/* Every column a trajectory can have, in file order: t tau s omega1..3 n1..3 M1..3 gamma1..3. */
+enum { ISO_TRAJECTORY_COLUMNS = 15 };
+extern const char *const iso_trajectory_columns[ISO_TRAJECTORY_COLUMNS];
+
+#endif
