@@ -1,0 +1,213 @@
+#include "io/yaml_impl.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "io/text_impl.h"
+
+enum { MAX_DEPTH = 8 }; /* scenes need three; libyaml's time grows with the square of the depth */
+
+iso_status iso_yaml_fail(const iso_yaml *y, yaml_mark_t at, const char *format, ...)
+{
+    char message[1024];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    return iso_context_fail(y->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s", y->name, at.line + 1, at.column + 1, message);
+}
+
+/* Line and column (in characters) of a byte: errors of libyaml's reader carry no mark. */
+static yaml_mark_t mark_of_byte(const char *text, size_t offset)
+{
+    yaml_mark_t mark = {.index = offset};
+    for (size_t i = 0; i < offset; i++) {
+        if (text[i] == '\n' || (text[i] == '\r' && text[i + 1] != '\n')) {
+            mark.line++;
+            mark.column = 0;
+        } else if ((text[i] & 0xC0) != 0x80 && text[i] != '\r') {
+            mark.column++;
+        }
+    }
+    return mark;
+}
+
+static iso_status fail_syntax(const iso_yaml *y, const yaml_parser_t *p, const char *text, size_t length)
+{
+    const char *problem = p->problem ? p->problem : "unknown problem", *context = p->context;
+    if (p->error == YAML_MEMORY_ERROR) return iso_context_fail(y->ctx, ISO_NO_MEMORY, "", "no memory for a scene");
+    if (p->error != YAML_READER_ERROR)
+        return iso_yaml_fail(y, p->problem_mark, "not valid YAML: %s%s%s", context ? context : "", context ? ", " : "",
+                             problem);
+    const size_t offset = p->problem_offset < length ? p->problem_offset : length;
+    return iso_yaml_fail(y, mark_of_byte(text, offset), "not valid YAML text in UTF-8: %s (byte 0x%02X)", problem,
+                         offset < length ? (unsigned char)text[offset] : 0);
+}
+
+static const char *anchor_or_tag(const yaml_event_t *e)
+{
+    const bool scalar = e->type == YAML_SCALAR_EVENT, list = e->type == YAML_SEQUENCE_START_EVENT,
+               mapping = e->type == YAML_MAPPING_START_EVENT;
+    if (e->type == YAML_ALIAS_EVENT) return "an alias (*name)";
+    if ((scalar && e->data.scalar.anchor) || (list && e->data.sequence_start.anchor) ||
+        (mapping && e->data.mapping_start.anchor))
+        return "an anchor (&name)";
+    if ((scalar && e->data.scalar.tag) || (list && e->data.sequence_start.tag) ||
+        (mapping && e->data.mapping_start.tag))
+        return "a tag (!name)";
+    return NULL;
+}
+
+/* What an event says that a scene must not; counts documents and depth. */
+static iso_status check_event(const iso_yaml *y, const yaml_event_t *e, int *documents, int *depth)
+{
+    const char *banned = anchor_or_tag(e);
+    if (banned) return iso_yaml_fail(y, e->start_mark, "%s: scenes have none, write the value itself", banned);
+    switch (e->type) {
+    case YAML_DOCUMENT_START_EVENT:
+        if (++*documents > 1)
+            return iso_yaml_fail(y, e->start_mark, "a second document: a file holds one scene, put others in files "
+                                                   "of their own");
+        break;
+    case YAML_STREAM_END_EVENT:
+        if (*documents == 0)
+            return iso_yaml_fail(y, e->start_mark, "the file is empty: expected a scene (ball, surface, initial, time)");
+        break;
+    case YAML_SEQUENCE_START_EVENT:
+    case YAML_MAPPING_START_EVENT:
+        if (++*depth > MAX_DEPTH)
+            return iso_yaml_fail(y, e->start_mark, "nested more than %d levels deep", MAX_DEPTH);
+        break;
+    case YAML_SEQUENCE_END_EVENT:
+    case YAML_MAPPING_END_EVENT: --*depth; break;
+    default: break;
+    }
+    return ISO_OK;
+}
+
+static bool open_parser(yaml_parser_t *p, const char *text, size_t length)
+{
+    if (!yaml_parser_initialize(p)) return false;
+    yaml_parser_set_encoding(p, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(p, (const unsigned char *)text, length);
+    return true;
+}
+
+/* A first pass over the events: the document of the second keeps neither anchors nor explicit tags. */
+static iso_status check_events(const iso_yaml *y, const char *text, size_t length)
+{
+    yaml_parser_t parser;
+    iso_status status = ISO_OK;
+    int documents = 0, depth = 0;
+    bool more = true;
+    if (!open_parser(&parser, text, length)) return iso_context_fail(y->ctx, ISO_NO_MEMORY, "", "no memory");
+    while (more && status == ISO_OK) {
+        yaml_event_t event;
+        if (!yaml_parser_parse(&parser, &event)) {
+            status = fail_syntax(y, &parser, text, length);
+            break;
+        }
+        more = event.type != YAML_STREAM_END_EVENT;
+        status = check_event(y, &event, &documents, &depth);
+        yaml_event_delete(&event);
+    }
+    yaml_parser_delete(&parser);
+    return status;
+}
+
+iso_status iso_yaml_load(iso_yaml *y, const char *text, size_t length)
+{
+    yaml_parser_t parser;
+    if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) text += 3, length -= 3; /* byte order mark */
+    iso_status status = check_events(y, text, length);
+    if (status != ISO_OK) return status;
+    if (!open_parser(&parser, text, length)) return iso_context_fail(y->ctx, ISO_NO_MEMORY, "", "no memory");
+    if (!yaml_parser_load(&parser, &y->document)) status = fail_syntax(y, &parser, text, length);
+    yaml_parser_delete(&parser);
+    return status;
+}
+
+void iso_yaml_free(iso_yaml *y)
+{
+    yaml_document_delete(&y->document);
+}
+
+const yaml_node_t *iso_yaml_node(iso_yaml *y, int id)
+{
+    return yaml_document_get_node(&y->document, id);
+}
+
+bool iso_yaml_is(const yaml_node_t *n, const char *text)
+{
+    return n->type == YAML_SCALAR_NODE && n->data.scalar.length == strlen(text) &&
+           memcmp(n->data.scalar.value, text, n->data.scalar.length) == 0;
+}
+
+bool iso_yaml_find(iso_yaml *y, const yaml_node_t *mapping, const char *name, const yaml_node_t **key,
+                   const yaml_node_t **value)
+{
+    if (mapping->type != YAML_MAPPING_NODE) return false;
+    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < mapping->data.mapping.pairs.top; p++) {
+        if (!iso_yaml_is(iso_yaml_node(y, p->key), name)) continue;
+        if (key) *key = iso_yaml_node(y, p->key);
+        if (value) *value = iso_yaml_node(y, p->value);
+        return true;
+    }
+    return false;
+}
+
+iso_status iso_yaml_expected(const iso_yaml *y, const yaml_node_t *n, const char *what, const char *expected)
+{
+    char quoted[ISO_QUOTE_SIZE];
+    if (n->type == YAML_MAPPING_NODE) return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not a mapping", what, expected);
+    if (n->type == YAML_SEQUENCE_NODE) return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not a list", what, expected);
+    const bool plain = n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    if (plain && n->data.scalar.length == 0)
+        return iso_yaml_fail(y, n->start_mark, "'%s' has no value, it should be %s", what, expected);
+    return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not %s'%s'", what, expected, plain ? "" : "the text ",
+                         iso_text_quote(quoted, (const char *)n->data.scalar.value, n->data.scalar.length));
+}
+
+iso_status iso_yaml_unknown(const iso_yaml *y, const yaml_node_t *n, const char *what, size_t count,
+                            const char *const names[])
+{
+    char quoted[ISO_QUOTE_SIZE], suggested[ISO_SUGGEST_SIZE];
+    iso_text_quote(quoted, (const char *)n->data.scalar.value, n->data.scalar.length);
+    return iso_yaml_fail(y, n->start_mark, "unknown %s '%s'; %s", what, quoted,
+                         iso_text_suggest(suggested, quoted, count, names));
+}
+
+static bool number(const yaml_node_t *n, double *value)
+{
+    return n->type == YAML_SCALAR_NODE && n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE &&
+           iso_number_read((const char *)n->data.scalar.value, n->data.scalar.length, value);
+}
+
+iso_status iso_yaml_number(const iso_yaml *y, const yaml_node_t *n, const char *what, double *value)
+{
+    return number(n, value) ? ISO_OK : iso_yaml_expected(y, n, what, "a finite number");
+}
+
+iso_status iso_yaml_numbers(iso_yaml *y, const yaml_node_t *n, const char *what, int count, double values[])
+{
+    char expected[48];
+    snprintf(expected, sizeof expected, "a list of %d finite numbers", count);
+    if (n->type != YAML_SEQUENCE_NODE) return iso_yaml_expected(y, n, what, expected);
+    const yaml_node_item_t *items = n->data.sequence.items.start;
+    const long found = (long)(n->data.sequence.items.top - items);
+    if (found != count) return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not of %ld", what, expected, found);
+    for (int i = 0; i < count; i++) {
+        const yaml_node_t *item = iso_yaml_node(y, items[i]);
+        if (!number(item, &values[i])) return iso_yaml_expected(y, item, what, expected);
+    }
+    return ISO_OK;
+}
+
+iso_status iso_yaml_flag(const iso_yaml *y, const yaml_node_t *n, const char *what, bool *value)
+{
+    const bool plain = n->type == YAML_SCALAR_NODE && n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    *value = iso_yaml_is(n, "true");
+    return plain && (*value || iso_yaml_is(n, "false")) ? ISO_OK : iso_yaml_expected(y, n, what, "true or false");
+}

@@ -1,0 +1,54 @@
+/* yaml_impl.h - strict reading of one YAML document: libyaml's nodes, and every mistake with its line and column.
+ *
+ * What libyaml lets through and a scene must not have is refused here: anchors and aliases, tags, a second
+ * document, deep nesting, numbers that are quoted or not finite.
+ */
+#ifndef ISO_IO_YAML_IMPL_H
+#define ISO_IO_YAML_IMPL_H
+
+#include <stdbool.h>
+#include <yaml.h>
+
+#include "base/context.h"
+
+typedef struct iso_yaml {
+    iso_context *ctx;
+    const char *name; /* of the file, for messages */
+    yaml_document_t document;
+} iso_yaml;
+
+/* Parses text; y->ctx and y->name are given, y->document is to be freed by iso_yaml_free if the answer is ISO_OK.
+ * Errors: ISO_BAD_INPUT, ISO_NO_MEMORY. */
+iso_status iso_yaml_load(iso_yaml *y, const char *text, size_t length);
+void iso_yaml_free(iso_yaml *y);
+
+/* Records "name:line:column: ..." and returns ISO_BAD_INPUT. */
+iso_status iso_yaml_fail(const iso_yaml *y, yaml_mark_t at, const char *format, ...)
+#if defined(__GNUC__)
+    __attribute__((format(printf, 3, 4)))
+#endif
+    ;
+
+/* The node of index `id`, as in pairs of a mapping and items of a list. */
+const yaml_node_t *iso_yaml_node(iso_yaml *y, int id);
+
+/* The key and the value (either may be NULL) of `name` in a mapping; false if it is not there. */
+bool iso_yaml_find(iso_yaml *y, const yaml_node_t *mapping, const char *name, const yaml_node_t **key,
+                   const yaml_node_t **value);
+
+/* Whether the node is the text `text`, quoted or not. */
+bool iso_yaml_is(const yaml_node_t *node, const char *text);
+
+/* Records that `what` should be `expected`, and what it is. */
+iso_status iso_yaml_expected(const iso_yaml *y, const yaml_node_t *node, const char *what, const char *expected);
+
+/* Records that the text of `node`, a `what` ("key", "method"), is none of the names, and the nearest one. */
+iso_status iso_yaml_unknown(const iso_yaml *y, const yaml_node_t *node, const char *what, size_t count,
+                            const char *const names[]);
+
+/* The value of `what` as a finite number, a list of `count` numbers, true or false. */
+iso_status iso_yaml_number(const iso_yaml *y, const yaml_node_t *node, const char *what, double *value);
+iso_status iso_yaml_numbers(iso_yaml *y, const yaml_node_t *node, const char *what, int count, double values[]);
+iso_status iso_yaml_flag(const iso_yaml *y, const yaml_node_t *node, const char *what, bool *value);
+
+#endif

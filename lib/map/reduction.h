@@ -1,0 +1,31 @@
+/* reduction.h - the ball in sphero-conical coordinates: Chaplygin's reducing multiplier (14)-(17).
+ *
+ * lam < mu are the coordinates of n in J (model/conical.h), A(z) = (J1 - z)(J2 - z)(J3 - z). The formulas divide by
+ * A(lam) and A(mu): they hold off the coordinate planes and for three different moments of inertia.
+ */
+#ifndef ISO_MAP_REDUCTION_H
+#define ISO_MAP_REDUCTION_H
+
+#include "model/conical.h"
+#include "model/system.h"
+
+/* (lam, mu) and their rates along the ball's motion. */
+void iso_reduction_coordinates(const iso_params *p, const double ball[ISO_STATE], iso_conical *c);
+
+/* Energy T = a lam'^2 + b mu'^2 (14):
+ * a = -mu (mu - lam)/(8 k^2 A(lam)),  b = lam (mu - lam)/(8 k^2 A(mu)). */
+double iso_reduction_energy(const iso_params *p, const iso_conical *c);
+
+/* S = (2k-1)/(8 k^3) (lam - mu) (lam'/A(lam) + mu'/A(mu)) (15), the nonholonomic force: mu' S and -lam' S. */
+double iso_reduction_force(const iso_params *p, const iso_conical *c);
+
+/* N = (lam mu/det J)^(-1 + 1/(2k)) (16), d tau = N dt. */
+double iso_reduction_multiplier(const iso_params *p, const iso_conical *c);
+
+/* Momenta p = N dT/dlam', N dT/dmu', canonical in tau (17). */
+void iso_reduction_momenta(const iso_params *p, const iso_conical *c, double momenta[2]);
+
+/* The energy as the Hamiltonian of (17): p_lam^2/(4 a N^2) + p_mu^2/(4 b N^2). */
+double iso_reduction_hamiltonian(const iso_params *p, const iso_conical *c, const double momenta[2]);
+
+#endif

@@ -1,0 +1,26 @@
+/* state.h - the isomorphism, point by point (18)-(19), and what fixes it: energy h and coupling eps (24).
+ *
+ *     NN = (sqrt(det J)/k) q^(-1/(2k)),     q = (gamma, J gamma) = 1/(n, J^-1 n)
+ *     M = NN J^(1/2) w,                     gamma = J^(-1/2) n / |J^(-1/2) n|                                (18)
+ *     w = J^(-1/2) M / NN,                  n = J^(1/2) gamma / |J^(1/2) gamma|
+ *
+ * For k < 0 (a shell) NN < 0: M points against w. States are (w, n) and (M, gamma), six numbers, in the units of J.
+ */
+#ifndef ISO_MAP_STATE_H
+#define ISO_MAP_STATE_H
+
+#include "model/system.h"
+
+/* Each way, all of n's (gamma's) direction and nothing of its length is used; ball and point may be one array. */
+void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE]);
+void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], double ball[ISO_STATE]);
+
+/* eps = h det J / k^2 (24), and back. */
+double iso_coupling(const iso_params *p, double h);
+double iso_energy(const iso_params *p, double eps);
+
+/* Energies: of the ball h = (w,Jw)/2, and the ball's energy of a point on the level H = 0, (k^2/det J) q^(1/k) M^2/2. */
+double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE]);
+double iso_point_energy(const iso_params *p, const double point[ISO_STATE]);
+
+#endif
