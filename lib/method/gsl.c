@@ -1,0 +1,224 @@
+/* gsl.c - the methods of GSL's ode-initval2. */
+#include "method/gsl_impl.h"
+
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/vec3_impl.h"
+#include "method/methods_impl.h"
+
+/* --- the model as GSL sees it ---------------------------------------------------------------------------------- */
+
+/* Any failure but GSL_EBADFUNC makes the evolution try a shorter step. */
+static int function(double t, const double y[], double dydt[], void *integrator)
+{
+    (void)t;
+    return iso_integrator_rhs(integrator, y, dydt) ? GSL_SUCCESS : GSL_FAILURE;
+}
+
+static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *integrator)
+{
+    iso_integrator *it = integrator;
+    (void)t;
+    it->statistics.jacobians++;
+    it->model.jacobian(&it->model, y, dfdy);
+    for (int i = 0; i < it->model.dim; i++) dfdt[i] = 0;
+    return GSL_SUCCESS;
+}
+
+/* --- error control: GSL's standard rule, measured in units of tolerance * iso_model_size() --------------------- */
+
+static void *control_alloc(void)
+{
+    return malloc(1); /* GSL wants a pointer; iso_gsl_open puts the integrator in its place */
+}
+
+static int control_init(void *state, double eps_abs, double eps_rel, double a_y, double a_dydt)
+{
+    (void)state, (void)eps_abs, (void)eps_rel, (void)a_y, (void)a_dydt;
+    return GSL_SUCCESS;
+}
+
+static int control_hadjust(void *state, size_t dim, unsigned int order, const double y[], const double yerr[],
+                           const double dydt[], double *h)
+{
+    const iso_integrator *it = state;
+    double size[ISO_MAX_STATE], worst = 0;
+    (void)dydt;
+    iso_model_size(&it->model, y, size);
+    for (size_t i = 0; i < dim; i++) {
+        const double r = fabs(yerr[i]) / (it->options.tolerance * size[i]);
+        if (!(r <= worst)) worst = r; /* a NaN wins */
+    }
+    if (!isfinite(worst)) {
+        *h *= 0.2;
+        return GSL_ODEIV_HADJ_DEC;
+    }
+    if (worst > 1.1) {
+        *h *= fmax(0.2, 0.9 * pow(worst, -1.0 / order));
+        return GSL_ODEIV_HADJ_DEC;
+    }
+    if (worst < 0.5) {
+        *h *= fmin(5, fmax(1, 0.9 * pow(fmax(worst, 1e-10), -1.0 / (order + 1.0))));
+        return GSL_ODEIV_HADJ_INC;
+    }
+    return GSL_ODEIV_HADJ_NIL;
+}
+
+static int control_errlevel(void *state, const double y, const double dydt, const double h, const size_t i,
+                            double *level)
+{
+    const iso_integrator *it = state;
+    double size[ISO_MAX_STATE];
+    (void)y, (void)dydt, (void)h;
+    iso_model_size(&it->model, it->at_left, size);
+    *level = it->options.tolerance * size[i];
+    return GSL_SUCCESS;
+}
+
+static int control_set_driver(void *state, const gsl_odeiv2_driver *driver)
+{
+    (void)state, (void)driver;
+    return GSL_SUCCESS;
+}
+
+static void control_free(void *state)
+{
+    (void)state; /* the integrator is not the control's */
+}
+
+static const gsl_odeiv2_control_type model_control = {
+    .name = "isoroll",
+    .alloc = control_alloc,
+    .init = control_init,
+    .hadjust = control_hadjust,
+    .errlevel = control_errlevel,
+    .set_driver = control_set_driver,
+    .free = control_free,
+};
+
+iso_status iso_gsl_open(iso_integrator *it, const gsl_odeiv2_step_type *type, iso_gsl *g)
+{
+    const double tolerance = it->options.tolerance;
+    *g = (iso_gsl){.system = {function, jacobian, (size_t)it->model.dim, it}};
+    g->driver = gsl_odeiv2_driver_alloc_y_new(&g->system, type, 1, tolerance, 0);
+    gsl_odeiv2_control *control = gsl_odeiv2_control_alloc(&model_control);
+    if (!g->driver || !control) {
+        iso_gsl_close(g);
+        free(control);
+        return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for GSL's %s", type->name);
+    }
+    free(control->state);
+    control->state = it;
+    gsl_odeiv2_control_free(g->driver->c);
+    g->driver->c = control;
+    return ISO_OK;
+}
+
+void iso_gsl_close(iso_gsl *g)
+{
+    if (g->driver) gsl_odeiv2_driver_free(g->driver);
+    g->driver = NULL;
+}
+
+void iso_gsl_start(iso_gsl *g, double first_step)
+{
+    gsl_odeiv2_step_reset(g->driver->s);
+    gsl_odeiv2_evolve_reset(g->driver->e);
+    g->h = first_step;
+    g->t = 0;
+}
+
+iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[], double *h)
+{
+    gsl_odeiv2_evolve *e = g->driver->e;
+    const unsigned long failed = e->failed_steps;
+    const int status =
+        gsl_odeiv2_evolve_apply(e, g->driver->c, g->driver->s, &g->system, &g->t, limit, &g->h, y);
+    it->statistics.rejected += (long)(e->failed_steps - failed);
+    if (status != GSL_SUCCESS) return iso_integrator_stopped(it, "no step is short enough for the tolerance");
+    *h = e->last_step;
+    return ISO_OK;
+}
+
+/* --- the methods ------------------------------------------------------------------------------------------------ */
+
+enum { RK4, RKF45, RKCK, RK8PD, MSADAMS, MSBDF, BSIMP };
+
+static const gsl_odeiv2_step_type *step_type(int variant)
+{
+    const gsl_odeiv2_step_type *types[] = {
+        [RK4] = gsl_odeiv2_step_rk4,     [RKF45] = gsl_odeiv2_step_rkf45,     [RKCK] = gsl_odeiv2_step_rkck,
+        [RK8PD] = gsl_odeiv2_step_rk8pd, [MSADAMS] = gsl_odeiv2_step_msadams, [MSBDF] = gsl_odeiv2_step_msbdf,
+        [BSIMP] = gsl_odeiv2_step_bsimp,
+    };
+    return types[variant];
+}
+
+static void release(iso_integrator *it)
+{
+    if (it->data) iso_gsl_close(it->data);
+    free(it->data);
+}
+
+static iso_status create(iso_integrator *it)
+{
+    it->data = calloc(1, sizeof(iso_gsl));
+    if (!it->data) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for %s", it->method->name);
+    return iso_gsl_open(it, step_type(it->method->variant), it->data);
+}
+
+static iso_status start(iso_integrator *it)
+{
+    const int order = it->method->order ? it->method->order : 2;
+    iso_gsl_start(it->data, iso_integrator_first_step(it, order));
+    return ISO_OK;
+}
+
+/* A step of given length, whatever its error. */
+static iso_status fixed_step(iso_integrator *it, iso_gsl *g, double y[], double *h)
+{
+    double error[ISO_MAX_STATE];
+    *h = it->direction * it->options.fixed_step;
+    const int status = gsl_odeiv2_step_apply(g->driver->s, 0, *h, y, error, NULL, NULL, &g->system);
+    return status == GSL_SUCCESS ? ISO_OK : iso_integrator_stopped(it, "the step failed");
+}
+
+static iso_status step(iso_integrator *it, double y[], double *h)
+{
+    iso_gsl *g = it->data;
+    iso_status status = ISO_OK;
+    if (it->options.fixed_step > 0)
+        status = fixed_step(it, g, y, h);
+    else
+        status = iso_gsl_step(it, g, it->direction * 1e300, y, h);
+    if (status != ISO_OK || !it->method->projects) return status;
+    iso_integrator_project(it, y);
+    /* the next step begins with the derivative GSL has kept, which belongs to the state before projection */
+    if (!iso_integrator_rhs(it, y, g->driver->e->dydt_out)) return iso_integrator_stopped(it, "not finite");
+    return ISO_OK;
+}
+
+#define GSL_METHOD .family = "gsl", .create = create, .start = start, .step = step, .free = release
+
+const iso_method iso_method_rk4 = {
+    .name = "rk4", .order = 4, .variant = RK4, .fixed = true, .projects = true,
+    .doc = "classical Runge-Kutta 4, error by step doubling", GSL_METHOD};
+const iso_method iso_method_rkf45 = {
+    .name = "rkf45", .order = 5, .variant = RKF45, .fixed = true, .projects = true,
+    .doc = "Runge-Kutta-Fehlberg 4(5)", GSL_METHOD};
+const iso_method iso_method_rkck = {
+    .name = "rkck", .order = 5, .variant = RKCK, .fixed = true, .projects = true,
+    .doc = "Runge-Kutta Cash-Karp 4(5)", GSL_METHOD};
+const iso_method iso_method_rk8pd = {
+    .name = "rk8pd", .order = 8, .variant = RK8PD, .fixed = true, .projects = true,
+    .doc = "Runge-Kutta Prince-Dormand 8(9)", GSL_METHOD};
+const iso_method iso_method_msadams = {
+    .name = "msadams", .variant = MSADAMS, .doc = "variable-order Adams in Nordsieck form, orders 1-12", GSL_METHOD};
+const iso_method iso_method_msbdf = {
+    .name = "msbdf", .variant = MSBDF, .implicit = true,
+    .doc = "variable-order BDF in Nordsieck form, orders 1-5", GSL_METHOD};
+const iso_method iso_method_bsimp = {
+    .name = "bsimp", .variant = BSIMP, .implicit = true, .projects = true, .fixed = true,
+    .doc = "implicit Bulirsch-Stoer of Bader and Deuflhard", GSL_METHOD};

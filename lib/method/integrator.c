@@ -1,0 +1,157 @@
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/vec3_impl.h"
+#include "method/integrator_impl.h"
+
+/* --- for the methods --------------------------------------------------------------------------------------------- */
+
+bool iso_integrator_rhs(iso_integrator *it, const double y[], double dy[])
+{
+    double sum = 0;
+    it->statistics.rhs++;
+    it->model.rhs(&it->model, y, dy);
+    for (int i = 0; i < it->model.dim; i++) sum += dy[i] * 0; /* NaN if any is not finite */
+    return sum == 0;
+}
+
+void iso_integrator_project(iso_integrator *it, double y[])
+{
+    if (it->options.no_projection) return;
+    const double correction = iso_model_project(&it->model, y);
+    it->statistics.correction = fmax(it->statistics.correction, correction);
+}
+
+iso_status iso_integrator_stopped(iso_integrator *it, const char *reason)
+{
+    return iso_context_fail(it->ctx, ISO_NUMERICAL, "", "%s stopped after %ld steps: %s; last good %s = %.17g",
+                            it->method->name, it->statistics.steps, reason, iso_clock_name(it->model.clock),
+                            it->left.head + it->h);
+}
+
+double iso_integrator_first_step(iso_integrator *it, int order)
+{
+    double f[ISO_MAX_STATE], size[ISO_MAX_STATE], fastest = 0;
+    iso_integrator_rhs(it, it->at_right, f);
+    iso_model_size(&it->model, it->at_right, size);
+    for (int i = 0; i < it->model.dim; i++) fastest = fmax(fastest, fabs(f[i]) / size[i]);
+    const double h = pow(it->options.tolerance, 1.0 / (order + 1)) / 4;
+    return it->direction * (fastest > 0 && isfinite(fastest) ? h / fastest : 1);
+}
+
+/* --- time: sums of two doubles ----------------------------------------------------------------------------------- */
+
+/* a + h without rounding (Knuth's two-sum), renormalised */
+static iso_instant later(iso_instant a, double h)
+{
+    const double sum = a.head + h, part = sum - a.head;
+    const double tail = a.tail + ((a.head - (sum - part)) + (h - part));
+    const double head = sum + tail;
+    return (iso_instant){head, tail - (head - sum)};
+}
+
+double iso_integrator_since(const iso_integrator *it, double t)
+{
+    return (t - it->left.head) - it->left.tail;
+}
+
+/* --- the front ---------------------------------------------------------------------------------------------------- */
+
+iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
+                                 const iso_method_options *options, iso_integrator **integrator)
+{
+    *integrator = NULL;
+    iso_method_options o = *options;
+    if (o.fixed_step > 0 && !method->fixed)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s does not take fixed steps", method->name);
+    if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of leaps to times between the steps */
+    if (!(o.tolerance >= 1e-15 && o.tolerance <= 0.1))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", o.tolerance);
+    iso_integrator *it = calloc(1, sizeof *it);
+    if (!it) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an integrator");
+    it->ctx = ctx;
+    it->method = method;
+    it->model = *model;
+    it->options = o;
+    it->leaper = iso_leaper_create(it);
+    iso_status status = it->leaper ? method->create(it) : ISO_NO_MEMORY;
+    if (status != ISO_OK) return iso_integrator_free(it), status;
+    *integrator = it;
+    return ISO_OK;
+}
+
+void iso_integrator_free(iso_integrator *it)
+{
+    if (!it) return;
+    it->method->free(it);
+    iso_leaper_free(it->leaper);
+    free(it);
+}
+
+/* Back to time 0, to set out in the given direction. */
+static iso_status set_out(iso_integrator *it, int direction)
+{
+    it->direction = direction;
+    it->left = (iso_instant){0, 0};
+    it->h = 0;
+    copy(it->y0, it->at_left, it->model.dim);
+    copy(it->y0, it->at_right, it->model.dim);
+    return direction == 0 ? ISO_OK : it->method->start(it);
+}
+
+iso_status iso_integrator_start(iso_integrator *it, const double y0[])
+{
+    double f[ISO_MAX_STATE];
+    it->statistics = (iso_statistics){0};
+    copy(y0, it->y0, it->model.dim);
+    set_out(it, 0);
+    if (!iso_integrator_rhs(it, y0, f))
+        return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "the equations of motion are not finite at the start");
+    return ISO_OK;
+}
+
+iso_status iso_integrator_advance(iso_integrator *it)
+{
+    double y[ISO_MAX_STATE], h = 0;
+    copy(it->at_right, y, it->model.dim);
+    if (it->options.max_steps && it->statistics.steps >= it->options.max_steps)
+        return iso_integrator_stopped(it, "more steps than allowed");
+    const iso_status status = it->method->step(it, y, &h);
+    if (status != ISO_OK) return status;
+    it->statistics.steps++;
+    it->left = later(it->left, it->h);
+    it->h = h;
+    copy(it->at_right, it->at_left, it->model.dim);
+    copy(y, it->at_right, it->model.dim);
+    return ISO_OK;
+}
+
+iso_status iso_integrator_reach(iso_integrator *it, int direction, double t)
+{
+    iso_status status = ISO_OK;
+    if (direction != it->direction || it->direction * iso_integrator_since(it, t) < 0) status = set_out(it, direction);
+    while (status == ISO_OK && it->direction * (iso_integrator_since(it, t) - it->h) > 0) status = iso_integrator_advance(it);
+    return status;
+}
+
+iso_status iso_integrator_at(iso_integrator *it, double t, double y[])
+{
+    if (!isfinite(t)) return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "a time is not finite");
+    const iso_status status = iso_integrator_reach(it, t > 0 ? 1 : t < 0 ? -1 : it->direction, t);
+    if (status != ISO_OK) return status;
+    const double dt = iso_integrator_since(it, t);
+    if (dt != 0 && dt != it->h) return iso_leap(it, dt, y);
+    copy(dt == 0 ? it->at_left : it->at_right, y, it->model.dim);
+    return ISO_OK;
+}
+
+void iso_integrator_last(const iso_integrator *it, double *t, double y[])
+{
+    *t = later(it->left, it->h).head;
+    copy(it->at_right, y, it->model.dim);
+}
+
+iso_statistics iso_integrator_statistics(const iso_integrator *it)
+{
+    return it->statistics;
+}

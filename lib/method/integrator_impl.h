@@ -1,0 +1,62 @@
+/* integrator_impl.h - what a method sees of an integrator. */
+#ifndef ISO_METHOD_INTEGRATOR_IMPL_H
+#define ISO_METHOD_INTEGRATOR_IMPL_H
+
+#include "method/method.h"
+
+typedef struct iso_leaper iso_leaper;
+
+/* A time as an unevaluated sum of two doubles. */
+typedef struct iso_instant {
+    double head, tail;
+} iso_instant;
+
+struct iso_integrator {
+    iso_context *ctx;
+    const iso_method *method;
+    iso_model model;
+    iso_method_options options;
+    iso_statistics statistics;
+
+    double y0[ISO_MAX_STATE]; /* at time 0                                                            */
+    int direction;            /* of the steps: 1, -1, or 0 before the first                           */
+    iso_instant left;         /* the current step runs from here ...                                  */
+    double h;                 /* ... by this signed length                                            */
+    double at_left[ISO_MAX_STATE], at_right[ISO_MAX_STATE];
+
+    void *data;         /* the method's own                                                           */
+    iso_leaper *leaper; /* reaches times within a step                                                */
+};
+
+/* The contract of iso_method.step: y holds the state at the end of the last step (and, after start, at time 0);
+ * the method advances it by one step of its choice in it->direction and gives the exact step length in *h.
+ * Helpers for the methods: */
+
+/* y' = f(y), counted; false when a derivative is not finite. */
+bool iso_integrator_rhs(iso_integrator *it, const double y[], double dy[]);
+
+/* Projects y if the options want it, and notes the correction. */
+void iso_integrator_project(iso_integrator *it, double y[]);
+
+/* Records ISO_NUMERICAL in words: method, reason, last good time. */
+iso_status iso_integrator_stopped(iso_integrator *it, const char *reason);
+
+/* A first step length for a method of the given order: a fraction of the time in which the state changes by its
+ * own size, signed. */
+double iso_integrator_first_step(iso_integrator *it, int order);
+
+/* Takes one step. */
+iso_status iso_integrator_advance(iso_integrator *it);
+
+/* Takes steps in `direction` until t lies within the current one; sets out again from 0 when t lies behind it. */
+iso_status iso_integrator_reach(iso_integrator *it, int direction, double t);
+
+/* t minus the time of the step's left end: exact but for the last bit. */
+double iso_integrator_since(const iso_integrator *it, double t);
+
+/* leap.c: from at_left by dt, |dt| <= |h|, at the integrator's tolerance. */
+iso_leaper *iso_leaper_create(iso_integrator *it);
+void iso_leaper_free(iso_leaper *leaper);
+iso_status iso_leap(iso_integrator *it, double dt, double y[]);
+
+#endif

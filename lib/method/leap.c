@@ -1,0 +1,40 @@
+/* leap.c - the state at a time within a step: from the step's left end, by rk8pd. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/vec3_impl.h"
+#include "method/gsl_impl.h"
+
+struct iso_leaper {
+    iso_gsl gsl;
+};
+
+iso_leaper *iso_leaper_create(iso_integrator *it)
+{
+    iso_leaper *leaper = calloc(1, sizeof *leaper);
+    if (leaper && iso_gsl_open(it, gsl_odeiv2_step_rk8pd, &leaper->gsl) == ISO_OK) return leaper;
+    free(leaper);
+    return NULL;
+}
+
+void iso_leaper_free(iso_leaper *leaper)
+{
+    if (!leaper) return;
+    iso_gsl_close(&leaper->gsl);
+    free(leaper);
+}
+
+iso_status iso_leap(iso_integrator *it, double dt, double y[])
+{
+    iso_gsl *g = &it->leaper->gsl;
+    double state[ISO_MAX_STATE], h;
+    copy(it->at_left, state, it->model.dim);
+    iso_gsl_start(g, dt);
+    while (g->t != dt) {
+        const iso_status status = iso_gsl_step(it, g, dt, state, &h);
+        if (status != ISO_OK) return status;
+    }
+    if (it->method->projects) iso_integrator_project(it, state);
+    copy(state, y, it->model.dim);
+    return ISO_OK;
+}

@@ -1,0 +1,52 @@
+#include "method/method.h"
+
+#include <ctype.h>
+#include <string.h>
+
+#include "method/methods_impl.h"
+
+const iso_method *const iso_methods[] = {
+#define ISO_METHOD_ENTRY(name) &iso_method_##name,
+    ISO_METHOD_LIST(ISO_METHOD_ENTRY)
+#undef ISO_METHOD_ENTRY
+        NULL,
+};
+
+/* How much of `name` the pattern covers: -1 if they differ, else the number of characters of name left over. */
+static int left_over(const char *pattern, const char *name)
+{
+    for (; *pattern; pattern++, name++) {
+        const int c = *pattern == '-' ? '_' : tolower((unsigned char)*pattern);
+        if (c != *name) return -1;
+    }
+    return (int)strlen(name);
+}
+
+/* The pattern without a family in front. */
+static const char *without_family(const char *pattern, const char *family)
+{
+    const size_t length = strlen(family);
+    for (size_t i = 0; i < length; i++)
+        if (tolower((unsigned char)pattern[i]) != family[i]) return pattern;
+    return pattern[length] == '-' || pattern[length] == '_' ? pattern + length + 1 : pattern;
+}
+
+const iso_method *iso_method_find(const char *name)
+{
+    const iso_method *candidate = NULL;
+    int candidates = 0;
+    for (int i = 0; iso_methods[i]; i++) {
+        const char *pattern = without_family(name, iso_methods[i]->family);
+        const int rest = *pattern ? left_over(pattern, iso_methods[i]->name) : -1;
+        if (rest == 0) return iso_methods[i];
+        if (rest > 0) candidate = iso_methods[i], candidates++;
+    }
+    return candidates == 1 ? candidate : NULL;
+}
+
+/* Of the library methods rk8pd needs the least time for every error from 1e-6 on (tests/bench/methods.c). */
+const iso_method *iso_method_auto(const iso_model *model)
+{
+    (void)model;
+    return &iso_method_rk8pd;
+}
