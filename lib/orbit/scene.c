@@ -93,3 +93,19 @@ double iso_scene_time(const iso_scene *scene, size_t row)
     if (scene->step > 0) return copysign(scene->step * (double)row, scene->end);
     return scene->end * ((double)row / 100);
 }
+
+/* The columns of a picture are runs of the list: t, omega, n; s, M, gamma; or all of it. */
+int iso_scene_columns(const iso_scene *scene, int columns[])
+{
+    const iso_picture as = scene->as == ISO_AUTO ? scene->start.model : scene->as;
+    int count = 0;
+    for (size_t i = 0; i < scene->columns; i++)
+        for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++)
+            if (strcmp(scene->column[i], iso_trajectory_columns[c]) == 0) columns[count++] = c;
+    if (count > 0) return count;
+    for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) {
+        const bool ball = c == 0 || (c >= 3 && c < 9), point = c == 2 || c >= 9;
+        if (as == ISO_BOTH || (as == ISO_BALL && ball) || (as == ISO_POINT && point)) columns[count++] = c;
+    }
+    return count;
+}

@@ -1,0 +1,76 @@
+/* orbit.h - one orbit: where is the ball, and where is the point, at any time of any clock.
+ *
+ *     iso_orbit *orbit;
+ *     iso_orbit_options o = iso_orbit_defaults(&start);
+ *     iso_orbit_create(ctx, &params, &start, &o, &orbit);
+ *     iso_orbit_at(orbit, 100, &sample);                     sample.ball = omega, n at t = 100
+ *     iso_orbit_free(orbit);
+ *
+ * The two backends integrate the ball (9) or the point (24) and answer the same questions with the same calls. Inside,
+ * everything is in the ball's own units; all numbers in and out are in the caller's.
+ */
+#ifndef ISO_ORBIT_ORBIT_H
+#define ISO_ORBIT_ORBIT_H
+
+#include "method/method.h"
+#include "orbit/scene.h"
+
+typedef struct iso_orbit iso_orbit;
+
+typedef struct iso_orbit_options {
+    iso_picture backend;      /* the model that is integrated; ISO_AUTO: that of the start                 */
+    const iso_method *method; /* NULL: iso_method_auto()                                                   */
+    double tolerance;
+    iso_clock clock;          /* the clock in which times are asked                                        */
+    iso_picture show;         /* the models filled into samples: ISO_BALL, ISO_POINT, ISO_BOTH             */
+    bool carry[ISO_CLOCKS];   /* other clocks filled into samples                                          */
+} iso_orbit_options;
+
+/* Backend and clock of the start's own model, which is also shown; method auto, tolerance 1e-12. */
+iso_orbit_options iso_orbit_defaults(const iso_start *start);
+
+/* One moment of an orbit. The numbers stand in the order of iso_trajectory_columns; what was not asked for is NaN. */
+typedef struct iso_sample {
+    double clock[ISO_CLOCKS]; /* t, tau, s: all 0 at the start  */
+    double ball[ISO_STATE];   /* omega, n                       */
+    double point[ISO_STATE];  /* M, gamma                       */
+} iso_sample;
+
+/* Number `column` (index into iso_trajectory_columns) of a sample. */
+double iso_sample_column(const iso_sample *sample, int column);
+
+/* Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a ball at rest (h = 0) has no point,
+ * a point off the level H = 0 (by more than 1e-9 of its kinetic and potential energy) has no free ball;
+ * ISO_BAD_ARGUMENT, ISO_NUMERICAL (the start does not fit a double in own units), ISO_NO_MEMORY. */
+iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
+                            const iso_orbit_options *options, iso_orbit **orbit);
+void iso_orbit_free(iso_orbit *orbit);
+
+/* The orbit at `time` of the options' clock, in any order, before or after the start.
+ * Errors: ISO_NUMERICAL (what stopped, and where; or a result that does not fit a double). */
+iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
+
+/* The first zero of g(sample) after `from`, not after `to`; see iso_integrator_event. direction as there. */
+iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sample *sample, const void *data), const void *data,
+                           int direction, double from, double to, bool *found, iso_sample *sample);
+
+/* The end of the last good step, after a failure. */
+iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);
+
+iso_statistics iso_orbit_statistics(const iso_orbit *orbit);
+
+/* What the orbit is made of: the assembled model in own units, the units, the method. */
+const iso_model *iso_orbit_model(const iso_orbit *orbit);
+const iso_units *iso_orbit_units(const iso_orbit *orbit);
+const iso_method *iso_orbit_method(const iso_orbit *orbit);
+
+/* Energy h of the ball and coupling eps of the point in the caller's units (infinite where they overflow). */
+double iso_orbit_energy(const iso_orbit *orbit);
+double iso_orbit_coupling(const iso_orbit *orbit);
+
+/* An integral of either system at a sample that shows it: its value and the measure of its drift, in own units
+ * (times iso_unit(units, integral->dimension) in the caller's). */
+double iso_orbit_integral(const iso_orbit *orbit, const iso_system *system, const iso_integral *integral,
+                          const iso_sample *sample, double *size);
+
+#endif
