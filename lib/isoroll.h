@@ -13,8 +13,21 @@
 #include "model/params.h"
 #include "model/system.h"
 #include "model/model.h"
+#include "model/conical.h"
+
+/* map: the isomorphism between ball and point */
+#include "map/state.h"
+#include "map/poisson.h"
+#include "map/reduction.h"
+
+/* method: integrators behind one table */
+#include "method/method.h"
 
 /* orbit: where the ball, or the point, is at any time */
 #include "orbit/scene.h"
+
+/* io: scene and trajectory files */
+#include "io/scene_file.h"
+#include "io/trajectory.h"
 
 #endif

@@ -58,13 +58,23 @@ iso_status iso_text_load(iso_context *ctx, const char *path, size_t limit, char 
     return status;
 }
 
+/* Bytes of the control characters of ASCII and, two bytes in UTF-8, of U+0080 to U+009F. */
+static bool is_control(const char *text, size_t i, size_t length)
+{
+    const unsigned char c = (unsigned char)text[i];
+    const unsigned char before = i > 0 ? (unsigned char)text[i - 1] : 0;
+    const unsigned char after = i + 1 < length ? (unsigned char)text[i + 1] : 0;
+    if (c == 0xC2) return after >= 0x80 && after < 0xA0;
+    return c < 0x20 || c == 0x7f || (before == 0xC2 && c >= 0x80 && c < 0xA0);
+}
+
 const char *iso_text_quote(char quoted[ISO_QUOTE_SIZE], const char *text, size_t length)
 {
     enum { SHOWN = 48 };
     size_t n = length < SHOWN ? length : SHOWN;
     if (n < length)
         while (n > 0 && (text[n] & 0xC0) == 0x80) n--; /* not in the middle of a character of UTF-8 */
-    for (size_t i = 0; i < n; i++) quoted[i] = (unsigned char)text[i] < 0x20 || text[i] == 0x7f ? '?' : text[i];
+    for (size_t i = 0; i < n; i++) quoted[i] = is_control(text, i, length) ? '?' : text[i];
     strcpy(quoted + n, n < length ? "..." : "");
     return quoted;
 }
@@ -85,8 +95,8 @@ static size_t distance(const char *a, size_t la, const char *b, size_t lb)
         for (size_t j = 1; j <= lb; j++) {
             const int x = tolower((unsigned char)a[i - 1]), y = tolower((unsigned char)b[j - 1]);
             now[j] = smallest(last[j] + 1, now[j - 1] + 1, last[j - 1] + (x != y));
-            const bool swapped = i > 1 && j > 1 && x == tolower((unsigned char)b[j - 2]) &&
-                                 y == tolower((unsigned char)a[i - 2]);
+            const bool swapped =
+                i > 1 && j > 1 && x == tolower((unsigned char)b[j - 2]) && y == tolower((unsigned char)a[i - 2]);
             if (swapped && before[j - 2] + 1 < now[j]) now[j] = before[j - 2] + 1;
         }
         size_t *const oldest = before;

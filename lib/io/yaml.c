@@ -7,7 +7,13 @@
 #include "base/number.h"
 #include "io/text_impl.h"
 
-enum { MAX_DEPTH = 8 }; /* scenes need three; libyaml's time grows with the square of the depth */
+/* Scenes need three levels and fewer than a hundred values; libyaml's time grows with the square of the depth, its
+ * memory by a hundred bytes for each value. */
+enum { MAX_DEPTH = 8, MAX_VALUES = 10000 };
+
+typedef struct tally {
+    int documents, depth, values;
+} tally;
 
 iso_status iso_yaml_fail(const iso_yaml *y, yaml_mark_t at, const char *format, ...)
 {
@@ -16,7 +22,8 @@ iso_status iso_yaml_fail(const iso_yaml *y, yaml_mark_t at, const char *format, 
     va_start(args, format);
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
-    return iso_context_fail(y->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s", y->name, at.line + 1, at.column + 1, message);
+    return iso_context_fail(y->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s", y->name, at.line + 1, at.column + 1,
+                            message);
 }
 
 /* Line and column (in characters) of a byte: errors of libyaml's reader carry no mark. */
@@ -24,7 +31,7 @@ static yaml_mark_t mark_of_byte(const char *text, size_t offset)
 {
     yaml_mark_t mark = {.index = offset};
     for (size_t i = 0; i < offset; i++) {
-        if (text[i] == '\n' || (text[i] == '\r' && text[i + 1] != '\n')) {
+        if (text[i] == '\n' || (text[i] == '\r' && (i + 1 == offset || text[i + 1] != '\n'))) {
             mark.line++;
             mark.column = 0;
         } else if ((text[i] & 0xC0) != 0x80 && text[i] != '\r') {
@@ -39,9 +46,11 @@ static iso_status fail_syntax(const iso_yaml *y, const yaml_parser_t *p, const c
     const char *problem = p->problem ? p->problem : "unknown problem", *context = p->context;
     if (p->error == YAML_MEMORY_ERROR) return iso_context_fail(y->ctx, ISO_NO_MEMORY, "", "no memory for a scene");
     if (p->error != YAML_READER_ERROR)
-        return iso_yaml_fail(y, p->problem_mark, "not valid YAML: %s%s%s", context ? context : "", context ? ", " : "",
-                             problem);
-    const size_t offset = p->problem_offset < length ? p->problem_offset : length;
+        return iso_yaml_fail(y, p->problem_mark, "not valid YAML: %s%s%s", context ? context : "",
+                             context ? ", " : "", problem);
+    size_t offset = p->problem_offset < length ? p->problem_offset : length;
+    if (strstr(problem, "trailing")) /* back to where the broken character begins */
+        while (offset > 0 && (text[--offset] & 0xC0) == 0x80) continue;
     return iso_yaml_fail(y, mark_of_byte(text, offset), "not valid YAML text in UTF-8: %s (byte 0x%02X)", problem,
                          offset < length ? (unsigned char)text[offset] : 0);
 }
@@ -60,28 +69,32 @@ static const char *anchor_or_tag(const yaml_event_t *e)
     return NULL;
 }
 
-/* What an event says that a scene must not; counts documents and depth. */
-static iso_status check_event(const iso_yaml *y, const yaml_event_t *e, int *documents, int *depth)
+/* What an event says that a scene must not. */
+static iso_status check_event(const iso_yaml *y, const yaml_event_t *e, tally *seen)
 {
     const char *banned = anchor_or_tag(e);
     if (banned) return iso_yaml_fail(y, e->start_mark, "%s: scenes have none, write the value itself", banned);
+    if (++seen->values > MAX_VALUES)
+        return iso_yaml_fail(y, e->start_mark, "more than %d values: this is no scene", MAX_VALUES);
     switch (e->type) {
     case YAML_DOCUMENT_START_EVENT:
-        if (++*documents > 1)
-            return iso_yaml_fail(y, e->start_mark, "a second document: a file holds one scene, put others in files "
-                                                   "of their own");
+        if (++seen->documents > 1)
+            return iso_yaml_fail(y, e->start_mark,
+                                 "a second document: a file holds one scene, put others in files "
+                                 "of their own");
         break;
     case YAML_STREAM_END_EVENT:
-        if (*documents == 0)
-            return iso_yaml_fail(y, e->start_mark, "the file is empty: expected a scene (ball, surface, initial, time)");
+        if (seen->documents == 0)
+            return iso_yaml_fail(y, e->start_mark,
+                                 "the file is empty: expected a scene (ball, surface, initial, time)");
         break;
     case YAML_SEQUENCE_START_EVENT:
     case YAML_MAPPING_START_EVENT:
-        if (++*depth > MAX_DEPTH)
+        if (++seen->depth > MAX_DEPTH)
             return iso_yaml_fail(y, e->start_mark, "nested more than %d levels deep", MAX_DEPTH);
         break;
     case YAML_SEQUENCE_END_EVENT:
-    case YAML_MAPPING_END_EVENT: --*depth; break;
+    case YAML_MAPPING_END_EVENT: --seen->depth; break;
     default: break;
     }
     return ISO_OK;
@@ -100,7 +113,7 @@ static iso_status check_events(const iso_yaml *y, const char *text, size_t lengt
 {
     yaml_parser_t parser;
     iso_status status = ISO_OK;
-    int documents = 0, depth = 0;
+    tally seen = {0};
     bool more = true;
     if (!open_parser(&parser, text, length)) return iso_context_fail(y->ctx, ISO_NO_MEMORY, "", "no memory");
     while (more && status == ISO_OK) {
@@ -110,7 +123,7 @@ static iso_status check_events(const iso_yaml *y, const char *text, size_t lengt
             break;
         }
         more = event.type != YAML_STREAM_END_EVENT;
-        status = check_event(y, &event, &documents, &depth);
+        status = check_event(y, &event, &seen);
         yaml_event_delete(&event);
     }
     yaml_parser_delete(&parser);
@@ -158,11 +171,18 @@ bool iso_yaml_find(iso_yaml *y, const yaml_node_t *mapping, const char *name, co
     return false;
 }
 
+/* What a node is, when it is not what it should be; NULL for text. */
+static const char *shape(const yaml_node_t *n)
+{
+    if (n->type == YAML_MAPPING_NODE) return "a mapping";
+    if (n->type != YAML_SEQUENCE_NODE) return NULL;
+    return n->data.sequence.items.start == n->data.sequence.items.top ? "an empty list" : "a list";
+}
+
 iso_status iso_yaml_expected(const iso_yaml *y, const yaml_node_t *n, const char *what, const char *expected)
 {
     char quoted[ISO_QUOTE_SIZE];
-    if (n->type == YAML_MAPPING_NODE) return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not a mapping", what, expected);
-    if (n->type == YAML_SEQUENCE_NODE) return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not a list", what, expected);
+    if (shape(n)) return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not %s", what, expected, shape(n));
     const bool plain = n->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
     if (plain && n->data.scalar.length == 0)
         return iso_yaml_fail(y, n->start_mark, "'%s' has no value, it should be %s", what, expected);
@@ -197,10 +217,13 @@ iso_status iso_yaml_numbers(iso_yaml *y, const yaml_node_t *n, const char *what,
     if (n->type != YAML_SEQUENCE_NODE) return iso_yaml_expected(y, n, what, expected);
     const yaml_node_item_t *items = n->data.sequence.items.start;
     const long found = (long)(n->data.sequence.items.top - items);
-    if (found != count) return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not of %ld", what, expected, found);
+    if (found != count)
+        return iso_yaml_fail(y, n->start_mark, "'%s' should be %s, not of %ld", what, expected, found);
     for (int i = 0; i < count; i++) {
         const yaml_node_t *item = iso_yaml_node(y, items[i]);
-        if (!number(item, &values[i])) return iso_yaml_expected(y, item, what, expected);
+        if (number(item, &values[i])) continue;
+        snprintf(expected, sizeof expected, "%s[%d]", what, i + 1);
+        return iso_yaml_expected(y, item, expected, "a finite number");
     }
     return ISO_OK;
 }

@@ -1,0 +1,19 @@
+#!/bin/sh
+# The main job on real input, with all its set-up: a bowling ball on a lane and a Neumann shell, each computed as a
+# rolling ball and as its twin, a point on a sphere; a table of both, and a picture.
+set -eu
+cd "$(dirname "$0")/.."
+sh .ci/packages.sh
+
+mkdir -p .build
+log=.build/demo.log
+{ cmake -S . -B .build/demo -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF &&
+    cmake --build .build/demo -j "$(nproc 2>/dev/null || echo 2)"; } >"$log" 2>&1 || { cat "$log"; exit 1; }
+
+for name in 01_bowling_ball 02_neumann_shell; do
+    echo "== examples/$name/scene.yaml"
+    .build/demo/isoroll compare "examples/$name/scene.yaml" --plot ".build/demo/$name.svg"
+    echo
+done
+echo "pictures:"
+ls "$PWD"/.build/demo/*.svg

@@ -1,0 +1,170 @@
+#include "io/scene_file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/scene_draft_impl.h"
+#include "io/text_impl.h"
+
+enum { LARGEST_FILE = 16 << 20 };
+
+static const double most_rows = 1e8;
+
+/* ---- What must hold between keys ---- */
+
+/* The key and value of root -> section (-> name if not NULL). */
+static bool find(iso_draft *d, const char *section, const char *name, const yaml_node_t **key,
+                 const yaml_node_t **value)
+{
+    const yaml_node_t *mapping;
+    if (!name) return iso_yaml_find(&d->yaml, d->root, section, key, value);
+    return iso_yaml_find(&d->yaml, d->root, section, NULL, &mapping) &&
+           iso_yaml_find(&d->yaml, mapping, name, key, value);
+}
+
+/* Exactly one of ball (with surface), reduced and point. */
+static iso_status check_sections(iso_draft *d, const char **model)
+{
+    static const char *const models[] = {"ball", "reduced", "point"};
+    const yaml_node_t *key, *surface, *last = NULL;
+    *model = NULL;
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
+        if (!find(d, models[i], NULL, &key, NULL)) continue;
+        if (*model)
+            return iso_yaml_fail(
+                &d->yaml, key->start_mark.index > last->start_mark.index ? key->start_mark : last->start_mark,
+                "'%s' and '%s' both: a scene has one of 'ball', 'reduced' and 'point'", *model, models[i]);
+        *model = models[i];
+        last = key;
+    }
+    const bool has_surface = find(d, "surface", NULL, &surface, NULL);
+    if (has_surface && !*model)
+        return iso_yaml_fail(&d->yaml, surface->start_mark, "'surface' needs a 'ball' that rolls on it");
+    if (!*model)
+        return iso_yaml_fail(&d->yaml, d->root->start_mark,
+                             "missing 'ball' and 'surface' (or 'reduced', or 'point')");
+    const bool ball = strcmp(*model, "ball") == 0;
+    if (ball && !has_surface)
+        return iso_yaml_fail(&d->yaml, last->start_mark,
+                             "'ball' needs a 'surface', such as 'surface: {kind: plane}'");
+    if (!ball && has_surface)
+        return iso_yaml_fail(&d->yaml, surface->start_mark, "'surface' goes with 'ball'; '%s' has its k instead",
+                             *model);
+    return ISO_OK;
+}
+
+static iso_status check_surface(iso_draft *d)
+{
+    const yaml_node_t *surface, *radius;
+    if (!find(d, "surface", NULL, &surface, NULL)) return ISO_OK;
+    const bool has_radius = find(d, "surface", "radius", &radius, NULL), plane = d->surface == ISO_PLANE;
+    if (plane && has_radius)
+        return iso_yaml_fail(&d->yaml, radius->start_mark, "a plane has no 'radius': take it out");
+    if (!plane && !has_radius)
+        return iso_yaml_fail(&d->yaml, surface->start_mark,
+                             "missing 'radius' in 'surface': that of the fixed sphere");
+    return ISO_OK;
+}
+
+/* `initial` states the start of the scene's model and nothing of the other's. */
+static iso_status check_initial(iso_draft *d, iso_picture model)
+{
+    const yaml_node_t *initial, *key;
+    const char *what = model == ISO_BALL ? "a ball starts from 'normal' and 'angular_velocity'"
+                                         : "a point starts from 'gamma' and 'M'";
+    const char *name;
+    iso_picture whose;
+    find(d, "initial", NULL, &initial, NULL);
+    for (int i = 0; iso_draft_initial_key(i, &name, &whose); i++) {
+        const bool present = find(d, "initial", name, &key, NULL);
+        if (whose == model && !present)
+            return iso_yaml_fail(&d->yaml, initial->start_mark, "missing '%s' in 'initial': %s", name, what);
+        if (whose != model && whose != ISO_BOTH && present)
+            return iso_yaml_fail(&d->yaml, key->start_mark, "'%s' does not belong here: %s", name, what);
+    }
+    return ISO_OK;
+}
+
+static iso_status check_time(iso_draft *d)
+{
+    const yaml_node_t *step;
+    if (!find(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= most_rows) return ISO_OK;
+    return iso_yaml_fail(&d->yaml, step->start_mark,
+                         "a step of %g to the end %g is more than %g rows: give a larger 'step'", d->scene.step,
+                         d->scene.end, most_rows);
+}
+
+/* ---- Physics: the checks are the library's, the places are the file's ---- */
+
+/* Repeats the last failure at the value it is about, or at the section's key when that value is not written. */
+static iso_status fail_at_field(iso_draft *d, iso_status status, const char *section)
+{
+    const char *field = iso_context_field(d->yaml.ctx);
+    const yaml_node_t *place = d->root;
+    if (status != ISO_BAD_INPUT) return status;
+    if (strcmp(field, "surface_radius") == 0) section = "surface", field = "radius";
+    if (!find(d, section, field, NULL, &place)) find(d, section, NULL, &place, NULL);
+    return iso_yaml_fail(&d->yaml, place->start_mark, "%s", iso_context_message(d->yaml.ctx));
+}
+
+static iso_status make_params(iso_draft *d, const char *model)
+{
+    d->body.surface = (iso_surface)d->surface;
+    const iso_status status = strcmp(model, "ball") == 0
+                                  ? iso_params_physical(d->yaml.ctx, &d->body, &d->scene.params)
+                                  : iso_params_reduced(d->yaml.ctx, d->k, d->J, &d->scene.params);
+    return status == ISO_OK ? status : fail_at_field(d, status, model);
+}
+
+static iso_status make_start(iso_draft *d, iso_picture model)
+{
+    iso_scene *s = &d->scene;
+    const double *eps = find(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;
+    const iso_status status =
+        model == ISO_BALL ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, d->project, &s->start)
+                          : iso_start_point(d->yaml.ctx, &s->params, d->M, d->gamma, eps, d->project, &s->start);
+    if (status == ISO_OK) return status;
+    return fail_at_field(d, status, strcmp(iso_context_field(d->yaml.ctx), "eps") == 0 ? "point" : "initial");
+}
+
+static iso_status make_scene(iso_draft *d)
+{
+    const char *name;
+    iso_status status = iso_draft_read_keys(d);
+    if (status == ISO_OK) status = check_sections(d, &name);
+    if (status != ISO_OK) return status;
+    const iso_picture model = strcmp(name, "point") == 0 ? ISO_POINT : ISO_BALL;
+    if ((status = check_surface(d)) != ISO_OK) return status;
+    if ((status = check_initial(d, model)) != ISO_OK) return status;
+    if ((status = check_time(d)) != ISO_OK) return status;
+    if ((status = make_params(d, name)) != ISO_OK) return status;
+    if ((status = make_start(d, model)) != ISO_OK) return status;
+    d->scene.backend = (iso_picture)d->backend;
+    d->scene.as = (iso_picture)d->as;
+    return ISO_OK;
+}
+
+iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
+{
+    iso_draft d = {.yaml = {.ctx = ctx, .name = name}, .backend = ISO_AUTO, .as = ISO_AUTO};
+    d.scene = iso_scene_default();
+    iso_status status = iso_yaml_load(&d.yaml, text, length);
+    if (status != ISO_OK) return status;
+    d.root = yaml_document_get_root_node(&d.yaml.document);
+    status = make_scene(&d);
+    iso_yaml_free(&d.yaml);
+    if (status == ISO_OK) *scene = d.scene;
+    return status;
+}
+
+iso_status iso_scene_read(iso_context *ctx, const char *path, iso_scene *scene)
+{
+    char *text;
+    size_t length;
+    iso_status status = iso_text_load(ctx, path, LARGEST_FILE, &text, &length);
+    if (status != ISO_OK) return status;
+    status = iso_scene_parse(ctx, iso_text_name(path), text, length, scene);
+    free(text);
+    return status;
+}

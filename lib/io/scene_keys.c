@@ -1,0 +1,291 @@
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "io/scene_draft_impl.h"
+#include "io/text_impl.h"
+#include "method/method.h"
+
+enum { MAX_KEYS = 16, MAX_METHODS = 64 };
+
+/* One key that a mapping may have: what reads its value, and where in the draft the value goes. */
+typedef struct entry {
+    const char *name;
+    iso_status (*read)(iso_draft *d, const struct entry *e, const yaml_node_t *key, const yaml_node_t *value);
+    size_t offset;
+    bool required;
+    const struct entry *section; /* read_section: the keys inside       */
+    const char *(*word)(int);    /* read_word: the names of an enum ... */
+    unsigned words;              /* ... and which of them (1 << value)  */
+    iso_picture model;           /* of `initial`: whose start this is   */
+} entry;
+
+/* ---- Values ---- */
+
+static void *target(iso_draft *d, const entry *e)
+{
+    return (char *)d + e->offset;
+}
+
+static iso_status read_number(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    (void)key;
+    return iso_yaml_number(&d->yaml, value, e->name, target(d, e));
+}
+
+static iso_status read_vector(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    (void)key;
+    return iso_yaml_numbers(&d->yaml, value, e->name, 3, target(d, e));
+}
+
+static iso_status read_flag(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    (void)key;
+    return iso_yaml_flag(&d->yaml, value, e->name, target(d, e));
+}
+
+/* One of the words an enum is written with. */
+static iso_status read_word(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    const char *names[MAX_KEYS];
+    size_t count = 0;
+    (void)key;
+    for (int i = 0; e->word(i); i++) {
+        if (!(e->words & (1u << i))) continue;
+        if (iso_yaml_is(value, e->word(i))) return *(int *)target(d, e) = i, ISO_OK;
+        names[count++] = e->word(i);
+    }
+    if (value->type != YAML_SCALAR_NODE || value->data.scalar.length == 0)
+        return iso_yaml_expected(&d->yaml, value, e->name, "a name");
+    return iso_yaml_unknown(&d->yaml, value, e->name, count, names);
+}
+
+static iso_status read_step(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    const iso_status status = read_number(d, e, key, value);
+    if (status != ISO_OK || d->scene.step > 0) return status;
+    return iso_yaml_fail(&d->yaml, value->start_mark, "'step' is %g, it must be positive (backwards: negative 'end')",
+                         d->scene.step);
+}
+
+static iso_status read_tolerance(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    const iso_status status = read_number(d, e, key, value);
+    if (status != ISO_OK || (d->scene.tolerance >= 1e-15 && d->scene.tolerance <= 0.1)) return status;
+    return iso_yaml_fail(&d->yaml, value->start_mark, "'tolerance' is %g, it must be in [1e-15, 0.1]",
+                         d->scene.tolerance);
+}
+
+/* Keeps the full name of the method, whichever of its spellings was used. */
+static iso_status read_method(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    const char *names[MAX_METHODS] = {"auto"}, *text = (const char *)value->data.scalar.value;
+    size_t count = 1;
+    (void)key;
+    if (value->type != YAML_SCALAR_NODE || !iso_yaml_is(value, text) || *text == '\0')
+        return iso_yaml_expected(&d->yaml, value, e->name, "the name of a method");
+    const iso_method *method = iso_method_find(text);
+    if (method || strcmp(text, names[0]) == 0) {
+        snprintf(target(d, e), ISO_NAME_SIZE, "%s", method ? method->name : names[0]);
+        return ISO_OK;
+    }
+    for (int i = 0; iso_methods[i] && count < MAX_METHODS; i++) names[count++] = iso_methods[i]->name;
+    return iso_yaml_unknown(&d->yaml, value, e->name, count, names);
+}
+
+static iso_status read_column(iso_draft *d, const yaml_node_t *item)
+{
+    iso_scene *s = &d->scene;
+    const char *name = NULL;
+    if (item->type != YAML_SCALAR_NODE) return iso_yaml_expected(&d->yaml, item, "columns", "a list of names");
+    for (size_t i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
+        if (iso_yaml_is(item, iso_trajectory_columns[i])) name = iso_trajectory_columns[i];
+    if (!name) return iso_yaml_unknown(&d->yaml, item, "column", ISO_TRAJECTORY_COLUMNS, iso_trajectory_columns);
+    for (size_t i = 0; i < s->columns; i++)
+        if (strcmp(s->column[i], name) == 0)
+            return iso_yaml_fail(&d->yaml, item->start_mark, "column '%s' is listed twice", name);
+    strcpy(s->column[s->columns++], name);
+    return ISO_OK;
+}
+
+static iso_status read_columns(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    (void)key;
+    if (value->type != YAML_SEQUENCE_NODE || value->data.sequence.items.start == value->data.sequence.items.top)
+        return iso_yaml_expected(&d->yaml, value, e->name, "a list of at least one column name");
+    iso_status status = ISO_OK;
+    for (const yaml_node_item_t *i = value->data.sequence.items.start; i < value->data.sequence.items.top; i++)
+        if (status == ISO_OK) status = read_column(d, iso_yaml_node(&d->yaml, *i));
+    return status;
+}
+
+static iso_status read_not_simulated(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    (void)value;
+    return iso_yaml_fail(&d->yaml, key->start_mark,
+                         "effect '%s': this version does not simulate it yet, take it out for the free ball",
+                         e->name);
+}
+
+/* ---- Sections ---- */
+
+static const entry *find_entry(const entry *entries, const yaml_node_t *key)
+{
+    for (; entries->name; entries++)
+        if (iso_yaml_is(key, entries->name)) return entries;
+    return NULL;
+}
+
+static iso_status unknown_key(iso_draft *d, const entry *entries, const yaml_node_t *key)
+{
+    const char *names[MAX_KEYS];
+    size_t count = 0;
+    if (key->type != YAML_SCALAR_NODE)
+        return iso_yaml_fail(&d->yaml, key->start_mark, "a key should be a name, not a list or a mapping");
+    for (; entries[count].name && count < MAX_KEYS; count++) names[count] = entries[count].name;
+    return iso_yaml_unknown(&d->yaml, key, entries->read == read_not_simulated ? "effect" : "key", count, names);
+}
+
+static iso_status read_pair(iso_draft *d, const entry *entries, const yaml_node_t *mapping,
+                            const yaml_node_pair_t *pair)
+{
+    const yaml_node_t *key = iso_yaml_node(&d->yaml, pair->key), *first;
+    const entry *e = find_entry(entries, key);
+    if (!e) return unknown_key(d, entries, key);
+    iso_yaml_find(&d->yaml, mapping, e->name, &first, NULL);
+    if (first != key)
+        return iso_yaml_fail(&d->yaml, key->start_mark, "duplicate key '%s', first written in line %zu", e->name,
+                             first->start_mark.line + 1);
+    return e->read(d, e, key, iso_yaml_node(&d->yaml, pair->value));
+}
+
+/* Reads a mapping by its table; `owner` is its key, or the mapping itself at the top of the file. */
+static iso_status read_mapping(iso_draft *d, const entry *entries, const char *name, const yaml_node_t *owner,
+                               const yaml_node_t *mapping)
+{
+    const yaml_node_pair_t *end = mapping->data.mapping.pairs.top;
+    for (const yaml_node_pair_t *p = mapping->data.mapping.pairs.start; p < end; p++) {
+        const iso_status status = read_pair(d, entries, mapping, p);
+        if (status != ISO_OK) return status;
+    }
+    for (const entry *e = entries; e->name; e++)
+        if (e->required && !iso_yaml_find(&d->yaml, mapping, e->name, NULL, NULL))
+            return iso_yaml_fail(&d->yaml, owner->start_mark, "missing '%s' in %s", e->name, name);
+    return ISO_OK;
+}
+
+static iso_status fail_section(iso_draft *d, const entry *e, const yaml_node_t *value)
+{
+    char expected[256];
+    int used = snprintf(expected, sizeof expected, "a mapping {");
+    for (const entry *in = e->section; in->name && used < (int)sizeof expected; in++)
+        used += snprintf(expected + used, sizeof expected - (size_t)used, in[1].name ? "%s: ..., " : "%s: ...}",
+                         in->name);
+    return iso_yaml_expected(&d->yaml, value, e->name, expected);
+}
+
+static iso_status read_section(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    char name[ISO_QUOTE_SIZE];
+    if (value->type != YAML_MAPPING_NODE) return fail_section(d, e, value);
+    snprintf(name, sizeof name, "'%s'", e->name);
+    return read_mapping(d, e->section, name, key, value);
+}
+
+/* ---- The tables: adding a key is adding its line ---- */
+
+#define AT(member) .offset = offsetof(iso_draft, member)
+#define BIT(value) (1u << (value))
+
+static const entry ball_keys[] = {
+    {"mass", read_number, AT(body.mass), .required = true},
+    {"radius", read_number, AT(body.radius), .required = true},
+    {"inertia", read_vector, AT(body.inertia), .required = true},
+    {0},
+};
+
+static const entry surface_keys[] = {
+    {"kind", read_word, AT(surface), .required = true, .word = iso_surface_name, .words = ~BIT(ISO_REDUCED)},
+    {"radius", read_number, AT(body.surface_radius)},
+    {0},
+};
+
+static const entry reduced_keys[] = {
+    {"k", read_number, AT(k), .required = true},
+    {"J", read_vector, AT(J), .required = true},
+    {0},
+};
+
+static const entry point_keys[] = {
+    {"k", read_number, AT(k), .required = true},
+    {"J", read_vector, AT(J), .required = true},
+    {"eps", read_number, AT(eps)},
+    {0},
+};
+
+static const entry initial_keys[] = {
+    {"normal", read_vector, AT(normal), .model = ISO_BALL},
+    {"angular_velocity", read_vector, AT(angular_velocity), .model = ISO_BALL},
+    {"gamma", read_vector, AT(gamma), .model = ISO_POINT},
+    {"M", read_vector, AT(M), .model = ISO_POINT},
+    {"project", read_flag, AT(project), .model = ISO_BOTH},
+    {0},
+};
+
+static const entry time_keys[] = {
+    {"end", read_number, AT(scene.end), .required = true},
+    {"step", read_step, AT(scene.step)},
+    {0},
+};
+
+static const entry effect_keys[] = {
+    {"gravity", .read = read_not_simulated},
+    {"field", .read = read_not_simulated},
+    {"level", .read = read_not_simulated},
+    {"twist", .read = read_not_simulated},
+    {"rolling_resistance", .read = read_not_simulated},
+    {"attitude", .read = read_not_simulated},
+    {"reactions", .read = read_not_simulated},
+    {0},
+};
+
+static const entry solver_keys[] = {
+    {"backend", read_word, AT(backend), .word = iso_picture_name, .words = ~BIT(ISO_BOTH)},
+    {"method", read_method, AT(scene.method)},
+    {"tolerance", read_tolerance, AT(scene.tolerance)},
+    {0},
+};
+
+static const entry output_keys[] = {
+    {"as", read_word, AT(as), .word = iso_picture_name, .words = ~BIT(ISO_AUTO)},
+    {"columns", .read = read_columns},
+    {0},
+};
+
+static const entry scene_keys[] = {
+    {"ball", read_section, .section = ball_keys},
+    {"surface", read_section, .section = surface_keys},
+    {"reduced", read_section, .section = reduced_keys},
+    {"point", read_section, .section = point_keys},
+    {"initial", read_section, .section = initial_keys, .required = true},
+    {"time", read_section, .section = time_keys, .required = true},
+    {"effects", read_section, .section = effect_keys},
+    {"solver", read_section, .section = solver_keys},
+    {"output", read_section, .section = output_keys},
+    {0},
+};
+
+bool iso_draft_initial_key(int i, const char **name, iso_picture *model)
+{
+    *name = initial_keys[i].name;
+    *model = initial_keys[i].model;
+    return *name != NULL;
+}
+
+iso_status iso_draft_read_keys(iso_draft *d)
+{
+    if (d->root->type != YAML_MAPPING_NODE)
+        return iso_yaml_expected(&d->yaml, d->root, "scene", "a mapping with ball, surface, initial and time");
+    return read_mapping(d, scene_keys, "the scene", d->root, d->root);
+}

@@ -1,0 +1,54 @@
+/* compare.h - the same orbit by both backends, side by side.
+ *
+ *     iso_comparison *c;
+ *     status = iso_compare(ctx, &scene, NULL, NULL, &c);
+ *     ... c->run[ISO_BALL], c->run[ISO_POINT], c->difference ...
+ *     iso_comparison_free(c);
+ */
+#ifndef ISO_STUDY_COMPARE_H
+#define ISO_STUDY_COMPARE_H
+
+#include "base/record.h"
+#include "orbit/orbit.h"
+
+enum { ISO_BACKENDS = 2, ISO_MAX_INTEGRALS = 16 };
+
+/* One integral along one backend's orbit, in the model of `system`. */
+typedef struct iso_drift {
+    const iso_system *system;
+    const iso_integral *integral;
+    double start; /* its value at the start, in the caller's units (infinite if that overflows)          */
+    double worst; /* largest |I - I(start)| / size over the rows, see iso_integral                       */
+} iso_drift;
+
+/* One backend's part. */
+typedef struct iso_backend_run {
+    const iso_method *method;
+    iso_record *trajectory; /* the columns iso_trajectory_columns, one row for each time of the scene    */
+    iso_statistics statistics;
+    double seconds; /* of processor time                                                                 */
+    int drifts;     /* integrals that hold for this k and J, of the ball, then of the point              */
+    iso_drift drift[ISO_MAX_INTEGRALS];
+} iso_backend_run;
+
+/* The columns of a comparison's `difference`: a clock, then |difference| of the two backends relative to the size of
+ * the vector (omega, M) or to the largest value of the clock in the record (tau, s, t); n and gamma are unit vectors. */
+enum { ISO_DIFFERENCES = 7 };
+
+typedef struct iso_comparison {
+    iso_clock clock;                   /* in which the scene counts its times: t or s                    */
+    double h, eps;                     /* energy and coupling in the caller's units                      */
+    iso_backend_run run[ISO_BACKENDS]; /* [ISO_BALL], [ISO_POINT]                                        */
+    iso_record *difference;            /* time, omega, n, M, gamma and the two other clocks              */
+    double worst[ISO_DIFFERENCES];     /* largest of each column of `difference`; [0] is the last time   */
+} iso_comparison;
+
+/* Integrates the scene with both backends (its own choice of backend is not read). `progress` (may be NULL) is called
+ * with the part done in [0, 1]; when it answers false the comparison ends there.
+ * Errors: as iso_orbit_create and iso_orbit_at. After ISO_NUMERICAL in the middle *comparison holds the rows before;
+ * otherwise it is NULL on failure. */
+iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data), void *data,
+                       iso_comparison **comparison);
+void iso_comparison_free(iso_comparison *comparison);
+
+#endif

@@ -1,0 +1,115 @@
+#!/bin/sh
+# The house rules, as far as a script can see them: who includes whom, what is public and how it is called, what stands
+# where, how long it is. Reads the sources in $ISO_SOURCE and the shared library in $ISO_BUILD; every complaint is a line.
+set -u
+: "${ISO_SOURCE:?}" "${ISO_BUILD:?}" "${CC:=cc}"
+cd "$ISO_SOURCE" || exit 1
+complaints=$(mktemp)
+trap 'rm -f "$complaints"' EXIT
+
+# complain RULE: each line read is a place where the rule is broken
+complain() {
+    sed "s|^|FAIL $1: |" >>"$complaints"
+}
+
+public=$(find lib -mindepth 2 -name '*.h' ! -name '*_impl.h' | sort)
+[ -n "$public" ] || { echo "FAIL no headers in $PWD/lib"; exit 1; }
+
+# Floors: a file of lib includes its own folder and lower floors only, a program only the public headers.
+find lib apps examples -name '*.[ch]' ! -path lib/isoroll.h -exec awk '
+    BEGIN { n = split("base 0 model 1 map 2 method 2 exact 2 orbit 3 study 4 io 4", f)
+            for (i = 1; i < n; i += 2) floor[f[i]] = f[i + 1] }
+    /^[ \t]*#[ \t]*include[ \t]*"/ {
+        split($0, quoted, "\""); split(quoted[2], to, "/"); split(FILENAME, from, "/")
+        if (from[1] != "lib") {
+            if (quoted[2] ~ /\/.*_impl\.h$/) print FILENAME ":" FNR ": " quoted[2] " is private to lib"
+        } else if (!(from[2] in floor)) print FILENAME ": lib/" from[2] " is no floor"
+        else if (!(to[1] in floor) || to[2] == "") print FILENAME ":" FNR ": " quoted[2] " is not floor/name.h"
+        else if (to[1] != from[2] && floor[to[1]] >= floor[from[2]])
+            print FILENAME ":" FNR ": " from[2] " is not above " to[1]
+    }' {} + | complain "floors"
+find apps examples -name '*.[ch]' -exec grep -HnE 'include <isoroll/.*_impl\.h>' {} + | complain "floors"
+
+# Public headers need the C library alone, so a user needs nothing else to compile.
+# shellcheck disable=SC2086 # $public is a list
+grep -nE '^[ \t]*#[ \t]*include[ \t]*<' $public lib/isoroll.h |
+    grep -vE '<(float|limits|math|stdarg|stdbool|stddef|stdint|stdio)\.h>' | complain "public headers include only C"
+
+# Names: macros as written; enumerators, types, functions and variables after the preprocessor and without comments.
+# shellcheck disable=SC2086
+grep -nE '^[ \t]*#[ \t]*define[ \t]' $public lib/isoroll.h |
+    grep -vE '#[ \t]*define[ \t]+ISO(_|ROLL_H)' | complain "a macro begins with ISO_"
+"$CC" -std=c11 -E -I lib lib/isoroll.h | awk '
+    function check(prefix, name, what) { if (index(name, prefix) != 1) print what " " name }
+    function last_word(text) { gsub(/\[[^]]*\]/, "", text); gsub(/[^A-Za-z0-9_]+/, " ", text); sub(/ $/, "", text)
+                               sub(/.* /, "", text); return text }
+    /^# [0-9]+ "/ { ours = $3 ~ /^"lib\//; next }
+    ours { text = text " " $0 }
+    END {
+        gsub(/__attribute__ *\(\([^)]*\)*/, "", text)
+        while (match(text, /[{][^{}]*[}]/)) { # innermost braces first; only those of an enum have names to check
+            body = substr(text, RSTART + 1, RLENGTH - 2); before = substr(text, 1, RSTART - 1)
+            if (before ~ /enum *[A-Za-z0-9_]* *$/) {
+                n = split(body, item, ",")
+                for (i = 1; i <= n; i++)
+                    if (match(item[i], /[A-Za-z_][A-Za-z0-9_]*/)) check("ISO_", substr(item[i], RSTART, RLENGTH), "enumerator")
+                match(text, /[{][^{}]*[}]/)
+            }
+            text = before " " substr(text, length(body) + length(before) + 3)
+        }
+        n = split(text, statement, ";")
+        for (i = 1; i <= n; i++) {
+            s = statement[i]
+            if (match(s, /(struct|enum|union) +[A-Za-z0-9_]+/)) check("iso_", last_word(substr(s, RSTART, RLENGTH)), "tag")
+            if (s ~ /^ *(struct|enum|union) *[A-Za-z0-9_]* *$/ || s ~ /^ *$/) continue
+            if (match(s, /\( *\*/)) s = substr(s, RSTART) # (*name)(...)
+            else if (match(s, /\(/)) s = substr(s, 1, RSTART - 1)
+            sub(/\).*/, "", s)
+            check("iso_", last_word(s), "name")
+        }
+    }' | complain "public names begin with iso_, ISO_"
+library=$ISO_BUILD/libisoroll.so
+nm -D --defined-only "$library" | grep -q ' iso_' || echo "$library exports nothing" | complain "symbols"
+nm -D --defined-only "$library" | awk '$NF !~ /^iso_/ { print $NF }' | complain "an exported symbol begins with iso_"
+
+# The umbrella header lists every public header, and nothing else.
+for header in $public; do
+    grep -qxF "#include \"${header#lib/}\"" lib/isoroll.h || echo "$header"
+done | complain "lib/isoroll.h lists every public header"
+awk -F '["/]' '/^#include "/ { place = index("base model map method exact orbit study io", $2)
+                              if (place < last) print $2 " stands too late"; last = place }' lib/isoroll.h |
+    complain "lib/isoroll.h goes bottom-up"
+sed -n 's/^#include "\(.*\)".*/\1/p' lib/isoroll.h | grep '_impl\.h' | complain "lib/isoroll.h lists public headers only"
+
+# A library does not talk (a file called "-" may be stdout), end the program, or change its locale. (Comments are cut out first.)
+find lib -name '*.[ch]' | while read -r file; do
+    sed -e 's|/\*.*\*/||' -e '/^ *\/\*/,/\*\//d' "$file" |
+        grep -oE '(^|[^A-Za-z0-9_])(printf|puts|putchar|perror|exit|_Exit|abort|assert|setlocale|signal) *\(|\bstderr\b' |
+        sed "s|^|$file: |"
+done | complain "the library does not print, end the program or set the locale"
+
+# What stands where, and how long it is.
+ls -A | grep -vxE '\..*|lib|apps|tests|examples|CMakeLists\.txt|README\.md|LICENSE' | complain "nothing else at the top"
+for entry in lib apps tests examples CMakeLists.txt README.md LICENSE; do
+    [ -e "$entry" ] || echo "$entry"
+done | complain "missing at the top"
+find lib apps tests CMakeLists.txt -type f \( -name '*.[ch]' -o -name '*.sh' -o -name '*.txt' -o -name '*.in' \) |
+    while read -r file; do echo "$(wc -l <"$file") $file"; done | awk '
+    $1 > 450 { print $2 ": " $1 " lines" }
+    $1 > 400 { print "warning: " $2 " has " $1 " lines" >"/dev/stderr" }' | complain "a file has at most 450 lines"
+
+# An example says in its first ten lines what it is for.
+for folder in examples/*/; do
+    case ${folder#examples/} in [0-9][0-9]_*) ;; *) echo "$folder is not called NN_name" ;; esac
+    found=
+    for file in "$folder"main.c "$folder"scene.yaml; do
+        [ -f "$file" ] || continue
+        found=yes
+        head -n 10 "$file" |
+            grep -qE '(/\*|//|#|^ \*).*[A-Za-z]+ [a-z]+ [a-z]+' || echo "$file has no comment on its purpose"
+    done
+    [ -n "$found" ] || echo "$folder has neither main.c nor scene.yaml"
+done | complain "examples"
+
+cat "$complaints"
+[ ! -s "$complaints" ]

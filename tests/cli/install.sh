@@ -1,0 +1,49 @@
+#!/bin/sh
+# Installs the build tree into a temporary prefix, moves that prefix, and builds outside.c against it in every way
+# a user can: find_package (shared, static), pkg-config (shared, fully static).
+set -eu
+: "${ISO_SOURCE:?}" "${ISO_BUILD:?}" "${CC:=cc}"
+here=$ISO_SOURCE/tests/cli
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+# runs_right NAME PROGRAM [OPTION...]: the program prints k
+runs_right() {
+    name=$1
+    shift
+    answer=$("$@") && [ "$answer" = "k = -1" ] || { echo "FAIL $name: answered '$answer'"; exit 1; }
+    echo "ok   $name"
+}
+
+cmake --install "$ISO_BUILD" --prefix "$work/first" >install.log || { cat install.log; exit 1; }
+mv first moved # whatever remembers its first place fails below
+prefix=$work/moved
+if find "$prefix" -name '*_impl.h' | grep .; then echo "FAIL a private header is installed"; exit 1; fi
+"$prefix/bin/isoroll" --version >version || { echo "FAIL the installed command does not run"; exit 1; }
+
+cat >CMakeLists.txt <<END
+cmake_minimum_required(VERSION 3.25)
+project(outside LANGUAGES C)
+find_package(isoroll 0.1 REQUIRED)
+add_executable(shared "$here/outside.c")
+target_link_libraries(shared PRIVATE isoroll::isoroll)
+find_package(isoroll 0.1 REQUIRED COMPONENTS static)
+add_executable(static "$here/outside.c")
+target_link_libraries(static PRIVATE isoroll::isoroll_static)
+END
+{ cmake -S . -B build -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_C_COMPILER="$CC" && cmake --build build; } >log 2>&1 ||
+    { cat log; exit 1; }
+runs_right "find_package" build/shared
+runs_right "find_package, static" build/static
+
+libdir=$(dirname "$(find "$prefix" -name isoroll.pc)")
+export PKG_CONFIG_PATH="$libdir"
+# shellcheck disable=SC2046 # the flags are lists
+{
+    "$CC" -std=c11 "$here/outside.c" -o shared $(pkg-config --cflags --libs isoroll)
+    runs_right "pkg-config" env LD_LIBRARY_PATH="${libdir%/pkgconfig}" ./shared
+    # everything static, down to libc; so it stands on its own
+    "$CC" -std=c11 -static "$here/outside.c" -o static $(pkg-config --static --cflags --libs isoroll)
+    runs_right "pkg-config --static" ./static
+}

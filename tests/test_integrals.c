@@ -1,0 +1,239 @@
+/* First integrals hold where the table says so, and nowhere else; projection restores what they fix. */
+#include <float.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "laws.h"
+
+typedef struct integral_at {
+    const iso_integral *integral;
+    const iso_field *field;
+} integral_at;
+
+static void value(const void *data, const double y[], double I[])
+{
+    const integral_at *at = data;
+    double size;
+    I[0] = at->integral->value(at->field, y, &size);
+}
+
+/* (dI/dt)/size in units of the time in which the state changes, at rest or for equal moments that of a turn at full
+ * speed: the drift of I, of order one where it is none.
+ * *rounding is what rounding alone makes of it. */
+static double drift(const laws_case *c, const iso_integral *integral, double *rounding)
+{
+    const integral_at at = {integral, &c->field};
+    double f[ISO_STATE], slope, size;
+    c->system->rhs(&c->field, c->y, f);
+    const double turn = c->system->speed(&c->field, c->y) * (c->system == &iso_system_ball ? fabs(c->field.p.k) : 1);
+    const double h = fmin(laws_step(c, f), laws_reach(&c->field.p) / (128 * turn));
+    const double time = 128 * h / laws_reach(&c->field.p);
+    laws_slope(value, &at, 1, ISO_STATE, c->y, f, h, &slope);
+    integral->value(&c->field, c->y, &size);
+    *rounding = laws_rounding(&c->field.p) * time / h;
+    return fabs(slope) * time / size;
+}
+
+static void note_holding(const laws_case *c, laws_worst *worst)
+{
+    for (const iso_integral *i = c->system->integrals; i->name; i++) {
+        if (i->holds && !i->holds(&c->field.p)) continue;
+        double rounding;
+        const double d = drift(c, i, &rounding);
+        laws_note(worst, d, rounding, &c->field.p, i->name);
+    }
+}
+
+static void derivative_zero(const laws_case *c, laws_worst *worst)
+{
+    note_holding(c, worst);
+}
+
+/* The point's integrals hold on every level: H > 0 and H < 0, at rest too. */
+static void off_the_level(const laws_case *c, laws_worst *worst)
+{
+    static const double stretch[] = {0.3, 1.7, 0.0, 1e-3};
+    for (int i = 0; i < 4; i++) {
+        laws_case moved = *c;
+        double size;
+        scale(moved.y, stretch[i]);
+        moved.field.energy = c->system->integrals[0].value(&moved.field, moved.y, &size);
+        note_holding(&moved, worst);
+    }
+}
+
+static const iso_integral *find(const iso_system *system, const char *name)
+{
+    for (const iso_integral *i = system->integrals; i->name; i++)
+        if (strcmp(i->name, name) == 0) return i;
+    return NULL;
+}
+
+/* Where an integral is not claimed it is none: it must drift by a hundredth of its size somewhere. */
+static void note_drift(const laws_case *c, const char *name, laws_worst *worst)
+{
+    double rounding;
+    const iso_integral *integral = find(c->system, name);
+    if (!integral) gsl_test(1, "%s has no integral %s", c->system->name, name);
+    if (!integral || integral->holds(&c->field.p)) return;
+    laws_note(worst, drift(c, integral, &rounding), 0.01, &c->field.p, name);
+}
+
+static void plane_at_shell(const laws_case *c, laws_worst *worst)
+{
+    if (c->field.p.k == -1) note_drift(c, "F_plane", worst);
+}
+
+static void plane_at_near_k(const laws_case *c, laws_worst *worst)
+{
+    if (c->field.p.k == 0.75) note_drift(c, "F_plane", worst);
+}
+
+static void shell_at_plane(const laws_case *c, laws_worst *worst)
+{
+    if (c->field.p.k == 1) note_drift(c, "F_shell", worst);
+}
+
+static void axis1_unequal(const laws_case *c, laws_worst *worst)
+{
+    note_drift(c, "F_axis1", worst);
+}
+
+static void axis2_unequal(const laws_case *c, laws_worst *worst)
+{
+    note_drift(c, "F_axis2", worst);
+}
+
+static void axis3_unequal(const laws_case *c, laws_worst *worst)
+{
+    note_drift(c, "F_axis3", worst);
+}
+
+/* Which rows hold where: the table's conditions themselves. */
+static void conditions(const laws_case *c, laws_worst *worst)
+{
+    const iso_params *p = &c->field.p;
+    const bool holds[] = {p->k == 1, p->k == -1, p->J[1] == p->J[2], p->J[2] == p->J[0], p->J[0] == p->J[1]};
+    static const char *const names[] = {"F_plane", "F_shell", "F_axis1", "F_axis2", "F_axis3"};
+    for (int i = 0; i < 5; i++) {
+        const iso_integral *integral = find(c->system, names[i]);
+        laws_note(worst, integral && integral->holds(p) == holds[i] ? 0 : 1, 0.5, p, names[i]);
+    }
+}
+
+/* Distance of a state from the constraints and its energy; (w,n) may be off by `spin` roundings. */
+static void note_restored(const laws_case *c, const double y[ISO_STATE], double spin, laws_worst *worst)
+{
+    const iso_params *p = &c->field.p;
+    double size;
+    const double energy = c->system->integrals[0].value(&c->field, y, &size);
+    laws_note(worst, fabs(norm(y + 3) - 1), 2 * DBL_EPSILON, p, "unit");
+    laws_note(worst, fabs(dot(y, y + 3)), spin * DBL_EPSILON * norm(y), p, "orthogonal");
+    laws_note(worst, fabs(energy - c->field.energy), 2 * laws_rounding(p) * size, p, "energy");
+}
+
+/* A state pushed off by 1e-6 ... 1e-12 comes back near where it was, with all relations restored; a second projection
+ * finds nothing to do. What a push of gamma by x does to q is 2 x sqrt(max J/q), to M by q^(-1/(2k)) that / (2k). */
+static void projection_restores(const laws_case *c, laws_worst *worst)
+{
+    const iso_params *p = &c->field.p;
+    const double gain = 3 * sqrt(laws_spread(p)) * (1 + 1 / fabs(p->k));
+    for (double push = 1e-6; push > 1e-13; push /= 10) {
+        double y[ISO_STATE], again[ISO_STATE], direction[3];
+        copy(c->y, y, ISO_STATE);
+        iso_random_direction(c->random, direction);
+        add_scaled(y, push * norm(c->y), direction);
+        iso_random_direction(c->random, direction);
+        add_scaled(y + 3, push, direction);
+        const double correction = c->system->project(&c->field, y);
+        note_restored(c, y, 2, worst);
+        laws_note(worst, correction, gain * push, p, "correction");
+        laws_note(worst, laws_distance(y, c->y) / norm(c->y), gain * push, p, "fast moved");
+        laws_note(worst, laws_distance(y + 3, c->y + 3), 2 * push, p, "unit moved");
+        copy(y, again, ISO_STATE);
+        laws_note(worst, c->system->project(&c->field, again), 2 * laws_rounding(p), p, "second correction");
+        laws_note(worst, laws_distance(y, again), 2 * laws_rounding(p) * norm(y), p, "fast again");
+        laws_note(worst, laws_distance(y + 3, again + 3), 4 * DBL_EPSILON, p, "unit again");
+    }
+}
+
+/* Each relation broken alone, by a known amount: the correction is that amount, and the state is back. */
+static void correction_reported(const laws_case *c, laws_worst *worst)
+{
+    const iso_params *p = &c->field.p;
+    static const char *const what[] = {"length", "spin", "energy"};
+    const double gain = laws_spread(p) * (1 + 1 / fabs(p->k));
+    for (double push = 1e-6; push > 1e-13; push /= 10)
+        for (int relation = 0; relation < 3; relation++) {
+            double y[ISO_STATE];
+            copy(c->y, y, ISO_STATE);
+            if (relation == 0) scale(y + 3, 1 + push);
+            if (relation == 1) add_scaled(y, push * norm(y), c->y + 3);
+            if (relation == 2) scale(y, 1 + push);
+            const double correction = c->system->project(&c->field, y);
+            laws_note(worst, fabs(correction - push), 4 * laws_rounding(p) + 2 * gain * push * push, p,
+                      what[relation]);
+            laws_note(worst, laws_distance(y, c->y) / norm(y), 4 * laws_rounding(p) + gain * push * push, p,
+                      "fast back");
+            laws_note(worst, laws_distance(y + 3, c->y + 3), 4 * DBL_EPSILON, p, "unit back");
+        }
+}
+
+/* Off the level H = 0 the point's M cannot be scaled to its energy: only the geometry is restored. */
+static void projection_off_the_level(const laws_case *c, laws_worst *worst)
+{
+    laws_case moved = *c;
+    double size, y[ISO_STATE];
+    scale(moved.y, 0.5);
+    moved.field.energy = c->system->integrals[0].value(&moved.field, moved.y, &size);
+    copy(moved.y, y, ISO_STATE);
+    scale(y + 3, 1 + 1e-8);
+    add_scaled(y, 1e-8 * norm(y), c->y + 3);
+    scale(y, 1 + 1e-8);
+    c->system->project(&moved.field, y);
+    laws_note(worst, fabs(norm(y + 3) - 1), 2 * DBL_EPSILON, &c->field.p, "unit");
+    laws_note(worst, fabs(dot(y, y + 3)), 2 * DBL_EPSILON * norm(y), &c->field.p, "orthogonal");
+    laws_note(worst, fabs(norm(y) / norm(moved.y) - (1 + 1e-8)), 1e-15, &c->field.p, "M kept");
+}
+
+/* At rest there is nothing to scale: no NaN. */
+static void projection_at_rest(const laws_case *c, laws_worst *worst)
+{
+    laws_case rest = *c;
+    scale(rest.y, 0);
+    rest.field.energy = rest.field.eps = 0;
+    scale(rest.y + 3, 1.5);
+    laws_note(worst, fabs(c->system->project(&rest.field, rest.y) - 0.5), 4 * DBL_EPSILON, &c->field.p, "correction");
+    laws_note(worst, norm(rest.y), DBL_MIN, &c->field.p, "rest");
+    laws_note(worst, fabs(norm(rest.y + 3) - 1), 2 * DBL_EPSILON, &c->field.p, "unit");
+}
+
+/* The spin is taken out of a random w once; if w was nearly along n, what rounding leaves of it is more than an ulp. */
+static void sample_valid(const laws_case *c, laws_worst *worst)
+{
+    note_restored(c, c->y, 32, worst);
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    laws_hold("sampled states are valid", NULL, sample_valid);
+    laws_hold("integrals constant along the flow", NULL, derivative_zero);
+    laws_hold("integrals constant off the level H = 0", &iso_system_point, off_the_level);
+    laws_hold("where integrals are said to hold", NULL, conditions);
+    laws_fail("F_plane drifts at k = -1", NULL, plane_at_shell);
+    laws_fail("F_plane drifts at k = 0.75", NULL, plane_at_near_k);
+    laws_fail("F_shell drifts at k = 1", NULL, shell_at_plane);
+    laws_fail("F_axis1 drifts for unequal moments", NULL, axis1_unequal);
+    laws_fail("F_axis2 drifts for unequal moments", NULL, axis2_unequal);
+    laws_fail("F_axis3 drifts for unequal moments", NULL, axis3_unequal);
+    laws_hold("projection restores", NULL, projection_restores);
+    laws_hold("projection reports its correction", NULL, correction_reported);
+    laws_hold("projection off the level H = 0", &iso_system_point, projection_off_the_level);
+    laws_hold("projection at rest", NULL, projection_at_rest);
+    exit(gsl_test_summary());
+}
