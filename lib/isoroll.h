@@ -25,9 +25,16 @@
 
 /* orbit: where the ball, or the point, is at any time */
 #include "orbit/scene.h"
+#include "orbit/orbit.h"
+#include "orbit/convert.h"
 
-/* io: scene and trajectory files */
+/* study: what people do with orbits */
+#include "study/check.h"
+#include "study/compare.h"
+
+/* io: scene and trajectory files, plots */
 #include "io/scene_file.h"
 #include "io/trajectory.h"
+#include "io/plot.h"
 
 #endif

@@ -71,12 +71,21 @@ void laws_slope_flow(laws_function *f, const void *data, int count, const laws_c
  * from the step and one of laws_rounding()/h from rounding. */
 double laws_step(const laws_case *c, const double direction[ISO_STATE]);
 
-/* How far the unit vector moves until q^e, |e| <= 1 + 1/|k|, has changed by its own size at most: q has its complex zeros
- * at a distance sqrt(q/max J) or more. */
+/* How far the unit vector moves until q^e, |e| <= 1 + 1/|k|, has changed by its own size at most: q has its complex
+ * zeros at a distance sqrt(q/max J) or more. */
 double laws_reach(const iso_params *p);
 
 /* Rounding error of one evaluation of the equations, relative to its terms: a power q^e multiplies that of q by e. */
 double laws_rounding(const iso_params *p);
+
+/* What the formulas of sphero-conical coordinates need, which divide by A(lam) and A(mu): three moments well apart,
+ * max J/min J < 10, and a unit vector 0.2 or more away from the coordinate planes; and the rounding error they then
+ * have, relative to their terms: times 1/x_i^2 <= 25 and max J/min J. */
+bool laws_regular(const laws_case *c);
+double laws_conditioning(const iso_params *p);
+
+/* The integral of that name; ends the test when there is none. */
+const iso_integral *laws_integral(const iso_system *system, const char *name);
 
 /* Largest |a_i|, |a|, |a - b| and max J/min J; free of overflow and underflow. */
 double laws_max(int n, const double a[]);

@@ -39,7 +39,7 @@ static const struct mistake {
     {BALL SURFACE INITIAL "time: {end: [[[[[[[1]]]]]]]}\n", 4, 19, "nested more than 8"},
     {BALL SURFACE INITIAL TIME "# bell \a\n", 5, 8, "control characters"},
     {BALL SURFACE INITIAL TIME "# caf\351 noir\n", 5, 6, "UTF-8"},
-    {BALL SURFACE INITIAL TIME "\"\\e[2J\\x9b\": 5\n", 5, 1, "unknown key '?[2J??'"},
+    {BALL SURFACE INITIAL TIME "\"\\e[2J\\x9b\": 5\n", 5, 1, "unknown key '?[2J"},
 
     /* Keys */
     {BALL "surfaec: {kind: plane}\n" SURFACE INITIAL TIME, 2, 1, "unknown key 'surfaec'; did you mean 'surface'?"},

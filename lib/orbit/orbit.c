@@ -70,7 +70,8 @@ static iso_field point_field(iso_orbit *o, const iso_start *start, double y[ISO_
 }
 
 /* A point's start in y; gives the level H it lives on, 0 if it is that to 1e-9, and the size of the terms of H. */
-static double start_point(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE], double *size)
+static double start_point(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE],
+                          double *size)
 {
     double ball[ISO_STATE];
     set_units(o, p, 0);
@@ -91,10 +92,12 @@ static double start_point(iso_orbit *o, const iso_params *p, const iso_start *st
 
 static iso_status refuse_level(iso_context *ctx, double H, double size)
 {
-    return iso_context_fail(ctx, ISO_NOT_MAPPED, "M",
-                            "this point has energy H = %.6g of M^2/2 + |V|, and only on the level H = 0 is it the twin "
-                            "of a free ball: change M or eps, or leave eps out to have the one that fits; or stay with "
-                            "the point (backend point, as point)", H / size);
+    return iso_context_fail(
+        ctx, ISO_NOT_MAPPED, "M",
+        "this point has energy H = %.6g of M^2/2 + |V|, and only on the level H = 0 is it the twin "
+        "of a free ball: change M or eps, or leave eps out to have the one that fits; or stay with "
+        "the point (backend point, as point)",
+        H / size);
 }
 
 /* --- making an orbit --------------------------------------------------------------------------------------------- */
@@ -117,7 +120,8 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
         if (level != 0 && needs_ball) return refuse_level(o->ctx, level, size);
     }
     if (!all_finite(y, ISO_STATE) || !isfinite(o->eps) || !isfinite(o->h))
-        return iso_context_fail(o->ctx, ISO_NUMERICAL, "", "the start is out of the range of doubles in the ball's own "
+        return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
+                                "the start is out of the range of doubles in the ball's own "
                                 "units: J or k is too extreme");
     if (opt->backend == ISO_POINT && start->model == ISO_BALL) iso_ball_to_point(&o->units.own, y, y);
     if (opt->backend == ISO_BALL && start->model == ISO_POINT) iso_point_to_ball(&o->units.own, y, y);
@@ -169,8 +173,10 @@ static iso_status check_range(const iso_orbit *o, const iso_sample *s)
     for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) {
         const double x = iso_sample_column(s, c);
         if (isinf(x))
-            return iso_context_fail(o->ctx, ISO_NUMERICAL, "", "%s is too large for a double in these units: use "
-                                    "other units of mass, length or time", iso_trajectory_columns[c]);
+            return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
+                                    "%s is too large for a double in these units: use "
+                                    "other units of mass, length or time",
+                                    iso_trajectory_columns[c]);
     }
     return ISO_OK;
 }
@@ -201,7 +207,8 @@ iso_status iso_orbit_at(iso_orbit *o, double time, iso_sample *sample)
     double y[ISO_MAX_STATE];
     const double own_time = time / o->unit_clock[o->model.clock];
     if (!isfinite(own_time))
-        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "end", "%s = %g is out of range: it is %g turns of this ball",
+        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "end",
+                                "%s = %g is out of range: it is %g turns of this ball",
                                 iso_clock_name(o->model.clock), time, own_time);
     const iso_status status = iso_integrator_at(o->integrator, own_time, y);
     return status == ISO_OK ? make_sample(o, time, y, sample) : status;

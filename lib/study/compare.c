@@ -128,8 +128,8 @@ static iso_status compare_rows(iso_context *ctx, iso_comparison *c)
     const iso_record *a = c->run[ISO_BALL].trajectory, *b = c->run[ISO_POINT].trajectory;
     const iso_clock first = c->clock == ISO_CLOCK_T ? ISO_CLOCK_TAU : ISO_CLOCK_T;
     const iso_clock second = c->clock == ISO_CLOCK_S ? ISO_CLOCK_TAU : ISO_CLOCK_S;
-    const char *const names[ISO_DIFFERENCES] = {iso_clock_name(c->clock), "omega", "n", "M", "gamma",
-                                                iso_clock_name(first), iso_clock_name(second)};
+    const char *const names[ISO_DIFFERENCES] = {
+        iso_clock_name(c->clock), "omega", "n", "M", "gamma", iso_clock_name(first), iso_clock_name(second)};
     const double scale[2] = {largest_in_column(a, (int)first), largest_in_column(a, (int)second)};
     iso_status status = iso_record_create(ctx, ISO_DIFFERENCES, names, &c->difference);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(a) && i < iso_record_rows(b); i++) {
@@ -147,8 +147,8 @@ static iso_status compare_rows(iso_context *ctx, iso_comparison *c)
     return status;
 }
 
-iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data), void *data,
-                       iso_comparison **comparison)
+iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data),
+                       void *data, iso_comparison **comparison)
 {
     iso_comparison *c = *comparison = calloc(1, sizeof *c);
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a comparison");

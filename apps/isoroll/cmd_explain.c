@@ -1,0 +1,117 @@
+/* isoroll explain - what would be simulated, and why. */
+#include <math.h>
+#include <time.h>
+
+#include "command.h"
+
+static void explain_ball(const iso_params *p)
+{
+    static const char *const surfaces[] = {
+        [ISO_REDUCED] = "given by k and J",          [ISO_PLANE] = "ball on a plane",
+        [ISO_OUTSIDE] = "ball on a sphere",          [ISO_INSIDE] = "ball inside a sphere",
+        [ISO_SHELL] = "hollow ball around a sphere",
+    };
+    const iso_body *b = &p->body;
+    printf("ball\n  %s\n", surfaces[b->surface]);
+    if (b->surface != ISO_REDUCED)
+        printf("  m = %g, B = %g, I = %g %g %g; m B^2 = %g\n", b->mass, b->radius, b->inertia[0], b->inertia[1],
+               b->inertia[2], b->mass * b->radius * b->radius);
+    if (b->surface > ISO_PLANE) printf("  on a fixed sphere of radius A = %g\n", b->surface_radius);
+    printf("  k = %.17g, J = %.17g %.17g %.17g\n", p->k, p->J[0], p->J[1], p->J[2]);
+    printf("  twin: point on a sphere, V = -eps (gamma,J gamma)^(%.6g)%s\n\n", -1 / p->k,
+           p->k == -1  ? ", Neumann's problem: integrable"
+           : p->k == 1 ? ", Braden's problem: integrable"
+           : iso_params_symmetric(p, 0) || iso_params_symmetric(p, 1) || iso_params_symmetric(p, 2)
+               ? ": integrable, since two moments are equal"
+               : ": no further integral is known");
+}
+
+static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const int columns[], int count)
+{
+    const iso_model *m = iso_orbit_model(orbit);
+    printf("integrated: backend %s, %d states, in the clock %s\n", m->system->name, m->dim, iso_clock_name(m->clock));
+    for (int i = 0; i < ISO_STATE; i++)
+        printf("  %-7s %s\n", m->system->state[i],
+               i < 3 ? (m->system == &iso_system_ball ? "angular velocity" : "momentum") : "unit vector");
+    for (int i = 0; i < m->carried; i++)
+        printf("  %-7s clock, because a column asks for it\n", iso_clock_name(m->carry[i]));
+    printf("  method %s (%s), tolerance %g\n", iso_orbit_method(orbit)->name, iso_orbit_method(orbit)->doc,
+           scene->tolerance);
+    printf("  own units: moment of inertia %g, time %g\n", iso_orbit_units(orbit)->J, 1 / iso_orbit_units(orbit)->w);
+    printf("  energy h = %.10g, coupling eps = h det J/k^2 = %.10g\n", iso_orbit_energy(orbit),
+           iso_orbit_coupling(orbit));
+    printf("written: %zu rows to %s = %g, columns", iso_scene_rows(scene), iso_clock_name(m->clock), scene->end);
+    for (int i = 0; i < count; i++) printf(" %s", iso_trajectory_columns[columns[i]]);
+    printf("\n\n");
+}
+
+static void explain_integrals(const iso_params *p)
+{
+    for (int holds = 1; holds >= 0; holds--) {
+        printf(holds ? "integrals that hold\n" : "integrals that do not hold here\n");
+        for (int s = 0; iso_systems[s]; s++)
+            for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
+                if ((!i->holds || i->holds(p)) == holds)
+                    printf("  %-5s %-10s %s\n", iso_systems[s]->name, i->name, i->doc);
+    }
+}
+
+/* Seconds for one right-hand side, the best of several rounds. */
+static double cost(const iso_model *m, const double y[])
+{
+    enum { CALLS = 20000, ROUNDS = 7 };
+    double dy[ISO_MAX_STATE], x[ISO_MAX_STATE] = {0}, best = INFINITY;
+    for (int i = 0; i < ISO_STATE; i++) x[i] = y[i];
+    for (int round = 0; round < ROUNDS; round++) {
+        const clock_t begin = clock();
+        for (int i = 0; i < CALLS; i++) {
+            m->rhs(m, x, dy);
+            x[0] += 1e-18 * dy[0]; /* each call waits for the one before */
+        }
+        best = fmin(best, (double)(clock() - begin) / CLOCKS_PER_SEC / CALLS);
+    }
+    return best;
+}
+
+static void explain_cost(const iso_model *m)
+{
+    static const bool none[ISO_CLOCKS] = {false};
+    iso_field field = m->field;
+    double y[ISO_STATE];
+    iso_random *random = iso_random_create(1);
+    if (!random) return;
+    iso_system_ball.sample(&field, random, y);
+    const iso_model free_ball = iso_model_assemble(&iso_system_ball, &field, ISO_CLOCK_T, none);
+    const double reference = cost(&free_ball, y);
+    field = m->field;
+    m->system->sample(&field, random, y);
+    iso_random_free(random);
+    printf("\ncost of a right-hand side: %.2f times the free ball's in its own time (measured)\n",
+           cost(m, y) / reference);
+}
+
+static int run(iso_context *ctx, const options *o)
+{
+    iso_scene scene;
+    iso_orbit *orbit;
+    int columns[ISO_MAX_COLUMNS], count;
+    iso_status status = scene_with_options(ctx, o, &scene);
+    if (status != ISO_OK) return finish(ctx, status);
+    count = iso_scene_columns(&scene, columns);
+    status = orbit_for_columns(ctx, &scene, columns, count, &orbit);
+    if (status != ISO_OK) return finish(ctx, status);
+    explain_ball(&scene.params);
+    explain_states(&scene, orbit, columns, count);
+    explain_integrals(&scene.params);
+    explain_cost(iso_orbit_model(orbit));
+    iso_orbit_free(orbit);
+    return EXIT_DONE;
+}
+
+const command command_explain = {
+    .name = "explain",
+    .argument = "SCENE",
+    .doc = "what would be simulated and why; nothing is integrated",
+    .options = " backend method tol as t-end step ",
+    .run = run,
+};

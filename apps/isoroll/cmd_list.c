@@ -1,0 +1,96 @@
+/* isoroll list - the registries of the library. */
+#include <string.h>
+
+#include "command.h"
+
+static void list_systems(void)
+{
+    for (int s = 0; iso_systems[s]; s++) {
+        printf("  %-22s %s\n", iso_systems[s]->name, iso_systems[s]->doc);
+        printf("  %-22s state:", "");
+        for (int i = 0; i < ISO_STATE; i++) printf(" %s", iso_systems[s]->state[i]);
+        printf("; clock: %s\n", iso_clock_name(iso_systems[s]->clock));
+    }
+}
+
+static void list_integrals(void)
+{
+    for (int s = 0; iso_systems[s]; s++)
+        for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
+            printf("  %-5s %-16s %s\n", iso_systems[s]->name, i->name, i->doc);
+}
+
+static void list_methods(void)
+{
+    printf("  %-22s %-7s %-6s %s\n", "name", "family", "order", "");
+    for (int i = 0; iso_methods[i]; i++) {
+        const iso_method *m = iso_methods[i];
+        char order[16] = "varies";
+        if (m->order) snprintf(order, sizeof order, "%d", m->order);
+        printf("  %-22s %-7s %-6s %s%s%s\n", m->name, m->family, order, m->doc, m->implicit ? "; stiff" : "",
+               m->projects ? "" : "; no projection");
+    }
+}
+
+static void list_surfaces(void)
+{
+    static const char *const docs[] = {
+        [ISO_PLANE] = "a ball on a plane, k = 1",
+        [ISO_OUTSIDE] = "a ball on the outside of a fixed sphere, k = A/(A+B)",
+        [ISO_INSIDE] = "a ball inside a fixed sphere, k = A/(A-B)",
+        [ISO_SHELL] = "a hollow sphere around a fixed ball, k = -A/(B-A)",
+    };
+    for (int i = ISO_PLANE; iso_surface_name(i); i++) printf("  %-22s %s\n", iso_surface_name(i), docs[i]);
+}
+
+static void list_clocks(void)
+{
+    static const char *const docs[] = {
+        [ISO_CLOCK_T] = "the ball's time",
+        [ISO_CLOCK_TAU] = "the time in which the ball is Hamiltonian, dtau/dt = N (16)",
+        [ISO_CLOCK_S] = "the point's time, ds/dt = G N (24)",
+    };
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++) printf("  %-22s %s\n", iso_clock_name(c), docs[c]);
+}
+
+static void list_columns(void)
+{
+    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++) printf("%s%s", i ? " " : "  ", iso_trajectory_columns[i]);
+    printf("\n");
+}
+
+static const struct {
+    const char *name, *doc;
+    void (*list)(void);
+} topics[] = {
+    {"systems", "what is integrated (--backend)", list_systems},
+    {"methods", "integrators (--method)", list_methods},
+    {"surfaces", "what the ball rolls on (surface: kind)", list_surfaces},
+    {"integrals", "first integrals, each with the k and J for which it holds", list_integrals},
+    {"clocks", "times of an orbit", list_clocks},
+    {"columns", "of trajectory files", list_columns},
+};
+enum { TOPICS = sizeof topics / sizeof *topics };
+
+static int run(iso_context *ctx, const options *o)
+{
+    const bool all = strcmp(o->file, "-") == 0;
+    int listed = 0;
+    (void)ctx;
+    for (int i = 0; i < TOPICS; i++) {
+        if (!all && strcmp(o->file, topics[i].name) != 0) continue;
+        printf("%s%s: %s\n", listed++ ? "\n" : "", topics[i].name, topics[i].doc);
+        topics[i].list();
+    }
+    if (listed) return EXIT_DONE;
+    complain("list: nothing is called '%s'; 'isoroll list' shows everything", o->file);
+    return EXIT_USAGE;
+}
+
+const command command_list = {
+    .name = "list",
+    .argument = "[TOPIC]",
+    .doc = "the registries: systems, methods, surfaces, integrals, clocks, columns",
+    .options = " ",
+    .run = run,
+};

@@ -1,0 +1,131 @@
+/* isoroll - the rubber Chaplygin ball and its twin, the point on a sphere, at the command line. */
+#include <errno.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_version.h>
+#include <jansson.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <string.h>
+#include <sundials/sundials_version.h>
+#include <yaml.h>
+
+#include "command.h"
+
+static const command *const commands[] = {&command_run,   &command_convert, &command_compare,
+                                          &command_check, &command_explain, &command_list};
+enum { COMMANDS = sizeof commands / sizeof *commands };
+
+static volatile sig_atomic_t stop_asked;
+
+static void ask_to_stop(int signal_number)
+{
+    (void)signal_number;
+    stop_asked = 1;
+}
+
+bool interrupted(void)
+{
+    return stop_asked != 0;
+}
+
+void complain(const char *format, ...)
+{
+    va_list args;
+    progress_end();
+    va_start(args, format);
+    fputs("isoroll: ", stderr);
+    vfprintf(stderr, format, args);
+    fputc('\n', stderr);
+    va_end(args);
+}
+
+int finish(iso_context *ctx, iso_status status)
+{
+    static const int exits[] = {
+        [ISO_OK] = EXIT_DONE,
+        [ISO_BAD_ARGUMENT] = EXIT_USAGE,
+        [ISO_BAD_INPUT] = EXIT_BAD_INPUT,
+        [ISO_NOT_MAPPED] = EXIT_BAD_INPUT,
+        [ISO_NUMERICAL] = EXIT_NUMERICAL,
+        [ISO_FILE_TROUBLE] = EXIT_FILE,
+        [ISO_NO_MEMORY] = EXIT_NUMERICAL,
+    };
+    if (status != ISO_OK && strcmp(iso_context_field(ctx), "pipe") != 0) complain("%s", iso_context_message(ctx));
+    return exits[status];
+}
+
+static void print_help(FILE *to)
+{
+    fputs("isoroll simulates the rubber Chaplygin ball rolling on a sphere and its twin, a point on a sphere in a\n"
+          "Neumann/Braden potential, and carries orbits from one to the other.\n\n"
+          "usage: isoroll COMMAND [options] [SCENE or FILE]      - is standard input or output\n\n",
+          to);
+    for (int i = 0; i < COMMANDS; i++)
+        fprintf(to, "  %-8s %-9s %s\n", commands[i]->name, commands[i]->argument, commands[i]->doc);
+    fputs("\n  isoroll COMMAND --help     the options of a command\n"
+          "  isoroll --version          of isoroll and its libraries\n\n"
+          "exit status: 0 done; 1 some rows failed, or interrupted; 2 usage; 3 bad input; 4 numerical failure; "
+          "5 file trouble\n",
+          to);
+}
+
+static void print_version(void)
+{
+    char sundials[32] = "?";
+    int major, minor, patch;
+    yaml_get_version(&major, &minor, &patch);
+    SUNDIALSGetVersion(sundials, sizeof sundials);
+    printf("isoroll %s\nSUNDIALS %s\nGSL %s\nlibyaml %d.%d.%d\njansson %s\n", ISO_VERSION, sundials, gsl_version,
+           major, minor, patch, JANSSON_VERSION);
+}
+
+static const command *find_command(const char *name)
+{
+    for (int i = 0; i < COMMANDS; i++)
+        if (strcmp(commands[i]->name, name) == 0) return commands[i];
+    return NULL;
+}
+
+static int run_command(const command *c, int argc, char **argv)
+{
+    options o;
+    iso_context *ctx = iso_context_create();
+    if (!ctx) return complain("out of memory"), EXIT_NUMERICAL;
+    int status = EXIT_USAGE;
+    if (options_read(c, argc, argv, &o)) {
+        if (o.help) options_help(c, stdout);
+        status = o.help ? EXIT_DONE : c->run(ctx, &o);
+    }
+    progress_end();
+    iso_context_free(ctx);
+    return status;
+}
+
+/* What was printed may still fail to arrive: a full disk shows when the buffer is written. */
+static int flush_output(int status)
+{
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+    if (errno != EPIPE && status != EXIT_FILE) complain("cannot write to standard output: %s", strerror(errno ? errno : EIO));
+    return status == EXIT_DONE ? EXIT_FILE : status;
+}
+
+int main(int argc, char **argv)
+{
+    const struct sigaction stop = {.sa_handler = ask_to_stop};
+    signal(SIGPIPE, SIG_IGN); /* writing tells */
+    sigaction(SIGINT, &stop, NULL);
+    sigaction(SIGTERM, &stop, NULL);
+    gsl_set_error_handler_off();
+    const char *name = argc > 1 ? argv[1] : "";
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0)
+        return print_help(stdout), flush_output(EXIT_DONE);
+    if (strcmp(name, "--version") == 0) return print_version(), flush_output(EXIT_DONE);
+    const command *c = find_command(name);
+    if (c) return flush_output(run_command(c, argc - 1, argv + 1));
+    if (argc < 2)
+        print_help(stderr);
+    else
+        complain("unknown command '%s'; 'isoroll --help' lists them", name);
+    return EXIT_USAGE;
+}

@@ -1,0 +1,211 @@
+/* options.c - one table of options: how each is read, and how --help shows it. */
+#include <getopt.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+
+static bool set_text(void *at, const char *text)
+{
+    *(const char **)at = text;
+    return true;
+}
+
+static bool set_flag(void *at, const char *text)
+{
+    (void)text;
+    return *(bool *)at = true;
+}
+
+static bool set_number(void *at, const char *text)
+{
+    return iso_number_read(text, strlen(text), at);
+}
+
+/* Three numbers with commas between. */
+static bool set_vector(void *at, const char *text)
+{
+    double *x = at;
+    for (int i = 0; i < 3; i++) {
+        const size_t length = strcspn(text, ",");
+        if (!iso_number_read(text, length, &x[i]) || (text[length] == ',') != (i < 2)) return false;
+        text += length + 1;
+    }
+    return true;
+}
+
+static bool set_picture(void *at, const char *text)
+{
+    for (int i = 0; iso_picture_name(i); i++)
+        if (strcmp(text, iso_picture_name(i)) == 0) return *(iso_picture *)at = (iso_picture)i, true;
+    return false;
+}
+
+static bool set_backend(void *at, const char *text)
+{
+    return strcmp(text, "both") != 0 && set_picture(at, text);
+}
+
+static bool set_as(void *at, const char *text)
+{
+    return strcmp(text, "auto") != 0 && set_picture(at, text);
+}
+
+static bool set_target(void *at, const char *text)
+{
+    return set_as(at, text) && set_backend(at, text);
+}
+
+static bool set_method(void *at, const char *text)
+{
+    if (strcmp(text, "auto") != 0 && !iso_method_find(text)) return false;
+    return set_text(at, text);
+}
+
+static const struct row {
+    const char *name, *argument, *expected, *doc;
+    bool (*set)(void *at, const char *text);
+    size_t offset;
+} table[] = {
+#define AT(field) offsetof(options, field)
+    {"output", "FILE", "a file", "write there, - is standard output (-o FILE)", set_text, AT(output)},
+    {"backend", "B", "ball, point or auto", "the model that is integrated: ball, point, auto", set_backend,
+     AT(backend)},
+    {"method", "NAME", "a method of 'isoroll list methods', or auto", "integrator, or auto", set_method, AT(method)},
+    {"tol", "X", "a number", "largest relative error of one step, in [1e-15, 0.1]", set_number, AT(tolerance)},
+    {"as", "WHAT", "ball, point or both", "what is written: ball, point, both", set_as, AT(as)},
+    {"to", "MODEL", "ball or point", "the model converted to: ball, point", set_target, AT(to)},
+    {"t-end", "T", "a number", "last time, in place of the scene's", set_number, AT(end)},
+    {"step", "DT", "a number", "between rows, in place of the scene's", set_number, AT(step)},
+    {"times", "FILE", "a file", "output times from a file, in any order; # begins a comment", set_text, AT(times)},
+    {"rows", "N", "a number", "rows of the table that are printed (default 6)", set_number, AT(rows)},
+    {"plot", "FILE", "a file", "draw a picture: .svg, .png or .pdf", set_text, AT(plot)},
+    {"json", NULL, NULL, "print everything as JSON", set_flag, AT(json)},
+    {"k", "K", "a number", "geometry number, where the file does not say", set_number, AT(k)},
+    {"J", "J1,J2,J3", "three numbers J1,J2,J3", "moments about the contact point, likewise", set_vector, AT(J)},
+    {"eps", "X", "a number", "coupling of the point's potential, likewise", set_number, AT(eps)},
+    {"h", "X", "a number", "energy of the ball, in place of eps", set_number, AT(h)},
+    {"max", "X", "a number", "exit with 1 if any residual is larger", set_number, AT(bound)},
+    {"verbose", NULL, NULL, "tell on stderr how it went", set_flag, AT(verbose)},
+    {"help", NULL, NULL, "this text", set_flag, AT(help)},
+#undef AT
+};
+enum { ROWS = sizeof table / sizeof *table };
+
+static bool takes(const command *c, const struct row *r)
+{
+    char name[32];
+    snprintf(name, sizeof name, " %s ", r->name);
+    return strstr(c->options, name) || strcmp(r->name, "help") == 0;
+}
+
+void options_help(const command *c, FILE *to)
+{
+    fprintf(to, "usage: isoroll %s [options] %s\n%s\n\n", c->name, c->argument, c->doc);
+    for (int i = 0; i < ROWS; i++)
+        if (takes(c, &table[i]))
+            fprintf(to, "  --%-8s %-9s %s\n", table[i].name, table[i].argument ? table[i].argument : "",
+                    table[i].doc);
+    if (c->more) fprintf(to, "\n%s\n", c->more);
+}
+
+static bool set_option(const command *c, const struct row *r, const char *text, options *o)
+{
+    if (r->set((char *)o + r->offset, text)) return true;
+    complain("%s: --%s %s: expected %s", c->name, r->name, text, r->expected);
+    return false;
+}
+
+static bool usage(const command *c, const char *what, const char *which)
+{
+    complain("%s: %s%s; see 'isoroll %s --help'", c->name, what, which, c->name);
+    return false;
+}
+
+/* The one argument after the options. */
+static bool set_file(const command *c, int argc, char **argv, options *o)
+{
+    const bool optional = c->argument[0] == '[';
+    if (argc > optind + 1) return usage(c, "one argument too many: ", argv[optind + 1]);
+    if (argc == optind && !optional && !o->help) return usage(c, "missing argument ", c->argument);
+    o->file = argc > optind ? argv[optind] : "-";
+    return true;
+}
+
+bool options_read(const command *c, int argc, char **argv, options *o)
+{
+    struct option known[ROWS + 1] = {{0}};
+    int index[ROWS], count = 0, chosen, found;
+    for (int i = 0; i < ROWS; i++) {
+        if (!takes(c, &table[i])) continue;
+        index[count] = i;
+        known[count++] = (struct option){table[i].name, table[i].argument ? required_argument : no_argument, NULL, 0};
+    }
+    *o = (options){.output = "-",
+                   .method = NULL,
+                   .backend = (iso_picture)-1,
+                   .as = (iso_picture)-1,
+                   .to = (iso_picture)-1,
+                   .tolerance = NAN,
+                   .end = NAN,
+                   .step = NAN,
+                   .k = NAN,
+                   .eps = NAN,
+                   .h = NAN,
+                   .bound = NAN,
+                   .J = {NAN, NAN, NAN},
+                   .rows = 6};
+    opterr = 0;
+    const bool has_output = strstr(c->options, " output ") != NULL;
+    while ((found = getopt_long(argc, argv, has_output ? ":ho:" : ":h", known, &chosen)) != -1) {
+        if (found == 'h')
+            o->help = true;
+        else if (found == 'o')
+            o->output = optarg;
+        else if (found == ':')
+            return usage(c, "an argument is missing after ", argv[optind - 1]);
+        else if (found == '?')
+            return usage(c, "no such option: ", argv[optind - 1]);
+        else if (!set_option(c, &table[index[chosen]], optarg, o))
+            return false;
+    }
+    return set_file(c, argc, argv, o);
+}
+
+iso_status scene_with_options(iso_context *ctx, const options *o, iso_scene *scene)
+{
+    const iso_status status = iso_scene_read(ctx, o->file, scene);
+    if (status != ISO_OK) return status;
+    if ((int)o->backend >= 0) scene->backend = o->backend;
+    if ((int)o->as >= 0) scene->as = o->as, scene->columns = 0;
+    if (o->method) snprintf(scene->method, sizeof scene->method, "%s", o->method);
+    if (!isnan(o->tolerance)) scene->tolerance = o->tolerance;
+    if (!isnan(o->end)) scene->end = o->end;
+    if (!isnan(o->step)) scene->step = o->step;
+    if (!(scene->tolerance >= 1e-15 && scene->tolerance <= 0.1))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tol", "--tol %g: expected a tolerance in [1e-15, 0.1]",
+                                scene->tolerance);
+    if (!isnan(o->step) && !(o->step > 0))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "step", "--step %g: expected a positive number", o->step);
+    if (scene->step > 0 && fabs(scene->end) / scene->step > 1e8)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "step", "more than 1e8 rows: take a longer step");
+    return ISO_OK;
+}
+
+iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
+                             iso_orbit **orbit)
+{
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    bool ball = false, point = false;
+    for (int i = 0; i < count; i++) {
+        if (columns[i] < ISO_CLOCKS) o.carry[columns[i]] = true;
+        ball = ball || (columns[i] >= 3 && columns[i] < 9);
+        point = point || columns[i] >= 9;
+    }
+    o.show = ball && point ? ISO_BOTH : ball ? ISO_BALL : point ? ISO_POINT : scene->start.model;
+    o.backend = scene->backend;
+    o.method = iso_method_find(scene->method);
+    o.tolerance = scene->tolerance;
+    return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
+}

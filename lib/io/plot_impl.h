@@ -1,0 +1,28 @@
+/* plot_impl.h - what the parts of a picture share. */
+#ifndef ISO_IO_PLOT_IMPL_H
+#define ISO_IO_PLOT_IMPL_H
+
+#include <stdio.h>
+
+#include "base/record.h"
+
+enum { ISO_PLOT_ROWS = 5000 /* of a record that are drawn */ };
+
+/* Okabe & Ito's colours, for all kinds of sight, and paler twins for the far side of a sphere. */
+#define ISO_PLOT_BLUE "'#0072B2'"
+#define ISO_PLOT_VERMILLION "'#D55E00'"
+#define ISO_PLOT_FAR_BLUE "'#A9CDE2'"
+#define ISO_PLOT_FAR_VERMILLION "'#F0BE9B'"
+
+/* The signs of the first and the last row. */
+#define ISO_PLOT_START "pt 7 ps 1.4"
+#define ISO_PLOT_END "pt 9 ps 1.7"
+
+/* A line of data. */
+void iso_plot_pair(FILE *script, double x, double y);
+
+/* A plot of the unit sphere with a path, `line`, and markers on it: three columns of unit vectors each. */
+void iso_plot_sphere(FILE *script, const iso_record *line, int line_column, const iso_record *markers,
+                     int marker_column);
+
+#endif

@@ -1,0 +1,271 @@
+#include "orbit/convert.h"
+
+#include <math.h>
+
+#include "base/vec3_impl.h"
+#include "map/state.h"
+
+/* --- what a record says of its ball -------------------------------------------------------------------------------- */
+
+iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *model, const iso_params *p, double h,
+                               double eps)
+{
+    iso_status status = iso_record_set(ctx, r, "model", model);
+    if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "k", 1, &p->k);
+    if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "J", 3, p->J);
+    if (status == ISO_OK && isfinite(h)) status = iso_record_set_numbers(ctx, r, "h", 1, &h);
+    if (status == ISO_OK && isfinite(eps)) status = iso_record_set_numbers(ctx, r, "eps", 1, &eps);
+    return status;
+}
+
+iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *p)
+{
+    double k, J[3];
+    iso_status status;
+    const bool has_k = iso_record_get_numbers(ctx, r, "k", 1, &k, &status);
+    if (status != ISO_OK) return status;
+    const bool has_J = iso_record_get_numbers(ctx, r, "J", 3, J, &status);
+    if (status != ISO_OK) return status;
+    if (has_k && has_J) return iso_params_reduced(ctx, k, J, p);
+    return iso_context_fail(ctx, ISO_BAD_INPUT, has_k ? "J" : "k",
+                            "the trajectory does not say its %s: a line '# %s' or the option --%s must",
+                            has_k ? "J" : "k", has_k ? "J: J1 J2 J3" : "k: K", has_k ? "J J1,J2,J3" : "k K");
+}
+
+/* The six columns of a model. */
+static iso_status find_state(iso_context *ctx, const iso_record *r, iso_picture model, int columns[ISO_STATE])
+{
+    const char *const *names = (model == ISO_BALL ? &iso_system_ball : &iso_system_point)->state;
+    const char *missing;
+    if (iso_record_find_all(r, ISO_STATE, names, columns, &missing)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "the trajectory has no column '%s', which a %s has",
+                            missing, iso_picture_name(model));
+}
+
+/* The coupling that the lines state, by eps or by h; false: they do not. */
+static bool stated_coupling(iso_context *ctx, const iso_record *r, const iso_params *p, double *eps,
+                            iso_status *status)
+{
+    if (iso_record_get_numbers(ctx, r, "eps", 1, eps, status)) return true;
+    if (*status != ISO_OK || !iso_record_get_numbers(ctx, r, "h", 1, eps, status)) return false;
+    *eps = iso_coupling(p, *eps);
+    return isfinite(*eps);
+}
+
+iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_picture model, size_t row,
+                            iso_start *start)
+{
+    int columns[ISO_STATE];
+    iso_status status = find_state(ctx, r, model, columns);
+    if (status != ISO_OK) return status;
+    const double *x = iso_record_const_row(r, row);
+    double v[3], unit[3];
+    for (int i = 0; i < 3; i++) {
+        v[i] = x[columns[i]];
+        unit[i] = x[columns[3 + i]];
+    }
+    double eps;
+    const bool states_eps = model == ISO_POINT && stated_coupling(ctx, r, p, &eps, &status);
+    if (status != ISO_OK) return status;
+    const double size = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+    const double along = size > 0 ? v[0] / size * unit[0] + v[1] / size * unit[1] + v[2] / size * unit[2] : 0;
+    if (model == ISO_BALL)
+        status = iso_start_ball(ctx, v, unit, true, start);
+    else
+        status = iso_start_point(ctx, p, v, unit, states_eps ? &eps : NULL, true, start);
+    if (status == ISO_OK && fabs(along) > 1e-6)
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s has a part %.3g of its size along %s: this is no %s",
+                                  model == ISO_BALL ? "omega" : "M", along, model == ISO_BALL ? "n" : "gamma",
+                                  model == ISO_BALL ? "rubber ball's motion" : "point on a sphere");
+    if (status == ISO_OK) return ISO_OK;
+    return iso_context_fail(ctx, status, "", "row %zu: %s", row + 1, iso_context_message(ctx));
+}
+
+/* --- conversion ---------------------------------------------------------------------------------------------------- */
+
+typedef struct conversion {
+    iso_context *ctx;
+    const iso_params *params;
+    const iso_record *in;
+    iso_picture from;
+    double tolerance;
+    int state[ISO_STATE];         /* columns of the model converted from                                  */
+    iso_clock own, other;         /* the clocks of the two models                                         */
+    int own_column, other_column; /* their columns in `in`, -1: not there                         */
+    iso_units units;
+    double eps; /* the coupling that the record states, NAN: none                                 */
+} conversion;
+
+static iso_status fail_row(const conversion *c, iso_status status, size_t row)
+{
+    return iso_context_fail(c->ctx, status, "", "row %zu: %s", row + 1, iso_context_message(c->ctx));
+}
+
+static double row_largest(const conversion *c, size_t row)
+{
+    const double *x = iso_record_const_row(c->in, row);
+    return fmax(fabs(x[c->state[0]]), fmax(fabs(x[c->state[1]]), fabs(x[c->state[2]])));
+}
+
+/* A point off the level H = 0 of the record's coupling is no free ball's. */
+static iso_status check_level(const conversion *c, const iso_start *start, size_t row)
+{
+    iso_start level;
+    if (c->from != ISO_POINT) return ISO_OK;
+    const iso_status status = iso_start_point(c->ctx, c->params, start->y, start->y + 3, NULL, true, &level);
+    if (status != ISO_OK || fabs(start->eps - level.eps) <= 1e-6 * fabs(level.eps)) return status;
+    iso_context_fail(
+        c->ctx, ISO_NOT_MAPPED, "eps",
+        "this point is off the level H = 0: eps is %.10g, and its M would need %.10g; only on that level "
+        "is it the twin of a free ball",
+        start->eps, level.eps);
+    return fail_row(c, ISO_NOT_MAPPED, row);
+}
+
+/* The state of one row, carried over. */
+static iso_status convert_state(const conversion *c, size_t row, double out[ISO_STATE])
+{
+    const double *x = iso_record_const_row(c->in, row);
+    const double unit_M = iso_unit(&c->units, iso_system_point.fast_dimension);
+    double y[ISO_STATE];
+    iso_start start;
+    iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, row, &start);
+    if (status == ISO_OK) status = check_level(c, &start, row);
+    if (status != ISO_OK) return status;
+    if (row_largest(c, row) == 0) {
+        iso_context_fail(c->ctx, ISO_NOT_MAPPED, "", "at rest (h = 0): a resting ball has no twin");
+        return fail_row(c, ISO_NOT_MAPPED, row);
+    }
+    /* the row as it stands: what iso_record_start made orthogonal is for integration */
+    for (int i = 0; i < ISO_STATE; i++) y[i] = x[c->state[i]];
+    for (int i = 0; i < 3 && c->from == ISO_POINT; i++) y[i] /= unit_M;
+    (c->from == ISO_BALL ? iso_ball_to_point : iso_point_to_ball)(&c->units.own, y, out);
+    for (int i = 0; i < 3 && c->from == ISO_BALL; i++) out[i] *= unit_M;
+    for (int i = 0; i < ISO_STATE; i++)
+        if (!isfinite(out[i])) {
+            iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double in these units");
+            return fail_row(c, ISO_NUMERICAL, row);
+        }
+    return ISO_OK;
+}
+
+/* How far the other clock goes from `row` to the next: along the orbit that starts in the row. */
+static iso_status clock_step(const conversion *c, size_t row, double own_step, double *other_step)
+{
+    iso_start start;
+    iso_orbit *orbit;
+    iso_sample sample;
+    *other_step = 0;
+    if (own_step == 0) return ISO_OK;
+    iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, row, &start);
+    if (status != ISO_OK) return status;
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    o.tolerance = c->tolerance;
+    o.carry[c->other] = true;
+    status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
+    if (status != ISO_OK) return fail_row(c, status, row);
+    status = iso_orbit_at(orbit, own_step, &sample);
+    iso_orbit_free(orbit);
+    if (status != ISO_OK) return fail_row(c, status, row);
+    *other_step = sample.clock[c->other];
+    return ISO_OK;
+}
+
+/* The other clock in every row, into column 0 of `out`; the sum is compensated (Neumaier). */
+static iso_status convert_clock(const conversion *c, double origin, iso_record *out)
+{
+    double sum = origin, lost = 0, direction = 0;
+    const size_t rows = iso_record_rows(c->in);
+    for (size_t row = 0; row < rows; row++) {
+        double *clock = iso_record_row(out, row), step;
+        if (c->other_column >= 0) {
+            *clock = iso_record_const_row(c->in, row)[c->other_column];
+            continue;
+        }
+        *clock = sum + lost;
+        if (row + 1 == rows) break;
+        const double own_step =
+            iso_record_const_row(c->in, row + 1)[c->own_column] - iso_record_const_row(c->in, row)[c->own_column];
+        if (own_step * direction < 0)
+            return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "row %zu: %s turns back; sort the rows by time",
+                                    row + 2, iso_clock_name(c->own));
+        if (own_step != 0) direction = own_step;
+        const iso_status status = clock_step(c, row, own_step, &step);
+        if (status != ISO_OK) return status;
+        const double next = sum + step;
+        lost += fabs(sum) >= fabs(step) ? (sum - next) + step : (step - next) + sum;
+        sum = next;
+    }
+    return ISO_OK;
+}
+
+/* The lines of `in`, now about the other model, and where its own clock began. */
+static iso_status convert_lines(const conversion *c, iso_picture to, iso_record *out)
+{
+    const char *key, *value;
+    iso_status status = ISO_OK;
+    for (size_t i = 0; status == ISO_OK && iso_record_line(c->in, i, &key, &value); i++)
+        status = iso_record_set(c->ctx, out, key, value);
+    iso_start start;
+    if (status == ISO_OK) status = iso_record_start(c->ctx, c->in, c->params, c->from, 0, &start);
+    if (status != ISO_OK) return status;
+    iso_orbit *orbit;
+    const iso_orbit_options o = iso_orbit_defaults(&start);
+    status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
+    if (status != ISO_OK) return status;
+    const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
+    iso_orbit_free(orbit);
+    const bool says_eps = iso_record_get(c->in, "eps") != NULL || iso_record_get(c->in, "h") != NULL;
+    status =
+        iso_record_describe(c->ctx, out, iso_picture_name(to), c->params, says_eps ? NAN : h, says_eps ? NAN : eps);
+    const double begin = c->own_column >= 0 ? iso_record_const_row(c->in, 0)[c->own_column] : 0;
+    if (status == ISO_OK && begin != 0)
+        status = iso_record_set_numbers(c->ctx, out, c->own == ISO_CLOCK_T ? "t0" : "s0", 1, &begin);
+    return status;
+}
+
+static iso_status prepare(conversion *c, double *origin)
+{
+    iso_status status = find_state(c->ctx, c->in, c->from, c->state);
+    if (status != ISO_OK) return status;
+    if (iso_record_rows(c->in) == 0) return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
+    c->own = c->from == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
+    c->other = c->from == ISO_BALL ? ISO_CLOCK_S : ISO_CLOCK_T;
+    c->own_column = iso_record_find(c->in, iso_clock_name(c->own));
+    c->other_column = iso_record_find(c->in, iso_clock_name(c->other));
+    iso_units_choose(c->params, 0, &c->units);
+    *origin = 0;
+    iso_record_get_numbers(c->ctx, c->in, c->other == ISO_CLOCK_T ? "t0" : "s0", 1, origin, &status);
+    return status;
+}
+
+iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_picture to,
+                       double tolerance, iso_record **out)
+{
+    const iso_system *target = to == ISO_BALL ? &iso_system_ball : &iso_system_point;
+    conversion c = {.ctx = ctx,
+                    .params = params,
+                    .in = in,
+                    .tolerance = tolerance,
+                    .from = to == ISO_BALL ? ISO_POINT : ISO_BALL};
+    double origin, state[ISO_STATE];
+    *out = NULL;
+    iso_status status = prepare(&c, &origin);
+    if (status != ISO_OK) return status;
+    const int has_clock = c.own_column >= 0 || c.other_column >= 0;
+    const char *names[1 + ISO_STATE] = {iso_clock_name(c.other)};
+    for (int i = 0; i < ISO_STATE; i++) names[has_clock + i] = target->state[i];
+    status = iso_record_create(ctx, (size_t)(has_clock + ISO_STATE), names, out);
+    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(in); row++) {
+        double *to_row;
+        status = convert_state(&c, row, state);
+        if (status == ISO_OK) status = iso_record_append(ctx, *out, &to_row);
+        if (status == ISO_OK) copy(state, to_row + has_clock, ISO_STATE);
+    }
+    if (status == ISO_OK && has_clock) status = convert_clock(&c, origin, *out);
+    if (status == ISO_OK) status = convert_lines(&c, to, *out);
+    if (status == ISO_OK) return ISO_OK;
+    iso_record_free(*out);
+    *out = NULL;
+    return status;
+}

@@ -1,0 +1,205 @@
+#include "study/check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "map/state.h"
+#include "orbit/convert.h"
+
+typedef struct checker {
+    iso_context *ctx;
+    const iso_params *params;
+    const iso_record *record;
+    double tolerance;
+    int columns[ISO_TRAJECTORY_COLUMNS]; /* of the record, -1: not there */
+    double span[ISO_CLOCKS];             /* largest |clock| in the record */
+    iso_residuals *out;
+} checker;
+
+static const int first_column[] = {[ISO_BALL] = 3, [ISO_POINT] = 9}; /* in iso_trajectory_columns */
+
+static const iso_system *system_of(iso_picture model)
+{
+    return model == ISO_BALL ? &iso_system_ball : &iso_system_point;
+}
+
+/* Notes a value of the residual `name`, which is made at its first value. A NaN counts as the worst. */
+static void note(checker *c, const char *name, const char *what, double value, size_t row)
+{
+    iso_residuals *r = c->out;
+    int i = 0;
+    while (i < r->count && strcmp(r->residual[i].name, name) != 0) i++;
+    if (i == ISO_MAX_RESIDUALS) return;
+    iso_residual *at = &r->residual[i];
+    if (i == r->count) {
+        r->count++;
+        *at = (iso_residual){.what = what};
+        snprintf(at->name, sizeof at->name, "%s", name);
+    }
+    if (!(fabs(value) > at->worst) && !isnan(value)) return;
+    at->worst = isnan(value) ? INFINITY : fabs(value);
+    at->row = row + 1;
+}
+
+static bool has_model(const checker *c, iso_picture model)
+{
+    for (int i = 0; i < ISO_STATE; i++)
+        if (c->columns[first_column[model] + i] < 0) return false;
+    return true;
+}
+
+static void read_state(const checker *c, iso_picture model, size_t row, double y[ISO_STATE])
+{
+    const double *x = iso_record_const_row(c->record, row);
+    for (int i = 0; i < ISO_STATE; i++) y[i] = x[c->columns[first_column[model] + i]];
+}
+
+static double read_clock(const checker *c, int clock, size_t row)
+{
+    return iso_record_const_row(c->record, row)[c->columns[clock]];
+}
+
+/* --- constraints and integrals, in the units of the first row ----------------------------------------------------- */
+
+static void check_integrals(checker *c, iso_picture model, const iso_orbit *first)
+{
+    const iso_system *system = system_of(model);
+    char name[sizeof c->out->residual[0].name];
+    for (const iso_integral *i = system->integrals; i->name; i++) {
+        if (i->holds && !i->holds(c->params)) continue;
+        const bool length = i->name[0] == '|', known_zero = strchr(i->name, '.') || strcmp(i->name, "H") == 0;
+        double expected = length ? 1 : 0;
+        snprintf(name, sizeof name, "%s %s", system->name, i->name);
+        for (size_t row = 0; row < iso_record_rows(c->record); row++) {
+            iso_sample sample;
+            double size;
+            read_state(c, model, row, model == ISO_BALL ? sample.ball : sample.point);
+            const double value = iso_orbit_integral(first, system, i, &sample, &size);
+            if (row == 0 && !length && !known_zero) expected = value;
+            note(c, name, i->doc, size > 0 ? (value - expected) / size : 0, row);
+        }
+    }
+}
+
+/* --- the flow from row to row ------------------------------------------------------------------------------------- */
+
+static double distance(const double a[ISO_STATE], const double b[ISO_STATE])
+{
+    double d[ISO_STATE];
+    const double size = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
+    for (int i = 0; i < 3; i++) {
+        d[i] = size > 0 ? a[i] / size - b[i] / size : 0;
+        d[3 + i] = a[3 + i] - b[3 + i];
+    }
+    return fmax(norm(d), norm(d + 3));
+}
+
+/* The clock to follow: the model's own, or the first there is; -1: none. */
+static int clock_to_follow(const checker *c, iso_picture model)
+{
+    const int own = (int)system_of(model)->clock;
+    if (c->columns[own] >= 0) return own;
+    for (int k = 0; k < ISO_CLOCKS; k++)
+        if (c->columns[k] >= 0) return k;
+    return -1;
+}
+
+static iso_status check_step(checker *c, iso_picture model, int clock, size_t row)
+{
+    iso_start start;
+    iso_orbit *orbit;
+    iso_sample sample;
+    double next[ISO_STATE];
+    char name[sizeof c->out->residual[0].name];
+    iso_status status = iso_record_start(c->ctx, c->record, c->params, model, row, &start);
+    if (status != ISO_OK) return status;
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    o.tolerance = c->tolerance;
+    o.clock = (iso_clock)clock;
+    for (int k = 0; k < ISO_CLOCKS; k++) o.carry[k] = k != clock && c->columns[k] >= 0;
+    status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
+    if (status != ISO_OK) return status;
+    status = iso_orbit_at(orbit, read_clock(c, clock, row + 1) - read_clock(c, clock, row), &sample);
+    iso_orbit_free(orbit);
+    if (status != ISO_OK) return status;
+    read_state(c, model, row + 1, next);
+    snprintf(name, sizeof name, "%s flow", iso_picture_name(model));
+    note(c, name, "each row integrated to the next", distance(model == ISO_BALL ? sample.ball : sample.point, next),
+         row + 1);
+    for (int k = 0; k < ISO_CLOCKS; k++) {
+        if (!o.carry[k]) continue;
+        snprintf(name, sizeof name, "clock %s", iso_clock_name((iso_clock)k));
+        const double step = read_clock(c, k, row + 1) - read_clock(c, k, row);
+        note(c, name, "its steps, from the equations of motion",
+             c->span[k] > 0 ? (step - sample.clock[k]) / c->span[k] : 0, row + 1);
+    }
+    return ISO_OK;
+}
+
+static iso_status check_flow(checker *c, iso_picture model)
+{
+    const int clock = clock_to_follow(c, model);
+    for (size_t row = 0; clock >= 0 && row + 1 < iso_record_rows(c->record); row++) {
+        const iso_status status = check_step(c, model, clock, row);
+        if (status != ISO_OK) return status;
+    }
+    return ISO_OK;
+}
+
+/* --- the map ------------------------------------------------------------------------------------------------------ */
+
+static void check_map(checker *c)
+{
+    iso_units units;
+    iso_units_choose(c->params, 0, &units);
+    const double unit_M = iso_unit(&units, iso_system_point.fast_dimension);
+    for (size_t row = 0; row < iso_record_rows(c->record); row++) {
+        double ball[ISO_STATE], point[ISO_STATE];
+        read_state(c, ISO_BALL, row, ball);
+        read_state(c, ISO_POINT, row, point);
+        iso_ball_to_point(&units.own, ball, ball);
+        scale(ball, unit_M);
+        note(c, "map", "the ball's point (18) against the record's", distance(ball, point), row);
+    }
+}
+
+static iso_status check_model(checker *c, iso_picture model)
+{
+    iso_start start;
+    iso_orbit *first;
+    iso_status status = ISO_OK;
+    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(c->record); row++)
+        status = iso_record_start(c->ctx, c->record, c->params, model, row, &start);
+    if (status == ISO_OK) status = iso_record_start(c->ctx, c->record, c->params, model, 0, &start);
+    if (status != ISO_OK) return status;
+    const iso_orbit_options o = iso_orbit_defaults(&start);
+    status = iso_orbit_create(c->ctx, c->params, &start, &o, &first);
+    if (status != ISO_OK) return status;
+    check_integrals(c, model, first);
+    iso_orbit_free(first);
+    return check_flow(c, model);
+}
+
+iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
+                     iso_residuals *residuals)
+{
+    checker c = {.ctx = ctx, .params = params, .record = record, .tolerance = tolerance, .out = residuals};
+    *residuals = (iso_residuals){.rows = iso_record_rows(record)};
+    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
+        c.columns[i] = iso_record_find(record, iso_trajectory_columns[i]);
+    for (int k = 0; k < ISO_CLOCKS; k++)
+        for (size_t row = 0; c.columns[k] >= 0 && row < residuals->rows; row++)
+            c.span[k] = fmax(c.span[k], fabs(read_clock(&c, k, row)));
+    const bool ball = has_model(&c, ISO_BALL), point = has_model(&c, ISO_POINT);
+    if (!ball && !point)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
+                                "the trajectory has neither a ball's six columns "
+                                "(omega1 ... n3) nor a point's (M1 ... gamma3)");
+    if (residuals->rows == 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
+    iso_status status = ball ? check_model(&c, ISO_BALL) : ISO_OK;
+    if (status == ISO_OK && point) status = check_model(&c, ISO_POINT);
+    if (status == ISO_OK && ball && point) check_map(&c);
+    return status;
+}

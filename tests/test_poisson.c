@@ -1,0 +1,172 @@
+/* The algebra of e(3): bracket (20), Casimirs, Jacobi identity, the Hamiltonian (21) and its flow in tau. */
+#include <float.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/vec3_impl.h"
+#include "laws.h"
+#include "map/poisson.h"
+#include "map/state.h"
+
+enum { N = ISO_STATE };
+
+/* Any six numbers: the bracket lives on all of e(3), not only where (M,gamma) = 0, |gamma| = 1. */
+static void anywhere(const laws_case *c, double y[N])
+{
+    for (int i = 0; i < N; i++) y[i] = iso_random_normal(c->random);
+}
+
+static double levi_civita(int i, int j, int l)
+{
+    return (i - j) * (j - l) * (l - i) / 2.0;
+}
+
+/* (20), entry by entry */
+static void brackets(const laws_case *c, laws_worst *worst)
+{
+    double y[N], B[N * N];
+    anywhere(c, y);
+    iso_poisson_matrix(y, B);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
+            double MM = 0, Mgamma = 0;
+            for (int l = 0; l < 3; l++) {
+                MM -= levi_civita(i, j, l) * y[l];
+                Mgamma -= levi_civita(i, j, l) * y[3 + l];
+            }
+            laws_note(worst, fabs(B[N * i + j] - MM), DBL_MIN, &c->field.p, "{M,M}");
+            laws_note(worst, fabs(B[N * i + 3 + j] - Mgamma), DBL_MIN, &c->field.p, "{M,gamma}");
+            laws_note(worst, fabs(B[N * (3 + i) + j] - Mgamma), DBL_MIN, &c->field.p, "{gamma,M}");
+            laws_note(worst, fabs(B[N * (3 + i) + 3 + j]), DBL_MIN, &c->field.p, "{gamma,gamma}");
+        }
+}
+
+static void antisymmetric(const laws_case *c, laws_worst *worst)
+{
+    double y[N], B[N * N];
+    anywhere(c, y);
+    iso_poisson_matrix(y, B);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++) laws_note(worst, fabs(B[N * i + j] + B[N * j + i]), DBL_MIN, &c->field.p, "");
+}
+
+/* B d(M,gamma) = 0 and B d(gamma,gamma) = 0 */
+static void casimirs(const laws_case *c, laws_worst *worst)
+{
+    double y[N], B[N * N];
+    anywhere(c, y);
+    iso_poisson_matrix(y, B);
+    const double gradient[2][N] = {{y[3], y[4], y[5], y[0], y[1], y[2]}, {0, 0, 0, y[3], y[4], y[5]}};
+    for (int casimir = 0; casimir < 2; casimir++)
+        for (int i = 0; i < N; i++) {
+            double sum = 0, terms = 0;
+            for (int j = 0; j < N; j++) {
+                sum += B[N * i + j] * gradient[casimir][j];
+                terms += fabs(B[N * i + j] * gradient[casimir][j]);
+            }
+            laws_note(worst, fabs(sum), 2 * DBL_EPSILON * terms + DBL_MIN, &c->field.p,
+                      casimir ? "gamma^2" : "(M,gamma)");
+        }
+}
+
+/* dB_jl/dy_m: B is linear, so that its derivatives are its values at the unit vectors. */
+static void derivatives(double dB[N][N * N])
+{
+    for (int m = 0; m < N; m++) {
+        double unit[N] = {0};
+        unit[m] = 1;
+        iso_poisson_matrix(unit, dB[m]);
+    }
+}
+
+/* sum_m B_im dB_jl/dy_m + cyclic = 0 */
+static void jacobi(const laws_case *c, laws_worst *worst)
+{
+    double y[N], B[N * N], dB[N][N * N];
+    anywhere(c, y);
+    iso_poisson_matrix(y, B);
+    derivatives(dB);
+    for (int i = 0; i < N; i++)
+        for (int j = 0; j < N; j++)
+            for (int l = 0; l < N; l++) {
+                double sum = 0;
+                for (int m = 0; m < N; m++)
+                    sum += B[N * i + m] * dB[m][N * j + l] + B[N * j + m] * dB[m][N * l + i] +
+                           B[N * l + m] * dB[m][N * i + j];
+                laws_note(worst, fabs(sum), 4 * DBL_EPSILON * laws_max(N, y), &c->field.p, "");
+            }
+}
+
+static void hamiltonian(const void *data, const double y[], double H[])
+{
+    H[0] = iso_hamiltonian(data, y, NULL);
+}
+
+static void gradient_of_h(const laws_case *c, laws_worst *worst)
+{
+    const iso_params *p = &c->field.p;
+    double gradient[N], slope;
+    const double H = iso_hamiltonian(p, c->y, gradient);
+    for (int j = 0; j < N; j++) {
+        double direction[N] = {0};
+        direction[j] = 1;
+        const double h = laws_step(c, direction);
+        laws_slope(hamiltonian, p, 1, N, c->y, direction, h, &slope);
+        laws_note(worst, fabs(slope - gradient[j]), laws_rounding(p) * H / h, p, j < 3 ? "dH/dM" : "dH/dgamma");
+    }
+}
+
+/* dM/dtau = M x dH/dM + gamma x dH/dgamma,  dgamma/dtau = gamma x dH/dM, from (20) */
+static void equations(const laws_case *c, laws_worst *worst)
+{
+    const iso_params *p = &c->field.p;
+    const double *M = c->y, *gamma = c->y + 3;
+    double dH[N], dy[N], M_dM[3], gamma_dgamma[3], gamma_dM[3];
+    iso_hamiltonian(p, c->y, dH);
+    iso_hamiltonian_rhs(p, c->y, dy);
+    cross(M, dH, M_dM);
+    cross(gamma, dH + 3, gamma_dgamma);
+    cross(gamma, dH, gamma_dM);
+    const double fast = norm(M) * norm(dH) + norm(dH + 3), slow = norm(dH);
+    for (int i = 0; i < 3; i++) {
+        laws_note(worst, fabs(dy[i] - M_dM[i] - gamma_dgamma[i]), 4 * DBL_EPSILON * fast, p, "M");
+        laws_note(worst, fabs(dy[3 + i] - gamma_dM[i]), 4 * DBL_EPSILON * slow, p, "gamma");
+    }
+    laws_note(worst, fabs(dot(dH, dy) + dot(dH + 3, dy + 3)),
+              8 * DBL_EPSILON * (norm(dH) * fast + norm(dH + 3) * slow), p, "dH/dtau");
+}
+
+/* The ball's flow, carried over by (18), is this flow times dtau/dt = N (16). */
+static void map_to_point(const void *data, const double y[], double point[])
+{
+    iso_ball_to_point(data, y, point);
+}
+
+static void ball_in_tau(const laws_case *c, laws_worst *worst)
+{
+    const iso_params *p = &c->field.p;
+    double dy[N], point[N], carried[N], expected[N];
+    iso_ball_to_point(p, c->y, point);
+    c->system->rhs(&c->field, c->y, dy);
+    const double h = laws_step(c, dy);
+    laws_slope(map_to_point, p, N, N, c->y, dy, h, carried);
+    iso_hamiltonian_rhs(p, point, expected);
+    const double multiplier = pow(iso_system_point.q(p, point, NULL), 1 - 1 / (2 * p->k));
+    for (int i = 0; i < N; i++) expected[i] *= multiplier;
+    laws_note(worst, laws_distance(carried, expected), laws_rounding(p) * norm(point) / h, p, "M");
+    laws_note(worst, laws_distance(carried + 3, expected + 3), laws_rounding(p) / h, p, "gamma");
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    laws_hold("brackets (20)", &iso_system_point, brackets);
+    laws_hold("bracket antisymmetric", &iso_system_point, antisymmetric);
+    laws_hold("Casimirs", &iso_system_point, casimirs);
+    laws_hold("Jacobi identity", &iso_system_point, jacobi);
+    laws_hold("gradient of H (21)", &iso_system_point, gradient_of_h);
+    laws_hold("equations in tau", &iso_system_point, equations);
+    laws_hold("(9) carried over is (21) in tau", &iso_system_ball, ball_in_tau);
+    exit(gsl_test_summary());
+}
