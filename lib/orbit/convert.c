@@ -13,8 +13,8 @@ iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *mode
     iso_status status = iso_record_set(ctx, r, "model", model);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "k", 1, &p->k);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "J", 3, p->J);
-    if (status == ISO_OK && isfinite(h)) status = iso_record_set_numbers(ctx, r, "h", 1, &h);
-    if (status == ISO_OK && isfinite(eps)) status = iso_record_set_numbers(ctx, r, "eps", 1, &eps);
+    if (status == ISO_OK && isnormal(h)) status = iso_record_set_numbers(ctx, r, "h", 1, &h);
+    if (status == ISO_OK && isnormal(eps)) status = iso_record_set_numbers(ctx, r, "eps", 1, &eps);
     return status;
 }
 
@@ -72,7 +72,7 @@ iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_par
     if (model == ISO_BALL)
         status = iso_start_ball(ctx, v, unit, true, start);
     else
-        status = iso_start_point(ctx, p, v, unit, states_eps ? &eps : NULL, true, start);
+        status = iso_start_point(ctx, v, unit, states_eps ? &eps : NULL, true, start);
     if (status == ISO_OK && fabs(along) > 1e-6)
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s has a part %.3g of its size along %s: this is no %s",
                                   model == ISO_BALL ? "omega" : "M", along, model == ISO_BALL ? "n" : "gamma",
@@ -93,7 +93,6 @@ typedef struct conversion {
     iso_clock own, other;         /* the clocks of the two models                                         */
     int own_column, other_column; /* their columns in `in`, -1: not there                         */
     iso_units units;
-    double eps; /* the coupling that the record states, NAN: none                                 */
 } conversion;
 
 static iso_status fail_row(const conversion *c, iso_status status, size_t row)
@@ -107,18 +106,25 @@ static double row_largest(const conversion *c, size_t row)
     return fmax(fabs(x[c->state[0]]), fmax(fabs(x[c->state[1]]), fabs(x[c->state[2]])));
 }
 
-/* A point off the level H = 0 of the record's coupling is no free ball's. */
-static iso_status check_level(const conversion *c, const iso_start *start, size_t row)
+/* A point off the level H = 0 of the record's coupling is no free ball's. The start's own coupling becomes the one of
+ * H = 0, from which the record's may differ by the digits it is written with. */
+static iso_status settle_level(const conversion *c, size_t row, iso_start *start)
 {
-    iso_start level;
-    if (c->from != ISO_POINT) return ISO_OK;
-    const iso_status status = iso_start_point(c->ctx, c->params, start->y, start->y + 3, NULL, true, &level);
-    if (status != ISO_OK || fabs(start->eps - level.eps) <= 1e-6 * fabs(level.eps)) return status;
+    if (c->from != ISO_POINT || isnan(start->eps)) return ISO_OK;
+    const iso_params *own = &c->units.own;
+    const double *gamma = start->y + 3, unit_M = iso_unit(&c->units, iso_system_point.fast_dimension);
+    const double eps = start->eps / iso_unit(&c->units, iso_dimension_eps);
+    const double q = dot_diag(gamma, own->J, gamma), M = row_largest(c, row) / unit_M;
+    /* |M| over what it is on the level, in parts that do not overflow */
+    const double direction[3] = {start->y[0] / unit_M / M, start->y[1] / unit_M / M, start->y[2] / unit_M / M};
+    const double ratio = norm(direction) * (M / (sqrt(2) * sqrt(eps))) * pow(q, 1 / (2 * own->k));
+    start->eps = NAN;
+    if (M == 0 || fabs(ratio - 1) <= 1e-6) return ISO_OK;
     iso_context_fail(
         c->ctx, ISO_NOT_MAPPED, "eps",
-        "this point is off the level H = 0: eps is %.10g, and its M would need %.10g; only on that level "
+        "this point is off the level H = 0 (its |M| is %.10g times that of its eps), and only on that level "
         "is it the twin of a free ball",
-        start->eps, level.eps);
+        ratio);
     return fail_row(c, ISO_NOT_MAPPED, row);
 }
 
@@ -130,7 +136,7 @@ static iso_status convert_state(const conversion *c, size_t row, double out[ISO_
     double y[ISO_STATE];
     iso_start start;
     iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, row, &start);
-    if (status == ISO_OK) status = check_level(c, &start, row);
+    if (status == ISO_OK) status = settle_level(c, row, &start);
     if (status != ISO_OK) return status;
     if (row_largest(c, row) == 0) {
         iso_context_fail(c->ctx, ISO_NOT_MAPPED, "", "at rest (h = 0): a resting ball has no twin");
@@ -158,6 +164,7 @@ static iso_status clock_step(const conversion *c, size_t row, double own_step, d
     *other_step = 0;
     if (own_step == 0) return ISO_OK;
     iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, row, &start);
+    if (status == ISO_OK) status = settle_level(c, row, &start);
     if (status != ISO_OK) return status;
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.tolerance = c->tolerance;

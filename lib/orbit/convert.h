@@ -9,8 +9,8 @@
 #include "base/record.h"
 #include "orbit/orbit.h"
 
-/* Writes the lines that a record needs to be carried back: model, k, J, h, eps. What does not fit a double in these
- * units is left out: h and eps follow from any row. */
+/* Writes the lines that a record needs to be carried back: model, k, J, h, eps. What is no normal double in these
+ * units (too large, subnormal, or 0 for a ball at rest) is left out: h and eps follow from any row. */
 iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,
                                double h, double eps);
 

@@ -62,26 +62,36 @@ static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start
     o->eps = iso_coupling(&o->units.own, o->h);
 }
 
-static iso_field point_field(iso_orbit *o, const iso_start *start, double y[ISO_STATE])
+/* The point's potential and start in own units. */
+static iso_field point_field(const iso_orbit *o, const iso_start *start, double y[ISO_STATE])
 {
+    iso_field field = {.p = o->units.own, .eps = start->eps / iso_unit(&o->units, iso_dimension_eps)};
     copy(start->y, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= o->unit_M;
-    return (iso_field){.p = o->units.own, .eps = start->eps / iso_unit(&o->units, iso_dimension_eps)};
+    if (isnan(start->eps)) field.eps = iso_coupling(&field.p, iso_point_energy(&field.p, y));
+    return field;
+}
+
+/* The angular speed of a ball whose M has the size that the start's M reaches on its potential, sqrt(2 |V|); in parts
+ * that do not overflow, since the unit of time is not yet chosen. */
+static double point_speed(iso_orbit *o, const iso_params *p, const iso_start *start)
+{
+    double y[ISO_STATE] = {0, 0, 0, start->y[3], start->y[4], start->y[5]};
+    set_units(o, p, 0);
+    const double eps = fabs(start->eps / iso_unit(&o->units, iso_dimension_eps)), M = largest(start->y) / o->unit_M;
+    const double q = iso_system_point.q(&o->units.own, y, NULL);
+    const double reached = sqrt(2) * sqrt(eps) * pow(q, -1 / (2 * p->k)); /* NAN on the level H = 0 */
+    for (int i = 0; i < 3; i++) y[i] = fmax(M, reached);
+    iso_point_to_ball(&o->units.own, y, y);
+    return largest(y);
 }
 
 /* A point's start in y; gives the level H it lives on, 0 if it is that to 1e-9, and the size of the terms of H. */
 static double start_point(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE],
                           double *size)
 {
-    double ball[ISO_STATE];
-    set_units(o, p, 0);
-    iso_field field = point_field(o, start, y);
-    /* the unit of time: from a ball whose M has the size that M reaches on this potential */
-    const double M = iso_system_point.speed(&field, y), length = norm(y);
-    for (int i = 0; i < 3; i++) y[i] = (length > 0 ? y[i] / length : i == 0) * M;
-    iso_point_to_ball(&field.p, y, ball);
-    set_units(o, p, largest(ball));
-    field = point_field(o, start, y);
+    set_units(o, p, point_speed(o, p, start));
+    const iso_field field = point_field(o, start, y);
     o->eps = field.eps;
     o->h = iso_energy(&field.p, field.eps);
     const double H = iso_system_point.integrals[0].value(&field, y, size);

@@ -25,6 +25,8 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
             return iso_context_fail(ctx, ISO_BAD_INPUT, vector_name, "%s is not finite", vector_name);
     }
     const double length = hypot(hypot(unit[0], unit[1]), unit[2]);
+    if (length == 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, unit_name, "%s is zero, it must be a unit vector", unit_name);
     if (!(fabs(length - 1) <= 1e-6))
         return iso_context_fail(
             ctx, ISO_BAD_INPUT, unit_name,
@@ -55,19 +57,15 @@ iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double 
     return check_pair(ctx, "normal", "angular_velocity", project, start->y + 3, start->y);
 }
 
-iso_status iso_start_point(iso_context *ctx, const iso_params *p, const double M[3], const double gamma[3],
-                           const double *eps, bool project, iso_start *start)
+iso_status iso_start_point(iso_context *ctx, const double M[3], const double gamma[3], const double *eps,
+                           bool project, iso_start *start)
 {
-    *start = (iso_start){.model = ISO_POINT};
+    *start = (iso_start){.model = ISO_POINT, .eps = eps ? *eps : NAN};
     copy(M, start->y, 3);
     copy(gamma, start->y + 3, 3);
-    const iso_status status = check_pair(ctx, "gamma", "M", project, start->y + 3, start->y);
-    if (status != ISO_OK) return status;
-    const double q = dot_diag(start->y + 3, p->J, start->y + 3);
-    start->eps = eps ? *eps : dot(start->y, start->y) * pow(q, 1 / p->k) / 2;
-    if (!isfinite(start->eps))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "eps = %g: the coupling must be finite", start->eps);
-    return ISO_OK;
+    if (eps && !isfinite(*eps))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "eps = %g: the coupling must be finite", *eps);
+    return check_pair(ctx, "gamma", "M", project, start->y + 3, start->y);
 }
 
 iso_scene iso_scene_default(void)

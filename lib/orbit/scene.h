@@ -20,7 +20,8 @@ const char *iso_picture_name(int picture);
 typedef struct iso_start {
     iso_picture model;   /* ISO_BALL or ISO_POINT                                                        */
     double y[ISO_STATE]; /* omega [1/time], n; or M, gamma                                               */
-    double eps;          /* coupling of the point's potential (24); not read for a ball                  */
+    double eps;          /* coupling of the point's potential (24); NAN: the one with which H = 0, where
+                            the point has a free ball; not read for a ball                               */
 } iso_start;
 
 /* Makes a valid start of a ball. The normal is made a unit vector if its length is within 1e-6 of 1; spin about the
@@ -30,10 +31,10 @@ iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double 
                           iso_start *start);
 
 /* Makes a valid start of a point: |gamma| within 1e-6 of 1, (M, gamma) at most 1e-9 |M| (or `project`).
- * *eps NULL: the coupling that puts this start on the level H = 0, on which the point has a free ball.
+ * eps NULL: start->eps is NAN.
  * Errors: ISO_BAD_INPUT about "gamma", "M" or "eps". */
-iso_status iso_start_point(iso_context *ctx, const iso_params *params, const double M[3], const double gamma[3],
-                           const double *eps, bool project, iso_start *start);
+iso_status iso_start_point(iso_context *ctx, const double M[3], const double gamma[3], const double *eps, bool project,
+                           iso_start *start);
 
 enum { ISO_MAX_COLUMNS = 32, ISO_NAME_SIZE = 32 };
 
