@@ -15,14 +15,17 @@ enum { ISO_PLOT_ROWS = 5000 /* of a record that are drawn */ };
 #define ISO_PLOT_FAR_VERMILLION "'#F0BE9B'"
 
 /* The signs of the first and the last row. */
-#define ISO_PLOT_START "pt 7 ps 1.4"
-#define ISO_PLOT_END "pt 9 ps 1.7"
+#define ISO_PLOT_START "pt 7 ps 1.1"
+#define ISO_PLOT_END "pt 9 ps 1.3"
 
 /* A line of data. */
 void iso_plot_pair(FILE *script, double x, double y);
 
 /* A plot of the unit sphere with a path, `line`, and markers on it: three columns of unit vectors each. */
 void iso_plot_sphere(FILE *script, const iso_record *line, int line_column, const iso_record *markers,
-                     int marker_column);
+                     int marker_column, bool fine);
+
+/* Whether a path has so many turns that it wants a fine line. */
+bool iso_plot_is_long(const iso_record *record, int column);
 
 #endif

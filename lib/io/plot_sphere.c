@@ -21,7 +21,7 @@ enum {
 };
 #define ARC 0.07   /* longest straight piece of a path, in radians                     */
 #define JOINED 0.6 /* rows farther apart than this are no path: they are drawn as dots */
-#define LONG 60.0  /* a path longer than this (radians) is drawn with a finer line     */
+#define LONG 60.0  /* a path of more radians is drawn with a finer line                */
 
 /* The i-th of the rows to draw; the last is the record's last. */
 static size_t drawn_rows(const iso_record *r)
@@ -37,7 +37,7 @@ static const double *drawn_row(const iso_record *r, size_t i)
     return iso_record_const_row(r, (size_t)((double)i * (double)(rows - 1) / (double)(drawn - 1) + 0.5));
 }
 
-/* --- a sphere --------------------------------------------------------------------------------------------------------- */
+/* --- paths on the sphere ---------------------------------------------------------------------------------------- */
 
 typedef struct spot {
     double x, y, depth;
@@ -180,17 +180,18 @@ static const char *const setup =
     "set tmargin at screen 0.905; set bmargin at screen 0.43\n"
     "set object 1 circle at 0,0 size 1 back fillcolor rgb '#F4F6F8' fillstyle solid border lc rgb '#8A939B'\n";
 
-static double path_length(const iso_record *r, int column)
+bool iso_plot_is_long(const iso_record *r, int column)
 {
     double length = 0;
     for (size_t i = 1; i < drawn_rows(r); i++)
         length += angle(drawn_row(r, i - 1) + column, drawn_row(r, i) + column);
-    return length;
+    return length > LONG;
 }
 
-void iso_plot_sphere(FILE *f, const iso_record *line, int line_column, const iso_record *markers, int marker_column)
+void iso_plot_sphere(FILE *f, const iso_record *line, int line_column, const iso_record *markers, int marker_column,
+                     bool fine)
 {
-    const char *near_style = path_length(line, line_column) > LONG ? "lines lw 0.8" : "lines lw 1.8";
+    const char *near_style = fine ? "lines lw 0.8" : "lines lw 1.8";
     const char *far_style = "lines lw 0.8";
     if (!is_joined(line, line_column)) near_style = far_style = "points pt 7 ps 0.2";
     for (int near = 0; near < 2; near++) {
@@ -207,5 +208,5 @@ void iso_plot_sphere(FILE *f, const iso_record *line, int line_column, const iso
     fputs(" $marker0 w p pt 6 ps 0.8 lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION ", $grid1 w l lw 0.8 lc rgb '#B9C0C7',",
           f);
     fprintf(f, " $path1 w %s lc rgb " ISO_PLOT_BLUE ",", near_style);
-    fputs(" $marker1 w p pt 6 ps 0.9 lw 1.5 lc rgb " ISO_PLOT_VERMILLION "\n", f);
+    fputs(" $marker1 w p pt 6 ps 0.85 lw 1.5 lc rgb " ISO_PLOT_VERMILLION "\n", f);
 }

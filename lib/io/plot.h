@@ -1,0 +1,35 @@
+/* plot.h - pictures, drawn by gnuplot (package gnuplot-nox), which is started for each.
+ *
+ *     iso_comparison *c;                                                          (study/compare.h)
+ *     iso_plot plot = {.title = "a shell, k = -1", .tolerance = scene.tolerance, .difference = c->difference,
+ *                      .ball = c->run[ISO_BALL].trajectory, .point = c->run[ISO_POINT].trajectory};
+ *     status = iso_plot_comparison(ctx, "orbit.svg", &plot);
+ *
+ * The file's name chooses the format: .svg, .png or .pdf. It is written whole, then renamed: on failure nothing has
+ * changed. The user's gnuplot start-up files and the locale have no influence.
+ */
+#ifndef ISO_IO_PLOT_H
+#define ISO_IO_PLOT_H
+
+#include "base/record.h"
+
+/* Two backends on one orbit. Records are as iso_compare makes them; further columns are not read. */
+typedef struct iso_plot {
+    const char *title;            /* one line, any characters; NULL: none                                        */
+    const iso_record *ball;       /* what the backend `ball` found: columns n1..3 and gamma1..3, a row or more   */
+    const iso_record *point;      /* the same from the backend `point`                                           */
+    const iso_record *difference; /* a clock, then non-negative differences; "omega", "M", "t", ... get symbols  */
+    double tolerance;             /* a line drawn among the differences for comparison; 0: none                  */
+} iso_plot;
+
+/* Whether a picture can have this name, to ask before the work. Errors: ISO_BAD_ARGUMENT. */
+iso_status iso_plot_check_format(iso_context *ctx, const char *path);
+
+/* Above: the ball's path n and the point's path gamma, each on its unit sphere seen from the same side, the backend
+ * `ball` as a line, the backend `point` as markers on it. Below: their difference over time, zeros at 1e-17.
+ * At most 5000 rows of a record are drawn.
+ * Errors: ISO_BAD_ARGUMENT (name, missing columns or rows), ISO_NUMERICAL (a number that is not finite),
+ * ISO_FILE_TROUBLE (no gnuplot, or what it said; the file cannot be written), ISO_NO_MEMORY. */
+iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot);
+
+#endif

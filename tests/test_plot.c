@@ -1,0 +1,304 @@
+/* test_plot.c - pictures: the three formats, hostile titles and names, odd records, and a gnuplot that is not there,
+ * complains, dies or stops half-way. A target is either a whole picture or untouched. */
+#include <dirent.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_test.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "io/plot.h"
+
+static iso_context *ctx;
+static char folder[] = "/tmp/isoroll-test-XXXXXX";
+
+/* A path in the test's folder; four can be in use at once. */
+static const char *in_folder(const char *name)
+{
+    static char paths[4][256];
+    static int next;
+    char *path = paths[next++ % 4];
+    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+    return path;
+}
+
+static int files_in_folder(void)
+{
+    DIR *d = opendir(folder);
+    int count = -2; /* . and .. */
+    while (d && readdir(d)) count++;
+    if (d) closedir(d);
+    return count;
+}
+
+static bool starts_with(const char *path, const char *magic)
+{
+    char head[16] = "";
+    FILE *file = fopen(path, "rb");
+    if (!file) return false;
+    (void)!fread(head, 1, sizeof head - 1, file);
+    fclose(file);
+    return strncmp(head, magic, strlen(magic)) == 0;
+}
+
+static bool file_contains(const char *path, const char *text)
+{
+    static char content[1 << 22];
+    FILE *file = fopen(path, "rb");
+    if (!file) return false;
+    content[fread(content, 1, sizeof content - 1, file)] = '\0';
+    fclose(file);
+    return strstr(content, text);
+}
+
+/* --- records ------------------------------------------------------------------------------------------------------ */
+
+/* A backend's record: n and gamma on curves, `turn` radians between rows. */
+static iso_record *make_path(size_t rows, double turn)
+{
+    static const char *const names[] = {"t",  "tau", "s",  "omega1", "omega2", "omega3", "n1",    "n2",
+                                        "n3", "M1",  "M2", "M3",     "gamma1", "gamma2", "gamma3"};
+    iso_record *r;
+    double *row;
+    if (iso_record_create(ctx, 15, names, &r) != ISO_OK) exit(1);
+    for (size_t i = 0; i < rows; i++) {
+        const double a = turn * (double)i, b = 0.3 + 0.1 * a;
+        const double n[3] = {cos(a) * cos(b), cos(a) * sin(b), sin(a)}, gamma[3] = {n[1], n[2], n[0]};
+        if (iso_record_append(ctx, r, &row) != ISO_OK) exit(1);
+        row[0] = a;
+        memcpy(row + 6, n, sizeof n);
+        memcpy(row + 12, gamma, sizeof gamma);
+    }
+    return r;
+}
+
+static iso_record *make_differences(size_t rows, double turn, double size)
+{
+    static const char *const names[] = {"t", "omega", "n", "M", "gamma", "tau", "s", "it's_a^'x"};
+    iso_record *r;
+    double *row;
+    if (iso_record_create(ctx, 8, names, &r) != ISO_OK) exit(1);
+    for (size_t i = 0; i < rows; i++) {
+        if (iso_record_append(ctx, r, &row) != ISO_OK) exit(1);
+        row[0] = turn * (double)i;
+        for (int c = 1; c < 8; c++) row[c] = size * (double)i * pow(10, -c);
+    }
+    return r;
+}
+
+/* Draws, and takes the picture's records apart again. */
+static iso_status draw(const char *path, const char *title, iso_record *r, iso_record *d)
+{
+    const iso_plot plot = {.title = title, .ball = r, .point = r, .difference = d, .tolerance = 1e-12};
+    const iso_status status = iso_plot_comparison(ctx, path, &plot);
+    iso_record_free(r);
+    iso_record_free(d);
+    return status;
+}
+
+static iso_status draw_simple(const char *path, const char *title)
+{
+    return draw(path, title, make_path(100, 0.1), make_differences(100, 0.1, 1e-13));
+}
+
+/* --- tests -------------------------------------------------------------------------------------------------------- */
+
+static void test_formats(void)
+{
+    static const char *const names[] = {"a.svg", "a.png", "a.pdf"};
+    static const char *const magic[] = {"<?xml", "\x89PNG\r\n\x1a\n", "%PDF-"};
+    for (int i = 0; i < 3; i++) {
+        const char *path = in_folder(names[i]);
+        gsl_test((int)draw_simple(path, "three formats"), "%s: %s", names[i], iso_context_message(ctx));
+        gsl_test(!starts_with(path, magic[i]), "%s begins as it should", names[i]);
+        gsl_test(files_in_folder() != 1, "%s: no temporary file is left", names[i]);
+        unlink(path);
+    }
+    static const char *const bad[] = {"a.gif", "a", ".svg.", "svg", "a.svg/", "a.SVG", "-"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        gsl_test(draw_simple(in_folder(bad[i]), "") != ISO_BAD_ARGUMENT, "'%s' is refused", bad[i]);
+        gsl_test(iso_plot_check_format(ctx, bad[i]) != ISO_BAD_ARGUMENT, "'%s' is refused before the work", bad[i]);
+        gsl_test(!strstr(iso_context_message(ctx), ".svg, .png or .pdf"), "what to write instead of '%s'", bad[i]);
+    }
+    gsl_test(files_in_folder() != 0, "nothing is left");
+}
+
+/* Titles are drawn as they are, whatever they would mean to a shell, to gnuplot or to XML. */
+static void test_hostile_texts(void)
+{
+    static const char *const titles[] = {
+        "it's \"quoted\" \\ \\n `touch OWNED` $(touch OWNED) @x a_b^c {/:Bold x} %d %s ~x{y}",
+        "'; system('touch OWNED'); '",
+        "one line\n!touch OWNED\nset output 'OWNED'\r\n",
+        "<script>&amp;</script> ]]>",
+        "broken \xff\xfe \xc0\xaf \xed\xa0\x80 \xf5 \x01\x7f \xef\xbf\xbe utf-8, \xc3\xa9 \xce\xb3 whole",
+        "\xe2\x82",
+        "a title that goes on and on and on and on and on and on and on and on and on and on and on and on and on",
+        "a/0 b-1 c'2 d\"3 e`4 f@5 g\\6 h$7 i%8 j(9)0",
+        "",
+        NULL,
+    };
+    char back[4096];
+    gsl_test(!getcwd(back, sizeof back) || chdir(folder) != 0, "into the folder");
+    for (size_t i = 0; i < sizeof titles / sizeof *titles; i++)
+        for (int format = 0; format < 2; format++) {
+            const char *path = format == 0 ? "b.svg" : "b.png";
+            gsl_test((int)draw_simple(path, titles[i]), "title %zu: %s", i, iso_context_message(ctx));
+            if (i == 0 && format == 0)
+                gsl_test(!file_contains(path, "$(touch OWNED) @x a_b^c {/:Bold x}"), "as it is");
+            if (i == 7 && format == 0) gsl_test(!file_contains(path, titles[i]), "each sign before a digit");
+            if (i == 3 && format == 0) gsl_test(file_contains(path, "<script>"), "escaped for XML");
+            unlink(path);
+            gsl_test(files_in_folder() != 0, "title %zu runs nothing", i);
+        }
+    static const char *const names[] = {"it's.svg", "`touch OWNED`.svg", "$(touch OWNED) ; x.svg",
+                                        "-o.svg",   "a\nb.svg",          "\"\\.svg",
+                                        "%s%n.svg", "|touch OWNED.svg"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        gsl_test((int)draw_simple(names[i], "names"), "name %zu: %s", i, iso_context_message(ctx));
+        gsl_test(unlink(names[i]) != 0 || files_in_folder() != 0, "name %zu is the name, and runs nothing", i);
+    }
+    gsl_test(chdir(back) != 0, "back");
+}
+
+static void test_records(void)
+{
+    const char *path = in_folder("c.svg");
+    gsl_test((int)draw(path, "one row", make_path(1, 1), make_differences(1, 1, 0)), "%s", iso_context_message(ctx));
+    gsl_test((int)draw(path, "rows far apart", make_path(50, 2), make_differences(50, 2, 0)), "all equal: %s",
+             iso_context_message(ctx));
+    gsl_test(!file_contains(path, "0, or less than 10"), "the floor has a label");
+    gsl_test((int)draw(path, "backwards", make_path(50, -0.1), make_differences(50, -0.1, 1e-15)), "%s",
+             iso_context_message(ctx));
+    gsl_test((int)draw(path, "wrong by all", make_path(50, 0.1), make_differences(50, 1e-200, 1e10)), "%s",
+             iso_context_message(ctx));
+    gsl_test((int)draw(path, "long times", make_path(50, 0.1), make_differences(50, 1e200, 1e-10)), "%s",
+             iso_context_message(ctx));
+    gsl_test((int)draw(path, "many rows", make_path(200000, 0.001), make_differences(200000, 0.001, 1e-18)), "%s",
+             iso_context_message(ctx));
+    struct stat s;
+    gsl_test(stat(path, &s) != 0 || s.st_size > 1 << 20, "200000 rows are thinned");
+    unlink(path);
+}
+
+/* What cannot be drawn is refused before anything is written. */
+static void test_refused(void)
+{
+    static const double bad[] = {NAN, INFINITY, -INFINITY};
+    const char *path = in_folder("d.svg");
+    for (int i = 0; i < 6; i++) {
+        iso_record *r = make_path(10, 0.1), *d = make_differences(10, 0.1, 1e-13);
+        (i < 3 ? iso_record_row(r, 7) : iso_record_row(d, 7))[i < 3 ? 13 : 2] = bad[i % 3];
+        gsl_test(draw(path, "not finite", r, d) != ISO_NUMERICAL, "not finite: %s", iso_context_message(ctx));
+        gsl_test(strcmp(iso_context_field(ctx), i < 3 ? "gamma2" : "n") != 0, "which: %s", iso_context_field(ctx));
+    }
+    gsl_test(draw(path, "", make_path(0, 1), make_differences(5, 1, 1)) != ISO_BAD_ARGUMENT, "no rows");
+    gsl_test(draw(path, "", make_path(5, 1), make_differences(0, 1, 1)) != ISO_BAD_ARGUMENT, "no differences");
+    gsl_test(draw(path, "", make_path(5, 1), NULL) != ISO_BAD_ARGUMENT, "no record");
+    gsl_test(draw(path, "", make_differences(5, 1, 1), make_differences(5, 1, 1)) != ISO_BAD_ARGUMENT, "no n1");
+    gsl_test(files_in_folder() != 0, "nothing is left");
+}
+
+static void test_targets(void)
+{
+    gsl_test(draw_simple(in_folder("no/such/a.svg"), "") != ISO_FILE_TROUBLE, "a missing folder");
+    gsl_test(!strstr(iso_context_message(ctx), "no/such/a.svg"), "%s", iso_context_message(ctx));
+    const char *path = in_folder("e.svg"), *link = in_folder("f.svg");
+    mkdir(path, 0777);
+    gsl_test(draw_simple(path, "") != ISO_FILE_TROUBLE, "a folder in its place");
+    rmdir(path);
+    gsl_test((int)draw_simple(path, "first"), "%s", iso_context_message(ctx));
+    chmod(path, 0640);
+    gsl_test(symlink("e.svg", link) != 0 || draw_simple(link, "second") != ISO_OK, "%s", iso_context_message(ctx));
+    struct stat s;
+    gsl_test(lstat(link, &s) != 0 || !S_ISLNK(s.st_mode), "a link stays one");
+    gsl_test(stat(path, &s) != 0 || (s.st_mode & 0777) != 0640, "a file keeps its permissions");
+    gsl_test(!file_contains(path, "second"), "the file behind the link is replaced");
+    unlink(link);
+    unlink(path);
+}
+
+/* gnuplot replaced by a script of ours: `body` is what it does. */
+static void fake_gnuplot(const char *body)
+{
+    FILE *file = fopen(in_folder("bin/gnuplot"), "w");
+    if (!file) exit(1);
+    fprintf(file, "#!/bin/sh\n%s\n", body);
+    fclose(file);
+    chmod(in_folder("bin/gnuplot"), 0755);
+}
+
+static void test_no_gnuplot(void)
+{
+    static const struct {
+        const char *body, *said;
+    } fakes[] = {
+        {"exit 0", "nothing"},
+        {"echo 'line 3: undefined\t terminal' >&2; exit 1", "line 3: undefined terminal"},
+        {"yes complaint | head -n 100000 >&2; echo last words >&2; exit 2", "complaint last words"},
+        {"kill -9 $$", "signal 9"},
+        {"echo '<?xml'; exit 0", "nothing"}, /* stopped half-way: a full disk */
+    };
+    char path[256], saved[8192];
+    snprintf(path, sizeof path, "%s", in_folder("g.svg"));
+    snprintf(saved, sizeof saved, "%s", getenv("PATH") ? getenv("PATH") : "");
+    FILE *old = fopen(path, "w");
+    if (!old || fputs("old", old) < 0 || fclose(old) != 0 || mkdir(in_folder("bin"), 0777) != 0) exit(1);
+    char fake_path[9000];
+    setenv("PATH", in_folder("bin"), 1);
+    gsl_test(draw_simple(path, "") != ISO_FILE_TROUBLE, "no gnuplot: %s", iso_context_message(ctx));
+    gsl_test(!strstr(iso_context_message(ctx), "gnuplot-nox"), "says what to install");
+    snprintf(fake_path, sizeof fake_path, "%s:%s", in_folder("bin"), saved);
+    setenv("PATH", fake_path, 1);
+    for (size_t i = 0; i < sizeof fakes / sizeof *fakes; i++) {
+        fake_gnuplot(fakes[i].body);
+        gsl_test(draw_simple(path, "") != ISO_FILE_TROUBLE, "%s: %s", fakes[i].body, iso_context_message(ctx));
+        gsl_test(!strstr(iso_context_message(ctx), fakes[i].said), "its words: %s", iso_context_message(ctx));
+        gsl_test(!strstr(iso_context_message(ctx), "gnuplot-nox"), "says what to install");
+    }
+    unlink(in_folder("bin/gnuplot"));
+    rmdir(in_folder("bin"));
+    setenv("PATH", saved, 1);
+    gsl_test(!starts_with(path, "old") || files_in_folder() != 1, "the old picture is still there, and nothing else");
+    unlink(path);
+}
+
+/* A host program may have closed its standard streams, or ignore its children. */
+static void test_odd_hosts(void)
+{
+    const char *path = in_folder("h.png");
+    signal(SIGCHLD, SIG_IGN);
+    gsl_test((int)draw_simple(path, "SIGCHLD ignored"), "%s", iso_context_message(ctx));
+    signal(SIGCHLD, SIG_DFL);
+    fflush(stdout);
+    const int saved[3] = {dup(0), dup(1), dup(2)};
+    for (int i = 0; i < 3; i++) close(i);
+    const iso_status status = draw_simple(path, "no standard streams");
+    for (int i = 0; i < 3; i++)
+        if (saved[i] >= 0) {
+            dup2(saved[i], i);
+            close(saved[i]);
+        }
+    gsl_test((int)status, "closed streams: %s", iso_context_message(ctx));
+    gsl_test(!starts_with(path, "\x89PNG"), "a whole picture");
+    unlink(path);
+}
+
+int main(void)
+{
+    ctx = iso_context_create();
+    if (!ctx || !mkdtemp(folder)) return 1;
+    test_formats();
+    test_hostile_texts();
+    test_records();
+    test_refused();
+    test_targets();
+    test_no_gnuplot();
+    test_odd_hosts();
+    gsl_test(rmdir(folder) != 0, "an empty folder remains");
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}
