@@ -23,7 +23,6 @@ static int run(iso_context *ctx, const options *o)
     iso_params params;
     iso_residuals residuals;
     bool failed = false;
-    if (!isnan(o->bound) && !(o->bound >= 0)) return complain("check: --max: expected a number >= 0"), EXIT_USAGE;
     iso_status status = iso_trajectory_read(ctx, o->file, &record);
     if (status == ISO_OK) status = parameters_of_file(ctx, o, record, &params);
     if (status == ISO_OK)

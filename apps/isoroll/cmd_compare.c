@@ -78,7 +78,7 @@ static void print_integrals(const iso_comparison *c)
 
 static void print_table(const iso_scene *scene, const options *o, const iso_comparison *c)
 {
-    const size_t rows = iso_record_rows(c->difference), wanted = (size_t)fmax(1, fmin(o->rows, 1e9));
+    const size_t rows = iso_record_rows(c->difference), wanted = (size_t)fmin(o->rows, 1e9);
     const size_t shown = wanted < rows ? wanted : rows;
     print_head(scene, c);
     print_model(c, ISO_BALL, shown, rows);
@@ -126,7 +126,8 @@ static json_t *backend_of(const iso_backend_run *r)
                      "trajectory", columns_of(r->trajectory));
 }
 
-static int print_json(const iso_scene *scene, const iso_comparison *c)
+/* False: no memory. A full disk is found when the output is flushed. */
+static bool print_json(const iso_scene *scene, const iso_comparison *c)
 {
     const iso_params *p = &scene->params;
     json_t *worst = json_object();
@@ -138,11 +139,11 @@ static int print_json(const iso_scene *scene, const iso_comparison *c)
                   number(c->eps), "tolerance", number(scene->tolerance), "clock", iso_clock_name(c->clock),
                   "worst_difference", worst, "difference", columns_of(c->difference), "backends", "ball",
                   backend_of(&c->run[ISO_BALL]), "point", backend_of(&c->run[ISO_POINT]));
-    const int failed = o ? json_dumpf(o, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : -1;
+    if (!o) return complain("out of memory"), false;
+    json_dumpf(o, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
     printf("\n");
     json_decref(o);
-    if (!o) complain("out of memory");
-    return o ? (failed ? EXIT_FILE : EXIT_DONE) : EXIT_NUMERICAL;
+    return true;
 }
 
 /* --- the command --------------------------------------------------------------------------------------------------- */
@@ -173,6 +174,7 @@ static int run(iso_context *ctx, const options *o)
     iso_comparison *c = NULL;
     iso_status status = scene_with_options(ctx, o, &scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
+    stop_gently();
     if (status == ISO_OK) status = iso_compare(ctx, &scene, go_on, NULL, &c);
     int result = finish(ctx, status);
     progress_end();
@@ -183,8 +185,7 @@ static int run(iso_context *ctx, const options *o)
         result = EXIT_SOME_FAILED;
     }
     if (o->json) {
-        const int printed = print_json(&scene, c);
-        if (result == EXIT_DONE) result = printed;
+        if (!print_json(&scene, c)) result = EXIT_NUMERICAL;
     } else if (iso_record_rows(c->difference) > 0) {
         print_table(&scene, o, c);
     }

@@ -15,6 +15,7 @@ static int run(iso_context *ctx, const options *o)
     if (status == ISO_OK)
         status = iso_convert(ctx, &params, in, o->to, isnan(o->tolerance) ? 1e-14 : o->tolerance, &out);
     if (status == ISO_OK) {
+        stop_gently(); /* no half file, and no temporary one, is left */
         status = iso_trajectory_write(ctx, o->output, out);
     } else if (status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE && in) {
         status = name_the_file(ctx, o, status);

@@ -1,7 +1,9 @@
 /* isoroll run - integrate a scene and write its trajectory. */
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "command.h"
 
@@ -11,6 +13,11 @@ typedef struct times {
     double *list; /* NULL: the scene's grid */
     size_t count;
 } times;
+
+/* Where in a file, from 1, columns in characters. */
+typedef struct place {
+    int line, column;
+} place;
 
 static double time_at(const times *t, size_t i)
 {
@@ -29,44 +36,60 @@ static iso_status add_time(iso_context *ctx, times *t, size_t *room, double time
     return ISO_OK;
 }
 
-/* Numbers with blanks, commas or new lines between; # begins a comment. */
-static iso_status read_times_line(iso_context *ctx, const char *name, int line, const char *text, times *t,
-                                  size_t *room)
+enum { WORD = 512 }; /* as long as a number can be (iso_number_read) */
+
+/* The next number of the file into word, with the place where it begins; its length, 0 at the end. Between them are
+ * blanks, commas, new lines, and comments, which begin with #. */
+static size_t next_word(FILE *file, char word[WORD], place *at)
+{
+    size_t length = 0;
+    bool comment = false;
+    for (int c; length < WORD - 1 && (c = getc(file)) != EOF;) {
+        comment = c != '\n' && (comment || c == '#');
+        if (c != '\0' && strchr(" \t,\r\n#", c)) {
+            if (length > 0) {
+                ungetc(c, file);
+                break;
+            }
+        } else if (!comment) {
+            word[length++] = (char)c;
+            continue;
+        }
+        at->column = c == '\n' ? 1 : at->column + ((c & 0xC0) != 0x80);
+        at->line += c == '\n';
+    }
+    word[length] = '\0';
+    return length;
+}
+
+static iso_status read_words(iso_context *ctx, const char *name, FILE *file, times *t)
 {
     iso_status status = ISO_OK;
-    const char *end = text + strcspn(text, "#\r\n");
-    for (const char *at = text; status == ISO_OK;) {
-        double time;
-        at += strspn(at, " \t,");
-        if (at >= end) break;
-        size_t length = strcspn(at, " \t,\r\n#");
-        if (!iso_number_read(at, length, &time))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                    "%s:%d:%d: '%.*s' is not a time: expected a finite number", name, line,
-                                    (int)(at - text) + 1, (int)(length < 40 ? length : 40), at);
-        status = add_time(ctx, t, room, time);
-        at += length;
+    char word[WORD];
+    place at = {1, 1};
+    size_t room = 0, length;
+    double time;
+    while (status == ISO_OK && (length = next_word(file, word, &at)) > 0) {
+        if (!iso_number_read(word, length, &time))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:%d:%d: '%.40s' is not a time: expected a finite number",
+                                    name, at.line, at.column, word);
+        status = add_time(ctx, t, &room, time);
+        at.column += (int)length;
     }
+    if (ferror(file))
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", name, strerror(errno));
+    if (status == ISO_OK && t->count == 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:1:1: no times in this file: expected numbers", name);
     return status;
 }
 
 static iso_status read_times(iso_context *ctx, const char *path, times *t)
 {
-    char *text = NULL;
-    size_t size = 0, room = 0;
-    int line = 0;
-    iso_status status = ISO_OK;
-    const bool is_stdin = strcmp(path, "-") == 0;
-    FILE *file = is_stdin ? stdin : fopen(path, "r");
-    if (!file) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "%s: cannot open the file of times", path);
-    while (status == ISO_OK && getline(&text, &size, file) > 0)
-        status = read_times_line(ctx, path, ++line, text, t, &room);
-    if (status == ISO_OK && ferror(file))
-        status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "%s: cannot read", path);
-    if (status == ISO_OK && t->count == 0)
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:1:1: no times in this file: expected numbers", path);
-    free(text);
-    if (!is_stdin) fclose(file);
+    if (strcmp(path, "-") == 0) return read_words(ctx, "<stdin>", stdin, t);
+    FILE *file = fopen(path, "r");
+    if (!file) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));
+    const iso_status status = read_words(ctx, path, file, t);
+    fclose(file);
     return status;
 }
 
@@ -78,7 +101,7 @@ static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_o
     const iso_picture as = scene->as == ISO_AUTO ? scene->start.model : scene->as;
     iso_status status = iso_record_create(ctx, (size_t)count, names, header);
     if (status == ISO_OK)
-        status = iso_record_describe(ctx, *header, iso_picture_name(as), &scene->params, iso_orbit_energy(orbit),
+        status = iso_record_describe(ctx, *header, iso_picture_name((int)as), &scene->params, iso_orbit_energy(orbit),
                                      iso_orbit_coupling(orbit));
     if (status == ISO_OK) status = iso_record_set(ctx, *header, "backend", iso_orbit_model(orbit)->system->name);
     if (status == ISO_OK) status = iso_record_set(ctx, *header, "method", iso_orbit_method(orbit)->name);
@@ -87,14 +110,30 @@ static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_o
     return status;
 }
 
+/* The orbit at row `row`. What is far is approached in pieces, so that the user can stop on the way. */
+static iso_status go_to(iso_orbit *orbit, const times *t, size_t row, iso_sample *sample)
+{
+    const iso_units *units = iso_orbit_units(orbit);
+    const double piece = 100 * iso_unit(units, iso_clock_dimension(iso_orbit_model(orbit)->clock));
+    const double end = time_at(t, row), last = row > 0 ? time_at(t, row - 1) : 0;
+    double time = last * end > 0 && fabs(last) < fabs(end) ? last : 0;
+    while (piece > 0 && fabs(end - time) > piece && !interrupted()) {
+        time += copysign(piece, end);
+        const iso_status status = iso_orbit_at(orbit, time, sample);
+        if (status != ISO_OK) return status;
+        progress_show(((double)row + time / end) / (double)t->count);
+    }
+    return interrupted() ? ISO_OK : iso_orbit_at(orbit, end, sample);
+}
+
 static iso_status write_rows(iso_context *ctx, iso_orbit *orbit, const times *t, const int columns[], int count,
                              iso_trajectory_writer *writer, size_t *written)
 {
     double row[ISO_TRAJECTORY_COLUMNS];
     for (*written = 0; *written < t->count && !interrupted(); ++*written) {
         iso_sample sample;
-        iso_status status = iso_orbit_at(orbit, time_at(t, *written), &sample);
-        if (status != ISO_OK) return status;
+        iso_status status = go_to(orbit, t, *written, &sample);
+        if (status != ISO_OK || interrupted()) return status;
         for (int c = 0; c < count; c++) row[c] = iso_sample_column(&sample, columns[c]);
         status = iso_trajectory_write_row(ctx, writer, row, (size_t)count);
         if (status != ISO_OK) return status;
@@ -118,6 +157,7 @@ static int write_file(iso_context *ctx, const options *o, iso_orbit *orbit, cons
 {
     iso_trajectory_writer *writer;
     size_t rows = 0;
+    stop_gently();
     iso_status status = iso_trajectory_open(ctx, o->output, &writer);
     if (status != ISO_OK) return finish(ctx, status);
     status = iso_trajectory_write_header(ctx, writer, header);
@@ -133,6 +173,22 @@ static int write_file(iso_context *ctx, const options *o, iso_orbit *orbit, cons
     return EXIT_SOME_FAILED;
 }
 
+static bool same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    if (!a || strcmp(a, "-") == 0 || stat(a, &x) != 0 || stat(b, &y) != 0 || !S_ISREG(x.st_mode)) return false;
+    return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+static iso_status check_files(iso_context *ctx, const options *o)
+{
+    if (same_file(o->file, o->output) || same_file(o->times, o->output))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output", "-o '%s' would overwrite what is read", o->output);
+    if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->file, "-") == 0)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "standard input is the scene or the times, not both");
+    return ISO_OK;
+}
+
 static int run(iso_context *ctx, const options *o)
 {
     iso_scene scene;
@@ -140,7 +196,8 @@ static int run(iso_context *ctx, const options *o)
     iso_record *header = NULL;
     int columns[ISO_MAX_COLUMNS], count = 0, result;
     times t = {.scene = &scene};
-    iso_status status = scene_with_options(ctx, o, &scene);
+    iso_status status = check_files(ctx, o);
+    if (status == ISO_OK) status = scene_with_options(ctx, o, &scene);
     if (status == ISO_OK && o->times) status = read_times(ctx, o->times, &t);
     if (status == ISO_OK) {
         if (!t.list) t.count = iso_scene_rows(&scene);

@@ -60,7 +60,10 @@ iso_status scene_with_options(iso_context *ctx, const options *o, iso_scene *sce
 iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
                              iso_orbit **orbit);
 
-/* True once the user has asked to stop (SIGINT, SIGTERM). */
+/* From now on SIGINT and SIGTERM only ask to stop, unless they come again two seconds later. */
+void stop_gently(void);
+
+/* True once the user has asked to stop. */
 bool interrupted(void);
 
 /* A bar on stderr, drawn when it is a terminal and the work has lasted longer than a second. */

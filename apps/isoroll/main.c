@@ -7,6 +7,7 @@
 #include <stdarg.h>
 #include <string.h>
 #include <sundials/sundials_version.h>
+#include <time.h>
 #include <yaml.h>
 
 #include "command.h"
@@ -19,8 +20,21 @@ static volatile sig_atomic_t stop_asked;
 
 static void ask_to_stop(int signal_number)
 {
-    (void)signal_number;
+    static volatile time_t first;
+    if (!stop_asked) first = time(NULL);
     stop_asked = 1;
+    if (time(NULL) - first < 2) return; /* timeout(1) sends two at once */
+    signal(signal_number, SIG_DFL);
+    raise(signal_number);
+}
+
+void stop_gently(void)
+{
+    static const int signals[] = {SIGINT, SIGTERM};
+    const struct sigaction ask = {.sa_handler = ask_to_stop};
+    struct sigaction old;
+    for (int i = 0; i < 2; i++) /* ignored: started in the background or by nohup, to stay so */
+        if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(signals[i], &ask, NULL);
 }
 
 bool interrupted(void)
@@ -28,15 +42,18 @@ bool interrupted(void)
     return stop_asked != 0;
 }
 
+/* One line, whatever the file names in it are made of. */
 void complain(const char *format, ...)
 {
+    char text[2048];
     va_list args;
     progress_end();
     va_start(args, format);
-    fputs("isoroll: ", stderr);
-    vfprintf(stderr, format, args);
-    fputc('\n', stderr);
+    vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
+    fprintf(stderr, "isoroll: %s\n", text);
 }
 
 int finish(iso_context *ctx, iso_status status)
@@ -112,10 +129,7 @@ static int flush_output(int status)
 
 int main(int argc, char **argv)
 {
-    const struct sigaction stop = {.sa_handler = ask_to_stop};
     signal(SIGPIPE, SIG_IGN); /* writing tells */
-    sigaction(SIGINT, &stop, NULL);
-    sigaction(SIGTERM, &stop, NULL);
     gsl_set_error_handler_off();
     const char *name = argc > 1 ? argv[1] : "";
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0)

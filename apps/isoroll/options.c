@@ -9,7 +9,7 @@
 static bool set_text(void *at, const char *text)
 {
     *(const char **)at = text;
-    return true;
+    return *text != '\0';
 }
 
 static bool set_flag(void *at, const char *text)
@@ -21,6 +21,26 @@ static bool set_flag(void *at, const char *text)
 static bool set_number(void *at, const char *text)
 {
     return iso_number_read(text, strlen(text), at);
+}
+
+static bool set_tolerance(void *at, const char *text)
+{
+    return set_number(at, text) && *(double *)at >= 1e-15 && *(double *)at <= 0.1;
+}
+
+static bool set_positive(void *at, const char *text)
+{
+    return set_number(at, text) && *(double *)at > 0;
+}
+
+static bool set_count(void *at, const char *text)
+{
+    return set_number(at, text) && *(double *)at >= 1 && *(double *)at == floor(*(double *)at);
+}
+
+static bool set_bound(void *at, const char *text)
+{
+    return set_number(at, text) && *(double *)at >= 0;
 }
 
 /* Three numbers with commas between. */
@@ -67,31 +87,33 @@ static const struct row {
     const char *name, *argument, *expected, *doc;
     bool (*set)(void *at, const char *text);
     size_t offset;
+    int letter; /* of the short form, 0: none */
 } table[] = {
 #define AT(field) offsetof(options, field)
-    {"output", "FILE", "a file", "write there, - is standard output (-o FILE)", set_text, AT(output)},
+    {"output", "FILE", "a file", "write there, - is standard output (-o FILE)", set_text, AT(output), 'o'},
     {"backend", "B", "ball, point or auto", "the model that is integrated: ball, point, auto", set_backend,
      AT(backend)},
     {"method", "NAME", "a method of 'isoroll list methods', or auto", "integrator, or auto", set_method, AT(method)},
-    {"tol", "X", "a number", "largest relative error of one step, in [1e-15, 0.1]", set_number, AT(tolerance)},
+    {"tol", "X", "a number in [1e-15, 0.1]", "largest relative error of one step, in [1e-15, 0.1]", set_tolerance,
+     AT(tolerance)},
     {"as", "WHAT", "ball, point or both", "what is written: ball, point, both", set_as, AT(as)},
     {"to", "MODEL", "ball or point", "the model converted to: ball, point", set_target, AT(to)},
     {"t-end", "T", "a number", "last time, in place of the scene's", set_number, AT(end)},
-    {"step", "DT", "a number", "between rows, in place of the scene's", set_number, AT(step)},
+    {"step", "DT", "a positive number", "between rows, in place of the scene's", set_positive, AT(step)},
     {"times", "FILE", "a file", "output times from a file, in any order; # begins a comment", set_text, AT(times)},
-    {"rows", "N", "a number", "rows of the table that are printed (default 6)", set_number, AT(rows)},
+    {"rows", "N", "a whole number from 1 on", "rows of the table that are printed (default 6)", set_count, AT(rows)},
     {"plot", "FILE", "a file", "draw a picture: .svg, .png or .pdf", set_text, AT(plot)},
     {"json", NULL, NULL, "print everything as JSON", set_flag, AT(json)},
     {"k", "K", "a number", "geometry number, where the file does not say", set_number, AT(k)},
     {"J", "J1,J2,J3", "three numbers J1,J2,J3", "moments about the contact point, likewise", set_vector, AT(J)},
     {"eps", "X", "a number", "coupling of the point's potential, likewise", set_number, AT(eps)},
     {"h", "X", "a number", "energy of the ball, in place of eps", set_number, AT(h)},
-    {"max", "X", "a number", "exit with 1 if any residual is larger", set_number, AT(bound)},
+    {"max", "X", "a number from 0 on", "exit with 1 if any residual is larger", set_bound, AT(bound)},
     {"verbose", NULL, NULL, "tell on stderr how it went", set_flag, AT(verbose)},
-    {"help", NULL, NULL, "this text", set_flag, AT(help)},
+    {"help", NULL, NULL, "this text (-h)", set_flag, AT(help), 'h'},
 #undef AT
 };
-enum { ROWS = sizeof table / sizeof *table };
+enum { ROWS = sizeof table / sizeof *table, LONG = 256 /* above all letters */ };
 
 static bool takes(const command *c, const struct row *r)
 {
@@ -113,7 +135,7 @@ void options_help(const command *c, FILE *to)
 static bool set_option(const command *c, const struct row *r, const char *text, options *o)
 {
     if (r->set((char *)o + r->offset, text)) return true;
-    complain("%s: --%s %s: expected %s", c->name, r->name, text, r->expected);
+    complain("%s: --%s '%s': expected %s", c->name, r->name, text, r->expected);
     return false;
 }
 
@@ -121,6 +143,22 @@ static bool usage(const command *c, const char *what, const char *which)
 {
     complain("%s: %s%s; see 'isoroll %s --help'", c->name, what, which, c->name);
     return false;
+}
+
+/* What getopt_long did not know: a letter, which it tells, or a long option. */
+static bool unknown(const command *c, char **argv)
+{
+    const char letter[] = {'-', (char)optopt, '\0'};
+    return usage(c, "unknown or ambiguous option ", optopt > 0 && optopt < LONG ? letter : argv[optind - 1]);
+}
+
+/* The row of what getopt_long found: LONG + its index, or its letter. */
+static const struct row *found_row(int found)
+{
+    if (found >= LONG) return &table[found - LONG];
+    for (int i = 0; i < ROWS; i++)
+        if (table[i].letter == found) return &table[i];
+    return NULL;
 }
 
 /* The one argument after the options. */
@@ -136,12 +174,10 @@ static bool set_file(const command *c, int argc, char **argv, options *o)
 bool options_read(const command *c, int argc, char **argv, options *o)
 {
     struct option known[ROWS + 1] = {{0}};
-    int index[ROWS], count = 0, chosen, found;
-    for (int i = 0; i < ROWS; i++) {
-        if (!takes(c, &table[i])) continue;
-        index[count] = i;
-        known[count++] = (struct option){table[i].name, table[i].argument ? required_argument : no_argument, NULL, 0};
-    }
+    int count = 0, found;
+    for (int i = 0; i < ROWS; i++)
+        if (takes(c, &table[i]))
+            known[count++] = (struct option){table[i].name, table[i].argument != NULL, NULL, LONG + i};
     *o = (options){.output = "-",
                    .method = NULL,
                    .backend = (iso_picture)-1,
@@ -158,17 +194,10 @@ bool options_read(const command *c, int argc, char **argv, options *o)
                    .rows = 6};
     opterr = 0;
     const bool has_output = strstr(c->options, " output ") != NULL;
-    while ((found = getopt_long(argc, argv, has_output ? ":ho:" : ":h", known, &chosen)) != -1) {
-        if (found == 'h')
-            o->help = true;
-        else if (found == 'o')
-            o->output = optarg;
-        else if (found == ':')
-            return usage(c, "an argument is missing after ", argv[optind - 1]);
-        else if (found == '?')
-            return usage(c, "no such option: ", argv[optind - 1]);
-        else if (!set_option(c, &table[index[chosen]], optarg, o))
-            return false;
+    while ((found = getopt_long(argc, argv, has_output ? ":ho:" : ":h", known, NULL)) != -1) {
+        if (found == ':') return usage(c, "an argument is missing after ", argv[optind - 1]);
+        if (found == '?') return unknown(c, argv);
+        if (!set_option(c, found_row(found), optarg, o)) return false;
     }
     return set_file(c, argc, argv, o);
 }
@@ -183,11 +212,6 @@ iso_status scene_with_options(iso_context *ctx, const options *o, iso_scene *sce
     if (!isnan(o->tolerance)) scene->tolerance = o->tolerance;
     if (!isnan(o->end)) scene->end = o->end;
     if (!isnan(o->step)) scene->step = o->step;
-    if (!(scene->tolerance >= 1e-15 && scene->tolerance <= 0.1))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tol", "--tol %g: expected a tolerance in [1e-15, 0.1]",
-                                scene->tolerance);
-    if (!isnan(o->step) && !(o->step > 0))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "step", "--step %g: expected a positive number", o->step);
     if (scene->step > 0 && fabs(scene->end) / scene->step > 1e8)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "step", "more than 1e8 rows: take a longer step");
     return ISO_OK;

@@ -15,18 +15,18 @@ static double now(void)
 
 static bool drawn;
 
-/* Asked at every row: the clock is read only every so often. */
 void progress_show(double part)
 {
     static double start = -1, last;
-    static unsigned calls;
     if (start < 0) start = now();
-    if (calls++ % 64 != 0 || now() - start < 1 || now() - last < 0.1 || !isatty(STDERR_FILENO)) return;
-    last = now();
-    const char *colour = getenv("NO_COLOR") ? "" : "\033[36m", *plain = getenv("NO_COLOR") ? "" : "\033[0m";
-    fprintf(stderr, "\r%s", colour);
+    const double time = now();
+    if (time - start < 1 || time - last < 0.1 || !isatty(STDERR_FILENO)) return;
+    last = time;
+    const char *no_color = getenv("NO_COLOR"); /* says so when it is not empty */
+    const bool coloured = !no_color || !*no_color;
+    fprintf(stderr, "\r%s", coloured ? "\033[36m" : "");
     for (int i = 0; i < WIDTH; i++) fputc(i < (int)(part * WIDTH) ? '#' : '.', stderr);
-    fprintf(stderr, "%s %3.0f %%", plain, 100 * part);
+    fprintf(stderr, "%s %3.0f %%", coloured ? "\033[0m" : "", 100 * part);
     fflush(stderr);
     drawn = true;
 }

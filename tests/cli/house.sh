@@ -62,7 +62,7 @@ grep -nE '^[ \t]*#[ \t]*define[ \t]' $public lib/isoroll.h |
             s = statement[i]
             if (match(s, /(struct|enum|union) +[A-Za-z0-9_]+/)) check("iso_", last_word(substr(s, RSTART, RLENGTH)), "tag")
             if (s ~ /^ *(struct|enum|union) *[A-Za-z0-9_]* *$/ || s ~ /^ *$/) continue
-            if (match(s, /\( *\*/)) s = substr(s, RSTART) # (*name)(...)
+            if (match(s, /^[^(]*\( *\*/)) s = substr(s, RLENGTH) # (*name)(...)
             else if (match(s, /\(/)) s = substr(s, 1, RSTART - 1)
             sub(/\).*/, "", s)
             check("iso_", last_word(s), "name")
