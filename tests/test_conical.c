@@ -151,23 +151,18 @@ static void equal_moments(const laws_case *c, laws_worst *worst)
     }
 }
 
-static void roots(const void *data, const double x[], double z[])
-{
-    iso_conical at;
-    iso_conical_from_vector(data, x, NULL, &at);
-    copy(at.z, z, 2);
-}
-
 /* Rates against differences along the great circle's tangent: the unit length is kept to first order, as it must be,
  * since |x| != 1 moves the roots. */
 static void on_circle(const void *data, const double angle[], double z[])
 {
     const laws_case *c = data;
     double x[3], v[3];
+    iso_conical at;
     copy(c->y, v, 3);
     make_unit(v);
     for (int i = 0; i < 3; i++) x[i] = cos(angle[0]) * c->y[3 + i] + sin(angle[0]) * v[i];
-    roots(c->field.p.J, x, z);
+    iso_conical_from_vector(c->field.p.J, x, NULL, &at);
+    copy(at.z, z, 2);
 }
 
 /* ... for states where the two are 0.2 of their range apart: where they meet they are not smooth. */

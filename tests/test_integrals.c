@@ -202,7 +202,7 @@ static void projection_at_rest(const laws_case *c, laws_worst *worst)
     laws_note(worst, fabs(norm(rest.y + 3) - 1), 2 * DBL_EPSILON, &c->field.p, "unit");
 }
 
-/* The spin is taken out of a random w once; if w was nearly along n, what rounding leaves of it is more than an ulp. */
+/* The spin is taken out of a random w once: where w was nearly along n, rounding leaves more than an ulp of it. */
 static void sample_valid(const laws_case *c, laws_worst *worst)
 {
     note_restored(c, c->y, 32, worst);

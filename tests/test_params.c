@@ -46,9 +46,10 @@ static void surfaces_give_k(void)
         iso_params p;
         const iso_body b = on(row[i].surface, row[i].A, row[i].B);
         const iso_status status = iso_params_physical(ctx, &b, &p);
-        gsl_test(status != ISO_OK, "%s A=%g B=%g accepted", iso_surface_name(row[i].surface), row[i].A, row[i].B);
-        gsl_test_rel(p.k, row[i].k, 2 * DBL_EPSILON, "k of %s A=%g B=%g", iso_surface_name(row[i].surface), row[i].A,
-                     row[i].B);
+        gsl_test(status != ISO_OK, "%s A=%g B=%g accepted", iso_surface_name((int)row[i].surface), row[i].A,
+                 row[i].B);
+        gsl_test_rel(p.k, row[i].k, 2 * DBL_EPSILON, "k of %s A=%g B=%g", iso_surface_name((int)row[i].surface),
+                     row[i].A, row[i].B);
         for (int j = 0; j < 3; j++)
             gsl_test_rel(p.J[j], b.inertia[j] + b.mass * b.radius * b.radius, 2 * DBL_EPSILON, "J = I + m B^2");
         gsl_test(p.body.surface != row[i].surface || p.body.mass != b.mass, "the body is kept");
@@ -152,19 +153,14 @@ static bool power_of_two(double x)
     return x > 0 && isfinite(x) && frexp(x, &exponent) == 0.5;
 }
 
-/* log2 of one unit of dimension d */
-static double unit_log2(const iso_units *u, iso_dimension d)
-{
-    return (d.J + d.J_2k / (2 * u->own.k)) * log2(u->J) + d.w * log2(u->w);
-}
-
 static void note_unit(const iso_units *u, iso_dimension d, laws_worst *worst, const char *name)
 {
-    const double expected = unit_log2(u, d), unit = iso_unit(u, d);
+    const double J = log2(u->J), w = log2(u->w), J_2k = d.J_2k / (2 * u->own.k);
+    const double expected = (d.J + J_2k) * J + d.w * w, unit = iso_unit(u, d);
+    const double terms = fabs(d.J * J) + fabs(J_2k * J) + fabs(d.w * w);
     if (expected > 1024.5) laws_note(worst, isinf(unit) ? 0 : 1, 0.5, &u->own, name);
     if (fabs(expected) > 1021) return; /* at the ends of the range, or past them */
-    /* log2 of the unit is a number up to 1000 */
-    laws_note(worst, fabs(log2(unit) - expected), 4 * DBL_EPSILON * (1 + fabs(expected)), &u->own, name);
+    laws_note(worst, fabs(log2(unit) - expected), 4 * DBL_EPSILON * (1 + terms), &u->own, name);
 }
 
 static void note_all_units(const iso_units *u, laws_worst *worst)

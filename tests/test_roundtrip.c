@@ -1,9 +1,10 @@
 /* ball -> point -> ball and point -> ball -> point (18): what rounding does in one round trip and in a thousand.
  *
  * Errors are counted in units in the last place of the norm of the vector (w, n, M, gamma) a component belongs to.
- * The bound of one round trip is 4 max(1, 1/|2k|), because M goes with q^(-1/(2k)); of a thousand, 32 times that. One
- * trip that starts from the point is granted twice as much: gamma comes back with each component off by up to 2 epsilon
- * (four roundings), q with 4, M therefore with 4/|2k|, and an epsilon of a norm is up to two units in its last place.
+ * The bound of one round trip is 4 max(1, 1/|2k|), because M goes with q^(-1/(2k)); of a thousand, 32 times that.
+ * One trip that starts from the point is granted twice as much: gamma comes back with each component off by up to 2
+ * epsilon (four roundings), q with 4, M therefore with 4/|2k|, and an epsilon of a norm is up to two units in its
+ * last place.
  */
 #include <float.h>
 #include <gsl/gsl_test.h>

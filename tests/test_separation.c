@@ -34,8 +34,8 @@ static void staeckel(const laws_case *c, laws_worst *worst)
     laws_note(worst, fabs(N * N * lam * mu / power - 1), laws_conditioning(p), p, "N");
 }
 
-/* At k = 1 N^2 lam mu = det J, and lam and mu part: z A(z) p_z^2 - h det J z/2 is the same for z = lam and z = mu, and
- * constant. */
+/* At k = 1 N^2 lam mu = det J, and lam and mu part: z A(z) p_z^2 - h det J z/2 is the same for z = lam and z = mu,
+ * and constant. */
 static void ball_constants(const void *data, const double y[], double constant[])
 {
     const iso_params *p = data;

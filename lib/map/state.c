@@ -8,7 +8,7 @@
  * of n -> gamma would change it by a fixed factor, and w would drift by that factor at each round trip. */
 static double momentum_factor(const iso_params *p, const double gamma[3])
 {
-    const double q = dot_diag(gamma, p->J, gamma);
+    const double q = dot_diag(gamma, p->J, gamma) / dot(gamma, gamma);
     return sqrt(p->det_J) / p->k * pow(q, -1 / (2 * p->k));
 }
 

@@ -159,7 +159,7 @@ static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
     double unused;
     iso_random_direction(r, y + 3);
     for (int i = 0; i < 3; i++) y[i] = iso_random_normal(r);
-    remove_along(y, y + 3);
+    for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3); /* twice: w may be nearly along n */
     f->eps = 0;
     f->energy = energy(f, y, &unused);
 }

@@ -43,7 +43,11 @@ void iso_conical_from_vector(const double b[3], const double x[3], const double 
     const double d1 = 2 * x[o[0]] * velocity[o[0]], d2 = 2 * x[o[1]] * velocity[o[1]],
                  d3 = 2 * x[o[2]] * velocity[o[2]];
     const double dB = a * (d2 + d3) - c * (d1 + d2);
-    for (int r = 0; r < 2; r++) out->rate[r] = (a * c * d2 - dB * root[r]) / (r == 0 ? -gap : gap);
+    /* each from the nearer of the two ends of its interval, where its terms are as small as itself */
+    out->rate[0] = out->above[0][o[0]] < -root[0] ? (a * (a + c) * d1 + dB * out->above[0][o[0]]) / gap
+                                                  : (a * c * d2 - dB * root[0]) / -gap;
+    out->rate[1] = -out->above[1][o[2]] < root[1] ? -(c * (a + c) * d3 + dB * out->above[1][o[2]]) / gap
+                                                  : (a * c * d2 - dB * root[1]) / gap;
 }
 
 void iso_conical_to_squares(const double b[3], const double z[2], double squares[3])

@@ -132,8 +132,13 @@ void iso_units_choose(const iso_params *p, double speed, iso_units *u)
     fill(p->k, J, &u->own);
 }
 
+/* unit_J^(J_2k/(2k)) alone may leave the range of doubles where the whole product does not: its exponent of two is split
+ * into a whole part, added to the others, and a fraction. */
 double iso_unit(const iso_units *u, iso_dimension d)
 {
-    const double fraction = d.J_2k == 0 ? 1 : pow(u->J, d.J_2k / (2 * u->own.k));
-    return ldexp(fraction, d.J * ilogb(u->J) + d.w * ilogb(u->w));
+    const double exponent = d.J_2k == 0 ? 0 : d.J_2k / (2 * u->own.k), log2_J = ilogb(u->J);
+    const double power = exponent * log2_J, lost = fma(exponent, log2_J, -power);
+    const double whole = fmax(-1e6, fmin(1e6, floor(power))); /* far out of range, and still an int */
+    const double fraction = whole == floor(power) ? exp2((power - whole) + lost) : 1;
+    return ldexp(fraction, (int)whole + d.J * ilogb(u->J) + d.w * ilogb(u->w));
 }

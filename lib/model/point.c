@@ -164,7 +164,7 @@ static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
     f->energy = 0;
     iso_random_direction(r, y + 3);
     iso_random_direction(r, y);
-    remove_along(y, y + 3);
+    for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3); /* twice: M may be nearly along gamma */
     scale(y, sqrt(-2 * potential(f, y)) / norm(y));
 }
 
