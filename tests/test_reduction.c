@@ -209,9 +209,30 @@ static void second_form(const laws_case *c, laws_worst *worst)
     laws_note(worst, fabs(H / iso_ball_energy(p, c->y) - 1), laws_conditioning(p), p, "");
 }
 
+/* T = h also next to the coordinate planes, where A(lam) or A(mu) -> 0 and the rates with it: n_axis = 1e-1 ... 1e-13,
+ * three moments well apart. Rates taken from b2 alone would lose 1e-16/n_axis of their size at the outer planes. */
+static void near_planes(void)
+{
+    const double J[3] = {3, 1.4, 2.1};
+    const iso_params p = laws_params(0.75, J);
+    double worst = 0;
+    for (int axis = 0; axis < 3; axis++)
+        for (double near = 0.1; near > 1e-13; near /= 10) {
+            double y[ISO_STATE] = {0.3, -0.7, 0.5, 0.6, 0.6, 0.6};
+            iso_conical at;
+            y[3 + axis] = near;
+            make_unit(y + 3);
+            for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3);
+            iso_reduction_coordinates(&p, y, &at);
+            worst = fmax(worst, fabs(iso_reduction_energy(&p, &at) / iso_ball_energy(&p, y) - 1));
+        }
+    gsl_test(!(worst < 1e-13), "T next to the coordinate planes is h (%.1e)", worst);
+}
+
 int main(void)
 {
     gsl_test_verbose(1);
+    near_planes();
     laws_hold("T (14) = h, S (15), N (16)", &iso_system_ball, as_written);
     laws_hold("rates of lam and mu", &iso_system_ball, rates);
     laws_hold("equations of motion (15)", &iso_system_ball, equations_of_motion);
