@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "io/replacement_impl.h"
 
 #define INSTALL "install gnuplot (package gnuplot-nox)"
 
@@ -37,9 +38,8 @@ static const format formats[] = {
 struct iso_gnuplot {
     const format *format;
     FILE *script, *complaints; /* without a name */
-    char *target;              /* the name the picture is to have, links followed */
-    char *temporary;           /* the name it has till then                       */
-    int picture;               /* its descriptor                                  */
+    iso_replacement file;      /* the picture's  */
+    int picture;               /* its descriptor */
 };
 
 static const format *find_format(const char *path)
@@ -58,52 +58,22 @@ iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path)
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': a picture's name ends in .svg, .png or .pdf", path);
 }
 
-static iso_status fail_file(iso_context *ctx, const char *what, const char *path)
-{
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot %s '%s': %s", what, path, strerror(errno));
-}
-
 static void release(iso_gnuplot *g)
 {
     if (g->script) fclose(g->script);
     if (g->complaints) fclose(g->complaints);
     if (g->picture >= 0) close(g->picture);
-    if (g->temporary) unlink(g->temporary);
-    free(g->temporary);
-    free(g->target);
     free(g);
 }
 
 /* ---- Opening ---- */
 
-/* A new file in the folder of the target. Behind a link it is the file that is replaced; it keeps its permissions. */
 static iso_status open_picture(iso_context *ctx, iso_gnuplot *g, const char *path)
 {
     struct stat old;
-    const bool exists = stat(path, &old) == 0;
-    if (exists && !S_ISREG(old.st_mode))
+    if (stat(path, &old) == 0 && !S_ISREG(old.st_mode))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is no regular file", path);
-    g->target = exists ? realpath(path, NULL) : strdup(path);
-    if (!g->target || (exists && access(g->target, W_OK) != 0)) return fail_file(ctx, "write", path);
-    const char *slash = strrchr(g->target, '/');
-    const int folder = slash ? (int)(slash - g->target) + 1 : 0;
-    for (int i = 0; i < 1000 && g->picture < 0; i++) {
-        free(g->temporary);
-        if (asprintf(&g->temporary, "%.*s.isoroll-%ld-%d.tmp", folder, g->target, (long)getpid(), i) < 0)
-            g->temporary = NULL;
-        if (!g->temporary) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to draw");
-        g->picture = open(g->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (g->picture < 0 && errno != EEXIST) break;
-    }
-    if (g->picture >= 0) {
-        if (exists) (void)!fchmod(g->picture, old.st_mode & 07777);
-        return ISO_OK;
-    }
-    const int error = errno;
-    free(g->temporary); /* not ours to remove */
-    g->temporary = NULL;
-    errno = error;
-    return fail_file(ctx, "write", path);
+    return iso_replacement_open(ctx, path, &g->file, &g->picture);
 }
 
 iso_status iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height, iso_gnuplot **answer)
@@ -119,9 +89,10 @@ iso_status iso_gnuplot_open(iso_context *ctx, const char *path, int width, int h
     if (status == ISO_OK) {
         g->script = tmpfile();
         g->complaints = tmpfile();
-        if (!g->script || !g->complaints) status = fail_file(ctx, "open", "a temporary file");
+        if (!g->script || !g->complaints) status = iso_file_trouble(ctx, "open", "a temporary file");
     }
     if (status != ISO_OK) {
+        if (g->picture >= 0) iso_replacement_close(ctx, &g->file, g->picture, false);
         release(g);
         return status;
     }
@@ -244,7 +215,7 @@ static iso_status run(iso_context *ctx, iso_gnuplot *g)
     pid_t child, ended;
     int result = 0;
     if (fflush(g->script) != 0 || ferror(g->script) || fseek(g->script, 0, SEEK_SET) != 0)
-        return fail_file(ctx, "write", "gnuplot's temporary script");
+        return iso_file_trouble(ctx, "write", "gnuplot's temporary script");
     const int error = spawn(g, &child);
     if (error != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot run gnuplot: %s; " INSTALL, strerror(error));
@@ -257,24 +228,15 @@ static iso_status run(iso_context *ctx, iso_gnuplot *g)
     if (ended < 0 && is_whole(g)) return ISO_OK;
     read_complaints(g->complaints, words, sizeof words);
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
-                            "gnuplot did not draw '%s' (exit status %d); " INSTALL "; it said: %s", g->target,
+                            "gnuplot did not draw '%s' (exit status %d); " INSTALL "; it said: %s", g->file.target,
                             ended == child ? WEXITSTATUS(result) : -1, words[0] ? words : "nothing");
 }
 
 iso_status iso_gnuplot_close(iso_context *ctx, iso_gnuplot *g, bool keep)
 {
     if (!g) return ISO_OK;
-    iso_status status = keep ? run(ctx, g) : ISO_OK;
-    if (keep && status == ISO_OK) {
-        if (fsync(g->picture) != 0)
-            status = fail_file(ctx, "write", g->target);
-        else if (rename(g->temporary, g->target) != 0)
-            status = fail_file(ctx, "rename", g->target);
-        else {
-            free(g->temporary); /* has its name */
-            g->temporary = NULL;
-        }
-    }
+    const iso_status drawn = keep ? run(ctx, g) : ISO_OK;
+    const iso_status status = iso_replacement_close(ctx, &g->file, g->picture, keep && drawn == ISO_OK);
     release(g);
-    return status;
+    return drawn != ISO_OK ? drawn : status;
 }

@@ -121,9 +121,9 @@ static iso_status make_start(iso_draft *d, iso_picture model)
 {
     iso_scene *s = &d->scene;
     const double *eps = find(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;
-    const iso_status status =
-        model == ISO_BALL ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, d->project, &s->start)
-                          : iso_start_point(d->yaml.ctx, d->M, d->gamma, eps, d->project, &s->start);
+    const iso_status status = model == ISO_BALL
+                                  ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, d->project, &s->start)
+                                  : iso_start_point(d->yaml.ctx, d->M, d->gamma, eps, d->project, &s->start);
     if (status == ISO_OK) return status;
     return fail_at_field(d, status, strcmp(iso_context_field(d->yaml.ctx), "eps") == 0 ? "point" : "initial");
 }

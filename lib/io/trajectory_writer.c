@@ -9,13 +9,15 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "io/replacement_impl.h"
 #include "io/trajectory_impl.h"
 
 struct iso_trajectory_writer {
     FILE *file;
-    char *target;    /* what messages call it, and the name it is to have            */
-    char *temporary; /* the name it has till then; NULL: written under its own name  */
-    char **names;    /* of the columns, after the header                             */
+    const char *name;            /* what messages call it                              */
+    char *direct;                /* the name of a file that is written as it is, or    */
+    iso_replacement replacement; /* the one that takes an older file's place           */
+    char **names;                /* of the columns, after the header                   */
     size_t columns, rows;
     int error; /* errno of the first failed write: a later one may say less         */
 };
@@ -28,12 +30,6 @@ iso_status iso_trajectory_check_format(iso_context *ctx, const char *path)
                             path);
 }
 
-static iso_status fail_file(iso_context *ctx, const char *what, const char *path)
-{
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, errno == EPIPE ? "pipe" : "", "cannot %s '%s': %s", what, path,
-                            strerror(errno));
-}
-
 static iso_status no_memory(iso_context *ctx)
 {
     return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write a trajectory");
@@ -43,8 +39,7 @@ static void release(iso_trajectory_writer *w)
 {
     for (size_t i = 0; w->names && i < w->columns; i++) free(w->names[i]);
     free(w->names);
-    free(w->target);
-    free(w->temporary);
+    free(w->direct);
     free(w);
 }
 
@@ -59,58 +54,35 @@ static bool is_direct(const char *path, const struct stat *old)
     return old && !S_ISREG(old->st_mode);
 }
 
-/* A name in the folder of `target` that was not there, and its descriptor; -1 with errno set. */
-static int create_beside(const char *target, mode_t mode, char **name)
+static iso_status open_regular(iso_context *ctx, iso_trajectory_writer *w, const char *path)
 {
-    const char *slash = strrchr(target, '/');
-    const int folder = slash ? (int)(slash - target) + 1 : 0;
-    for (int i = 0; i < 1000; i++) {
-        if (asprintf(name, "%.*s.isoroll-%ld-%d.tmp", folder, target, (long)getpid(), i) < 0) {
-            *name = NULL;
-            errno = ENOMEM;
-            return -1;
-        }
-        const int fd = open(*name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-        if (fd >= 0) return fd;
-        free(*name);
-        *name = NULL;
-        if (errno != EEXIST) return -1;
-    }
-    return -1;
-}
-
-/* Behind a link it is the file that is replaced, not the link; a file keeps its permissions. */
-static iso_status open_regular(iso_context *ctx, iso_trajectory_writer *w, const char *path, const struct stat *old)
-{
-    w->target = old ? realpath(path, NULL) : strdup(path);
-    if (!w->target) return fail_file(ctx, "write", path);
-    if (old && access(w->target, W_OK) != 0) return fail_file(ctx, "write", path);
-    const int fd = create_beside(w->target, 0666, &w->temporary);
-    if (fd < 0) return fail_file(ctx, "write", path);
-    if (old) (void)!fchmod(fd, old->st_mode & 07777);
+    int fd;
+    iso_status status = iso_replacement_open(ctx, path, &w->replacement, &fd);
+    if (status != ISO_OK) return status;
+    w->name = w->replacement.target;
     w->file = fdopen(fd, "w");
     if (w->file) return ISO_OK;
+    status = iso_file_trouble(ctx, "write", path);
+    iso_replacement_close(ctx, &w->replacement, fd, false);
     close(fd);
-    unlink(w->temporary);
-    return fail_file(ctx, "write", path);
+    return status;
 }
 
 static iso_status open_direct(iso_context *ctx, iso_trajectory_writer *w, const char *path)
 {
-    w->target = strdup(path);
-    if (!w->target) return no_memory(ctx);
+    w->name = w->direct = strdup(path);
+    if (!w->name) return no_memory(ctx);
     const int fd = open(path, O_WRONLY | O_APPEND | O_CLOEXEC);
     if (fd >= 0 && (w->file = fdopen(fd, "a"))) return ISO_OK;
-    const iso_status status = fail_file(ctx, "write", path);
+    const iso_status status = iso_file_trouble(ctx, "write", path);
     if (fd >= 0) close(fd);
     return status;
 }
 
-static iso_status open_stdout(iso_context *ctx, iso_trajectory_writer *w)
+static void open_stdout(iso_trajectory_writer *w)
 {
     w->file = stdout;
-    w->target = strdup("<stdout>");
-    return w->target ? ISO_OK : no_memory(ctx);
+    w->name = "<stdout>";
 }
 
 iso_status iso_trajectory_open(iso_context *ctx, const char *path, iso_trajectory_writer **writer)
@@ -123,9 +95,9 @@ iso_status iso_trajectory_open(iso_context *ctx, const char *path, iso_trajector
     if (!w) return no_memory(ctx);
     const struct stat *known = stat(path, &old) == 0 ? &old : NULL;
     if (strcmp(path, "-") == 0)
-        status = open_stdout(ctx, w);
+        open_stdout(w);
     else
-        status = is_direct(path, known) ? open_direct(ctx, w, path) : open_regular(ctx, w, path, known);
+        status = is_direct(path, known) ? open_direct(ctx, w, path) : open_regular(ctx, w, path);
     if (status == ISO_OK)
         *writer = w;
     else
@@ -140,7 +112,7 @@ static iso_status check_written(iso_context *ctx, iso_trajectory_writer *w)
     if (!ferror(w->file)) return ISO_OK;
     if (w->error == 0) w->error = errno;
     errno = w->error;
-    return fail_file(ctx, "write", w->target);
+    return iso_file_trouble(ctx, "write", w->name);
 }
 
 /* Whether reading the line back gives the same key and value. */
@@ -187,7 +159,7 @@ iso_status iso_trajectory_write_row(iso_context *ctx, iso_trajectory_writer *w, 
     for (size_t i = 0; i < count; i++)
         if (!isfinite(row[i]))
             return iso_context_fail(ctx, ISO_NUMERICAL, w->names[i], "row %zu of '%s': %s is not finite", w->rows + 1,
-                                    w->target, w->names[i]);
+                                    w->name, w->names[i]);
     for (size_t i = 0; i < count; i++) {
         const int length = iso_number_print(text, row[i]);
         fwrite(text, 1, (size_t)length, w->file);
@@ -199,51 +171,32 @@ iso_status iso_trajectory_write_row(iso_context *ctx, iso_trajectory_writer *w, 
 
 /* ---- Closing ---- */
 
-/* The name is on the disk only when the folder is; folders that cannot be opened or synchronised are left be. */
-static void sync_folder(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
-    const int fd = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
-    if (fd >= 0) {
-        (void)!fsync(fd);
-        close(fd);
-    }
-    free(folder);
-}
-
 static iso_status flush(iso_context *ctx, iso_trajectory_writer *w)
 {
     const iso_status status = check_written(ctx, w);
     if (status != ISO_OK) return status;
-    return fflush(w->file) == 0 ? ISO_OK : fail_file(ctx, "write", w->target);
+    return fflush(w->file) == 0 ? ISO_OK : iso_file_trouble(ctx, "write", w->name);
 }
 
 static iso_status close_regular(iso_context *ctx, iso_trajectory_writer *w, bool keep)
 {
-    iso_status status = keep ? flush(ctx, w) : ISO_OK;
-    if (keep && status == ISO_OK && fsync(fileno(w->file)) != 0) status = fail_file(ctx, "write", w->target);
-    if (fclose(w->file) != 0 && keep && status == ISO_OK) status = fail_file(ctx, "write", w->target);
-    if (keep && status == ISO_OK && rename(w->temporary, w->target) != 0)
-        status = fail_file(ctx, "rename", w->target);
-    if (keep && status == ISO_OK)
-        sync_folder(w->target);
-    else
-        unlink(w->temporary);
-    return status;
+    const iso_status flushed = keep ? flush(ctx, w) : ISO_OK;
+    const iso_status status = iso_replacement_close(ctx, &w->replacement, fileno(w->file), keep && flushed == ISO_OK);
+    fclose(w->file); /* already on the disk, or not wanted */
+    return flushed != ISO_OK ? flushed : status;
 }
 
 static iso_status close_direct(iso_context *ctx, iso_trajectory_writer *w)
 {
     const iso_status status = flush(ctx, w);
     if (w->file == stdout || fclose(w->file) == 0 || status != ISO_OK) return status;
-    return fail_file(ctx, "write", w->target);
+    return iso_file_trouble(ctx, "write", w->name);
 }
 
 iso_status iso_trajectory_close(iso_context *ctx, iso_trajectory_writer *w, bool keep)
 {
     if (!w) return ISO_OK;
-    const iso_status status = w->temporary ? close_regular(ctx, w, keep) : close_direct(ctx, w);
+    const iso_status status = w->replacement.temporary ? close_regular(ctx, w, keep) : close_direct(ctx, w);
     release(w);
     return status;
 }
