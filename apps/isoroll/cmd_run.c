@@ -71,8 +71,9 @@ static iso_status read_words(iso_context *ctx, const char *name, FILE *file, tim
     double time;
     while (status == ISO_OK && (length = next_word(file, word, &at)) > 0) {
         if (!iso_number_read(word, length, &time))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:%d:%d: '%.40s' is not a time: expected a finite number",
-                                    name, at.line, at.column, word);
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                    "%s:%d:%d: '%.40s' is not a time: expected a finite number", name, at.line,
+                                    at.column, word);
         status = add_time(ctx, t, &room, time);
         at.column += (int)length;
     }

@@ -123,7 +123,8 @@ static int flush_output(int status)
 {
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout)) return status;
-    if (errno != EPIPE && status != EXIT_FILE) complain("cannot write to standard output: %s", strerror(errno ? errno : EIO));
+    if (errno != EPIPE && status != EXIT_FILE)
+        complain("cannot write to standard output: %s", strerror(errno ? errno : EIO));
     return status == EXIT_DONE ? EXIT_FILE : status;
 }
 

@@ -87,10 +87,9 @@ static const struct row {
     const char *name, *argument, *expected, *doc;
     bool (*set)(void *at, const char *text);
     size_t offset;
-    int letter; /* of the short form, 0: none */
 } table[] = {
 #define AT(field) offsetof(options, field)
-    {"output", "FILE", "a file", "write there, - is standard output (-o FILE)", set_text, AT(output), 'o'},
+    {"output", "FILE", "a file", "write there, - is standard output (-o FILE)", set_text, AT(output)},
     {"backend", "B", "ball, point or auto", "the model that is integrated: ball, point, auto", set_backend,
      AT(backend)},
     {"method", "NAME", "a method of 'isoroll list methods', or auto", "integrator, or auto", set_method, AT(method)},
@@ -110,7 +109,7 @@ static const struct row {
     {"h", "X", "a number", "energy of the ball, in place of eps", set_number, AT(h)},
     {"max", "X", "a number from 0 on", "exit with 1 if any residual is larger", set_bound, AT(bound)},
     {"verbose", NULL, NULL, "tell on stderr how it went", set_flag, AT(verbose)},
-    {"help", NULL, NULL, "this text (-h)", set_flag, AT(help), 'h'},
+    {"help", NULL, NULL, "this text (-h)", set_flag, AT(help)},
 #undef AT
 };
 enum { ROWS = sizeof table / sizeof *table, LONG = 256 /* above all letters */ };
@@ -152,13 +151,12 @@ static bool unknown(const command *c, char **argv)
     return usage(c, "unknown or ambiguous option ", optopt > 0 && optopt < LONG ? letter : argv[optind - 1]);
 }
 
-/* The row of what getopt_long found: LONG + its index, or its letter. */
+/* The row of what getopt_long found: LONG + its index, -o or -h. */
 static const struct row *found_row(int found)
 {
-    if (found >= LONG) return &table[found - LONG];
-    for (int i = 0; i < ROWS; i++)
-        if (table[i].letter == found) return &table[i];
-    return NULL;
+    const struct row *r = &table[found < LONG ? 0 : found - LONG];
+    while (found < LONG && strcmp(r->name, found == 'o' ? "output" : "help") != 0) r++;
+    return r;
 }
 
 /* The one argument after the options. */

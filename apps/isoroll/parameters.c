@@ -3,15 +3,28 @@
 #include <math.h>
 #include <string.h>
 
+/* What an option says becomes the record's line; where the file has that line it must say the same. */
+static iso_status set_line(iso_context *ctx, iso_record *record, const char *key, size_t count, const double values[])
+{
+    double said[3];
+    iso_status status;
+    if (isnan(values[0])) return ISO_OK;
+    const bool there = iso_record_get_numbers(ctx, record, key, count, said, &status);
+    if (status != ISO_OK) return status;
+    for (size_t i = 0; there && i < count; i++)
+        if (said[i] != values[i])
+            return iso_context_fail(ctx, ISO_BAD_INPUT, key, "--%s contradicts the file, which says '# %s: %s'", key,
+                                    key, iso_record_get(record, key));
+    return iso_record_set_numbers(ctx, record, key, count, values);
+}
+
 iso_status parameters_of_file(iso_context *ctx, const options *o, iso_record *record, iso_params *params)
 {
-    iso_status status = ISO_OK;
-    if (!isnan(o->k)) status = iso_record_set_numbers(ctx, record, "k", 1, &o->k);
-    if (status == ISO_OK && !isnan(o->J[0])) status = iso_record_set_numbers(ctx, record, "J", 3, o->J);
-    if (status == ISO_OK && !isnan(o->h)) status = iso_record_set_numbers(ctx, record, "h", 1, &o->h);
-    if (status == ISO_OK && !isnan(o->eps)) status = iso_record_set_numbers(ctx, record, "eps", 1, &o->eps);
-    if (status == ISO_OK) status = iso_record_params(ctx, record, params);
-    return status;
+    iso_status status = set_line(ctx, record, "k", 1, &o->k);
+    if (status == ISO_OK) status = set_line(ctx, record, "J", 3, o->J);
+    if (status == ISO_OK) status = set_line(ctx, record, "h", 1, &o->h);
+    if (status == ISO_OK) status = set_line(ctx, record, "eps", 1, &o->eps);
+    return status == ISO_OK ? iso_record_params(ctx, record, params) : status;
 }
 
 iso_status name_the_file(iso_context *ctx, const options *o, iso_status status)

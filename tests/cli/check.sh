@@ -1,0 +1,121 @@
+#!/bin/sh
+# check.sh ISOROLL - `isoroll check` passes what solves its model and finds what does not; `isoroll explain`.
+. "$(dirname "$0")/lib.sh"
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
+for as in ball point both; do
+    run 0 run scene.yaml --as "$as" -o "$as.csv"
+    run 0 check --max 1e-9 "$as.csv"
+    silent
+done
+check "both models, the clocks, the map" test "$(grep -cE '^(ball (flow|h|\|n\|)|point (flow|H)|map|clock s) ' out)" -eq 7
+run 0 check ball.csv
+check "11 rows" grep -qx '11 rows' out
+for method in adams msbdf verner_8_5_6; do
+    "$isoroll" run scene.yaml --method $method --as both --tol 1e-13 >method.csv
+    run 0 check --max 1e-8 method.csv
+done
+"$isoroll" run scene.yaml --t-end -10 >back.csv
+run 0 check --max 1e-9 back.csv
+grep -v '^#' ball.csv >bare.csv
+run 0 check --max 1e-9 bare.csv --k=-1 --J 1.4,2.1,3
+cat both.csv | "$isoroll" check --max 1e-9 >out
+check "from standard input" test $? -eq 0
+
+# finds NAME RESIDUAL...: the damaged file is refused, and these residuals are above the bound
+finds() {
+    what=$1
+    shift
+    run 1 check --max 1e-9 damaged.csv
+    says "a residual is above 1e-09"
+    for residual; do
+        check "$what: $residual is named" grep -q "^$residual  .*ABOVE THE BOUND" out
+    done
+    run 0 check damaged.csv # without a bound it only tells
+    silent
+}
+
+# damage FILE AWK: changes row 4, x1 ... being its columns
+damage() {
+    awk -F, -v OFS=, -v CONVFMT=%.17g "/^[0-9]/ && ++row == 4 { $2 } { print }" "$1" >damaged.csv
+}
+damage ball.csv '$5 *= 1 + 1e-7; $6 *= 1 + 1e-7; $7 *= 1 + 1e-7'
+finds "n scaled" "ball |n|" "ball flow"
+check "the row is named" grep -q '^ball |n|  *[0-9.e-]*  *4 ' out
+damage ball.csv '$2 *= 1 + 1e-7; $3 *= 1 + 1e-7; $4 *= 1 + 1e-7'
+finds "omega scaled" "ball h" "ball F_shell" "ball flow"
+damage ball.csv '$2 += 1e-7 * $5; $3 += 1e-7 * $6; $4 += 1e-7 * $7'
+finds "spin about n" "ball omega.n"
+damage ball.csv '$1 += 1e-6'
+finds "time shifted" "ball flow"
+awk '/^3,/ { kept = $0; next } { print } /^4,/ { print kept }' ball.csv |
+    awk -F, -v OFS=, '/^[0-9]/ { $1 = row++ } { print }' >damaged.csv
+finds "two rows exchanged" "ball flow"
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ { $3 *= 1.000001 } { print }' both.csv >damaged.csv
+finds "s runs fast" "clock s"
+damage both.csv '$2 += 1e-5'
+finds "tau shifted" "clock tau"
+damage both.csv '$10 *= 1 + 1e-7; $11 *= 1 + 1e-7; $12 *= 1 + 1e-7'
+finds "M scaled" "point H" "map"
+sed 's/^# k: -1/# k: 0.5/' ball.csv >damaged.csv
+finds "wrong k" "ball flow"
+sed 's/^# J: 1.39/# J: 1.38/' ball.csv >damaged.csv
+finds "wrong J" "ball h" "ball flow"
+sed '/^# h/d; s/^# eps.*/# eps: 6.6/' point.csv >damaged.csv
+finds "wrong eps" "point H"
+
+# --- bad files, each with its place
+# bad PLACE WORDS: what the last command wrote into bad.csv is refused
+bad() {
+    refuses 3 "bad.csv:$1: " check bad.csv
+    says "$2"
+}
+sed '1s/1$/2/' ball.csv >bad.csv
+bad 1:22 "expected version 1"
+sed '11s/omega2/omga2/' ball.csv >bad.csv
+bad 11:10 "did you mean 'omega2'?"
+sed '11s/omega2/omega1/' ball.csv >bad.csv
+bad 11:10 "duplicate column"
+sed '3s/.*/# model: ball/' ball.csv >bad.csv
+bad 3:3 "duplicate key"
+sed '14s/,/;/' ball.csv >bad.csv
+bad 14:1 "expected a finite number for t"
+sed '14s/,/,inf,/' ball.csv >bad.csv
+bad 14:3 "not 'inf'"
+sed '14s/$/,1/' ball.csv >bad.csv
+bad "14:$(($(sed -n 14p ball.csv | wc -c) + 1))" "expected 7 numbers"
+sed '14s/,[^,]*$//' ball.csv >bad.csv
+bad "14:$(sed -n 14p bad.csv | wc -c)" "found 6"
+head -c 700 ball.csv | sed '$s/,[^,]*$//' >bad.csv # a file cut short
+run 3 check bad.csv
+says "bad.csv:"
+sed 11d ball.csv >bad.csv
+bad 11:1 "expected a line of column names"
+printf 't,omega1\n0,\0001\n' >bad.csv
+bad 2:3 "NUL"
+: >bad.csv
+bad 1:1 "end of the file"
+cp scene.yaml bad.csv
+bad 1:1 "unknown column"
+sed 's/^# J:.*/# J: 1 2/' ball.csv >bad.csv
+refuses 3 "'J: 1 2' should be 3 finite numbers" check bad.csv
+awk -F, -v OFS=, '/^#/ { print; next } { print $1, $2, $3, $4 }' ball.csv >bad.csv
+refuses 3 "neither a ball's six columns" check bad.csv
+refuses 2 "from 0 on" check --max -1 ball.csv
+refuses 3 "--k contradicts" check --k 1 ball.csv
+refuses 3 "--k K" check bare.csv
+
+# --- explain
+run 0 explain scene.yaml
+silent
+for words in "k = -1, J = 1.3999999999999999" "Neumann's problem" "backend ball, 6 states, in the clock t" "  omega1  angular velocity" \
+    "method rk8pd" "energy h = 0.7374375, coupling eps = h det J/k^2 = 6.50419875" "11 rows to t = 10, columns t omega1" "integrals that hold" "F_shell" \
+    "integrals that do not hold" "cost of a right-hand side: "; do
+    check "explain: $words" grep -F -q -e "$words" out
+done
+check_not "explain: no clock without a column" grep -q "because a column asks" out
+run 0 explain scene.yaml --as both --backend point
+for words in "backend point" "  M1 " "  gamma3 " "  s       clock, because a column asks for it"; do
+    check "explain --as both --backend point: $words" grep -F -q -e "$words" out
+done
+refuses 2 "unknown or ambiguous option" explain scene.yaml --rows 3
+finish

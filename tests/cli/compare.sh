@@ -1,0 +1,103 @@
+#!/bin/sh
+# compare.sh ISOROLL - `isoroll compare` on every example: the backends agree, integrals are conserved, a table and
+# pictures come out.
+. "$(dirname "$0")/lib.sh"
+worst_difference=0 worst_drift=0 scenes=0
+
+# numbers SECTION: every number of the JSON document in `out` under a key of that name, as jansson indents them
+numbers() {
+    awk -v key="\"$1\"" '
+        index($0, key ": {") { inside = 1; next }
+        inside && /}/ { inside = 0 }
+        inside { sub(/.*: /, ""); sub(/,$/, ""); print; next }
+        $1 == key ":" { sub(/.*: /, ""); sub(/,$/, ""); print }' out
+}
+
+# is_json: braces and brackets of `out` close
+is_json() {
+    tr -cd '{}[]' <out | awk '{ n = gsub(/{/, "") - gsub(/}/, ""); m = gsub(/\[/, "") - gsub(/]/, ""); exit n || m }'
+}
+
+# compares NAME SCENE: everything that must hold of a comparison
+compares() {
+    scenes=$((scenes + 1))
+    run 0 compare "$2"
+    silent
+    check "$1: a table" test "$(grep -cE '^ +[-0-9.e+]+ +(ball|point) ' out)" -ge 24 # 2 models x 6 rows x 2 backends
+    check "$1: its end" grep -q '^largest relative difference of the backends over' out
+    run 0 compare "$2" --json
+    silent
+    check "$1: JSON" is_json
+    numbers worst_difference >a
+    check "$1: six differences" test "$(wc -l <a)" -eq 6
+    while read -r x; do
+        at_most "$1: difference" "$x" 1e-9
+        worst_difference=$(larger "$worst_difference" "$x")
+    done <a
+    numbers drift >a
+    check "$1: drifts" test "$(wc -l <a)" -ge 12
+    while read -r x; do
+        at_most "$1: drift" "$x" 1e-11
+        worst_drift=$(larger "$worst_drift" "$x")
+    done <a
+}
+
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
+cat >point.yaml <<END
+point: {k: 0.6, J: [1.4, 2.1, 3.0]}
+initial: {gamma: [0.6, 0, 0.8], M: [0, 2.5, 0]}
+time: {end: -5}
+END
+compares "a ball" scene.yaml
+compares "a point, backwards" point.yaml
+for file in "$source"/examples/*/scene.yaml; do
+    [ ! -f "$file" ] || compares "${file#"$source/"}" "$file"
+done
+
+run 0 compare scene.yaml --rows 2
+check "--rows 2" test "$(grep -cE '^ +[-0-9.e+]+ +(ball|point) ' out)" -eq 8
+run 0 compare scene.yaml --rows 1
+check "--rows 1" test "$(grep -cE '^ +10 +(ball|point) ' out)" -eq 2
+run 0 compare scene.yaml --rows 1000000
+check "all rows" test "$(grep -cE '^ +[-0-9.e+]+ +(ball|point) ' out)" -eq 84
+for rows in 0 -1 2.5 x; do refuses 2 "expected a whole number" compare scene.yaml --rows "$rows"; done
+run 0 compare scene.yaml --t-end 0
+run 0 compare scene.yaml --t-end -3 --step 1 --method adams --tol 1e-10
+check "--method" grep -q '^backend ball   adams: ' out
+"$isoroll" compare - <scene.yaml >out
+check "a scene from standard input" test $? -eq 0
+
+# --- pictures
+# is_picture FORMAT: the file `picture.FORMAT` is one
+is_picture() {
+    case $1 in
+    svg) head -c 400 picture.svg | grep -q '<svg' && tail -n 2 picture.svg | grep -q '</svg>' ;;
+    png) [ "$(head -c 8 picture.png | od -An -tx1 | tr -d ' ')" = 89504e470d0a1a0a ] ;;
+    pdf) [ "$(head -c 5 picture.pdf)" = %PDF- ] ;;
+    esac
+}
+if command -v gnuplot >/dev/null; then
+    for format in svg png pdf; do
+        run 0 compare scene.yaml --plot picture.$format
+        silent
+        check "a picture in .$format" is_picture $format
+    done
+    mkdir folder
+    run 5 compare scene.yaml --plot folder/absent/a.svg
+    says "absent"
+    run 0 compare scene.yaml --plot folder/a.svg
+    check "no temporary files" test "$(ls -A folder)" = a.svg
+else
+    echo "gnuplot is not installed: no pictures"
+fi
+for name in a.jpg a '' svg; do refuses 2 "" compare scene.yaml --plot "$name"; done
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1e6 1e5 >endless.yaml
+before=$(date +%s)
+refuses 2 "" compare endless.yaml --plot a.jpg
+check "refused before the work" test $(($(date +%s) - before)) -le 2
+
+refuses 3 "<stdin>:1:1" compare - </dev/null
+scene 1 "1, 2, 3" "0, 0, 0" "0, 0, 1" 1 0.1 >rest.yaml
+refuses 3 "at rest" compare rest.yaml
+echo "$scenes scenes: worst difference $worst_difference, worst drift $worst_drift"
+finish

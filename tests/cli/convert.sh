@@ -1,0 +1,131 @@
+#!/bin/sh
+# convert.sh ISOROLL - `isoroll convert`: there and back through files and pipes, and what it refuses.
+. "$(dirname "$0")/lib.sh"
+normal="0.36, 0.48, 0.8"
+worst_state=0 worst_clock=0
+
+# states FILE: a trajectory without its clocks, to be looked at apart
+states() {
+    awk -F, -v OFS=, '/^#/ { next } !n++ { for (i = 1; i <= NF; i++) if ($i !~ /^(t|tau|s)$/) keep[++m] = i }
+        { for (j = 1; j <= m; j++) printf "%s%s", $keep[j], j < m ? "," : "\n" }' "$1"
+}
+
+# round_trip NAME K SCENE AS: run, convert to the other model and back through files and through pipes
+round_trip() {
+    case $4 in ball) other=point ;; *) other=ball ;; esac
+    run 0 run "$3" --as "$4" -o a.csv
+    run 0 convert --to "$other" a.csv -o b.csv
+    silent
+    run 0 convert --to "$4" b.csv -o c.csv
+    "$isoroll" convert --to "$other" <a.csv | "$isoroll" convert --to "$4" - >piped.csv
+    check "$1: files and pipes" cmp c.csv piped.csv
+    check "$1: the same columns and clock" test "$(columns a.csv)" = "$(columns c.csv)"
+    check "$1: the same lines" test "$(grep '^# [kJhe]' a.csv)" = "$(grep '^# [kJhe]' c.csv)"
+    states a.csv >a
+    states c.csv >c
+    bound=$(awk -v k="$2" 'BEGIN { k = k < 0 ? -k : k; x = 1 / (2 * k); print 4 * (x > 1 ? x : 1) }')
+    error=$(difference a c 2.220446049250313e-16) # in units in the last place of the vector's size
+    at_most "$1: states" "$error" "$bound"
+    worst_state=$(larger "$worst_state" "$(awk -v e="$error" -v b="$bound" 'BEGIN { print e / b }')")
+    error=$(difference a.csv c.csv)
+    at_most "$1: with the clock" "$error" "${5:-1e-11}"
+    worst_clock=$(larger "$worst_clock" "$error")
+}
+
+for k in 1 -1 0.5 -0.4 0.05 -0.05 50 -50; do
+    scene "$k" "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml
+    round_trip "k = $k" "$k" scene.yaml ball
+    round_trip "k = $k from the point" "$k" scene.yaml point
+done
+for k in 1 -1 0.6; do
+    scene "$k" "1e-3, 1, 1e3" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml
+    round_trip "J to 1e6, k = $k" "$k" scene.yaml ball 1e-9 # an ulp of s is 1e-10 of t where ds/dt is small
+done
+for power in -150 -75 75 150; do
+    scene -0.7 "1.4, 2.1, 3.0" "0.9e$power, -0.3e$power, -0.225e$power" "$normal" "5e$((-power))" "1e$((-power))" >scene.yaml
+    round_trip "omega in 1e$power" -0.7 scene.yaml ball
+    round_trip "omega in 1e$power from the point" -0.7 scene.yaml point
+done
+
+# what `run` says of the other model is what `convert` makes of this one
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml
+run 0 run scene.yaml --as both -o both.csv
+run 0 run scene.yaml --as ball -o ball.csv
+run 0 convert --to point ball.csv -o point.csv
+check "a point file begins with s" test "$(columns point.csv)" = s,M1,M2,M3,gamma1,gamma2,gamma3
+check "the line model: point" grep -qx '# model: point' point.csv
+at_most "converted and integrated" "$(difference point.csv both.csv)" 1e-11
+run 0 convert --to point both.csv
+at_most "from a file with both" "$(difference out both.csv)" 1e-11
+run 0 run scene.yaml --t-end -5 -o back.csv
+run 0 convert --to point back.csv
+cp out back_point.csv
+run 0 convert --to ball back_point.csv
+at_most "backwards" "$(difference back.csv out)" 1e-11
+cp ball.csv place.csv
+run 0 convert --to point place.csv -o place.csv
+check "in place" cmp place.csv point.csv
+
+# a piece that does not begin at 0 keeps its times
+awk '!/^[0-9]/ || ++n > 8' ball.csv >late.csv
+run 0 convert --to point late.csv -o late_point.csv
+run 0 convert --to ball late_point.csv
+at_most "a piece that does not begin at 0" "$(difference late.csv out)" 1e-11
+
+# without lines; CRLF; a byte order mark; blank lines
+grep -v '^#' ball.csv >bare.csv
+run 0 convert --to point bare.csv --k -1 --J 1.4,2.1,3
+at_most "a bare file" "$(difference point.csv out)" 1e-15
+grep -v '^#' point.csv >bare_point.csv
+run 0 convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3
+at_most "a bare point" "$(difference ball.csv out)" 1e-11
+run 0 convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 6.50419875
+run 0 convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --h 0.7374375
+run 0 convert --to point ball.csv --k -1 # says what the file says
+{ printf '\357\273\277' && sed 's/$/\r/' ball.csv && printf '\r\n\n'; } >crlf.csv
+run 0 convert --to point crlf.csv
+check "CRLF" cmp out point.csv
+awk -F, -v OFS=, '/^#/ { print; next } { print $2, $3, $4, $5, $6, $7 }' ball.csv >timeless.csv
+run 0 convert --to point timeless.csv
+check "no clock, no clock" test "$(columns out)" = M1,M2,M3,gamma1,gamma2,gamma3
+
+# damage NUMBER COLUMN VALUE FILE: that file with another number in a row
+damage() {
+    awk -F, -v OFS=, -v CONVFMT=%.17g -v n="$1" -v c="$2" -v v="$3" '/^[0-9]/ && ++row == n { $c = v } { print }' "$4" >damaged.csv
+}
+
+# --- refusals
+refuses 2 "--to ball or --to point is missing" convert ball.csv
+refuses 2 "expected ball or point" convert --to both ball.csv
+refuses 2 "expected three numbers" convert --to point --J 1,2 ball.csv
+refuses 2 "[1e-15, 0.1]" convert --to point --tol 1 ball.csv
+refuses 3 "--k contradicts the file, which says '# k: -1'" convert --to point --k 1 ball.csv
+refuses 3 "--J contradicts" convert --to point --J 1,2,3 ball.csv
+refuses 3 "k" convert --to point bare.csv
+refuses 3 "--J" convert --to point bare.csv --k 1
+refuses 3 "k = 0" convert --to point bare.csv --k 0 --J 1,2,3
+refuses 3 "J1 = -1" convert --to point bare.csv --k 1 --J=-1,2,3
+refuses 3 "M1" convert --to ball ball.csv
+refuses 3 "omega1" convert --to point point.csv
+refuses 3 "off the level H = 0" convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3
+refuses 5 "cannot open" convert --to ball absent.csv
+refuses 5 "cannot read" convert --to ball .
+sed 's/^[0-9].*/0,0,0,0,0.6,0,0.8/' ball.csv | awk '!/^0/ || !n++' >rest.csv
+refuses 3 "at rest" convert --to point rest.csv
+damage 3 5 0.5 ball.csv
+refuses 3 "row 3" convert --to point damaged.csv
+damage 4 1 0.1 ball.csv
+refuses 3 "row 4" convert --to point damaged.csv # the time turns back
+damage 4 3 1 ball.csv
+refuses 3 "row 4" convert --to point damaged.csv # spins about n
+damage 4 3 nan ball.csv
+refuses 3 "damaged.csv:15:26: expected a finite number for omega2" convert --to point damaged.csv
+damage 4 3 1,2 ball.csv
+refuses 3 "damaged.csv:15:" convert --to point damaged.csv
+grep '^#' ball.csv >empty.csv
+refuses 3 "empty.csv:10:1" convert --to point empty.csv
+columns ball.csv >>empty.csv
+refuses 3 "no rows" convert --to point empty.csv
+refuses 3 "<stdin>:1:1" convert --to point - </dev/null
+echo "worst state, in parts of 4 max(1, 1/|2k|) ulp: $worst_state; with the clock: $worst_clock"
+finish

@@ -1,0 +1,151 @@
+# lib.sh - what the scripts here share; each begins with `. "$(dirname "$0")/lib.sh"` and ends with `finish`.
+# shellcheck shell=sh disable=SC2034 # variables for those who source it
+# They work in a folder of their own that is removed at the end.
+set -u
+case ${1:?usage: sh SCRIPT ISOROLL} in
+/*) isoroll=$1 ;;
+*) isoroll=$PWD/$1 ;;
+esac
+here=$(cd "$(dirname "$0")" && pwd)
+source=${ISO_SOURCE:-$here/../..}
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' HUP INT TERM
+cd "$work" || exit 1
+checks=0 failures=0
+export LC_ALL=C
+
+# Counts a check that has failed; what the last `run` said on stderr goes with it.
+fail() {
+    failures=$((failures + 1))
+    echo "FAIL $*" >&2
+    [ ! -s err ] || sed 's/^/    /' err | head -n 5 >&2
+}
+
+# check NAME COMMAND...: the command succeeds
+check() {
+    name=$1
+    shift
+    checks=$((checks + 1))
+    "$@" >/dev/null 2>&1 || fail "$name: $*"
+}
+
+# check_not NAME COMMAND...: the command fails
+check_not() {
+    name=$1
+    shift
+    checks=$((checks + 1))
+    if "$@" >/dev/null 2>&1; then fail "$name: should fail: $*"; fi
+}
+
+# run STATUS ARGUMENT...: isoroll's exit status; its output is left in `out`, its messages in `err`
+run() {
+    wanted=$1
+    shift
+    checks=$((checks + 1))
+    last=$*
+    "$isoroll" "$@" >out 2>err
+    status=$?
+    [ "$status" -eq "$wanted" ] || fail "isoroll $last: exit status $status, not $wanted"
+}
+
+# says WORDS: the last run has one message, which begins with "isoroll: " and has these words
+says() {
+    checks=$((checks + 1))
+    [ "$(wc -l <err)" -eq 1 ] || fail "isoroll $last: expected one line on stderr"
+    case $(cat err) in
+    "isoroll: "*) ;;
+    *) fail "isoroll $last: expected 'isoroll: ...' on stderr" ;;
+    esac
+    grep -F -q -e "$1" err || fail "isoroll $last: expected the words '$1'"
+}
+
+# refuses STATUS WORDS ARGUMENT...: exit status, message, and nothing on standard output
+refuses() {
+    words=$2
+    wanted=$1
+    shift 2
+    run "$wanted" "$@"
+    says "$words"
+    check "isoroll $last: nothing on stdout" test ! -s out
+}
+
+# silent: the last run has no messages
+silent() {
+    check "isoroll $last: nothing on stderr" test ! -s err
+}
+
+# at_most NAME VALUE BOUND: numbers; a value that is none is a failure
+at_most() {
+    checks=$((checks + 1))
+    awk -v x="$2" -v bound="$3" 'BEGIN { exit !(x ~ /^[-+0-9.eE]+$/ && x + 0 <= bound + 0) }' ||
+        fail "$1: $2 is above $3"
+}
+
+# larger A B: the larger of two numbers
+larger() {
+    awk -v a="$1" -v b="$2" 'BEGIN { print (a + 0 > b + 0 ? a : b) }'
+}
+
+# rows FILE: a trajectory without its lines of # and without its header
+rows() {
+    grep -v '^#' "$1" | tail -n +2
+}
+
+# columns FILE: its header line
+columns() {
+    grep -v '^#' "$1" | head -n 1
+}
+
+# difference A B [UNIT]: the largest difference of two trajectories' common columns (at least one besides the clocks, in as many rows),
+# relative to the vector or, for a clock, to its largest value; in units of UNIT. Prints a number, or words if it cannot.
+difference() {
+    awk -F, -v unit="${3:-1}" '
+        function size(x, i) { x = 0; for (i in v) { w = v[i] < 0 ? -v[i] : v[i]; if (w > x) x = w } return x }
+        function abs(x) { return x < 0 ? -x : x }
+        FNR == 1 { file++; header = 0 }
+        /^#/ { next }
+        !header { header = 1; for (i = 1; i <= NF; i++) at[file, $i] = i; next }
+        file == 1 { a[++rows] = $0; next }
+        {
+            n++
+            split(a[n], x, ",")
+            for (c in at) {
+                split(c, key, SUBSEP)
+                name = key[2]
+                if (key[1] != 1 || !((2, name) in at)) continue
+                p = x[at[1, name]] + 0; q = $at[2, name] + 0
+                vector = name; sub(/[123]$/, "", vector)
+                if (name == "t" || name == "s" || name == "tau") {
+                    clock[name] = 1
+                    if (abs(p - q) > apart[name]) apart[name] = abs(p - q)
+                    if (abs(p) > largest[name]) largest[name] = abs(p)
+                } else {
+                    common++
+                    if (abs(p - q) > d[vector, n]) d[vector, n] = abs(p - q)
+                    if (abs(p) > s[vector, n]) s[vector, n] = abs(p)
+                }
+            }
+        }
+        END {
+            if (n != rows || n == 0 || !common) { print "rows", rows + 0, n + 0, "common columns", common + 0; exit }
+            for (c in d) if (d[c] > worst * s[c]) worst = d[c] / s[c]
+            for (c in apart) if (apart[c] > worst * largest[c]) worst = apart[c] / largest[c]
+            printf "%.3g\n", worst / unit
+        }' "$1" "$2"
+}
+
+# scene K J OMEGA NORMAL END STEP: a reduced scene, vectors as "x, y, z"
+scene() {
+    cat <<END
+reduced: {k: $1, J: [$2]}
+initial: {normal: [$4], angular_velocity: [$3]}
+time: {end: $5, step: $6}
+END
+}
+
+# finish: the count, and the exit status
+finish() {
+    echo "$(basename "$0" .sh): $checks checks, $failures failures"
+    [ "$checks" -gt 0 ] && [ "$failures" -eq 0 ]
+}

@@ -1,0 +1,189 @@
+#!/bin/sh
+# run.sh ISOROLL - `isoroll run`: what it writes, at which times, and that only the scene decides what it writes.
+. "$(dirname "$0")/lib.sh"
+ball=t,omega1,omega2,omega3,n1,n2,n3
+point=s,M1,M2,M3,gamma1,gamma2,gamma3
+both=t,tau,s,omega1,omega2,omega3,n1,n2,n3,M1,M2,M3,gamma1,gamma2,gamma3
+J="1.4, 2.1, 3.0" omega="0.9, -0.3, -0.225" normal="0.36, 0.48, 0.8"
+scene -1 "$J" "$omega" "$normal" 10 1 >scene.yaml
+
+# header SCENE COLUMNS [OPTION...]: the header line
+header() {
+    input=$1 wanted_columns=$2
+    shift 2
+    run 0 run "$input" "$@"
+    silent
+    check "columns of $last" test "$(columns out)" = "$wanted_columns"
+}
+
+# --- columns and lines
+header scene.yaml "$ball"
+cp out ball.csv
+header scene.yaml "$ball" --as ball
+check "--as ball is a ball's default" cmp out ball.csv
+header scene.yaml "$point" --as point
+cp out point.csv
+header scene.yaml "$both" --as both
+cp out both.csv
+{ cat scene.yaml; echo "output: {columns: [s, n3, t, gamma1, omega2]}"; } >columns.yaml
+header columns.yaml s,n3,t,gamma1,omega2
+cp out columns.csv
+header columns.yaml "$point" --as point
+at_most "chosen columns are those of both" "$(difference both.csv columns.csv)" 1e-11
+at_most "ball of both" "$(difference ball.csv both.csv)" 1e-11
+check "first line" test "$(head -n 1 ball.csv)" = "# isoroll trajectory 1"
+check "comment lines" test "$(sed -n 's/^# \([a-zA-Z]*\): .*/\1/p' ball.csv | tr '\n' ' ')" = \
+    "model k J h eps backend method tolerance isoroll "
+check "J is written in full" grep -qx '# J: 1.3999999999999999 2.1000000000000001 3' ball.csv
+check "version" grep -qx "# isoroll: $("$isoroll" --version | sed -n 's/^isoroll //p')" ball.csv
+check "the line model: both" grep -qx '# model: both' both.csv
+check "11 rows" test "$(rows ball.csv | wc -l)" -eq 11
+check "the start stands in the first row" test "$(rows ball.csv | head -n 1)" = \
+    "0,0.90000000000000002,-0.29999999999999999,-0.22500000000000001,0.35999999999999999,0.47999999999999998,0.80000000000000004"
+rows both.csv | awk -F, '{ for (i = 1; i <= NF; i++) if (sprintf("%.17g", $i) != $i) bad = 1 } END { exit bad || !NR }'
+check "all numbers are the shortest form of %.17g" test $? -eq 0
+
+# --- a point's scene, and a ball's by the other backend
+cat >point.yaml <<END
+point: {k: -1, J: [$J]}
+initial: {gamma: [0.6, 0, 0.8], M: [0, 2.5, 0]}
+time: {end: 5}
+END
+header point.yaml "$point"
+check "101 rows without a step" test "$(rows out | wc -l)" -eq 101
+header point.yaml "$ball" --as ball
+run 0 run scene.yaml --backend point --as both
+check "the line backend: point" grep -qx '# backend: point' out
+at_most "backends" "$(difference both.csv out)" 1e-11
+
+# --- times
+printf '5 1,5\t-3 0 # 99\n\n2,,7 \r\n# 4\n10' >asked # unsorted, repeated, both directions
+run 0 run scene.yaml --times asked
+check "rows in the order asked" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "5 1 5 -3 0 2 7 10 "
+cp out asked.csv
+for t in 0 1 2 5 7 10; do
+    rows asked.csv | grep "^$t," | sort -u >a
+    rows ball.csv | grep "^$t," >b
+    check "the row t = $t has the same bits whatever else is asked" cmp a b
+done
+run 0 run scene.yaml --step 0.01 --t-end 300
+rows out | grep "^7," >a
+rows ball.csv | grep "^7," >b
+check "the row t = 7 has the same bits in a longer, finer run" cmp a b
+echo 7 | "$isoroll" run scene.yaml --times - | rows /dev/stdin >a
+check "times from standard input" cmp a b
+for end in 3000 -3000; do # far rows are approached in pieces
+    run 0 run scene.yaml --t-end $end --step 3000
+    rows out | tail -n 1 >a
+    run 0 run scene.yaml --t-end $end --step 7
+    rows out | tail -n 1 >b
+    check "the row t = $end has the same bits in one go" cmp a b
+done
+
+# bad_times TEXT PLACE WORDS
+bad_times() {
+    printf "$1" >asked
+    refuses 3 "asked:$2: $3" run scene.yaml --times asked
+}
+bad_times '1 2\n3,x\n' 2:3 "'x' is not a time"
+bad_times '1\n\n  nan' 3:3 "'nan'"
+bad_times '1e400' 1:1 "'1e400'"
+bad_times '0x10' 1:1 "'0x10'"
+bad_times '1\n 5\0006\n' 2:2 "'5' is not a time" # a NUL byte
+bad_times '\303\251 # \303\251' 1:1 "'é' is not a time"
+bad_times '# \303\251\n1 #\303\251\n 2 x' 3:4 "'x' is not a time"
+bad_times '# nothing\n' 1:1 "no times"
+bad_times '' 1:1 "no times"
+refuses 5 "cannot open 'absent'" run scene.yaml --times absent
+refuses 5 "cannot read '.'" run scene.yaml --times .
+refuses 3 "/dev/zero:1:1" run scene.yaml --times /dev/zero
+refuses 2 "not both" run - --times -
+
+# --- --t-end and --step
+run 0 run scene.yaml --t-end -4
+check "backwards" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 -1 -2 -3 -4 "
+cp out backwards.csv
+run 0 run scene.yaml --t-end 2.5 --step 0.5
+check "--t-end and --step" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 0.5 1 1.5 2 2.5 "
+run 0 run scene.yaml --t-end 2.25
+check "the last row is the end" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 1 2 2.25 "
+run 0 run scene.yaml --step 100
+check "a step beyond the end" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 10 "
+run 0 run scene.yaml --t-end 0
+check "end: 0 is one row" test "$(rows out | cut -d, -f1)" = 0
+# back from where the run backwards ended
+rows backwards.csv | tail -n 1 | tr , ' ' >last
+read -r _ w1 w2 w3 n1 n2 n3 <last
+scene -1 "$J" "$w1, $w2, $w3" "$n1, $n2, $n3" 4 1 >return.yaml
+run 0 run return.yaml
+{ columns out; rows out | tail -n 1 | sed 's/^4,/0,/'; } >a
+{ columns ball.csv; rows ball.csv | head -n 1; } >b
+at_most "there and back" "$(difference b a)" 1e-11
+
+# --- where it is written
+"$isoroll" run - <scene.yaml >a
+check "a scene from standard input" cmp a ball.csv
+run 0 run scene.yaml -o file.csv
+check "-o FILE has what standard output has" cmp file.csv ball.csv
+check "nothing else was printed" test ! -s out
+run 0 run scene.yaml --output=file.csv --as point
+check "an old file is replaced" cmp file.csv point.csv
+run 0 run scene.yaml -o -
+check "-o -" cmp out ball.csv
+mkdir folder
+cp scene.yaml folder
+refuses 5 "cannot write" run scene.yaml -o folder/absent/out.csv
+refuses 2 "would overwrite" run folder/scene.yaml -o ./folder/scene.yaml
+refuses 2 "HDF5" run scene.yaml -o folder/out.h5
+check "nothing is left of them" test "$(ls -A folder)" = scene.yaml
+check "the scene is as it was" cmp scene.yaml folder/scene.yaml
+long=folder/$(printf '%0150d' 1)$(printf '\303\251\377').csv # a long name that is not UTF-8
+run 0 run scene.yaml -o "$long"
+check "a name that is not UTF-8" cmp "$long" ball.csv
+check "no temporary file" test "$(ls -A folder | wc -l)" -eq 2
+
+# --- methods: every one runs, and twice the same
+"$isoroll" list methods | awk 'NR > 2 { print $1 }' >methods
+check "20 methods or more" test "$(wc -l <methods)" -ge 20
+while read -r method; do
+    tolerance=1e-10
+    case $method in heun_euler* | rk4 | *_2_3) tolerance=1e-7 ;; esac # of low order: many steps
+    run 0 run scene.yaml --as both --method "$method" --tol "$tolerance"
+    check "the line method: $method" grep -qx "# method: $method" out
+    at_most "$method" "$(difference both.csv out)" 2e-5
+    [ "$tolerance" = 1e-7 ] || at_most "$method" "$(difference both.csv out)" 2e-7
+    cp out a
+    run 0 run scene.yaml --as both --method "$method" --tol "$tolerance"
+    check "$method twice" cmp out a
+done <methods
+run 0 run scene.yaml --method dormand
+check "a beginning is enough" grep -qx '# method: dormand_prince_7_4_5' out
+run 0 run scene.yaml --method auto --verbose
+says "11 rows; backend ball, method"
+check "--verbose changes nothing in the file" cmp out ball.csv
+
+# --- a ball one can hold, and the same by its k and J
+cat >physical.yaml <<END
+ball: {mass: 2, radius: 0.5, inertia: [0.5, 0.75, 1]}
+surface: {kind: shell, radius: 0.25}
+initial: {normal: [0.6, 0, 0.8], angular_velocity: [0.8, 1.5, -0.6]}
+time: {end: 20, step: 2}
+END
+scene -1 "1, 1.25, 1.5" "0.8, 1.5, -0.6" "0.6, 0, 0.8" 20 2 >reduced.yaml
+run 0 run physical.yaml --as both
+cp out a
+run 0 run reduced.yaml --as both
+check "physical and reduced scene" cmp a out
+
+# --- extreme units: J in 1e-30, angular velocity in 1e150 of an order-one problem
+scene -1 "1.4e-30, 2.1e-30, 3.0e-30" "0.9e150, -0.3e150, -0.225e150" "$normal" 1e-149 1e-150 >extreme.yaml
+run 0 run extreme.yaml
+{ columns out; rows out | awk -F, -v OFS=, '{ print $1 * 1e150, u($2), u($3), u($4), $5, $6, $7 }
+    function u(x) { return sprintf("%.17g", x * 1e-75 * 1e-75) }'; } >a
+at_most "extreme units" "$(difference ball.csv a)" 1e-11
+
+# --- refusals that need the scene
+refuses 3 "<stdin>:1:1" run - </dev/null
+refuses 2 "1e8 rows" run scene.yaml --step 1e-9
+refuses 5 "cannot open" run folder/absent.yaml
+finish

@@ -1,0 +1,168 @@
+#!/bin/sh
+# usage.sh ISOROLL - the command line itself: exit statuses, messages, help, pipes, full disks, interruptions.
+. "$(dirname "$0")/lib.sh"
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
+"$isoroll" run scene.yaml >ball.csv
+commands="run convert compare check explain list"
+
+# --- exit statuses
+run 0 run scene.yaml
+silent
+run 1 check --max 1e-30 ball.csv
+says "ball.csv: a residual is above 1e-30"
+refuses 2 "missing argument SCENE" run
+refuses 3 "absent_key" run - <<END
+absent_key: 1
+END
+scene -1 "1.4e100, 2.1e100, 3e100" "0.9e200, -0.3e200, -0.225e200" "0.36, 0.48, 0.8" 1e-199 1e-200 >large.yaml
+run 0 run large.yaml
+refuses 4 "fit a double" run large.yaml --as point
+run 4 compare large.yaml
+refuses 5 "cannot open 'absent.yaml': No such file" run absent.yaml
+
+# --- what is wrong on a command line
+run 2
+check "help on stderr" grep -q '^usage: isoroll' err
+refuses 2 "unknown command 'runn'" runn scene.yaml
+refuses 2 "unknown command ''" ''
+refuses 2 "unknown command '--verbose'" --verbose
+refuses 2 "option --bogus; see 'isoroll run --help'" run --bogus scene.yaml
+refuses 2 "ambiguous option --t=5" run --t=5 scene.yaml # --tol, --times, --t-end
+refuses 2 "option -x" run --verbose -xh scene.yaml
+refuses 2 "option --help=1" run --help=1
+refuses 2 "missing after --tol" run scene.yaml --tol
+refuses 2 "missing after -o" run scene.yaml -o
+refuses 2 "one argument too many: b" run scene.yaml b
+refuses 2 "--output '': expected a file" run scene.yaml -o ''
+for bad in x 0 nan 1e400 0x1p-40 '' ' 1e-9' 1e-16 0.2; do refuses 2 "--tol '$bad': expected a number in" run scene.yaml --tol "$bad"; done
+for bad in x nan inf 1e999 '1 2'; do refuses 2 "--t-end '$bad': expected a number" run scene.yaml --t-end "$bad"; done
+for bad in 0 -1 x; do refuses 2 "--step '$bad': expected a positive number" run scene.yaml --step "$bad"; done
+refuses 2 "--method 'rk': expected a method of 'isoroll list methods'" run scene.yaml --method rk
+refuses 2 "--backend 'both': expected ball, point or auto" run scene.yaml --backend both
+refuses 2 "--as 'auto': expected ball, point or both" run scene.yaml --as auto
+refuses 2 "nothing is called 'bogus'" list bogus
+refuses 5 "cannot open 'a?[31m?b'" run "$(printf 'a\033[31m\nb')" # nothing that moves the cursor
+refuses 5 "cannot open 'xxxxx" run "$(printf '%05000d' 0 | tr 0 x)"
+refuses 5 "cannot read '.': Is a directory" run .
+refuses 5 "cannot write '.'" run scene.yaml -o .
+refuses 3 ":1:1" run /dev/null
+run 0 run scene.yaml --step 5 --step 2 --verbose --verbose --t-end=4
+check "the last of repeated options counts" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 2 4 "
+run 0 run --back point -- scene.yaml
+check "a beginning that fits one option" grep -qx '# backend: point' out
+cp scene.yaml ./-x.yaml
+run 0 run -- -x.yaml
+
+# --- help: it lists exactly the options that are taken
+for command in $commands; do
+    run 0 "$command" --help
+    silent
+    cp out "help.$command"
+    check "$command: usage line" grep -q "^usage: isoroll $command " out
+    run 0 "$command" -h
+    check "$command: -h" cmp out "help.$command"
+    run 0 --help
+    check "--help lists $command" grep -q "^  $command " out
+done
+cat help.* | sed -n 's/^  --\([a-zA-Z-]*\) .*/\1/p' | sort -u >all_options
+check "20 options or so" test "$(wc -l <all_options)" -ge 17
+for command in $commands; do
+    while read -r option; do
+        "$isoroll" "$command" "--$option" 2>err >out </dev/null
+        if grep -q "^  --$option " "help.$command"; then
+            check_not "$command --$option is taken" grep -q "unknown or ambiguous" err
+        elif ! grep -q "^  --$option" "help.$command"; then # no beginning of another one
+            check "$command --$option is not taken" grep -q "unknown or ambiguous option --$option;" err
+        fi
+    done <all_options
+done
+run 0 --version
+for library in isoroll SUNDIALS GSL libyaml jansson; do
+    check "--version: $library" grep -qE "^$library [0-9]+\.[0-9]+" out
+done
+run 0 list
+cp out list
+for topic in systems methods surfaces integrals clocks columns; do
+    run 0 list "$topic"
+    silent
+    check "list $topic" grep -q "^$topic: " out
+    check "list has $topic" grep -q "^$topic: " list
+done
+check "list methods" grep -q '^  rk8pd ' list
+
+# --- closed pipes and full disks
+for arguments in "run scene.yaml --step 1e-4" "compare scene.yaml --json --step 1e-2" "list" "explain scene.yaml" "convert --to point ball.csv"; do
+    # shellcheck disable=SC2086 # a list
+    first=$("$isoroll" $arguments 2>err | head -n 1)
+    check "isoroll $arguments | head -1: a line" test -n "$first"
+    check "isoroll $arguments | head -1: quiet" test ! -s err
+done
+{ sleep 0.1 && "$isoroll" run scene.yaml 2>err; echo $? >status; } | :
+check "a pipe closed before: quiet" test ! -s err
+check "a pipe closed before: no success" test "$(cat status)" -eq 5
+if [ -c /dev/full ]; then
+    for arguments in "run scene.yaml" "run scene.yaml --step 1e-3" "compare scene.yaml" "compare scene.yaml --json" list "explain scene.yaml" \
+        "check ball.csv" "convert --to point ball.csv" --help --version "run --help"; do
+        checks=$((checks + 1)) last="$arguments >/dev/full"
+        # shellcheck disable=SC2086
+        "$isoroll" $arguments >/dev/full 2>err
+        [ $? -eq 5 ] || fail "$last: not exit status 5"
+        says "No space left on device"
+    done
+    refuses 5 "cannot write '/dev/full': No space left on device" run scene.yaml -o /dev/full
+fi
+"$isoroll" list >&- 2>err
+check "closed standard output" test $? -eq 5
+for folder in absent /proc scene.yaml; do refuses 5 "cannot write" run scene.yaml -o $folder/a.csv; done
+if [ "$(id -u)" -ne 0 ]; then
+    mkdir locked && chmod 555 locked
+    refuses 5 "cannot write" run scene.yaml -o locked/a.csv
+fi
+
+# --- interruptions
+# interrupted SIGNAL SECONDS ARGUMENT...: a long run to which the signal comes; what it had computed is in stopped.csv
+interrupted() {
+    signal=$1 seconds=$2
+    shift 2
+    mkdir -p stop
+    rm -f stop/*
+    checks=$((checks + 1)) last="$* <- $signal"
+    timeout --preserve-status -k 30 -s "$signal" "$seconds" "$isoroll" run "$@" -o stop/stopped.csv 2>err
+    [ $? -eq 1 ] || fail "$last: not exit status 1"
+    says "interrupted: "
+    check "$last: no temporary file" test "$(ls -A stop)" = stopped.csv
+    check "$last: it says how many rows" grep -q "interrupted: $(rows stop/stopped.csv | wc -l) of" err
+    run 0 check --max 1e-8 stop/stopped.csv
+}
+ignored=$(sed -n 's/^SigIgn:.*\(.\)$/\1/p' /proc/self/status 2>/dev/null)
+if command -v timeout >/dev/null; then
+    for signal in INT TERM; do
+        case $signal$ignored in
+        INT[2367abefABEF]) echo "SIGINT is ignored here: not tried" && continue ;; # started in the background
+        esac
+        interrupted "$signal" 1 scene.yaml --t-end 1e8 --step 100
+        check "some rows" test "$(rows stop/stopped.csv | wc -l)" -gt 2
+        interrupted "$signal" 1 scene.yaml --t-end 1e300 --step 1e300 # in the middle of a row
+        # without something to save it just ends
+        sleep 2 | timeout -k 30 -s "$signal" 0.2 "$isoroll" convert --to point - >out 2>err
+        check "convert ends" test $? -eq 124
+    done
+fi
+
+# --- progress: on a terminal only, after a second, coloured unless NO_COLOR says not to
+# on_terminal VARIABLE: what a run of two seconds writes on a terminal
+on_terminal() {
+    script -qec "env $1 timeout -k 30 -s TERM 2 '$isoroll' run scene.yaml --t-end 1e8 -o a.csv" /dev/null </dev/null >terminal
+}
+if command -v timeout >/dev/null && command -v script >/dev/null; then
+    on_terminal NO_COLOR=
+    check "a bar on a terminal" grep -q '\.\.\.\.' terminal
+    check "in colour" grep -q "$(printf '\033\\[36m')" terminal
+    on_terminal NO_COLOR=1
+    check "a bar with NO_COLOR" grep -q '\.\.\.\.' terminal
+    check_not "no colour with NO_COLOR" grep -q "$(printf '\033')" terminal
+    timeout -k 30 -s TERM 2 "$isoroll" run scene.yaml --t-end 1e8 -o a.csv 2>err
+    check "no bar in a file" test "$(tr -d '\r' <err | wc -l)" -eq 1
+    check_not "no bar in a file" grep -q '\.\.\.' err
+fi
+finish
