@@ -10,13 +10,15 @@
 #include "io/trajectory_impl.h"
 #include "orbit/scene.h"
 
+enum { LONGEST_LINE = 1 << 16 };
+
 typedef struct reader {
     iso_context *ctx;
     const char *name;
-    char *line;
-    size_t room, number; /* number of the line, from 1 */
-    iso_record *keys;    /* lines read before the columns are known */
-    iso_record *record;  /* NULL before the header                  */
+    char *line;         /* LONGEST_LINE + 1 characters              */
+    size_t number;      /* of the line, from 1                      */
+    iso_record *keys;   /* lines read before the columns are known */
+    iso_record *record; /* NULL before the header                  */
 } reader;
 
 /* A part of a line without the blanks around it. */
@@ -152,18 +154,26 @@ static iso_status read_line(reader *r, size_t length)
     return r->record ? read_row(r) : read_columns(r);
 }
 
+/* The next line with its end, which may hold NUL bytes; 0 at the end of the file, LONGEST_LINE if it is too long. */
+static size_t next_line(reader *r, FILE *file)
+{
+    size_t length = 0;
+    int c = 0;
+    while (length < LONGEST_LINE && c != '\n' && (c = getc(file)) != EOF) r->line[length++] = (char)c;
+    r->line[length] = '\0';
+    return length;
+}
+
 static iso_status read_lines(reader *r, FILE *file)
 {
     iso_status status = ISO_OK;
-    while (status == ISO_OK) {
-        errno = 0;
-        const ssize_t length = getline(&r->line, &r->room, file);
-        if (length < 0) break;
+    size_t length;
+    while (status == ISO_OK && (length = next_line(r, file)) > 0) {
         r->number++;
-        status = read_line(r, (size_t)length);
+        status = length < LONGEST_LINE ? read_line(r, length)
+                                       : fail(r, r->line, "this line is too long: is it a trajectory file?", "");
     }
     if (status != ISO_OK) return status;
-    if (errno == ENOMEM) return iso_context_fail(r->ctx, ISO_NO_MEMORY, "", "no memory for a line of '%s'", r->name);
     if (ferror(file))
         return iso_context_fail(r->ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", r->name, strerror(errno));
     if (r->record) return ISO_OK;
@@ -173,15 +183,16 @@ static iso_status read_lines(reader *r, FILE *file)
 
 iso_status iso_trajectory_read(iso_context *ctx, const char *path, iso_record **record)
 {
-    reader r = {.ctx = ctx, .name = iso_text_name(path)};
+    reader r = {.ctx = ctx, .name = iso_text_name(path), .line = malloc(LONGEST_LINE + 1)};
     *record = NULL;
+    FILE *file = NULL;
     iso_status status = iso_trajectory_check_format(ctx, path);
-    if (status != ISO_OK) return status;
-    FILE *file = iso_text_open(ctx, path);
-    if (!file) return ISO_FILE_TROUBLE;
-    status = iso_record_create(ctx, 0, NULL, &r.keys);
+    if (status == ISO_OK && !(file = iso_text_open(ctx, path))) status = ISO_FILE_TROUBLE;
+    if (status == ISO_OK && !r.line)
+        status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r.name);
+    if (status == ISO_OK) status = iso_record_create(ctx, 0, NULL, &r.keys);
     if (status == ISO_OK) status = read_lines(&r, file);
-    iso_text_close(file);
+    if (file) iso_text_close(file);
     free(r.line);
     iso_record_free(r.keys);
     if (status != ISO_OK) iso_record_free(r.record);

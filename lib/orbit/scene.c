@@ -82,12 +82,14 @@ static double steps_to_end(const iso_scene *scene)
 
 size_t iso_scene_rows(const iso_scene *scene)
 {
-    return 1 + (size_t)ceil(steps_to_end(scene) * (1 - 1e-12));
+    const double steps = ceil(steps_to_end(scene) * (1 - 1e-12)), most = 1e15;
+    return 1 + (size_t)(steps <= most ? steps : isnan(steps) ? 0 : most);
 }
 
 double iso_scene_time(const iso_scene *scene, size_t row)
 {
     if (row + 1 >= iso_scene_rows(scene)) return scene->end;
+    if (row == 0) return 0;
     if (scene->step > 0) return copysign(scene->step * (double)row, scene->end);
     return scene->end * ((double)row / 100);
 }
