@@ -1,5 +1,6 @@
 #include "orbit/convert.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/vec3_impl.h"
@@ -39,7 +40,7 @@ static iso_status find_state(iso_context *ctx, const iso_record *r, iso_picture 
     const char *missing;
     if (iso_record_find_all(r, ISO_STATE, names, columns, &missing)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "the trajectory has no column '%s', which a %s has",
-                            missing, iso_picture_name(model));
+                            missing, iso_picture_name((int)model));
 }
 
 /* The coupling that the lines state, by eps or by h; false: they do not. */
@@ -95,6 +96,9 @@ typedef struct conversion {
     iso_units units;
 } conversion;
 
+/* Lines that say where a clock began which the record has lost. */
+static const char *const origin_line[] = {[ISO_CLOCK_T] = "t0", [ISO_CLOCK_S] = "s0"};
+
 static iso_status fail_row(const conversion *c, iso_status status, size_t row)
 {
     return iso_context_fail(c->ctx, status, "", "row %zu: %s", row + 1, iso_context_message(c->ctx));
@@ -147,63 +151,93 @@ static iso_status convert_state(const conversion *c, size_t row, double out[ISO_
     for (int i = 0; i < 3 && c->from == ISO_POINT; i++) y[i] /= unit_M;
     (c->from == ISO_BALL ? iso_ball_to_point : iso_point_to_ball)(&c->units.own, y, out);
     for (int i = 0; i < 3 && c->from == ISO_BALL; i++) out[i] *= unit_M;
-    for (int i = 0; i < ISO_STATE; i++)
-        if (!isfinite(out[i])) {
-            iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double in these units");
-            return fail_row(c, ISO_NUMERICAL, row);
-        }
-    return ISO_OK;
+    double size = 0;
+    bool fits = isnormal(unit_M);
+    for (int i = 0; i < ISO_STATE; i++) fits = fits && isfinite(out[i]);
+    for (int i = 0; i < 3; i++) size = fmax(size, fabs(out[i]));
+    if (fits && size >= DBL_MIN) return ISO_OK;
+    iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double in these units");
+    return fail_row(c, ISO_NUMERICAL, row);
 }
 
 /* How far the other clock goes from `row` to the next: along the orbit that starts in the row. */
-static iso_status clock_step(const conversion *c, size_t row, double own_step, double *other_step)
+static iso_status clock_step(const conversion *c, size_t row, double own, double *other)
 {
     iso_start start;
     iso_orbit *orbit;
     iso_sample sample;
-    *other_step = 0;
-    if (own_step == 0) return ISO_OK;
+    *other = 0;
+    if (own == 0) return ISO_OK;
     iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, row, &start);
     if (status == ISO_OK) status = settle_level(c, row, &start);
     if (status != ISO_OK) return status;
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.tolerance = c->tolerance;
     o.carry[c->other] = true;
+    o.max_steps = ISO_MAX_ROW_STEPS;
     status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
     if (status != ISO_OK) return fail_row(c, status, row);
-    status = iso_orbit_at(orbit, own_step, &sample);
+    status = iso_orbit_at(orbit, own, &sample);
     iso_orbit_free(orbit);
     if (status != ISO_OK) return fail_row(c, status, row);
-    *other_step = sample.clock[c->other];
+    *other = sample.clock[c->other];
+    return ISO_OK;
+}
+
+/* The clock's column `column` in row `row`. */
+static iso_status read_clock(const conversion *c, int column, size_t row, double *time)
+{
+    *time = iso_record_const_row(c->in, row)[column];
+    if (isfinite(*time)) return ISO_OK;
+    return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "row %zu: %s is not finite", row + 1,
+                            iso_record_name(c->in, (size_t)column));
+}
+
+/* The own clock's step from `row` to the next; *direction is that of the steps before, and becomes this one's. */
+static iso_status own_step(const conversion *c, size_t row, double *step, double *direction)
+{
+    double here, next;
+    iso_status status = read_clock(c, c->own_column, row, &here);
+    if (status == ISO_OK) status = read_clock(c, c->own_column, row + 1, &next);
+    if (status != ISO_OK) return status;
+    *step = next - here;
+    if ((*step < 0 && *direction > 0) || (*step > 0 && *direction < 0))
+        return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "row %zu: %s turns back; sort the rows by time", row + 2,
+                                iso_clock_name(c->own));
+    if (*step != 0) *direction = *step;
     return ISO_OK;
 }
 
 /* The other clock in every row, into column 0 of `out`; the sum is compensated (Neumaier). */
-static iso_status convert_clock(const conversion *c, double origin, iso_record *out)
+static iso_status integrate_clock(const conversion *c, double origin, iso_record *out)
 {
     double sum = origin, lost = 0, direction = 0;
     const size_t rows = iso_record_rows(c->in);
     for (size_t row = 0; row < rows; row++) {
-        double *clock = iso_record_row(out, row), step;
-        if (c->other_column >= 0) {
-            *clock = iso_record_const_row(c->in, row)[c->other_column];
-            continue;
+        double here, there;
+        iso_record_row(out, row)[0] = sum + lost;
+        if (!isfinite(sum + lost)) {
+            iso_context_fail(c->ctx, ISO_NUMERICAL, "", "%s is too large for a double", iso_clock_name(c->other));
+            return fail_row(c, ISO_NUMERICAL, row);
         }
-        *clock = sum + lost;
         if (row + 1 == rows) break;
-        const double own_step =
-            iso_record_const_row(c->in, row + 1)[c->own_column] - iso_record_const_row(c->in, row)[c->own_column];
-        if (own_step * direction < 0)
-            return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "row %zu: %s turns back; sort the rows by time",
-                                    row + 2, iso_clock_name(c->own));
-        if (own_step != 0) direction = own_step;
-        const iso_status status = clock_step(c, row, own_step, &step);
+        iso_status status = own_step(c, row, &here, &direction);
+        if (status == ISO_OK) status = clock_step(c, row, here, &there);
         if (status != ISO_OK) return status;
-        const double next = sum + step;
-        lost += fabs(sum) >= fabs(step) ? (sum - next) + step : (step - next) + sum;
+        const double next = sum + there;
+        lost += fabs(sum) >= fabs(there) ? (sum - next) + there : (there - next) + sum;
         sum = next;
     }
     return ISO_OK;
+}
+
+static iso_status convert_clock(const conversion *c, double origin, iso_record *out)
+{
+    if (c->other_column < 0) return integrate_clock(c, origin, out);
+    iso_status status = ISO_OK;
+    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(c->in); row++)
+        status = read_clock(c, c->other_column, row, iso_record_row(out, row));
+    return status;
 }
 
 /* The lines of `in`, now about the other model, and where its own clock began. */
@@ -223,11 +257,14 @@ static iso_status convert_lines(const conversion *c, iso_picture to, iso_record 
     const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
     iso_orbit_free(orbit);
     const bool says_eps = iso_record_get(c->in, "eps") != NULL || iso_record_get(c->in, "h") != NULL;
-    status =
-        iso_record_describe(c->ctx, out, iso_picture_name(to), c->params, says_eps ? NAN : h, says_eps ? NAN : eps);
-    const double begin = c->own_column >= 0 ? iso_record_const_row(c->in, 0)[c->own_column] : 0;
-    if (status == ISO_OK && begin != 0)
-        status = iso_record_set_numbers(c->ctx, out, c->own == ISO_CLOCK_T ? "t0" : "s0", 1, &begin);
+    status = iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, says_eps ? NAN : h,
+                                 says_eps ? NAN : eps);
+    if (status != ISO_OK || c->own_column < 0) return status;
+    const char *origin = origin_line[c->own];
+    double begin;
+    status = read_clock(c, c->own_column, 0, &begin);
+    if (status == ISO_OK && (begin != 0 || iso_record_get(out, origin)))
+        status = iso_record_set_numbers(c->ctx, out, origin, 1, &begin);
     return status;
 }
 
@@ -242,7 +279,7 @@ static iso_status prepare(conversion *c, double *origin)
     c->other_column = iso_record_find(c->in, iso_clock_name(c->other));
     iso_units_choose(c->params, 0, &c->units);
     *origin = 0;
-    iso_record_get_numbers(c->ctx, c->in, c->other == ISO_CLOCK_T ? "t0" : "s0", 1, origin, &status);
+    iso_record_get_numbers(c->ctx, c->in, origin_line[c->other], 1, origin, &status);
     return status;
 }
 

@@ -9,6 +9,9 @@
 #include "base/record.h"
 #include "orbit/orbit.h"
 
+/* The most steps from one row of a record to the next: a damaged time must not keep a program busy for ever. */
+enum { ISO_MAX_ROW_STEPS = 10000000 };
+
 /* Writes the lines that a record needs to be carried back: model, k, J, h, eps. What is no normal double in these
  * units (too large, subnormal, or 0 for a ball at rest) is left out: h and eps follow from any row. */
 iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,

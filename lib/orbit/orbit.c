@@ -1,7 +1,9 @@
 #include "orbit/orbit.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/vec3_impl.h"
 #include "map/state.h"
@@ -52,6 +54,34 @@ static double largest(const double a[3])
     return fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
 }
 
+/* What the numbers of an orbit are measured with must fit a double, and not lose digits. */
+static iso_status check_units(const iso_orbit *o, const iso_start *start)
+{
+    const iso_orbit_options *opt = &o->options;
+    bool fits = (opt->show == ISO_BALL && start->model == ISO_BALL) || isnormal(o->unit_M);
+    for (int c = 0; c < ISO_CLOCKS; c++)
+        fits = fits && ((c != (int)opt->clock && !opt->carry[c]) || isnormal(o->unit_clock[c]));
+    if (fits) return ISO_OK;
+    return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
+                            "M (about %g) or a clock (s about %g) does not fit a double in these units: use other "
+                            "units of mass, length or time, or ask for the ball in its time t alone",
+                            o->unit_M, o->unit_clock[ISO_CLOCK_S]);
+}
+
+/* Everything but the ball in its own time has powers of q up to 1 + 1/|k|, times k^2/det J. They must fit a double
+ * wherever the orbit may go: q lies between the least and the largest moment of inertia. */
+static iso_status check_powers(const iso_orbit *o)
+{
+    const iso_params *p = &o->units.own;
+    const double reach = fmax(fabs(log2(min3(p->J))), fabs(log2(max3(p->J)))), k = fabs(p->k);
+    if (reach * (1 + 1 / k) + fabs(2 * log2(k) - log2(p->det_J)) < 960) return ISO_OK;
+    return iso_context_fail(
+        o->ctx, ISO_NUMERICAL, "k",
+        "k = %g is too extreme for the point and the clocks tau and s of a ball with max J/min J = "
+        "%.3g: q^(1/k) leaves the range of doubles; the ball in its time t can be had",
+        p->k, max3(p->J) / min3(p->J));
+}
+
 /* A ball's start in y; every ball that moves has a point. */
 static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
@@ -63,35 +93,26 @@ static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start
 }
 
 /* The point's potential and start in own units. */
-static iso_field point_field(const iso_orbit *o, const iso_start *start, double y[ISO_STATE])
+/* The speed of the ball whose M has the size that M reaches on this potential: w^2 = (k^2/(det J J)) times the larger of
+ * q^(1/k) M^2 and 2 eps. By logarithms, since the powers of J need not fit a double in the caller's units. */
+static double point_speed(const iso_params *p, const iso_start *start)
 {
-    iso_field field = {.p = o->units.own, .eps = start->eps / iso_unit(&o->units, iso_dimension_eps)};
-    copy(start->y, y, ISO_STATE);
-    for (int i = 0; i < 3; i++) y[i] /= o->unit_M;
-    if (isnan(start->eps)) field.eps = iso_coupling(&field.p, iso_point_energy(&field.p, y));
-    return field;
-}
-
-/* The angular speed of a ball whose M has the size that the start's M reaches on its potential, sqrt(2 |V|); in parts
- * that do not overflow, since the unit of time is not yet chosen. */
-static double point_speed(iso_orbit *o, const iso_params *p, const iso_start *start)
-{
-    double y[ISO_STATE] = {0, 0, 0, start->y[3], start->y[4], start->y[5]};
-    set_units(o, p, 0);
-    const double eps = fabs(start->eps / iso_unit(&o->units, iso_dimension_eps)), M = largest(start->y) / o->unit_M;
-    const double q = iso_system_point.q(&o->units.own, y, NULL);
-    const double reached = sqrt(2) * sqrt(eps) * pow(q, -1 / (2 * p->k)); /* NAN on the level H = 0 */
-    for (int i = 0; i < 3; i++) y[i] = fmax(M, reached);
-    iso_point_to_ball(&o->units.own, y, y);
-    return largest(y);
+    const double q = dot_diag(start->y + 3, p->J, start->y + 3);
+    const double log_J = (log2(p->J[0]) + log2(p->J[1]) + log2(p->J[2])) / 3;
+    const double moving = log2(largest(start->y)) + log2(q) / (2 * p->k);
+    const double falling = (1 + log2(fabs(start->eps))) / 2; /* NAN on the level H = 0 */
+    return exp2(fmin(fmax(moving, falling) + log2(fabs(p->k)) - 2 * log_J, 1000));
 }
 
 /* A point's start in y; gives the level H it lives on, 0 if it is that to 1e-9, and the size of the terms of H. */
 static double start_point(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE],
                           double *size)
 {
-    set_units(o, p, point_speed(o, p, start));
-    const iso_field field = point_field(o, start, y);
+    set_units(o, p, point_speed(p, start));
+    copy(start->y, y, ISO_STATE);
+    for (int i = 0; i < 3; i++) y[i] /= o->unit_M;
+    iso_field field = {.p = o->units.own, .eps = start->eps / iso_unit(&o->units, iso_dimension_eps)};
+    if (isnan(start->eps)) field.eps = iso_coupling(&field.p, iso_point_energy(&field.p, y));
     o->eps = field.eps;
     o->h = iso_energy(&field.p, field.eps);
     const double H = iso_system_point.integrals[0].value(&field, y, size);
@@ -120,6 +141,13 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
     const bool needs_ball = opt->backend == ISO_BALL || opt->show != ISO_POINT || opt->clock != ISO_CLOCK_S ||
                             opt->carry[ISO_CLOCK_T] || opt->carry[ISO_CLOCK_TAU];
     const bool needs_point = opt->backend == ISO_POINT || opt->show != ISO_BALL;
+    const bool powers =
+        needs_point || opt->clock != ISO_CLOCK_T || opt->carry[ISO_CLOCK_TAU] || opt->carry[ISO_CLOCK_S];
+    if (!all_finite(start->y, ISO_STATE) || (start->model == ISO_POINT && isinf(start->eps)))
+        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "the start is not finite");
+    set_units(o, p, 0);
+    iso_status status = powers || start->model == ISO_POINT ? check_powers(o) : ISO_OK;
+    if (status != ISO_OK) return status;
     if (start->model == ISO_BALL) {
         start_ball(o, p, start, y);
         if (o->h == 0 && needs_point)
@@ -129,20 +157,21 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
         level = start_point(o, p, start, y, &size);
         if (level != 0 && needs_ball) return refuse_level(o->ctx, level, size);
     }
-    if (!all_finite(y, ISO_STATE) || !isfinite(o->eps) || !isfinite(o->h))
-        return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
-                                "the start is out of the range of doubles in the ball's own "
-                                "units: J or k is too extreme");
+    status = check_units(o, start);
+    if (status != ISO_OK) return status;
     if (opt->backend == ISO_POINT && start->model == ISO_BALL) iso_ball_to_point(&o->units.own, y, y);
     if (opt->backend == ISO_BALL && start->model == ISO_POINT) iso_point_to_ball(&o->units.own, y, y);
+    if (!all_finite(y, ISO_STATE) || !isfinite(o->h) || (needs_point && !isfinite(o->eps)))
+        return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
+                                "the start is out of the range of doubles in the ball's own units");
     const iso_system *system = opt->backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
     const iso_field field = {.p = o->units.own,
                              .eps = opt->backend == ISO_POINT ? o->eps : 0,
                              .energy = opt->backend == ISO_POINT ? level : o->h};
     o->model = iso_model_assemble(system, &field, opt->clock, opt->carry);
     if (!opt->method) opt->method = iso_method_auto(&o->model);
-    const iso_method_options m = {.tolerance = opt->tolerance};
-    const iso_status status = iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator);
+    const iso_method_options m = {.tolerance = opt->tolerance, .max_steps = opt->max_steps};
+    status = iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator);
     return status == ISO_OK ? iso_integrator_start(o->integrator, y) : status;
 }
 
@@ -169,86 +198,129 @@ void iso_orbit_free(iso_orbit *o)
 
 /* --- samples ------------------------------------------------------------------------------------------------------ */
 
-static void to_users_units(const double own[ISO_STATE], double unit, double users[ISO_STATE])
+/* `count` numbers in the caller's units. What does not fit a double there, or loses its digits, must not be shown. */
+static iso_status to_users_units(const iso_orbit *o, const char *name, double unit, double x[], int count)
 {
-    for (int i = 0; i < 3; i++) {
-        users[i] = own[i] * unit;
-        users[3 + i] = own[3 + i];
+    double before = 0, after = 0;
+    bool finite = true;
+    for (int i = 0; i < count; i++) {
+        before = fmax(before, fabs(x[i]));
+        if (x[i] != 0) x[i] *= unit; /* the unit may be infinite */
+        after = fmax(after, fabs(x[i]));
+        finite = finite && isfinite(x[i]);
     }
+    if (finite && (before == 0 || after >= DBL_MIN)) return ISO_OK;
+    return iso_context_fail(
+        o->ctx, ISO_NUMERICAL, "",
+        "%s is out of the range of doubles in these units: use other units of mass, length or time", name);
 }
 
-/* A non-zero own number whose user's number is none, or has lost its digits, must not be shown. */
-static iso_status check_range(const iso_orbit *o, const iso_sample *s)
+static void blank(iso_sample *s)
 {
-    for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) {
-        const double x = iso_sample_column(s, c);
-        if (isinf(x))
-            return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
-                                    "%s is too large for a double in these units: use "
-                                    "other units of mass, length or time",
-                                    iso_trajectory_columns[c]);
-    }
-    return ISO_OK;
+    for (int i = 0; i < ISO_STATE; i++) s->ball[i] = s->point[i] = NAN;
+    for (int c = 0; c < ISO_CLOCKS; c++) s->clock[c] = NAN;
 }
 
 static iso_status make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s)
 {
     const iso_params *own = &o->units.own;
     const bool is_ball = o->options.backend == ISO_BALL;
-    double other[ISO_STATE];
-    for (int i = 0; i < ISO_STATE; i++) s->ball[i] = s->point[i] = NAN;
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++) s->clock[c] = NAN;
+    iso_status status = ISO_OK;
+    blank(s);
     s->clock[o->model.clock] = time;
-    for (int i = 0; i < o->model.carried; i++)
-        s->clock[o->model.carry[i]] = y[ISO_STATE + i] * o->unit_clock[o->model.carry[i]];
-    if (o->options.show != (is_ball ? ISO_BALL : ISO_POINT)) {
-        if (is_ball)
-            iso_ball_to_point(own, y, other);
-        else
-            iso_point_to_ball(own, y, other);
+    for (int i = 0; status == ISO_OK && i < o->model.carried; i++) {
+        const iso_clock c = o->model.carry[i];
+        s->clock[c] = y[ISO_STATE + i];
+        status = to_users_units(o, iso_clock_name(c), o->unit_clock[c], &s->clock[c], 1);
     }
-    if (o->options.show != ISO_POINT) to_users_units(is_ball ? y : other, o->units.w, s->ball);
-    if (o->options.show != ISO_BALL) to_users_units(is_ball ? other : y, o->unit_M, s->point);
-    return check_range(o, s);
+    if (o->options.show != ISO_POINT) {
+        if (is_ball)
+            copy(y, s->ball, ISO_STATE);
+        else
+            iso_point_to_ball(own, y, s->ball);
+        if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, s->ball, 3);
+    }
+    if (o->options.show != ISO_BALL) {
+        if (is_ball)
+            iso_ball_to_point(own, y, s->point);
+        else
+            copy(y, s->point, ISO_STATE);
+        if (status == ISO_OK) status = to_users_units(o, "M", o->unit_M, s->point, 3);
+    }
+    return status;
+}
+
+/* Beyond 1e15 turns a double does not tell one part of a turn from another (and no one would live to see it). */
+static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
+{
+    const iso_params *own = &o->units.own;
+    const iso_clock clock = o->model.clock;
+    const double fastest = clock == ISO_CLOCK_T ? 1
+                                                : fmax(iso_clock_rate(own, clock, min3(own->J), NULL),
+                                                       iso_clock_rate(own, clock, max3(own->J), NULL));
+    *own_time = time / o->unit_clock[clock];
+    const double turns = fmax(1, fabs(own->k)) * (*own_time / fastest);
+    if (fabs(turns) <= 1e15) return ISO_OK;
+    return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "end",
+                            "%s = %g is out of range: it is %g turns of this ball, and 1e15 can be told apart",
+                            iso_clock_name(clock), time, turns);
+}
+
+/* An integrator's failure, with the last good time in the caller's units. */
+static iso_status to_users_time(const iso_orbit *o, iso_status status)
+{
+    double own_time, y[ISO_MAX_STATE];
+    const char *words = iso_context_message(o->ctx), *cut = strstr(words, "; last good");
+    if (status != ISO_NUMERICAL || !cut) return status;
+    iso_integrator_last(o->integrator, &own_time, y);
+    return iso_context_fail(o->ctx, status, "", "%.*s; last good %s = %.17g", (int)(cut - words), words,
+                            iso_clock_name(o->model.clock), own_time * o->unit_clock[o->model.clock]);
 }
 
 iso_status iso_orbit_at(iso_orbit *o, double time, iso_sample *sample)
 {
-    double y[ISO_MAX_STATE];
-    const double own_time = time / o->unit_clock[o->model.clock];
-    if (!isfinite(own_time))
-        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "end",
-                                "%s = %g is out of range: it is %g turns of this ball",
-                                iso_clock_name(o->model.clock), time, own_time);
-    const iso_status status = iso_integrator_at(o->integrator, own_time, y);
-    return status == ISO_OK ? make_sample(o, time, y, sample) : status;
+    double own_time, y[ISO_MAX_STATE];
+    iso_status status = to_own_time(o, time, &own_time);
+    if (status == ISO_OK) status = iso_integrator_at(o->integrator, own_time, y);
+    return status == ISO_OK ? make_sample(o, time, y, sample) : to_users_time(o, status);
 }
 
 typedef struct sampled_event {
     const iso_orbit *orbit;
     double (*g)(const iso_sample *sample, const void *data);
     const void *data;
+    iso_status *status; /* the first failure of a sample or of g */
 } sampled_event;
 
+/* The search wants numbers: after a failure, which ends it, it gets zeros. */
 static double event_function(const iso_model *model, const double y[], const void *data)
 {
     const sampled_event *e = data;
     iso_sample sample;
     (void)model;
-    make_sample(e->orbit, NAN, y, &sample);
-    return e->g(&sample, e->data);
+    if (*e->status == ISO_OK) *e->status = make_sample(e->orbit, NAN, y, &sample);
+    if (*e->status != ISO_OK) return 0;
+    const double g = e->g(&sample, e->data);
+    if (isfinite(g)) return g;
+    *e->status = iso_context_fail(e->orbit->ctx, ISO_NUMERICAL, "", "the event function is not finite");
+    return 0;
 }
 
 iso_status iso_orbit_event(iso_orbit *o, double (*g)(const iso_sample *sample, const void *data), const void *data,
                            int direction, double from, double to, bool *found, iso_sample *sample)
 {
-    const sampled_event wrapped = {o, g, data};
+    iso_status sampled = ISO_OK;
+    const sampled_event wrapped = {o, g, data, &sampled};
     const iso_event event = {event_function, &wrapped, direction};
-    const double unit = o->unit_clock[o->model.clock];
-    double own_time, y[ISO_MAX_STATE];
-    const iso_status status =
-        iso_integrator_event(o->integrator, &event, from / unit, to / unit, found, &own_time, y);
-    return status == ISO_OK && *found ? make_sample(o, own_time * unit, y, sample) : status;
+    double begin, end, own_time, y[ISO_MAX_STATE];
+    *found = false;
+    iso_status status = to_own_time(o, from, &begin);
+    if (status == ISO_OK) status = to_own_time(o, to, &end);
+    if (status == ISO_OK) status = iso_integrator_event(o->integrator, &event, begin, end, found, &own_time, y);
+    if (status == ISO_OK) status = sampled;
+    if (status != ISO_OK) *found = false;
+    if (status != ISO_OK) return to_users_time(o, status);
+    return *found ? make_sample(o, own_time * o->unit_clock[o->model.clock], y, sample) : status;
 }
 
 iso_status iso_orbit_last(iso_orbit *o, iso_sample *sample)
@@ -282,12 +354,12 @@ const iso_method *iso_orbit_method(const iso_orbit *o)
 
 double iso_orbit_energy(const iso_orbit *o)
 {
-    return o->h * iso_unit(&o->units, iso_dimension_h);
+    return o->h == 0 ? 0 : o->h * iso_unit(&o->units, iso_dimension_h);
 }
 
 double iso_orbit_coupling(const iso_orbit *o)
 {
-    return o->eps * iso_unit(&o->units, iso_dimension_eps);
+    return o->eps == 0 ? 0 : o->eps * iso_unit(&o->units, iso_dimension_eps);
 }
 
 double iso_orbit_integral(const iso_orbit *o, const iso_system *system, const iso_integral *integral,

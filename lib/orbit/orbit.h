@@ -21,12 +21,14 @@ typedef struct iso_orbit_options {
     iso_picture backend;      /* the model that is integrated; ISO_AUTO: that of the start                 */
     const iso_method *method; /* NULL: iso_method_auto()                                                   */
     double tolerance;
+    long max_steps;           /* after which a call fails with ISO_NUMERICAL; 0: no bound                  */
     iso_clock clock;          /* the clock in which times are asked                                        */
     iso_picture show;         /* the models filled into samples: ISO_BALL, ISO_POINT, ISO_BOTH             */
     bool carry[ISO_CLOCKS];   /* other clocks filled into samples                                          */
 } iso_orbit_options;
 
-/* Backend and clock of the start's own model, which is also shown; method auto, tolerance 1e-12. */
+/* Backend and clock of the start's own model, which is also shown; method auto, tolerance 1e-12, no
+ * bound on the steps. */
 iso_orbit_options iso_orbit_defaults(const iso_start *start);
 
 /* One moment of an orbit. The numbers stand in the order of iso_trajectory_columns; what was not asked for is NaN. */
@@ -41,16 +43,20 @@ double iso_sample_column(const iso_sample *sample, int column);
 
 /* Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a ball at rest (h = 0) has no point,
  * a point off the level H = 0 (by more than 1e-9 of its kinetic and potential energy) has no free ball;
- * ISO_BAD_ARGUMENT, ISO_NUMERICAL (the start does not fit a double in own units), ISO_NO_MEMORY. */
+ * ISO_NUMERICAL where M or a clock asked for does not fit a double in the caller's units, or k is too extreme for the
+ * powers q^(1/k) of everything but the ball in its own time; ISO_BAD_ARGUMENT, ISO_NO_MEMORY. */
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
                             const iso_orbit_options *options, iso_orbit **orbit);
 void iso_orbit_free(iso_orbit *orbit);
 
 /* The orbit at `time` of the options' clock, in any order, before or after the start.
- * Errors: ISO_NUMERICAL (what stopped, and where; or a result that does not fit a double). */
+ * Errors: ISO_BAD_ARGUMENT (a time that is not finite or beyond 1e15 turns), ISO_NUMERICAL (what stopped, and where; or
+ * a result that does not fit a double, or lost its digits). */
 iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
 
-/* The first zero of g(sample) after `from`, not after `to`; see iso_integrator_event. direction as there. */
+/* The first zero of g(sample) after `from`, not after `to`; see iso_integrator_event. direction as there. The sample
+ * that g sees has no time (NaN) in the options' clock, only the clocks carried. Errors: as iso_orbit_at, and
+ * ISO_NUMERICAL when g is not finite. */
 iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sample *sample, const void *data), const void *data,
                            int direction, double from, double to, bool *found, iso_sample *sample);
 
@@ -64,7 +70,8 @@ const iso_model *iso_orbit_model(const iso_orbit *orbit);
 const iso_units *iso_orbit_units(const iso_orbit *orbit);
 const iso_method *iso_orbit_method(const iso_orbit *orbit);
 
-/* Energy h of the ball and coupling eps of the point in the caller's units (infinite where they overflow). */
+/* Energy h of the ball and coupling eps of the point in the caller's units (infinite
+ * or 0 where they do not fit). */
 double iso_orbit_energy(const iso_orbit *orbit);
 double iso_orbit_coupling(const iso_orbit *orbit);
 

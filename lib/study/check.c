@@ -78,7 +78,7 @@ static void check_integrals(checker *c, iso_picture model, const iso_orbit *firs
             read_state(c, model, row, model == ISO_BALL ? sample.ball : sample.point);
             const double value = iso_orbit_integral(first, system, i, &sample, &size);
             if (row == 0 && !length && !known_zero) expected = value;
-            note(c, name, i->doc, size > 0 ? (value - expected) / size : 0, row);
+            note(c, name, i->doc, value == expected ? 0 : (value - expected) / size, row);
         }
     }
 }
@@ -88,7 +88,8 @@ static void check_integrals(checker *c, iso_picture model, const iso_orbit *firs
 static double distance(const double a[ISO_STATE], const double b[ISO_STATE])
 {
     double d[ISO_STATE];
-    const double size = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
+    double size = 0;
+    for (int i = 0; i < 3; i++) size = fmax(size, fmax(fabs(a[i]), fabs(b[i])));
     for (int i = 0; i < 3; i++) {
         d[i] = size > 0 ? a[i] / size - b[i] / size : 0;
         d[3 + i] = a[3 + i] - b[3 + i];
@@ -106,30 +107,44 @@ static int clock_to_follow(const checker *c, iso_picture model)
     return -1;
 }
 
-static iso_status check_step(checker *c, iso_picture model, int clock, size_t row)
+/* What the equations of motion make of `row` until the next one; the record's other clocks are carried, but not along
+ * a point off the level H = 0, which has no ball and no time t. */
+static iso_status next_sample(const checker *c, iso_picture model, int clock, size_t row, iso_sample *sample)
 {
     iso_start start;
     iso_orbit *orbit;
-    iso_sample sample;
-    double next[ISO_STATE];
-    char name[sizeof c->out->residual[0].name];
     iso_status status = iso_record_start(c->ctx, c->record, c->params, model, row, &start);
     if (status != ISO_OK) return status;
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.tolerance = c->tolerance;
     o.clock = (iso_clock)clock;
+    o.max_steps = ISO_MAX_ROW_STEPS;
     for (int k = 0; k < ISO_CLOCKS; k++) o.carry[k] = k != clock && c->columns[k] >= 0;
     status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
-    if (status != ISO_OK) return status;
-    status = iso_orbit_at(orbit, read_clock(c, clock, row + 1) - read_clock(c, clock, row), &sample);
+    if (status == ISO_NOT_MAPPED) {
+        for (int k = 0; k < ISO_CLOCKS; k++) o.carry[k] = false;
+        status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
+    }
+    if (status == ISO_OK)
+        status = iso_orbit_at(orbit, read_clock(c, clock, row + 1) - read_clock(c, clock, row), sample);
     iso_orbit_free(orbit);
+    if (status == ISO_OK) return ISO_OK;
+    return iso_context_fail(c->ctx, status, "", "row %zu: %s", row + 1, iso_context_message(c->ctx));
+}
+
+static iso_status check_step(checker *c, iso_picture model, int clock, size_t row)
+{
+    iso_sample sample;
+    double next[ISO_STATE];
+    char name[sizeof c->out->residual[0].name];
+    const iso_status status = next_sample(c, model, clock, row, &sample);
     if (status != ISO_OK) return status;
     read_state(c, model, row + 1, next);
-    snprintf(name, sizeof name, "%s flow", iso_picture_name(model));
+    snprintf(name, sizeof name, "%s flow", iso_picture_name((int)model));
     note(c, name, "each row integrated to the next", distance(model == ISO_BALL ? sample.ball : sample.point, next),
          row + 1);
     for (int k = 0; k < ISO_CLOCKS; k++) {
-        if (!o.carry[k]) continue;
+        if (k == clock || c->columns[k] < 0 || isnan(sample.clock[k])) continue;
         snprintf(name, sizeof name, "clock %s", iso_clock_name((iso_clock)k));
         const double step = read_clock(c, k, row + 1) - read_clock(c, k, row);
         note(c, name, "its steps, from the equations of motion",
@@ -182,6 +197,19 @@ static iso_status check_model(checker *c, iso_picture model)
     return check_flow(c, model);
 }
 
+static iso_status measure_clocks(checker *c)
+{
+    for (int k = 0; k < ISO_CLOCKS; k++)
+        for (size_t row = 0; c->columns[k] >= 0 && row < c->out->rows; row++) {
+            const double time = read_clock(c, k, row);
+            if (!isfinite(time))
+                return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "row %zu: %s is not finite", row + 1,
+                                        iso_clock_name((iso_clock)k));
+            c->span[k] = fmax(c->span[k], fabs(time));
+        }
+    return ISO_OK;
+}
+
 iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
                      iso_residuals *residuals)
 {
@@ -189,16 +217,15 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
     *residuals = (iso_residuals){.rows = iso_record_rows(record)};
     for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
         c.columns[i] = iso_record_find(record, iso_trajectory_columns[i]);
-    for (int k = 0; k < ISO_CLOCKS; k++)
-        for (size_t row = 0; c.columns[k] >= 0 && row < residuals->rows; row++)
-            c.span[k] = fmax(c.span[k], fabs(read_clock(&c, k, row)));
+    iso_status status = measure_clocks(&c);
+    if (status != ISO_OK) return status;
     const bool ball = has_model(&c, ISO_BALL), point = has_model(&c, ISO_POINT);
     if (!ball && !point)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
                                 "the trajectory has neither a ball's six columns "
                                 "(omega1 ... n3) nor a point's (M1 ... gamma3)");
     if (residuals->rows == 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
-    iso_status status = ball ? check_model(&c, ISO_BALL) : ISO_OK;
+    if (ball) status = check_model(&c, ISO_BALL);
     if (status == ISO_OK && point) status = check_model(&c, ISO_POINT);
     if (status == ISO_OK && ball && point) check_map(&c);
     return status;

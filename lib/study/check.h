@@ -25,10 +25,11 @@ typedef struct iso_residuals {
  * - constraints (|n| = 1, (w,n) = 0 / |gamma| = 1, (M,gamma) = 0), relative to the vectors' lengths;
  * - integrals that hold for k and J: |I(row) - I(first row)| / size (iso_integral); H of a point against 0;
  * - flow: each row integrated to the time of the next (rk8pd at `tolerance`), the difference relative to |omega|
- *   or |M| and to 1; for this the record needs t or s and its times must run one way;
+ *   or |M| and to 1; for this the record needs a clock;
  * - the map: with both models in the record, each row's point against the point of its ball;
  * - clocks: with two of t, tau, s in the record, the steps of the one along the other, relative to the whole.
- * Errors: ISO_BAD_INPUT (no model's columns, a row that is no state), ISO_NUMERICAL, ISO_NO_MEMORY. */
+ * Errors, with the row: ISO_BAD_INPUT (no model's columns, a row that is no state, a time that is not finite),
+ * ISO_NOT_MAPPED (a point off the level H = 0 in the times of a ball), ISO_NUMERICAL, ISO_NO_MEMORY. */
 iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
                      iso_residuals *residuals);
 

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 #include "base/vec3_impl.h"
@@ -13,92 +14,106 @@ static double processor_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+typedef struct runner {
+    iso_context *ctx;
+    const iso_scene *scene;
+    iso_comparison *out;
+    iso_orbit *orbit[ISO_BACKENDS];
+    double at_start[ISO_BACKENDS][ISO_MAX_INTEGRALS]; /* the integrals, in own units */
+} runner;
+
+/* The larger of a largest value and |x|; a NaN counts as infinite. */
+static double larger(double largest, double x)
+{
+    return fabs(x) <= largest ? largest : isnan(x) ? INFINITY : fabs(x);
+}
+
 /* --- integrals along an orbit ------------------------------------------------------------------------------------- */
 
 /* Lists the integrals that hold, with their values at the start. */
-static void list_drifts(const iso_orbit *orbit, const iso_sample *start, iso_backend_run *run)
+static void list_drifts(runner *r, iso_picture backend, const iso_sample *start)
 {
+    const iso_orbit *orbit = r->orbit[backend];
     const iso_units *units = iso_orbit_units(orbit);
+    iso_backend_run *run = &r->out->run[backend];
     for (int s = 0; iso_systems[s]; s++)
         for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++) {
             double size;
             if ((i->holds && !i->holds(&units->own)) || run->drifts == ISO_MAX_INTEGRALS) continue;
             const double own = iso_orbit_integral(orbit, iso_systems[s], i, start, &size);
-            run->drift[run->drifts++] = (iso_drift){iso_systems[s], i, own * iso_unit(units, i->dimension), 0};
+            const double users = own == 0 ? 0 : own * iso_unit(units, i->dimension);
+            r->at_start[backend][run->drifts] = own;
+            run->drift[run->drifts++] = (iso_drift){iso_systems[s], i, users, 0};
         }
 }
 
-static void follow_drifts(const iso_orbit *orbit, const iso_sample *sample, const double at_start[],
-                          iso_backend_run *run)
+static void follow_drifts(const runner *r, iso_picture backend, const iso_sample *sample)
 {
+    iso_backend_run *run = &r->out->run[backend];
     for (int i = 0; i < run->drifts; i++) {
         iso_drift *d = &run->drift[i];
         double size;
-        const double value = iso_orbit_integral(orbit, d->system, d->integral, sample, &size);
-        if (size > 0) d->worst = fmax(d->worst, fabs(value - at_start[i]) / size);
+        const double value = iso_orbit_integral(r->orbit[backend], d->system, d->integral, sample, &size);
+        const double change = value - r->at_start[backend][i];
+        d->worst = larger(d->worst, change == 0 ? 0 : change / size);
     }
 }
 
 /* --- one backend -------------------------------------------------------------------------------------------------- */
 
-typedef struct report {
-    bool (*progress)(double part, void *data);
-    void *data;
-    double done, share; /* part done before this backend, and its share of the whole */
-} report;
-
-static iso_status append(iso_context *ctx, iso_record *record, const iso_sample *sample)
+static iso_status open_backend(runner *r, iso_picture backend)
 {
-    double *row;
-    const iso_status status = iso_record_append(ctx, record, &row);
-    for (int c = 0; status == ISO_OK && c < ISO_TRAJECTORY_COLUMNS; c++) row[c] = iso_sample_column(sample, c);
-    return status;
-}
-
-static iso_status follow(iso_context *ctx, const iso_scene *scene, iso_orbit *orbit, const report *r,
-                         iso_backend_run *run)
-{
-    const size_t rows = iso_scene_rows(scene);
-    double at_start[ISO_MAX_INTEGRALS], size;
-    for (size_t i = 0; i < rows; i++) {
-        iso_sample sample;
-        iso_status status = iso_orbit_at(orbit, iso_scene_time(scene, i), &sample);
-        if (status == ISO_OK) status = append(ctx, run->trajectory, &sample);
-        if (status != ISO_OK) return status;
-        if (i == 0) list_drifts(orbit, &sample, run);
-        for (int d = 0; i == 0 && d < run->drifts; d++)
-            at_start[d] = iso_orbit_integral(orbit, run->drift[d].system, run->drift[d].integral, &sample, &size);
-        follow_drifts(orbit, &sample, at_start, run);
-        if (r->progress && !r->progress(r->done + r->share * (double)(i + 1) / (double)rows, r->data)) break;
-    }
-    return ISO_OK;
-}
-
-static iso_status run_backend(iso_context *ctx, const iso_scene *scene, iso_picture backend, const report *r,
-                              iso_comparison *c)
-{
-    iso_backend_run *run = &c->run[backend];
-    iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    iso_orbit *orbit;
-    iso_status status = iso_record_create(ctx, ISO_TRAJECTORY_COLUMNS, iso_trajectory_columns, &run->trajectory);
+    iso_backend_run *run = &r->out->run[backend];
+    iso_orbit_options o = iso_orbit_defaults(&r->scene->start);
+    iso_status status = iso_record_create(r->ctx, ISO_TRAJECTORY_COLUMNS, iso_trajectory_columns, &run->trajectory);
     if (status != ISO_OK) return status;
     o.backend = backend;
-    o.method = iso_method_find(scene->method);
-    o.tolerance = scene->tolerance;
+    o.method = iso_method_find(r->scene->method);
+    if (!o.method && strcmp(r->scene->method, "auto") != 0)
+        return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "method", "there is no method '%s'", r->scene->method);
+    o.tolerance = r->scene->tolerance;
     o.show = ISO_BOTH;
     for (int clock = 0; clock < ISO_CLOCKS; clock++) o.carry[clock] = true;
     const double begin = processor_seconds();
-    status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    status = iso_orbit_create(r->ctx, &r->scene->params, &r->scene->start, &o, &r->orbit[backend]);
     if (status != ISO_OK) return status;
-    status = follow(ctx, scene, orbit, r, run);
     run->seconds = processor_seconds() - begin;
-    run->method = iso_orbit_method(orbit);
-    run->statistics = iso_orbit_statistics(orbit);
-    c->clock = o.clock;
-    c->h = iso_orbit_energy(orbit);
-    c->eps = iso_orbit_coupling(orbit);
-    iso_orbit_free(orbit);
-    return status;
+    run->method = iso_orbit_method(r->orbit[backend]);
+    r->out->clock = o.clock;
+    r->out->h = iso_orbit_energy(r->orbit[backend]);
+    r->out->eps = iso_orbit_coupling(r->orbit[backend]);
+    return ISO_OK;
+}
+
+static iso_status take_row(runner *r, iso_picture backend, size_t i)
+{
+    iso_backend_run *run = &r->out->run[backend];
+    iso_sample sample;
+    double *row;
+    const double begin = processor_seconds();
+    iso_status status = iso_orbit_at(r->orbit[backend], iso_scene_time(r->scene, i), &sample);
+    run->seconds += processor_seconds() - begin;
+    run->statistics = iso_orbit_statistics(r->orbit[backend]);
+    if (status == ISO_OK) status = iso_record_append(r->ctx, run->trajectory, &row);
+    if (status != ISO_OK) return status;
+    for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) row[c] = iso_sample_column(&sample, c);
+    if (i == 0) list_drifts(r, backend, &sample);
+    follow_drifts(r, backend, &sample);
+    return ISO_OK;
+}
+
+/* Both backends row by row, so that what there is when it ends early is of both. */
+static iso_status take_rows(runner *r, bool (*progress)(double part, void *data), void *data)
+{
+    const size_t rows = iso_scene_rows(r->scene);
+    for (size_t i = 0; i < rows; i++) {
+        for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
+            const iso_status status = take_row(r, backend, i);
+            if (status != ISO_OK) return status;
+        }
+        if (progress && !progress((double)(i + 1) / (double)rows, data)) break;
+    }
+    return ISO_OK;
 }
 
 /* --- differences -------------------------------------------------------------------------------------------------- */
@@ -142,7 +157,7 @@ static iso_status compare_rows(iso_context *ctx, iso_comparison *c)
         d[5] = scale[0] > 0 ? fabs(x[first] - y[first]) / scale[0] : 0;
         d[6] = scale[1] > 0 ? fabs(x[second] - y[second]) / scale[1] : 0;
         c->worst[0] = d[0];
-        for (int j = 1; j < ISO_DIFFERENCES; j++) c->worst[j] = fmax(c->worst[j], d[j]);
+        for (int j = 1; j < ISO_DIFFERENCES; j++) c->worst[j] = larger(c->worst[j], d[j]);
     }
     return status;
 }
@@ -152,14 +167,13 @@ iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress
 {
     iso_comparison *c = *comparison = calloc(1, sizeof *c);
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a comparison");
-    iso_status status = ISO_OK;
-    for (iso_picture backend = ISO_BALL; backend <= ISO_POINT && status == ISO_OK; backend++) {
-        const report r = {progress, data, backend / 2.0, 0.5};
-        status = run_backend(ctx, scene, backend, &r, c);
-    }
-    const bool has_rows = c->run[ISO_BALL].trajectory && c->run[ISO_POINT].trajectory &&
-                          iso_record_rows(c->run[ISO_POINT].trajectory) > 0;
-    if (has_rows && (status == ISO_OK || status == ISO_NUMERICAL)) {
+    runner r = {.ctx = ctx, .scene = scene, .out = c};
+    iso_status status = open_backend(&r, ISO_BALL);
+    if (status == ISO_OK) status = open_backend(&r, ISO_POINT);
+    if (status == ISO_OK) status = take_rows(&r, progress, data);
+    for (int b = 0; b < ISO_BACKENDS; b++) iso_orbit_free(r.orbit[b]);
+    const iso_record *rows = c->run[ISO_POINT].trajectory;
+    if (rows && iso_record_rows(rows) > 0 && (status == ISO_OK || status == ISO_NUMERICAL)) {
         const iso_status rows_status = compare_rows(ctx, c);
         if (rows_status == ISO_OK) return status;
         status = rows_status;

@@ -26,7 +26,7 @@ typedef struct iso_backend_run {
     const iso_method *method;
     iso_record *trajectory; /* the columns iso_trajectory_columns, one row for each time of the scene    */
     iso_statistics statistics;
-    double seconds; /* of processor time                                                                 */
+    double seconds; /* of processor time, for the integration                                            */
     int drifts;     /* integrals that hold for this k and J, of the ball, then of the point              */
     iso_drift drift[ISO_MAX_INTEGRALS];
 } iso_backend_run;
@@ -43,10 +43,10 @@ typedef struct iso_comparison {
     double worst[ISO_DIFFERENCES];     /* largest of each column of `difference`; [0] is the last time   */
 } iso_comparison;
 
-/* Integrates the scene with both backends (its own choice of backend is not read). `progress` (may be NULL) is called
- * with the part done in [0, 1]; when it answers false the comparison ends there.
- * Errors: as iso_orbit_create and iso_orbit_at. After ISO_NUMERICAL in the middle *comparison holds the rows before;
- * otherwise it is NULL on failure. */
+/* Integrates the scene with both backends (its own choice of backend is not read), row by row. `progress` (may be NULL)
+ * is called after each row with the part done in (0, 1]; when it answers false the comparison ends there.
+ * Errors: as iso_orbit_create and iso_orbit_at; ISO_BAD_ARGUMENT for a method there is not. After ISO_NUMERICAL in the
+ * middle *comparison holds the rows before; otherwise it is NULL on failure. */
 iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data), void *data,
                        iso_comparison **comparison);
 void iso_comparison_free(iso_comparison *comparison);

@@ -1,0 +1,94 @@
+/* orbits.h - orbits to run the methods on, and errors in the units of their tolerance. */
+#ifndef ISO_TESTS_ORBITS_H
+#define ISO_TESTS_ORBITS_H
+
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/vec3_impl.h"
+#include "laws.h"
+#include "method/method.h"
+
+typedef struct orbit {
+    iso_context *ctx;
+    iso_model model; /* in the system's own clock, unless said otherwise       */
+    double y0[ISO_MAX_STATE];
+    double unit; /* time in which the unit vector moves by about one radian    */
+} orbit;
+
+enum { ORBIT_K = 4 };
+static const double orbit_k[ORBIT_K] = {1, -1, 0.5, -0.4};
+static const double orbit_J[3] = {1.4, 2.1, 3.0};
+
+/* The model in another clock, or with carried clocks (which start at 0). */
+static inline void orbit_clocks(orbit *o, iso_clock clock, bool carry_t, bool carry_tau, bool carry_s)
+{
+    double f[ISO_MAX_STATE];
+    o->model = iso_model_assemble(o->model.system, &o->model.field, clock, (const bool[]){carry_t, carry_tau, carry_s});
+    o->model.rhs(&o->model, o->y0, f);
+    o->unit = norm(f + 3) > 0 ? 1 / norm(f + 3) : 1;
+}
+
+/* A random orbit of the system. */
+static inline orbit orbit_sample(iso_context *ctx, const iso_system *system, double k, const double J[3],
+                                 unsigned long seed)
+{
+    orbit o = {.ctx = ctx, .model.system = system, .model.field.p = laws_params(k, J)};
+    iso_random *random = iso_random_create(seed);
+    system->sample(&o.model.field, random, o.y0);
+    iso_random_free(random);
+    orbit_clocks(&o, system->clock, false, false, false);
+    return o;
+}
+
+/* The ball turning about e3 in the plane n3 = 0: n = (cos k w t, -sin k w t, 0). */
+static inline orbit orbit_rotation(iso_context *ctx, double k, double w)
+{
+    orbit o = {.ctx = ctx, .model.system = &iso_system_ball, .model.field.p = laws_params(k, orbit_J)};
+    o.y0[2] = w;
+    o.y0[3] = 1;
+    o.model.field.energy = orbit_J[2] * w * w / 2;
+    orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
+    return o;
+}
+
+/* An integrator that has been started at y0; ends the test when that is refused. */
+static inline iso_integrator *orbit_start(const orbit *o, const iso_method *method, const iso_method_options *options)
+{
+    iso_integrator *it;
+    if (iso_integrator_create(o->ctx, method, &o->model, options, &it) != ISO_OK ||
+        iso_integrator_start(it, o->y0) != ISO_OK) {
+        gsl_test(1, "%s does not start: %s", method->name, iso_context_message(o->ctx));
+        exit(gsl_test_summary());
+    }
+    return it;
+}
+
+/* The state at one time; NaN when the integration fails. */
+static inline void orbit_solve(const orbit *o, const iso_method *method, const iso_method_options *options, double t,
+                               double y[])
+{
+    iso_integrator *it = orbit_start(o, method, options);
+    if (iso_integrator_at(it, t, y) != ISO_OK)
+        for (int i = 0; i < o->model.dim; i++) y[i] = NAN;
+    iso_integrator_free(it);
+}
+
+/* What the others are measured by. */
+static inline void orbit_reference(const orbit *o, double t, double y[])
+{
+    orbit_solve(o, iso_method_find("rk8pd"), &(iso_method_options){.tolerance = 1e-15}, t, y);
+}
+
+/* Largest error of a component, in units of its size. */
+static inline double orbit_error(const orbit *o, const double a[], const double b[])
+{
+    double size[ISO_MAX_STATE], error[ISO_MAX_STATE];
+    iso_model_size(&o->model, b, size);
+    for (int i = 0; i < o->model.dim; i++) error[i] = (a[i] - b[i]) / size[i];
+    return laws_max(o->model.dim, error);
+}
+
+#endif

@@ -1,0 +1,399 @@
+/* One orbit, however it is asked for: by either backend, in any clock, order and units, from either side. */
+#include <float.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "laws.h"
+#include "orbit/orbit.h"
+
+static const double J_three[3] = {1.4, 2.1, 3.0};
+
+static iso_context *ctx;
+
+/* --- orbits ---------------------------------------------------------------------------------------------------- */
+
+static iso_start random_start(const iso_params *p, iso_random *random)
+{
+    iso_field f = {.p = *p};
+    iso_start start = {.model = ISO_BALL};
+    iso_system_ball.sample(&f, random, start.y);
+    return start;
+}
+
+/* Everything shown and carried. */
+static iso_orbit_options all_of(const iso_start *start, iso_picture backend, iso_clock clock, double tolerance)
+{
+    iso_orbit_options o = iso_orbit_defaults(start);
+    o.backend = backend;
+    o.clock = clock;
+    o.tolerance = tolerance;
+    o.show = ISO_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    return o;
+}
+
+static void give_up(const char *what)
+{
+    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
+    exit(gsl_test_summary());
+}
+
+static iso_orbit *create(const iso_params *p, const iso_start *start, iso_picture backend, iso_clock clock)
+{
+    iso_orbit *orbit;
+    const iso_orbit_options o = all_of(start, backend, clock, 1e-14);
+    if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) give_up("an orbit is refused");
+    return orbit;
+}
+
+static iso_sample at(iso_orbit *orbit, double time)
+{
+    iso_sample s;
+    if (iso_orbit_at(orbit, time, &s) != ISO_OK) give_up("an orbit stops");
+    return s;
+}
+
+/* Largest of the relative differences of w and M and the differences of n and gamma. */
+static double state_difference(const iso_sample *a, const iso_sample *b)
+{
+    const double d[4] = {
+        laws_distance(a->ball, b->ball) / laws_norm(b->ball), laws_distance(a->ball + 3, b->ball + 3),
+        laws_distance(a->point, b->point) / laws_norm(b->point), laws_distance(a->point + 3, b->point + 3)};
+    return laws_max(4, d);
+}
+
+/* Of the clocks, relative. */
+static double clock_difference(const iso_sample *a, const iso_sample *b)
+{
+    double d[ISO_CLOCKS];
+    for (int c = 0; c < ISO_CLOCKS; c++) d[c] = a->clock[c] / b->clock[c] - 1;
+    return laws_max(ISO_CLOCKS, d);
+}
+
+/* --- the same orbit by both backends and in every clock -------------------------------------------------------- */
+
+enum { TIMES = 4 };
+static const double times[TIMES] = {0.7, 4, 9, -6};
+
+static laws_worst backends, clocks, backwards, origin;
+
+/* At tolerance 1e-14: for the exponents 1/k, for the number of turns, and for the chaos of a long body, whose orbits
+ * part by a factor 1e4 in the times above. */
+static double allowed(const iso_params *p)
+{
+    return 1e-12 * (1 + 1 / fabs(p->k) + fabs(p->k) / 5) * pow(laws_spread(p), 1.25);
+}
+
+/* The time t in which a clock would have come to its value at its present rate: its relative error times this is an
+ * error in t, large where s was spent near the least or the largest q. */
+static double lost_time(const iso_params *p, iso_clock clock, const iso_sample *s)
+{
+    const double q = dot_diag(s->point + 3, p->J, s->point + 3);
+    return fabs(s->clock[clock]) / iso_clock_rate(p, clock, q, NULL);
+}
+
+static void note_clock(const iso_params *p, iso_clock asked, const iso_sample *s, const iso_sample *truth)
+{
+    const double q = dot_diag(truth->point + 3, p->J, truth->point + 3), lost = lost_time(p, asked, truth);
+    const char *name = iso_clock_name(asked);
+    laws_note(&clocks, state_difference(s, truth), allowed(p) * (1 + lost * laws_norm(truth->ball)), p, name);
+    for (iso_clock c = ISO_CLOCK_T; c < ISO_CLOCKS; c++) {
+        const double lost_here = lost * iso_clock_rate(p, c, q, NULL) / fabs(truth->clock[c]);
+        laws_note(&clocks, fabs(s->clock[c] / truth->clock[c] - 1), allowed(p) * (1 + lost_here), p, name);
+    }
+}
+
+static void check_clocks(const iso_params *p, const iso_start *start, iso_picture backend, const iso_sample *truth)
+{
+    for (iso_clock c = ISO_CLOCK_TAU; c <= ISO_CLOCK_S; c++) {
+        iso_orbit *orbit = create(p, start, backend, c);
+        for (int i = 0; i < TIMES; i++) {
+            const iso_sample s = at(orbit, truth[i].clock[c]);
+            note_clock(p, c, &s, &truth[i]);
+        }
+        iso_orbit_free(orbit);
+    }
+}
+
+/* From where the orbit is at times[i], the way back ends in the start. */
+static void check_backwards(const iso_params *p, const iso_start *start, iso_picture backend, const iso_sample *there)
+{
+    iso_start turn = {.model = ISO_BALL};
+    copy(there->ball, turn.y, ISO_STATE);
+    iso_orbit *orbit = create(p, &turn, backend, ISO_CLOCK_T);
+    const iso_sample s = at(orbit, -there->clock[0]);
+    laws_note(&backwards, laws_distance(s.ball, start->y) / laws_norm(start->y), 10 * allowed(p), p, "w");
+    laws_note(&backwards, laws_distance(s.ball + 3, start->y + 3), 10 * allowed(p), p, "n");
+    laws_note(&backwards, fabs(s.clock[2] + there->clock[2]) / fabs(s.clock[2]), 10 * allowed(p), p, "s");
+    iso_orbit_free(orbit);
+}
+
+static void check_orbit(const iso_params *p, const iso_start *start)
+{
+    iso_orbit *ball = create(p, start, ISO_BALL, ISO_CLOCK_T), *point = create(p, start, ISO_POINT, ISO_CLOCK_T);
+    const double ulps = 8 * DBL_EPSILON * (1 + 1 / fabs(p->k));
+    iso_sample truth[TIMES], begin[2] = {at(ball, 0), at(point, 0)};
+    for (int b = 0; b < 2; b++) {
+        const double none[ISO_CLOCKS] = {0};
+        laws_note(&origin, laws_distance(begin[b].ball, start->y), ulps * laws_norm(start->y), p, "w");
+        laws_note(&origin, laws_distance(begin[b].ball + 3, start->y + 3), ulps, p, "n");
+        laws_note(&origin, memcmp(begin[b].clock, none, sizeof none) == 0 ? 0 : 1, 0.5, p, "clocks");
+    }
+    for (int i = 0; i < TIMES; i++) {
+        truth[i] = at(ball, times[i]);
+        const iso_sample other = at(point, times[i]);
+        laws_note(&backends, state_difference(&other, &truth[i]), allowed(p), p, "state");
+        laws_note(&backends, clock_difference(&other, &truth[i]), allowed(p), p, "clocks");
+    }
+    iso_orbit_free(ball);
+    iso_orbit_free(point);
+    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+        check_clocks(p, start, b, truth);
+        check_backwards(p, start, b, &truth[1]);
+    }
+}
+
+static void check_backends(void)
+{
+    static const double ks[] = {1, -1, 0.5, 0.75, -0.4, 1.5, -2, 0.25, 4, 0.05, 50, -0.3, -0.05};
+    static const double Js[][3] = {{1.4, 2.1, 3.0}, {3.0, 1.4, 2.1}, {2, 3, 2}, {2, 2, 2}, {1, 30, 1000}};
+    iso_random *random = iso_random_create(5);
+    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
+        for (size_t j = 0; j < sizeof Js / sizeof *Js; j++) {
+            const iso_params p = laws_params(ks[i], Js[j]);
+            const iso_start start = random_start(&p, random);
+            check_orbit(&p, &start);
+        }
+    iso_random_free(random);
+    laws_report(&backends, "backends ball and point agree");
+    laws_report(&clocks, "asked in tau and s: the same orbit");
+    laws_report(&backwards, "back again");
+    laws_report(&origin, "time 0 is the start");
+}
+
+/* --- the order of the questions -------------------------------------------------------------------------------- */
+
+static void check_order(void)
+{
+    enum { N = 40 };
+    iso_random *random = iso_random_create(6);
+    const iso_params p = laws_params(-0.3, J_three);
+    const iso_start start = random_start(&p, random);
+    iso_sample forward[N], s;
+    int different = 0;
+    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+        iso_orbit *orbit = create(&p, &start, b, ISO_CLOCK_T), *fresh = create(&p, &start, b, ISO_CLOCK_T);
+        for (int i = 0; i < N; i++) forward[i] = at(orbit, 0.31 * (i - N / 4));
+        for (int i = 0; i < 4 * N; i++) {
+            const int which = (int)iso_random_uniform(random, 0, N);
+            s = at(i % 2 ? orbit : fresh, 0.31 * (which - N / 4));
+            different += memcmp(&s, &forward[which], sizeof s) != 0;
+        }
+        iso_orbit_free(orbit);
+        iso_orbit_free(fresh);
+    }
+    iso_random_free(random);
+    gsl_test_int(different, 0, "samples that depend on the order of the questions");
+}
+
+/* --- from the point's side ------------------------------------------------------------------------------------- */
+
+static laws_worst from_point;
+
+/* The start of the same orbit as seen by the point; its coupling stated, or left to the level H = 0. */
+static void check_point_start(const iso_params *p, const iso_start *ball)
+{
+    iso_orbit *orbit = create(p, ball, ISO_BALL, ISO_CLOCK_T);
+    const iso_sample begin = at(orbit, 0), truth = at(orbit, 4);
+    const double eps[2] = {iso_orbit_coupling(orbit), NAN};
+    iso_orbit_free(orbit);
+    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++)
+        for (int i = 0; i < 2; i++) {
+            iso_start start;
+            if (iso_start_point(ctx, begin.point, begin.point + 3, isnan(eps[i]) ? NULL : &eps[i], false, &start) !=
+                ISO_OK)
+                give_up("a point's start");
+            orbit = create(p, &start, b, ISO_CLOCK_S);
+            const iso_sample s = at(orbit, truth.clock[ISO_CLOCK_S]);
+            laws_note(&from_point, state_difference(&s, &truth), 10 * allowed(p), p, "state");
+            laws_note(&from_point, clock_difference(&s, &truth), 10 * allowed(p), p, "clocks");
+            laws_note(&from_point, fabs(iso_orbit_coupling(orbit) / eps[0] - 1), 1e-13 * (1 + 1 / fabs(p->k)), p,
+                      "eps");
+            iso_orbit_free(orbit);
+        }
+}
+
+static void check_point_starts(void)
+{
+    static const double ks[] = {1, -1, 0.5, -0.3, 4, 50};
+    iso_random *random = iso_random_create(7);
+    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++) {
+        const iso_params p = laws_params(ks[i], J_three);
+        const iso_start start = random_start(&p, random);
+        check_point_start(&p, &start);
+    }
+    iso_random_free(random);
+    laws_report(&from_point, "a start of the point is that of its ball");
+}
+
+static iso_status try_create(const iso_params *p, const iso_start *start, const iso_orbit_options *o)
+{
+    iso_orbit *orbit;
+    const iso_status status = iso_orbit_create(ctx, p, start, o, &orbit);
+    iso_orbit_free(orbit);
+    return status;
+}
+
+static void refused(iso_status got, iso_status wanted, const char *word, const char *what)
+{
+    gsl_test(got != wanted || !strstr(iso_context_message(ctx), word), "%s: %s (%s)", what, iso_status_text(got),
+             got == ISO_OK ? "" : iso_context_message(ctx));
+}
+
+/* A point that swings: too slow for the level H = 0. */
+static void check_off_level(void)
+{
+    const iso_params p = laws_params(-1, J_three);
+    const double eps = 2, M[3] = {0, 0.3, -0.2}, gamma[3] = {1, 0, 0};
+    const iso_integral *H = laws_integral(&iso_system_point, "H"), *F = laws_integral(&iso_system_point, "F_shell");
+    iso_start start;
+    iso_orbit *orbit;
+    if (iso_start_point(ctx, M, gamma, &eps, false, &start) != ISO_OK) give_up("a swinging point's start");
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) give_up("a swinging point");
+    double worst = 0, size, least = INFINITY, most = 0;
+    const iso_sample begin = at(orbit, 0);
+    for (int i = 1; i <= 100; i++) {
+        const iso_sample s = at(orbit, 0.2 * i);
+        const iso_integral *both[2] = {H, F};
+        for (int j = 0; j < 2; j++) {
+            const double before = iso_orbit_integral(orbit, &iso_system_point, both[j], &begin, &size);
+            worst =
+                fmax(worst, fabs(iso_orbit_integral(orbit, &iso_system_point, both[j], &s, &size) - before) / size);
+        }
+        least = fmin(least, laws_norm(s.point));
+        most = fmax(most, laws_norm(s.point));
+    }
+    gsl_test(!(worst < 1e-10), "off the level H = 0: H and F drift by %.2g", worst);
+    gsl_test(!(most > 3 * least), "off the level H = 0: |M| goes from %.2g to %.2g", least, most);
+    gsl_test(!isnan(begin.ball[0]) || !isnan(begin.clock[0]), "off the level H = 0: there is no ball");
+    iso_orbit_free(orbit);
+    o.show = ISO_BALL;
+    refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "H = ", "off the level: as ball");
+    o = iso_orbit_defaults(&start), o.backend = ISO_BALL;
+    refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "H = ", "off the level: backend ball");
+    for (iso_clock c = ISO_CLOCK_T; c <= ISO_CLOCK_TAU; c++) {
+        o = iso_orbit_defaults(&start), o.carry[c] = true;
+        refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "H = ", "off the level: a ball's clock carried");
+        o = iso_orbit_defaults(&start), o.clock = c;
+        refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "H = ", "off the level: asked in a ball's clock");
+    }
+}
+
+static void check_rest(void)
+{
+    const iso_params p = laws_params(0.5, J_three);
+    const iso_start start = {.model = ISO_BALL, .y = {0, 0, 0, 0.6, 0, 0.8}};
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    iso_orbit *orbit;
+    o.carry[ISO_CLOCK_S] = o.carry[ISO_CLOCK_TAU] = true;
+    if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) give_up("a ball at rest");
+    const iso_sample s = at(orbit, 100);
+    const double q = 1 / dot_diag(start.y + 3, p.inv_J, start.y + 3);
+    gsl_test(laws_norm(s.ball) != 0 || laws_distance(s.ball + 3, start.y + 3) > 1e-15, "at rest nothing moves");
+    gsl_test_rel(s.clock[ISO_CLOCK_S], 100 * iso_clock_rate(&p, ISO_CLOCK_S, q, NULL), 1e-13,
+                 "at rest s runs evenly");
+    iso_orbit_free(orbit);
+    o.show = ISO_BOTH;
+    refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "at rest", "at rest: as both");
+    o.show = ISO_BALL, o.backend = ISO_POINT;
+    refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "at rest", "at rest: backend point");
+}
+
+/* --- units ----------------------------------------------------------------------------------------------------- */
+
+static laws_worst speeds, inertias;
+
+/* Compares b with a's ball, point and clocks times the powers `factor`. */
+static void note_scaled(laws_worst *worst, const iso_params *p, const iso_sample *a, const iso_sample *b,
+                        const double clock[ISO_CLOCKS], double w, double M, const char *what)
+{
+    iso_sample scaled = *b;
+    for (int c = 0; c < ISO_CLOCKS; c++) scaled.clock[c] /= clock[c];
+    for (int i = 0; i < 3; i++) scaled.ball[i] /= w, scaled.point[i] /= M;
+    laws_note(worst, state_difference(&scaled, a), 1e-11, p, what);
+    laws_note(worst, clock_difference(&scaled, a), 1e-11, p, what);
+}
+
+/* (w, t) -> (c w, t/c) is the same curve; M grows with c, tau and s shrink with it. */
+static void check_speeds(const iso_params *p, const iso_start *start, iso_picture backend)
+{
+    static const double cs[] = {1e-150, 3e-77, 7e-4, 1.9, 1e9, 3e81, 1e150};
+    iso_orbit *orbit = create(p, start, backend, ISO_CLOCK_T);
+    const iso_sample truth = at(orbit, 4);
+    iso_orbit_free(orbit);
+    for (size_t i = 0; i < sizeof cs / sizeof *cs; i++) {
+        const double c = cs[i], clock[ISO_CLOCKS] = {1 / c, 1 / c, 1 / c};
+        iso_start fast = *start;
+        scale(fast.y, c);
+        orbit = create(p, &fast, backend, ISO_CLOCK_T);
+        const iso_sample s = at(orbit, 4 / c);
+        note_scaled(&speeds, p, &truth, &s, clock, c, c, iso_picture_name((int)backend));
+        iso_orbit_free(orbit);
+    }
+}
+
+/* J -> c J leaves (w, n, t); tau ~ J^(1 - 1/(2k)), s ~ J^(-2 + 1/(2k)), M ~ J^(2 - 1/(2k)), eps ~ J^4. */
+static void check_inertias(const iso_params *p, const iso_start *start, iso_picture backend)
+{
+    static const double cs[] = {1e-30, 1e-11, 0.37, 5.1, 1e11, 1e30};
+    const double half = 1 / (2 * p->k);
+    iso_orbit *orbit = create(p, start, backend, ISO_CLOCK_T);
+    const iso_sample truth = at(orbit, 4);
+    const double eps = iso_orbit_coupling(orbit), h = iso_orbit_energy(orbit);
+    iso_orbit_free(orbit);
+    for (size_t i = 0; i < sizeof cs / sizeof *cs; i++) {
+        const double c = cs[i], J[3] = {c * p->J[0], c * p->J[1], c * p->J[2]};
+        const double clock[ISO_CLOCKS] = {1, pow(c, 1 - half), pow(c, -2 + half)};
+        const iso_params heavy = laws_params(p->k, J);
+        orbit = create(&heavy, start, backend, ISO_CLOCK_T);
+        const iso_sample s = at(orbit, 4);
+        note_scaled(&inertias, p, &truth, &s, clock, 1, pow(c, 2 - half), iso_picture_name((int)backend));
+        laws_note(&inertias, fabs(iso_orbit_coupling(orbit) / pow(c, 4) / eps - 1), 1e-13, p, "eps");
+        laws_note(&inertias, fabs(iso_orbit_energy(orbit) / c / h - 1), 1e-13, p, "h");
+        iso_orbit_free(orbit);
+    }
+}
+
+static void check_scaling(void)
+{
+    static const double ks[] = {1, -1, 0.6, -0.3, 4, 0.1};
+    iso_random *random = iso_random_create(8);
+    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
+        for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+            const iso_params p = laws_params(ks[i], J_three);
+            const iso_start start = random_start(&p, random);
+            check_speeds(&p, &start, b);
+            check_inertias(&p, &start, b);
+        }
+    iso_random_free(random);
+    laws_report(&speeds, "w from 1e-150 to 1e150: the same curve");
+    laws_report(&inertias, "J from 1e-30 to 1e30: the same ball");
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    check_backends();
+    check_order();
+    check_point_starts();
+    check_off_level();
+    check_rest();
+    check_scaling();
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}

@@ -1,0 +1,323 @@
+/* Orbits known in closed form, events, and what an orbit refuses or does when it cannot go on. */
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_mode.h>
+#include <gsl/gsl_sf_ellint.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "laws.h"
+#include "orbit/orbit.h"
+
+static iso_context *ctx;
+
+static void give_up(const char *what)
+{
+    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
+    exit(gsl_test_summary());
+}
+
+static iso_orbit *create(const iso_params *p, const iso_start *start, const iso_orbit_options *o)
+{
+    iso_orbit *orbit;
+    if (iso_orbit_create(ctx, p, start, o, &orbit) != ISO_OK) give_up("an orbit is refused");
+    return orbit;
+}
+
+static iso_sample at(iso_orbit *orbit, double time)
+{
+    iso_sample s;
+    if (iso_orbit_at(orbit, time, &s) != ISO_OK) give_up("an orbit stops");
+    return s;
+}
+
+static iso_orbit_options ball_and_s(const iso_start *start, iso_picture backend, double tolerance)
+{
+    iso_orbit_options o = iso_orbit_defaults(start);
+    o.backend = backend;
+    o.tolerance = tolerance;
+    o.carry[ISO_CLOCK_S] = start->model == ISO_BALL;
+    return o;
+}
+
+/* --- closed forms ---------------------------------------------------------------------------------------------- */
+
+static laws_worst turn, period, circle;
+
+/* A turn about a principal axis at rate W: n is back after 2 pi/(|k| W), s has grown by an elliptic integral. */
+static void check_turn(double k, const double J[3], int axis, double W, iso_picture backend)
+{
+    const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+    const iso_params p = laws_params(k, J);
+    const double least = fmin(J[i], J[j]), most = fmax(J[i], J[j]), modulus = sqrt(1 - least / most);
+    iso_start start = {.model = ISO_BALL};
+    start.y[axis] = W;
+    start.y[3 + i] = 0.6;
+    start.y[3 + j] = 0.8;
+    const iso_orbit_options o = ball_and_s(&start, backend, 1e-14);
+    iso_orbit *orbit = create(&p, &start, &o);
+    const double T = 2 * M_PI / fabs(k * W), root = sqrt(2 * iso_orbit_coupling(orbit));
+    const iso_sample whole = at(orbit, T), half = at(orbit, -T / 2);
+    double opposite[3];
+    for (int c = 0; c < 3; c++) opposite[c] = -half.ball[3 + c];
+    laws_note(&turn, laws_distance(whole.ball + 3, start.y + 3), 1e-12, &p, "n");
+    laws_note(&turn, laws_distance(opposite, start.y + 3), 1e-12, &p, "-n");
+    laws_note(&turn, laws_distance(whole.ball, start.y) / fabs(W), 1e-12, &p, "w");
+    if (fabs(k) == 1) {
+        const double s = k == 1 ? 4 * sqrt(most) * gsl_sf_ellint_Ecomp(modulus, GSL_PREC_DOUBLE) / root
+                                : 4 * gsl_sf_ellint_Kcomp(modulus, GSL_PREC_DOUBLE) / (root * sqrt(most));
+        laws_note(&period, fabs(whole.clock[ISO_CLOCK_S] / s - 1), 1e-12, &p, "whole");
+        laws_note(&period, fabs(half.clock[ISO_CLOCK_S] / s + 0.5), 1e-12, &p, "half");
+    }
+    iso_orbit_free(orbit);
+}
+
+static void check_turns(void)
+{
+    static const double ks[] = {1, -1, 0.5, -0.3, 4},
+                        Js[][3] = {{1.4, 2.1, 3.0}, {3.0, 0.7, 1.1}, {2, 2, 3}, {40, 1, 5}};
+    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
+        for (size_t j = 0; j < sizeof Js / sizeof *Js; j++)
+            for (int axis = 0; axis < 3; axis++)
+                for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++)
+                    check_turn(ks[i], Js[j], axis, axis == 1 ? -0.3 : 2, b);
+    laws_report(&turn, "a turn in a principal plane");
+    laws_report(&period, "its period in s");
+}
+
+/* Equal moments: w stays, n(t) = n cos(k |w| t) + (n x w)/|w| sin(k |w| t). */
+static void check_circle(void)
+{
+    static const double ks[] = {1, -1, 0.5, -0.3, 4}, J[3] = {2, 2, 2};
+    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
+        for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+            const iso_params p = laws_params(ks[i], J);
+            const iso_start start = {.model = ISO_BALL, .y = {0.8, 0.5, -0.6, 0.6, 0, 0.8}};
+            const iso_orbit_options o = ball_and_s(&start, b, 1e-14);
+            iso_orbit *orbit = create(&p, &start, &o);
+            const double t = 7.3, w = laws_norm(start.y), angle = p.k * w * t;
+            const iso_sample s = at(orbit, t);
+            double side[3], n[3];
+            cross(start.y + 3, start.y, side);
+            for (int c = 0; c < 3; c++) n[c] = start.y[3 + c] * cos(angle) + side[c] / w * sin(angle);
+            laws_note(&circle, laws_distance(s.ball, start.y), 1e-12, &p, "w");
+            laws_note(&circle, laws_distance(s.ball + 3, n), 1e-12 * (1 + fabs(angle)), &p, "n");
+            iso_orbit_free(orbit);
+        }
+    laws_report(&circle, "equal moments: a great circle");
+}
+
+/* --- events ---------------------------------------------------------------------------------------------------- */
+
+static double n3(const iso_sample *s, const void *data)
+{
+    (void)data;
+    return s->ball[5];
+}
+
+/* The next events n3 = 0 of both backends are the same, and are where iso_orbit_at finds n3 = 0. */
+static void check_events(double k, double w, iso_clock clock, int direction, laws_worst *worst)
+{
+    static const double J[3] = {1.4, 2.1, 3.0};
+    const iso_params p = laws_params(k, J);
+    const iso_start start = {.model = ISO_BALL, .y = {0.8 * w, 0.5 * w, -0.6 * w, 0.6, 0, 0.8}};
+    iso_orbit *orbit[2];
+    double from[2] = {0, 0};
+    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+        iso_orbit_options o = ball_and_s(&start, b, 1e-14);
+        o.clock = clock;
+        o.carry[ISO_CLOCK_T] = true;
+        orbit[b] = create(&p, &start, &o);
+    }
+    const double end = iso_unit(iso_orbit_units(orbit[0]), iso_clock_dimension(clock)) * 1000;
+    for (int i = 0; i < 6; i++) {
+        iso_sample s[2];
+        for (int b = 0; b < 2; b++) {
+            bool found = false;
+            const iso_status status = iso_orbit_event(orbit[b], n3, NULL, direction, from[b], end, &found, &s[b]);
+            if (status != ISO_OK || !found) give_up("an event is not found");
+            const iso_sample there = at(orbit[b], s[b].clock[clock]);
+            laws_note(worst, fabs(s[b].ball[5]), 1e-13, &p, "n3");
+            laws_note(worst, laws_distance(there.ball + 3, s[b].ball + 3), 1e-12, &p, "at");
+            from[b] = s[b].clock[clock];
+            const double rate = p.k * (s[b].ball[3] * s[b].ball[1] - s[b].ball[4] * s[b].ball[0]); /* n3' */
+            laws_note(worst, direction * rate < 0 ? 1 : 0, 0.5, &p, "direction");
+        }
+        laws_note(worst, fabs(s[0].clock[ISO_CLOCK_T] / s[1].clock[ISO_CLOCK_T] - 1), 1e-11, &p, "time");
+        laws_note(worst, laws_distance(s[0].ball, s[1].ball) / laws_norm(s[0].ball), 1e-11, &p, "w");
+    }
+    for (int b = 0; b < 2; b++) iso_orbit_free(orbit[b]);
+}
+
+/* n = (0, cos(a - k w t), sin(a - k w t)) passes n3 = 0 at a/(k w), downwards for k > 0. */
+static void check_event_time(void)
+{
+    static const double J[3] = {1.4, 2.1, 3.0};
+    const iso_params p = laws_params(0.5, J);
+    const iso_start start = {.model = ISO_BALL, .y = {2, 0, 0, 0, cos(0.7), sin(0.7)}};
+    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+        const iso_orbit_options o = ball_and_s(&start, b, 1e-14);
+        iso_orbit *orbit = create(&p, &start, &o);
+        iso_sample s;
+        bool found = false;
+        iso_orbit_event(orbit, n3, NULL, 0, 0, 10, &found, &s);
+        gsl_test_rel(found ? s.clock[0] : NAN, 0.7, 1e-12, "a turning ball's event");
+        iso_orbit_event(orbit, n3, NULL, 1, 0, 10, &found, &s);
+        gsl_test_rel(found ? s.clock[0] : NAN, 0.7 + M_PI, 1e-12, "its first upwards");
+        iso_orbit_event(orbit, n3, NULL, 1, 0, -10, &found, &s);
+        gsl_test_rel(found ? s.clock[0] : NAN, 0.7 - M_PI, 1e-12, "its first upwards in the past");
+        iso_orbit_event(orbit, n3, NULL, 0, 0, 0.69, &found, &s);
+        gsl_test(found, "none before its time");
+        iso_orbit_free(orbit);
+    }
+}
+
+static double not_a_number(const iso_sample *s, const void *data)
+{
+    return s->ball[5] > 0.5 ? s->ball[5] : *(const double *)data;
+}
+
+static void check_bad_event(void)
+{
+    static const double J[3] = {1.4, 2.1, 3.0}, bad[3] = {NAN, INFINITY, -INFINITY};
+    const iso_params p = laws_params(0.5, J);
+    const iso_start start = {.model = ISO_BALL, .y = {2, 0, 0, 0, cos(0.7), sin(0.7)}};
+    for (int i = 0; i < 3; i++) {
+        const iso_orbit_options o = iso_orbit_defaults(&start);
+        iso_orbit *orbit = create(&p, &start, &o);
+        iso_sample s;
+        bool found = true;
+        const iso_status status = iso_orbit_event(orbit, not_a_number, &bad[i], 0, 0, 10, &found, &s);
+        gsl_test(status != ISO_NUMERICAL || found, "an event function that is %g: %s", bad[i],
+                 iso_context_message(ctx));
+        iso_orbit_free(orbit);
+    }
+}
+
+/* --- refusals -------------------------------------------------------------------------------------------------- */
+
+static void refused(iso_status got, iso_status wanted, const char *word, const char *what)
+{
+    gsl_test(got != wanted || !strstr(iso_context_message(ctx), word), "%s: %s (%s)", what, iso_status_text(got),
+             got == ISO_OK ? "" : iso_context_message(ctx));
+}
+
+static iso_status try_create(const iso_params *p, const iso_start *start, const iso_orbit_options *o)
+{
+    iso_orbit *orbit;
+    const iso_status status = iso_orbit_create(ctx, p, start, o, &orbit);
+    iso_orbit_free(orbit);
+    return status;
+}
+
+/* Where M or a clock is no double, or k too extreme for them, that is said; the ball in its own time is had. */
+static void check_range(double k, double J, double w, const char *word)
+{
+    const double long_J[3] = {J, 2.1 * J, 3 * J};
+    const iso_params p = laws_params(k, long_J);
+    const iso_start start = {.model = ISO_BALL, .y = {0.8 * w, 0.1 * w, -0.6 * w, 0.6, 0, 0.8}};
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    iso_orbit *orbit = create(&p, &start, &o);
+    iso_sample s = at(orbit, 3 / (w * fmax(1, fabs(k))));
+    scale(s.ball, 1 / w);
+    gsl_test_rel(dot_diag(s.ball, p.J, s.ball) / J, 1.741, 1e-11, "k = %g, J = %g, w = %g: the ball alone", k, J, w);
+    iso_orbit_free(orbit);
+    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+        o.backend = b;
+        o.show = ISO_BOTH;
+        refused(try_create(&p, &start, &o), ISO_NUMERICAL, word, "its point");
+    }
+    o = iso_orbit_defaults(&start);
+    o.carry[ISO_CLOCK_S] = true;
+    refused(try_create(&p, &start, &o), ISO_NUMERICAL, word, "its s");
+}
+
+static void check_bad_numbers(void)
+{
+    static const double J[3] = {1.4, 2.1, 3.0}, bad_times[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300, 1e16};
+    static const double bad_tolerances[] = {NAN, 0, -1, 1e-16, 0.2, INFINITY};
+    const iso_params p = laws_params(0.5, J);
+    const iso_start start = {.model = ISO_BALL, .y = {2, 0, 0, 0, 0.6, 0.8}};
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    iso_orbit *orbit = create(&p, &start, &o);
+    iso_sample s;
+    for (size_t i = 0; i < sizeof bad_times / sizeof *bad_times; i++) {
+        bool found;
+        refused(iso_orbit_at(orbit, bad_times[i], &s), ISO_BAD_ARGUMENT, "out of range", "a time");
+        refused(iso_orbit_event(orbit, n3, NULL, 0, 0, bad_times[i], &found, &s), ISO_BAD_ARGUMENT, "out of range",
+                "an event");
+    }
+    iso_orbit_free(orbit);
+    for (size_t i = 0; i < sizeof bad_tolerances / sizeof *bad_tolerances; i++) {
+        o.tolerance = bad_tolerances[i];
+        refused(try_create(&p, &start, &o), ISO_BAD_ARGUMENT, "tolerance", "a tolerance");
+    }
+    for (int model = ISO_BALL; model <= ISO_POINT; model++)
+        for (int i = 0; i < ISO_STATE; i++)
+            for (int b = 0; b < 2; b++) {
+                iso_start bad = {.model = (iso_picture)model, .y = {2, 0, 0, 0, 0.6, 0.8}, .eps = NAN};
+                bad.y[i] = b ? NAN : INFINITY;
+                o = iso_orbit_defaults(&bad);
+                gsl_test(try_create(&p, &bad, &o) == ISO_OK, "number %d of a start is %g: %s", i, bad.y[i],
+                         iso_context_message(ctx));
+            }
+}
+
+/* Stopped on the way, the last good moment can be read, and the orbit still answers before it. */
+static void check_failure(iso_picture backend)
+{
+    static const double J[3] = {1.4, 2.1, 3.0};
+    const iso_params p = laws_params(-0.3, J);
+    const iso_start start = {.model = ISO_BALL, .y = {0.8, 0.5, -0.6, 0.6, 0, 0.8}};
+    iso_orbit_options o = ball_and_s(&start, backend, 1e-12);
+    iso_orbit *whole = create(&p, &start, &o);
+    o.max_steps = 30;
+    iso_orbit *orbit = create(&p, &start, &o);
+    iso_sample s;
+    refused(iso_orbit_at(orbit, 1000, &s), ISO_NUMERICAL, "last good t", "more steps than allowed");
+    const char *said = strstr(iso_context_message(ctx), "last good t = ");
+    const double said_t = said ? strtod(said + strlen("last good t = "), NULL) : NAN;
+    if (iso_orbit_last(orbit, &s) != ISO_OK) give_up("the last good moment");
+    const double t = s.clock[0];
+    gsl_test(!(t > 1 && t < 1000) || said_t != t, "the last good time is %g", t);
+    const iso_sample truth = at(whole, t), before = at(orbit, 0.999 * t), truth_before = at(whole, 0.999 * t);
+    gsl_test(!(laws_distance(s.ball, truth.ball) < 1e-13) || !(fabs(s.clock[2] / truth.clock[2] - 1) < 1e-13),
+             "the last good moment is on the orbit");
+    gsl_test(memcmp(&before, &truth_before, sizeof before) != 0, "after a failure: earlier times are still answered");
+    iso_orbit_free(orbit);
+    iso_orbit_free(whole);
+}
+
+int main(void)
+{
+    laws_worst events = {0};
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    check_turns();
+    check_circle();
+    for (iso_clock c = ISO_CLOCK_T; c < ISO_CLOCKS; c++)
+        for (int direction = -1; direction <= 1; direction++) {
+            check_events(1, 1, c, direction, &events);
+            check_events(-1, 1, c, direction, &events);
+            check_events(4, 1e-30, c, direction, &events);
+            check_events(0.5, 1e100, c, direction, &events);
+        }
+    laws_report(&events, "events n3 = 0");
+    check_event_time();
+    check_bad_event();
+    check_range(-0.05, 1e30, 1, "fit a double");
+    check_range(0.02, 1e30, 1, "fit a double");
+    check_range(1, 1e100, 1e170, "fit a double");
+    check_range(1, 1e-100, 1e-170, "fit a double");
+    check_range(1e-6, 1, 1, "k = 1e-06");
+    check_range(-1e-6, 1, 1, "k = -1e-06");
+    check_range(1e-200, 1, 1, "k = 1e-200");
+    check_range(1e200, 1, 1e-200, "k = 1e+200");
+    check_bad_numbers();
+    check_failure(ISO_BALL);
+    check_failure(ISO_POINT);
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}
