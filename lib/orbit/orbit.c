@@ -92,7 +92,6 @@ static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start
     o->eps = iso_coupling(&o->units.own, o->h);
 }
 
-/* The point's potential and start in own units. */
 /* The speed of the ball whose M has the size that M reaches on this potential: w^2 = (k^2/(det J J)) times the larger of
  * q^(1/k) M^2 and 2 eps. By logarithms, since the powers of J need not fit a double in the caller's units. */
 static double point_speed(const iso_params *p, const iso_start *start)
@@ -133,41 +132,62 @@ static iso_status refuse_level(iso_context *ctx, double H, double size)
 
 /* --- making an orbit --------------------------------------------------------------------------------------------- */
 
-static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *start)
+/* What an orbit is asked for decides what must exist: the ball, the point, powers of q. */
+typedef struct needs {
+    bool ball, point, powers;
+} needs;
+
+static needs what_is_needed(const iso_orbit_options *opt, const iso_start *start)
 {
-    double y[ISO_MAX_STATE] = {0}, level = 0, size = 0;
-    iso_orbit_options *opt = &o->options;
-    if (opt->backend == ISO_AUTO) opt->backend = start->model;
-    const bool needs_ball = opt->backend == ISO_BALL || opt->show != ISO_POINT || opt->clock != ISO_CLOCK_S ||
-                            opt->carry[ISO_CLOCK_T] || opt->carry[ISO_CLOCK_TAU];
-    const bool needs_point = opt->backend == ISO_POINT || opt->show != ISO_BALL;
-    const bool powers =
-        needs_point || opt->clock != ISO_CLOCK_T || opt->carry[ISO_CLOCK_TAU] || opt->carry[ISO_CLOCK_S];
+    const bool other_clocks = opt->carry[ISO_CLOCK_TAU] || opt->carry[ISO_CLOCK_S];
+    const bool point = opt->backend == ISO_POINT || opt->show != ISO_BALL;
+    return (needs){
+        .ball = opt->backend == ISO_BALL || opt->show != ISO_POINT || opt->clock != ISO_CLOCK_S ||
+                opt->carry[ISO_CLOCK_T] || opt->carry[ISO_CLOCK_TAU],
+        .point = point,
+        .powers = point || start->model == ISO_POINT || opt->clock != ISO_CLOCK_T || other_clocks,
+    };
+}
+
+/* The start in the backend's variables and own units, and the energy it lives on there. */
+static iso_status find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE],
+                             double *energy)
+{
+    const iso_picture backend = o->options.backend;
+    const needs need = what_is_needed(&o->options, start);
+    double level = 0, size = 0;
     if (!all_finite(start->y, ISO_STATE) || (start->model == ISO_POINT && isinf(start->eps)))
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "the start is not finite");
     set_units(o, p, 0);
-    iso_status status = powers || start->model == ISO_POINT ? check_powers(o) : ISO_OK;
+    iso_status status = need.powers ? check_powers(o) : ISO_OK;
     if (status != ISO_OK) return status;
-    if (start->model == ISO_BALL) {
+    if (start->model == ISO_BALL)
         start_ball(o, p, start, y);
-        if (o->h == 0 && needs_point)
-            return iso_context_fail(o->ctx, ISO_NOT_MAPPED, "angular_velocity",
-                                    "a ball at rest (h = 0) has no twin: the point's potential would vanish");
-    } else {
+    else
         level = start_point(o, p, start, y, &size);
-        if (level != 0 && needs_ball) return refuse_level(o->ctx, level, size);
-    }
+    if (start->model == ISO_BALL && o->h == 0 && need.point)
+        return iso_context_fail(o->ctx, ISO_NOT_MAPPED, "angular_velocity",
+                                "a ball at rest (h = 0) has no twin: the point's potential would vanish");
+    if (level != 0 && need.ball) return refuse_level(o->ctx, level, size);
     status = check_units(o, start);
     if (status != ISO_OK) return status;
-    if (opt->backend == ISO_POINT && start->model == ISO_BALL) iso_ball_to_point(&o->units.own, y, y);
-    if (opt->backend == ISO_BALL && start->model == ISO_POINT) iso_point_to_ball(&o->units.own, y, y);
-    if (!all_finite(y, ISO_STATE) || !isfinite(o->h) || (needs_point && !isfinite(o->eps)))
-        return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
-                                "the start is out of the range of doubles in the ball's own units");
+    if (backend == ISO_POINT && start->model == ISO_BALL) iso_ball_to_point(&o->units.own, y, y);
+    if (backend == ISO_BALL && start->model == ISO_POINT) iso_point_to_ball(&o->units.own, y, y);
+    *energy = backend == ISO_BALL ? o->h : level;
+    if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps))) return ISO_OK;
+    return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
+                            "the start is out of the range of doubles in the ball's own units");
+}
+
+static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *start)
+{
+    iso_orbit_options *opt = &o->options;
+    double y[ISO_MAX_STATE] = {0}, energy = 0;
+    if (opt->backend == ISO_AUTO) opt->backend = start->model;
+    iso_status status = find_start(o, p, start, y, &energy);
+    if (status != ISO_OK) return status;
     const iso_system *system = opt->backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
-    const iso_field field = {.p = o->units.own,
-                             .eps = opt->backend == ISO_POINT ? o->eps : 0,
-                             .energy = opt->backend == ISO_POINT ? level : o->h};
+    const iso_field field = {.p = o->units.own, .eps = opt->backend == ISO_POINT ? o->eps : 0, .energy = energy};
     o->model = iso_model_assemble(system, &field, opt->clock, opt->carry);
     if (!opt->method) opt->method = iso_method_auto(&o->model);
     const iso_method_options m = {.tolerance = opt->tolerance, .max_steps = opt->max_steps};
