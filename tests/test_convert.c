@@ -313,7 +313,7 @@ static void check_refusals(void)
     refused(r, ISO_POINT, ISO_BAD_INPUT, "row 4: t turns", "times that turn back by very little");
     refused(damaged(ISO_BALL, "omega2", 1, 1, 0.01), ISO_POINT, ISO_BAD_INPUT, "row 2", "not orthogonal");
     refused(damaged(ISO_BALL, "n3", 5, 1.01, 0.01), ISO_POINT, ISO_BAD_INPUT, "row 6", "no unit vector");
-    refused(damaged(ISO_BALL, "t", 0, 1, 0), ISO_BALL, ISO_BAD_INPUT, "M1", "a ball as if it were a point");
+    refused(damaged(ISO_BALL, "t", 0, 1, 0), ISO_BALL, ISO_BAD_INPUT, "already", "a ball as if it were a point");
     for (int i = 0; i < 3; i++)
         for (int c = 0; c < 3; c++)
             refused(damaged(ISO_BALL, columns[c], 2, 0, bad[i]), ISO_POINT, ISO_BAD_INPUT, row3[c], columns[c]);

@@ -2,6 +2,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "base/vec3_impl.h"
 #include "map/state.h"
@@ -240,6 +241,25 @@ static iso_status convert_clock(const conversion *c, double origin, iso_record *
     return status;
 }
 
+/* h and eps: what the record states, if its first row agrees to 1e-6 (a point's rows have been held to it, a ball needs
+ * neither to be carried over), else those of the first row. */
+static iso_status describe_energy(const conversion *c, iso_picture to, iso_record *out)
+{
+    iso_start start;
+    iso_orbit *orbit;
+    double stated;
+    iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, 0, &start);
+    if (status != ISO_OK) return status;
+    const iso_orbit_options o = iso_orbit_defaults(&start);
+    status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
+    if (status != ISO_OK) return status;
+    double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
+    iso_orbit_free(orbit);
+    if (stated_coupling(c->ctx, out, c->params, &stated, &status) && fabs(stated - eps) <= 1e-6 * fabs(eps))
+        h = eps = NAN;
+    return status == ISO_OK ? iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, h, eps) : status;
+}
+
 /* The lines of `in`, now about the other model, and where its own clock began. */
 static iso_status convert_lines(const conversion *c, iso_picture to, iso_record *out)
 {
@@ -247,18 +267,7 @@ static iso_status convert_lines(const conversion *c, iso_picture to, iso_record 
     iso_status status = ISO_OK;
     for (size_t i = 0; status == ISO_OK && iso_record_line(c->in, i, &key, &value); i++)
         status = iso_record_set(c->ctx, out, key, value);
-    iso_start start;
-    if (status == ISO_OK) status = iso_record_start(c->ctx, c->in, c->params, c->from, 0, &start);
-    if (status != ISO_OK) return status;
-    iso_orbit *orbit;
-    const iso_orbit_options o = iso_orbit_defaults(&start);
-    status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
-    if (status != ISO_OK) return status;
-    const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
-    iso_orbit_free(orbit);
-    const bool says_eps = iso_record_get(c->in, "eps") != NULL || iso_record_get(c->in, "h") != NULL;
-    status = iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, says_eps ? NAN : h,
-                                 says_eps ? NAN : eps);
+    if (status == ISO_OK) status = describe_energy(c, to, out);
     if (status != ISO_OK || c->own_column < 0) return status;
     const char *origin = origin_line[c->own];
     double begin;
@@ -270,8 +279,13 @@ static iso_status convert_lines(const conversion *c, iso_picture to, iso_record 
 
 static iso_status prepare(conversion *c, double *origin)
 {
+    int columns[ISO_STATE];
+    const iso_picture to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
     iso_status status = find_state(c->ctx, c->in, c->from, c->state);
-    if (status != ISO_OK) return status;
+    if (status != ISO_OK && find_state(c->ctx, c->in, to, columns) == ISO_OK)
+        return iso_context_fail(c->ctx, ISO_BAD_INPUT, "columns", "this is a %s's trajectory already",
+                                iso_picture_name((int)to));
+    if (status != ISO_OK) return find_state(c->ctx, c->in, c->from, c->state);
     if (iso_record_rows(c->in) == 0) return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
     c->own = c->from == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     c->other = c->from == ISO_BALL ? ISO_CLOCK_S : ISO_CLOCK_T;

@@ -105,8 +105,12 @@ refuses 3 "k" convert --to point bare.csv
 refuses 3 "--J" convert --to point bare.csv --k 1
 refuses 3 "k = 0" convert --to point bare.csv --k 0 --J 1,2,3
 refuses 3 "J1 = -1" convert --to point bare.csv --k 1 --J=-1,2,3
-refuses 3 "M1" convert --to ball ball.csv
-refuses 3 "omega1" convert --to point point.csv
+refuses 3 "already" convert --to ball ball.csv
+refuses 3 "already" convert --to point point.csv
+# a ball's h and eps are not needed, so wrong ones do no harm and do not travel on
+sed -e 's/^# h: .*/# h: 5/' -e 's/^# eps: .*/# eps: 7/' ball.csv >wrong.csv
+check "wrong h and eps" "$isoroll" convert --to point wrong.csv -o wrong_point.csv
+check "do not travel on" "$isoroll" convert --to ball wrong_point.csv
 refuses 3 "off the level H = 0" convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3
 refuses 5 "cannot open" convert --to ball absent.csv
 refuses 5 "cannot read" convert --to ball .
