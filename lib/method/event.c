@@ -1,50 +1,82 @@
 /* event.c - zeros of a function of the state, the same for every method.
  *
- * Each step is looked at in four parts. Where g changes its sign over a part the zero is bracketed, and Brent's
- * method finds it, reaching every trial time by a leap from the step's left end. Where g has the same sign at both
- * ends of a part but comes towards zero at one end and leaves it at the other, there may be two zeros: the minimum
- * of |g| between them is sought first, and splits the part in two.
+ * Each step is looked at in parts over which the state changes by about a quarter of its size. Where g changes its
+ * sign over a part the zero is bracketed, and Brent's method finds it, reaching every trial time by a leap from the
+ * step's left end. Where g has the same sign at both ends of a part but comes towards zero at one end and leaves it
+ * at the other, there may be two zeros: the extremum of g between them, a zero of its slope, is sought first, and
+ * splits the part in two. The ends of steps are the method's own, where a leap arrives but for the error of the step:
+ * so a zero that falls into this gap is found once, and at the end of the step.
  */
+#include <float.h>
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_min.h>
 #include <gsl/gsl_roots.h>
 #include <math.h>
 
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 
-enum { PARTS = 4, MAX_ITERATIONS = 200 };
+enum { PARTS_PER_CHANGE = 4, MOST_PARTS = 64, MAX_ITERATIONS = 200 };
 
 typedef struct search {
     iso_integrator *it;
     const iso_event *event;
-    double sign;       /* what g is multiplied with, to seek a minimum of a positive function */
-    iso_status status; /* of the leaps                                                        */
+    double nearby;     /* a time in which the state hardly changes */
+    iso_status status; /* of the leaps                             */
 } search;
 
-/* One place of the current step: dt from its left end. */
+/* One place of the current step: dt from its left end, g and its slope in growing time. */
 typedef struct place {
-    double dt, g;
+    double dt, g, slope;
 } place;
+
+static double g_of(search *s, const double y[])
+{
+    const double g = s->event->g(&s->it->model, y, s->event->data);
+    if (!isfinite(g) && s->status == ISO_OK)
+        s->status = iso_context_fail(s->it->ctx, ISO_NUMERICAL, "", "event function not finite near %s = %.17g",
+                                     iso_clock_name(s->it->model.clock), s->it->left.head);
+    return s->status == ISO_OK ? g : 0;
+}
+
+/* g after the state y has moved with its velocity f for a time */
+static double g_moved(search *s, const double y[], const double f[], double time)
+{
+    double moved[ISO_MAX_STATE];
+    for (int i = 0; i < s->it->model.dim; i++) moved[i] = y[i] + time * f[i];
+    return g_of(s, moved);
+}
+
+/* What there is at dt. A g that is exactly 0 is taken from just beyond, so that every zero lies within one part. */
+static place look(search *s, double dt)
+{
+    iso_integrator *it = s->it;
+    place p = {.dt = dt};
+    double y[ISO_MAX_STATE], f[ISO_MAX_STATE];
+    if (s->status == ISO_OK) s->status = iso_integrator_within(it, dt, y);
+    if (s->status == ISO_OK && !iso_integrator_rhs(it, y, f))
+        s->status = iso_integrator_stopped(it, "the equations of motion are not finite");
+    if (s->status != ISO_OK) return p;
+    const double before = g_moved(s, y, f, -s->nearby), after = g_moved(s, y, f, s->nearby);
+    p.g = g_of(s, y);
+    p.slope = after - before;
+    if (p.g == 0) p.g = it->direction > 0 ? after : before;
+    return p;
+}
 
 static double g_at(double dt, void *data)
 {
-    search *s = data;
-    double y[ISO_MAX_STATE];
-    if (s->status == ISO_OK) s->status = iso_leap(s->it, dt, y);
-    return s->status == ISO_OK ? s->sign * s->event->g(&s->it->model, y, s->event->data) : 0;
+    return look(data, dt).g;
 }
 
-/* dg/dt by a difference over a millionth of the step. */
-static double slope(search *s, double dt)
+static double slope_at(double dt, void *data)
 {
-    const double d = s->it->h * 1e-6;
-    return (g_at(dt + d, s) - g_at(dt - d, s)) / (2 * d);
+    return look(data, dt).slope;
 }
 
-static double find_zero(search *s, double a, double b)
+/* The zero between a and b of a function whose signs differ there. */
+static double find_zero(search *s, double (*function)(double dt, void *data), double a, double b)
 {
-    gsl_function f = {g_at, s};
+    gsl_function f = {function, s};
     gsl_root_fsolver *solver = gsl_root_fsolver_alloc(gsl_root_fsolver_brent);
     if (!solver || gsl_root_fsolver_set(solver, &f, fmin(a, b), fmax(a, b)) != GSL_SUCCESS) {
         s->status = iso_context_fail(s->it->ctx, ISO_NO_MEMORY, "", "no memory to find an event");
@@ -56,76 +88,47 @@ static double find_zero(search *s, double a, double b)
         if (gsl_root_fsolver_iterate(solver) != GSL_SUCCESS) break;
         root = gsl_root_fsolver_root(solver);
         const double low = gsl_root_fsolver_x_lower(solver), high = gsl_root_fsolver_x_upper(solver);
-        if (high - low <= 2e-16 * fmax(fabs(root), fabs(s->it->left.head))) break;
+        if (high - low <= DBL_EPSILON * fmax(fabs(root), fabs(s->it->left.head))) break;
     }
     gsl_root_fsolver_free(solver);
     return root;
 }
 
-/* A place between a and b where s->sign * g is not positive, if there is one; g(a), g(b) have the sign s->sign. */
-static bool find_dip(search *s, double a, double b, place *dip)
+/* Whether g changes its sign from a to b, a before b on the way, in the wanted direction of growing time. */
+static bool counts(const search *s, place a, place b)
 {
-    bool found = false;
-    double x = a + (b - a) / 2;
-    gsl_function f = {g_at, s};
-    const double low = fmin(a, b), high = fmax(a, b), g_low = g_at(low, s), g_high = g_at(high, s);
-    /* GSL's search wants a place below both ends: on the way down from the lower one there is one */
-    for (int i = 0; i < 40 && !(g_at(x, s) < fmin(g_low, g_high)); i++) x = g_low < g_high ? (low + x) / 2 : (x + high) / 2;
-    const double g_x = g_at(x, s);
-    if (!(g_x < fmin(g_low, g_high)) || s->status != ISO_OK) return false;
-    *dip = (place){x, g_x};
-    if (g_x <= 0) return true;
-    gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
-    if (m && gsl_min_fminimizer_set_with_values(m, &f, x, g_x, low, g_low, high, g_high) == GSL_SUCCESS)
-        for (int i = 0; i < MAX_ITERATIONS && !found && s->status == ISO_OK; i++) {
-            if (gsl_min_fminimizer_iterate(m) != GSL_SUCCESS) break;
-            *dip = (place){gsl_min_fminimizer_x_minimum(m), gsl_min_fminimizer_f_minimum(m)};
-            found = dip->g <= 0;
-            if (gsl_min_fminimizer_x_upper(m) - gsl_min_fminimizer_x_lower(m) <= 1e-9 * (high - low)) break;
-        }
-    gsl_min_fminimizer_free(m);
-    return found;
-}
-
-/* Whether a change from g_a to g_b, a before b on the way, is an event of the wanted direction in growing time. */
-static bool counts(const search *s, double g_a, double g_b)
-{
-    if (g_a == 0 || (g_a > 0) == (g_b > 0)) return false;
-    const int upwards = ((g_b > g_a) ? 1 : -1) * s->it->direction;
-    return s->event->direction == 0 || s->event->direction == upwards;
+    const int upwards = (b.g > a.g ? 1 : -1) * s->it->direction;
+    return (a.g > 0) != (b.g > 0) && (s->event->direction == 0 || s->event->direction == upwards);
 }
 
 /* The first event in (a, b], which lies in one part. */
 static bool search_part(search *s, place a, place b, double *dt)
 {
-    if (counts(s, a.g, b.g)) {
-        *dt = b.g == 0 ? b.dt : find_zero(s, a.dt, b.dt);
-        return s->status == ISO_OK;
+    if (a.g == 0 || b.g == 0) return false; /* 0 there and around there: nothing passes */
+    place end = b;
+    if ((a.g > 0) == (b.g > 0)) {
+        const double away = (a.g > 0 ? 1 : -1) * s->it->direction; /* sign of slopes that leave zero */
+        if (!(away * a.slope < 0 && away * b.slope > 0)) return false;
+        end = look(s, find_zero(s, slope_at, a.dt, b.dt));
+        if (end.g == 0 || !counts(s, a, end)) a = end, end = b;
     }
-    if (a.g == 0 || b.g == 0 || (a.g > 0) != (b.g > 0)) return false;
-    const double sign = a.g > 0 ? 1 : -1, away = sign * s->it->direction; /* sign of slopes that leave zero */
-    if (!(away * slope(s, a.dt) < 0 && away * slope(s, b.dt) > 0)) return false;
-    place dip;
-    s->sign = sign;
-    const bool crosses = find_dip(s, a.dt, b.dt, &dip);
-    s->sign = 1;
-    dip.g *= sign;
-    if (!crosses) return false;
-    const bool first = counts(s, a.g, -sign);
-    if (!first && !counts(s, -sign, b.g)) return false;
-    if (dip.g == 0) return false; /* touches only */
-    *dt = first ? find_zero(s, a.dt, dip.dt) : find_zero(s, dip.dt, b.dt);
+    if (a.g == 0 || !counts(s, a, end)) return false;
+    *dt = find_zero(s, g_at, a.dt, end.dt);
     return s->status == ISO_OK;
 }
 
 /* The first event between dt = from and dt = to within the current step. */
 static bool search_step(search *s, double from, double to, double *dt)
 {
-    place a = {from, g_at(from, s)};
-    for (int i = 1; i <= PARTS && s->status == ISO_OK; i++) {
-        const double end = i == PARTS ? to : from + (to - from) * i / PARTS;
-        const place b = {end, g_at(end, s)};
-        if (search_part(s, a, b, dt)) return true;
+    iso_integrator *it = s->it;
+    const double changes = PARTS_PER_CHANGE * fabs(it->h) * iso_integrator_rate(it, it->at_left);
+    const double part = it->h / ceil(fmax(1, fmin(changes, MOST_PARTS)));
+    s->nearby = 1e-6 * fabs(part);
+    place a = look(s, from);
+    while (s->status == ISO_OK && a.dt != to) {
+        const double end = fabs(to - a.dt) < 1.5 * fabs(part) ? to : a.dt + part;
+        const place b = look(s, end);
+        if (s->status == ISO_OK && search_part(s, a, b, dt)) return true;
         a = b;
     }
     return false;
@@ -137,21 +140,20 @@ iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, doub
     const int direction = to > 0 ? 1 : -1;
     *found = false;
     if (!isfinite(from) || !isfinite(to) || direction * from < 0 || direction * (to - from) < 0)
-        return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "events are sought away from 0: %g to %g is not", from, to);
-    search s = {.it = it, .event = event, .sign = 1, .status = iso_integrator_reach(it, direction, from)};
-    double begin = s.status == ISO_OK ? iso_integrator_since(it, from) + 1e-9 * it->h : 0, dt;
-    while (s.status == ISO_OK) {
-        const double rest = iso_integrator_since(it, to);
+        return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "events are sought away from 0: %g to %g is not",
+                                from, to);
+    search s = {.it = it, .event = event, .status = iso_integrator_reach(it, direction, from)};
+    for (double dt; s.status == ISO_OK; s.status = iso_integrator_advance(it)) {
+        const double skip = direction * fmax(1e-9 * fabs(it->h), 4 * DBL_EPSILON * fabs(from)); /* a zero at `from` */
+        const double rest = iso_integrator_since(it, to), begin = iso_integrator_since(it, from) + skip;
         const bool last = direction * (rest - it->h) <= 0;
-        const double end = last ? rest : it->h;
-        if (direction * (end - begin) > 0 && search_step(&s, begin, end, &dt)) {
+        const double a = direction * begin > 0 ? begin : 0, b = last ? rest : it->h;
+        if (direction * (b - a) > 0 && search_step(&s, a, b, &dt)) {
             *found = true;
             *t = it->left.head + (it->left.tail + dt);
-            return iso_leap(it, dt, y);
+            return iso_integrator_within(it, dt, y);
         }
         if (last || s.status != ISO_OK) break;
-        s.status = iso_integrator_advance(it);
-        begin = 0;
     }
     return s.status;
 }

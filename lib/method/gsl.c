@@ -72,7 +72,7 @@ static int control_errlevel(void *state, const double y, const double dydt, cons
     const iso_integrator *it = state;
     double size[ISO_MAX_STATE];
     (void)y, (void)dydt, (void)h;
-    iso_model_size(&it->model, it->at_left, size);
+    iso_model_size(&it->model, it->at_right, size); /* where the step begins */
     *level = it->options.tolerance * size[i];
     return GSL_SUCCESS;
 }
@@ -176,13 +176,14 @@ static iso_status start(iso_integrator *it)
     return ISO_OK;
 }
 
-/* A step of given length, whatever its error. */
+/* A step of given length, whatever its error; but an infinite one is bsimp's way to say that it has no result. */
 static iso_status fixed_step(iso_integrator *it, iso_gsl *g, double y[], double *h)
 {
-    double error[ISO_MAX_STATE];
+    double error[ISO_MAX_STATE], sum = 0;
     *h = it->direction * it->options.fixed_step;
     const int status = gsl_odeiv2_step_apply(g->driver->s, 0, *h, y, error, NULL, NULL, &g->system);
-    return status == GSL_SUCCESS ? ISO_OK : iso_integrator_stopped(it, "the step failed");
+    for (int i = 0; i < it->model.dim; i++) sum += error[i];
+    return status == GSL_SUCCESS && isfinite(sum) ? ISO_OK : iso_integrator_stopped(it, "the step failed");
 }
 
 static iso_status step(iso_integrator *it, double y[], double *h)
@@ -193,7 +194,7 @@ static iso_status step(iso_integrator *it, double y[], double *h)
         status = fixed_step(it, g, y, h);
     else
         status = iso_gsl_step(it, g, it->direction * 1e300, y, h);
-    if (status != ISO_OK || !it->method->projects) return status;
+    if (status != ISO_OK || !it->method->projects || it->options.no_projection) return status;
     iso_integrator_project(it, y);
     /* the next step begins with the derivative GSL has kept, which belongs to the state before projection */
     if (!iso_integrator_rhs(it, y, g->driver->e->dydt_out)) return iso_integrator_stopped(it, "not finite");
@@ -220,5 +221,5 @@ const iso_method iso_method_msbdf = {
     .name = "msbdf", .variant = MSBDF, .implicit = true,
     .doc = "variable-order BDF in Nordsieck form, orders 1-5", GSL_METHOD};
 const iso_method iso_method_bsimp = {
-    .name = "bsimp", .variant = BSIMP, .implicit = true, .projects = true, .fixed = true,
-    .doc = "implicit Bulirsch-Stoer of Bader and Deuflhard", GSL_METHOD};
+    .name = "bsimp", .order = 13, .variant = BSIMP, .implicit = true, .projects = true, .fixed = true,
+    .doc = "implicit Bulirsch-Stoer of Bader and Deuflhard, seven columns", GSL_METHOD};

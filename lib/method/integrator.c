@@ -1,3 +1,4 @@
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -29,14 +30,19 @@ iso_status iso_integrator_stopped(iso_integrator *it, const char *reason)
                             it->left.head + it->h);
 }
 
-double iso_integrator_first_step(iso_integrator *it, int order)
+double iso_integrator_rate(iso_integrator *it, const double y[])
 {
     double f[ISO_MAX_STATE], size[ISO_MAX_STATE], fastest = 0;
-    iso_integrator_rhs(it, it->at_right, f);
-    iso_model_size(&it->model, it->at_right, size);
+    iso_integrator_rhs(it, y, f);
+    iso_model_size(&it->model, y, size);
     for (int i = 0; i < it->model.dim; i++) fastest = fmax(fastest, fabs(f[i]) / size[i]);
-    const double h = pow(it->options.tolerance, 1.0 / (order + 1)) / 4;
-    return it->direction * (fastest > 0 && isfinite(fastest) ? h / fastest : 1);
+    return fastest;
+}
+
+double iso_integrator_first_step(iso_integrator *it, int order)
+{
+    const double h = pow(it->options.tolerance, 1.0 / (order + 1)) / 4, rate = iso_integrator_rate(it, it->at_right);
+    return it->direction * (rate > 0 && isfinite(rate) ? h / rate : 1);
 }
 
 /* --- time: sums of two doubles ----------------------------------------------------------------------------------- */
@@ -62,6 +68,9 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
 {
     *integrator = NULL;
     iso_method_options o = *options;
+    if (!method) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "no such method");
+    if (!(o.fixed_step >= 0 && isfinite(o.fixed_step)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a fixed step of %g is no step", o.fixed_step);
     if (o.fixed_step > 0 && !method->fixed)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s does not take fixed steps", method->name);
     if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of leaps to times between the steps */
@@ -92,6 +101,7 @@ void iso_integrator_free(iso_integrator *it)
 static iso_status set_out(iso_integrator *it, int direction)
 {
     it->direction = direction;
+    it->stopped = false;
     it->left = (iso_instant){0, 0};
     it->h = 0;
     copy(it->y0, it->at_left, it->model.dim);
@@ -113,11 +123,16 @@ iso_status iso_integrator_start(iso_integrator *it, const double y0[])
 iso_status iso_integrator_advance(iso_integrator *it)
 {
     double y[ISO_MAX_STATE], h = 0;
-    copy(it->at_right, y, it->model.dim);
-    if (it->options.max_steps && it->statistics.steps >= it->options.max_steps)
+    if (it->stopped) return iso_integrator_stopped(it, "it has failed before");
+    it->stopped = true; /* unless all goes well: what a method leaves behind after a failure is nothing to go on from */
+    if (it->options.max_steps > 0 && it->statistics.steps >= it->options.max_steps)
         return iso_integrator_stopped(it, "more steps than allowed");
+    copy(it->at_right, y, it->model.dim);
     const iso_status status = it->method->step(it, y, &h);
     if (status != ISO_OK) return status;
+    /* before a place they cannot pass, some methods go on for ever with steps that hardly move the clock */
+    if (fabs(h) <= 64 * DBL_EPSILON * fabs(it->left.head)) return iso_integrator_stopped(it, "steps shrink to nothing");
+    it->stopped = false;
     it->statistics.steps++;
     it->left = later(it->left, it->h);
     it->h = h;
@@ -134,15 +149,19 @@ iso_status iso_integrator_reach(iso_integrator *it, int direction, double t)
     return status;
 }
 
+iso_status iso_integrator_within(iso_integrator *it, double dt, double y[])
+{
+    if (dt != 0 && dt != it->h) return iso_leap(it, dt, y);
+    copy(dt == 0 ? it->at_left : it->at_right, y, it->model.dim);
+    return ISO_OK;
+}
+
 iso_status iso_integrator_at(iso_integrator *it, double t, double y[])
 {
     if (!isfinite(t)) return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "a time is not finite");
     const iso_status status = iso_integrator_reach(it, t > 0 ? 1 : t < 0 ? -1 : it->direction, t);
     if (status != ISO_OK) return status;
-    const double dt = iso_integrator_since(it, t);
-    if (dt != 0 && dt != it->h) return iso_leap(it, dt, y);
-    copy(dt == 0 ? it->at_left : it->at_right, y, it->model.dim);
-    return ISO_OK;
+    return iso_integrator_within(it, iso_integrator_since(it, t), y);
 }
 
 void iso_integrator_last(const iso_integrator *it, double *t, double y[])

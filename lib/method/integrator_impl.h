@@ -20,6 +20,7 @@ struct iso_integrator {
 
     double y0[ISO_MAX_STATE]; /* at time 0                                                            */
     int direction;            /* of the steps: 1, -1, or 0 before the first                           */
+    bool stopped;             /* by a failure: no further steps before the next start from 0           */
     iso_instant left;         /* the current step runs from here ...                                  */
     double h;                 /* ... by this signed length                                            */
     double at_left[ISO_MAX_STATE], at_right[ISO_MAX_STATE];
@@ -41,6 +42,9 @@ void iso_integrator_project(iso_integrator *it, double y[]);
 /* Records ISO_NUMERICAL in words: method, reason, last good time. */
 iso_status iso_integrator_stopped(iso_integrator *it, const char *reason);
 
+/* The largest rate at which a component changes, in units of its size. */
+double iso_integrator_rate(iso_integrator *it, const double y[]);
+
 /* A first step length for a method of the given order: a fraction of the time in which the state changes by its
  * own size, signed. */
 double iso_integrator_first_step(iso_integrator *it, int order);
@@ -53,6 +57,9 @@ iso_status iso_integrator_reach(iso_integrator *it, int direction, double t);
 
 /* t minus the time of the step's left end: exact but for the last bit. */
 double iso_integrator_since(const iso_integrator *it, double t);
+
+/* The state at dt from the step's left end: an end of the step, or a leap. */
+iso_status iso_integrator_within(iso_integrator *it, double dt, double y[]);
 
 /* leap.c: from at_left by dt, |dt| <= |h|, at the integrator's tolerance. */
 iso_leaper *iso_leaper_create(iso_integrator *it);

@@ -1,4 +1,5 @@
 /* leap.c - the state at a time within a step: from the step's left end, by rk8pd. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -33,6 +34,8 @@ iso_status iso_leap(iso_integrator *it, double dt, double y[])
     while (g->t != dt) {
         const iso_status status = iso_gsl_step(it, g, dt, state, &h);
         if (status != ISO_OK) return status;
+        if (g->t != dt && fabs(h) <= 64 * DBL_EPSILON * fabs(g->t))
+            return iso_integrator_stopped(it, "steps between its own shrink to nothing");
     }
     if (it->method->projects) iso_integrator_project(it, state);
     copy(state, y, it->model.dim);

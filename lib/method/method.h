@@ -16,7 +16,8 @@
  *   the library's own uncompensated t += h would cost 1e-9 at t = 1000 (see SUNDIALS in the README).
  * - After each step the model's constraints and energy are restored where the method allows it (`projects`); the
  *   statistics hold the largest correction, because corrected integrals look perfect whatever the error.
- * - A failing call leaves the last good time and state to be read (iso_integrator_last).
+ * - A failing call leaves the last good time and state to be read (iso_integrator_last). Times before it can still be
+ *   asked; times behind it fail again.
  */
 #ifndef ISO_METHOD_METHOD_H
 #define ISO_METHOD_METHOD_H
@@ -29,7 +30,7 @@ typedef struct iso_method_options {
     double tolerance;  /* in [1e-15, 0.1]                                                              */
     double fixed_step; /* > 0: steps of exactly this size without error control, to measure an order   */
     bool no_projection;
-    long max_steps;    /* 0: no bound; else ISO_NUMERICAL when one search or leap needs more           */
+    long max_steps;    /* 0: no bound; else ISO_NUMERICAL when more are needed, from the start on      */
 } iso_method_options;
 
 typedef struct iso_statistics {
@@ -39,7 +40,7 @@ typedef struct iso_statistics {
 
 typedef struct iso_method {
     const char *name, *family, *doc;
-    int order;     /* of the solution that is carried on; 0: varies with the tolerance                 */
+    int order;     /* of the solution that is carried on; 0: varies from step to step                  */
     bool implicit; /* solves with the Jacobian: for stiff models                                       */
     bool projects; /* restores constraints after each step                                             */
     bool fixed;    /* can take fixed steps                                                             */
@@ -62,7 +63,8 @@ const iso_method *iso_method_find(const char *name);
 /* What "auto" means for a model: the cheapest method that is exact enough. */
 const iso_method *iso_method_auto(const iso_model *model);
 
-/* Errors: ISO_BAD_ARGUMENT (tolerance out of range, fixed steps with a method that has none), ISO_NO_MEMORY. */
+/* Errors: ISO_BAD_ARGUMENT (no method, tolerance out of range, fixed steps with a method that has none),
+ * ISO_NO_MEMORY. */
 iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
                                  const iso_method_options *options, iso_integrator **integrator);
 void iso_integrator_free(iso_integrator *it);
@@ -81,10 +83,11 @@ typedef struct iso_event {
     int direction;
 } iso_event;
 
-/* The first event after `from`, at or before `to`, going away from 0 (0 <= from <= to, or 0 >= from >= to). Found: *found = true with
- * its time, good to rounding, and its state. Two zeros within a quarter of a step are found if g turns round between
- * them; a zero that g only touches is no event. A zero at `from` itself, or within 1e-9 steps of it, is not found.
- * Errors: as iso_integrator_at. */
+/* The first event after `from`, at or before `to`, going away from 0 (0 <= from <= to, or 0 >= from >= to). Found:
+ * *found = true with its time, good to rounding (to the error of a step at the end of one), and its state. Two zeros of g between which the state changes by less
+ * than a quarter of its size are found if g turns round just once between them; a zero that g only touches is no
+ * event, nor is one at `from` itself, or within 1e-9 steps of it.
+ * Errors: as iso_integrator_at, and ISO_NUMERICAL when g is not finite. */
 iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, double from, double to, bool *found,
                                 double *t, double y[]);
 

@@ -1,0 +1,318 @@
+/* The contract of lib/method/method.h, held by every method on both systems and four k. */
+#include <float.h>
+#include <gsl/gsl_integration.h>
+#include <string.h>
+
+#include "orbits.h"
+
+/* A clause of the contract: notes what it finds of one method on one orbit. */
+typedef void clause(const orbit *o, const iso_method *m, laws_worst *worst);
+
+static iso_context *ctx;
+
+static void hold(const char *name, clause *check)
+{
+    laws_worst worst = {0};
+    for (int i = 0; iso_methods[i]; i++)
+        for (int s = 0; iso_systems[s]; s++)
+            for (int k = 0; k < ORBIT_K; k++) {
+                const orbit o = orbit_sample(ctx, iso_systems[s], orbit_k[k], orbit_J, 5 + (unsigned long)k);
+                check(&o, iso_methods[i], &worst);
+            }
+    laws_report(&worst, name);
+}
+
+/* Low orders get a tolerance they reach within 10^4 steps. */
+static iso_method_options options_for(const iso_method *m)
+{
+    return (iso_method_options){.tolerance = m->order == 2 ? 1e-7 : m->order == 3 ? 1e-8 : 1e-9};
+}
+
+enum { TURN = 5 }; /* how far orbits are followed, in units; */
+
+/* and the error they may have then: the C of tests/test_order.c for a quarter of its way */
+static double allowed(const iso_method *m)
+{
+    return (m->order ? 75 : 2500) * options_for(m).tolerance;
+}
+
+static void note(laws_worst *worst, const orbit *o, const iso_method *m, double error, double bound)
+{
+    char what[64];
+    snprintf(what, sizeof what, "%s %s", m->name, o->model.system->name);
+    laws_note(worst, error, bound, &o->model.field.p, what);
+}
+
+/* For what must be so exactly. */
+static void note_same(laws_worst *worst, const orbit *o, const iso_method *m, const double a[], const double b[])
+{
+    note(worst, o, m, memcmp(a, b, (size_t)o->model.dim * sizeof *a) != 0, 0.5);
+}
+
+static void note_true(laws_worst *worst, const orbit *o, const iso_method *m, bool good)
+{
+    note(worst, o, m, !good, 0.5);
+}
+
+static iso_integrator *start(const orbit *o, const iso_method *m)
+{
+    const iso_method_options options = options_for(m);
+    return orbit_start(o, m, &options);
+}
+
+static void solve(const orbit *o, const iso_method *m, double t, double y[])
+{
+    const iso_method_options options = options_for(m);
+    orbit_solve(o, m, &options, t, y);
+}
+
+/* --- the state at a time ------------------------------------------------------------------------------------------ */
+
+static void agreement(const orbit *o, const iso_method *m, laws_worst *worst)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        double y[ISO_MAX_STATE], reference[ISO_MAX_STATE];
+        solve(o, m, sign * TURN * o->unit, y);
+        orbit_reference(o, sign * TURN * o->unit, reference);
+        note(worst, o, m, orbit_error(o, y, reference), allowed(m));
+    }
+}
+
+static void there_and_back(const orbit *o, const iso_method *m, laws_worst *worst)
+{
+    orbit end = *o;
+    double back[ISO_MAX_STATE];
+    solve(o, m, TURN * o->unit, end.y0);
+    solve(&end, m, -TURN * o->unit, back);
+    note(worst, o, m, orbit_error(o, back, o->y0), 2 * allowed(m));
+}
+
+/* (w, n, t) -> (-w, n, -t) maps every orbit to one, and every step of a method to a step, bit by bit. */
+static void reversal(const orbit *o, const iso_method *m, laws_worst *worst)
+{
+    orbit mirror = *o;
+    double past[ISO_MAX_STATE], future[ISO_MAX_STATE];
+    scale(mirror.y0, -1);
+    solve(o, m, -TURN * o->unit, past);
+    solve(&mirror, m, TURN * o->unit, future);
+    scale(future, -1);
+    note_same(worst, o, m, past, future);
+}
+
+static void asking_changes_nothing(const orbit *o, const iso_method *m, laws_worst *worst)
+{
+    enum { TIMES = 50 };
+    iso_integrator *it = start(o, m);
+    double y[ISO_MAX_STATE], alone[ISO_MAX_STATE];
+    for (int i = 1; i <= TIMES; i++)
+        note_true(worst, o, m, iso_integrator_at(it, TURN * o->unit * i / TIMES, y) == ISO_OK);
+    iso_integrator_free(it);
+    solve(o, m, TURN * o->unit, alone);
+    note_same(worst, o, m, y, alone);
+}
+
+/* Turning back sets out anew, and must leave nothing of the way before. */
+static void any_order_of_times(const orbit *o, const iso_method *m, laws_worst *worst)
+{
+    static const double times[] = {1.7, -0.4, 1.7, 0.3, 0.3, 0, -2.1, -2.2, 2.5, 1e-9, -1e-9, 0, 2.5};
+    iso_integrator *it = start(o, m);
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
+        double y[ISO_MAX_STATE], alone[ISO_MAX_STATE];
+        note_true(worst, o, m, iso_integrator_at(it, times[i] * o->unit, y) == ISO_OK);
+        solve(o, m, times[i] * o->unit, alone);
+        note_same(worst, o, m, y, alone);
+        if (times[i] == 0) note_same(worst, o, m, y, o->y0);
+    }
+    iso_integrator_free(it);
+}
+
+static void starting_again(const orbit *o, const iso_method *m, laws_worst *worst)
+{
+    const orbit other = orbit_sample(ctx, o->model.system, o->model.field.p.k, orbit_J, 99);
+    iso_integrator *it = start(o, m);
+    double y[ISO_MAX_STATE], first[ISO_MAX_STATE];
+    iso_integrator_at(it, 0, y);
+    note_same(worst, o, m, y, o->y0);
+    iso_integrator_at(it, o->unit, first);
+    iso_integrator_start(it, other.y0);
+    iso_integrator_at(it, o->unit, y);
+    iso_integrator_start(it, o->y0);
+    iso_integrator_at(it, o->unit, y);
+    note_same(worst, o, m, y, first);
+    iso_integrator_free(it);
+}
+
+/* --- what it says of itself ----------------------------------------------------------------------------------------- */
+
+static void statistics(const orbit *o, const iso_method *m, laws_worst *worst)
+{
+    double y[ISO_MAX_STATE], last[ISO_MAX_STATE], t;
+    iso_integrator *it = start(o, m);
+    iso_statistics s = iso_integrator_statistics(it);
+    note_true(worst, o, m, s.steps == 0 && s.rejected == 0 && s.rhs <= 1 && s.jacobians == 0 && s.correction == 0);
+    iso_integrator_at(it, TURN * o->unit, y);
+    s = iso_integrator_statistics(it);
+    note_true(worst, o, m, s.steps >= TURN && s.steps < 100000);
+    note_true(worst, o, m, s.rhs >= s.steps && s.rhs < 300 * s.steps); /* bsimp makes 138 in a step */
+    note_true(worst, o, m, s.rejected >= 0 && s.rejected < s.steps);
+    note_true(worst, o, m, (s.jacobians > 0) == m->implicit && s.jacobians <= s.rhs);
+    iso_integrator_last(it, &t, last);
+    note_true(worst, o, m, t >= TURN * o->unit && t < (TURN + 3) * o->unit);
+    solve(o, m, t, y);
+    note(worst, o, m, orbit_error(o, last, y), allowed(m));
+    iso_integrator_free(it);
+}
+
+/* How far energy, spin and length, the first three integrals of either system, are from where they belong. */
+static double defect(const orbit *o, const double y[])
+{
+    const double proper[3] = {o->model.field.energy, 0, 1};
+    double defects[3];
+    for (int i = 0; i < 3; i++) {
+        double size;
+        const double value = o->model.system->integrals[i].value(&o->model.field, y, &size);
+        defects[i] = (value - proper[i]) / size;
+    }
+    return laws_max(3, defects);
+}
+
+static void projection(const orbit *o, const iso_method *m, laws_worst *worst)
+{
+    iso_integrator *it = start(o, m);
+    for (int i = -10; i <= 10 && m->projects; i++) {
+        double y[ISO_MAX_STATE];
+        iso_integrator_at(it, i * o->unit / 2, y);
+        note(worst, o, m, defect(o, y), 4 * DBL_EPSILON);
+    }
+    const double correction = iso_integrator_statistics(it).correction;
+    note(worst, o, m, correction, m->projects ? allowed(m) : DBL_MIN);
+    note_true(worst, o, m, correction > 0 || !m->projects);
+    iso_integrator_free(it);
+}
+
+/* Without projection, or by methods that do not project, the same defects are visible. */
+static void no_projection(const orbit *o, const iso_method *m, laws_worst *worst)
+{
+    iso_method_options options = options_for(m);
+    options.no_projection = true;
+    iso_integrator *it = orbit_start(o, m, &options);
+    double y[ISO_MAX_STATE];
+    iso_integrator_at(it, TURN * o->unit, y);
+    note_true(worst, o, m, defect(o, y) > 20 * DBL_EPSILON);
+    note(worst, o, m, defect(o, y), 4 * allowed(m));
+    note_true(worst, o, m, iso_integrator_statistics(it).correction == 0);
+    iso_integrator_free(it);
+}
+
+/* --- clocks --------------------------------------------------------------------------------------------------------- */
+
+/* The time of `clock` along the orbit from 0 to t, by Gauss and Legendre's rule over states from elsewhere. */
+static double quadrature(const orbit *o, iso_clock clock, double t)
+{
+    gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(96);
+    iso_integrator *it = orbit_start(o, iso_method_find("rk8pd"), &(iso_method_options){.tolerance = 1e-14});
+    double sum = 0;
+    for (size_t i = 0; i < 96; i++) {
+        double x, weight, y[ISO_MAX_STATE];
+        gsl_integration_glfixed_point(0, t, i, &x, &weight, rule);
+        iso_integrator_at(it, x, y);
+        const double q = o->model.system->q(&o->model.field.p, y, NULL);
+        sum += weight * iso_clock_rate(&o->model.field.p, clock, q, NULL) /
+               iso_clock_rate(&o->model.field.p, o->model.clock, q, NULL);
+    }
+    iso_integrator_free(it);
+    gsl_integration_glfixed_table_free(rule);
+    return sum;
+}
+
+static void carried_clocks(const orbit *plain, const iso_method *m, laws_worst *worst)
+{
+    orbit o = *plain;
+    double y[ISO_MAX_STATE];
+    orbit_clocks(&o, o.model.clock, true, true, true);
+    solve(&o, m, -TURN * o.unit, y);
+    for (int c = 0; c < o.model.carried; c++) {
+        const double expected = quadrature(plain, o.model.carry[c], -TURN * o.unit);
+        note(worst, &o, m, fabs(y[ISO_STATE + c] / expected - 1), allowed(m));
+    }
+    note_true(worst, &o, m, o.model.carried == 2);
+}
+
+/* The same state when the orbit runs in another clock and is asked at what that clock showed. */
+static void other_clocks(const orbit *plain, const iso_method *m, laws_worst *worst)
+{
+    orbit o = *plain;
+    double y[ISO_MAX_STATE];
+    orbit_clocks(&o, o.model.clock, true, true, true);
+    solve(&o, m, TURN * o.unit, y);
+    for (int c = 0; c < o.model.carried; c++) {
+        orbit other = *plain;
+        double same[ISO_MAX_STATE];
+        orbit_clocks(&other, o.model.carry[c], true, true, true);
+        solve(&other, m, y[ISO_STATE + c], same);
+        note(worst, &o, m, orbit_error(plain, same, y), 4 * allowed(m));
+        for (int i = 0; i < other.model.carried; i++)
+            if (other.model.carry[i] == o.model.clock)
+                note(worst, &o, m, fabs(same[ISO_STATE + i] / (TURN * o.unit) - 1), 4 * allowed(m));
+    }
+}
+
+/* --- special orbits --------------------------------------------------------------------------------------------------- */
+
+static void rest(const orbit *moving, const iso_method *m, laws_worst *worst)
+{
+    orbit o = *moving;
+    double y[ISO_MAX_STATE];
+    scale(o.y0, 0);
+    o.model.field.energy = o.model.field.eps = 0;
+    iso_integrator *it = start(&o, m);
+    note_true(worst, &o, m, iso_integrator_at(it, 1000, y) == ISO_OK);
+    note_true(worst, &o, m, norm(y) == 0);
+    note(worst, &o, m, laws_distance(y + 3, o.y0 + 3), 4 * DBL_EPSILON);
+    note_true(worst, &o, m, iso_integrator_statistics(it).steps < 1000);
+    iso_integrator_free(it);
+}
+
+/* 159 turns in a principal plane, known exactly. */
+static void long_rotation(const char *method, const iso_method_options *options, double bound)
+{
+    const double t = 1000;
+    const orbit o = orbit_rotation(ctx, 1, 1);
+    const double exact[ISO_STATE] = {0, 0, 1, cos(t), -sin(t), 0};
+    double y[ISO_MAX_STATE];
+    orbit_solve(&o, iso_method_find(method), options, t, y);
+    const double error = orbit_error(&o, y, exact);
+    gsl_test(!(error <= bound), "%s, 159 turns, tolerance %g, step %g: error %.2g, allowed %.2g", method,
+             options->tolerance, options->fixed_step, error, bound);
+}
+
+/* A million additions t += h would be wrong by 1e-9. */
+static void clock_is_compensated(void)
+{
+    long_rotation("rk8pd", &(iso_method_options){.tolerance = 1e-13}, 1e-11);
+    long_rotation("adams", &(iso_method_options){.tolerance = 1e-13}, 1e-9);
+    long_rotation("adams", &(iso_method_options){.tolerance = 1e-15}, 1e-11);
+    long_rotation("rk8pd", &(iso_method_options){.fixed_step = 1e-3}, 1e-12);
+    long_rotation("fehlberg_13_7_8", &(iso_method_options){.fixed_step = 1e-2}, 1e-12);
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    hold("forwards and backwards as the reference", agreement);
+    hold("there and back", there_and_back);
+    hold("mirrored in time, bit for bit", reversal);
+    hold("times asked on the way change nothing", asking_changes_nothing);
+    hold("times in any order", any_order_of_times);
+    hold("starting again", starting_again);
+    hold("statistics and the last step", statistics);
+    hold("projection restores energy, spin and length", projection);
+    hold("without projection they drift", no_projection);
+    hold("carried clocks against quadrature", carried_clocks);
+    hold("running in other clocks", other_clocks);
+    hold("rest", rest);
+    clock_is_compensated();
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}
