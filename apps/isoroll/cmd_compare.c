@@ -148,10 +148,16 @@ static bool print_json(const iso_scene *scene, const iso_comparison *c)
 
 /* --- the command --------------------------------------------------------------------------------------------------- */
 
-static bool go_on(double part, void *data)
+static bool show(double part, void *data)
 {
     (void)data;
     progress_show(part);
+    return true;
+}
+
+static bool go_on(void *data)
+{
+    (void)data;
     return !interrupted();
 }
 
@@ -175,15 +181,14 @@ static int run(iso_context *ctx, const options *o)
     iso_status status = scene_with_options(ctx, o, &scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     stop_gently();
-    if (status == ISO_OK) status = iso_compare(ctx, &scene, go_on, NULL, &c);
+    iso_context_watch(ctx, go_on, NULL);
+    if (status == ISO_OK) status = iso_compare(ctx, &scene, show, NULL, &c);
+    iso_context_watch(ctx, NULL, NULL);
     int result = finish(ctx, status);
     progress_end();
     if (!c) return result;
-    const bool whole = iso_record_rows(c->difference) == iso_scene_rows(&scene);
-    if (!whole && result == EXIT_DONE) {
+    if (status == ISO_STOPPED)
         complain("interrupted: %zu of %zu rows", iso_record_rows(c->difference), iso_scene_rows(&scene));
-        result = EXIT_SOME_FAILED;
-    }
     if (o->json) {
         if (!print_json(&scene, c)) result = EXIT_NUMERICAL;
     } else if (iso_record_rows(c->difference) > 0) {

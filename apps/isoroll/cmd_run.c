@@ -19,9 +19,24 @@ typedef struct place {
     int line, column;
 } place;
 
+/* What is being done, for the bar. */
+typedef struct work {
+    const iso_orbit *orbit;
+    double farthest; /* time */
+} work;
+
 static double time_at(const times *t, size_t i)
 {
     return t->list ? t->list[i] : iso_scene_time(t->scene, i);
+}
+
+/* The time farthest from the start. */
+static double farthest(const times *t)
+{
+    double most = t->list ? 0 : t->scene->end;
+    for (size_t i = 0; t->list && i < t->count; i++)
+        if (fabs(t->list[i]) > fabs(most)) most = t->list[i];
+    return most;
 }
 
 static iso_status add_time(iso_context *ctx, times *t, size_t *room, double time)
@@ -111,34 +126,29 @@ static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_o
     return status;
 }
 
-/* The orbit at row `row`. What is far is approached in pieces, so that the user can stop on the way. */
-static iso_status go_to(iso_orbit *orbit, const times *t, size_t row, iso_sample *sample)
+/* Asked at each step: shows how far the orbit is on its way to the farthest time. */
+static bool go_on(void *data)
 {
-    const iso_units *units = iso_orbit_units(orbit);
-    const double piece = 100 * iso_unit(units, iso_clock_dimension(iso_orbit_model(orbit)->clock));
-    const double end = time_at(t, row), last = row > 0 ? time_at(t, row - 1) : 0;
-    double time = last * end > 0 && fabs(last) < fabs(end) ? last : 0;
-    while (piece > 0 && fabs(end - time) > piece && !interrupted()) {
-        time += copysign(piece, end);
-        const iso_status status = iso_orbit_at(orbit, time, sample);
-        if (status != ISO_OK) return status;
-        progress_show(((double)row + time / end) / (double)t->count);
-    }
-    return interrupted() ? ISO_OK : iso_orbit_at(orbit, end, sample);
+    static unsigned steps;
+    const work *w = data;
+    if (steps++ % 256 == 0 && w->farthest != 0) progress_show(fabs(iso_orbit_reached(w->orbit) / w->farthest));
+    return !interrupted();
 }
 
 static iso_status write_rows(iso_context *ctx, iso_orbit *orbit, const times *t, const int columns[], int count,
                              iso_trajectory_writer *writer, size_t *written)
 {
     double row[ISO_TRAJECTORY_COLUMNS];
-    for (*written = 0; *written < t->count && !interrupted(); ++*written) {
+    work w = {orbit, farthest(t)};
+    iso_context_watch(ctx, go_on, &w);
+    for (*written = 0; *written < t->count; ++*written) {
         iso_sample sample;
-        iso_status status = go_to(orbit, t, *written, &sample);
-        if (status != ISO_OK || interrupted()) return status;
+        if (interrupted()) return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
+        iso_status status = iso_orbit_at(orbit, time_at(t, *written), &sample);
+        if (status != ISO_OK) return status;
         for (int c = 0; c < count; c++) row[c] = iso_sample_column(&sample, columns[c]);
         status = iso_trajectory_write_row(ctx, writer, row, (size_t)count);
         if (status != ISO_OK) return status;
-        progress_show((double)*written / (double)t->count);
     }
     return ISO_OK;
 }
@@ -163,15 +173,16 @@ static int write_file(iso_context *ctx, const options *o, iso_orbit *orbit, cons
     if (status != ISO_OK) return finish(ctx, status);
     status = iso_trajectory_write_header(ctx, writer, header);
     if (status == ISO_OK) status = write_rows(ctx, orbit, t, columns, count, writer, &rows);
-    const bool keep = status == ISO_OK || (status == ISO_NUMERICAL && rows > 0);
-    int result = finish(ctx, status);
-    status = iso_trajectory_close(ctx, writer, keep);
-    if (status != ISO_OK) return result == EXIT_DONE ? finish(ctx, status) : result;
+    iso_context_watch(ctx, NULL, NULL);
+    const bool keep = status == ISO_OK || status == ISO_STOPPED || (status == ISO_NUMERICAL && rows > 0);
+    const int result = finish(ctx, status);
+    const iso_status closed = iso_trajectory_close(ctx, writer, keep);
+    if (closed != ISO_OK) return result == EXIT_DONE ? finish(ctx, closed) : result;
     if (o->verbose) tell(orbit, rows);
-    if (result == EXIT_NUMERICAL) complain("%zu of %zu rows were written", keep ? rows : 0, t->count);
-    if (result != EXIT_DONE || rows == t->count) return result;
-    complain("interrupted: %zu of %zu rows were written", rows, t->count);
-    return EXIT_SOME_FAILED;
+    if (result == EXIT_NUMERICAL || status == ISO_STOPPED)
+        complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", keep ? rows : 0,
+                 t->count);
+    return result;
 }
 
 static bool same_file(const char *a, const char *b)
@@ -205,6 +216,7 @@ static int run(iso_context *ctx, const options *o)
         count = iso_scene_columns(&scene, columns);
         status = orbit_for_columns(ctx, &scene, columns, count, &orbit);
     }
+    if (status == ISO_OK) status = iso_orbit_check_time(orbit, farthest(&t));
     if (status == ISO_OK) status = describe(ctx, &scene, orbit, columns, count, &header);
     result = status == ISO_OK ? write_file(ctx, o, orbit, &t, header, columns, count) : finish(ctx, status);
     iso_record_free(header);

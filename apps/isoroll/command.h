@@ -50,7 +50,8 @@ void options_help(const command *c, FILE *to);
 /* Says "isoroll: MESSAGE" on stderr. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Says the context's message and gives the exit status that belongs to `status`. A closed pipe is not complained of. */
+/* Says the context's message and gives the exit status that belongs to `status`. A closed pipe and a
+ * stop on request are not complained of. */
 int finish(iso_context *ctx, iso_status status);
 
 /* The scene in o->file with what the options change in it. */

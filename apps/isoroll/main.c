@@ -64,10 +64,12 @@ int finish(iso_context *ctx, iso_status status)
         [ISO_BAD_INPUT] = EXIT_BAD_INPUT,
         [ISO_NOT_MAPPED] = EXIT_BAD_INPUT,
         [ISO_NUMERICAL] = EXIT_NUMERICAL,
+        [ISO_STOPPED] = EXIT_SOME_FAILED,
         [ISO_FILE_TROUBLE] = EXIT_FILE,
         [ISO_NO_MEMORY] = EXIT_NUMERICAL,
     };
-    if (status != ISO_OK && strcmp(iso_context_field(ctx), "pipe") != 0) complain("%s", iso_context_message(ctx));
+    const bool silent = status == ISO_OK || status == ISO_STOPPED || strcmp(iso_context_field(ctx), "pipe") == 0;
+    if (!silent) complain("%s", iso_context_message(ctx));
     return exits[status];
 }
 

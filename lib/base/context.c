@@ -8,6 +8,8 @@
 
 struct iso_context {
     SUNContext sun; /* made when the first SUNDIALS method asks for it */
+    bool (*go_on)(void *data);
+    void *watcher;
     char message[1024];
     char field[32];
 };
@@ -33,6 +35,17 @@ void iso_context_free(iso_context *ctx)
     if (!ctx) return;
     if (ctx->sun) SUNContext_Free(&ctx->sun);
     free(ctx);
+}
+
+void iso_context_watch(iso_context *ctx, bool (*go_on)(void *data), void *data)
+{
+    ctx->go_on = go_on;
+    ctx->watcher = data;
+}
+
+bool iso_context_goes_on(const iso_context *ctx)
+{
+    return !ctx->go_on || ctx->go_on(ctx->watcher);
 }
 
 const char *iso_context_message(const iso_context *ctx)

@@ -11,7 +11,9 @@
 #ifndef ISO_BASE_CONTEXT_H
 #define ISO_BASE_CONTEXT_H
 
-#include "base/status.h"
+#include <stdbool.h>
+
+#include "status.h"
 
 typedef struct iso_context iso_context;
 
@@ -20,6 +22,13 @@ iso_context *iso_context_create(void);
 
 /* Releases it; NULL is allowed. */
 void iso_context_free(iso_context *ctx);
+
+/* Long work asks `go_on` now and then, at each step of an integrator at least, and ends with ISO_STOPPED when it answers
+ * false: for Ctrl-C, a time limit, or to show progress. NULL, as at the beginning: nobody is asked. */
+void iso_context_watch(iso_context *ctx, bool (*go_on)(void *data), void *data);
+
+/* What `go_on` answers; true when nobody watches. */
+bool iso_context_goes_on(const iso_context *ctx);
 
 /* What went wrong last, one line without a newline; "" when nothing did. Valid until the next failing call. */
 const char *iso_context_message(const iso_context *ctx);

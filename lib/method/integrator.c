@@ -123,6 +123,7 @@ iso_status iso_integrator_start(iso_integrator *it, const double y0[])
 iso_status iso_integrator_advance(iso_integrator *it)
 {
     double y[ISO_MAX_STATE], h = 0;
+    if (!iso_context_goes_on(it->ctx)) return iso_context_fail(it->ctx, ISO_STOPPED, "", "stopped on request");
     if (it->stopped) return iso_integrator_stopped(it, "it has failed before");
     it->stopped = true; /* unless all goes well: what a method leaves behind after a failure is nothing to go on from */
     if (it->options.max_steps > 0 && it->statistics.steps >= it->options.max_steps)

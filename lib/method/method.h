@@ -22,7 +22,7 @@
 #ifndef ISO_METHOD_METHOD_H
 #define ISO_METHOD_METHOD_H
 
-#include "model/model.h"
+#include "../model/model.h"
 
 typedef struct iso_integrator iso_integrator;
 

@@ -6,8 +6,8 @@
 #ifndef ISO_ORBIT_CONVERT_H
 #define ISO_ORBIT_CONVERT_H
 
-#include "base/record.h"
-#include "orbit/orbit.h"
+#include "../base/record.h"
+#include "orbit.h"
 
 /* The most steps from one row of a record to the next: a damaged time must not keep a program busy for ever. */
 enum { ISO_MAX_ROW_STEPS = 10000000 };

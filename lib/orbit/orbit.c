@@ -286,15 +286,19 @@ static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
                             iso_clock_name(clock), time, turns);
 }
 
+iso_status iso_orbit_check_time(const iso_orbit *o, double time)
+{
+    double own_time;
+    return to_own_time(o, time, &own_time);
+}
+
 /* An integrator's failure, with the last good time in the caller's units. */
 static iso_status to_users_time(const iso_orbit *o, iso_status status)
 {
-    double own_time, y[ISO_MAX_STATE];
     const char *words = iso_context_message(o->ctx), *cut = strstr(words, "; last good");
     if (status != ISO_NUMERICAL || !cut) return status;
-    iso_integrator_last(o->integrator, &own_time, y);
     return iso_context_fail(o->ctx, status, "", "%.*s; last good %s = %.17g", (int)(cut - words), words,
-                            iso_clock_name(o->model.clock), own_time * o->unit_clock[o->model.clock]);
+                            iso_clock_name(o->model.clock), iso_orbit_reached(o));
 }
 
 iso_status iso_orbit_at(iso_orbit *o, double time, iso_sample *sample)
@@ -343,11 +347,18 @@ iso_status iso_orbit_event(iso_orbit *o, double (*g)(const iso_sample *sample, c
     return *found ? make_sample(o, own_time * o->unit_clock[o->model.clock], y, sample) : status;
 }
 
+double iso_orbit_reached(const iso_orbit *o)
+{
+    double own_time, y[ISO_MAX_STATE];
+    iso_integrator_last(o->integrator, &own_time, y);
+    return own_time * o->unit_clock[o->model.clock];
+}
+
 iso_status iso_orbit_last(iso_orbit *o, iso_sample *sample)
 {
     double own_time, y[ISO_MAX_STATE];
     iso_integrator_last(o->integrator, &own_time, y);
-    return make_sample(o, own_time * o->unit_clock[o->model.clock], y, sample);
+    return make_sample(o, iso_orbit_reached(o), y, sample);
 }
 
 /* --- what it is made of ------------------------------------------------------------------------------------------- */

@@ -12,8 +12,8 @@
 #ifndef ISO_ORBIT_ORBIT_H
 #define ISO_ORBIT_ORBIT_H
 
-#include "method/method.h"
-#include "orbit/scene.h"
+#include "../method/method.h"
+#include "scene.h"
 
 typedef struct iso_orbit iso_orbit;
 
@@ -49,6 +49,9 @@ iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const is
                             const iso_orbit_options *options, iso_orbit **orbit);
 void iso_orbit_free(iso_orbit *orbit);
 
+/* Whether a time can be asked for: finite, and within 1e15 turns of the start. Errors: ISO_BAD_ARGUMENT. */
+iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
+
 /* The orbit at `time` of the options' clock, in any order, before or after the start.
  * Errors: ISO_BAD_ARGUMENT (a time that is not finite or beyond 1e15 turns), ISO_NUMERICAL (what stopped, and where; or
  * a result that does not fit a double, or lost its digits). */
@@ -59,6 +62,9 @@ iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
  * ISO_NUMERICAL when g is not finite. */
 iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sample *sample, const void *data), const void *data,
                            int direction, double from, double to, bool *found, iso_sample *sample);
+
+/* How far the integration has come, in the options' clock: for progress. */
+double iso_orbit_reached(const iso_orbit *orbit);
 
 /* The end of the last good step, after a failure. */
 iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);

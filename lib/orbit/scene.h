@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "model/system.h"
+#include "../model/system.h"
 
 /* The two models an orbit can be computed in, or shown in. */
 typedef enum iso_picture { ISO_BALL, ISO_POINT, ISO_BOTH, ISO_AUTO } iso_picture;

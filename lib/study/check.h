@@ -2,8 +2,8 @@
 #ifndef ISO_STUDY_CHECK_H
 #define ISO_STUDY_CHECK_H
 
-#include "base/record.h"
-#include "orbit/orbit.h"
+#include "../base/record.h"
+#include "../orbit/orbit.h"
 
 enum { ISO_MAX_RESIDUALS = 32 };
 

@@ -173,7 +173,7 @@ iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress
     if (status == ISO_OK) status = take_rows(&r, progress, data);
     for (int b = 0; b < ISO_BACKENDS; b++) iso_orbit_free(r.orbit[b]);
     const iso_record *rows = c->run[ISO_POINT].trajectory;
-    if (rows && iso_record_rows(rows) > 0 && (status == ISO_OK || status == ISO_NUMERICAL)) {
+    if (rows && iso_record_rows(rows) > 0 && (status == ISO_OK || status == ISO_NUMERICAL || status == ISO_STOPPED)) {
         const iso_status rows_status = compare_rows(ctx, c);
         if (rows_status == ISO_OK) return status;
         status = rows_status;

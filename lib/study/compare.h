@@ -8,8 +8,8 @@
 #ifndef ISO_STUDY_COMPARE_H
 #define ISO_STUDY_COMPARE_H
 
-#include "base/record.h"
-#include "orbit/orbit.h"
+#include "../base/record.h"
+#include "../orbit/orbit.h"
 
 enum { ISO_BACKENDS = 2, ISO_MAX_INTEGRALS = 16 };
 
