@@ -2,6 +2,15 @@
 #ifndef ISOROLL_H
 #define ISOROLL_H
 
+/* C++ programs include this header, not single floors: it says that all of it is C. What the floors include of the
+ * C library comes first, outside of that. */
+#include <stdbool.h>
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* base: no physics */
 #include "base/status.h"
 #include "base/context.h"
@@ -36,5 +45,9 @@
 #include "io/scene_file.h"
 #include "io/trajectory.h"
 #include "io/plot.h"
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

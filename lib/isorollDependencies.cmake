@@ -14,10 +14,9 @@ endif()
 find_package(GSL REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(isoroll_yaml REQUIRED IMPORTED_TARGET yaml-0.1)
-pkg_check_modules(isoroll_jansson REQUIRED IMPORTED_TARGET jansson)
 
 # The serial vector and the dense matrix and solver are part of the cvode and arkode libraries.
-set(ISO_DEPENDENCIES SUNDIALS::cvode SUNDIALS::arkode GSL::gsl PkgConfig::isoroll_yaml PkgConfig::isoroll_jansson m)
+set(ISO_DEPENDENCIES SUNDIALS::cvode SUNDIALS::arkode GSL::gsl PkgConfig::isoroll_yaml m)
 set(ISO_SUNDIALS_LIBS "-lsundials_cvode -lsundials_arkode") # the same for isoroll.pc: SUNDIALS has no .pc file
 if(TARGET SUNDIALS::core) # 7.x
   list(PREPEND ISO_DEPENDENCIES SUNDIALS::core)

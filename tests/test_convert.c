@@ -49,8 +49,7 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, iso_pi
         s.clock[ISO_CLOCK_T] = times[i];
         for (int c = 0; c < width; c++) row[c] = iso_sample_column(&s, columns[c]);
     }
-    must(iso_record_describe(ctx, record, iso_picture_name((int)model), p, iso_orbit_energy(orbit),
-                             iso_orbit_coupling(orbit)),
+    must(iso_record_describe(ctx, record, iso_picture_name((int)model), p, orbit),
          "the lines");
     iso_orbit_free(orbit);
     return record;

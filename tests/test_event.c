@@ -1,4 +1,5 @@
-/* Events: known times, directions, none missed, none invented, for every method. */
+/* Events: known times, directions, none missed, none invented, for every
+ * method. */
 #include <float.h>
 #include <string.h>
 
@@ -6,7 +7,7 @@
 
 static iso_context *ctx;
 
-/* --- event functions ------------------------------------------------------------------------------------------------ */
+/* --- event functions -------------------------------------------------------------------------------------------- */
 
 /* factor * (y[component] - level)^power */
 typedef struct level {
@@ -50,9 +51,10 @@ static bool find(iso_integrator *it, const level *l, int direction, double from,
     return found;
 }
 
-/* --- the rotation, whose events are known: n1 = cos t ---------------------------------------------------------------- */
+/* --- the rotation, whose events are known: n1 = cos t ----------------------------------------------------------- */
 
-/* Collects the events of the rotation up to `to` and compares them with first, first + step, ... */
+/* Collects the events of the rotation up to `to` and compares them with first,
+ * first + step, ... */
 static void check_times(const char *what, const iso_method *m, const level *l, int direction, double to, double first,
                         double step)
 {
@@ -87,8 +89,8 @@ static void check_rotation(const iso_method *m)
     check_times("a huge negative function", m, &huge, 1, 20, 0.5 * pi, 2 * pi);
 }
 
-/* Pairs of zeros 2 acos(c) apart about every maximum of n1 = cos t, the last ones within 1/700 of a turn; and the
- * levels that are not reached. */
+/* Pairs of zeros 2 acos(c) apart about every maximum of n1 = cos t, the last
+ * ones within 1/700 of a turn; and the levels that are not reached. */
 static void check_tangents(const iso_method *m)
 {
     const orbit o = orbit_rotation(ctx, 1, 1);
@@ -150,7 +152,26 @@ static void check_ends(const iso_method *m)
     iso_integrator_free(it);
 }
 
-/* --- generic orbits --------------------------------------------------------------------------------------------------- */
+/* A step that ends at a zero of g to the last bit, on the way down and on the
+ * way up. */
+static void check_exact_zero(const iso_method *m)
+{
+    static const double ends[] = {0.75, 5};
+    const orbit o = orbit_rotation(ctx, 1, 1);
+    iso_integrator *it = orbit_start(&o, m, &(iso_method_options){.fixed_step = 1.0 / 64});
+    for (int i = 0; i < 2; i++) {
+        level l = {.component = 3, .power = 1, .factor = 1};
+        double t = NAN, y[ISO_MAX_STATE];
+        gsl_test(iso_integrator_at(it, ends[i], y) != ISO_OK, "%s: reaches %g", m->name, ends[i]);
+        l.level = y[3];
+        gsl_test(!(find(it, &l, i == 0 ? -1 : 1, ends[i] - 0.4, ends[i] + 0.4, &t, y) && fabs(t - ends[i]) < 1e-6),
+                 "%s: a zero at the end of a step", m->name);
+        gsl_test(find(it, &l, 0, ends[i], ends[i] + 0.4, &t, y), "%s: and only once", m->name);
+    }
+    iso_integrator_free(it);
+}
+
+/* --- generic orbits --------------------------------------------------------------------------------------------- */
 
 enum { MOST = 64, SAMPLES = 1000 };
 #define WAY 20 /* units */
@@ -160,7 +181,8 @@ typedef struct crossing {
     int direction;
 } crossing;
 
-/* Sign changes of l between samples of the orbit: every one that is longer than a sample, and about where. */
+/* Sign changes of l between samples of the orbit: every one that is longer than
+ * a sample, and about where. */
 static int dense_crossings(const orbit *o, const level *l, int sense, crossing list[MOST])
 {
     iso_integrator *it = orbit_start(o, iso_method_find("rk8pd"), &(iso_method_options){.tolerance = 1e-13});
@@ -233,7 +255,7 @@ static void check_agreement(void)
     }
 }
 
-/* --- refusals ------------------------------------------------------------------------------------------------------- */
+/* --- refusals --------------------------------------------------------------------------------------------------- */
 
 static double g_nan(const iso_model *m, const double y[], const void *data)
 {
@@ -271,6 +293,7 @@ int main(void)
         check_touching(iso_methods[i]);
         check_ends(iso_methods[i]);
         check_orbits(iso_methods[i]);
+        if (iso_methods[i]->fixed) check_exact_zero(iso_methods[i]);
     }
     check_agreement();
     check_refusals();

@@ -66,7 +66,7 @@ static void solve(const orbit *o, const iso_method *m, double t, double y[])
     orbit_solve(o, m, &options, t, y);
 }
 
-/* --- the state at a time ------------------------------------------------------------------------------------------ */
+/* --- the state at a time ---------------------------------------------------------------------------------------- */
 
 static void agreement(const orbit *o, const iso_method *m, laws_worst *worst)
 {
@@ -142,7 +142,7 @@ static void starting_again(const orbit *o, const iso_method *m, laws_worst *wors
     iso_integrator_free(it);
 }
 
-/* --- what it says of itself ----------------------------------------------------------------------------------------- */
+/* --- what it says of itself ------------------------------------------------------------------------------------- */
 
 static void statistics(const orbit *o, const iso_method *m, laws_worst *worst)
 {
@@ -204,7 +204,7 @@ static void no_projection(const orbit *o, const iso_method *m, laws_worst *worst
     iso_integrator_free(it);
 }
 
-/* --- clocks --------------------------------------------------------------------------------------------------------- */
+/* --- clocks ----------------------------------------------------------------------------------------------------- */
 
 /* The time of `clock` along the orbit from 0 to t, by Gauss and Legendre's rule over states from elsewhere. */
 static double quadrature(const orbit *o, iso_clock clock, double t)
@@ -257,7 +257,7 @@ static void other_clocks(const orbit *plain, const iso_method *m, laws_worst *wo
     }
 }
 
-/* --- special orbits --------------------------------------------------------------------------------------------------- */
+/* --- special orbits --------------------------------------------------------------------------------------------- */
 
 static void rest(const orbit *moving, const iso_method *m, laws_worst *worst)
 {

@@ -7,7 +7,7 @@
 
 static iso_context *ctx;
 
-/* --- order of convergence ---------------------------------------------------------------------------------------- */
+/* --- order of convergence --------------------------------------------------------------------------------------- */
 
 enum { SYSTEMS = 2, MOMENTS = 4, STATES = 8, BUNDLES = SYSTEMS * ORBIT_K * MOMENTS };
 
@@ -107,7 +107,7 @@ static void check_orders(void)
                  iso_methods[i]->name);
 }
 
-/* --- error against tolerance ------------------------------------------------------------------------------------- */
+/* --- error against tolerance ------------------------------------------------------------------------------------ */
 
 enum { ORBITS = SYSTEMS * ORBIT_K, TIGHTEST = 11, LOOSEST = 5 }; /* tolerances 1e-5 ... 1e-11 */
 
@@ -142,8 +142,8 @@ static double sample_error(const sample samples[ORBITS], const iso_method *m, do
     return sum / ORBITS;
 }
 
-/* The error after 20 radians is C times the tolerance, C about the number of steps: up to 300 for one-step methods, up to
- * 10^4 for multistep ones. It falls like the tolerance: slope 1, but 4/5 for rk4, whose step doubling estimates the
+/* The error after 20 radians is C times the tolerance, C about the number of steps: up to 300 for one-step methods, up
+ * to 10^4 for multistep ones. It falls like the tolerance: slope 1, but 4/5 for rk4, whose step doubling estimates the
  * fifth order of a fourth-order solution, and 5/6 for a BDF of order 5. */
 static void check_tolerance(const sample samples[ORBITS], const iso_method *m)
 {

@@ -293,7 +293,7 @@ static void check_off_level(void)
     const iso_params p = laws_params(-1, J);
     const iso_start start = {.model = ISO_POINT, .y = {0, 0.3, -0.2, 1, 0, 0}, .eps = 2};
     iso_record *record = record_of(&p, &start, 9, 14, "s");
-    expect(&p, record, 1e-11, " point H,", "a point off the level H = 0");
+    expect(&p, record, 1e-11, "", "a point off the level H = 0");
     must(iso_record_set(ctx, record, "eps", "2.1"), "a line");
     expect(&p, record, 1e-6, " point H, point F_shell, point flow,", "another eps");
     iso_record_free(record);

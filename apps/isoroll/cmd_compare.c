@@ -176,7 +176,7 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scen
 
 static int run(iso_context *ctx, const options *o)
 {
-    iso_scene scene;
+    iso_scene scene = {.places = 0};
     iso_comparison *c = NULL;
     iso_status status = scene_with_options(ctx, o, &scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
@@ -184,7 +184,7 @@ static int run(iso_context *ctx, const options *o)
     iso_context_watch(ctx, go_on, NULL);
     if (status == ISO_OK) status = iso_compare(ctx, &scene, show, NULL, &c);
     iso_context_watch(ctx, NULL, NULL);
-    int result = finish(ctx, status);
+    int result = finish_scene(ctx, o, &scene, status);
     progress_end();
     if (!c) return result;
     if (status == ISO_STOPPED)

@@ -18,12 +18,24 @@ static void explain_ball(const iso_params *p)
                b->inertia[2], b->mass * b->radius * b->radius);
     if (b->surface > ISO_PLANE) printf("  on a fixed sphere of radius A = %g\n", b->surface_radius);
     printf("  k = %.17g, J = %.17g %.17g %.17g\n", p->k, p->J[0], p->J[1], p->J[2]);
-    printf("  twin: point on a sphere, V = -eps (gamma,J gamma)^(%.6g)%s\n\n", -1 / p->k,
-           p->k == -1  ? ", Neumann's problem: integrable"
-           : p->k == 1 ? ", Braden's problem: integrable"
-           : iso_params_symmetric(p, 0) || iso_params_symmetric(p, 1) || iso_params_symmetric(p, 2)
-               ? ": integrable, since two moments are equal"
-               : ": no further integral is known");
+}
+
+/* Whether the two models are one here, and the twin that the ball has for every start. */
+static void explain_map(const iso_params *p, const iso_orbit *orbit)
+{
+    const bool symmetric = iso_params_symmetric(p, 0) || iso_params_symmetric(p, 1) || iso_params_symmetric(p, 2);
+    const char *kind = p->k == -1  ? "Neumann's problem: integrable"
+                       : p->k == 1 ? "Braden's problem: integrable"
+                       : symmetric ? "integrable, since two moments are equal"
+                                   : "no further integral is known";
+    printf("  point on a sphere: V = -eps (gamma,J gamma)^(%.6g), %s\n", -1 / p->k, kind);
+    if (iso_orbit_has_twin(orbit))
+        printf("  the isomorphism holds: this orbit has both models, (18) and the clocks t, tau, s\n");
+    else if (iso_orbit_model(orbit)->system == &iso_system_point)
+        printf("  the isomorphism does not hold: off the level H = 0 this point is the twin of no free ball\n");
+    else
+        printf("  the isomorphism does not hold: a ball at rest (h = 0) has no twin\n");
+    printf("\n");
 }
 
 static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const int columns[], int count)
@@ -38,20 +50,23 @@ static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const
     printf("  method %s (%s), tolerance %g\n", iso_orbit_method(orbit)->name, iso_orbit_method(orbit)->doc,
            scene->tolerance);
     printf("  own units: moment of inertia %g, time %g\n", iso_orbit_units(orbit)->J, 1 / iso_orbit_units(orbit)->w);
-    printf("  energy h = %.10g, coupling eps = h det J/k^2 = %.10g\n", iso_orbit_energy(orbit),
-           iso_orbit_coupling(orbit));
+    if (iso_orbit_has_twin(orbit)) printf("  energy of the ball h = %.10g\n", iso_orbit_energy(orbit));
+    if (iso_orbit_has_twin(orbit) || m->system == &iso_system_point)
+        printf("  coupling of the point eps = %.10g\n", iso_orbit_coupling(orbit));
     printf("written: %zu rows to %s = %g, columns", iso_scene_rows(scene), iso_clock_name(m->clock), scene->end);
     for (int i = 0; i < count; i++) printf(" %s", iso_trajectory_columns[columns[i]]);
     printf("\n\n");
 }
 
-static void explain_integrals(const iso_params *p)
+/* Of both models, or without a twin of the one that is integrated. */
+static void explain_integrals(const iso_params *p, const iso_orbit *orbit)
 {
+    const iso_system *only = iso_orbit_has_twin(orbit) ? NULL : iso_orbit_model(orbit)->system;
     for (int holds = 1; holds >= 0; holds--) {
         printf(holds ? "integrals that hold\n" : "integrals that do not hold here\n");
         for (int s = 0; iso_systems[s]; s++)
             for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
-                if ((!i->holds || i->holds(p)) == holds)
+                if ((!only || iso_systems[s] == only) && (!i->holds || i->holds(p)) == holds)
                     printf("  %-5s %-10s %s\n", iso_systems[s]->name, i->name, i->doc);
     }
 }
@@ -92,17 +107,18 @@ static void explain_cost(const iso_model *m)
 
 static int run(iso_context *ctx, const options *o)
 {
-    iso_scene scene;
+    iso_scene scene = {.places = 0};
     iso_orbit *orbit;
     int columns[ISO_MAX_COLUMNS], count;
     iso_status status = scene_with_options(ctx, o, &scene);
     if (status != ISO_OK) return finish(ctx, status);
     count = iso_scene_columns(&scene, columns);
     status = orbit_for_columns(ctx, &scene, columns, count, &orbit);
-    if (status != ISO_OK) return finish(ctx, status);
+    if (status != ISO_OK) return finish_scene(ctx, o, &scene, status);
     explain_ball(&scene.params);
+    explain_map(&scene.params, orbit);
     explain_states(&scene, orbit, columns, count);
-    explain_integrals(&scene.params);
+    explain_integrals(&scene.params, orbit);
     explain_cost(iso_orbit_model(orbit));
     iso_orbit_free(orbit);
     return EXIT_DONE;

@@ -117,8 +117,7 @@ static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_o
     const iso_picture as = scene->as == ISO_AUTO ? scene->start.model : scene->as;
     iso_status status = iso_record_create(ctx, (size_t)count, names, header);
     if (status == ISO_OK)
-        status = iso_record_describe(ctx, *header, iso_picture_name((int)as), &scene->params, iso_orbit_energy(orbit),
-                                     iso_orbit_coupling(orbit));
+        status = iso_record_describe(ctx, *header, iso_picture_name((int)as), &scene->params, orbit);
     if (status == ISO_OK) status = iso_record_set(ctx, *header, "backend", iso_orbit_model(orbit)->system->name);
     if (status == ISO_OK) status = iso_record_set(ctx, *header, "method", iso_orbit_method(orbit)->name);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, *header, "tolerance", 1, &scene->tolerance);
@@ -203,7 +202,7 @@ static iso_status check_files(iso_context *ctx, const options *o)
 
 static int run(iso_context *ctx, const options *o)
 {
-    iso_scene scene;
+    iso_scene scene = {.places = 0};
     iso_orbit *orbit = NULL;
     iso_record *header = NULL;
     int columns[ISO_MAX_COLUMNS], count = 0, result;
@@ -218,7 +217,8 @@ static int run(iso_context *ctx, const options *o)
     }
     if (status == ISO_OK) status = iso_orbit_check_time(orbit, farthest(&t));
     if (status == ISO_OK) status = describe(ctx, &scene, orbit, columns, count, &header);
-    result = status == ISO_OK ? write_file(ctx, o, orbit, &t, header, columns, count) : finish(ctx, status);
+    result = status == ISO_OK ? write_file(ctx, o, orbit, &t, header, columns, count)
+                              : finish_scene(ctx, o, &scene, status);
     iso_record_free(header);
     iso_orbit_free(orbit);
     free(t.list);

@@ -57,6 +57,9 @@ int finish(iso_context *ctx, iso_status status);
 /* The scene in o->file with what the options change in it. */
 iso_status scene_with_options(iso_context *ctx, const options *o, iso_scene *scene);
 
+/* As finish(), after a failure with the scene: says where in its file the cause stands, unless an option put it there. */
+int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso_status status);
+
 /* The orbit that fills the columns asked for, and nothing else. */
 iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
                              iso_orbit **orbit);

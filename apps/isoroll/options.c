@@ -215,6 +215,15 @@ iso_status scene_with_options(iso_context *ctx, const options *o, iso_scene *sce
     return ISO_OK;
 }
 
+int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso_status status)
+{
+    const char *field = iso_context_field(ctx);
+    const bool time = strcmp(field, "end") == 0 || strcmp(field, "step") == 0;
+    const bool from_option = time && (!isnan(o->end) || !isnan(o->step));
+    const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
+    return finish(ctx, from_option ? status : iso_scene_blame(ctx, scene, name, status));
+}
+
 iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
                              iso_orbit **orbit)
 {

@@ -1,5 +1,6 @@
 #include "base/number.h"
 
+#include <limits.h>
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,10 +11,10 @@ bool iso_number_read(const char *text, size_t length, double *value)
 {
     char copy[512], *end = copy;
     if (length == 0 || length >= sizeof copy) return false;
-    /* strtod also takes blanks, hexadecimal, "nan" and "infinity": a decimal number has none of their letters */
-    if (strspn(text, "0123456789+-.eE") < length) return false;
-    memcpy(copy, text, length);
+    memcpy(copy, text, length); /* text need not be terminated */
     copy[length] = '\0';
+    /* strtod also takes blanks, hexadecimal, "nan" and "infinity": a decimal number has none of their letters */
+    if (strspn(copy, "0123456789+-.eE") != length) return false;
     const locale_t c = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
     if (!c) return false;
     *value = strtod_l(copy, &end, c);
@@ -23,8 +24,12 @@ bool iso_number_read(const char *text, size_t length, double *value)
 
 int iso_number_print(char text[ISO_NUMBER_SIZE], double value)
 {
-    const int length = snprintf(text, ISO_NUMBER_SIZE, "%.17g", value);
-    char *comma = strpbrk(text, ",");
-    if (comma) *comma = '.';
-    return length;
+    /* In any locale: whatever stands where the decimal point should, one character or several, is made a point. */
+    static const char plain[] = "0123456789+-e";
+    char local[ISO_NUMBER_SIZE + MB_LEN_MAX];
+    snprintf(local, sizeof local, "%.17g", value);
+    const size_t before = strspn(local, plain);
+    const size_t mark = isfinite(value) ? strcspn(local + before, plain) : 0; /* "nan" and "inf" have none */
+    if (mark == 0) return snprintf(text, ISO_NUMBER_SIZE, "%s", local);
+    return snprintf(text, ISO_NUMBER_SIZE, "%.*s.%s", (int)before, local, local + before + mark);
 }

@@ -11,7 +11,7 @@
 #ifndef ISO_IO_PLOT_H
 #define ISO_IO_PLOT_H
 
-#include "base/record.h"
+#include "../base/record.h"
 
 /* Two backends on one orbit. Records are as iso_compare makes them; further columns are not read. */
 typedef struct iso_plot {

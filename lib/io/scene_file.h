@@ -20,7 +20,7 @@
 
 #include <stddef.h>
 
-#include "orbit/scene.h"
+#include "../orbit/scene.h"
 
 /* Reads the scene in the file `path`, "-" being standard input (called <stdin> in messages).
  * *scene is set only when the answer is ISO_OK. Errors: ISO_BAD_INPUT, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */

@@ -147,6 +147,16 @@ static iso_status unknown_key(iso_draft *d, const entry *entries, const yaml_nod
     return iso_yaml_unknown(&d->yaml, key, entries->read == read_not_simulated ? "effect" : "key", count, names);
 }
 
+/* For what is found wrong only later, when an orbit is made. */
+static void note_place(iso_scene *s, const char *key, yaml_mark_t at)
+{
+    if (s->places == ISO_MAX_PLACES) return;
+    iso_place *place = &s->place[s->places++];
+    snprintf(place->key, sizeof place->key, "%s", key);
+    place->line = (int)at.line + 1;
+    place->column = (int)at.column + 1;
+}
+
 static iso_status read_pair(iso_draft *d, const entry *entries, const yaml_node_t *mapping,
                             const yaml_node_pair_t *pair)
 {
@@ -157,7 +167,9 @@ static iso_status read_pair(iso_draft *d, const entry *entries, const yaml_node_
     if (first != key)
         return iso_yaml_fail(&d->yaml, key->start_mark, "duplicate key '%s', first written in line %zu", e->name,
                              first->start_mark.line + 1);
-    return e->read(d, e, key, iso_yaml_node(&d->yaml, pair->value));
+    const yaml_node_t *value = iso_yaml_node(&d->yaml, pair->value);
+    note_place(&d->scene, e->name, value->start_mark);
+    return e->read(d, e, key, value);
 }
 
 /* Reads a mapping by its table; `owner` is its key, or the mapping itself at the top of the file. */

@@ -14,7 +14,7 @@
 
 #include <stdbool.h>
 
-#include "base/record.h"
+#include "../base/record.h"
 
 /* Reads a whole file into a new record, to be freed by the caller. Messages about its text read
  * "path:line:column: ...", column being that of the first character of the field.

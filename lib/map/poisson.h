@@ -7,7 +7,7 @@
 #ifndef ISO_MAP_POISSON_H
 #define ISO_MAP_POISSON_H
 
-#include "model/system.h"
+#include "../model/system.h"
 
 /* The matrix B of the bracket at y = (M, gamma): {f,g} = (df, B dg); row-major. */
 void iso_poisson_matrix(const double y[ISO_STATE], double B[ISO_STATE * ISO_STATE]);

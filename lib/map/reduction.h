@@ -6,8 +6,8 @@
 #ifndef ISO_MAP_REDUCTION_H
 #define ISO_MAP_REDUCTION_H
 
-#include "model/conical.h"
-#include "model/system.h"
+#include "../model/conical.h"
+#include "../model/system.h"
 
 /* (lam, mu) and their rates along the ball's motion. */
 void iso_reduction_coordinates(const iso_params *p, const double ball[ISO_STATE], iso_conical *c);

@@ -9,7 +9,7 @@
 #ifndef ISO_MAP_STATE_H
 #define ISO_MAP_STATE_H
 
-#include "model/system.h"
+#include "../model/system.h"
 
 /* Each way, all of n's (gamma's) direction and nothing of its length is used; ball and point may be one array. */
 void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE]);

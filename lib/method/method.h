@@ -84,9 +84,9 @@ typedef struct iso_event {
 } iso_event;
 
 /* The first event after `from`, at or before `to`, going away from 0 (0 <= from <= to, or 0 >= from >= to). Found:
- * *found = true with its time, good to rounding (to the error of a step at the end of one), and its state. Two zeros of g between which the state changes by less
- * than a quarter of its size are found if g turns round just once between them; a zero that g only touches is no
- * event, nor is one at `from` itself, or within 1e-9 steps of it.
+ * *found = true with its time and state, good to rounding (at the end of a step: to the error of a step). Two zeros
+ * between which the state changes by less than a quarter of its size are found if g turns round just once between
+ * them; a zero that g only touches is no event, nor is one at `from` itself, or within 1e-9 steps of it.
  * Errors: as iso_integrator_at, and ISO_NUMERICAL when g is not finite. */
 iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, double from, double to, bool *found,
                                 double *t, double y[]);

@@ -168,8 +168,8 @@ static const char *const state_names[] = {"omega1", "omega2", "omega3", "n1", "n
 
 static const iso_integral integrals[] = {
     {.name = "h", .doc = "energy (w,Jw)/2", .dimension = {1, 0, 2}, .value = energy},
-    {.name = "omega.n", .doc = "no twist: (w,n) = 0", .dimension = {0, 0, 1}, .value = spin},
-    {.name = "|n|", .doc = "unit normal: 1", .value = normal_length},
+    {.name = "omega.n", .known = ISO_ZERO, .doc = "no twist: (w,n) = 0", .dimension = {0, 0, 1}, .value = spin},
+    {.name = "|n|", .known = ISO_ONE, .doc = "unit normal: 1", .value = normal_length},
     {.name = "F_plane",
      .doc = "(Jw x n, Jw x n), k = 1",
      .dimension = {2, 0, 2},

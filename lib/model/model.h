@@ -7,7 +7,7 @@
 #ifndef ISO_MODEL_MODEL_H
 #define ISO_MODEL_MODEL_H
 
-#include "model/system.h"
+#include "system.h"
 
 enum { ISO_MAX_STATE = ISO_STATE + ISO_CLOCKS - 1 };
 

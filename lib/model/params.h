@@ -13,7 +13,7 @@
 #ifndef ISO_MODEL_PARAMS_H
 #define ISO_MODEL_PARAMS_H
 
-#include "base/context.h"
+#include "../base/context.h"
 
 typedef enum iso_surface { ISO_REDUCED, ISO_PLANE, ISO_OUTSIDE, ISO_INSIDE, ISO_SHELL } iso_surface;
 

@@ -172,8 +172,8 @@ static const char *const state_names[] = {"M1", "M2", "M3", "gamma1", "gamma2", 
 
 static const iso_integral integrals[] = {
     {.name = "H", .doc = "energy M^2/2 - eps (gamma,J gamma)^(-1/k) (24)", .dimension = {4, -2, 2}, .value = energy},
-    {.name = "M.gamma", .doc = "(M,gamma) = 0 (19)", .dimension = {2, -1, 1}, .value = spin},
-    {.name = "|gamma|", .doc = "point on the unit sphere: 1 (19)", .value = gamma_length},
+    {.name = "M.gamma", .known = ISO_ZERO, .doc = "(M,gamma) = 0 (19)", .dimension = {2, -1, 1}, .value = spin},
+    {.name = "|gamma|", .known = ISO_ONE, .doc = "point on the unit sphere: 1 (19)", .value = gamma_length},
     {.name = "F_plane",
      .doc = "(gamma',J^-1 gamma') + 2 H (gamma,J^-1 gamma), k = 1",
      .dimension = {2, 0, 2},

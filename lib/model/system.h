@@ -13,8 +13,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/random.h"
-#include "model/params.h"
+#include "../base/random.h"
+#include "params.h"
 
 enum { ISO_STATE = 6 }; /* numbers in a state of either system: two vectors of R^3 */
 
@@ -41,6 +41,7 @@ typedef struct iso_field {
 typedef struct iso_integral {
     const char *name, *doc;
     iso_dimension dimension;
+    enum { ISO_ANY_VALUE, ISO_ZERO, ISO_ONE } known; /* constraints have a known value     */
     bool (*holds)(const iso_params *p); /* for which k and J; NULL: always */
     double (*value)(const iso_field *f, const double y[ISO_STATE], double *size);
 } iso_integral;

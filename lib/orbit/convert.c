@@ -9,14 +9,18 @@
 
 /* --- what a record says of its ball -------------------------------------------------------------------------------- */
 
-iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *model, const iso_params *p, double h,
-                               double eps)
+iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *model, const iso_params *p,
+                               const iso_orbit *orbit)
 {
     iso_status status = iso_record_set(ctx, r, "model", model);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "k", 1, &p->k);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "J", 3, p->J);
-    if (status == ISO_OK && isnormal(h)) status = iso_record_set_numbers(ctx, r, "h", 1, &h);
-    if (status == ISO_OK && isnormal(eps)) status = iso_record_set_numbers(ctx, r, "eps", 1, &eps);
+    if (status != ISO_OK || !orbit) return status;
+    const bool twin = iso_orbit_has_twin(orbit), point = iso_orbit_model(orbit)->system == &iso_system_point;
+    const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
+    if (twin && isnormal(h)) status = iso_record_set_numbers(ctx, r, "h", 1, &h);
+    if (status == ISO_OK && ((twin && isnormal(eps)) || (!twin && point && isfinite(eps))))
+        status = iso_record_set_numbers(ctx, r, "eps", 1, &eps);
     return status;
 }
 
@@ -120,16 +124,16 @@ static iso_status settle_level(const conversion *c, size_t row, iso_start *start
     const double *gamma = start->y + 3, unit_M = iso_unit(&c->units, iso_system_point.fast_dimension);
     const double eps = start->eps / iso_unit(&c->units, iso_dimension_eps);
     const double q = dot_diag(gamma, own->J, gamma), M = row_largest(c, row) / unit_M;
-    /* |M| over what it is on the level, in parts that do not overflow */
+    /* |M| over what it is on the level, in parts that do not overflow; NAN for eps < 0 */
     const double direction[3] = {start->y[0] / unit_M / M, start->y[1] / unit_M / M, start->y[2] / unit_M / M};
     const double ratio = norm(direction) * (M / (sqrt(2) * sqrt(eps))) * pow(q, 1 / (2 * own->k));
+    const double stated = start->eps;
     start->eps = NAN;
     if (M == 0 || fabs(ratio - 1) <= 1e-6) return ISO_OK;
-    iso_context_fail(
-        c->ctx, ISO_NOT_MAPPED, "eps",
-        "this point is off the level H = 0 (its |M| is %.10g times that of its eps), and only on that level "
-        "is it the twin of a free ball",
-        ratio);
+    iso_context_fail(c->ctx, ISO_NOT_MAPPED, "eps",
+                     "this point is off the level H = 0, and only there is it the twin of a free ball: its M does "
+                     "not belong to eps = %.10g",
+                     stated);
     return fail_row(c, ISO_NOT_MAPPED, row);
 }
 
@@ -253,11 +257,13 @@ static iso_status describe_energy(const conversion *c, iso_picture to, iso_recor
     const iso_orbit_options o = iso_orbit_defaults(&start);
     status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
     if (status != ISO_OK) return status;
-    double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
+    const double eps = iso_orbit_coupling(orbit);
+    const bool agrees =
+        stated_coupling(c->ctx, out, c->params, &stated, &status) && fabs(stated - eps) <= 1e-6 * fabs(eps);
+    if (status == ISO_OK)
+        status = iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, agrees ? NULL : orbit);
     iso_orbit_free(orbit);
-    if (stated_coupling(c->ctx, out, c->params, &stated, &status) && fabs(stated - eps) <= 1e-6 * fabs(eps))
-        h = eps = NAN;
-    return status == ISO_OK ? iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, h, eps) : status;
+    return status;
 }
 
 /* The lines of `in`, now about the other model, and where its own clock began. */

@@ -12,10 +12,11 @@
 /* The most steps from one row of a record to the next: a damaged time must not keep a program busy for ever. */
 enum { ISO_MAX_ROW_STEPS = 10000000 };
 
-/* Writes the lines that a record needs to be carried back: model, k, J, h, eps. What is no normal double in these
- * units (too large, subnormal, or 0 for a ball at rest) is left out: h and eps follow from any row. */
+/* Writes the lines that a record needs to be carried back: model, k, J, and of the orbit (NULL: not touched) h and eps.
+ * On the level H = 0 what is no normal double in these units is left out: both follow from any row. A point off that
+ * level has no h, and always its eps. */
 iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,
-                               double h, double eps);
+                               const iso_orbit *orbit);
 
 /* Reads them back: parameters from `k` and `J`. Errors: ISO_BAD_INPUT about "k" or "J" (absent or wrong). */
 iso_status iso_record_params(iso_context *ctx, const iso_record *record, iso_params *params);

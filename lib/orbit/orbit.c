@@ -383,6 +383,11 @@ const iso_method *iso_orbit_method(const iso_orbit *o)
     return o->options.method;
 }
 
+bool iso_orbit_has_twin(const iso_orbit *o)
+{
+    return o->h > 0 && (o->options.backend == ISO_BALL || o->model.field.energy == 0);
+}
+
 double iso_orbit_energy(const iso_orbit *o)
 {
     return o->h == 0 ? 0 : o->h * iso_unit(&o->units, iso_dimension_h);

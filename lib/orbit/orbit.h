@@ -76,6 +76,9 @@ const iso_model *iso_orbit_model(const iso_orbit *orbit);
 const iso_units *iso_orbit_units(const iso_orbit *orbit);
 const iso_method *iso_orbit_method(const iso_orbit *orbit);
 
+/* Whether the orbit has both models: a moving ball, a point on the level H = 0. */
+bool iso_orbit_has_twin(const iso_orbit *orbit);
+
 /* Energy h of the ball and coupling eps of the point in the caller's units (infinite
  * or 0 where they do not fit). */
 double iso_orbit_energy(const iso_orbit *orbit);

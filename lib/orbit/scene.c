@@ -109,3 +109,14 @@ int iso_scene_columns(const iso_scene *scene, int columns[])
     }
     return count;
 }
+
+iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status)
+{
+    for (int i = 0; status != ISO_OK && i < scene->places; i++) {
+        const iso_place *at = &scene->place[i];
+        if (strcmp(at->key, iso_context_field(ctx)) != 0) continue;
+        return iso_context_fail(ctx, status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status, "", "%s:%d:%d: %s", name,
+                                at->line, at->column, iso_context_message(ctx));
+    }
+    return status;
+}

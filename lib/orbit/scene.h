@@ -36,7 +36,13 @@ iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double 
 iso_status iso_start_point(iso_context *ctx, const double M[3], const double gamma[3], const double *eps, bool project,
                            iso_start *start);
 
-enum { ISO_MAX_COLUMNS = 32, ISO_NAME_SIZE = 32 };
+enum { ISO_MAX_COLUMNS = 32, ISO_NAME_SIZE = 32, ISO_MAX_PLACES = 24 };
+
+/* Where a scene file has the value of a key: line and column from 1. */
+typedef struct iso_place {
+    char key[ISO_NAME_SIZE];
+    int line, column;
+} iso_place;
 
 typedef struct iso_scene {
     iso_params params;
@@ -49,7 +55,13 @@ typedef struct iso_scene {
     iso_picture as;             /* what is written: ISO_BALL, ISO_POINT or ISO_BOTH                        */
     size_t columns;             /* names of the columns wanted; 0: those of `as`                           */
     char column[ISO_MAX_COLUMNS][ISO_NAME_SIZE];
+    int places; /* of what was read from a file, 0 for a scene filled by hand                              */
+    iso_place place[ISO_MAX_PLACES];
 } iso_scene;
+
+/* Puts "name:line:column: " before the context's message where the failure is about a key that the scene was read
+ * with; what is then a mistake in the file is ISO_BAD_INPUT, no longer ISO_BAD_ARGUMENT. Gives the status. */
+iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
 
 /* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_AUTO (the model of the start). */
 iso_scene iso_scene_default(void);

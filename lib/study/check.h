@@ -23,9 +23,10 @@ typedef struct iso_residuals {
 
 /* Looks at every model whose six columns the record has:
  * - constraints (|n| = 1, (w,n) = 0 / |gamma| = 1, (M,gamma) = 0), relative to the vectors' lengths;
- * - integrals that hold for k and J: |I(row) - I(first row)| / size (iso_integral); H of a point against 0;
- * - flow: each row integrated to the time of the next (rk8pd at `tolerance`), the difference relative to |omega|
- *   or |M| and to 1; for this the record needs a clock;
+ * - integrals that hold for k and J: |I(row) - I(first row)| / size (iso_integral); H of a point against 0
+ *   if the record has a ball's columns or clocks;
+ * - flow: each row integrated to the time of the next (rk8pd at `tolerance`), the difference relative to the
+ *   largest component of omega or M and to 1; for this the record needs a clock;
  * - the map: with both models in the record, each row's point against the point of its ball;
  * - clocks: with two of t, tau, s in the record, the steps of the one along the other, relative to the whole.
  * Errors, with the row: ISO_BAD_INPUT (no model's columns, a row that is no state, a time that is not finite),

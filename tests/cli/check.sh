@@ -18,6 +18,20 @@ done
 run 0 check --max 1e-9 back.csv
 grep -v '^#' ball.csv >bare.csv
 run 0 check --max 1e-9 bare.csv --k=-1 --J 1.4,2.1,3
+# a point off the level H = 0: its file says its eps, solves its own model, and has no ball
+for eps in 0 1e-320 -0.5 3; do
+    cat >off.yaml <<END
+point: {k: -1, J: [1, 1.5, 2], eps: $eps}
+initial: {gamma: [0.6, 0, 0.8], M: [0.64, 1, -0.48]}
+time: {end: 10, step: 1}
+END
+    "$isoroll" run off.yaml >off.csv
+    run 0 check --max 1e-9 off.csv
+    refuses 3 "off the level H = 0" convert --to ball off.csv
+    refuses 3 "off.yaml:2:36: this point has energy" compare off.yaml
+    run 0 explain off.yaml
+    check "explain says there is no ball" grep -q "the twin of no free ball" out
+done
 cat both.csv | "$isoroll" check --max 1e-9 >out
 check "from standard input" test $? -eq 0
 
@@ -108,7 +122,7 @@ refuses 3 "--k K" check bare.csv
 run 0 explain scene.yaml
 silent
 for words in "k = -1, J = 1.3999999999999999" "Neumann's problem" "backend ball, 6 states, in the clock t" "  omega1  angular velocity" \
-    "method rk8pd" "energy h = 0.7374375, coupling eps = h det J/k^2 = 6.50419875" "11 rows to t = 10, columns t omega1" "integrals that hold" "F_shell" \
+    "method rk8pd" "energy of the ball h = 0.7374375" "11 rows to t = 10, columns t omega1" "integrals that hold" "F_shell" \
     "integrals that do not hold" "cost of a right-hand side: "; do
     check "explain: $words" grep -F -q -e "$words" out
 done

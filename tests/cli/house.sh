@@ -15,16 +15,25 @@ complain() {
 public=$(find lib -mindepth 2 -name '*.h' ! -name '*_impl.h' | sort)
 [ -n "$public" ] || { echo "FAIL no headers in $PWD/lib"; exit 1; }
 
-# Floors: a file of lib includes its own folder and lower floors only, a program only the public headers.
+# Floors: a file of lib includes its own folder and lower floors only, a program only the public headers. Sources and
+# private headers write "floor/name.h"; public ones "../floor/name.h" or "name.h", so that they work where installed.
 find lib apps examples -name '*.[ch]' ! -path lib/isoroll.h -exec awk '
     BEGIN { n = split("base 0 model 1 map 2 method 2 exact 2 orbit 3 study 4 io 4", f)
             for (i = 1; i < n; i += 2) floor[f[i]] = f[i + 1] }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
-        split($0, quoted, "\""); split(quoted[2], to, "/"); split(FILENAME, from, "/")
+        split($0, quoted, "\""); split(FILENAME, from, "/"); path = quoted[2]; shape = "floor/name.h"
+        if (from[1] == "lib" && FILENAME ~ /\.h$/ && FILENAME !~ /_impl\.h$/) {
+            shape = "../floor/name.h or name.h"
+            if (path !~ /\//) path = from[2] "/" path
+            else if (!sub(/^\.\.\//, "", path)) path = ""
+            if (path ~ /_impl\.h$/) print FILENAME ":" FNR ": " quoted[2] " is private, " FILENAME " is not"
+        }
+        split(path, to, "/")
         if (from[1] != "lib") {
             if (quoted[2] ~ /\/.*_impl\.h$/) print FILENAME ":" FNR ": " quoted[2] " is private to lib"
         } else if (!(from[2] in floor)) print FILENAME ": lib/" from[2] " is no floor"
-        else if (!(to[1] in floor) || to[2] == "") print FILENAME ":" FNR ": " quoted[2] " is not floor/name.h"
+        else if (!(to[1] in floor) || path !~ /^[a-z]+\/[a-z0-9_]+\.h$/)
+            print FILENAME ":" FNR ": " quoted[2] " is not " shape
         else if (to[1] != from[2] && floor[to[1]] >= floor[from[2]])
             print FILENAME ":" FNR ": " from[2] " is not above " to[1]
     }' {} + | complain "floors"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Installs the build tree into a temporary prefix, moves that prefix, and builds outside.c against it in every way
-# a user can: find_package (shared, static), pkg-config (shared, fully static).
+# a user can: find_package (shared, static), pkg-config (shared, fully static), bare options; C, and C++ if there is one.
 set -eu
 : "${ISO_SOURCE:?}" "${ISO_BUILD:?}" "${CC:=cc}"
 here=$ISO_SOURCE/tests/cli
@@ -37,13 +37,36 @@ END
 runs_right "find_package" build/shared
 runs_right "find_package, static" build/static
 
-libdir=$(dirname "$(find "$prefix" -name isoroll.pc)")
-export PKG_CONFIG_PATH="$libdir"
+pc=$(find "$prefix" -name isoroll.pc)
+lib=${pc%/pkgconfig/*}
+export PKG_CONFIG_PATH="$lib/pkgconfig"
+if grep -i jansson "$pc"; then echo "FAIL jansson is the command's, not the library's"; exit 1; fi
 # shellcheck disable=SC2046 # the flags are lists
 {
     "$CC" -std=c11 "$here/outside.c" -o shared $(pkg-config --cflags --libs isoroll)
-    runs_right "pkg-config" env LD_LIBRARY_PATH="${libdir%/pkgconfig}" ./shared
+    runs_right "pkg-config" env LD_LIBRARY_PATH="$lib" ./shared
     # everything static, down to libc; so it stands on its own
     "$CC" -std=c11 -static "$here/outside.c" -o static $(pkg-config --static --cflags --libs isoroll)
     runs_right "pkg-config --static" ./static
 }
+
+# bare NAME COMPILER [OPTION...]: no help from CMake or pkg-config
+bare() {
+    name=$1
+    shift
+    "$@" -I"$prefix/include" "$here/outside.c" -o bare -L"$lib" -lisoroll
+    runs_right "$name" env LD_LIBRARY_PATH="$lib" ./bare
+}
+bare "-I, -L and -l alone" "$CC" -std=c11 -Wall -Wextra -Wpedantic -Werror
+find "$prefix/include/isoroll" -name '*.h' | sed "s|^$prefix/include/||" >headers
+while read -r header; do # each by itself
+    echo "#include <$header>" >one.c
+    "$CC" -std=c11 -Wpedantic -Werror -fsyntax-only -I"$prefix/include" one.c || { echo "FAIL $header"; exit 1; }
+done <headers
+command -v c++ >/dev/null || { echo "c++ is not installed: that is left out"; exit 0; }
+bare "C++" c++ -x c++ -std=c++17 -Wall -Wpedantic -Werror
+while read -r header; do
+    echo "#include <$header>" >one.cpp
+    c++ -std=c++17 -Wpedantic -Werror -fsyntax-only -I"$prefix/include" one.cpp || { echo "FAIL $header: C++"; exit 1; }
+done <headers
+echo "ok   $(wc -l <headers) headers, each by itself"
