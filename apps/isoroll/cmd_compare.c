@@ -34,7 +34,7 @@ static size_t shown_row(size_t i, size_t shown, size_t rows)
 static void print_model(const iso_comparison *c, iso_picture model, size_t shown, size_t rows)
 {
     static const char *const titles[] = {"the ball", "the point"};
-    const int first = model == ISO_BALL ? 3 : 9, difference = model == ISO_BALL ? 1 : 3;
+    const int first = model == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT, difference = model == ISO_BALL ? 1 : 3;
     const int clock = model == ISO_BALL ? 0 : 2;
     printf("\n%s\n%12s  %-7s", titles[model], iso_clock_name((iso_clock)clock), "backend");
     for (int i = 0; i < ISO_STATE; i++) printf(" %13s", iso_trajectory_columns[first + i]);

@@ -231,8 +231,8 @@ iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int
     bool ball = false, point = false;
     for (int i = 0; i < count; i++) {
         if (columns[i] < ISO_CLOCKS) o.carry[columns[i]] = true;
-        ball = ball || (columns[i] >= 3 && columns[i] < 9);
-        point = point || columns[i] >= 9;
+        ball = ball || (columns[i] >= ISO_COLUMN_BALL && columns[i] < ISO_COLUMN_POINT);
+        point = point || columns[i] >= ISO_COLUMN_POINT;
     }
     o.show = ball && point ? ISO_BOTH : ball ? ISO_BALL : point ? ISO_POINT : scene->start.model;
     o.backend = scene->backend;

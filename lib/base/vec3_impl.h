@@ -34,6 +34,12 @@ static inline double norm(const double a[3])
     return sqrt(dot(a, a));
 }
 
+/* the largest component in size: squares of it need not fit a double */
+static inline double largest(const double a[3])
+{
+    return fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
+}
+
 static inline double max3(const double a[3])
 {
     return fmax(a[0], fmax(a[1], a[2]));

@@ -33,8 +33,7 @@ static double g_of(search *s, const double y[])
 {
     const double g = s->event->g(&s->it->model, y, s->event->data);
     if (!isfinite(g) && s->status == ISO_OK)
-        s->status = iso_context_fail(s->it->ctx, ISO_NUMERICAL, "", "event function not finite near %s = %.17g",
-                                     iso_clock_name(s->it->model.clock), s->it->left.head);
+        s->status = iso_context_fail(s->it->ctx, ISO_NUMERICAL, "", "the event function is not finite");
     return s->status == ISO_OK ? g : 0;
 }
 

@@ -30,6 +30,7 @@ typedef struct iso_method_options {
     double tolerance;  /* in [1e-15, 0.1]                                                              */
     double fixed_step; /* > 0: steps of exactly this size without error control, to measure an order   */
     bool no_projection;
+    double time_unit;  /* times in messages are multiplied by it; 0: 1                                 */
     long max_steps;    /* 0: no bound; else ISO_NUMERICAL when more are needed, from the start on      */
 } iso_method_options;
 

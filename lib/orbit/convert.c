@@ -73,7 +73,7 @@ iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_par
     double eps;
     const bool states_eps = model == ISO_POINT && stated_coupling(ctx, r, p, &eps, &status);
     if (status != ISO_OK) return status;
-    const double size = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));
+    const double size = largest(v);
     const double along = size > 0 ? v[0] / size * unit[0] + v[1] / size * unit[1] + v[2] / size * unit[2] : 0;
     if (model == ISO_BALL)
         status = iso_start_ball(ctx, v, unit, true, start);
@@ -112,7 +112,7 @@ static iso_status fail_row(const conversion *c, iso_status status, size_t row)
 static double row_largest(const conversion *c, size_t row)
 {
     const double *x = iso_record_const_row(c->in, row);
-    return fmax(fabs(x[c->state[0]]), fmax(fabs(x[c->state[1]]), fabs(x[c->state[2]])));
+    return largest((double[]){x[c->state[0]], x[c->state[1]], x[c->state[2]]});
 }
 
 /* A point off the level H = 0 of the record's coupling is no free ball's. The start's own coupling becomes the one of

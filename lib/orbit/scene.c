@@ -33,9 +33,9 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
             "%s has length %.10g, it must be a unit vector (to 1e-6): write [%.10g, %.10g, %.10g]", unit_name, length,
             unit[0] / length, unit[1] / length, unit[2] / length);
     make_unit(unit);
-    const double largest = fmax(fabs(vector[0]), fmax(fabs(vector[1]), fabs(vector[2])));
-    if (largest == 0) return ISO_OK;
-    const double size = ldexp(1, ilogb(largest)); /* a power of two: dividing by it rounds nothing */
+    const double most = largest(vector);
+    if (most == 0) return ISO_OK;
+    const double size = ldexp(1, ilogb(most)); /* a power of two: dividing by it rounds nothing */
     double v[3] = {vector[0] / size, vector[1] / size, vector[2] / size}; /* no overflow in the products */
     const double along = remove_along(v, unit);
     if (!project && fabs(along) > 1e-9 * hypot(norm(v), along))
@@ -104,7 +104,8 @@ int iso_scene_columns(const iso_scene *scene, int columns[])
             if (strcmp(scene->column[i], iso_trajectory_columns[c]) == 0) columns[count++] = c;
     if (count > 0) return count;
     for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) {
-        const bool ball = c == 0 || (c >= 3 && c < 9), point = c == 2 || c >= 9;
+        const bool ball = c == ISO_CLOCK_T || (c >= ISO_COLUMN_BALL && c < ISO_COLUMN_POINT);
+        const bool point = c == ISO_CLOCK_S || c >= ISO_COLUMN_POINT;
         if (as == ISO_BOTH || (as == ISO_BALL && ball) || (as == ISO_POINT && point)) columns[count++] = c;
     }
     return count;

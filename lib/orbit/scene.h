@@ -70,11 +70,13 @@ iso_scene iso_scene_default(void);
 size_t iso_scene_rows(const iso_scene *scene);
 double iso_scene_time(const iso_scene *scene, size_t row);
 
-/* Indices into iso_trajectory_columns of the columns the scene asks for, and how many. */
+/* Indices into iso_trajectory_columns of the columns the scene asks for, and how many: columns[] has room for
+ * ISO_MAX_COLUMNS. */
 int iso_scene_columns(const iso_scene *scene, int columns[]);
 
-/* Every column a trajectory can have, in file order: t tau s omega1..3 n1..3 M1..3 gamma1..3. */
-enum { ISO_TRAJECTORY_COLUMNS = 15 };
+/* Every column a trajectory can have, in file order: t tau s omega1..3 n1..3 M1..3 gamma1..3; the clocks stand first,
+ * then the states of the ball and of the point. */
+enum { ISO_COLUMN_BALL = ISO_CLOCKS, ISO_COLUMN_POINT = ISO_CLOCKS + ISO_STATE, ISO_TRAJECTORY_COLUMNS = 15 };
 extern const char *const iso_trajectory_columns[ISO_TRAJECTORY_COLUMNS];
 
 #endif

@@ -18,7 +18,8 @@ typedef struct checker {
     iso_residuals *out;
 } checker;
 
-static const int first_column[] = {[ISO_BALL] = 3, [ISO_POINT] = 9}; /* in iso_trajectory_columns */
+static const int first_column[] = {
+    [ISO_BALL] = ISO_COLUMN_BALL, [ISO_POINT] = ISO_COLUMN_POINT}; /* in iso_trajectory_columns */
 
 static const iso_system *system_of(iso_picture model)
 {
@@ -90,8 +91,7 @@ static void check_integrals(checker *c, iso_picture model, const iso_orbit *firs
 static double distance(const double a[ISO_STATE], const double b[ISO_STATE])
 {
     double d[ISO_STATE];
-    double size = 0;
-    for (int i = 0; i < 3; i++) size = fmax(size, fmax(fabs(a[i]), fabs(b[i])));
+    const double size = fmax(largest(a), largest(b));
     for (int i = 0; i < 3; i++) {
         d[i] = size > 0 ? a[i] / size - b[i] / size : 0;
         d[3 + i] = a[3 + i] - b[3 + i];

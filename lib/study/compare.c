@@ -121,7 +121,7 @@ static iso_status take_rows(runner *r, bool (*progress)(double part, void *data)
 /* |a - b| / |a| for vectors whose squares may overflow */
 static double vector_difference(const double a[3], const double b[3])
 {
-    const double size = fmax(fabs(a[0]), fmax(fabs(a[1]), fabs(a[2])));
+    const double size = largest(a);
     if (!(size > 0)) return 0;
     double d[3], u[3];
     for (int i = 0; i < 3; i++) {
@@ -133,9 +133,9 @@ static double vector_difference(const double a[3], const double b[3])
 
 static double largest_in_column(const iso_record *r, int column)
 {
-    double largest = 0;
-    for (size_t i = 0; i < iso_record_rows(r); i++) largest = fmax(largest, fabs(iso_record_const_row(r, i)[column]));
-    return largest;
+    double most = 0;
+    for (size_t i = 0; i < iso_record_rows(r); i++) most = fmax(most, fabs(iso_record_const_row(r, i)[column]));
+    return most;
 }
 
 static iso_status compare_rows(iso_context *ctx, iso_comparison *c)
@@ -153,7 +153,8 @@ static iso_status compare_rows(iso_context *ctx, iso_comparison *c)
         status = iso_record_append(ctx, c->difference, &d);
         if (status != ISO_OK) break;
         d[0] = x[c->clock];
-        for (int v = 0; v < 4; v++) d[1 + v] = vector_difference(x + 3 + 3 * v, y + 3 + 3 * v);
+        for (int v = 0; v < 4; v++)
+            d[1 + v] = vector_difference(x + ISO_COLUMN_BALL + 3 * v, y + ISO_COLUMN_BALL + 3 * v);
         d[5] = scale[0] > 0 ? fabs(x[first] - y[first]) / scale[0] : 0;
         d[6] = scale[1] > 0 ? fabs(x[second] - y[second]) / scale[1] : 0;
         c->worst[0] = d[0];

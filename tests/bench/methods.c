@@ -137,10 +137,13 @@ int main(int argc, char **argv)
     const iso_method *methods[MOST_METHODS];
     int count = 0;
     iso_context *ctx = iso_context_create();
-    for (int i = 1; i < argc && count < MOST_METHODS; i++)
-        if (iso_method_find(argv[i])) methods[count++] = iso_method_find(argv[i]);
+    for (int i = 1; i < argc && count < MOST_METHODS; i++) {
+        methods[count] = iso_method_find(argv[i]);
+        if (!methods[count++])
+            return fprintf(stderr, "bench_methods: no method, or several, are called '%s'\n", argv[i]), 2;
+    }
     for (int i = 0; argc == 1 && iso_methods[i] && count < MOST_METHODS; i++) methods[count++] = iso_methods[i];
     for (int i = 0; i < GEOMETRIES; i++) bench(ctx, geometries[i], methods, count);
     iso_context_free(ctx);
-    return count > 0 ? 0 : 2;
+    return 0;
 }
