@@ -221,5 +221,5 @@ const iso_method iso_method_msbdf = {
     .name = "msbdf", .variant = MSBDF, .implicit = true,
     .doc = "variable-order BDF in Nordsieck form, orders 1-5", GSL_METHOD};
 const iso_method iso_method_bsimp = {
-    .name = "bsimp", .order = 13, .variant = BSIMP, .implicit = true, .projects = true, .fixed = true,
+    .name = "bsimp", .variant = BSIMP, .implicit = true, .projects = true, .fixed = true,
     .doc = "implicit Bulirsch-Stoer of Bader and Deuflhard, seven columns", GSL_METHOD};
