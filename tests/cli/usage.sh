@@ -154,7 +154,8 @@ fi
 on_terminal() {
     script -qec "env $1 timeout -k 30 -s TERM 2 '$isoroll' run scene.yaml --t-end 1e8 -o a.csv" /dev/null </dev/null >terminal
 }
-if command -v timeout >/dev/null && command -v script >/dev/null; then
+# (without a pseudo-terminal, as in a bare chroot, there is nothing to show it on)
+if command -v timeout >/dev/null && script -qec true /dev/null </dev/null >/dev/null 2>&1; then
     on_terminal NO_COLOR=
     check "a bar on a terminal" grep -q '\.\.\.\.' terminal
     check "in colour" grep -q "$(printf '\033\\[36m')" terminal
