@@ -316,7 +316,7 @@ static void check_refusals(void)
     for (int i = 0; i < 3; i++)
         for (int c = 0; c < 3; c++)
             refused(damaged(ISO_BALL, columns[c], 2, 0, bad[i]), ISO_POINT, ISO_BAD_INPUT, row3[c], columns[c]);
-    refused(damaged(ISO_BALL, "t", 5, 1, 1e300), ISO_POINT, ISO_BAD_ARGUMENT, "row 5",
+    refused(damaged(ISO_BALL, "t", 5, 1, 1e300), ISO_POINT, ISO_BAD_INPUT, "row 5",
             "a time that no one can reach");
     const char *const names[] = {"t", "omega1", "omega2", "omega3", "n1", "n2", "n3"};
     must(iso_record_create(ctx, 7, names, &r), "a record");

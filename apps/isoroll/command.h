@@ -64,7 +64,7 @@ int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso
 iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
                              iso_orbit **orbit);
 
-/* From now on SIGINT and SIGTERM only ask to stop, unless they come again two seconds later. */
+/* From now on SIGINT, SIGTERM and SIGHUP only ask to stop, unless they come again two seconds later. */
 void stop_gently(void);
 
 /* True once the user has asked to stop. */

@@ -1,5 +1,6 @@
 /* isoroll - the rubber Chaplygin ball and its twin, the point on a sphere, at the command line. */
 #include <errno.h>
+#include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_version.h>
 #include <jansson.h>
@@ -30,10 +31,10 @@ static void ask_to_stop(int signal_number)
 
 void stop_gently(void)
 {
-    static const int signals[] = {SIGINT, SIGTERM};
+    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     const struct sigaction ask = {.sa_handler = ask_to_stop};
     struct sigaction old;
-    for (int i = 0; i < 2; i++) /* ignored: started in the background or by nohup, to stay so */
+    for (int i = 0; i < 3; i++) /* ignored: started in the background or by nohup, to stay so */
         if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(signals[i], &ask, NULL);
 }
 
@@ -130,9 +131,19 @@ static int flush_output(int status)
     return status == EXIT_DONE ? EXIT_FILE : status;
 }
 
+/* A closed standard stream must not become the number of a file we write: writing to it would tear that file. What is
+ * printed to a closed stdout still fails, since /dev/null is opened for reading there. */
+static void fill_closed_streams(void)
+{
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) < 0) (void)!open("/dev/null", fd == 2 ? O_WRONLY : O_RDONLY);
+}
+
 int main(int argc, char **argv)
 {
-    signal(SIGPIPE, SIG_IGN); /* writing tells */
+    fill_closed_streams();
+    signal(SIGPIPE, SIG_IGN); /* writing tells, here and of a file that would be too large */
+    signal(SIGXFSZ, SIG_IGN);
     gsl_set_error_handler_off();
     const char *name = argc > 1 ? argv[1] : "";
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0)

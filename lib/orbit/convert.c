@@ -54,8 +54,9 @@ static bool stated_coupling(iso_context *ctx, const iso_record *r, const iso_par
 {
     if (iso_record_get_numbers(ctx, r, "eps", 1, eps, status)) return true;
     if (*status != ISO_OK || !iso_record_get_numbers(ctx, r, "h", 1, eps, status)) return false;
-    *eps = iso_coupling(p, *eps);
-    return isfinite(*eps);
+    const double h = *eps;
+    *eps = iso_coupling(p, h); /* may not fit a double where h does */
+    return h == 0 || isnormal(*eps);
 }
 
 iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_picture model, size_t row,
@@ -104,8 +105,10 @@ typedef struct conversion {
 /* Lines that say where a clock began which the record has lost. */
 static const char *const origin_line[] = {[ISO_CLOCK_T] = "t0", [ISO_CLOCK_S] = "s0"};
 
+/* What a call does not take is here what the file says. */
 static iso_status fail_row(const conversion *c, iso_status status, size_t row)
 {
+    if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT;
     return iso_context_fail(c->ctx, status, "", "row %zu: %s", row + 1, iso_context_message(c->ctx));
 }
 

@@ -28,6 +28,10 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
     iso_orbit_options *opt = &o->options;
     double y[ISO_MAX_STATE] = {0}, energy = 0;
     if (opt->backend == ISO_AUTO) opt->backend = start->model;
+    if ((opt->backend != ISO_BALL && opt->backend != ISO_POINT) || (int)opt->show < 0 || opt->show > ISO_BOTH)
+        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "backend",
+                                "an orbit is integrated as a ball or as a point, "
+                                "and shown as one of them or both");
     iso_status status = iso_orbit_find_start(o, p, start, y, &energy);
     if (status != ISO_OK) return status;
     const iso_system *system = opt->backend == ISO_BALL ? &iso_system_ball : &iso_system_point;

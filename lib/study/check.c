@@ -131,6 +131,7 @@ static iso_status next_sample(const checker *c, iso_picture model, int clock, si
         status = iso_orbit_at(orbit, read_clock(c, clock, row + 1) - read_clock(c, clock, row), sample);
     iso_orbit_free(orbit);
     if (status == ISO_OK) return ISO_OK;
+    if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT; /* what the call does not take is what the file says */
     return iso_context_fail(c->ctx, status, "", "row %zu: %s", row + 1, iso_context_message(c->ctx));
 }
 

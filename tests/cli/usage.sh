@@ -166,4 +166,17 @@ if command -v timeout >/dev/null && script -qec true /dev/null </dev/null >/dev/
     check "no bar in a file" test "$(tr -d '\r' <err | wc -l)" -eq 1
     check_not "no bar in a file" grep -q '\.\.\.' err
 fi
+
+# --- a limit on the size of files; closed standard streams
+(ulimit -f 4 && exec "$isoroll" run scene.yaml --t-end 10 --step 1e-3 -o limited.csv) 2>err
+status=$?
+check "too large a file: exit status 5, not $status" test $status -eq 5
+check "too large a file: said once" test "$(grep -c '^isoroll: .*File too large' err)" -eq 1
+check "too large a file: nothing is left" test -z "$(find . -name '.isoroll-*' -o -name limited.csv)"
+"$isoroll" run scene.yaml --t-end 10 --step 1 -o expected.csv
+"$isoroll" run scene.yaml --t-end 10 --step 1 --verbose -o closed.csv 2>&-
+check "a closed stderr does not tear the file" cmp expected.csv closed.csv
+"$isoroll" run scene.yaml --t-end 10 --step 1 >&- 2>err
+status=$?
+check "a closed stdout: exit status 5, not $status" test $status -eq 5
 finish
