@@ -141,11 +141,27 @@ iso_status iso_orbit_check_time(const iso_orbit *o, double time)
     return to_own_time(o, time, &own_time);
 }
 
+/* A method that cannot be projected keeps the energy as well as its tolerance lets it: where it has lost it by more than a
+ * thousandth, and by more than 1e4 tolerances, the state is no answer any more. */
+static iso_status check_drift(const iso_orbit *o, const double y[])
+{
+    double size;
+    if (o->options.method->projects) return ISO_OK;
+    const double energy = o->model.system->integrals[0].value(&o->model.field, y, &size);
+    const double drift = size > 0 ? fabs(energy - o->model.field.energy) / size : 0;
+    if (drift <= fmax(1e-3, 1e4 * o->options.tolerance)) return ISO_OK;
+    return iso_context_fail(
+        o->ctx, ISO_NUMERICAL, "",
+        "%s has lost the energy (by %.1g of it): take the other backend, or a method with projection",
+        o->options.method->name, drift);
+}
+
 iso_status iso_orbit_at(iso_orbit *o, double time, iso_sample *sample)
 {
     double own_time, y[ISO_MAX_STATE];
     iso_status status = to_own_time(o, time, &own_time);
     if (status == ISO_OK) status = iso_integrator_at(o->integrator, own_time, y);
+    if (status == ISO_OK) status = check_drift(o, y);
     return status == ISO_OK ? make_sample(o, time, y, sample) : status;
 }
 
