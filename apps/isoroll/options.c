@@ -25,7 +25,7 @@ static bool set_number(void *at, const char *text)
 
 static bool set_tolerance(void *at, const char *text)
 {
-    return set_number(at, text) && *(double *)at >= 1e-15 && *(double *)at <= 0.1;
+    return set_number(at, text) && *(double *)at >= ISO_LEAST_TOLERANCE && *(double *)at <= ISO_MOST_TOLERANCE;
 }
 
 static bool set_positive(void *at, const char *text)
@@ -210,7 +210,7 @@ iso_status scene_with_options(iso_context *ctx, const options *o, iso_scene *sce
     if (!isnan(o->tolerance)) scene->tolerance = o->tolerance;
     if (!isnan(o->end)) scene->end = o->end;
     if (!isnan(o->step)) scene->step = o->step;
-    if (scene->step > 0 && fabs(scene->end) / scene->step > 1e8)
+    if (scene->step > 0 && fabs(scene->end) / scene->step > ISO_MOST_ROWS)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "step", "more than 1e8 rows: take a longer step");
     return ISO_OK;
 }

@@ -9,8 +9,6 @@
 
 enum { LARGEST_FILE = 16 << 20 };
 
-static const double most_rows = 1e8;
-
 /* ---- What must hold between keys ---- */
 
 /* The key and value of root -> section (-> name if not NULL). */
@@ -89,10 +87,10 @@ static iso_status check_initial(iso_draft *d, iso_picture model)
 static iso_status check_time(iso_draft *d)
 {
     const yaml_node_t *step;
-    if (!find(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= most_rows) return ISO_OK;
+    if (!find(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS) return ISO_OK;
     return iso_yaml_fail(&d->yaml, step->start_mark,
                          "a step of %g to the end %g is more than %g rows: give a larger 'step'", d->scene.step,
-                         d->scene.end, most_rows);
+                         d->scene.end, ISO_MOST_ROWS);
 }
 
 /* ---- Physics: the checks are the library's, the places are the file's ---- */

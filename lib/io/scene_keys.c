@@ -72,7 +72,8 @@ static iso_status read_step(iso_draft *d, const entry *e, const yaml_node_t *key
 static iso_status read_tolerance(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
 {
     const iso_status status = read_number(d, e, key, value);
-    if (status != ISO_OK || (d->scene.tolerance >= 1e-15 && d->scene.tolerance <= 0.1)) return status;
+    const double tolerance = d->scene.tolerance;
+    if (status != ISO_OK || (tolerance >= ISO_LEAST_TOLERANCE && tolerance <= ISO_MOST_TOLERANCE)) return status;
     return iso_yaml_fail(&d->yaml, value->start_mark, "'tolerance' is %g, it must be in [1e-15, 0.1]",
                          d->scene.tolerance);
 }

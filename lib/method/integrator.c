@@ -76,7 +76,7 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     if (o.fixed_step > 0 && !method->fixed)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s does not take fixed steps", method->name);
     if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of leaps to times between the steps */
-    if (!(o.tolerance >= 1e-15 && o.tolerance <= 0.1))
+    if (!(o.tolerance >= ISO_LEAST_TOLERANCE && o.tolerance <= ISO_MOST_TOLERANCE))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", o.tolerance);
     iso_integrator *it = calloc(1, sizeof *it);
     if (!it) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an integrator");

@@ -26,8 +26,11 @@
 
 typedef struct iso_integrator iso_integrator;
 
+#define ISO_LEAST_TOLERANCE 1e-15
+#define ISO_MOST_TOLERANCE  0.1
+
 typedef struct iso_method_options {
-    double tolerance;  /* in [1e-15, 0.1]                                                              */
+    double tolerance;  /* from ISO_LEAST_TOLERANCE to ISO_MOST_TOLERANCE                               */
     double fixed_step; /* > 0: steps of exactly this size without error control, to measure an order   */
     bool no_projection;
     double time_unit;  /* times in messages are multiplied by it; 0: 1                                 */

@@ -66,6 +66,9 @@ iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char 
 /* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_AUTO (the model of the start). */
 iso_scene iso_scene_default(void);
 
+/* More rows than this in a scene file are a mistake in `step`. */
+#define ISO_MOST_ROWS 1e8
+
 /* Output times: row i of a scene's time grid, i = 0 ... iso_scene_rows() - 1; the last row is exactly `end`. */
 size_t iso_scene_rows(const iso_scene *scene);
 double iso_scene_time(const iso_scene *scene, size_t row);
