@@ -20,8 +20,11 @@ extern "C" {
 
 /* model: what moves */
 #include "model/params.h"
+#include "model/field.h"
 #include "model/system.h"
+#include "model/effect.h"
 #include "model/model.h"
+#include "model/reactions.h"
 #include "model/conical.h"
 
 /* map: the isomorphism between ball and point */
@@ -35,6 +38,7 @@ extern "C" {
 /* orbit: where the ball, or the point, is at any time */
 #include "orbit/scene.h"
 #include "orbit/orbit.h"
+#include "orbit/description.h"
 #include "orbit/convert.h"
 
 /* study: what people do with orbits */

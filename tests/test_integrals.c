@@ -39,7 +39,7 @@ static double drift(const laws_case *c, const iso_integral *integral, double *ro
 static void note_holding(const laws_case *c, laws_worst *worst)
 {
     for (const iso_integral *i = c->system->integrals; i->name; i++) {
-        if (i->holds && !i->holds(&c->field.p)) continue;
+        if (i->holds && !i->holds(&c->field)) continue;
         double rounding;
         const double d = drift(c, i, &rounding);
         laws_note(worst, d, rounding, &c->field.p, i->name);
@@ -69,7 +69,7 @@ static void note_drift(const laws_case *c, const char *name, laws_worst *worst)
 {
     double rounding;
     const iso_integral *integral = laws_integral(c->system, name);
-    if (integral->holds(&c->field.p)) return;
+    if (integral->holds(&c->field)) return;
     laws_note(worst, drift(c, integral, &rounding), 0.01, &c->field.p, name);
 }
 
@@ -111,7 +111,7 @@ static void conditions(const laws_case *c, laws_worst *worst)
     static const char *const names[] = {"F_plane", "F_shell", "F_axis1", "F_axis2", "F_axis3"};
     for (int i = 0; i < 5; i++) {
         const iso_integral *integral = laws_integral(c->system, names[i]);
-        laws_note(worst, integral->holds(p) == holds[i] ? 0 : 1, 0.5, p, names[i]);
+        laws_note(worst, integral->holds(&c->field) == holds[i] ? 0 : 1, 0.5, p, names[i]);
     }
 }
 
@@ -173,17 +173,39 @@ static void correction_reported(const laws_case *c, laws_worst *worst)
         }
 }
 
-/* Off the level H = 0 the point's M cannot be scaled to its energy: only the geometry is restored. */
-static void projection_off_the_level(const laws_case *c, laws_worst *worst)
+/* A point of the same gamma with another M, off the level H = 0; pushed off by 1e-8 in length, spin and size. */
+static laws_case off_the_level_by(const laws_case *c, double stretch, double pushed[ISO_STATE])
 {
     laws_case moved = *c;
-    double size, y[ISO_STATE];
-    scale(moved.y, 0.5);
+    double size;
+    scale(moved.y, stretch);
     moved.field.energy = c->system->integrals[0].value(&moved.field, moved.y, &size);
-    copy(moved.y, y, ISO_STATE);
-    scale(y + 3, 1 + 1e-8);
-    add_scaled(y, 1e-8 * norm(y), c->y + 3);
-    scale(y, 1 + 1e-8);
+    copy(moved.y, pushed, ISO_STATE);
+    scale(pushed + 3, 1 + 1e-8);
+    add_scaled(pushed, 1e-8 * norm(pushed), c->y + 3);
+    scale(pushed, 1 + 1e-8);
+    return moved;
+}
+
+/* The energy of the point is restored on every level, H < 0 and H > 0. */
+static void projection_off_the_level(const laws_case *c, laws_worst *worst)
+{
+    static const double stretch[] = {0.5, 0.9, 1.7, 30};
+    for (int i = 0; i < 4; i++) {
+        double y[ISO_STATE];
+        const laws_case moved = off_the_level_by(c, stretch[i], y);
+        const double correction = c->system->project(&moved.field, y), rounding = laws_rounding(&c->field.p);
+        note_restored(&moved, y, 2, worst);
+        laws_note(worst, fabs(correction - 1e-8), 1e-15 + 8 * rounding, &c->field.p, "correction");
+        laws_note(worst, laws_distance(y, moved.y) / norm(y), 1e-15 + 8 * rounding, &c->field.p, "M back");
+    }
+}
+
+/* Near a turning point T is the small difference of energy and potential: only the geometry is restored. */
+static void projection_near_a_turn(const laws_case *c, laws_worst *worst)
+{
+    double y[ISO_STATE];
+    const laws_case moved = off_the_level_by(c, 0.1, y);
     c->system->project(&moved.field, y);
     laws_note(worst, fabs(norm(y + 3) - 1), 2 * DBL_EPSILON, &c->field.p, "unit");
     laws_note(worst, fabs(dot(y, y + 3)), 2 * DBL_EPSILON * norm(y), &c->field.p, "orthogonal");
@@ -224,6 +246,7 @@ int main(void)
     laws_hold("projection restores", NULL, projection_restores);
     laws_hold("projection reports its correction", NULL, correction_reported);
     laws_hold("projection off the level H = 0", &iso_system_point, projection_off_the_level);
+    laws_hold("projection near a turning point", &iso_system_point, projection_near_a_turn);
     laws_hold("projection at rest", NULL, projection_at_rest);
     exit(gsl_test_summary());
 }

@@ -94,7 +94,7 @@ static void integrals(const laws_case *c, laws_worst *worst)
     for (const iso_integral *i = iso_system_ball.integrals; i->name; i++)
         for (const iso_integral *j = iso_system_point.integrals; j->name; j++) {
             if (strcmp(i->name, j->name) != 0) continue;
-            if (strncmp(i->name, "F_axis", 6) != 0 && !i->holds(p)) continue;
+            if (strncmp(i->name, "F_axis", 6) != 0 && !i->holds(&c->field)) continue;
             const double I = i->value(&c->field, c->y, &size), twin = j->value(&f, point, &point_size);
             laws_note(worst, fabs(I - twin), 2 * laws_rounding(p) * (fabs(I) + point_size), p, i->name);
         }

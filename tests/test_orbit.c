@@ -253,46 +253,6 @@ static void refused(iso_status got, iso_status wanted, const char *word, const c
              got == ISO_OK ? "" : iso_context_message(ctx));
 }
 
-/* A point that swings: too slow for the level H = 0. */
-static void check_off_level(void)
-{
-    const iso_params p = laws_params(-1, J_three);
-    const double eps = 2, M[3] = {0, 0.3, -0.2}, gamma[3] = {1, 0, 0};
-    const iso_integral *H = laws_integral(&iso_system_point, "H"), *F = laws_integral(&iso_system_point, "F_shell");
-    iso_start start;
-    iso_orbit *orbit;
-    if (iso_start_point(ctx, M, gamma, &eps, false, &start) != ISO_OK) give_up("a swinging point's start");
-    iso_orbit_options o = iso_orbit_defaults(&start);
-    if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) give_up("a swinging point");
-    double worst = 0, size, least = INFINITY, most = 0;
-    const iso_sample begin = at(orbit, 0);
-    for (int i = 1; i <= 100; i++) {
-        const iso_sample s = at(orbit, 0.2 * i);
-        const iso_integral *both[2] = {H, F};
-        for (int j = 0; j < 2; j++) {
-            const double before = iso_orbit_integral(orbit, &iso_system_point, both[j], &begin, &size);
-            worst =
-                fmax(worst, fabs(iso_orbit_integral(orbit, &iso_system_point, both[j], &s, &size) - before) / size);
-        }
-        least = fmin(least, laws_norm(s.point));
-        most = fmax(most, laws_norm(s.point));
-    }
-    gsl_test(!(worst < 1e-10), "off the level H = 0: H and F drift by %.2g", worst);
-    gsl_test(!(most > 3 * least), "off the level H = 0: |M| goes from %.2g to %.2g", least, most);
-    gsl_test(!isnan(begin.ball[0]) || !isnan(begin.clock[0]), "off the level H = 0: there is no ball");
-    iso_orbit_free(orbit);
-    o.show = ISO_BALL;
-    refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "H = ", "off the level: as ball");
-    o = iso_orbit_defaults(&start), o.backend = ISO_BALL;
-    refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "H = ", "off the level: backend ball");
-    for (iso_clock c = ISO_CLOCK_T; c <= ISO_CLOCK_TAU; c++) {
-        o = iso_orbit_defaults(&start), o.carry[c] = true;
-        refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "H = ", "off the level: a ball's clock carried");
-        o = iso_orbit_defaults(&start), o.clock = c;
-        refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "H = ", "off the level: asked in a ball's clock");
-    }
-}
-
 static void check_rest(void)
 {
     const iso_params p = laws_params(0.5, J_three);
@@ -391,7 +351,6 @@ int main(void)
     check_backends();
     check_order();
     check_point_starts();
-    check_off_level();
     check_rest();
     check_scaling();
     iso_context_free(ctx);

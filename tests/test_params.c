@@ -227,7 +227,7 @@ static void dimensions(const laws_case *c, laws_worst *worst)
     const iso_params *p = &c->field.p;
     scaled(c, &big, &u);
     for (const iso_integral *i = c->system->integrals; i->name; i++) {
-        if (i->holds && !i->holds(p)) continue; /* F_plane's and F_shell's dimensions are those at their k */
+        if (i->holds && !i->holds(&c->field)) continue; /* F_plane's and F_shell's dimensions are those at their k */
         double size, big_size;
         const double value = i->value(&c->field, c->y, &size), unit = iso_unit(&u, i->dimension);
         const double big_value = i->value(&big.field, big.y, &big_size);

@@ -16,6 +16,7 @@ static void print_head(const iso_scene *scene, const iso_comparison *c)
     const iso_params *p = &scene->params;
     printf("k = %.10g (%s), J = %.10g %.10g %.10g\nh = %.10g, eps = %.10g, tolerance %g\n\n", p->k,
            iso_surface_name((int)p->body.surface), p->J[0], p->J[1], p->J[2], c->h, c->eps, scene->tolerance);
+    print_effects(&c->effects, false);
     for (int b = 0; b < ISO_BACKENDS; b++) {
         const iso_backend_run *r = &c->run[b];
         if (!r->method) continue;
@@ -126,6 +127,23 @@ static json_t *backend_of(const iso_backend_run *r)
                      "trajectory", columns_of(r->trajectory));
 }
 
+static json_t *effects_of(const iso_effects *effects)
+{
+    json_t *o = json_object();
+    for (int e = 0; e < ISO_EFFECTS; e++) {
+        if (!effects->on[e]) continue;
+        json_t *numbers = json_object();
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
+            const double *x = (const double *)((const char *)effects + n->offset);
+            json_t *list = json_array();
+            for (int i = 0; i < n->count; i++) json_array_append_new(list, number(x[i]));
+            json_object_set_new(numbers, n->name, list);
+        }
+        json_object_set_new(o, iso_effect_list[e]->name, numbers);
+    }
+    return o;
+}
+
 /* False: no memory. A full disk is found when the output is flushed. */
 static bool print_json(const iso_scene *scene, const iso_comparison *c)
 {
@@ -134,11 +152,11 @@ static bool print_json(const iso_scene *scene, const iso_comparison *c)
     for (size_t i = 1; i < ISO_DIFFERENCES; i++)
         json_object_set_new(worst, iso_record_name(c->difference, i), number(c->worst[i]));
     json_t *o =
-        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:o, s:s, s:o, s:o, s:{s:o, s:o}}", "isoroll", ISO_VERSION, "k",
-                  number(p->k), "J", number(p->J[0]), number(p->J[1]), number(p->J[2]), "h", number(c->h), "eps",
-                  number(c->eps), "tolerance", number(scene->tolerance), "clock", iso_clock_name(c->clock),
-                  "worst_difference", worst, "difference", columns_of(c->difference), "backends", "ball",
-                  backend_of(&c->run[ISO_BALL]), "point", backend_of(&c->run[ISO_POINT]));
+        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:{s:o, s:o}}", "isoroll", ISO_VERSION,
+                  "k", number(p->k), "J", number(p->J[0]), number(p->J[1]), number(p->J[2]), "h", number(c->h), "eps",
+                  number(c->eps), "effects", effects_of(&c->effects), "tolerance", number(scene->tolerance), "clock",
+                  iso_clock_name(c->clock), "worst_difference", worst, "difference", columns_of(c->difference),
+                  "backends", "ball", backend_of(&c->run[ISO_BALL]), "point", backend_of(&c->run[ISO_POINT]));
     if (!o) return complain("out of memory"), false;
     json_dumpf(o, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
     printf("\n");

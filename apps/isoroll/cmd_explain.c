@@ -1,5 +1,6 @@
 /* isoroll explain - what would be simulated, and why. */
 #include <math.h>
+#include <string.h>
 #include <time.h>
 
 #include "command.h"
@@ -17,7 +18,14 @@ static void explain_ball(const iso_params *p)
         printf("  m = %g, B = %g, I = %g %g %g; m B^2 = %g\n", b->mass, b->radius, b->inertia[0], b->inertia[1],
                b->inertia[2], b->mass * b->radius * b->radius);
     if (b->surface > ISO_PLANE) printf("  on a fixed sphere of radius A = %g\n", b->surface_radius);
-    printf("  k = %.17g, J = %.17g %.17g %.17g\n", p->k, p->J[0], p->J[1], p->J[2]);
+    printf("  k = %.17g, J = %.17g %.17g %.17g\n\n", p->k, p->J[0], p->J[1], p->J[2]);
+}
+
+/* What acts on the ball or is asked of it, with its numbers. */
+static void explain_effects(const iso_orbit *orbit)
+{
+    const iso_effects effects = iso_orbit_effects(orbit);
+    print_effects(&effects, true);
 }
 
 /* Whether the two models are one here, and the twin that the ball has for every start. */
@@ -28,46 +36,76 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
                        : p->k == 1 ? "Braden's problem: integrable"
                        : symmetric ? "integrable, since two moments are equal"
                                    : "no further integral is known";
-    printf("  point on a sphere: V = -eps (gamma,J gamma)^(%.6g), %s\n", -1 / p->k, kind);
+    const iso_effects effects = iso_orbit_effects(orbit);
+    const iso_effect *breaking = iso_effects_breaking(&effects);
+    printf("isomorphism\n  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s, %s\n", -1 / p->k,
+           effects.on[ISO_FIELD] ? " + U/G" : "", effects.on[ISO_FIELD] ? "no further integral is known" : kind);
     if (iso_orbit_has_twin(orbit))
-        printf("  the isomorphism holds: this orbit has both models, (18) and the clocks t, tau, s\n");
-    else if (iso_orbit_model(orbit)->system == &iso_system_point)
-        printf("  the isomorphism does not hold: off the level H = 0 this point is the twin of no free ball\n");
+        printf("  holds: this orbit has both models, (18) and the clocks t, tau, s%s\n",
+               effects.on[ISO_LEVEL] ? "; the point is off the level H = 0, at H = c det J/k^2" : "");
+    else if (breaking)
+        printf("  does not hold: '%s' breaks it: %s\n", breaking->name, breaking->breaks);
     else
-        printf("  the isomorphism does not hold: a ball at rest (h = 0) has no twin\n");
+        printf("  does not hold: a ball at rest (h = 0) has no twin\n");
     printf("\n");
+}
+
+static const char *reason_of(const iso_model *m, int state)
+{
+    const char *reason;
+    iso_model_state_name(m, state, &reason);
+    if (state >= ISO_STATE) return reason;
+    return state >= 3 ? "unit vector" : m->system == &iso_system_ball ? "angular velocity" : "momentum";
 }
 
 static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const int columns[], int count)
 {
     const iso_model *m = iso_orbit_model(orbit);
     printf("integrated: backend %s, %d states, in the clock %s\n", m->system->name, m->dim, iso_clock_name(m->clock));
-    for (int i = 0; i < ISO_STATE; i++)
-        printf("  %-7s %s\n", m->system->state[i],
-               i < 3 ? (m->system == &iso_system_ball ? "angular velocity" : "momentum") : "unit vector");
-    for (int i = 0; i < m->carried; i++)
-        printf("  %-7s clock, because a column asks for it\n", iso_clock_name(m->carry[i]));
+    for (int i = 0, first = 0; i < m->dim; i++) { /* one line for those that are there for the same reason */
+        const char *reason = reason_of(m, i);
+        if (i + 1 < m->dim && strcmp(reason, reason_of(m, i + 1)) == 0) continue;
+        char names[128];
+        int used = 0;
+        for (const char *unused; first <= i; first++)
+            used +=
+                snprintf(names + used, sizeof names - (size_t)used, "%s ", iso_model_state_name(m, first, &unused));
+        printf("  %-22s %s\n", names, reason);
+    }
     printf("  method %s (%s), tolerance %g\n", iso_orbit_method(orbit)->name, iso_orbit_method(orbit)->doc,
            scene->tolerance);
     printf("  own units: moment of inertia %g, time %g\n", iso_orbit_units(orbit)->J, 1 / iso_orbit_units(orbit)->w);
-    if (iso_orbit_has_twin(orbit)) printf("  energy of the ball h = %.10g\n", iso_orbit_energy(orbit));
-    if (iso_orbit_has_twin(orbit) || m->system == &iso_system_point)
-        printf("  coupling of the point eps = %.10g\n", iso_orbit_coupling(orbit));
+    if (iso_orbit_has_twin(orbit))
+        printf("  energy of the ball h = %.10g\n  coupling of the point eps = %.10g\n", iso_orbit_energy(orbit),
+               iso_orbit_coupling(orbit));
     printf("written: %zu rows to %s = %g, columns", iso_scene_rows(scene), iso_clock_name(m->clock), scene->end);
     for (int i = 0; i < count; i++) printf(" %s", iso_trajectory_columns[columns[i]]);
     printf("\n\n");
 }
 
-/* Of both models, or without a twin of the one that is integrated. */
-static void explain_integrals(const iso_params *p, const iso_orbit *orbit)
+static bool holds(const iso_integral *integral, const iso_field *f)
 {
+    return !integral->holds || integral->holds(f);
+}
+
+static void explain_integral(const char *whose, const iso_integral *i, const iso_field *f, bool wanted)
+{
+    if (holds(i, f) == wanted) printf("  %-5s %-10s %s\n", whose, i->name, i->doc);
+}
+
+/* Of both models, or without a twin of the one that is integrated. */
+static void explain_integrals(const iso_orbit *orbit)
+{
+    const iso_field *f = &iso_orbit_model(orbit)->field;
     const iso_system *only = iso_orbit_has_twin(orbit) ? NULL : iso_orbit_model(orbit)->system;
-    for (int holds = 1; holds >= 0; holds--) {
-        printf(holds ? "integrals that hold\n" : "integrals that do not hold here\n");
+    for (int wanted = 1; wanted >= 0; wanted--) {
+        printf(wanted ? "integrals that hold\n" : "integrals that do not hold here\n");
         for (int s = 0; iso_systems[s]; s++)
             for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
-                if ((!only || iso_systems[s] == only) && (!i->holds || i->holds(p)) == holds)
-                    printf("  %-5s %-10s %s\n", iso_systems[s]->name, i->name, i->doc);
+                if (!only || iso_systems[s] == only) explain_integral(iso_systems[s]->name, i, f, wanted);
+        for (int e = 0; e < ISO_EFFECTS; e++)
+            for (const iso_integral *i = iso_effect_list[e]->integrals; f->effects.on[e] && i && i->name; i++)
+                explain_integral("ball", i, f, wanted);
     }
 }
 
@@ -76,7 +114,7 @@ static double cost(const iso_model *m, const double y[])
 {
     enum { CALLS = 20000, ROUNDS = 7 };
     double dy[ISO_MAX_STATE], x[ISO_MAX_STATE] = {0}, best = INFINITY;
-    for (int i = 0; i < ISO_STATE; i++) x[i] = y[i];
+    for (int i = 0; i < m->dim; i++) x[i] = y[i];
     for (int round = 0; round < ROUNDS; round++) {
         const clock_t begin = clock();
         for (int i = 0; i < CALLS; i++) {
@@ -91,16 +129,16 @@ static double cost(const iso_model *m, const double y[])
 static void explain_cost(const iso_model *m)
 {
     static const bool none[ISO_CLOCKS] = {false};
-    iso_field field = m->field;
-    double y[ISO_STATE];
+    iso_field field = {.p = m->field.p};
+    double six[ISO_STATE], y[ISO_MAX_STATE];
     iso_random *random = iso_random_create(1);
     if (!random) return;
-    iso_system_ball.sample(&field, random, y);
+    iso_system_ball.sample(&field, random, six);
     const iso_model free_ball = iso_model_assemble(&iso_system_ball, &field, ISO_CLOCK_T, none);
-    const double reference = cost(&free_ball, y);
-    field = m->field;
-    m->system->sample(&field, random, y);
+    const double reference = cost(&free_ball, six);
+    m->system->sample(&field, random, six);
     iso_random_free(random);
+    iso_model_begin(m, six, y);
     printf("\ncost of a right-hand side: %.2f times the free ball's in its own time (measured)\n",
            cost(m, y) / reference);
 }
@@ -116,9 +154,10 @@ static int run(iso_context *ctx, const options *o)
     status = orbit_for_columns(ctx, &scene, columns, count, &orbit);
     if (status != ISO_OK) return finish_scene(ctx, o, &scene, status);
     explain_ball(&scene.params);
+    explain_effects(orbit);
     explain_map(&scene.params, orbit);
     explain_states(&scene, orbit, columns, count);
-    explain_integrals(&scene.params, orbit);
+    explain_integrals(orbit);
     explain_cost(iso_orbit_model(orbit));
     iso_orbit_free(orbit);
     return EXIT_DONE;

@@ -17,7 +17,21 @@ static void list_integrals(void)
 {
     for (int s = 0; iso_systems[s]; s++)
         for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++)
-            printf("  %-5s %-16s %s\n", iso_systems[s]->name, i->name, i->doc);
+            printf("  %-18s %-10s %s\n", iso_systems[s]->name, i->name, i->doc);
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_integral *i = iso_effect_list[e]->integrals; i && i->name; i++)
+            printf("  %-18s %-10s %s\n", iso_effect_list[e]->name, i->name, i->doc);
+}
+
+static void list_effects(void)
+{
+    for (int e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        printf("  %-22s %s\n", effect->name, effect->doc);
+        if (effect->state) printf("  %-22s states: %s\n", "", effect->states_doc);
+        printf("  %-22s isomorphism: %s%s\n", "", effect->breaks ? "lost, " : "kept",
+               effect->breaks ? effect->breaks : "");
+    }
 }
 
 static void list_methods(void)
@@ -64,9 +78,10 @@ static const struct {
     void (*list)(void);
 } topics[] = {
     {"systems", "what is integrated (--backend)", list_systems},
+    {"effects", "what can act on the ball, or be asked of it (effects:)", list_effects},
     {"methods", "integrators (--method)", list_methods},
     {"surfaces", "what the ball rolls on (surface: kind)", list_surfaces},
-    {"integrals", "first integrals, each with the k and J for which it holds", list_integrals},
+    {"integrals", "first integrals, each with the k, J and effects for which it holds", list_integrals},
     {"clocks", "times of an orbit", list_clocks},
     {"columns", "of trajectory files", list_columns},
 };
@@ -90,7 +105,7 @@ static int run(iso_context *ctx, const options *o)
 const command command_list = {
     .name = "list",
     .argument = "[TOPIC]",
-    .doc = "the registries: systems, methods, surfaces, integrals, clocks, columns",
+    .doc = "the registries: systems, effects, methods, surfaces, integrals, clocks, columns",
     .options = " ",
     .run = run,
 };

@@ -134,22 +134,70 @@ static bool go_on(void *data)
     return !interrupted();
 }
 
+static iso_status write_sample(iso_context *ctx, const iso_sample *sample, const int columns[], int count,
+                               iso_trajectory_writer *writer)
+{
+    double row[ISO_TRAJECTORY_COLUMNS];
+    for (int c = 0; c < count; c++) row[c] = iso_sample_column(sample, columns[c]);
+    return iso_trajectory_write_row(ctx, writer, row, (size_t)count);
+}
+
+/* Where the ball leaves the support it is pressed to: looked for from row to row, before and after the start apart. */
+typedef struct contact {
+    bool watched, lost[2]; /* after the start, and before it                 */
+    double last[2];        /* times looked at so far, or where contact is lost */
+} contact;
+
+/* A ball that is pressed to its support at the start can lose it. */
+static iso_status watch_contact(const iso_scene *scene, iso_orbit *orbit, contact *c)
+{
+    iso_sample sample;
+    *c = (contact){.watched = false};
+    if (!scene->effects.on[ISO_REACTIONS] || scene->effects.two_sided) return ISO_OK;
+    const iso_status status = iso_orbit_at(orbit, 0, &sample);
+    if (status != ISO_OK) return status;
+    c->watched = sample.pressure > 0;
+    if (sample.pressure < 0)
+        complain("the support would have to pull the ball from the start (pressure %.3g): this is the motion of a "
+                 "two-sided contact",
+                 sample.pressure);
+    return ISO_OK;
+}
+
+/* The sample at `time`; where contact is lost on the way there, the one at the loss, once: *row false for times beyond. */
+static iso_status take_sample(iso_orbit *orbit, double time, contact *c, iso_sample *sample, bool *row)
+{
+    const int side = time < 0;
+    const iso_clock clock = iso_orbit_model(orbit)->clock;
+    *row = true;
+    if (!c->watched || fabs(time) <= fabs(c->last[side])) return iso_orbit_at(orbit, time, sample);
+    *row = !c->lost[side];
+    if (c->lost[side]) return ISO_OK;
+    const iso_status status = iso_orbit_lost_contact(orbit, c->last[side], time, &c->lost[side], sample);
+    c->last[side] = c->lost[side] ? sample->clock[clock] : time;
+    if (status != ISO_OK || !c->lost[side]) return status == ISO_OK ? iso_orbit_at(orbit, time, sample) : status;
+    complain("contact is lost at %s = %.17g: there is a row there, and none beyond", iso_clock_name(clock),
+             c->last[side]);
+    return ISO_OK;
+}
+
 static iso_status write_rows(iso_context *ctx, iso_orbit *orbit, const times *t, const int columns[], int count,
                              iso_trajectory_writer *writer, size_t *written)
 {
-    double row[ISO_TRAJECTORY_COLUMNS];
     work w = {orbit, farthest(t)};
+    contact c;
+    iso_status status = watch_contact(t->scene, orbit, &c);
     iso_context_watch(ctx, go_on, &w);
-    for (*written = 0; *written < t->count; ++*written) {
+    *written = 0;
+    for (size_t i = 0; status == ISO_OK && i < t->count; i++) {
         iso_sample sample;
+        bool row = true;
         if (interrupted()) return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
-        iso_status status = iso_orbit_at(orbit, time_at(t, *written), &sample);
-        if (status != ISO_OK) return status;
-        for (int c = 0; c < count; c++) row[c] = iso_sample_column(&sample, columns[c]);
-        status = iso_trajectory_write_row(ctx, writer, row, (size_t)count);
-        if (status != ISO_OK) return status;
+        status = take_sample(orbit, time_at(t, i), &c, &sample, &row);
+        if (status == ISO_OK && row) status = write_sample(ctx, &sample, columns, count, writer);
+        *written += status == ISO_OK && row;
     }
-    return ISO_OK;
+    return status;
 }
 
 static void tell(const iso_orbit *orbit, size_t rows)

@@ -64,6 +64,9 @@ int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso
 iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
                              iso_orbit **orbit);
 
+/* The effects that act, with their numbers and, if wanted, what they are; nothing where there are none. */
+void print_effects(const iso_effects *effects, bool docs);
+
 /* From now on SIGINT, SIGTERM and SIGHUP only ask to stop, unless they come again two seconds later. */
 void stop_gently(void);
 

@@ -231,9 +231,12 @@ iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int
     bool ball = false, point = false;
     for (int i = 0; i < count; i++) {
         if (columns[i] < ISO_CLOCKS) o.carry[columns[i]] = true;
-        ball = ball || (columns[i] >= ISO_COLUMN_BALL && columns[i] < ISO_COLUMN_POINT);
-        point = point || columns[i] >= ISO_COLUMN_POINT;
+        ball = ball || (columns[i] >= ISO_COLUMN_BALL && columns[i] < ISO_COLUMN_POINT) ||
+               columns[i] >= ISO_COLUMN_EFFECTS;
+        point = point || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_EFFECTS);
     }
+    ball = ball || scene->effects.on[ISO_REACTIONS]; /* loss of contact is looked for */
+    o.effects = &scene->effects;
     o.show = ball && point ? ISO_BOTH : ball ? ISO_BALL : point ? ISO_POINT : scene->start.model;
     o.backend = scene->backend;
     o.method = iso_method_find(scene->method);

@@ -21,6 +21,15 @@ static bool find(iso_draft *d, const char *section, const char *name, const yaml
            iso_yaml_find(&d->yaml, mapping, name, key, value);
 }
 
+/* The key of effects -> effect -> name. */
+static bool find_effect_key(iso_draft *d, const yaml_node_t *effects, const char *effect, const char *name,
+                            const yaml_node_t **key)
+{
+    const yaml_node_t *mapping;
+    return iso_yaml_find(&d->yaml, effects, effect, NULL, &mapping) &&
+           iso_yaml_find(&d->yaml, mapping, name, key, NULL);
+}
+
 /* Exactly one of ball (with surface), reduced and point. */
 static iso_status check_sections(iso_draft *d, const char **model)
 {
@@ -115,12 +124,62 @@ static iso_status make_params(iso_draft *d, const char *model)
     return status == ISO_OK ? status : fail_at_field(d, status, model);
 }
 
+/* D of a reduced ball, where it is written; a ball has its own. */
+static iso_status make_D(iso_draft *d)
+{
+    if (isnan(d->D)) return ISO_OK;
+    iso_status status;
+    if (d->scene.params.D > 0)
+        status = iso_context_fail(d->yaml.ctx, ISO_BAD_INPUT, "D", "this ball's D = m b^2 is known: take it out");
+    else
+        status = iso_params_set_D(d->yaml.ctx, d->D, &d->scene.params);
+    return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, status);
+}
+
+/* What effects say in words of the ball: g of a body, mgb of a reduced one; c that a point's energy gives. */
+static iso_status make_effects(iso_draft *d, iso_picture model)
+{
+    iso_effects *e = &d->scene.effects;
+    const iso_params *p = &d->scene.params;
+    const bool body = p->body.surface != ISO_REDUCED;
+    const yaml_node_t *effects, *key;
+    if (!find(d, "effects", NULL, NULL, &effects)) return ISO_OK;
+    if (e->on[ISO_GRAVITY]) {
+        const double b = p->k > 1 || p->k < 0 ? -p->body.radius : p->body.radius;
+        const char *wanted = body ? "g" : "mgb", *other = body ? "mgb" : "g";
+        if (find_effect_key(d, effects, "gravity", other, &key))
+            return iso_yaml_fail(&d->yaml, key->start_mark, "'%s' does not belong here: %s, give '%s'", other,
+                                 body ? "the ball's mass and radius are known" : "k and J know no mass", wanted);
+        if (!find_effect_key(d, effects, "gravity", wanted, &key)) {
+            iso_yaml_find(&d->yaml, effects, "gravity", &key, NULL);
+            return iso_yaml_fail(&d->yaml, key->start_mark, "missing '%s' in 'gravity'", wanted);
+        }
+        if (body) e->mgb = p->body.mass * d->g * b;
+        if (!isfinite(e->mgb))
+            return iso_yaml_fail(&d->yaml, key->start_mark,
+                                 "the weight m g times the radius b does not fit a double");
+    }
+    if (e->on[ISO_FIELD] && !find_effect_key(d, effects, "field", "quadratic", NULL) &&
+        !find_effect_key(d, effects, "field", "linear", NULL)) {
+        iso_yaml_find(&d->yaml, effects, "field", &key, NULL);
+        return iso_yaml_fail(&d->yaml, key->start_mark, "missing 'quadratic' or 'linear' in 'field'");
+    }
+    if (e->on[ISO_LEVEL] && model == ISO_BALL && isnan(e->level)) {
+        iso_yaml_find(&d->yaml, effects, "level", &key, NULL);
+        return iso_yaml_fail(&d->yaml, key->start_mark, "missing 'c' in 'level': a ball's energy does not tell it");
+    }
+    return ISO_OK;
+}
+
 static iso_status make_start(iso_draft *d, iso_picture model)
 {
     iso_scene *s = &d->scene;
+    const iso_spin spin = s->effects.on[ISO_TWIST] && !d->project ? ISO_SPIN_KEEP
+                          : d->project                            ? ISO_SPIN_REMOVE
+                                                                  : ISO_SPIN_REFUSE;
     const double *eps = find(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;
     const iso_status status = model == ISO_BALL
-                                  ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, d->project, &s->start)
+                                  ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, spin, &s->start)
                                   : iso_start_point(d->yaml.ctx, d->M, d->gamma, eps, d->project, &s->start);
     if (status == ISO_OK) return status;
     return fail_at_field(d, status, strcmp(iso_context_field(d->yaml.ctx), "eps") == 0 ? "point" : "initial");
@@ -137,16 +196,20 @@ static iso_status make_scene(iso_draft *d)
     if ((status = check_initial(d, model)) != ISO_OK) return status;
     if ((status = check_time(d)) != ISO_OK) return status;
     if ((status = make_params(d, name)) != ISO_OK) return status;
+    if ((status = make_D(d)) != ISO_OK) return status;
+    if ((status = make_effects(d, model)) != ISO_OK) return status;
     if ((status = make_start(d, model)) != ISO_OK) return status;
     d->scene.backend = (iso_picture)d->backend;
     d->scene.as = (iso_picture)d->as;
-    return ISO_OK;
+    return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, iso_scene_check_columns(d->yaml.ctx, &d->scene));
 }
 
 iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
 {
     iso_draft d = {.yaml = {.ctx = ctx, .name = name}, .backend = ISO_AUTO, .as = ISO_AUTO};
     d.scene = iso_scene_default();
+    d.scene.effects.level = d.D = d.g = NAN;
+    d.scene.effects.quaternion[0] = 1;
     iso_status status = iso_yaml_load(&d.yaml, text, length);
     if (status != ISO_OK) return status;
     d.root = yaml_document_get_root_node(&d.yaml.document);

@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,6 +19,7 @@ typedef struct entry {
     const char *(*word)(int);    /* read_word: the names of an enum ... */
     unsigned words;              /* ... and which of them (1 << value)  */
     iso_picture model;           /* of `initial`: whose start this is   */
+    iso_effect_id effect;        /* read_effect: which                  */
 } entry;
 
 /* ---- Values ---- */
@@ -121,12 +123,38 @@ static iso_status read_columns(iso_draft *d, const entry *e, const yaml_node_t *
     return status;
 }
 
-static iso_status read_not_simulated(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+/* D = m b^2, which `reduced` may have as well as the effects that need it. */
+static iso_status read_D(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
 {
-    (void)value;
-    return iso_yaml_fail(&d->yaml, key->start_mark,
-                         "effect '%s': this version does not simulate it yet, take it out for the free ball",
-                         e->name);
+    const double before = d->D;
+    const iso_status status = read_number(d, e, key, value);
+    if (status != ISO_OK || isnan(before) || before == d->D) return status;
+    return iso_yaml_fail(&d->yaml, value->start_mark, "'D' is %g here and %g elsewhere", d->D, before);
+}
+
+/* Three rows of three numbers. */
+static iso_status read_matrix(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    double *matrix = target(d, e);
+    (void)key;
+    if (value->type != YAML_SEQUENCE_NODE)
+        return iso_yaml_expected(&d->yaml, value, e->name, "three rows of three numbers");
+    const int rows = (int)(value->data.sequence.items.top - value->data.sequence.items.start);
+    if (rows != 3)
+        return iso_yaml_fail(&d->yaml, value->start_mark, "'%s' should be three rows of three numbers, not %d",
+                             e->name, rows);
+    for (int i = 0; i < 3; i++) {
+        const yaml_node_t *row = iso_yaml_node(&d->yaml, value->data.sequence.items.start[i]);
+        const iso_status status = iso_yaml_numbers(&d->yaml, row, e->name, 3, matrix + 3 * i);
+        if (status != ISO_OK) return status;
+    }
+    return ISO_OK;
+}
+
+static iso_status read_quaternion(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    (void)key;
+    return iso_yaml_numbers(&d->yaml, value, e->name, 4, target(d, e));
 }
 
 /* ---- Sections ---- */
@@ -138,6 +166,8 @@ static const entry *find_entry(const entry *entries, const yaml_node_t *key)
     return NULL;
 }
 
+static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value);
+
 static iso_status unknown_key(iso_draft *d, const entry *entries, const yaml_node_t *key)
 {
     const char *names[MAX_KEYS];
@@ -145,7 +175,10 @@ static iso_status unknown_key(iso_draft *d, const entry *entries, const yaml_nod
     if (key->type != YAML_SCALAR_NODE)
         return iso_yaml_fail(&d->yaml, key->start_mark, "a key should be a name, not a list or a mapping");
     for (; entries[count].name && count < MAX_KEYS; count++) names[count] = entries[count].name;
-    return iso_yaml_unknown(&d->yaml, key, entries->read == read_not_simulated ? "effect" : "key", count, names);
+    if (count == 0)
+        return iso_yaml_fail(&d->yaml, key->start_mark, "'%s': nothing is to be said here: write {}",
+                             (const char *)key->data.scalar.value);
+    return iso_yaml_unknown(&d->yaml, key, entries->read == read_effect ? "effect" : "key", count, names);
 }
 
 /* For what is found wrong only later, when an orbit is made. */
@@ -191,7 +224,7 @@ static iso_status read_mapping(iso_draft *d, const entry *entries, const char *n
 static iso_status fail_section(iso_draft *d, const entry *e, const yaml_node_t *value)
 {
     char expected[256];
-    int used = snprintf(expected, sizeof expected, "a mapping {");
+    int used = snprintf(expected, sizeof expected, e->section->name ? "a mapping {" : "{}");
     for (const entry *in = e->section; in->name && used < (int)sizeof expected; in++)
         used += snprintf(expected + used, sizeof expected - (size_t)used, in[1].name ? "%s: ..., " : "%s: ...}",
                          in->name);
@@ -204,6 +237,12 @@ static iso_status read_section(iso_draft *d, const entry *e, const yaml_node_t *
     if (value->type != YAML_MAPPING_NODE) return fail_section(d, e, value);
     snprintf(name, sizeof name, "'%s'", e->name);
     return read_mapping(d, e->section, name, key, value);
+}
+
+static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    d->scene.effects.on[e->effect] = true;
+    return read_section(d, e, key, value);
 }
 
 /* ---- The tables: adding a key is adding its line ---- */
@@ -227,6 +266,7 @@ static const entry surface_keys[] = {
 static const entry reduced_keys[] = {
     {"k", read_number, AT(k), .required = true},
     {"J", read_vector, AT(J), .required = true},
+    {"D", read_D, AT(D)},
     {0},
 };
 
@@ -252,14 +292,57 @@ static const entry time_keys[] = {
     {0},
 };
 
+static const entry gravity_keys[] = {
+    {"g", read_number, AT(g)},
+    {"mgb", read_number, AT(scene.effects.mgb)},
+    {"up", read_vector, AT(scene.effects.up), .required = true},
+    {0},
+};
+
+static const entry field_keys[] = {
+    {"quadratic", read_matrix, AT(scene.effects.quadratic)},
+    {"linear", read_vector, AT(scene.effects.linear)},
+    {0},
+};
+
+static const entry level_keys[] = {
+    {"c", read_number, AT(scene.effects.level)},
+    {0},
+};
+
+static const entry twist_keys[] = {
+    {"resistance", read_number, AT(scene.effects.twist), .required = true},
+    {"D", read_D, AT(D)},
+    {0},
+};
+
+static const entry resistance_keys[] = {
+    {"coefficient", read_number, AT(scene.effects.resistance), .required = true},
+    {0},
+};
+
+static const entry attitude_keys[] = {
+    {"quaternion", read_quaternion, AT(scene.effects.quaternion)},
+    {0},
+};
+
+static const entry reactions_keys[] = {
+    {"two_sided", read_flag, AT(scene.effects.two_sided)},
+    {"D", read_D, AT(D)},
+    {0},
+};
+
+static const entry no_keys[] = {{0}};
+
 static const entry effect_keys[] = {
-    {"gravity", .read = read_not_simulated},
-    {"field", .read = read_not_simulated},
-    {"level", .read = read_not_simulated},
-    {"twist", .read = read_not_simulated},
-    {"rolling_resistance", .read = read_not_simulated},
-    {"attitude", .read = read_not_simulated},
-    {"reactions", .read = read_not_simulated},
+    {"gravity", read_effect, .effect = ISO_GRAVITY, .section = gravity_keys},
+    {"field", read_effect, .effect = ISO_FIELD, .section = field_keys},
+    {"level", read_effect, .effect = ISO_LEVEL, .section = level_keys},
+    {"twist", read_effect, .effect = ISO_TWIST, .section = twist_keys},
+    {"rolling_resistance", read_effect, .effect = ISO_ROLLING_RESISTANCE, .section = resistance_keys},
+    {"attitude", read_effect, .effect = ISO_ATTITUDE, .section = attitude_keys},
+    {"reactions", read_effect, .effect = ISO_REACTIONS, .section = reactions_keys},
+    {"clock", read_effect, .effect = ISO_CLOCK, .section = no_keys},
     {0},
 };
 

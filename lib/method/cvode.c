@@ -73,6 +73,8 @@ static int set_up_bdf(const iso_integrator *it, cvode *c, SUNContext sun)
     c->linear = c->matrix ? SUNLinSol_Dense(c->y, c->matrix, sun) : NULL;
     if (!c->linear || CVodeSetLinearSolver(c->memory, c->linear, c->matrix) != 0) return -1;
     if (CVodeSetJacFn(c->memory, jacobian) != 0) return -1;
+    /* A Jacobian some steps old points the stiff direction the wrong way, and Newton's iteration fails. */
+    if (CVodeSetJacEvalFrequency(c->memory, 1) != 0 || CVodeSetLSetupFrequency(c->memory, 1) != 0) return -1;
     if (it->options.no_projection) return 0;
     if (CVodeSetProjFn(c->memory, projection) != 0) return -1;
     return CVodeSetProjErrEst(c->memory, SUNFALSE);

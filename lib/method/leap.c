@@ -1,4 +1,4 @@
-/* leap.c - the state at a time within a step: from the step's left end, by rk8pd. */
+/* leap.c - the state at a time within a step: from the step's left end, by rk8pd; for stiff models by bsimp. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -10,10 +10,15 @@ struct iso_leaper {
     iso_gsl gsl;
 };
 
+static const gsl_odeiv2_step_type *leap_type(const iso_integrator *it)
+{
+    return iso_method_auto(&it->model)->implicit ? gsl_odeiv2_step_bsimp : gsl_odeiv2_step_rk8pd;
+}
+
 iso_leaper *iso_leaper_create(iso_integrator *it)
 {
     iso_leaper *leaper = calloc(1, sizeof *leaper);
-    if (leaper && iso_gsl_open(it, gsl_odeiv2_step_rk8pd, &leaper->gsl) == ISO_OK) return leaper;
+    if (leaper && iso_gsl_open(it, leap_type(it), &leaper->gsl) == ISO_OK) return leaper;
     free(leaper);
     return NULL;
 }

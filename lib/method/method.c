@@ -44,9 +44,12 @@ const iso_method *iso_method_find(const char *name)
     return candidates == 1 ? candidate : NULL;
 }
 
-/* Of the library methods rk8pd needs the least time for every error from 1e-6 on (tests/bench/methods.c). */
+/* Of the library methods rk8pd needs the least time for every error from 1e-6 on (tests/bench/methods.c). Of those for stiff
+ * models bsimp is the most exact for its time up to VERY_STIFF, from where on bdf needs fewer right-hand sides. */
+enum { VERY_STIFF = 1000 };
+
 const iso_method *iso_method_auto(const iso_model *model)
 {
-    (void)model;
-    return &iso_method_rk8pd;
+    const double stiffness = iso_effects_stiffness(&model->field);
+    return stiffness <= ISO_STIFF ? &iso_method_rk8pd : stiffness <= VERY_STIFF ? &iso_method_bsimp : &iso_method_bdf;
 }

@@ -8,7 +8,7 @@
  *
  * Times are those of the model's independent clock. The contract:
  * - A method takes its own steps; what is asked between them is reached from the step's left end by a leap with
- *   GSL's rk8pd at the same tolerance (13 right-hand sides as a rule). So a state at time t depends on the method and
+ *   GSL's rk8pd (bsimp for stiff models) at the same tolerance (13 right-hand sides as a rule). So a state at time t depends on the method and
  *   the tolerance, never on which other times were asked.
  * - `tolerance` bounds the estimated error of one step in units of iso_model_size(): the largest component for
  *   GSL methods, the root mean square for SUNDIALS. The error of a long orbit is larger: it adds up.

@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "base/vec3_impl.h"
+#include "model/effects_impl.h"
 #include "model/integrals_impl.h"
 #include "model/system.h"
 
@@ -70,88 +71,114 @@ static double ball_q(const iso_params *p, const double y[ISO_STATE], double grad
     return q;
 }
 
-static double energy(const iso_field *f, const double y[ISO_STATE], double *size)
+/* kinetic energy; a ball that is free to twist has (K,w)/2, K = J w - D (w,n) n */
+static inline double kinetic(const iso_field *f, const double y[])
 {
-    const double h = dot_diag(y, f->p.J, y) / 2;
-    *size = h;
-    return h;
+    const double T = dot_diag(y, f->p.J, y) / 2;
+    if (!f->effects.on[ISO_TWIST]) return T;
+    const double spin = dot(y, y + 3);
+    return T - f->p.D * spin * spin / 2;
 }
 
-static double spin(const iso_field *f, const double y[ISO_STATE], double *size)
+static double energy(const iso_field *f, const double y[], double *size)
+{
+    const double T = kinetic(f, y), U = iso_effects_potential(f, y);
+    *size = T + fabs(U);
+    return T + U;
+}
+
+static bool is_rigid(const iso_field *f)
+{
+    return !f->effects.on[ISO_TWIST];
+}
+
+static double spin(const iso_field *f, const double y[], double *size)
 {
     (void)f;
     *size = norm(y);
     return dot(y, y + 3);
 }
 
-static double normal_length(const iso_field *f, const double y[ISO_STATE], double *size)
+static double normal_length(const iso_field *f, const double y[], double *size)
 {
     (void)f;
     *size = 1;
     return norm(y + 3);
 }
 
-static double f_plane(const iso_field *f, const double y[ISO_STATE], double *size)
+/* with a level, + 2 c det J (u,u)/g: the point's 2 H (gamma,J^-1 gamma) */
+static double f_plane(const iso_field *f, const double y[], double *size)
 {
-    double Jw[3], K[3];
+    double Jw[3], K[3], u[3];
     diag(f->p.J, y, Jw);
     cross(Jw, y + 3, K);
     *size = dot(Jw, Jw);
-    return dot(K, K);
+    if (!f->effects.on[ISO_LEVEL]) return dot(K, K);
+    diag(f->p.inv_J, y + 3, u);
+    const double rest = 2 * f->effects.level * f->p.det_J * dot(u, u) / dot(y + 3, u);
+    *size += fabs(rest);
+    return dot(K, K) + rest;
 }
 
-/* (11), with n^2 = 1 */
-static double f_shell(const iso_field *f, const double y[ISO_STATE], double *size)
+/* (11), with n^2 = 1 and (w,Jw) = 2h, which a level has a part in */
+static double f_shell(const iso_field *f, const double y[], double *size)
 {
     const double *n = y + 3;
-    double Jw[3], u[3];
+    double Jw[3], u[3], h_size;
     diag(f->p.J, y, Jw);
     diag(f->p.inv_J, n, u);
-    return *size = (dot(Jw, Jw) + f->p.det_J * dot(y, Jw) * dot(u, u)) / dot(n, u);
+    const double h = energy(f, y, &h_size), g = dot(n, u);
+    *size = (dot(Jw, Jw) + 2 * f->p.det_J * h_size * dot(u, u)) / g;
+    return (dot(Jw, Jw) + 2 * f->p.det_J * h * dot(u, u)) / g;
 }
 
 /* g^(1/(2k)) w_axis, for a body that is symmetric about that axis */
-static double f_axis(const iso_field *f, const double y[ISO_STATE], int axis, double *size)
+static double f_axis(const iso_field *f, const double y[], int axis, double *size)
 {
     const double density = pow(ball_q(&f->p, y, NULL), -1 / (2 * f->p.k));
     *size = density * norm(y);
     return density * y[axis];
 }
 
-static double f_axis1(const iso_field *f, const double y[ISO_STATE], double *size)
+static double f_axis1(const iso_field *f, const double y[], double *size)
 {
     return f_axis(f, y, 0, size);
 }
 
-static double f_axis2(const iso_field *f, const double y[ISO_STATE], double *size)
+static double f_axis2(const iso_field *f, const double y[], double *size)
 {
     return f_axis(f, y, 1, size);
 }
 
-static double f_axis3(const iso_field *f, const double y[ISO_STATE], double *size)
+static double f_axis3(const iso_field *f, const double y[], double *size)
 {
     return f_axis(f, y, 2, size);
 }
 
 /* The three relations are restored one after the other, none disturbing the one before: |n| = 1 by scaling n,
- * (w,n) = 0 by taking the spin out of w, h by scaling w. */
-static double project(const iso_field *f, double y[ISO_STATE])
+ * (w,n) = 0 by taking the spin out of w, h by scaling w. The last is left out where the ball hardly moves: there a small
+ * error of h would be a large one of w. */
+static double project(const iso_field *f, double y[])
 {
-    const double length_error = make_unit(y + 3) - 1;
-    const double speed = norm(y);
-    if (speed == 0) return fabs(length_error);
-    const double spin_error = remove_along(y, y + 3) / speed;
-    double h;
-    energy(f, y, &h);
-    const double stretch = sqrt(f->energy / h);
+    const double length_error = make_unit(y + 3) - 1, moving = norm(y);
+    double correction = fabs(length_error);
+    if (moving == 0) return correction;
+    if (!f->effects.on[ISO_TWIST]) correction = fmax(correction, fabs(remove_along(y, y + 3)) / moving);
+    const bool is_free = iso_effects_none(&f->effects);
+    if (!is_free && !iso_effects_keep_energy(f)) return correction;
+    const double T = kinetic(f, y), U = is_free ? 0 : iso_effects_potential(f, y);
+    const double falling = is_free ? 0 : fmax(fabs(U), iso_effects_strength(f, y)); /* U may be 0 by cancellation */
+    if (T < 0.1 * falling || f->energy <= U) return correction;
+    const double stretch = sqrt((f->energy - U) / T);
     scale(y, stretch);
-    return fmax(fmax(fabs(length_error), fabs(spin_error)), fabs(stretch - 1));
+    return fmax(correction, fabs(stretch - 1));
 }
 
-static double speed(const iso_field *f, const double y[ISO_STATE])
+/* |w|, or what it would be if the potentials moved it: a ball may turn back */
+static double speed(const iso_field *f, const double y[])
 {
-    (void)f;
-    return norm(y);
+    if (iso_effects_none(&f->effects)) return norm(y);
+    return fmax(norm(y), sqrt(2 * iso_effects_strength(f, y) / max3(f->p.J)));
 }
 
 static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
@@ -167,8 +194,17 @@ static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
 static const char *const state_names[] = {"omega1", "omega2", "omega3", "n1", "n2", "n3"};
 
 static const iso_integral integrals[] = {
-    {.name = "h", .doc = "energy (w,Jw)/2", .dimension = {1, 0, 2}, .value = energy},
-    {.name = "omega.n", .known = ISO_ZERO, .doc = "no twist: (w,n) = 0", .dimension = {0, 0, 1}, .value = spin},
+    {.name = "h",
+     .doc = "energy (w,Jw)/2, with the potentials of its effects",
+     .dimension = {1, 0, 2},
+     .holds = iso_effects_keep_energy,
+     .value = energy},
+    {.name = "omega.n",
+     .known = ISO_ZERO,
+     .doc = "no twist: (w,n) = 0",
+     .dimension = {0, 0, 1},
+     .holds = is_rigid,
+     .value = spin},
     {.name = "|n|", .known = ISO_ONE, .doc = "unit normal: 1", .value = normal_length},
     {.name = "F_plane",
      .doc = "(Jw x n, Jw x n), k = 1",

@@ -2,31 +2,34 @@
 #ifndef ISO_MODEL_INTEGRALS_IMPL_H
 #define ISO_MODEL_INTEGRALS_IMPL_H
 
-#include "model/system.h"
+#include "model/effect.h"
 
-static inline bool holds_plane(const iso_params *p)
+/* No force but that of a level, which on the point is none; on a plane also the torque of a contact that twists, along n. */
+static inline bool holds_plane(const iso_field *f)
 {
-    return p->k == 1;
+    iso_effects others = f->effects;
+    if (!others.on[ISO_LEVEL]) others.on[ISO_TWIST] = false;
+    return f->p.k == 1 && iso_effects_free(&others);
 }
 
-static inline bool holds_shell(const iso_params *p)
+static inline bool holds_shell(const iso_field *f)
 {
-    return p->k == -1;
+    return f->p.k == -1 && iso_effects_free(&f->effects);
 }
 
-static inline bool holds_axis1(const iso_params *p)
+static inline bool holds_axis1(const iso_field *f)
 {
-    return iso_params_symmetric(p, 0);
+    return iso_params_symmetric(&f->p, 0) && iso_effects_free(&f->effects);
 }
 
-static inline bool holds_axis2(const iso_params *p)
+static inline bool holds_axis2(const iso_field *f)
 {
-    return iso_params_symmetric(p, 1);
+    return iso_params_symmetric(&f->p, 1) && iso_effects_free(&f->effects);
 }
 
-static inline bool holds_axis3(const iso_params *p)
+static inline bool holds_axis3(const iso_field *f)
 {
-    return iso_params_symmetric(p, 2);
+    return iso_params_symmetric(&f->p, 2) && iso_effects_free(&f->effects);
 }
 
 #endif

@@ -1,33 +1,53 @@
-/* model.h - what is integrated: a system, the clock it runs in, and the clocks it carries.
+/* model.h - what is integrated: a system, its effects, the clock it runs in, and the clocks it carries.
  *
  * A model is assembled once, and holds exactly what was asked for. A free ball in its own time is the six equations
- * (9) and nothing else. Asked to run in another clock c, every equation is multiplied by d(own clock)/dc, the time
- * change of the isomorphism (section 4 of the paper); asked to carry a clock, that clock is one more state.
+ * (9) and nothing else. An effect adds its torque and its states, and what it does not do costs nothing. Asked to run in
+ * another clock c, every equation is multiplied by d(own clock)/dc, the time change of the isomorphism (section 4 of the
+ * paper); asked to carry a clock, that clock is one more state.
+ *
+ *     y = (omega, n | e of gravity | lambda of twist | Q, x of attitude | clocks)      what is there, in this order
  */
 #ifndef ISO_MODEL_MODEL_H
 #define ISO_MODEL_MODEL_H
 
-#include "system.h"
+#include "effect.h"
 
-enum { ISO_MAX_STATE = ISO_STATE + ISO_CLOCKS - 1 };
+enum { ISO_MOST_EFFECT_STATES = 3 + 1 + 7, ISO_MAX_STATE = ISO_STATE + ISO_MOST_EFFECT_STATES + ISO_CLOCKS - 1 };
 
 typedef struct iso_model iso_model;
 struct iso_model {
     const iso_system *system;
     iso_field field;
     iso_clock clock;               /* the independent variable                                  */
-    int carried;                   /* number of clocks that are states, after the system's six  */
+    int moving;                    /* states of the system and of the effects                   */
+    int carried;                   /* number of clocks that are states, after those             */
     iso_clock carry[ISO_CLOCKS];   /* which                                                     */
-    int dim;                       /* ISO_STATE + carried                                       */
+    int dim;                       /* moving + carried                                          */
     void (*rhs)(const iso_model *m, const double y[], double dy[]);       /* y' = f(y)          */
     void (*jacobian)(const iso_model *m, const double y[], double jac[]); /* row-major dim x dim */
+
+    /* Of what `rhs` and `jacobian` are made: the equations in the system's own clock, and the effects with torques and
+     * with states. */
+    void (*own_rhs)(const iso_model *m, const double y[], double dy[]);
+    void (*own_jacobian)(const iso_model *m, const double y[], double jac[]); /* moving x moving */
+    const struct iso_contact *contact;
+    int forces, followers;
+    const iso_effect *force[ISO_EFFECTS], *follower[ISO_EFFECTS];
 };
 
-/* Assembles. carry[c] asks for clock c as a state; the independent clock is never one. */
+/* Assembles. Of field->effects the point takes what has an image, the ball everything; field->at is filled in. carry[c]
+ * asks for clock c as a state; the independent clock is never one. */
 iso_model iso_model_assemble(const iso_system *system, const iso_field *field, iso_clock clock,
                              const bool carry[ISO_CLOCKS]);
 
-/* Restores the system's constraints and energy in y; gives the relative size of the correction. */
+/* The state at the start: the system's six numbers as they are, effects at their beginnings, clocks at 0. */
+void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y[]);
+
+/* The name of state i, and why it is there: "" for the system's own. */
+const char *iso_model_state_name(const iso_model *m, int i, const char **reason);
+
+/* Restores the constraints of system and effects, and the energy where it is conserved; gives the relative size of the
+ * correction. */
 double iso_model_project(const iso_model *m, double y[]);
 
 /* The size of each component for error control: of the vector of R^3 it belongs to; of the clock, and of its

@@ -51,6 +51,17 @@ iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso
     return ISO_OK;
 }
 
+iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *p)
+{
+    if (!(is_positive(D) && D < min3(p->J)))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "D",
+                                "D = %.17g: m b^2 must be positive and less than each J (J - D are the moments about "
+                                "the centre)",
+                                D);
+    p->D = D;
+    return ISO_OK;
+}
+
 /* k = a/(a+b) from the true radii, each formula written so that nothing cancels but the radii themselves. */
 static double geometry_number(iso_surface surface, double A, double B)
 {
@@ -117,6 +128,7 @@ iso_status iso_params_physical(iso_context *ctx, const iso_body *b, iso_params *
         return iso_context_fail(ctx, ISO_BAD_INPUT, "mass", "m B^2 does not fit a double: use other units");
     memset(p, 0, sizeof *p);
     p->body = *b;
+    p->D = D;
     fill(k, J, p);
     return ISO_OK;
 }
@@ -129,6 +141,7 @@ void iso_units_choose(const iso_params *p, double speed, iso_units *u)
     u->w = speed > 0 ? ldexp(1, ilogb(speed)) : 1;
     for (int i = 0; i < 3; i++) J[i] = p->J[i] / u->J;
     u->own = *p;
+    u->own.D = p->D / u->J;
     fill(p->k, J, &u->own);
 }
 

@@ -35,12 +35,17 @@ typedef struct iso_params {
     double inv_J[3];  /* 1/J_i                                                             */
     double root_J[3]; /* sqrt(J_i)                                                         */
     double det_J;     /* J_1 J_2 J_3                                                       */
+    double D;         /* m b^2, what the ball's mass adds to J; 0: not known (reduced)     */
     iso_body body;    /* where k and J come from; surface == ISO_REDUCED: given themselves */
 } iso_params;
 
 /* From k and J directly. They need not belong to a solid body.
  * Errors: ISO_BAD_INPUT about "k" or "J". */
 iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso_params *params);
+
+/* Says what part D = m b^2 of J is the mass's, which only some effects ask for.
+ * Errors: ISO_BAD_INPUT about "D": not in (0, min J). */
+iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *params);
 
 /* From a physical ball; J = I + m B^2.
  * Errors: ISO_BAD_INPUT about "mass", "radius", "inertia" or "surface_radius" (not positive, not finite, a triangle

@@ -65,25 +65,28 @@ static void jacobian(const iso_field *f, const double y[ISO_STATE], double jac[I
     }
 }
 
-static double potential(const iso_field *f, const double y[ISO_STATE])
+/* V, and the size of its terms, which may cancel */
+static double potential(const iso_field *f, const double y[], double *size)
 {
-    return -f->eps * pow(point_q(&f->p, y, NULL), -1 / f->p.k);
+    const double V = -f->eps * pow(point_q(&f->p, y, NULL), -1 / f->p.k), image = iso_effects_image(f, y);
+    *size = fabs(V) + fabs(image);
+    return V + image;
 }
 
-static double energy(const iso_field *f, const double y[ISO_STATE], double *size)
+static double energy(const iso_field *f, const double y[], double *size)
 {
-    const double T = dot(y, y) / 2, V = potential(f, y);
-    *size = T + fabs(V);
+    const double T = dot(y, y) / 2, V = potential(f, y, size);
+    *size += T;
     return T + V;
 }
 
-static double spin(const iso_field *f, const double y[ISO_STATE], double *size)
+static double spin(const iso_field *f, const double y[], double *size)
 {
     *size = iso_system_point.speed(f, y);
     return dot(y, y + 3);
 }
 
-static double gamma_length(const iso_field *f, const double y[ISO_STATE], double *size)
+static double gamma_length(const iso_field *f, const double y[], double *size)
 {
     (void)f;
     *size = 1;
@@ -91,7 +94,7 @@ static double gamma_length(const iso_field *f, const double y[ISO_STATE], double
 }
 
 /* (gamma', J^-1 gamma') + 2 H (gamma, J^-1 gamma), where (gamma', J^-1 gamma')' = -2 H (gamma, J^-1 gamma)' */
-static double f_plane(const iso_field *f, const double y[ISO_STATE], double *size)
+static double f_plane(const iso_field *f, const double y[], double *size)
 {
     const double *M = y, *gamma = y + 3, *inv_J = f->p.inv_J;
     double velocity[3], H_size;
@@ -103,7 +106,7 @@ static double f_plane(const iso_field *f, const double y[ISO_STATE], double *siz
 }
 
 /* Neumann's integral (M, J M)/det J + 2 eps (gamma, J^-1 gamma) */
-static double f_shell(const iso_field *f, const double y[ISO_STATE], double *size)
+static double f_shell(const iso_field *f, const double y[], double *size)
 {
     const double *M = y, *gamma = y + 3;
     const double kinetic = dot_diag(M, f->p.J, M) / f->p.det_J,
@@ -113,48 +116,49 @@ static double f_shell(const iso_field *f, const double y[ISO_STATE], double *siz
 }
 
 /* M_axis, divided by what (18) multiplies with: the ball's integral of the same name */
-static double f_axis(const iso_field *f, const double y[ISO_STATE], int axis, double *size)
+static double f_axis(const iso_field *f, const double y[], int axis, double *size)
 {
     const double factor = f->p.k / (sqrt(f->p.det_J) * f->p.root_J[axis]);
     *size = fabs(factor) * iso_system_point.speed(f, y);
     return factor * y[axis];
 }
 
-static double f_axis1(const iso_field *f, const double y[ISO_STATE], double *size)
+static double f_axis1(const iso_field *f, const double y[], double *size)
 {
     return f_axis(f, y, 0, size);
 }
 
-static double f_axis2(const iso_field *f, const double y[ISO_STATE], double *size)
+static double f_axis2(const iso_field *f, const double y[], double *size)
 {
     return f_axis(f, y, 1, size);
 }
 
-static double f_axis3(const iso_field *f, const double y[ISO_STATE], double *size)
+static double f_axis3(const iso_field *f, const double y[], double *size)
 {
     return f_axis(f, y, 2, size);
 }
 
-/* As for the ball. Off the level H = 0 the point turns back where M = 0, and no scaling of M restores H there: only
- * the geometry is restored then. */
-static double project(const iso_field *f, double y[ISO_STATE])
+/* As for the ball: where M is small, as it is at turning points, scaling it is no way to restore H. */
+static double project(const iso_field *f, double y[])
 {
     const double length_error = make_unit(y + 3) - 1;
     const double size = iso_system_point.speed(f, y);
     if (size == 0) return fabs(length_error);
-    double correction = fmax(fabs(length_error), fabs(remove_along(y, y + 3)) / size);
-    if (f->energy == 0) {
-        const double stretch = sqrt(-2 * potential(f, y)) / norm(y);
-        scale(y, stretch);
-        correction = fmax(correction, fabs(stretch - 1));
-    }
-    return correction;
+    const double correction = fmax(fabs(length_error), fabs(remove_along(y, y + 3)) / size);
+    double falling;
+    const double T = dot(y, y) / 2, V = potential(f, y, &falling);
+    if (T == 0 || T < 0.1 * falling || f->energy <= V) return correction;
+    const double stretch = sqrt((f->energy - V) / T);
+    scale(y, stretch);
+    return fmax(correction, fabs(stretch - 1));
 }
 
 /* |M|, or what it would be on the level H = 0: off that level M goes through zero */
-static double speed(const iso_field *f, const double y[ISO_STATE])
+static double speed(const iso_field *f, const double y[])
 {
-    return fmax(norm(y), sqrt(2 * fabs(potential(f, y))));
+    double falling;
+    potential(f, y, &falling);
+    return fmax(norm(y), sqrt(2 * falling));
 }
 
 /* On the level H = 0, for a ball that spins at about one turn per unit of time. */
@@ -165,7 +169,8 @@ static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
     iso_random_direction(r, y + 3);
     iso_random_direction(r, y);
     for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3); /* twice: M may be nearly along gamma */
-    scale(y, sqrt(-2 * potential(f, y)) / norm(y));
+    double unused;
+    scale(y, sqrt(-2 * potential(f, y, &unused)) / norm(y));
 }
 
 static const char *const state_names[] = {"M1", "M2", "M3", "gamma1", "gamma2", "gamma3"};

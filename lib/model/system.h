@@ -14,7 +14,7 @@
 #include <stddef.h>
 
 #include "../base/random.h"
-#include "params.h"
+#include "field.h"
 
 enum { ISO_STATE = 6 }; /* numbers in a state of either system: two vectors of R^3 */
 
@@ -29,21 +29,15 @@ iso_dimension iso_clock_dimension(iso_clock clock);
  *     t: 1,   tau: N = q^(1 - 1/(2k)),   s: G N = (k^2/det J) q^(1 + 1/(2k)). */
 double iso_clock_rate(const iso_params *p, iso_clock clock, double q, double *exponent);
 
-/* What distinguishes one orbit's equations from another's. */
-typedef struct iso_field {
-    iso_params p;
-    double eps;    /* coupling of the point's potential, (24); 0 for the ball                             */
-    double energy; /* the level the orbit lives on: h of the ball, H of the point (0 for a ball's twin)    */
-} iso_field;
-
-/* A first integral. `value` gives I(y), and in *size the magnitude of the terms it is made of, the measure for
+/* A first integral. y is the state of the whole model, of which most integrals read six numbers. `value` gives I(y), and
+ * in *size the magnitude of the terms it is made of, the measure for
  * drift: |I(y) - I(y0)| / size is of the order of the rounding error when I is conserved. */
 typedef struct iso_integral {
     const char *name, *doc;
     iso_dimension dimension;
     enum { ISO_ANY_VALUE, ISO_ZERO, ISO_ONE } known; /* constraints have a known value     */
-    bool (*holds)(const iso_params *p); /* for which k and J; NULL: always */
-    double (*value)(const iso_field *f, const double y[ISO_STATE], double *size);
+    bool (*holds)(const iso_field *f); /* for which k, J and effects; NULL: always */
+    double (*value)(const iso_field *f, const double y[], double *size);
 } iso_integral;
 
 typedef struct iso_system {
@@ -59,11 +53,12 @@ typedef struct iso_system {
     /* q = (gamma, J gamma), which fixes all clock rates, and its gradient (may be NULL). */
     double (*q)(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE]);
 
-    /* Restores the unit vector, orthogonality and f->energy; gives the relative size of the correction. */
-    double (*project)(const iso_field *f, double y[ISO_STATE]);
+    /* Restores the unit vector, orthogonality and f->energy; gives the relative size of the correction. y is the state of
+     * the whole model. */
+    double (*project)(const iso_field *f, double y[]);
 
     /* The size of the first vector against which its errors are measured. */
-    double (*speed)(const iso_field *f, const double y[ISO_STATE]);
+    double (*speed)(const iso_field *f, const double y[]);
 
     /* A random valid state of order one; sets f->eps and f->energy to match (f->p given). */
     void (*sample)(iso_field *f, iso_random *r, double y[ISO_STATE]);

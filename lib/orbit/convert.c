@@ -7,89 +7,6 @@
 #include "base/vec3_impl.h"
 #include "map/state.h"
 
-/* --- what a record says of its ball -------------------------------------------------------------------------------- */
-
-iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *model, const iso_params *p,
-                               const iso_orbit *orbit)
-{
-    iso_status status = iso_record_set(ctx, r, "model", model);
-    if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "k", 1, &p->k);
-    if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "J", 3, p->J);
-    if (status != ISO_OK || !orbit) return status;
-    const bool twin = iso_orbit_has_twin(orbit), point = iso_orbit_model(orbit)->system == &iso_system_point;
-    const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
-    if (twin && isnormal(h)) status = iso_record_set_numbers(ctx, r, "h", 1, &h);
-    if (status == ISO_OK && ((twin && isnormal(eps)) || (!twin && point && isfinite(eps))))
-        status = iso_record_set_numbers(ctx, r, "eps", 1, &eps);
-    return status;
-}
-
-iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *p)
-{
-    double k, J[3];
-    iso_status status;
-    const bool has_k = iso_record_get_numbers(ctx, r, "k", 1, &k, &status);
-    if (status != ISO_OK) return status;
-    const bool has_J = iso_record_get_numbers(ctx, r, "J", 3, J, &status);
-    if (status != ISO_OK) return status;
-    if (has_k && has_J) return iso_params_reduced(ctx, k, J, p);
-    return iso_context_fail(ctx, ISO_BAD_INPUT, has_k ? "J" : "k",
-                            "the trajectory does not say its %s: a line '# %s' or the option --%s must",
-                            has_k ? "J" : "k", has_k ? "J: J1 J2 J3" : "k: K", has_k ? "J J1,J2,J3" : "k K");
-}
-
-/* The six columns of a model. */
-static iso_status find_state(iso_context *ctx, const iso_record *r, iso_picture model, int columns[ISO_STATE])
-{
-    const char *const *names = (model == ISO_BALL ? &iso_system_ball : &iso_system_point)->state;
-    const char *missing;
-    if (iso_record_find_all(r, ISO_STATE, names, columns, &missing)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "the trajectory has no column '%s', which a %s has",
-                            missing, iso_picture_name((int)model));
-}
-
-/* The coupling that the lines state, by eps or by h; false: they do not. */
-static bool stated_coupling(iso_context *ctx, const iso_record *r, const iso_params *p, double *eps,
-                            iso_status *status)
-{
-    if (iso_record_get_numbers(ctx, r, "eps", 1, eps, status)) return true;
-    if (*status != ISO_OK || !iso_record_get_numbers(ctx, r, "h", 1, eps, status)) return false;
-    const double h = *eps;
-    *eps = iso_coupling(p, h); /* may not fit a double where h does */
-    return h == 0 || isnormal(*eps);
-}
-
-iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_picture model, size_t row,
-                            iso_start *start)
-{
-    int columns[ISO_STATE];
-    iso_status status = find_state(ctx, r, model, columns);
-    if (status != ISO_OK) return status;
-    const double *x = iso_record_const_row(r, row);
-    double v[3], unit[3];
-    for (int i = 0; i < 3; i++) {
-        v[i] = x[columns[i]];
-        unit[i] = x[columns[3 + i]];
-    }
-    double eps;
-    const bool states_eps = model == ISO_POINT && stated_coupling(ctx, r, p, &eps, &status);
-    if (status != ISO_OK) return status;
-    const double size = largest(v);
-    const double along = size > 0 ? v[0] / size * unit[0] + v[1] / size * unit[1] + v[2] / size * unit[2] : 0;
-    if (model == ISO_BALL)
-        status = iso_start_ball(ctx, v, unit, true, start);
-    else
-        status = iso_start_point(ctx, v, unit, states_eps ? &eps : NULL, true, start);
-    if (status == ISO_OK && fabs(along) > 1e-6)
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s has a part %.3g of its size along %s: this is no %s",
-                                  model == ISO_BALL ? "omega" : "M", along, model == ISO_BALL ? "n" : "gamma",
-                                  model == ISO_BALL ? "rubber ball's motion" : "point on a sphere");
-    if (status == ISO_OK) return ISO_OK;
-    return iso_context_fail(ctx, status, "", "row %zu: %s", row + 1, iso_context_message(ctx));
-}
-
-/* --- conversion ---------------------------------------------------------------------------------------------------- */
-
 typedef struct conversion {
     iso_context *ctx;
     const iso_params *params;
@@ -99,7 +16,9 @@ typedef struct conversion {
     int state[ISO_STATE];         /* columns of the model converted from                                  */
     iso_clock own, other;         /* the clocks of the two models                                         */
     int own_column, other_column; /* their columns in `in`, -1: not there                         */
-    iso_units units;
+    iso_effects effects;          /* of the record, and the level of a point off H = 0; the caller's units */
+    iso_orbit *first;             /* from the first row                                                    */
+    iso_units units;              /* its own                                                               */
 } conversion;
 
 /* Lines that say where a clock began which the record has lost. */
@@ -118,24 +37,31 @@ static double row_largest(const conversion *c, size_t row)
     return largest((double[]){x[c->state[0]], x[c->state[1]], x[c->state[2]]});
 }
 
-/* A point off the level H = 0 of the record's coupling is no free ball's. The start's own coupling becomes the one of
- * H = 0, from which the record's may differ by the digits it is written with. */
-static iso_status settle_level(const conversion *c, size_t row, iso_start *start)
+/* H of a point in own units, and the level it should have. */
+static double off_level(const conversion *c, const iso_start *start, double eps)
 {
-    if (c->from != ISO_POINT || isnan(start->eps)) return ISO_OK;
-    const iso_params *own = &c->units.own;
-    const double *gamma = start->y + 3, unit_M = iso_unit(&c->units, iso_system_point.fast_dimension);
-    const double eps = start->eps / iso_unit(&c->units, iso_dimension_eps);
-    const double q = dot_diag(gamma, own->J, gamma), M = row_largest(c, row) / unit_M;
-    /* |M| over what it is on the level, in parts that do not overflow; NAN for eps < 0 */
-    const double direction[3] = {start->y[0] / unit_M / M, start->y[1] / unit_M / M, start->y[2] / unit_M / M};
-    const double ratio = norm(direction) * (M / (sqrt(2) * sqrt(eps))) * pow(q, 1 / (2 * own->k));
+    double y[ISO_STATE], size;
+    iso_field field = iso_orbit_model(c->first)->field;
+    field.eps = eps;
+    copy(start->y, y, ISO_STATE);
+    for (int i = 0; i < 3; i++) y[i] /= iso_unit(&c->units, iso_system_point.fast_dimension);
+    const double level = c->effects.on[ISO_LEVEL] ? iso_coupling(&field.p, field.effects.level) : 0;
+    const double H = iso_system_point.integrals[0].value(&field, y, &size);
+    return H == level ? 0 : (H - level) / fmax(size, fabs(level));
+}
+
+/* The start that a row is, at the record's level. A point's own coupling becomes the one of that level, from which the
+ * record's may differ by the digits it is written with; by more, the row is none of this trajectory. */
+static iso_status row_start(const conversion *c, size_t row, iso_start *start)
+{
+    iso_effects effects = c->effects;
+    iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, row, start, &effects);
+    if (status != ISO_OK || c->from != ISO_POINT || isnan(start->eps)) return status;
     const double stated = start->eps;
     start->eps = NAN;
-    if (M == 0 || fabs(ratio - 1) <= 1e-6) return ISO_OK;
+    if (fabs(off_level(c, start, stated / iso_unit(&c->units, iso_dimension_eps))) <= 1e-6) return ISO_OK;
     iso_context_fail(c->ctx, ISO_NOT_MAPPED, "eps",
-                     "this point is off the level H = 0, and only there is it the twin of a free ball: its M does "
-                     "not belong to eps = %.10g",
+                     "the energy of this point is not that of the rows before: its M does not belong to eps = %.10g",
                      stated);
     return fail_row(c, ISO_NOT_MAPPED, row);
 }
@@ -147,23 +73,23 @@ static iso_status convert_state(const conversion *c, size_t row, double out[ISO_
     const double unit_M = iso_unit(&c->units, iso_system_point.fast_dimension);
     double y[ISO_STATE];
     iso_start start;
-    iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, row, &start);
-    if (status == ISO_OK) status = settle_level(c, row, &start);
+    const iso_status status = row_start(c, row, &start);
     if (status != ISO_OK) return status;
-    if (row_largest(c, row) == 0) {
+    const bool rest = row_largest(c, row) == 0;
+    if (rest && !c->effects.on[ISO_FIELD] && !c->effects.on[ISO_LEVEL]) {
         iso_context_fail(c->ctx, ISO_NOT_MAPPED, "", "at rest (h = 0): a resting ball has no twin");
         return fail_row(c, ISO_NOT_MAPPED, row);
     }
     /* the row as it stands: what iso_record_start made orthogonal is for integration */
     for (int i = 0; i < ISO_STATE; i++) y[i] = x[c->state[i]];
-    for (int i = 0; i < 3 && c->from == ISO_POINT; i++) y[i] /= unit_M;
+    for (int i = 0; i < 3; i++) y[i] /= c->from == ISO_BALL ? c->units.w : unit_M;
     (c->from == ISO_BALL ? iso_ball_to_point : iso_point_to_ball)(&c->units.own, y, out);
-    for (int i = 0; i < 3 && c->from == ISO_BALL; i++) out[i] *= unit_M;
+    for (int i = 0; i < 3; i++) out[i] *= c->from == ISO_BALL ? unit_M : c->units.w;
     double size = 0;
     bool fits = isnormal(unit_M);
     for (int i = 0; i < ISO_STATE; i++) fits = fits && isfinite(out[i]);
     for (int i = 0; i < 3; i++) size = fmax(size, fabs(out[i]));
-    if (fits && size >= DBL_MIN) return ISO_OK;
+    if (fits && (rest || size >= DBL_MIN)) return ISO_OK;
     iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double in these units");
     return fail_row(c, ISO_NUMERICAL, row);
 }
@@ -176,10 +102,10 @@ static iso_status clock_step(const conversion *c, size_t row, double own, double
     iso_sample sample;
     *other = 0;
     if (own == 0) return ISO_OK;
-    iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, row, &start);
-    if (status == ISO_OK) status = settle_level(c, row, &start);
+    iso_status status = row_start(c, row, &start);
     if (status != ISO_OK) return status;
     iso_orbit_options o = iso_orbit_defaults(&start);
+    o.effects = &c->effects;
     o.tolerance = c->tolerance;
     o.carry[c->other] = true;
     o.max_steps = ISO_MAX_ROW_STEPS;
@@ -252,21 +178,14 @@ static iso_status convert_clock(const conversion *c, double origin, iso_record *
  * neither to be carried over), else those of the first row. */
 static iso_status describe_energy(const conversion *c, iso_picture to, iso_record *out)
 {
-    iso_start start;
-    iso_orbit *orbit;
     double stated;
-    iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, 0, &start);
-    if (status != ISO_OK) return status;
-    const iso_orbit_options o = iso_orbit_defaults(&start);
-    status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
-    if (status != ISO_OK) return status;
-    const double eps = iso_orbit_coupling(orbit);
+    iso_status status = ISO_OK;
+    const double eps = iso_orbit_coupling(c->first);
     const bool agrees =
-        stated_coupling(c->ctx, out, c->params, &stated, &status) && fabs(stated - eps) <= 1e-6 * fabs(eps);
-    if (status == ISO_OK)
-        status = iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, agrees ? NULL : orbit);
-    iso_orbit_free(orbit);
-    return status;
+        iso_record_coupling(c->ctx, out, c->params, &stated, &status) && fabs(stated - eps) <= 1e-6 * fabs(eps);
+    if (status != ISO_OK) return status;
+    const bool named = !c->effects.on[ISO_LEVEL] || iso_record_get(out, "level.c");
+    return iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, agrees && named ? NULL : c->first);
 }
 
 /* The lines of `in`, now about the other model, and where its own clock began. */
@@ -286,21 +205,57 @@ static iso_status convert_lines(const conversion *c, iso_picture to, iso_record 
     return status;
 }
 
+/* The orbit of the first row; off the level H = 0 by more than the digits a record may be written with, it has a level. */
+static iso_status open_first(conversion *c)
+{
+    iso_start start;
+    iso_effects effects = c->effects;
+    iso_status status = iso_record_start(c->ctx, c->in, c->params, c->from, 0, &start, &effects);
+    if (status != ISO_OK) return status;
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    o.effects = &c->effects;
+    status = iso_orbit_create(c->ctx, c->params, &start, &o, &c->first);
+    if (status != ISO_OK) return fail_row(c, status, 0);
+    c->units = *iso_orbit_units(c->first);
+    if (!iso_orbit_effects(c->first).on[ISO_LEVEL] || c->effects.on[ISO_LEVEL]) return ISO_OK;
+    if (fabs(off_level(c, &start, iso_orbit_model(c->first)->field.eps)) > 1e-6) {
+        c->effects = iso_orbit_effects(c->first);
+        return ISO_OK;
+    }
+    start.eps = NAN;
+    iso_orbit_free(c->first);
+    status = iso_orbit_create(c->ctx, c->params, &start, &o, &c->first);
+    return status == ISO_OK ? ISO_OK : fail_row(c, status, 0);
+}
+
+static iso_status refuse_effect(const conversion *c)
+{
+    const iso_effect *e = iso_effects_breaking(&c->effects);
+    if (!e) return ISO_OK;
+    return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "effects",
+                            "this trajectory was made with '%s', which breaks the isomorphism: %s", e->name,
+                            e->breaks);
+}
+
 static iso_status prepare(conversion *c, double *origin)
 {
     int columns[ISO_STATE];
     const iso_picture to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
-    iso_status status = find_state(c->ctx, c->in, c->from, c->state);
-    if (status != ISO_OK && find_state(c->ctx, c->in, to, columns) == ISO_OK)
+    iso_status status = iso_record_find_state(c->ctx, c->in, c->from, c->state);
+    if (status != ISO_OK && iso_record_find_state(c->ctx, c->in, to, columns) == ISO_OK)
         return iso_context_fail(c->ctx, ISO_BAD_INPUT, "columns", "this is a %s's trajectory already",
                                 iso_picture_name((int)to));
-    if (status != ISO_OK) return find_state(c->ctx, c->in, c->from, c->state);
+    if (status != ISO_OK) return iso_record_find_state(c->ctx, c->in, c->from, c->state);
     if (iso_record_rows(c->in) == 0) return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
     c->own = c->from == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     c->other = c->from == ISO_BALL ? ISO_CLOCK_S : ISO_CLOCK_T;
     c->own_column = iso_record_find(c->in, iso_clock_name(c->own));
     c->other_column = iso_record_find(c->in, iso_clock_name(c->other));
-    iso_units_choose(c->params, 0, &c->units);
+    status = iso_record_effects(c->ctx, c->in, &c->effects);
+    if (status == ISO_OK) status = refuse_effect(c);
+    for (int e = ISO_ATTITUDE; e < ISO_EFFECTS; e++) c->effects.on[e] = false; /* they act on nothing */
+    if (status == ISO_OK) status = open_first(c);
+    if (status != ISO_OK) return status;
     *origin = 0;
     iso_record_get_numbers(c->ctx, c->in, origin_line[c->other], 1, origin, &status);
     return status;
@@ -318,7 +273,7 @@ iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_rec
     double origin, state[ISO_STATE];
     *out = NULL;
     iso_status status = prepare(&c, &origin);
-    if (status != ISO_OK) return status;
+    if (status != ISO_OK) return iso_orbit_free(c.first), status;
     const int has_clock = c.own_column >= 0 || c.other_column >= 0;
     const char *names[1 + ISO_STATE] = {iso_clock_name(c.other)};
     for (int i = 0; i < ISO_STATE; i++) names[has_clock + i] = target->state[i];
@@ -331,6 +286,7 @@ iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_rec
     }
     if (status == ISO_OK && has_clock) status = convert_clock(&c, origin, *out);
     if (status == ISO_OK) status = convert_lines(&c, to, *out);
+    iso_orbit_free(c.first);
     if (status == ISO_OK) return ISO_OK;
     iso_record_free(*out);
     *out = NULL;

@@ -1,6 +1,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/vec3_impl.h"
 #include "map/state.h"
@@ -14,29 +15,47 @@ iso_orbit_options iso_orbit_defaults(const iso_start *start)
                                .show = start->model};
 }
 
+_Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double),
+               "a number for each column, in their order");
+
 double iso_sample_column(const iso_sample *sample, int column)
 {
-    if (column < ISO_CLOCKS) return sample->clock[column];
-    column -= ISO_CLOCKS;
-    return column < ISO_STATE ? sample->ball[column] : sample->point[column - ISO_STATE];
+    double value;
+    memcpy(&value, (const char *)sample + (size_t)column * sizeof value, sizeof value);
+    return value;
+}
+
+void iso_sample_set_column(iso_sample *sample, int column, double value)
+{
+    memcpy((char *)sample + (size_t)column * sizeof value, &value, sizeof value);
 }
 
 /* --- making an orbit --------------------------------------------------------------------------------------------- */
 
+/* Effects that only the ball shows need the ball. */
+static iso_picture choose_backend(const iso_orbit_options *opt, const iso_start *start)
+{
+    const iso_effects *e = opt->effects;
+    if (opt->backend != ISO_AUTO) return opt->backend;
+    return e && (iso_effects_breaking(e) || e->on[ISO_ATTITUDE] || e->on[ISO_REACTIONS]) ? ISO_BALL : start->model;
+}
+
 static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *start)
 {
     iso_orbit_options *opt = &o->options;
-    double y[ISO_MAX_STATE] = {0}, energy = 0;
-    if (opt->backend == ISO_AUTO) opt->backend = start->model;
+    double six[ISO_STATE], y[ISO_MAX_STATE], size;
+    opt->backend = choose_backend(opt, start);
     if ((opt->backend != ISO_BALL && opt->backend != ISO_POINT) || (int)opt->show < 0 || opt->show > ISO_BOTH)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "backend",
                                 "an orbit is integrated as a ball or as a point, "
                                 "and shown as one of them or both");
-    iso_status status = iso_orbit_find_start(o, p, start, y, &energy);
+    iso_status status = iso_orbit_find_start(o, p, start, six);
     if (status != ISO_OK) return status;
-    const iso_system *system = opt->backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
-    const iso_field field = {.p = o->units.own, .eps = opt->backend == ISO_POINT ? o->eps : 0, .energy = energy};
-    o->model = iso_model_assemble(system, &field, opt->clock, opt->carry);
+    const bool ball = opt->backend == ISO_BALL;
+    const iso_field field = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
+    o->model = iso_model_assemble(ball ? &iso_system_ball : &iso_system_point, &field, opt->clock, opt->carry);
+    iso_model_begin(&o->model, six, y);
+    if (ball) o->model.field.energy = iso_system_ball.integrals[0].value(&o->model.field, y, &size);
     if (!opt->method) opt->method = iso_method_auto(&o->model);
     const iso_method_options m = {
         .tolerance = opt->tolerance, .time_unit = o->unit_clock[opt->clock], .max_steps = opt->max_steps};
@@ -86,8 +105,7 @@ static iso_status to_users_units(const iso_orbit *o, const char *name, double un
 
 static void blank(iso_sample *s)
 {
-    for (int i = 0; i < ISO_STATE; i++) s->ball[i] = s->point[i] = NAN;
-    for (int c = 0; c < ISO_CLOCKS; c++) s->clock[c] = NAN;
+    for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) iso_sample_set_column(s, c, NAN);
 }
 
 static iso_status make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s)
@@ -99,7 +117,7 @@ static iso_status make_sample(const iso_orbit *o, double time, const double y[],
     s->clock[o->model.clock] = time;
     for (int i = 0; status == ISO_OK && i < o->model.carried; i++) {
         const iso_clock c = o->model.carry[i];
-        s->clock[c] = y[ISO_STATE + i];
+        s->clock[c] = y[o->model.moving + i];
         status = to_users_units(o, iso_clock_name(c), o->unit_clock[c], &s->clock[c], 1);
     }
     if (o->options.show != ISO_POINT) {
@@ -108,6 +126,7 @@ static iso_status make_sample(const iso_orbit *o, double time, const double y[],
         else
             iso_point_to_ball(own, y, s->ball);
         if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, s->ball, 3);
+        if (is_ball) iso_orbit_sample_effects(o, y, s);
     }
     if (o->options.show != ISO_BALL) {
         if (is_ball)
@@ -146,7 +165,7 @@ iso_status iso_orbit_check_time(const iso_orbit *o, double time)
 static iso_status check_drift(const iso_orbit *o, const double y[])
 {
     double size;
-    if (o->options.method->projects) return ISO_OK;
+    if (o->options.method->projects || !iso_effects_keep_energy(&o->model.field)) return ISO_OK;
     const double energy = o->model.system->integrals[0].value(&o->model.field, y, &size);
     const double drift = size > 0 ? fabs(energy - o->model.field.energy) / size : 0;
     if (drift <= fmax(1e-3, 1e4 * o->options.tolerance)) return ISO_OK;
@@ -199,6 +218,18 @@ iso_status iso_orbit_event(iso_orbit *o, double (*g)(const iso_sample *sample, c
     return *found ? make_sample(o, own_time * o->unit_clock[o->model.clock], y, sample) : status;
 }
 
+/* The pressure of a sample. */
+static double pressure(const iso_sample *sample, const void *data)
+{
+    (void)data;
+    return sample->pressure;
+}
+
+iso_status iso_orbit_lost_contact(iso_orbit *o, double from, double to, bool *lost, iso_sample *sample)
+{
+    return iso_orbit_event(o, pressure, NULL, to < 0 ? 1 : -1, from, to, lost, sample);
+}
+
 double iso_orbit_reached(const iso_orbit *o)
 {
     double own_time, y[ISO_MAX_STATE];
@@ -237,7 +268,14 @@ const iso_method *iso_orbit_method(const iso_orbit *o)
 
 bool iso_orbit_has_twin(const iso_orbit *o)
 {
-    return o->h > 0 && (o->options.backend == ISO_BALL || o->model.field.energy == 0);
+    const bool potential = o->effects.on[ISO_FIELD] || o->effects.on[ISO_LEVEL];
+    return !iso_effects_breaking(&o->effects) && (o->h > 0 || potential);
+}
+
+/* Back from own units as they were brought there; up and quaternion have none. */
+iso_effects iso_orbit_effects(const iso_orbit *o)
+{
+    return iso_effects_scaled(&o->effects, &o->units, 1);
 }
 
 double iso_orbit_energy(const iso_orbit *o)
@@ -253,10 +291,9 @@ double iso_orbit_coupling(const iso_orbit *o)
 double iso_orbit_integral(const iso_orbit *o, const iso_system *system, const iso_integral *integral,
                           const iso_sample *sample, double *size)
 {
-    const bool is_ball = system == &iso_system_ball;
-    const iso_field field = {.p = o->units.own, .eps = o->eps, .energy = o->model.field.energy};
-    double own[ISO_STATE];
-    copy(is_ball ? sample->ball : sample->point, own, ISO_STATE);
-    for (int i = 0; i < 3; i++) own[i] /= is_ball ? o->units.w : o->unit_M;
-    return integral->value(&field, own, size);
+    double y[ISO_MAX_STATE];
+    iso_field field = o->model.field;
+    field.eps = o->eps;
+    iso_orbit_state_of(o, system, sample, y);
+    return integral->value(&field, y, size);
 }

@@ -18,7 +18,9 @@
 typedef struct iso_orbit iso_orbit;
 
 typedef struct iso_orbit_options {
-    iso_picture backend;      /* the model that is integrated; ISO_AUTO: that of the start                 */
+    const iso_effects *effects; /* what acts on the ball, in the caller's units; NULL: nothing             */
+    iso_picture backend;      /* the model that is integrated; ISO_AUTO: that of the start, the ball where
+                                 effects need it                                                           */
     const iso_method *method; /* NULL: iso_method_auto()                                                   */
     double tolerance;
     long max_steps;           /* after which a call fails with ISO_NUMERICAL; 0: no bound                  */
@@ -33,17 +35,23 @@ iso_orbit_options iso_orbit_defaults(const iso_start *start);
 
 /* One moment of an orbit. The numbers stand in the order of iso_trajectory_columns; what was not asked for is NaN. */
 typedef struct iso_sample {
-    double clock[ISO_CLOCKS]; /* t, tau, s: all 0 at the start  */
-    double ball[ISO_STATE];   /* omega, n                       */
-    double point[ISO_STATE];  /* M, gamma                       */
+    double clock[ISO_CLOCKS]; /* t, tau, s: all 0 at the start                            */
+    double ball[ISO_STATE];   /* omega, n                                                 */
+    double point[ISO_STATE];  /* M, gamma                                                 */
+    double vertical[3];       /* gravity                                                  */
+    double quaternion[4];     /* attitude ...                                             */
+    double contact[3], trace[3], centre[3];
+    double force[3], pressure, friction, mu, lambda; /* reactions                         */
 } iso_sample;
 
 /* Number `column` (index into iso_trajectory_columns) of a sample. */
 double iso_sample_column(const iso_sample *sample, int column);
+void iso_sample_set_column(iso_sample *sample, int column, double value);
 
-/* Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a ball at rest (h = 0) has no point,
- * a point off the level H = 0 (by more than 1e-9 of its kinetic and potential energy) has no free ball;
- * ISO_NUMERICAL where M or a clock asked for does not fit a double in the caller's units, or k is too extreme for the
+/* Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a free ball at rest (h = 0) has no point (a
+ * point's orbit has a ball at every energy, off the level H = 0 in the potential of the effect `level`, which is then
+ * added); or where an effect breaks the isomorphism (named by iso_context_field). ISO_BAD_INPUT for numbers of effects that
+ * make no sense (iso_effects_check). ISO_NUMERICAL where M or a clock asked for does not fit a double in the caller's units, or k is too extreme for the
  * powers q^(1/k) of everything but the ball in its own time; ISO_BAD_ARGUMENT, ISO_NO_MEMORY. */
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
                             const iso_orbit_options *options, iso_orbit **orbit);
@@ -63,6 +71,10 @@ iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
 iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sample *sample, const void *data), const void *data,
                            int direction, double from, double to, bool *found, iso_sample *sample);
 
+/* The first time after `from`, not after `to`, at which the support would have to pull the ball (`pressure` passes 0
+ * downwards along the way); needs the effect `reactions`. Errors: as iso_orbit_event. */
+iso_status iso_orbit_lost_contact(iso_orbit *orbit, double from, double to, bool *lost, iso_sample *sample);
+
 /* How far the integration has come, in the options' clock: for progress. */
 double iso_orbit_reached(const iso_orbit *orbit);
 
@@ -76,8 +88,11 @@ const iso_model *iso_orbit_model(const iso_orbit *orbit);
 const iso_units *iso_orbit_units(const iso_orbit *orbit);
 const iso_method *iso_orbit_method(const iso_orbit *orbit);
 
-/* Whether the orbit has both models: a moving ball, a point on the level H = 0. */
+/* Whether the orbit has both models: no effect that breaks the isomorphism, and a ball that moves. */
 bool iso_orbit_has_twin(const iso_orbit *orbit);
+
+/* The effects that act, in the caller's units: those asked for, and the level of a point off H = 0. */
+iso_effects iso_orbit_effects(const iso_orbit *orbit);
 
 /* Energy h of the ball and coupling eps of the point in the caller's units (infinite
  * or 0 where they do not fit). */

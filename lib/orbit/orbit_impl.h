@@ -9,14 +9,19 @@ struct iso_orbit {
     iso_orbit_options options;
     iso_units units;
     double unit_M, unit_clock[ISO_CLOCKS]; /* one own unit in the caller's */
-    double h, eps;                         /* own units                    */
+    double h, eps, level;                  /* own units: energies of the ball and of the point, eps */
+    iso_effects effects;                   /* own units                    */
+    double length;                         /* |b|, in the caller's units; 1 for a reduced ball */
     iso_model model;
     iso_integrator *integrator;
 };
 
-/* Sets o->units, o->h and o->eps from a start and what o->options ask for (backend not ISO_AUTO), and gives the start in
- * the backend's variables and own units, with the energy it lives on there. Errors: those of iso_orbit_create. */
-iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE],
-                                double *energy);
+/* Sets o->units, o->effects, o->h, o->eps and o->level from a start and what o->options ask for (backend not ISO_AUTO), and
+ * gives the start in the backend's variables and own units. Errors: those of iso_orbit_create. */
+iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE]);
+
+/* What effects add to a sample of the ball's model; back from a sample to the state of the whole model, own units. */
+void iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *sample);
+void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_sample *sample, double y[]);
 
 #endif

@@ -47,14 +47,28 @@ static iso_status check_powers(const iso_orbit *o)
         p->k, max3(p->J) / min3(p->J));
 }
 
-/* A ball's start in y; every ball that moves has a point. */
+/* The speed that the potentials can give the ball, in the caller's units. */
+static double falling_speed(const iso_orbit *o, const iso_params *p, const double n[3])
+{
+    const iso_field field = {.p = *p, .effects = o->effects};
+    const double y[ISO_STATE] = {0, 0, 0, n[0], n[1], n[2]};
+    const double speed = sqrt(2 * iso_effects_strength(&field, y) / max3(p->J));
+    return isfinite(speed) ? speed : 0;
+}
+
+/* A ball's start in y; every ball that moves or is moved has a point, at the energy that `level` says. */
 static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
-    set_units(o, p, largest(start->y));
+    double size;
+    set_units(o, p, fmax(largest(start->y), falling_speed(o, p, start->y + 3)));
+    o->effects = iso_effects_scaled(&o->effects, &o->units, -1);
     copy(start->y, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= o->units.w;
-    o->h = iso_ball_energy(&o->units.own, y);
+    iso_field field = {.p = o->units.own, .effects = o->effects};
+    field.effects.on[ISO_GRAVITY] = false; /* its twin has no gravity, and its h is not asked for */
+    o->h = iso_system_ball.integrals[0].value(&field, y, &size);
     o->eps = iso_coupling(&o->units.own, o->h);
+    o->level = o->effects.on[ISO_LEVEL] ? iso_coupling(&o->units.own, o->effects.level) : 0;
 }
 
 /* The speed of the ball whose M has the size that M reaches on this potential: w^2 = (k^2/(det J J)) times the larger of
@@ -68,31 +82,68 @@ static double point_speed(const iso_params *p, const iso_start *start)
     return exp2(fmin(fmax(moving, falling) + log2(fabs(p->k)) - 2 * log_J, 1000));
 }
 
-/* A point's start in y; gives the level H it lives on, 0 if it is that to 1e-9, and the size of the terms of H. */
-static double start_point(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE],
-                          double *size)
+/* The point's coupling, stated or such that H is the level stated (or 0); and its level H, which is the one stated if it
+ * is that to 1e-9 of its terms. False: it is not. */
+static bool find_level(iso_orbit *o, const iso_start *start, iso_field *field, double y[ISO_STATE])
 {
-    set_units(o, p, point_speed(p, start));
-    copy(start->y, y, ISO_STATE);
-    for (int i = 0; i < 3; i++) y[i] /= o->unit_M;
-    iso_field field = {.p = o->units.own, .eps = start->eps / iso_unit(&o->units, iso_dimension_eps)};
-    if (isnan(start->eps)) field.eps = iso_coupling(&field.p, iso_point_energy(&field.p, y));
-    o->eps = field.eps;
-    o->h = iso_energy(&field.p, field.eps);
-    const double H = iso_system_point.integrals[0].value(&field, y, size);
-    if (fabs(H) > 1e-9 * *size) return H;
-    iso_system_point.project(&field, y);
-    return 0;
+    const bool stated = o->effects.on[ISO_LEVEL];
+    const double level = stated ? iso_coupling(&field->p, o->effects.level) : 0;
+    double size;
+    o->level = level;
+    field->energy = level;
+    if (isnan(start->eps)) {
+        field->eps = 0;
+        const double rest =
+            iso_system_point.integrals[0].value(field, y, &size) - level; /* M^2/2 + V of the effects */
+        field->eps = rest * pow(dot_diag(y + 3, field->p.J, y + 3), 1 / field->p.k);
+        return true;
+    }
+    field->eps = start->eps / iso_unit(&o->units, iso_dimension_eps);
+    const double H = iso_system_point.integrals[0].value(field, y, &size);
+    if (fabs(H - level) <= 1e-9 * fmax(size, fabs(level))) return iso_system_point.project(field, y), true;
+    o->level = H;
+    return !stated;
 }
 
-static iso_status refuse_level(iso_context *ctx, double H, double size)
+/* A point's start in y. Off the level H = 0 its ball lives in the potential of `level`. */
+static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
-    return iso_context_fail(
-        ctx, ISO_NOT_MAPPED, "M",
-        "this point has energy H = %.6g of M^2/2 + |V|, and only on the level H = 0 is it the twin "
-        "of a free ball: change M or eps, or leave eps out to have the one that fits; or stay with "
-        "the point (backend point, as point)",
-        H / size);
+    set_units(o, p, fmax(point_speed(p, start), falling_speed(o, p, start->y + 3)));
+    o->effects = iso_effects_scaled(&o->effects, &o->units, -1);
+    copy(start->y, y, ISO_STATE);
+    for (int i = 0; i < 3; i++) y[i] /= o->unit_M;
+    iso_field field = {.p = o->units.own, .effects = o->effects};
+    const double stated = o->effects.level;
+    const bool agrees = find_level(o, start, &field, y);
+    o->eps = field.eps;
+    o->h = iso_energy(&field.p, field.eps);
+    o->effects.on[ISO_LEVEL] = o->level != 0;
+    o->effects.level = iso_energy(&field.p, o->level);
+    if (agrees) return ISO_OK;
+    const double unit = iso_unit(&o->units, iso_effect_list[ISO_LEVEL]->numbers->dimension);
+    return iso_context_fail(o->ctx, ISO_BAD_INPUT, "c",
+                            "level: this point has the energy of c = %.17g, not of c = %.17g: leave c out, or eps",
+                            o->effects.level * unit, stated * unit);
+}
+
+/* --- what effects allow --------------------------------------------------------------------------------------------- */
+
+static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_start *start)
+{
+    iso_effects *e = &o->effects;
+    const iso_effect *breaking = iso_effects_breaking(e);
+    const bool point = o->options.backend == ISO_POINT || o->options.show != ISO_BALL || start->model == ISO_POINT;
+    const double *n = start->y + 3; /* a point's gamma: only gravity asks, which a point has not */
+    if (start->model == ISO_POINT && isnan(e->level)) e->on[ISO_LEVEL] = false; /* as it comes */
+    if (breaking && point)
+        return iso_context_fail(o->ctx, ISO_NOT_MAPPED, breaking->name,
+                                "'%s' breaks the isomorphism: %s. There is no such point; the ball alone can be had",
+                                breaking->name, breaking->breaks);
+    for (int id = ISO_ATTITUDE; id <= ISO_REACTIONS; id++)
+        if (e->on[id] && o->options.backend == ISO_POINT)
+            return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, iso_effect_list[id]->name,
+                                    "'%s' is the ball's: take backend ball", iso_effect_list[id]->name);
+    return iso_effects_check(o->ctx, p, n, e);
 }
 
 /* What an orbit is asked for decides what must exist: the ball, the point, powers of q. */
@@ -112,31 +163,35 @@ static needs what_is_needed(const iso_orbit_options *opt, const iso_start *start
     };
 }
 
-iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE],
-                                double *energy)
+iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
     const iso_picture backend = o->options.backend;
     const needs need = what_is_needed(&o->options, start);
-    double level = 0, size = 0;
     if (!all_finite(start->y, ISO_STATE) || (start->model == ISO_POINT && isinf(start->eps)))
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "the start is not finite");
+    if (o->options.effects) o->effects = *o->options.effects;
+    o->length = p->body.surface == ISO_REDUCED ? 1 : p->body.radius;
+    iso_status status = check_effects(o, p, start);
+    if (status != ISO_OK) return status;
     set_units(o, p, 0);
-    iso_status status = need.powers ? check_powers(o) : ISO_OK;
+    status = need.powers ? check_powers(o) : ISO_OK;
     if (status != ISO_OK) return status;
     if (start->model == ISO_BALL)
         start_ball(o, p, start, y);
     else
-        level = start_point(o, p, start, y, &size);
-    if (start->model == ISO_BALL && o->h == 0 && need.point)
+        status = start_point(o, p, start, y);
+    if (status != ISO_OK) return status;
+    if (start->model == ISO_BALL && o->h == 0 && need.point && !iso_orbit_has_twin(o))
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, "angular_velocity",
                                 "a ball at rest (h = 0) has no twin: the point's potential would vanish");
-    if (level != 0 && need.ball) return refuse_level(o->ctx, level, size);
     status = check_units(o, start);
     if (status != ISO_OK) return status;
     if (backend == ISO_POINT && start->model == ISO_BALL) iso_ball_to_point(&o->units.own, y, y);
     if (backend == ISO_BALL && start->model == ISO_POINT) iso_point_to_ball(&o->units.own, y, y);
-    *energy = backend == ISO_BALL ? o->h : level;
-    if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps))) return ISO_OK;
+    const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
+    if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps)) &&
+        (!level || !o->effects.on[ISO_LEVEL] || isfinite(o->effects.level)))
+        return ISO_OK;
     return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
                             "the start is out of the range of doubles in the ball's own units");
 }

@@ -6,8 +6,20 @@
 #include "base/vec3_impl.h"
 
 const char *const iso_trajectory_columns[ISO_TRAJECTORY_COLUMNS] = {
-    "t", "tau", "s", "omega1", "omega2", "omega3", "n1", "n2", "n3", "M1", "M2", "M3", "gamma1", "gamma2", "gamma3",
+    "t",       "tau", "s",        "omega1",   "omega2",   "omega3",   "n1",     "n2",     "n3",      "M1",
+    "M2",      "M3",  "gamma1",   "gamma2",   "gamma3",   "e1",       "e2",     "e3",     "q0",      "q1",
+    "q2",      "q3",  "contact1", "contact2", "contact3", "trace1",   "trace2", "trace3", "centre1", "centre2",
+    "centre3", "N1",  "N2",       "N3",       "pressure", "friction", "mu",     "lambda",
 };
+
+iso_effect_id iso_column_effect(int column)
+{
+    const int first[] = {ISO_COLUMN_EFFECTS, ISO_COLUMN_EFFECTS + 3, ISO_COLUMN_EFFECTS + 16};
+    return column < first[0]   ? ISO_EFFECTS
+           : column < first[1] ? ISO_GRAVITY
+           : column < first[2] ? ISO_ATTITUDE
+                               : ISO_REACTIONS;
+}
 
 const char *iso_picture_name(int picture)
 {
@@ -16,7 +28,7 @@ const char *iso_picture_name(int picture)
 }
 
 /* A unit vector and a vector orthogonal to it, from numbers typed by hand. */
-static iso_status check_pair(iso_context *ctx, const char *unit_name, const char *vector_name, bool project,
+static iso_status check_pair(iso_context *ctx, const char *unit_name, const char *vector_name, iso_spin spin,
                              double unit[3], double vector[3])
 {
     for (int i = 0; i < 3; i++) {
@@ -34,11 +46,11 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
             unit[0] / length, unit[1] / length, unit[2] / length);
     make_unit(unit);
     const double most = largest(vector);
-    if (most == 0) return ISO_OK;
+    if (most == 0 || spin == ISO_SPIN_KEEP) return ISO_OK;
     const double size = ldexp(1, ilogb(most)); /* a power of two: dividing by it rounds nothing */
     double v[3] = {vector[0] / size, vector[1] / size, vector[2] / size}; /* no overflow in the products */
     const double along = remove_along(v, unit);
-    if (!project && fabs(along) > 1e-9 * hypot(norm(v), along))
+    if (spin == ISO_SPIN_REFUSE && fabs(along) > 1e-9 * hypot(norm(v), along))
         return iso_context_fail(ctx, ISO_BAD_INPUT, vector_name,
                                 "%s has a part %.6g along %s, it must be orthogonal to it (to 1e-9): write "
                                 "[%.17g, %.17g, %.17g], or 'project: true'",
@@ -48,13 +60,13 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
     return ISO_OK;
 }
 
-iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], bool project,
+iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], iso_spin spin,
                           iso_start *start)
 {
     *start = (iso_start){.model = ISO_BALL};
     copy(omega, start->y, 3);
     copy(normal, start->y + 3, 3);
-    return check_pair(ctx, "normal", "angular_velocity", project, start->y + 3, start->y);
+    return check_pair(ctx, "normal", "angular_velocity", spin, start->y + 3, start->y);
 }
 
 iso_status iso_start_point(iso_context *ctx, const double M[3], const double gamma[3], const double *eps,
@@ -65,7 +77,7 @@ iso_status iso_start_point(iso_context *ctx, const double M[3], const double gam
     copy(gamma, start->y + 3, 3);
     if (eps && !isfinite(*eps))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "eps = %g: the coupling must be finite", *eps);
-    return check_pair(ctx, "gamma", "M", project, start->y + 3, start->y);
+    return check_pair(ctx, "gamma", "M", project ? ISO_SPIN_REMOVE : ISO_SPIN_REFUSE, start->y + 3, start->y);
 }
 
 iso_scene iso_scene_default(void)
@@ -94,21 +106,51 @@ double iso_scene_time(const iso_scene *scene, size_t row)
     return scene->end * ((double)row / 100);
 }
 
-/* The columns of a picture are runs of the list: t, omega, n; s, M, gamma; or all of it. */
-int iso_scene_columns(const iso_scene *scene, int columns[])
+/* A column that the scene's effects fill; mu only where something presses the ball to the support. */
+static bool is_filled(const iso_scene *scene, int column)
+{
+    const iso_effect_id effect = iso_column_effect(column);
+    const bool weightless = scene->params.k == 1 && !scene->effects.on[ISO_GRAVITY];
+    if (effect == ISO_EFFECTS) return true;
+    return scene->effects.on[effect] && !(weightless && strcmp(iso_trajectory_columns[column], "mu") == 0);
+}
+
+/* The columns of a picture are runs of the list: t, omega, n; s, M, gamma; or all of it; the ball's with those of effects. */
+static bool is_default(const iso_scene *scene, int c)
 {
     const iso_picture as = scene->as == ISO_AUTO ? scene->start.model : scene->as;
+    const bool ball = c == ISO_CLOCK_T || (c >= ISO_COLUMN_BALL && c < ISO_COLUMN_POINT) || c >= ISO_COLUMN_EFFECTS;
+    const bool point = c == ISO_CLOCK_S || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
+    if (!is_filled(scene, c)) return false;
+    if (c < ISO_CLOCKS && scene->effects.on[ISO_CLOCK]) return true;
+    return as == ISO_BOTH || (as == ISO_BALL && ball) || (as == ISO_POINT && point);
+}
+
+int iso_scene_columns(const iso_scene *scene, int columns[])
+{
     int count = 0;
     for (size_t i = 0; i < scene->columns; i++)
         for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++)
             if (strcmp(scene->column[i], iso_trajectory_columns[c]) == 0) columns[count++] = c;
-    if (count > 0) return count;
-    for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) {
-        const bool ball = c == ISO_CLOCK_T || (c >= ISO_COLUMN_BALL && c < ISO_COLUMN_POINT);
-        const bool point = c == ISO_CLOCK_S || c >= ISO_COLUMN_POINT;
-        if (as == ISO_BOTH || (as == ISO_BALL && ball) || (as == ISO_POINT && point)) columns[count++] = c;
-    }
+    for (int c = 0; scene->columns == 0 && c < ISO_TRAJECTORY_COLUMNS; c++)
+        if (is_default(scene, c)) columns[count++] = c;
     return count;
+}
+
+iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene)
+{
+    int columns[ISO_MAX_COLUMNS];
+    const int count = iso_scene_columns(scene, columns);
+    for (int i = 0; i < count; i++) {
+        const iso_effect_id effect = iso_column_effect(columns[i]);
+        if (is_filled(scene, columns[i])) continue;
+        if (scene->effects.on[effect])
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
+                                    "column 'mu': without gravity nothing presses the ball to the plane");
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "column '%s' needs the effect '%s'",
+                                iso_trajectory_columns[columns[i]], iso_effect_list[effect]->name);
+    }
+    return ISO_OK;
 }
 
 iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status)

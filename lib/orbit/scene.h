@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "../model/system.h"
+#include "../model/effect.h"
 
 /* The two models an orbit can be computed in, or shown in. */
 typedef enum iso_picture { ISO_BALL, ISO_POINT, ISO_BOTH, ISO_AUTO } iso_picture;
@@ -24,10 +24,16 @@ typedef struct iso_start {
                             the point has a free ball; not read for a ball                               */
 } iso_start;
 
-/* Makes a valid start of a ball. The normal is made a unit vector if its length is within 1e-6 of 1; spin about the
- * normal, (omega, n), is removed if it is at most 1e-9 |omega|, or whatever it is when `project` is set.
+/* What to do with the spin about the normal, (omega, n): a rubber ball has none. */
+typedef enum iso_spin {
+    ISO_SPIN_REFUSE, /* above 1e-9 |omega|; removed below it          */
+    ISO_SPIN_REMOVE, /* whatever it is                                */
+    ISO_SPIN_KEEP    /* the ball is free to twist: the effect `twist` */
+} iso_spin;
+
+/* Makes a valid start of a ball. The normal is made a unit vector if its length is within 1e-6 of 1.
  * Errors: ISO_BAD_INPUT about "normal" or "angular_velocity", saying what to write instead. */
-iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], bool project,
+iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], iso_spin spin,
                           iso_start *start);
 
 /* Makes a valid start of a point: |gamma| within 1e-6 of 1, (M, gamma) at most 1e-9 |M| (or `project`).
@@ -36,7 +42,7 @@ iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double 
 iso_status iso_start_point(iso_context *ctx, const double M[3], const double gamma[3], const double *eps, bool project,
                            iso_start *start);
 
-enum { ISO_MAX_COLUMNS = 32, ISO_NAME_SIZE = 32, ISO_MAX_PLACES = 24 };
+enum { ISO_MAX_COLUMNS = 64, ISO_NAME_SIZE = 32, ISO_MAX_PLACES = 48 };
 
 /* Where a scene file has the value of a key: line and column from 1. */
 typedef struct iso_place {
@@ -47,6 +53,7 @@ typedef struct iso_place {
 typedef struct iso_scene {
     iso_params params;
     iso_start start;
+    iso_effects effects;        /* what acts on the ball beyond (9), or is asked of it                     */
     double end;                 /* last time, in t for a ball's start, in s for a point's; < 0: backwards  */
     double step;                /* between output rows, > 0; 0: a hundredth of |end|                       */
     iso_picture backend;        /* the model that is integrated: ISO_BALL, ISO_POINT, ISO_AUTO             */
@@ -77,9 +84,31 @@ double iso_scene_time(const iso_scene *scene, size_t row);
  * ISO_MAX_COLUMNS. */
 int iso_scene_columns(const iso_scene *scene, int columns[]);
 
-/* Every column a trajectory can have, in file order: t tau s omega1..3 n1..3 M1..3 gamma1..3; the clocks stand first,
- * then the states of the ball and of the point. */
-enum { ISO_COLUMN_BALL = ISO_CLOCKS, ISO_COLUMN_POINT = ISO_CLOCKS + ISO_STATE, ISO_TRAJECTORY_COLUMNS = 15 };
+/* Every column a trajectory can have, in file order: the clocks, the states of the ball and of the point, then what
+ * effects add:
+ *     t tau s   omega1..3 n1..3   M1..3 gamma1..3
+ *     e1..3                        gravity: vertical, in body axes
+ *     q0..3                        attitude: quaternion from body to space axes
+ *     contact1..3                  attitude: contact point in space: a R n from the fixed sphere's centre; on a plane from
+ *                                  the first contact
+ *     trace1..3                    attitude: contact point on the ball, -b n in body axes
+ *     centre1..3                   attitude: centre of the ball in space, likewise
+ *     N1..3                        reactions: contact force, in body axes
+ *     pressure friction mu lambda  reactions: its part that pushes the ball off the support, the size of the rest, the
+ *                                  friction coefficient needed, the twist torque
+ * Lengths and forces of a reduced scene are those of a ball with |b| = 1. */
+enum {
+    ISO_COLUMN_BALL = ISO_CLOCKS,
+    ISO_COLUMN_POINT = ISO_COLUMN_BALL + ISO_STATE,
+    ISO_COLUMN_EFFECTS = ISO_COLUMN_POINT + ISO_STATE,
+    ISO_TRAJECTORY_COLUMNS = ISO_COLUMN_EFFECTS + 3 + 4 + 9 + 7
+};
 extern const char *const iso_trajectory_columns[ISO_TRAJECTORY_COLUMNS];
+
+/* The effect that a column needs; ISO_EFFECTS: none. */
+iso_effect_id iso_column_effect(int column);
+
+/* Errors: ISO_BAD_INPUT about "columns" when one of the scene's needs an effect that the scene has not. */
+iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene);
 
 #endif

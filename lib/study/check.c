@@ -12,6 +12,7 @@ typedef struct checker {
     iso_context *ctx;
     const iso_params *params;
     const iso_record *record;
+    iso_effects effects;
     double tolerance;
     int columns[ISO_TRAJECTORY_COLUMNS]; /* of the record, -1: not there */
     double span[ISO_CLOCKS];             /* largest |clock| in the record */
@@ -57,6 +58,14 @@ static void read_state(const checker *c, iso_picture model, size_t row, double y
     for (int i = 0; i < ISO_STATE; i++) y[i] = x[c->columns[first_column[model] + i]];
 }
 
+/* What the record has of a sample; NaN for the rest. */
+static void read_sample(const checker *c, size_t row, iso_sample *sample)
+{
+    const double *x = iso_record_const_row(c->record, row);
+    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
+        iso_sample_set_column(sample, i, c->columns[i] < 0 ? NAN : x[c->columns[i]]);
+}
+
 static double read_clock(const checker *c, int clock, size_t row)
 {
     return iso_record_const_row(c->record, row)[c->columns[clock]];
@@ -67,18 +76,21 @@ static double read_clock(const checker *c, int clock, size_t row)
 static void check_integrals(checker *c, iso_picture model, const iso_orbit *first)
 {
     const iso_system *system = system_of(model);
+    const double claimed = c->effects.on[ISO_LEVEL] ? iso_orbit_model(first)->field.energy : 0;
     const bool twin = c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || has_model(c, ISO_BALL);
     char name[sizeof c->out->residual[0].name];
-    for (const iso_integral *i = system->integrals; i->name; i++) {
-        if (i->holds && !i->holds(c->params)) continue;
-        const bool level =
-            twin && strcmp(i->name, "H") == 0; /* only on H = 0 a point has the ball the record claims */
-        double expected = i->known == ISO_ONE ? 1 : 0;
+    const iso_integral *list[ISO_MAX_INTEGRALS];
+    const int count = iso_integrals_holding(system, &iso_orbit_model(first)->field, list, ISO_MAX_INTEGRALS);
+    for (int n = 0; n < count; n++) {
+        const iso_integral *i = list[n];
+        /* a point has the ball the record claims only on H = 0, or on the level the record names */
+        const bool level = twin && strcmp(i->name, "H") == 0;
+        double expected = i->known == ISO_ONE ? 1 : level ? claimed : 0;
         snprintf(name, sizeof name, "%s %s", system->name, i->name);
         for (size_t row = 0; row < iso_record_rows(c->record); row++) {
             iso_sample sample;
             double size;
-            read_state(c, model, row, model == ISO_BALL ? sample.ball : sample.point);
+            read_sample(c, row, &sample);
             const double value = iso_orbit_integral(first, system, i, &sample, &size);
             if (row == 0 && i->known == ISO_ANY_VALUE && !level) expected = value;
             note(c, name, i->doc, value == expected ? 0 : (value - expected) / size, row);
@@ -114,10 +126,12 @@ static int clock_to_follow(const checker *c, iso_picture model)
 static iso_status next_sample(const checker *c, iso_picture model, int clock, size_t row, iso_sample *sample)
 {
     iso_start start;
+    iso_effects effects = c->effects;
     iso_orbit *orbit;
-    iso_status status = iso_record_start(c->ctx, c->record, c->params, model, row, &start);
+    iso_status status = iso_record_start(c->ctx, c->record, c->params, model, row, &start, &effects);
     if (status != ISO_OK) return status;
     iso_orbit_options o = iso_orbit_defaults(&start);
+    o.effects = &effects;
     o.tolerance = c->tolerance;
     o.clock = (iso_clock)clock;
     o.max_steps = ISO_MAX_ROW_STEPS;
@@ -135,6 +149,18 @@ static iso_status next_sample(const checker *c, iso_picture model, int clock, si
     return iso_context_fail(c->ctx, status, "", "row %zu: %s", row + 1, iso_context_message(c->ctx));
 }
 
+/* What turns with the ball, vertical and quaternion, in row `row` and after the flow from the row before. */
+static void check_turning(checker *c, const iso_sample *flow, size_t row)
+{
+    iso_sample there;
+    double error[2] = {0};
+    read_sample(c, row, &there);
+    for (int i = 0; i < 3; i++) error[0] = fmax(error[0], fabs(flow->vertical[i] - there.vertical[i]));
+    for (int i = 0; i < 4; i++) error[1] = fmax(error[1], fabs(flow->quaternion[i] - there.quaternion[i]));
+    if (c->effects.on[ISO_GRAVITY]) note(c, "vertical flow", "e, each row integrated to the next", error[0], row);
+    if (c->effects.on[ISO_ATTITUDE]) note(c, "attitude flow", "q, each row integrated to the next", error[1], row);
+}
+
 static iso_status check_step(checker *c, iso_picture model, int clock, size_t row)
 {
     iso_sample sample;
@@ -146,6 +172,7 @@ static iso_status check_step(checker *c, iso_picture model, int clock, size_t ro
     snprintf(name, sizeof name, "%s flow", iso_picture_name((int)model));
     note(c, name, "each row integrated to the next", distance(model == ISO_BALL ? sample.ball : sample.point, next),
          row + 1);
+    check_turning(c, &sample, row + 1);
     for (int k = 0; k < ISO_CLOCKS; k++) {
         if (k == clock || c->columns[k] < 0 || isnan(sample.clock[k])) continue;
         snprintf(name, sizeof name, "clock %s", iso_clock_name((iso_clock)k));
@@ -186,13 +213,15 @@ static void check_map(checker *c)
 static iso_status check_model(checker *c, iso_picture model)
 {
     iso_start start;
+    iso_effects effects = c->effects;
     iso_orbit *first;
     iso_status status = ISO_OK;
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(c->record); row++)
-        status = iso_record_start(c->ctx, c->record, c->params, model, row, &start);
-    if (status == ISO_OK) status = iso_record_start(c->ctx, c->record, c->params, model, 0, &start);
+        status = iso_record_start(c->ctx, c->record, c->params, model, row, &start, &effects);
+    if (status == ISO_OK) status = iso_record_start(c->ctx, c->record, c->params, model, 0, &start, &effects);
     if (status != ISO_OK) return status;
-    const iso_orbit_options o = iso_orbit_defaults(&start);
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    o.effects = &effects;
     status = iso_orbit_create(c->ctx, c->params, &start, &o, &first);
     if (status != ISO_OK) return status;
     check_integrals(c, model, first);
@@ -221,6 +250,8 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
     for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
         c.columns[i] = iso_record_find(record, iso_trajectory_columns[i]);
     iso_status status = measure_clocks(&c);
+    if (status == ISO_OK) status = iso_record_effects(ctx, record, &c.effects);
+    if (c.columns[ISO_COLUMN_EFFECTS + 3] < 0) c.effects.on[ISO_ATTITUDE] = false; /* it acts on nothing */
     if (status != ISO_OK) return status;
     const bool ball = has_model(&c, ISO_BALL), point = has_model(&c, ISO_POINT);
     if (!ball && !point)

@@ -17,6 +17,7 @@ static double processor_seconds(void)
 typedef struct runner {
     iso_context *ctx;
     const iso_scene *scene;
+    iso_effects effects; /* those that act */
     iso_comparison *out;
     iso_orbit *orbit[ISO_BACKENDS];
     double at_start[ISO_BACKENDS][ISO_MAX_INTEGRALS]; /* the integrals, in own units */
@@ -36,15 +37,18 @@ static void list_drifts(runner *r, iso_picture backend, const iso_sample *start)
     const iso_orbit *orbit = r->orbit[backend];
     const iso_units *units = iso_orbit_units(orbit);
     iso_backend_run *run = &r->out->run[backend];
-    for (int s = 0; iso_systems[s]; s++)
-        for (const iso_integral *i = iso_systems[s]->integrals; i->name; i++) {
+    for (int s = 0; iso_systems[s]; s++) {
+        const iso_integral *list[ISO_MAX_INTEGRALS];
+        const int count = iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->field, list,
+                                                ISO_MAX_INTEGRALS - run->drifts);
+        for (int i = 0; i < count; i++) {
             double size;
-            if ((i->holds && !i->holds(&units->own)) || run->drifts == ISO_MAX_INTEGRALS) continue;
-            const double own = iso_orbit_integral(orbit, iso_systems[s], i, start, &size);
-            const double users = own == 0 ? 0 : own * iso_unit(units, i->dimension);
+            const double own = iso_orbit_integral(orbit, iso_systems[s], list[i], start, &size);
+            const double users = own == 0 ? 0 : own * iso_unit(units, list[i]->dimension);
             r->at_start[backend][run->drifts] = own;
-            run->drift[run->drifts++] = (iso_drift){iso_systems[s], i, users, 0};
+            run->drift[run->drifts++] = (iso_drift){iso_systems[s], list[i], users, 0};
         }
+    }
 }
 
 static void follow_drifts(const runner *r, iso_picture backend, const iso_sample *sample)
@@ -65,8 +69,9 @@ static iso_status open_backend(runner *r, iso_picture backend)
 {
     iso_backend_run *run = &r->out->run[backend];
     iso_orbit_options o = iso_orbit_defaults(&r->scene->start);
-    iso_status status = iso_record_create(r->ctx, ISO_TRAJECTORY_COLUMNS, iso_trajectory_columns, &run->trajectory);
+    iso_status status = iso_record_create(r->ctx, ISO_COLUMN_EFFECTS, iso_trajectory_columns, &run->trajectory);
     if (status != ISO_OK) return status;
+    o.effects = &r->effects;
     o.backend = backend;
     o.method = iso_method_find(r->scene->method);
     if (!o.method && strcmp(r->scene->method, "auto") != 0)
@@ -80,6 +85,7 @@ static iso_status open_backend(runner *r, iso_picture backend)
     run->seconds = processor_seconds() - begin;
     run->method = iso_orbit_method(r->orbit[backend]);
     r->out->clock = o.clock;
+    r->out->effects = iso_orbit_effects(r->orbit[backend]);
     r->out->h = iso_orbit_energy(r->orbit[backend]);
     r->out->eps = iso_orbit_coupling(r->orbit[backend]);
     return ISO_OK;
@@ -96,7 +102,7 @@ static iso_status take_row(runner *r, iso_picture backend, size_t i)
     run->statistics = iso_orbit_statistics(r->orbit[backend]);
     if (status == ISO_OK) status = iso_record_append(r->ctx, run->trajectory, &row);
     if (status != ISO_OK) return status;
-    for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) row[c] = iso_sample_column(&sample, c);
+    for (int c = 0; c < ISO_COLUMN_EFFECTS; c++) row[c] = iso_sample_column(&sample, c);
     if (i == 0) list_drifts(r, backend, &sample);
     follow_drifts(r, backend, &sample);
     return ISO_OK;
@@ -168,7 +174,9 @@ iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress
 {
     iso_comparison *c = *comparison = calloc(1, sizeof *c);
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a comparison");
-    runner r = {.ctx = ctx, .scene = scene, .out = c};
+    runner r = {.ctx = ctx, .scene = scene, .effects = scene->effects, .out = c};
+    for (int e = ISO_ATTITUDE; e < ISO_EFFECTS; e++)
+        r.effects.on[e] = false; /* they act on nothing; the point has none */
     iso_status status = open_backend(&r, ISO_BALL);
     if (status == ISO_OK) status = open_backend(&r, ISO_POINT);
     if (status == ISO_OK) status = take_rows(&r, progress, data);

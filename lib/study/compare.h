@@ -11,7 +11,7 @@
 #include "../base/record.h"
 #include "../orbit/orbit.h"
 
-enum { ISO_BACKENDS = 2, ISO_MAX_INTEGRALS = 16 };
+enum { ISO_BACKENDS = 2 };
 
 /* One integral along one backend's orbit, in the model of `system`. */
 typedef struct iso_drift {
@@ -36,6 +36,7 @@ typedef struct iso_backend_run {
 enum { ISO_DIFFERENCES = 7 };
 
 typedef struct iso_comparison {
+    iso_effects effects; /* that act, in the scene's units: those of the scene, and the level of a point off H = 0 */
     iso_clock clock;                   /* in which the scene counts its times: t or s                    */
     double h, eps;                     /* energy and coupling in the caller's units                      */
     iso_backend_run run[ISO_BACKENDS]; /* [ISO_BALL], [ISO_POINT]                                        */

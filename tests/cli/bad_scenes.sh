@@ -33,4 +33,4 @@ for file in "$here"/bad/*.yaml; do
 done
 
 echo "$files bad scenes, $failures failures"
-[ "$files" -ge 40 ] && [ "$failures" -eq 0 ]
+[ "$files" -ge 200 ] && [ "$failures" -eq 0 ]

@@ -18,20 +18,40 @@ done
 run 0 check --max 1e-9 back.csv
 grep -v '^#' ball.csv >bare.csv
 run 0 check --max 1e-9 bare.csv --k=-1 --J 1.4,2.1,3
-# a point off the level H = 0: its file says its eps, solves its own model, and has no ball
-for eps in 0 1e-320 -0.5 3; do
+# a point off the level H = 0: its file says its eps and its level, c = H k^2/det J, by which it has a ball
+while read -r eps c; do
     cat >off.yaml <<END
 point: {k: -1, J: [1, 1.5, 2], eps: $eps}
 initial: {gamma: [0.6, 0, 0.8], M: [0.64, 1, -0.48]}
 time: {end: 10, step: 1}
 END
-    "$isoroll" run off.yaml >off.csv
-    run 0 check --max 1e-9 off.csv
-    refuses 3 "off the level H = 0" convert --to ball off.csv
-    refuses 3 "off.yaml:2:36: this point has energy" compare off.yaml
+    for as in point ball both; do
+        run 0 run off.yaml --as $as -o off_$as.csv
+        check "eps = $eps: the line effects" grep -qx '# effects: level' off_$as.csv
+        at_most "eps = $eps: c of off_$as.csv" \
+            "$(sed -n 's/^# level.c: //p' off_$as.csv | awk -v c="$c" '{ print ($1 > c ? $1 - c : c - $1) }')" 1e-9
+        run 0 check --max 1e-11 off_$as.csv
+        silent
+        grep -v '^# \(level\|effects\)' off_$as.csv >damaged.csv
+        wanted=1
+        [ "$as" != point ] || ! grep -q '^# eps' damaged.csv || wanted=0 # a point with its eps needs no level
+        run $wanted check --max 1e-3 damaged.csv
+    done
+    run 0 convert --to ball off_point.csv -o converted.csv
+    run 0 check --max 1e-11 converted.csv
+    at_most "eps = $eps: converted and integrated" "$(difference converted.csv off_both.csv)" 1e-11
+    run 0 compare off.yaml --json
+    at_most "eps = $eps: compared" "$(awk -F'[:,]' '/"worst_difference"/ { inside = 1 }
+        inside && NF > 1 && $2 ~ /^ [0-9]/ { n++; if ($2 + 0 > worst) worst = $2 + 0 }
+        /}/ { inside = 0 } END { print (n == 6 ? worst : "none") }' out)" 1e-11
     run 0 explain off.yaml
-    check "explain says there is no ball" grep -q "the twin of no free ball" out
-done
+    check "explain says at which level" grep -q "the point is off the level H = 0, at H = c det J/k^2" out
+done <<END
+0 0.273333333333
+1e-320 0.273333333333
+-0.5 0.546666666667
+3 -1.366666666667
+END
 cat both.csv | "$isoroll" check --max 1e-9 >out
 check "from standard input" test $? -eq 0
 
@@ -121,14 +141,14 @@ refuses 3 "--k K" check bare.csv
 # --- explain
 run 0 explain scene.yaml
 silent
-for words in "k = -1, J = 1.3999999999999999" "Neumann's problem" "backend ball, 6 states, in the clock t" "  omega1  angular velocity" \
+for words in "k = -1, J = 1.3999999999999999" "Neumann's problem" "backend ball, 6 states, in the clock t" "  omega1 omega2 omega3   angular velocity" \
     "method rk8pd" "energy of the ball h = 0.7374375" "11 rows to t = 10, columns t omega1" "integrals that hold" "F_shell" \
     "integrals that do not hold" "cost of a right-hand side: "; do
     check "explain: $words" grep -F -q -e "$words" out
 done
 check_not "explain: no clock without a column" grep -q "because a column asks" out
 run 0 explain scene.yaml --as both --backend point
-for words in "backend point" "  M1 " "  gamma3 " "  s       clock, because a column asks for it"; do
+for words in "backend point" "  M1 M2 M3 " " gamma3 " "  tau s                  clock, because a column asks for it"; do
     check "explain --as both --backend point: $words" grep -F -q -e "$words" out
 done
 refuses 2 "unknown or ambiguous option" explain scene.yaml --rows 3

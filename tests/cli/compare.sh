@@ -51,7 +51,8 @@ END
 compares "a ball" scene.yaml
 compares "a point, backwards" point.yaml
 for file in "$source"/examples/*/scene.yaml; do
-    [ ! -f "$file" ] || compares "${file#"$source/"}" "$file"
+    [ -f "$file" ] && "$isoroll" explain "$file" | grep -q '^  holds: ' || continue # an effect breaks the isomorphism
+    compares "${file#"$source/"}" "$file"
 done
 
 run 0 compare scene.yaml --rows 2

@@ -111,7 +111,7 @@ refuses 3 "already" convert --to point point.csv
 sed -e 's/^# h: .*/# h: 5/' -e 's/^# eps: .*/# eps: 7/' ball.csv >wrong.csv
 check "wrong h and eps" "$isoroll" convert --to point wrong.csv -o wrong_point.csv
 check "do not travel on" "$isoroll" convert --to ball wrong_point.csv
-refuses 3 "off the level H = 0" convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3
+refuses 3 "row 2: the energy of this point is not that of the rows before" convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3
 refuses 5 "cannot open" convert --to ball absent.csv
 refuses 5 "cannot read" convert --to ball .
 sed 's/^[0-9].*/0,0,0,0,0.6,0,0.8/' ball.csv | awk '!/^0/ || !n++' >rest.csv

@@ -1,0 +1,13 @@
+/* attitude_impl.h - how the ball stands in space: the states of the effect `attitude`, for other effects to read. */
+#ifndef ISO_MODEL_ATTITUDE_IMPL_H
+#define ISO_MODEL_ATTITUDE_IMPL_H
+
+#include "model/field.h"
+
+/* The vector v of body axes in space axes, by the quaternion Q (its rotation times |Q|^2). */
+void iso_turn_to_space(const double Q[4], const double v[3], double in_space[3]);
+
+/* On a plane: the way of the centre in space axes since time 0, in units of b. */
+const double *iso_way(const iso_field *f, const double y[]);
+
+#endif

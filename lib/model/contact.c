@@ -1,0 +1,153 @@
+/* contact.c - the ball's w' under torques: with a contact that cannot twist, and with one that can.
+ *
+ * rigid: with x = J w x w + T, u = J^-1 n, g = (n,u)
+ *
+ *     w' = J^-1 x + lambda u,     lambda = -(x,u)/g                          so that (w',n) = 0
+ *
+ * loose: with s = (w,n), A = J - D n n^T, and (w,n') = 0
+ *
+ *     A w' = x,     x = K x w + T + D s n'
+ *     A^-1 x = J^-1 x + D (u,x)/(1 - D g) u                                  (Sherman-Morrison)
+ */
+#include "model/contact_impl.h"
+
+#include "base/vec3_impl.h"
+
+static void turn_of_normal(const iso_field *f, const double y[], double n_dot[3])
+{
+    cross(y + 3, y, n_dot);
+    scale(n_dot, f->p.k);
+}
+
+/* The rows of n' = k n x w; the rest of them is 0. */
+static void slope_of_normal(const iso_field *f, const double y[], int dim, double jac[])
+{
+    for (int j = 0; j < 3; j++) {
+        const double unit[3] = {j == 0, j == 1, j == 2};
+        double n_unit[3], unit_w[3];
+        cross(y + 3, unit, n_unit);
+        cross(unit, y, unit_w);
+        for (int i = 0; i < 3; i++) {
+            jac[dim * (3 + i) + j] = f->p.k * n_unit[i];
+            jac[dim * (3 + i) + 3 + j] = f->p.k * unit_w[i];
+        }
+    }
+}
+
+/* --- rigid -------------------------------------------------------------------------------------------------------- */
+
+/* x and lambda */
+static double rigid_parts(const iso_field *f, const double y[], const double T[3], double u[3], double x[3])
+{
+    double Jw[3];
+    diag(f->p.J, y, Jw);
+    diag(f->p.inv_J, y + 3, u);
+    cross(Jw, y, x);
+    add_scaled(x, 1, T);
+    return -dot(x, u) / dot(y + 3, u);
+}
+
+static void rigid_solve(const iso_field *f, const double y[], const double T[3], double dy[])
+{
+    double u[3], x[3];
+    const double lambda = rigid_parts(f, y, T, u, x);
+    for (int i = 0; i < 3; i++) dy[i] = f->p.inv_J[i] * x[i] + lambda * u[i];
+    turn_of_normal(f, y, dy + 3);
+}
+
+/* dlambda = -(dx,u)/g, and by n_j also -(x_j/J_j + 2 lambda u_j)/g */
+static void rigid_slope(const iso_field *f, const double y[], const double T[3], int dim, double jac[])
+{
+    const iso_params *p = &f->p;
+    double u[3], x[3], Jw[3];
+    const double lambda = rigid_parts(f, y, T, u, x), g = dot(y + 3, u);
+    diag(p->J, y, Jw);
+    for (int j = 0; j < dim; j++) {
+        double dx[3] = {jac[j], jac[dim + j], jac[2 * dim + j]};
+        if (j < 3) {
+            const double unit[3] = {j == 0, j == 1, j == 2};
+            double unit_w[3], Jw_unit[3];
+            cross(unit, y, unit_w);
+            cross(Jw, unit, Jw_unit);
+            for (int i = 0; i < 3; i++) dx[i] += p->J[j] * unit_w[i] + Jw_unit[i];
+        }
+        double dlambda = -dot(dx, u) / g;
+        if (j >= 3 && j < 6) dlambda -= (p->inv_J[j - 3] * x[j - 3] + 2 * lambda * u[j - 3]) / g;
+        for (int i = 0; i < 3; i++) jac[dim * i + j] = p->inv_J[i] * dx[i] + dlambda * u[i];
+    }
+    for (int j = 0; j < 3; j++) jac[dim * j + 3 + j] += lambda * p->inv_J[j];
+    slope_of_normal(f, y, dim, jac);
+}
+
+/* --- loose -------------------------------------------------------------------------------------------------------- */
+
+/* v = A^-1 x */
+static void solve_A(const iso_params *p, const double n[3], const double x[3], double v[3])
+{
+    double u[3];
+    diag(p->inv_J, n, u);
+    const double along = p->D * dot(u, x) / (1 - p->D * dot(n, u));
+    for (int i = 0; i < 3; i++) v[i] = p->inv_J[i] * x[i] + along * u[i];
+}
+
+/* K */
+static void momentum(const iso_params *p, const double y[], double K[3])
+{
+    diag(p->J, y, K);
+    add_scaled(K, -p->D * dot(y, y + 3), y + 3);
+}
+
+static void loose_solve(const iso_field *f, const double y[], const double T[3], double dy[])
+{
+    double K[3], x[3];
+    momentum(&f->p, y, K);
+    cross(K, y, x);
+    turn_of_normal(f, y, dy + 3);
+    add_scaled(x, 1, T);
+    add_scaled(x, f->p.D * dot(y, y + 3), dy + 3);
+    solve_A(&f->p, y + 3, x, dy);
+}
+
+/* A dw' = dx - dA w',  -dA w' = D [dn (n,w') + n (dn,w')] */
+static void loose_slope(const iso_field *f, const double y[], const double T[3], int dim, double jac[])
+{
+    const iso_params *p = &f->p;
+    const double *w = y, *n = y + 3, spin = dot(w, n);
+    double K[3], dy[6], x[3], column[3];
+    momentum(p, y, K);
+    loose_solve(f, y, T, dy);
+    for (int j = 0; j < dim; j++) {
+        for (int i = 0; i < 3; i++) x[i] = jac[dim * i + j];
+        if (j < 6) {
+            const double unit[3] = {j % 3 == 0, j % 3 == 1, j % 3 == 2};
+            const double dspin = j < 3 ? n[j] : w[j - 3];
+            double dK[3] = {0}, part[3];
+            if (j < 3) dK[j] = p->J[j];
+            add_scaled(dK, -p->D * dspin, n);
+            if (j >= 3) add_scaled(dK, -p->D * spin, unit);
+            cross(dK, w, part);
+            add_scaled(x, 1, part);
+            add_scaled(x, p->D * dspin, dy + 3);
+            if (j < 3) {
+                cross(K, unit, part);
+                add_scaled(x, 1, part);
+                cross(n, unit, part);
+            } else {
+                add_scaled(x, p->D * dot(n, dy), unit);
+                add_scaled(x, p->D * dy[j - 3], n);
+                cross(unit, w, part);
+            }
+            add_scaled(x, p->D * spin * p->k, part);
+        }
+        solve_A(p, n, x, column);
+        for (int i = 0; i < 3; i++) jac[dim * i + j] = column[i];
+    }
+    slope_of_normal(f, y, dim, jac);
+}
+
+const iso_contact iso_contact_rigid = {rigid_solve, rigid_slope}, iso_contact_loose = {loose_solve, loose_slope};
+
+const iso_contact *iso_contact_of(const iso_field *f)
+{
+    return f->effects.on[ISO_TWIST] ? &iso_contact_loose : &iso_contact_rigid;
+}

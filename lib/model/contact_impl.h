@@ -1,0 +1,24 @@
+/* contact_impl.h - the ball under torques MQ = T, with its two kinds of contact.
+ *
+ *     rigid   J w' = J w x w + T + lambda n,  (w,n) = 0                                                    (9)
+ *     loose   K' = K x w + T,  K = J w - D (w,n) n        (T has the twist resistance in it)
+ *
+ * Both give dy[0..5] = (w', n'), n' = k n x w. `slope`: on entry column j of the first three rows of jac (row-major, dim
+ * columns) is dT/dy_j; on return the first six rows are those of the Jacobian.
+ */
+#ifndef ISO_MODEL_CONTACT_IMPL_H
+#define ISO_MODEL_CONTACT_IMPL_H
+
+#include "model/field.h"
+
+typedef struct iso_contact {
+    void (*solve)(const iso_field *f, const double y[], const double T[3], double dy[]);
+    void (*slope)(const iso_field *f, const double y[], const double T[3], int dim, double jac[]);
+} iso_contact;
+
+extern const iso_contact iso_contact_rigid, iso_contact_loose;
+
+/* The contact that a field's effects make. */
+const iso_contact *iso_contact_of(const iso_field *f);
+
+#endif

@@ -1,0 +1,190 @@
+#include "model/effect.h"
+
+#include <float.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "model/effects_impl.h"
+
+const iso_effect *const iso_effect_list[ISO_EFFECTS] = {
+    [ISO_GRAVITY] = &iso_effect_gravity,
+    [ISO_FIELD] = &iso_effect_field,
+    [ISO_LEVEL] = &iso_effect_level,
+    [ISO_TWIST] = &iso_effect_twist,
+    [ISO_ROLLING_RESISTANCE] = &iso_effect_rolling_resistance,
+    [ISO_ATTITUDE] = &iso_effect_attitude,
+    [ISO_REACTIONS] = &iso_effect_reactions,
+    [ISO_CLOCK] = &iso_effect_clock,
+};
+
+/* --- do the numbers make sense ------------------------------------------------------------------------------------- */
+
+static iso_status check_finite(iso_context *ctx, const iso_effect *effect, const iso_effects *e)
+{
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
+        const double *x = (const double *)((const char *)e + n->offset);
+        for (int i = 0; i < n->count; i++)
+            if (!isfinite(x[i]))
+                return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is not finite", effect->name, n->name);
+    }
+    return ISO_OK;
+}
+
+static iso_status check_unit(iso_context *ctx, const char *name, int count, double x[])
+{
+    double square = 0;
+    for (int i = 0; i < count; i++) square += x[i] * x[i];
+    const double length = sqrt(square);
+    char unit[128] = "";
+    int used = 0;
+    for (int i = 0; i < count && length > 0; i++)
+        used += snprintf(unit + used, sizeof unit - (size_t)used, "%s%.10g", i ? ", " : ": write [", x[i] / length);
+    if (!(fabs(length - 1) <= 1e-6))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, name,
+                                "'%s' has length %.10g, it must be a unit vector (to 1e-6)%s%s", name, length, unit,
+                                used ? "]" : "");
+    for (int i = 0; i < count; i++) x[i] /= length;
+    return ISO_OK;
+}
+
+/* On a level plane the weight only presses the ball down. */
+static iso_status check_gravity(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *e)
+{
+    double e_n[3];
+    if (e->mgb == 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "gravity", "gravity of 0 changes nothing: take it out");
+    const iso_status status = check_unit(ctx, "up", 3, e->up);
+    if (status != ISO_OK || p->k != 1) return status;
+    cross(e->up, n, e_n);
+    if (norm(e_n) > 4 * DBL_EPSILON || e->on[ISO_REACTIONS]) return ISO_OK;
+    return iso_context_fail(
+        ctx, ISO_BAD_INPUT, "gravity",
+        "on a level plane (up along the normal) gravity has no torque and changes nothing: take it "
+        "out, tilt the plane, or ask for 'reactions'");
+}
+
+static iso_status check_field(iso_context *ctx, iso_effects *e)
+{
+    double *C = e->quadratic, most = 0, varies = largest(e->linear);
+    for (int i = 0; i < 9; i++) most = fmax(most, fabs(C[i]));
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < i; j++) {
+            if (!(fabs(C[3 * i + j] - C[3 * j + i]) <= 1e-12 * most))
+                return iso_context_fail(ctx, ISO_BAD_INPUT, "quadratic",
+                                        "the matrix of a quadratic form is symmetric: C%d%d = %.17g is not C%d%d = "
+                                        "%.17g",
+                                        i + 1, j + 1, C[3 * i + j], j + 1, i + 1, C[3 * j + i]);
+            C[3 * j + i] = C[3 * i + j];
+            varies = fmax(varies, fmax(fabs(C[3 * i + j]), fabs(C[4 * i] - C[4 * j])));
+        }
+    if (varies > 0) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "field",
+                            "this potential is a constant on the unit sphere and changes nothing: take it out");
+}
+
+static iso_status check_positive(iso_context *ctx, const char *effect, const char *name, double x, bool zero)
+{
+    if (x > 0 || (zero && x == 0)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, name,
+                            x == 0 ? "%s: '%s' is 0 and changes nothing: take it out"
+                                   : "%s: '%s' is negative, it must resist",
+                            effect, name);
+}
+
+static iso_status check_mass(iso_context *ctx, const iso_params *p, const char *effect)
+{
+    if (p->D > 0) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
+                            "'%s' needs the ball's mass and radius: give D = m b^2 ('%s: {D: ...}'), or a ball and a "
+                            "surface",
+                            effect, effect);
+}
+
+iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double normal[3], iso_effects *e)
+{
+    iso_status status = ISO_OK;
+    for (int i = 0; status == ISO_OK && i < ISO_EFFECTS; i++)
+        if (e->on[i]) status = check_finite(ctx, iso_effect_list[i], e);
+    if (status == ISO_OK && e->on[ISO_GRAVITY]) status = check_gravity(ctx, p, normal, e);
+    if (status == ISO_OK && e->on[ISO_FIELD]) status = check_field(ctx, e);
+    if (status == ISO_OK && e->on[ISO_LEVEL] && e->level == 0)
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "c", "level: 'c' is 0 and changes nothing: take it out");
+    if (status == ISO_OK && e->on[ISO_TWIST]) status = check_positive(ctx, "twist", "resistance", e->twist, true);
+    if (status == ISO_OK && e->on[ISO_TWIST]) status = check_mass(ctx, p, "twist");
+    if (status == ISO_OK && e->on[ISO_ROLLING_RESISTANCE])
+        status = check_positive(ctx, "rolling_resistance", "coefficient", e->resistance, false);
+    if (status == ISO_OK && e->on[ISO_ATTITUDE]) status = check_unit(ctx, "quaternion", 4, e->quaternion);
+    if (status == ISO_OK && e->on[ISO_REACTIONS]) status = check_mass(ctx, p, "reactions");
+    return status;
+}
+
+/* --- all of them ---------------------------------------------------------------------------------------------------- */
+
+iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power)
+{
+    iso_effects scaled = *effects;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; scaled.on[e] && n && n->name; n++) {
+            double *x = (double *)((char *)&scaled + n->offset);
+            const double unit = iso_unit(units, n->dimension);
+            for (int i = 0; i < n->count; i++) x[i] = x[i] == 0 ? 0 : power > 0 ? x[i] * unit : x[i] / unit;
+        }
+    return scaled;
+}
+
+const iso_effect *iso_effects_breaking(const iso_effects *effects)
+{
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (effects->on[e] && iso_effect_list[e]->breaks) return iso_effect_list[e];
+    return NULL;
+}
+
+double iso_effects_potential(const iso_field *f, const double y[])
+{
+    double U = 0;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (f->effects.on[e] && iso_effect_list[e]->potential) U += iso_effect_list[e]->potential(f, y);
+    return U;
+}
+
+double iso_effects_image(const iso_field *f, const double y[])
+{
+    double V = 0;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (f->effects.on[e] && iso_effect_list[e]->image_potential) V += iso_effect_list[e]->image_potential(f, y);
+    return V;
+}
+
+double iso_effects_strength(const iso_field *f, const double y[])
+{
+    double most = 0;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (f->effects.on[e] && iso_effect_list[e]->strength) most = fmax(most, iso_effect_list[e]->strength(f, y));
+    return most;
+}
+
+bool iso_effects_free(const iso_effects *effects)
+{
+    return !effects->on[ISO_GRAVITY] && !effects->on[ISO_FIELD] && !effects->on[ISO_TWIST] &&
+           !effects->on[ISO_ROLLING_RESISTANCE];
+}
+
+bool iso_effects_keep_energy(const iso_field *f)
+{
+    const iso_effects *e = &f->effects;
+    if (e->on[ISO_ROLLING_RESISTANCE] || (e->on[ISO_TWIST] && e->twist > 0)) return false;
+    return !e->on[ISO_GRAVITY] || f->p.k != 1 || e->on[ISO_ATTITUDE];
+}
+
+int iso_integrals_holding(const iso_system *system, const iso_field *f, const iso_integral *list[], int most)
+{
+    int count = 0;
+    for (const iso_integral *i = system->integrals; i->name && count < most; i++)
+        if (!i->holds || i->holds(f)) list[count++] = i;
+    if (system != &iso_system_ball) return count;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_integral *i = iso_effect_list[e]->integrals; f->effects.on[e] && i && i->name; i++)
+            if ((!i->holds || i->holds(f)) && count < most) list[count++] = i;
+    return count;
+}

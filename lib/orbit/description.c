@@ -1,0 +1,174 @@
+/* description.c - the # lines of a trajectory: what a record says of its ball and its effects. */
+#include "orbit/description.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "map/state.h"
+
+/* "effect.number", the key of a line. */
+static void line_key(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *n)
+{
+    snprintf(key, ISO_NAME_SIZE, "%s.%s", effect->name, n->name);
+}
+
+/* The names of those that act or have numbers, and the numbers. */
+static iso_status describe_effects(iso_context *ctx, iso_record *r, const iso_effects *effects)
+{
+    char names[256] = "", key[ISO_NAME_SIZE];
+    iso_status status = ISO_OK;
+    for (int e = 0; status == ISO_OK && e < ISO_EFFECTS; e++) {
+        if (!effects->on[e] || !iso_effect_list[e]->numbers) continue;
+        const size_t used = strlen(names);
+        snprintf(names + used, sizeof names - used, "%s%s", used ? " " : "", iso_effect_list[e]->name);
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; status == ISO_OK && n->name; n++) {
+            line_key(key, iso_effect_list[e], n);
+            status = iso_record_set_numbers(ctx, r, key, (size_t)n->count,
+                                            (const double *)((const char *)effects + n->offset));
+        }
+    }
+    return status == ISO_OK && *names ? iso_record_set(ctx, r, "effects", names) : status;
+}
+
+iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *model, const iso_params *p,
+                               const iso_orbit *orbit)
+{
+    iso_status status = iso_record_set(ctx, r, "model", model);
+    if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "k", 1, &p->k);
+    if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "J", 3, p->J);
+    if (status != ISO_OK || !orbit) return status;
+    const bool twin = iso_orbit_has_twin(orbit);
+    const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
+    const iso_effects effects = iso_orbit_effects(orbit);
+    if (effects.on[ISO_TWIST]) status = iso_record_set_numbers(ctx, r, "D", 1, &p->D);
+    if (status == ISO_OK && twin && isnormal(h)) status = iso_record_set_numbers(ctx, r, "h", 1, &h);
+    if (status == ISO_OK && twin && isnormal(eps)) status = iso_record_set_numbers(ctx, r, "eps", 1, &eps);
+    return status == ISO_OK ? describe_effects(ctx, r, &effects) : status;
+}
+
+iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *p)
+{
+    double k, J[3];
+    iso_status status;
+    const bool has_k = iso_record_get_numbers(ctx, r, "k", 1, &k, &status);
+    if (status != ISO_OK) return status;
+    const bool has_J = iso_record_get_numbers(ctx, r, "J", 3, J, &status);
+    if (status != ISO_OK) return status;
+    if (has_k && has_J) {
+        double D;
+        status = iso_params_reduced(ctx, k, J, p);
+        if (status != ISO_OK || !iso_record_get_numbers(ctx, r, "D", 1, &D, &status)) return status;
+        return iso_params_set_D(ctx, D, p);
+    }
+    return iso_context_fail(ctx, ISO_BAD_INPUT, has_k ? "J" : "k",
+                            "the trajectory does not say its %s: a line '# %s' or the option --%s must",
+                            has_k ? "J" : "k", has_k ? "J: J1 J2 J3" : "k: K", has_k ? "J J1,J2,J3" : "k K");
+}
+
+iso_status iso_record_find_state(iso_context *ctx, const iso_record *r, iso_picture model, int columns[ISO_STATE])
+{
+    const char *const *names = (model == ISO_BALL ? &iso_system_ball : &iso_system_point)->state;
+    const char *missing;
+    if (iso_record_find_all(r, ISO_STATE, names, columns, &missing)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "the trajectory has no column '%s', which a %s has",
+                            missing, iso_picture_name((int)model));
+}
+
+bool iso_record_coupling(iso_context *ctx, const iso_record *r, const iso_params *p, double *eps, iso_status *status)
+{
+    if (iso_record_get_numbers(ctx, r, "eps", 1, eps, status)) return true;
+    if (*status != ISO_OK || !iso_record_get_numbers(ctx, r, "h", 1, eps, status)) return false;
+    const double h = *eps;
+    *eps = iso_coupling(p, h); /* may not fit a double where h does */
+    return h == 0 || isnormal(*eps);
+}
+
+static iso_effect_id find_effect(const char *name, size_t length)
+{
+    int e = 0;
+    while (e < ISO_EFFECTS &&
+           (strlen(iso_effect_list[e]->name) != length || strncmp(iso_effect_list[e]->name, name, length) != 0))
+        e++;
+    return (iso_effect_id)e;
+}
+
+iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects *effects)
+{
+    const char *names = iso_record_get(r, "effects");
+    iso_status status;
+    *effects = (iso_effects){.on = {false}};
+    for (size_t length; names && *names; names += length + (names[length] != '\0')) {
+        length = strcspn(names, " ");
+        const iso_effect_id e = find_effect(names, length);
+        if (e == ISO_EFFECTS)
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "there is no effect '%.*s'", (int)length, names);
+        effects->on[e] = true;
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
+            char key[ISO_NAME_SIZE];
+            line_key(key, iso_effect_list[e], n);
+            if (iso_record_get_numbers(ctx, r, key, (size_t)n->count, (double *)((char *)effects + n->offset),
+                                       &status))
+                continue;
+            if (status != ISO_OK) return status;
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "effect '%s' needs a line '# %s: ...'",
+                                    iso_effect_list[e]->name, key);
+        }
+    }
+    return ISO_OK;
+}
+
+/* What turns with the ball: vertical and quaternion of a row are those of an orbit that starts there. */
+static iso_status turn_effects(iso_context *ctx, const iso_record *r, size_t row, iso_effects *effects)
+{
+    const struct {
+        iso_effect_id effect;
+        double *numbers;
+        int column, count;
+    } turning[] = {{ISO_GRAVITY, effects->up, ISO_COLUMN_EFFECTS, 3},
+                   {ISO_ATTITUDE, effects->quaternion, ISO_COLUMN_EFFECTS + 3, 4}};
+    for (int i = 0; i < 2; i++) {
+        int columns[4];
+        const char *missing;
+        if (!effects->on[turning[i].effect]) continue;
+        if (!iso_record_find_all(r, (size_t)turning[i].count, iso_trajectory_columns + turning[i].column, columns,
+                                 &missing))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
+                                    "the trajectory has no column '%s', without which '%s' is not known", missing,
+                                    iso_effect_list[turning[i].effect]->name);
+        for (int j = 0; j < turning[i].count; j++) turning[i].numbers[j] = iso_record_const_row(r, row)[columns[j]];
+    }
+    return ISO_OK;
+}
+
+iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_picture model, size_t row,
+                            iso_start *start, iso_effects *effects)
+{
+    int columns[ISO_STATE];
+    const bool twists = effects->on[ISO_TWIST];
+    iso_status status = iso_record_find_state(ctx, r, model, columns);
+    if (status == ISO_OK) status = turn_effects(ctx, r, row, effects);
+    if (status != ISO_OK) return status;
+    const double *x = iso_record_const_row(r, row);
+    double v[3], unit[3];
+    for (int i = 0; i < 3; i++) {
+        v[i] = x[columns[i]];
+        unit[i] = x[columns[3 + i]];
+    }
+    double eps;
+    const bool states_eps = model == ISO_POINT && iso_record_coupling(ctx, r, p, &eps, &status);
+    if (status != ISO_OK) return status;
+    const double size = largest(v);
+    const double along = size > 0 ? v[0] / size * unit[0] + v[1] / size * unit[1] + v[2] / size * unit[2] : 0;
+    if (model == ISO_BALL)
+        status = iso_start_ball(ctx, v, unit, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start);
+    else
+        status = iso_start_point(ctx, v, unit, states_eps ? &eps : NULL, true, start);
+    if (status == ISO_OK && !twists && fabs(along) > 1e-6)
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s has a part %.3g of its size along %s: this is no %s",
+                                  model == ISO_BALL ? "omega" : "M", along, model == ISO_BALL ? "n" : "gamma",
+                                  model == ISO_BALL ? "rubber ball's motion" : "point on a sphere");
+    if (status == ISO_OK) return ISO_OK;
+    return iso_context_fail(ctx, status, "", "row %zu: %s", row + 1, iso_context_message(ctx));
+}

@@ -1,0 +1,39 @@
+/* description.h - the # lines of a trajectory: what a record says of its ball and its effects.
+ *
+ *     # k, J, D      the ball; D = m b^2 where an effect needs it
+ *     # h, eps       energy of the ball, coupling of the point
+ *     # effects      names of those that act, and `# gravity.mgb`, `# level.c`, ... their numbers (iso_effect_number)
+ */
+#ifndef ISO_ORBIT_DESCRIPTION_H
+#define ISO_ORBIT_DESCRIPTION_H
+
+#include "../base/record.h"
+#include "orbit.h"
+
+/* Writes the lines that a record needs to be carried back: model, k, J, and of the orbit (NULL: not touched) h, eps and the
+ * effects. What is no normal double in these units is left out: h and eps follow from any row. */
+iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,
+                               const iso_orbit *orbit);
+
+/* Reads them back: parameters from `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent or wrong). */
+iso_status iso_record_params(iso_context *ctx, const iso_record *record, iso_params *params);
+
+/* The effects of the lines, `up` and `quaternion` as at time 0. Errors: ISO_BAD_INPUT about "effects". */
+iso_status iso_record_effects(iso_context *ctx, const iso_record *record, iso_effects *effects);
+
+/* The coupling that the lines state, by eps or by h; false: they do not, or *status says what is wrong with them. */
+bool iso_record_coupling(iso_context *ctx, const iso_record *record, const iso_params *params, double *eps,
+                         iso_status *status);
+
+/* The six columns of a model. Errors: ISO_BAD_INPUT about "columns". */
+iso_status iso_record_find_state(iso_context *ctx, const iso_record *record, iso_picture model, int columns[ISO_STATE]);
+
+/* Row `row` of a record as the start of an orbit in `model`, whose columns it must have; of `effects`, those of the record,
+ * `up` and `quaternion` become the row's. A point's coupling is the record's eps (or that of its h), or without these lines
+ * the one with which H is 0, or the level's.
+ * Errors: ISO_BAD_INPUT with the row: missing column, |n| or |gamma| not 1 to 1e-6, a part of omega along n (of M along
+ * gamma) above 1e-6 of its length, unless the contact twists. */
+iso_status iso_record_start(iso_context *ctx, const iso_record *record, const iso_params *params, iso_picture model,
+                            size_t row, iso_start *start, iso_effects *effects);
+
+#endif

@@ -1,0 +1,282 @@
+/* A point at any energy H and its ball: off the level H = 0 the ball lives in the potential of the effect `level`,
+ * U = -c g^(-1/k), c = H k^2/det J, g = (n, J^-1 n). Newton's law by differences of the orbit's samples. */
+#include <float.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "laws.h"
+#include "orbit/orbit.h"
+
+static const double J_three[3] = {1.4, 2.1, 3.0};
+
+static iso_context *ctx;
+
+static void give_up(const char *what)
+{
+    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
+    exit(gsl_test_summary());
+}
+
+static iso_start point_start(const double M[3], const double gamma[3], const double *eps)
+{
+    iso_start start;
+    if (iso_start_point(ctx, M, gamma, eps, true, &start) != ISO_OK) give_up("a point's start");
+    return start;
+}
+
+/* Everything shown and carried. */
+static iso_orbit *create(const iso_params *p, const iso_start *start, iso_picture backend, iso_clock clock)
+{
+    iso_orbit *orbit;
+    iso_orbit_options o = iso_orbit_defaults(start);
+    o.backend = backend;
+    o.clock = clock;
+    o.tolerance = 1e-14;
+    o.show = ISO_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) give_up("an orbit is refused");
+    return orbit;
+}
+
+static iso_sample at(iso_orbit *orbit, double time)
+{
+    iso_sample s;
+    if (iso_orbit_at(orbit, time, &s) != ISO_OK) give_up("an orbit stops");
+    return s;
+}
+
+/* --- one orbit -------------------------------------------------------------------------------------------------- */
+
+enum { TIMES = 5 };
+
+typedef struct off_level {
+    iso_params p;
+    double eps, H, c;
+    iso_start start;
+    iso_sample truth[TIMES]; /* by backend point, in its own clock */
+    double w, M;             /* largest |omega| and |M| of these   */
+} off_level;
+
+static double power_of_g(const iso_params *p, const double n[3], double exponent)
+{
+    return pow(dot_diag(n, p->inv_J, n), exponent);
+}
+
+/* (24), by hand */
+static double energy_of(const off_level *o)
+{
+    const double *M = o->start.y, *gamma = o->start.y + 3;
+    return dot(M, M) / 2 - o->eps * pow(dot_diag(gamma, o->p.J, gamma), -1 / o->p.k);
+}
+
+/* A point in a potential of about one energy, with `part` of it as kinetic energy: 1 is the level H = 0. */
+static off_level make(double k, double eps, double part, iso_random *random)
+{
+    off_level o = {.p = laws_params(k, J_three)};
+    double gamma[3], M[3];
+    iso_random_direction(random, gamma);
+    iso_random_direction(random, M);
+    remove_along(M, gamma);
+    o.eps = eps * pow(dot_diag(gamma, o.p.J, gamma), 1 / k);
+    scale(M, sqrt(2 * part) / norm(M));
+    o.start = point_start(M, gamma, &o.eps);
+    o.H = energy_of(&o);
+    o.c = o.H * k * k / o.p.det_J;
+    iso_orbit *orbit = create(&o.p, &o.start, ISO_POINT, ISO_CLOCK_S);
+    for (int i = 0; i < TIMES; i++) {
+        o.truth[i] = at(orbit, 0.9 * i - 0.6); /* before and after the start */
+        o.w = fmax(o.w, laws_norm(o.truth[i].ball));
+        o.M = fmax(o.M, laws_norm(o.truth[i].point));
+    }
+    iso_orbit_free(orbit);
+    return o;
+}
+
+/* --- what holds ------------------------------------------------------------------------------------------------- */
+
+static laws_worst levels, backends, newton, turning, clocks, energies;
+
+static double allowed(const iso_params *p)
+{
+    return 1e-13 * (4 + 4 / fabs(p->k) + fabs(p->k));
+}
+
+/* The level that was added has c = H k^2/det J. */
+static void check_added(const off_level *o)
+{
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_AUTO, ISO_CLOCK_S);
+    const iso_effects effects = iso_orbit_effects(orbit);
+    const double size = (fabs(o->H) + dot(o->start.y, o->start.y)) * fabs(o->c / o->H);
+    laws_note(&levels, effects.on[ISO_LEVEL] ? fabs(effects.level - o->c) : 1, 1e-14 * size, &o->p, "c");
+    laws_note(&levels, iso_orbit_has_twin(orbit) ? 0 : 1, 0.5, &o->p, "twin");
+    iso_orbit_free(orbit);
+}
+
+/* Both backends, in every clock. */
+static void check_backends(const off_level *o)
+{
+    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++)
+        for (iso_clock c = ISO_CLOCK_T; c < ISO_CLOCKS; c++) {
+            iso_orbit *orbit = create(&o->p, &o->start, b, c);
+            for (int i = 0; i < TIMES; i++) {
+                const iso_sample *truth = &o->truth[i], s = at(orbit, truth->clock[c]);
+                const double bound = allowed(&o->p);
+                laws_note(&backends, laws_distance(s.ball, truth->ball) / o->w, bound, &o->p, "omega");
+                laws_note(&backends, laws_distance(s.ball + 3, truth->ball + 3), bound, &o->p, "n");
+                laws_note(&backends, laws_distance(s.point, truth->point) / o->M, bound, &o->p, "M");
+                laws_note(&backends, laws_distance(s.point + 3, truth->point + 3), bound, &o->p, "gamma");
+                for (int j = 0; j < ISO_CLOCKS; j++)
+                    laws_note(&backends, fabs(s.clock[j] / truth->clock[j] - 1), bound, &o->p, "clocks");
+            }
+            iso_orbit_free(orbit);
+        }
+}
+
+/* What an 8-point difference makes of the samples around a time t: w', n' and ds/dt. */
+typedef struct slopes {
+    iso_sample here;
+    double w[3], n[3], s;
+} slopes;
+
+static slopes slopes_at(iso_orbit *orbit, double t, double h)
+{
+    static const double weight[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
+    slopes d = {.here = at(orbit, t)};
+    for (int i = 0; i < 4; i++)
+        for (int side = -1; side <= 1; side += 2) {
+            const iso_sample s = at(orbit, t + side * (i + 1) * h);
+            const double factor = side * weight[i] / h;
+            add_scaled(d.w, factor, s.ball);
+            add_scaled(d.n, factor, s.ball + 3);
+            d.s += factor * s.clock[ISO_CLOCK_S];
+        }
+    return d;
+}
+
+/* J w' - J w x w - MQ is along n, MQ = k n x dU/dn; n' = k n x w; ds/dt = (k^2/det J) q^(1 + 1/(2k)). */
+static void check_newton(const off_level *o)
+{
+    const iso_params *p = &o->p;
+    const double k = p->k, h = 4e-3 / (fmax(1, fabs(k)) * o->w);
+    iso_orbit *orbit = create(p, &o->start, ISO_POINT, ISO_CLOCK_T);
+    for (int i = 0; i < TIMES; i++) {
+        const slopes d = slopes_at(orbit, o->truth[i].clock[ISO_CLOCK_T], h);
+        const double *w = d.here.ball, *n = d.here.ball + 3;
+        double Jw[3], gyration[3], u[3], torque[3], rest[3], n_w[3], turn[3];
+        diag(p->J, w, Jw);
+        cross(Jw, w, gyration);
+        diag(p->inv_J, n, u);
+        cross(n, u, torque);
+        scale(torque, 2 * o->c * power_of_g(p, n, -1 / k - 1));
+        diag(p->J, d.w, rest);
+        add_scaled(rest, -1, gyration);
+        add_scaled(rest, -1, torque);
+        remove_along(rest, n);
+        const double size = max3(p->J) * o->w * o->w * fmax(1, fabs(k));
+        laws_note(&newton, norm(rest) / size, 1e-11, p, "J w'");
+        cross(n, w, n_w);
+        for (int j = 0; j < 3; j++) turn[j] = d.n[j] - k * n_w[j];
+        laws_note(&turning, norm(turn) / (fmax(1, fabs(k)) * o->w), 1e-11, p, "n'");
+        const double rate = k * k / p->det_J * power_of_g(p, n, -1 - 1 / (2 * k));
+        laws_note(&clocks, fabs(d.s / rate - 1), 1e-11, p, "ds/dt");
+        const double kinetic = dot_diag(w, p->J, w) / 2, U = -o->c * power_of_g(p, n, -1 / k);
+        laws_note(&energies, fabs(kinetic + U - o->eps * k * k / p->det_J), allowed(p) * (kinetic + fabs(U)), p, "h");
+    }
+    iso_orbit_free(orbit);
+}
+
+static void check_all(void)
+{
+    static const double ks[] = {1, -1, 0.5, 0.75, -0.4, 4, 0.2}, eps[] = {1, 1, -1, 0}, part[] = {0.2, 3, 0.5, 1};
+    iso_random *random = iso_random_create(23);
+    for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
+        for (int j = 0; j < 4; j++) {
+            const off_level o = make(ks[i], eps[j], part[j], random);
+            check_added(&o);
+            check_backends(&o);
+            check_newton(&o);
+        }
+    iso_random_free(random);
+    laws_report(&levels, "off the level H = 0: c = H k^2/det J");
+    laws_report(&backends, "both backends, every clock");
+    laws_report(&newton, "the ball: J w' = J w x w + lambda n + k n x dU/dn");
+    laws_report(&turning, "the ball: n' = k n x w");
+    laws_report(&clocks, "ds/dt");
+    laws_report(&energies, "h = (w,Jw)/2 + U = eps k^2/det J");
+}
+
+/* --- a level that the caller states ----------------------------------------------------------------------------- */
+
+static iso_status try_level(const off_level *o, const iso_start *start, double c, double *eps)
+{
+    iso_orbit *orbit;
+    iso_orbit_options options = iso_orbit_defaults(start);
+    const iso_effects effects = {.on[ISO_LEVEL] = true, .level = c};
+    options.effects = &effects;
+    const iso_status status = iso_orbit_create(ctx, &o->p, start, &options, &orbit);
+    *eps = status == ISO_OK ? iso_orbit_coupling(orbit) : NAN;
+    iso_orbit_free(orbit);
+    return status;
+}
+
+static void check_stated(void)
+{
+    iso_random *random = iso_random_create(24);
+    const off_level o = make(-0.4, 1, 0.3, random);
+    iso_random_free(random);
+    double eps;
+    gsl_test(try_level(&o, &o.start, o.c, &eps) != ISO_OK, "the point's own level");
+    gsl_test_rel(eps, o.eps, 1e-14, "its coupling");
+    gsl_test(try_level(&o, &o.start, o.c * (1 + 1e-6), &eps) != ISO_BAD_INPUT ||
+                 strcmp(iso_context_field(ctx), "c") != 0,
+             "another level: %s", iso_context_message(ctx));
+    iso_start open = o.start;
+    open.eps = NAN;
+    gsl_test(try_level(&o, &open, o.c, &eps) != ISO_OK, "a level and no coupling");
+    gsl_test_rel(eps, o.eps, 1e-13, "the coupling follows from the level");
+}
+
+/* --- a point that swings ---------------------------------------------------------------------------------------- */
+
+/* Too slow for the level H = 0, it turns back; alone, it has no ball's columns. */
+static void check_swing(void)
+{
+    const iso_params p = laws_params(-1, J_three);
+    const double eps = 2, M[3] = {0, 0.3, -0.2}, gamma[3] = {1, 0, 0};
+    const iso_integral *both[2] = {laws_integral(&iso_system_point, "H"),
+                                   laws_integral(&iso_system_point, "F_shell")};
+    const iso_start start = point_start(M, gamma, &eps);
+    const iso_orbit_options o = iso_orbit_defaults(&start);
+    iso_orbit *orbit;
+    if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) give_up("a swinging point");
+    double worst = 0, size, least = INFINITY, most = 0;
+    const iso_sample begin = at(orbit, 0);
+    for (int i = 1; i <= 100; i++) {
+        const iso_sample s = at(orbit, 0.2 * i);
+        for (int j = 0; j < 2; j++) {
+            const double before = iso_orbit_integral(orbit, &iso_system_point, both[j], &begin, &size);
+            worst =
+                fmax(worst, fabs(iso_orbit_integral(orbit, &iso_system_point, both[j], &s, &size) - before) / size);
+        }
+        least = fmin(least, laws_norm(s.point));
+        most = fmax(most, laws_norm(s.point));
+    }
+    gsl_test(!(worst < 1e-12), "a swing: H and F drift by %.2g", worst);
+    gsl_test(!(most > 3 * least), "a swing: |M| goes from %.2g to %.2g", least, most);
+    gsl_test(!isnan(begin.ball[0]) || !isnan(begin.clock[0]), "nothing is shown that was not asked for");
+    iso_orbit_free(orbit);
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    check_all();
+    check_stated();
+    check_swing();
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}
