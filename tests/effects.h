@@ -1,0 +1,252 @@
+/* effects.h - what the laws of the effects run over: every subset of them, with random numbers, on random states.
+ *
+ * The numbers are of the size that matters: torques and potentials are about as large as the kinetic energy. Bounds
+ * are rounding errors relative to the terms that the equations are made of, effects_sizes().
+ */
+#ifndef ISO_TESTS_EFFECTS_H
+#define ISO_TESTS_EFFECTS_H
+
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/vec3_impl.h"
+#include "laws.h"
+#include "map/state.h"
+#include "model/model.h"
+
+enum {
+    EFFECTS_CLASSICAL =
+        1 << ISO_EFFECTS,             /* beside the bits 1 << e of the effects: the resistance of `twist` is 0 ... */
+    EFFECTS_STIFF = 2 << ISO_EFFECTS, /* ... or so large that its torque lambda is a state */
+    EFFECTS_SUBSETS = 3 << ISO_EFFECTS
+};
+
+typedef struct effects_case {
+    const iso_system *system;
+    int subset;
+    iso_model model;         /* in the system's own clock, no clocks carried            */
+    double y[ISO_MAX_STATE]; /* model.field.energy is its energy                        */
+    double kinetic;          /* energy of the ball's motion, without potentials         */
+    iso_random *random;
+} effects_case;
+
+typedef void effects_law(const effects_case *c, laws_worst *worst);
+
+static inline bool effects_on(const effects_case *c, int e)
+{
+    return c->model.field.effects.on[e];
+}
+
+/* Where the torque of a stiff contact is a state; 0: nowhere. */
+static inline int effects_lambda(const effects_case *c)
+{
+    return c->model.field.at[ISO_TWIST];
+}
+
+/* Writes "a+b" for a subset. */
+static inline void effects_name(int subset, char *name, size_t size)
+{
+    int used = 0;
+    name[0] = '\0';
+    for (int e = 0; e < ISO_EFFECTS && used < (int)size; e++)
+        if (subset & 1 << e)
+            used += snprintf(name + used, size - (size_t)used, "%s%s", used > 0 ? "+" : "", iso_effect_list[e]->name);
+    const char *contact = subset & EFFECTS_STIFF ? "(stiff)" : subset & EFFECTS_CLASSICAL ? "(0)" : "";
+    if (used < (int)size) snprintf(name + used, size - (size_t)used, "%s", contact);
+}
+
+static inline void effects_note(const effects_case *c, laws_worst *worst, double error, double allowed,
+                                const char *what)
+{
+    char text[112], name[80];
+    const bool news = !(error <= worst->ratio * allowed); /* the name costs more than the law */
+    if (news) effects_name(c->subset, name, sizeof name);
+    if (news) snprintf(text, sizeof text, "%s [%s]", what, name);
+    laws_note(worst, error, allowed, &c->model.field.p, news ? text : what);
+}
+
+static inline double effects_random_sign(iso_random *r, double low, double high)
+{
+    const double size = iso_random_uniform(r, low, high);
+    return iso_random_uniform(r, -1, 1) < 0 ? -size : size;
+}
+
+/* Valid numbers for all effects, `energy` and 1/`speed` being the units of energy and time. */
+static inline iso_effects effects_random(iso_random *r, const iso_params *p, int subset, double energy, double speed,
+                                         double q)
+{
+    iso_effects e = {.two_sided = iso_random_uniform(r, -1, 1) < 0};
+    double square = 0;
+    for (int i = 0; i < ISO_EFFECTS; i++) e.on[i] = subset & 1 << i;
+    e.mgb = effects_random_sign(r, 0.3, 1) * energy;
+    iso_random_direction(r, e.up);
+    for (int i = 0; i < 3; i++) {
+        e.linear[i] = iso_random_normal(r) * energy;
+        for (int j = 0; j <= i; j++) e.quadratic[3 * i + j] = e.quadratic[3 * j + i] = iso_random_normal(r) * energy;
+    }
+    e.level = effects_random_sign(r, 0.3, 1) * energy * pow(q, -1 / p->k);
+    const double stiff = 50 * fmax(1, fabs(p->k)) * (min3(p->J) - p->D); /* from there on lambda is a state */
+    e.twist = subset & EFFECTS_CLASSICAL ? 0 : fmin(0.9 * stiff, iso_random_uniform(r, 0.3, 1) * energy / speed);
+    if (subset & EFFECTS_STIFF) e.twist = iso_random_uniform(r, 1.1, 1000) * stiff;
+    e.resistance = iso_random_uniform(r, 0.3, 1) * energy / speed;
+    for (int i = 0; i < 4; i++) e.quaternion[i] = iso_random_normal(r), square += e.quaternion[i] * e.quaternion[i];
+    for (int i = 0; i < 4; i++) e.quaternion[i] /= sqrt(square);
+    return e;
+}
+
+static inline void effects_set_energy(effects_case *c)
+{
+    double unused;
+    c->model.field.energy = c->system->integrals[0].value(&c->model.field, c->y, &unused);
+}
+
+static inline effects_case effects_sample(const iso_system *system, const iso_params *p, int subset, iso_random *r)
+{
+    static const bool none[ISO_CLOCKS] = {false};
+    effects_case c = {.system = system, .subset = subset, .random = r};
+    iso_field f = {.p = *p};
+    double start[ISO_STATE];
+    system->sample(&f, r, start);
+    const bool ball = system == &iso_system_ball;
+    if (ball && subset & 1 << ISO_TWIST && !(subset & EFFECTS_STIFF))
+        add_scaled(start, effects_random_sign(r, 0.2, 1) * norm(start), start + 3);
+    c.kinetic = ball ? iso_ball_energy(p, start) : iso_point_energy(p, start);
+    const double speed = ball ? norm(start) : sqrt(2 * c.kinetic / max3(p->J));
+    f.effects = effects_random(r, p, subset, c.kinetic, speed, system->q(p, start, NULL));
+    if (ball && subset & EFFECTS_STIFF) { /* hardly any spin is left */
+        add_scaled(start, effects_random_sign(r, 0.2, 1) * c.kinetic / f.effects.twist, start + 3);
+    }
+    c.model = iso_model_assemble(system, &f, system->clock, none);
+    iso_model_begin(&c.model, start, c.y);
+    for (int i = 0; ball && p->k == 1 && effects_on(&c, ISO_ATTITUDE) && i < 3; i++)
+        c.y[c.model.field.at[ISO_ATTITUDE] + 4 + i] = iso_random_normal(r); /* the ball has come some way */
+    effects_set_energy(&c);
+    return c;
+}
+
+/* Parameters with a mass, that is with some D. */
+static inline iso_params effects_params(double k, const double J[3], iso_random *r)
+{
+    iso_params p = laws_params(k, J);
+    iso_context *ctx = iso_context_create();
+    const iso_status status = iso_params_set_D(ctx, iso_random_uniform(r, 0.1, 0.9) * min3(J), &p);
+    iso_context_free(ctx);
+    if (status == ISO_OK) return p;
+    gsl_test(1, "D refused");
+    exit(gsl_test_summary());
+}
+
+/* One case for every k, J and subset; J_step > 1: not every J. */
+static inline void effects_each(const iso_system *system, int J_step, effects_law *law, laws_worst *worst)
+{
+    iso_random *r = iso_random_create(2007);
+    for (int i = 0; i < LAWS_K; i++)
+        for (int j = 0; j < LAWS_J; j += J_step)
+            for (int subset = 0; subset < EFFECTS_SUBSETS; subset++) {
+                if (subset >= EFFECTS_CLASSICAL && !(subset & 1 << ISO_TWIST)) continue;
+                const iso_params p = effects_params(laws_k[i], laws_J[j], r);
+                const effects_case c = effects_sample(system, &p, subset, r);
+                law(&c, worst);
+            }
+    iso_random_free(r);
+}
+
+/* One line for each system (NULL: both). */
+static inline void effects_hold(const char *name, const iso_system *system, int J_step, effects_law *law)
+{
+    for (int i = 0; iso_systems[i]; i++) {
+        if (system && system != iso_systems[i]) continue;
+        char title[128];
+        laws_worst worst = {0};
+        effects_each(iso_systems[i], J_step, law, &worst);
+        snprintf(title, sizeof title, "%s: %s", iso_systems[i]->name, name);
+        laws_report(&worst, title);
+    }
+}
+
+/* --- how large the terms are ----------------------------------------------------------------------------------- */
+
+/* of the field's U */
+static inline double effects_field_size(const iso_effects *e)
+{
+    double square = dot(e->linear, e->linear);
+    for (int i = 0; i < 9; i++) square += e->quadratic[i] * e->quadratic[i];
+    return e->on[ISO_FIELD] ? sqrt(square) : 0;
+}
+
+/* of the energy */
+static inline double effects_energy_size(const effects_case *c)
+{
+    const iso_field *f = &c->model.field;
+    double size = c->kinetic + effects_field_size(&f->effects);
+    if (effects_on(c, ISO_LEVEL)) size += fabs(iso_effect_list[ISO_LEVEL]->potential(f, c->y));
+    if (effects_on(c, ISO_GRAVITY) && f->p.k != 1) size += fabs(f->effects.mgb / (1 - f->p.k));
+    if (effects_on(c, ISO_GRAVITY) && f->p.k == 1 && effects_on(c, ISO_ATTITUDE))
+        size += fabs(f->effects.mgb) * norm(c->y + f->at[ISO_ATTITUDE] + 4);
+    return size;
+}
+
+/* of the torques on the ball */
+static inline double effects_torque_size(const effects_case *c)
+{
+    const iso_effects *e = &c->model.field.effects;
+    const iso_params *p = &c->model.field.p;
+    double size = fabs(p->k) * effects_field_size(e), u[3];
+    diag(p->inv_J, c->y + 3, u);
+    if (e->on[ISO_GRAVITY]) size += fabs(e->mgb);
+    if (e->on[ISO_LEVEL]) size += 2 * fabs(e->level) * pow(dot(c->y + 3, u), -1 / p->k - 1) * norm(u);
+    if (e->on[ISO_TWIST]) size += effects_lambda(c) > 0 ? fabs(c->y[effects_lambda(c)]) : e->twist * norm(c->y);
+    if (e->on[ISO_ROLLING_RESISTANCE]) size += e->resistance * norm(c->y);
+    return size;
+}
+
+/* of gamma x dV/dgamma: |dq|/q <= 2 sqrt(max J/q) and |B gamma| <= |C| sqrt(max J q) */
+static inline double effects_image_size(const effects_case *c)
+{
+    const iso_params *p = &c->model.field.p;
+    const double q = c->system->q(p, c->y, NULL), k = fabs(p->k);
+    const double free = 2 * fabs(c->model.field.eps) / k;
+    const double field = iso_coupling(p, effects_field_size(&c->model.field.effects)) * (2 + 2 / k);
+    return (free + field) * pow(q, -1 / p->k) * sqrt(max3(p->J) / q);
+}
+
+/* of each component of y' in the system's own clock */
+static inline void effects_sizes(const effects_case *c, double size[ISO_MAX_STATE])
+{
+    const iso_params *p = &c->model.field.p;
+    const double w = norm(c->y), loose = effects_on(c, ISO_TWIST) ? 1 / (1 - p->D / min3(p->J)) : 1;
+    const bool ball = c->system == &iso_system_ball;
+    const double turning = 2 * loose * (max3(p->J) * w * w + effects_torque_size(c)) / min3(p->J);
+    for (int i = 0; i < ISO_MAX_STATE; i++)
+        size[i] = i >= ISO_STATE ? w : i >= 3 ? (ball ? fabs(p->k) * w : w) : ball ? turning : effects_image_size(c);
+    if (effects_lambda(c) > 0) size[effects_lambda(c)] = c->model.field.effects.twist * turning;
+}
+
+/* A step along the flow of 1/128 of the way on which the equations change much; see laws_step(). */
+static inline double effects_step(const effects_case *c)
+{
+    double size[ISO_MAX_STATE];
+    effects_sizes(c, size);
+    const double way = fmax(size[0] / norm(c->y), fmax(size[3], norm(c->y)));
+    return laws_reach(&c->model.field.p) / (128 * way);
+}
+
+/* The same along one component alone. A loose contact divides by 1 - D (n,J^-1 n), which has a zero near |n| = 1. */
+static inline double effects_step_of(const effects_case *c, int i)
+{
+    const iso_params *p = &c->model.field.p;
+    const double near = i >= 3 && effects_on(c, ISO_TWIST) ? (1 - p->D / min3(p->J)) / 2 : 1;
+    const double reach = laws_reach(p) * near / 128;
+    if (i == effects_lambda(c) && i > 0) return c->kinetic / 128;
+    return i < 3 ? reach * norm(c->y) : i < ISO_STATE ? reach : 1.0 / 128;
+}
+
+static inline void effects_rhs(const void *model, const double y[], double dy[])
+{
+    const iso_model *m = model;
+    m->rhs(m, y, dy);
+}
+
+#endif

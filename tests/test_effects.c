@@ -1,0 +1,399 @@
+/* The effects as the table has them: states, Jacobians, torques and their potentials, integrals, what is refused. */
+#include "effects.h"
+
+#include <float.h>
+#include <string.h>
+
+/* --- states ---------------------------------------------------------------------------------------------------- */
+
+static void note_state(const effects_case *c, const iso_model *m, int at, const char *name, laws_worst *worst)
+{
+    const char *reason;
+    const bool same = at < m->dim && strcmp(iso_model_state_name(m, at, &reason), name) == 0;
+    effects_note(c, worst, same && (at < ISO_STATE) == (reason[0] == '\0') ? 0 : 1, 0.5, name);
+}
+
+/* What a subset of the effects must have: 6, the vertical, a stiff contact's torque, the quaternion,
+ * on a plane the way, and clocks if asked. */
+static void states(const effects_case *c, laws_worst *worst)
+{
+    static const char *const added[] = {"e1", "e2", "e3", "q0", "q1", "q2", "q3", "x1", "x2", "x3"};
+    const iso_field *f = &c->model.field;
+    const bool ball = c->system == &iso_system_ball;
+    const bool gravity = ball && effects_on(c, ISO_GRAVITY), attitude = ball && effects_on(c, ISO_ATTITUDE);
+    const bool stiff = ball && c->subset & EFFECTS_STIFF;
+    for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
+        const bool carry[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
+        const iso_model m = iso_model_assemble(c->system, f, ISO_CLOCK_TAU, carry);
+        int dim = 0;
+        while (dim < ISO_STATE) note_state(c, &m, dim, c->system->state[dim], worst), dim++;
+        effects_note(c, worst, abs(m.field.at[ISO_GRAVITY] - (gravity ? dim : 0)), 0.5, "place of e");
+        for (int i = 0; i < 3 && gravity; i++) note_state(c, &m, dim++, added[i], worst);
+        effects_note(c, worst, abs(m.field.at[ISO_TWIST] - (stiff ? dim : 0)), 0.5, "place of lambda");
+        if (stiff) note_state(c, &m, dim++, "lambda", worst);
+        effects_note(c, worst, abs(m.field.at[ISO_ATTITUDE] - (attitude ? dim : 0)), 0.5, "place of Q");
+        for (int i = 3; i < (f->p.k == 1 ? 10 : 7) && attitude; i++) note_state(c, &m, dim++, added[i], worst);
+        effects_note(c, worst, abs(m.moving - dim), 0.5, "moving");
+        if (carry[ISO_CLOCK_T]) note_state(c, &m, dim++, "t", worst);
+        if (carry[ISO_CLOCK_S]) note_state(c, &m, dim++, "s", worst);
+        effects_note(c, worst, abs(m.dim - dim), 0.5, "dim");
+        for (int e = 0; e < ISO_EFFECTS; e++)
+            if (e != ISO_GRAVITY && e != ISO_ATTITUDE && e != ISO_TWIST)
+                effects_note(c, worst, m.field.at[e], 0.5, "no states");
+    }
+}
+
+/* The start: the six numbers, `up`, `quaternion`, the rest 0; sizes: 1, and of the way 1 more than it is long. */
+static void beginnings(const effects_case *c, laws_worst *worst)
+{
+    const iso_effects *e = &c->model.field.effects;
+    const int up = c->model.field.at[ISO_GRAVITY], Q = c->model.field.at[ISO_ATTITUDE], lambda = effects_lambda(c);
+    double y[ISO_MAX_STATE], size[ISO_MAX_STATE];
+    for (int i = 0; i < ISO_MAX_STATE; i++) y[i] = NAN;
+    iso_model_begin(&c->model, c->y, y);
+    iso_model_size(&c->model, c->y, size);
+    effects_note(c, worst, memcmp(y, c->y, ISO_STATE * sizeof *y), 0.5, "six");
+    for (int i = ISO_STATE; i < c->model.dim; i++) {
+        if (i == lambda) continue;
+        const bool vertical = up > 0 && i < up + 3, turned = !vertical && i < Q + 4;
+        const double expected = vertical ? e->up[i - up] : turned ? e->quaternion[i - Q] : 0;
+        const double length = vertical || turned ? 1 : 1 + norm(c->y + Q + 4);
+        effects_note(c, worst, fabs(y[i] - expected), DBL_MIN, "begin");
+        effects_note(c, worst, fabs(size[i] / length - 1), 2 * DBL_EPSILON, "size");
+    }
+    if (lambda == 0) return;
+    const double torque = -e->twist * dot(c->y, c->y + 3);
+    effects_note(c, worst, fabs(y[lambda] - torque), 4 * DBL_EPSILON * e->twist * norm(c->y), "lambda");
+    effects_note(c, worst, fabs(size[lambda] - fabs(torque) - 2 * iso_ball_energy(&c->model.field.p, c->y)),
+                 8 * DBL_EPSILON * (size[lambda] + e->twist * norm(c->y)), "size of lambda");
+}
+
+/* What nothing acts on is integrated with the system's own functions, bit for bit. */
+static void plain(const effects_case *c, laws_worst *worst)
+{
+    static const bool none[ISO_CLOCKS] = {false};
+    const iso_effects *e = &c->model.field.effects;
+    const bool ball = c->system == &iso_system_ball;
+    const bool acted_on = !iso_effects_free(e) || e->on[ISO_LEVEL];
+    if (ball ? acted_on : e->on[ISO_FIELD]) return;
+    const iso_field bare = {.p = c->model.field.p, .eps = c->model.field.eps};
+    const iso_model simplest = iso_model_assemble(c->system, &bare, c->system->clock, none);
+    double own[ISO_STATE], dy[ISO_MAX_STATE];
+    c->system->rhs(&bare, c->y, own);
+    c->model.rhs(&c->model, c->y, dy);
+    effects_note(c, worst, memcmp(own, dy, sizeof own), 0.5, "rhs");
+    effects_note(c, worst, c->model.forces, 0.5, "forces");
+    if (ball && e->on[ISO_ATTITUDE]) return;
+    const bool same = c->model.rhs == simplest.rhs && c->model.own_rhs == simplest.rhs &&
+                      c->model.jacobian == simplest.jacobian && c->model.own_jacobian == simplest.jacobian;
+    effects_note(c, worst, same && c->model.dim == ISO_STATE ? 0 : 1, 0.5, "functions");
+}
+
+/* --- Jacobians ------------------------------------------------------------------------------------------------- */
+
+static void check_jacobian(const effects_case *c, const iso_model *m, laws_worst *worst)
+{
+    enum { DIM = ISO_MAX_STATE };
+    const iso_params *p = &m->field.p;
+    const double q = c->system->q(p, c->y, NULL);
+    const double rate = iso_clock_rate(p, m->clock, q, NULL) / iso_clock_rate(p, c->system->clock, q, NULL);
+    double y[DIM] = {0}, f[DIM], jac[DIM * DIM], column[DIM], size[DIM];
+    copy(c->y, y, c->model.dim);
+    for (int i = 0; i < DIM * DIM; i++) jac[i] = NAN;
+    m->rhs(m, y, f);
+    m->jacobian(m, y, jac);
+    effects_sizes(c, size);
+    for (int i = 0; i < m->dim; i++) size[i] = i < m->moving ? size[i] / rate : f[i];
+    for (int j = 0; j < m->dim; j++) {
+        const double h = effects_step_of(c, j);
+        double direction[DIM] = {0};
+        direction[j] = 1;
+        laws_slope(effects_rhs, m, m->dim, m->dim, y, direction, h, column);
+        for (int i = 0; i < m->dim; i++)
+            effects_note(c, worst, fabs(jac[m->dim * i + j] - column[i]), 2 * laws_rounding(p) * size[i] / h,
+                         j < 3           ? "d/dfast"
+                         : j < ISO_STATE ? "d/dunit"
+                                         : "d/dadded");
+    }
+}
+
+static void jacobian_own_clock(const effects_case *c, laws_worst *worst)
+{
+    check_jacobian(c, &c->model, worst);
+}
+
+static void jacobian_clocks(const effects_case *c, laws_worst *worst)
+{
+    for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++)
+        for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
+            const bool carry[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
+            const iso_model m = iso_model_assemble(c->system, &c->model.field, clock, carry);
+            if (!(asked & 1 << clock)) check_jacobian(c, &m, worst);
+        }
+}
+
+/* In another clock and with carried clocks the equations are the own ones times the rate of (16), (24). */
+static void rhs_clocks(const effects_case *c, laws_worst *worst)
+{
+    const iso_params *p = &c->model.field.p;
+    const double q = c->system->q(p, c->y, NULL);
+    double own[ISO_MAX_STATE], dy[ISO_MAX_STATE], y[ISO_MAX_STATE] = {0};
+    copy(c->y, y, c->model.dim);
+    c->model.rhs(&c->model, y, own);
+    for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++) {
+        const iso_model m = iso_model_assemble(c->system, &c->model.field, clock, (const bool[]){true, true, true});
+        const double rate = iso_clock_rate(p, clock, q, NULL),
+                     own_rate = iso_clock_rate(p, c->system->clock, q, NULL);
+        m.rhs(&m, y, dy);
+        for (int i = 0; i < m.moving; i++)
+            effects_note(c, worst, fabs(dy[i] - own[i] * own_rate / rate), 8 * DBL_EPSILON * fabs(dy[i]), "state");
+        for (int i = 0; i < m.carried; i++)
+            effects_note(c, worst, fabs(dy[m.moving + i] * rate / iso_clock_rate(p, m.carry[i], q, NULL) - 1),
+                         8 * DBL_EPSILON, "clock");
+    }
+}
+
+/* --- torques --------------------------------------------------------------------------------------------------- */
+
+typedef struct potential_of {
+    const effects_case *c;
+    const iso_effect *effect;
+} potential_of;
+
+static void potential(const void *data, const double y[], double U[])
+{
+    const potential_of *of = data;
+    U[0] = of->effect->potential(&of->c->model.field, y);
+}
+
+/* T of U: a turn of the ball about e_i, and all that it moves with it, costs -T_i. */
+static void torque_of_potential(const potential_of *of, double h, double T[3])
+{
+    const iso_model *m = &of->c->model;
+    for (int i = 0; i < 3; i++) {
+        double y[ISO_MAX_STATE], turn[ISO_MAX_STATE];
+        copy(of->c->y, y, m->dim);
+        for (int j = 0; j < 3; j++) y[j] = i == j;
+        m->rhs(m, y, turn);
+        for (int j = 0; j < 3; j++) turn[j] = 0;
+        laws_slope(potential, of, 1, m->dim, y, turn, h, &T[i]);
+        T[i] = -T[i];
+    }
+}
+
+/* k n x dU/dn of what depends on n alone */
+static void torque_of_gradient(const potential_of *of, double h, double T[3])
+{
+    double dU[3];
+    for (int i = 0; i < 3; i++) {
+        double direction[ISO_MAX_STATE] = {0};
+        direction[3 + i] = 1;
+        laws_slope(potential, of, 1, of->c->model.dim, of->c->y, direction, h, &dU[i]);
+    }
+    cross(of->c->y + 3, dU, T);
+    scale(T, of->c->model.field.p.k);
+}
+
+static void torques_from_potentials(const effects_case *c, laws_worst *worst)
+{
+    const iso_params *p = &c->model.field.p;
+    const double h = laws_reach(p) / (128 * fmax(1, fabs(p->k)));
+    for (int e = 0; e < ISO_EFFECTS; e++) {
+        const potential_of of = {c, iso_effect_list[e]};
+        if (!effects_on(c, e) || !of.effect->potential) continue;
+        if (e == ISO_GRAVITY && p->k == 1 && !effects_on(c, ISO_ATTITUDE)) continue; /* nobody knows the height */
+        const double allowed = 2 * laws_rounding(p) * effects_energy_size(c) / h;
+        double T[3] = {0, 0, 0}, expected[3];
+        of.effect->torque(&c->model.field, c->y, T);
+        torque_of_potential(&of, h, expected);
+        effects_note(c, worst, laws_distance(T, expected), allowed, of.effect->name);
+        if (e == ISO_GRAVITY) continue;
+        torque_of_gradient(&of, h, expected);
+        effects_note(c, worst, laws_distance(T, expected), allowed * fmax(1, fabs(p->k)), "k n x dU/dn");
+    }
+}
+
+/* The potentials and torques themselves, as section 7 of the theory has them. */
+static void written_out(const effects_case *c, laws_worst *worst)
+{
+    const iso_field *f = &c->model.field;
+    const iso_effects *e = &f->effects;
+    const double *w = c->y, *n = c->y + 3, *up = c->y + f->at[ISO_GRAVITY], g = dot_diag(n, f->p.inv_J, n);
+    double sum[3] = {0, 0, 0}, T[3] = {0, 0, 0}, C_n[3], e_n[3], U = 0;
+    for (int i = 0; i < 3; i++) C_n[i] = dot(e->quadratic + 3 * i, n);
+    if (e->on[ISO_FIELD]) U += dot(n, C_n) / 2 + dot(e->linear, n);
+    if (e->on[ISO_LEVEL]) U -= e->level * pow(g, -1 / f->p.k);
+    if (e->on[ISO_GRAVITY] && f->p.k != 1) U += e->mgb / (1 - f->p.k) * dot(n, up);
+    cross(up, n, e_n);
+    if (e->on[ISO_GRAVITY]) add_scaled(T, e->mgb, e_n);
+    if (e->on[ISO_TWIST]) add_scaled(T, -e->twist * dot(w, n), n);
+    if (e->on[ISO_ROLLING_RESISTANCE]) add_scaled(T, -e->resistance, w);
+    for (int i = 0; i < ISO_EFFECTS; i++)
+        if (e->on[i] && i != ISO_FIELD && i != ISO_LEVEL && iso_effect_list[i]->torque)
+            iso_effect_list[i]->torque(f, c->y, sum);
+    effects_note(c, worst, laws_distance(T, sum), 8 * DBL_EPSILON * (effects_torque_size(c) + e->twist * norm(w)),
+                 "torque");
+    if (f->p.k == 1 && e->on[ISO_GRAVITY]) return;
+    effects_note(c, worst, fabs(U - iso_effects_potential(f, c->y)), laws_rounding(&f->p) * effects_energy_size(c),
+                 "U");
+}
+
+/* --- what is refused ------------------------------------------------------------------------------------------- */
+
+static iso_context *ctx;
+
+/* Every subset with its random numbers is fine, and left as it is to rounding. */
+static void accepted(const effects_case *c, laws_worst *worst)
+{
+    iso_effects e = c->model.field.effects;
+    effects_note(c, worst, iso_effects_check(ctx, &c->model.field.p, c->y + 3, &e) != ISO_OK, 0.5, "refused");
+    for (int i = 0; i < ISO_EFFECTS; i++)
+        for (const iso_effect_number *n = iso_effect_list[i]->numbers; n && n->name; n++)
+            for (int j = 0; j < n->count; j++) {
+                const double *old = (const double *)((const char *)&c->model.field.effects + n->offset);
+                const double *new = (const double *)((const char *)&e + n->offset);
+                effects_note(c, worst, fabs(new[j] - old[j]), 4 * DBL_EPSILON * fabs(old[j]), n->name);
+            }
+}
+
+/* Effects that are fine with k = 0.5 and with a tilted plane. */
+static const iso_effects sound = {.mgb = 0.7,
+                                  .up = {0, 0.6, 0.8},
+                                  .quadratic = {1, 2, 3, 2, 4, 5, 3, 5, 6},
+                                  .linear = {1, 0, 0},
+                                  .level = -0.3,
+                                  .twist = 10,
+                                  .resistance = 0.01,
+                                  .quaternion = {0.5, 0.5, 0.5, -0.5}};
+static const double normal[3] = {0, 0, 1};
+
+/* Tries effects with the one in question on: refused about `field`, or accepted (NULL). */
+static void attempt(const char *what, double k, double D, iso_effect_id id, iso_effects e, const char *field)
+{
+    iso_params p = laws_params(k, laws_J[0]);
+    if (D > 0) iso_params_set_D(ctx, D, &p);
+    e.on[id] = true;
+    const iso_status status = iso_effects_check(ctx, &p, normal, &e);
+    if (!field) gsl_test(status != ISO_OK, "%s is accepted: %s", what, status ? iso_context_message(ctx) : "");
+    if (!field) return;
+    gsl_test(status != ISO_BAD_INPUT || strcmp(iso_context_field(ctx), field) != 0,
+             "%s is refused about %s: '%s', %s", what, field,
+             status == ISO_BAD_INPUT ? iso_context_field(ctx) : "not refused", iso_context_message(ctx));
+}
+
+/* One number changed: x[index] of the sound effects, in every way that is wrong. */
+static void attempt_number(iso_effect_id id, const char *number, int index, double value, const char *field)
+{
+    iso_effects e = sound;
+    for (const iso_effect_number *n = iso_effect_list[id]->numbers; n->name; n++)
+        if (strcmp(n->name, number) == 0) ((double *)((char *)&e + n->offset))[index] = value;
+    char what[64];
+    snprintf(what, sizeof what, "%s %s[%d] = %g", iso_effect_list[id]->name, number, index, value);
+    attempt(what, 0.5, 0.3, id, e, field);
+    if (!field) return;
+    e.on[id] = false; /* numbers of effects that are off are not read */
+    attempt("what is off", 0.5, 0.3, ISO_CLOCK, e, NULL);
+}
+
+static void refused_numbers(void)
+{
+    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++) {
+        attempt(iso_effect_list[id]->name, 0.5, 0.3, id, sound, NULL);
+        for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
+            for (int i = 0; i < n->count; i++) {
+                attempt_number(id, n->name, i, NAN, n->name);
+                attempt_number(id, n->name, i, INFINITY, n->name);
+                attempt_number(id, n->name, i, -INFINITY, n->name);
+            }
+    }
+    attempt_number(ISO_GRAVITY, "mgb", 0, 0, "gravity");
+    attempt_number(ISO_GRAVITY, "mgb", 0, -0.7, NULL); /* b < 0: inside, shell */
+    attempt_number(ISO_GRAVITY, "up", 2, 0.81, "up");
+    attempt_number(ISO_GRAVITY, "up", 2, 0.8 + 2e-6, "up");
+    attempt_number(ISO_GRAVITY, "up", 2, 0.8 + 1e-6, NULL);
+    attempt_number(ISO_FIELD, "quadratic", 1, 2.1, "quadratic");
+    attempt_number(ISO_FIELD, "quadratic", 6, 3 + 1e-10, "quadratic");
+    attempt_number(ISO_FIELD, "quadratic", 5, 5 + 1e-15, NULL);
+    attempt_number(ISO_LEVEL, "c", 0, 0, "c");
+    attempt_number(ISO_LEVEL, "c", 0, 0.3, NULL);
+    attempt_number(ISO_TWIST, "resistance", 0, -1e-3, "resistance");
+    attempt_number(ISO_TWIST, "resistance", 0, 0, NULL); /* the classical ball */
+    attempt_number(ISO_ROLLING_RESISTANCE, "coefficient", 0, 0, "coefficient");
+    attempt_number(ISO_ROLLING_RESISTANCE, "coefficient", 0, -1, "coefficient");
+    attempt_number(ISO_ATTITUDE, "quaternion", 0, 0.50001, "quaternion");
+    attempt_number(ISO_ATTITUDE, "quaternion", 0, -0.5, NULL);
+}
+
+static void refused_combinations(void)
+{
+    iso_effects e = sound, constant = sound;
+    for (int i = 0; i < 9; i++) constant.quadratic[i] = i % 4 == 0 ? 2.5 : 0;
+    for (int i = 0; i < 3; i++) constant.linear[i] = 0;
+    attempt("a constant field", 0.5, 0, ISO_FIELD, constant, "field");
+    constant.linear[2] = 1e-9;
+    attempt("a field that is linear", 0.5, 0, ISO_FIELD, constant, NULL);
+    constant.linear[2] = 0, constant.quadratic[4] = 2.4;
+    attempt("a field that is diagonal", 0.5, 0, ISO_FIELD, constant, NULL);
+    constant.quadratic[4] = 2.5, constant.quadratic[1] = constant.quadratic[3] = 0.1;
+    attempt("a field that is off the diagonal", 0.5, 0, ISO_FIELD, constant, NULL);
+    attempt("twist without D", 0.5, 0, ISO_TWIST, sound, "twist");
+    attempt("reactions without D", 0.5, 0, ISO_REACTIONS, sound, "reactions");
+    attempt("gravity on a tilted plane", 1, 0, ISO_GRAVITY, sound, NULL);
+    for (int side = -1; side <= 1; side += 2) {
+        copy((const double[]){0, 0, side}, e.up, 3);
+        e.on[ISO_REACTIONS] = false;
+        attempt("gravity on a level plane", 1, 0.3, ISO_GRAVITY, e, "gravity");
+        attempt("gravity at the top of a sphere", 0.5, 0.3, ISO_GRAVITY, e, NULL);
+        e.on[ISO_REACTIONS] = true;
+        attempt("gravity on a level plane with reactions", 1, 0.3, ISO_GRAVITY, e, NULL);
+    }
+}
+
+/* Vectors that are nearly unit come back as unit vectors, a matrix nearly symmetric as a symmetric one. */
+static void made_exact(void)
+{
+    const iso_params p = laws_params(0.5, laws_J[0]);
+    iso_effects e = sound;
+    e.on[ISO_GRAVITY] = e.on[ISO_FIELD] = e.on[ISO_ATTITUDE] = true;
+    scale(e.up, 1 + 9e-7);
+    for (int i = 0; i < 4; i++) e.quaternion[i] *= 1 - 9e-7;
+    e.quadratic[1] += 1e-13;
+    gsl_test(iso_effects_check(ctx, &p, normal, &e) != ISO_OK, "nearly right is accepted");
+    for (int i = 0; i < 3; i++) gsl_test_rel(e.up[i], sound.up[i], 4 * DBL_EPSILON, "up made a unit vector");
+    for (int i = 0; i < 4; i++)
+        gsl_test_rel(e.quaternion[i], sound.quaternion[i], 4 * DBL_EPSILON, "quaternion made a unit one");
+    gsl_test(e.quadratic[1] != e.quadratic[3], "C made symmetric");
+}
+
+/* The isomorphism is lost with gravity, twist and rolling resistance, and with nothing else. */
+static void breaking(const effects_case *c, laws_worst *worst)
+{
+    const iso_effects *e = &c->model.field.effects;
+    const char *expected = e->on[ISO_GRAVITY]              ? "gravity"
+                           : e->on[ISO_TWIST]              ? "twist"
+                           : e->on[ISO_ROLLING_RESISTANCE] ? "rolling_resistance"
+                                                           : "";
+    const iso_effect *first = iso_effects_breaking(e);
+    effects_note(c, worst, strcmp(first ? first->name : "", expected), 0.5, "breaking");
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    effects_hold("states of every subset", NULL, 1, states);
+    effects_hold("starts and sizes of the states", NULL, 1, beginnings);
+    effects_hold("what nothing acts on is free, bit for bit", NULL, 1, plain);
+    effects_hold("Jacobian against differences", NULL, 1, jacobian_own_clock);
+    effects_hold("Jacobian in every clock, with carried clocks", NULL, 4, jacobian_clocks);
+    effects_hold("right-hand side in every clock", NULL, 1, rhs_clocks);
+    effects_hold("torques from potentials", &iso_system_ball, 1, torques_from_potentials);
+    effects_hold("torques and potentials written out", &iso_system_ball, 1, written_out);
+    effects_hold("every subset is accepted", &iso_system_ball, 1, accepted);
+    effects_hold("what breaks the isomorphism", &iso_system_ball, 1, breaking);
+    refused_numbers();
+    refused_combinations();
+    made_exact();
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}
