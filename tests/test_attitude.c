@@ -1,0 +1,212 @@
+/* The ball in space: attitude, contact point and centre belong together, and the ball rolls, neither slips nor
+ * twists. */
+#include "scenes.h"
+
+static iso_context *ctx;
+
+static laws_worst unit, vertical, frame, turning, normal, centre, slip, place, lengths, tangents, bending, twisting;
+
+enum { TIMES = 12 };
+
+/* --- at one moment ---------------------------------------------------------------------------------------------- */
+
+static void normal_in_space(const rolling *ball, const iso_sample *s, double v[3])
+{
+    (void)ball;
+    to_space(s, normal_of(s), v);
+}
+
+static void axis_in_space(const rolling *ball, const iso_sample *s, double v[3])
+{
+    static const double body_fixed[3] = {0.6, 0, 0.8};
+    (void)ball;
+    to_space(s, body_fixed, v);
+}
+
+/* R (w x v) */
+static void turned(const iso_sample *s, const double v[3], double in_space[3])
+{
+    double w_v[3];
+    cross(omega_of(s), v, w_v);
+    to_space(s, w_v, in_space);
+}
+
+/* (R v)' = R (w x v) for what is fixed in the body; (R n)' = (1-k) R (w x n); centre' = R (b w x n), and with it
+ * the point of the ball that touches, at the trace, is at rest. */
+static void note_velocities(const rolling *ball, const stencil *st)
+{
+    const iso_sample *s = middle(st);
+    const double fixed[3] = {0.6, 0, 0.8};
+    const double allowed = 1e-10 * pace_of(s);
+    double found[3], expected[3], contact_turns[3];
+    first_derivative(ball, st, axis_in_space, found);
+    turned(s, fixed, expected);
+    laws_note(&turning, laws_distance(found, expected), allowed, &ball->p, ball->name);
+    first_derivative(ball, st, normal_in_space, found);
+    turned(s, normal_of(s), expected);
+    scale(expected, 1 - ball->p.k);
+    laws_note(&normal, laws_distance(found, expected), allowed * (1 + fabs(ball->p.k)), &ball->p, ball->name);
+    first_derivative(ball, st, centre_of, found);
+    turned(s, normal_of(s), expected);
+    scale(expected, ball->b);
+    laws_note(&centre, laws_distance(found, expected), allowed, &ball->p, ball->name);
+    turned(s, s->trace, contact_turns);
+    scale(contact_turns, -1);
+    laws_note(&slip, laws_distance(found, contact_turns), allowed, &ball->p, ball->name);
+}
+
+/* contact - centre = R trace, trace = -b n, and where the fixed surface is: contact = a R n; on a plane through
+ * the first contact, whose normal R n stays what it was. */
+static void note_place(const rolling *ball, const iso_sample *s, const iso_sample *start)
+{
+    double arm[3], trace[3], n[3], n_start[3], surface[3];
+    for (int i = 0; i < 3; i++) arm[i] = s->contact[i] - s->centre[i];
+    to_space(s, s->trace, trace);
+    laws_note(&place, laws_distance(arm, trace), 1e-13, &ball->p, "arm");
+    for (int i = 0; i < 3; i++) trace[i] = -ball->b * normal_of(s)[i];
+    laws_note(&place, laws_distance(s->trace, trace), 1e-14, &ball->p, "trace");
+    normal_in_space(ball, s, n);
+    normal_in_space(ball, start, n_start);
+    if (on_plane(ball)) {
+        laws_note(&place, laws_distance(n, n_start), 1e-11, &ball->p, "normal of the plane");
+        laws_note(&place, fabs(dot(s->contact, n_start)), 1e-11, &ball->p, "in the plane");
+        return;
+    }
+    for (int i = 0; i < 3; i++) surface[i] = ball->a * n[i];
+    laws_note(&place, laws_distance(s->contact, surface), 1e-13 * fabs(ball->a), &ball->p, "contact");
+}
+
+static void note_moment(const rolling *ball, const iso_effects *e, const stencil *st, const iso_sample *start)
+{
+    const iso_sample *s = middle(st);
+    const double *Q = s->quaternion;
+    laws_note(&unit, fabs(sqrt(Q[0] * Q[0] + dot(Q + 1, Q + 1)) - 1), 1e-13, &ball->p, ball->name);
+    if (e->on[ISO_GRAVITY]) {
+        double up[3], up_start[3];
+        to_space(s, s->vertical, up);
+        to_space(start, start->vertical, up_start);
+        laws_note(&vertical, laws_distance(up, up_start), 1e-11, &ball->p, ball->name);
+    }
+    note_velocities(ball, st);
+    note_place(ball, s, start);
+}
+
+/* --- the two curves --------------------------------------------------------------------------------------------- */
+
+static void contact_of(const rolling *ball, const iso_sample *s, double v[3])
+{
+    (void)ball;
+    copy(s->contact, v, 3);
+}
+
+static void trace_of(const rolling *ball, const iso_sample *s, double v[3])
+{
+    (void)ball;
+    copy(s->trace, v, 3);
+}
+
+/* (x', x'', nu)/|x'|^3, positive where the curve turns left for one who stands on the side that nu points to. Both
+ * curves are seen from the same side: nu is n on the ball, R n in space. */
+static double geodesic_curvature(const rolling *ball, const stencil *st, seen *curve, const double nu[3])
+{
+    double d1[3], d2[3], d1_d2[3];
+    first_derivative(ball, st, curve, d1);
+    second_derivative(ball, st, curve, d2);
+    cross(d1, d2, d1_d2);
+    return dot(d1_d2, nu) / pow(norm(d1), 3);
+}
+
+/* x' = R X' for contact x and trace X, so x'' = R (w x X' + X'') and the curvatures differ by (w,n)/|x'|: a rubber
+ * ball's are equal, and one that twists at the contact shows it there. */
+static void note_curvature(const rolling *ball, const stencil *st, laws_worst *worst)
+{
+    const iso_sample *s = middle(st);
+    double n[3], on_surface[3], on_ball[3], turned_trace[3];
+    first_derivative(ball, st, contact_of, on_surface);
+    first_derivative(ball, st, trace_of, on_ball);
+    to_space(s, on_ball, turned_trace);
+    const double speed = norm(on_surface);
+    laws_note(&tangents, laws_distance(on_surface, turned_trace), 1e-10 * pace_of(s), &ball->p, ball->name);
+    if (!(speed > 0.1 * fabs(ball->b))) return; /* the curvature of a point that stands is no number */
+    normal_in_space(ball, s, n);
+    const double outer = geodesic_curvature(ball, st, contact_of, n);
+    const double inner = geodesic_curvature(ball, st, trace_of, normal_of(s));
+    const double spin = worst == &twisting ? spin_of(s) / speed : 0;
+    laws_note(worst, fabs(outer - inner - spin), 1e-6, &ball->p, ball->name);
+}
+
+/* From one stencil to the next: Simpson's rule on |x'|, and samples h apart serve all stencils. */
+static void note_lengths(const rolling *ball, iso_orbit *orbit)
+{
+    enum { PIECES = 400 };
+    double length[2] = {0, 0};
+    stencil st = stencil_around(ctx, orbit, ball, 0);
+    const double h = st.h;
+    for (int i = 0; i <= PIECES; i++) {
+        const double weight = (i == 0 || i == PIECES ? 1 : i % 2 ? 4 : 2) * h / 3;
+        double d[3];
+        first_derivative(ball, &st, contact_of, d);
+        length[0] += weight * norm(d);
+        first_derivative(ball, &st, trace_of, d);
+        length[1] += weight * norm(d);
+        for (int j = 0; j + 1 < POINTS; j++) st.s[j] = st.s[j + 1];
+        st.s[POINTS - 1] = scene_at(ctx, orbit, (i + 1 + REACH) * h);
+    }
+    laws_note(&lengths, fabs(length[0] / length[1] - 1), 1e-10, &ball->p, ball->name);
+}
+
+/* --- all balls -------------------------------------------------------------------------------------------------- */
+
+/* What acts: nothing, the weight, the weight and a field, the weight on a ball that twists. */
+enum { LOADS = 4 };
+
+static void check_ball(const rolling *ball, int load, iso_random *random)
+{
+    iso_effects e = {0};
+    iso_start start = scene_start(ball, random);
+    double up[3];
+    iso_random_direction(random, up);
+    add_attitude(random, &e);
+    if (load > 0) add_gravity(ball, 0.9, up, &e);
+    if (load == 2) add_field(&e);
+    if (load == 3) add_twist(0.4, &e), add_scaled(start.y, 0.7, start.y + 3);
+    iso_orbit *orbit = scene_orbit(ctx, ball, &start, &e, NULL);
+    const iso_sample begin = scene_at(ctx, orbit, 0);
+    for (int i = 0; i < 4; i++)
+        laws_note(&frame, fabs(begin.quaternion[i] - e.quaternion[i]), 1e-15, &ball->p, ball->name);
+    for (int i = -TIMES / 3; i < TIMES; i++) {
+        if (load == 3 && i < 0) continue; /* friction backwards is a run-away */
+        const stencil st = stencil_around(ctx, orbit, ball, 1.3 * i + 0.2);
+        note_moment(ball, &e, &st, &begin);
+        note_curvature(ball, &st, load == 3 ? &twisting : &bending);
+    }
+    note_lengths(ball, orbit);
+    iso_orbit_free(orbit);
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    iso_random *random = iso_random_create(71);
+    for (int which = 0; which < ROLLINGS; which++)
+        for (int load = 0; load < LOADS; load++) {
+            const rolling ball = rolling_ball(ctx, which);
+            check_ball(&ball, load, random);
+        }
+    iso_random_free(random);
+    laws_report(&frame, "the attitude begins as stated");
+    laws_report(&unit, "unit quaternion");
+    laws_report(&vertical, "R e: the vertical stands still in space");
+    laws_report(&turning, "(R v)' = R (w x v) for v fixed in the body");
+    laws_report(&normal, "(R n)' = (1-k) R (w x n)");
+    laws_report(&centre, "centre' = R (b w x n)");
+    laws_report(&slip, "no slip: the point of the ball that touches is at rest");
+    laws_report(&place, "contact, trace and centre belong together");
+    laws_report(&tangents, "contact' = R trace'");
+    laws_report(&lengths, "contact curve and trace have the same length");
+    laws_report(&bending, "no twist: contact curve and trace have the same geodesic curvature");
+    laws_report(&twisting, "with twist the geodesic curvatures differ by (w,n)/speed");
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}

@@ -1,0 +1,357 @@
+/* Balls under forces: energy along the orbit, both backends in potentials fixed in the body, points at any energy,
+ * and motion run backwards. */
+#include "scenes.h"
+
+static iso_context *ctx;
+
+/* --- energy ----------------------------------------------------------------------------------------------------- */
+
+static laws_worst projected, unprojected, lost, lost_with_twist;
+
+/* Over t = 100; by a method that restores the energy, and by one that does not. */
+static void check_energy(const rolling *ball, const char *method, bool field, iso_random *random, laws_worst *worst)
+{
+    iso_effects e = {0};
+    const iso_start start = scene_start(ball, random);
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    double up[3];
+    iso_random_direction(random, up);
+    add_gravity(ball, 0.5, up, &e);
+    add_attitude(random, &e);
+    if (field) add_field(&e);
+    o.tolerance = 1e-14;
+    o.method = iso_method_find(method);
+    iso_orbit *orbit = scene_orbit(ctx, ball, &start, &e, &o);
+    const iso_sample begin = scene_at(ctx, orbit, 0);
+    const double h0 = energy_of(ball, &e, &begin);
+    for (int t = -100; t <= 100; t += 10) {
+        const iso_sample s = scene_at(ctx, orbit, t);
+        const double kinetic = dot_diag(omega_of(&s), ball->p.J, omega_of(&s)) / 2;
+        laws_note(worst, fabs(energy_of(ball, &e, &s) - h0), 1e-11 * (kinetic + fabs(h0)), &ball->p, ball->name);
+    }
+    iso_orbit_free(orbit);
+}
+
+static iso_effects acting; /* on the orbit whose energy is differenced */
+
+static void energy_seen(const rolling *ball, const iso_sample *s, double h[3])
+{
+    h[0] = energy_of(ball, &acting, s);
+    h[1] = h[2] = 0;
+}
+
+/* dh/dt = -c_r (w,w) - c (w,n)^2 */
+static void check_resistance(const rolling *ball, double twist, iso_random *random, laws_worst *worst)
+{
+    iso_start start = scene_start(ball, random);
+    double up[3];
+    iso_random_direction(random, up);
+    acting = (iso_effects){.on[ISO_ROLLING_RESISTANCE] = true, .resistance = 0.11};
+    add_gravity(ball, 0.5, up, &acting);
+    add_attitude(random, &acting);
+    add_field(&acting);
+    if (twist > 0) add_twist(twist, &acting), add_scaled(start.y, 0.8, start.y + 3);
+    iso_orbit *orbit = scene_orbit(ctx, ball, &start, &acting, NULL);
+    for (int i = 0; i < 20; i++) {
+        const stencil st = stencil_around(ctx, orbit, ball, 0.3 + 0.5 * i);
+        const iso_sample *s = middle(&st);
+        const double spin = spin_of(s), w_w = dot(omega_of(s), omega_of(s));
+        double slope[3];
+        first_derivative(ball, &st, energy_seen, slope);
+        laws_note(worst, fabs(slope[0] + acting.resistance * w_w + twist * spin * spin),
+                  1e-10 * pace_of(s) * pace_of(s) * pace_of(s), &ball->p, ball->name);
+    }
+    iso_orbit_free(orbit);
+}
+
+static void check_energies(iso_random *random)
+{
+    for (int which = 0; which < ROLLINGS; which++) {
+        const rolling ball = rolling_ball(ctx, which);
+        for (int field = 0; field < 2; field++) {
+            check_energy(&ball, "rk8pd", field, random, &projected);
+            check_energy(&ball, "adams", field, random, &unprojected);
+        }
+        check_resistance(&ball, 0, random, &lost);
+        check_resistance(&ball, 0.6, random, &lost_with_twist);
+    }
+    laws_report(&projected, "weight and field: the energy is conserved (rk8pd)");
+    laws_report(&unprojected, "weight and field: the energy is conserved (adams)");
+    laws_report(&lost, "rolling resistance: dh/dt = -c_r (w,w)");
+    laws_report(&lost_with_twist, "and with twist: dh/dt = -c_r (w,w) - c (w,n)^2");
+}
+
+/* --- both backends ---------------------------------------------------------------------------------------------- */
+
+/* Everything shown and carried. */
+static iso_orbit *both_shown(const iso_params *p, const iso_start *start, const iso_effects *e, iso_picture backend,
+                             iso_clock clock)
+{
+    iso_orbit *orbit;
+    iso_orbit_options o = iso_orbit_defaults(start);
+    o.effects = e;
+    o.backend = backend;
+    o.tolerance = 1e-14;
+    o.clock = clock;
+    o.show = ISO_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
+    return orbit;
+}
+
+/* Of states, in units of the largest w and M of order one, and of clocks relative. */
+static double apart(const iso_sample *a, const iso_sample *b)
+{
+    double d[4 + ISO_CLOCKS] = {
+        laws_distance(a->ball, b->ball) / fmax(1, laws_norm(b->ball)), laws_distance(a->ball + 3, b->ball + 3),
+        laws_distance(a->point, b->point) / fmax(1, laws_norm(b->point)), laws_distance(a->point + 3, b->point + 3)};
+    for (int c = 0; c < ISO_CLOCKS; c++) d[4 + c] = fabs(a->clock[c] - b->clock[c]) / fmax(1, fabs(b->clock[c]));
+    return laws_max(4 + ISO_CLOCKS, d);
+}
+
+enum { TIMES = 5 };
+static const double times[TIMES] = {1, 17, 60, 100, -100};
+
+static void compare(const iso_params *p, iso_orbit *a, iso_orbit *b, const char *what, laws_worst *worst)
+{
+    for (int i = 0; i < TIMES; i++) {
+        const iso_sample x = scene_at(ctx, a, times[i]), y = scene_at(ctx, b, times[i]);
+        laws_note(worst, apart(&x, &y), 1e-9, p, what);
+    }
+}
+
+static laws_worst backends, chaotic;
+
+/* Where a start 1e-10 off has parted by more than 1e5 times that, in chaos, backends may part like it. */
+static void compare_backends(const iso_params *p, const iso_start *start, const iso_effects *e, const char *what)
+{
+    iso_start off = *start;
+    scale(off.y, 1 + 1e-10);
+    iso_orbit *by_ball = both_shown(p, start, e, ISO_BALL, ISO_CLOCK_T);
+    iso_orbit *by_point = both_shown(p, start, e, ISO_POINT, ISO_CLOCK_T);
+    iso_orbit *beside = both_shown(p, &off, e, ISO_BALL, ISO_CLOCK_T);
+    for (int i = 0; i < TIMES; i++) {
+        const iso_sample a = scene_at(ctx, by_ball, times[i]), b = scene_at(ctx, by_point, times[i]);
+        const iso_sample c = scene_at(ctx, beside, times[i]);
+        const double growth = apart(&c, &a) / 1e-10;
+        if (growth < 1e5)
+            laws_note(&backends, apart(&b, &a), 1e-9, p, what);
+        else
+            laws_note(&chaotic, apart(&b, &a), 1e-13 * growth, p, what);
+    }
+    iso_orbit_free(by_ball);
+    iso_orbit_free(by_point);
+    iso_orbit_free(beside);
+}
+
+/* c of a size with which the level matters */
+static double level_of(const iso_params *p, double share)
+{
+    return share * pow((p->J[0] + p->J[1] + p->J[2]) / 3, -1 / p->k);
+}
+
+static void check_backends(iso_random *random)
+{
+    for (int which = 0; which < ROLLINGS; which++) {
+        const rolling ball = rolling_ball(ctx, which);
+        for (int kind = 1; kind < 4; kind++) {
+            iso_effects e = {0};
+            const iso_start start = scene_start(&ball, random);
+            if (kind & 1) add_field(&e);
+            if (kind & 2) e.on[ISO_LEVEL] = true, e.level = level_of(&ball.p, kind == 2 ? 0.4 : -0.3);
+            compare_backends(&ball.p, &start, &e, kind == 1 ? "field" : kind == 2 ? "level" : "both");
+        }
+    }
+    laws_report(&backends, "field and level: backends ball and point agree to t = 100");
+    laws_report(&chaotic, "and in chaos as well as can be");
+    gsl_test(10 * chaotic.cases > backends.cases, "of %ld comparisons %ld are in chaos",
+             backends.cases + chaotic.cases, chaotic.cases);
+}
+
+/* --- points at any energy --------------------------------------------------------------------------------------- */
+
+static laws_worst to_ball, from_ball, coupling, turning;
+static int turned, gone_round;
+
+/* A point with M of `size` times that of the level H = 0, in a plane or not. */
+static iso_start point_off_level(const iso_params *p, double eps, double size, bool plane, iso_random *random)
+{
+    iso_start start = {.model = ISO_POINT, .eps = eps};
+    iso_random_direction(random, start.y + 3);
+    if (plane) start.y[5] = 0, make_unit(start.y + 3);
+    const double q = dot_diag(start.y + 3, p->J, start.y + 3);
+    double direction[3];
+    iso_random_direction(random, direction);
+    if (plane) direction[0] = direction[1] = 0;
+    remove_along(direction, start.y + 3);
+    make_unit(direction);
+    for (int i = 0; i < 3; i++) start.y[i] = size * sqrt(2 * eps * pow(q, -1 / p->k)) * direction[i];
+    return start;
+}
+
+/* H = M^2/2 - eps q^(-1/k) */
+static double level(const iso_params *p, double eps, const double y[ISO_STATE])
+{
+    return dot(y, y) / 2 - eps * pow(dot_diag(y + 3, p->J, y + 3), -1 / p->k);
+}
+
+/* The point's own orbit, its ball's by either backend, and a ball that starts where its ball does, in U = -c
+ * g^(-1/k) with c = H k^2/det J. */
+static void check_point(const iso_params *p, double size, bool plane, iso_random *random)
+{
+    const double eps = 0.8;
+    const iso_start start = point_off_level(p, eps, size, plane, random);
+    iso_orbit *point = both_shown(p, &start, NULL, ISO_POINT, ISO_CLOCK_S);
+    iso_orbit *ball = both_shown(p, &start, NULL, ISO_BALL, ISO_CLOCK_S);
+    compare(p, ball, point, plane ? "plane" : "space", &to_ball);
+    iso_effects e = {.on[ISO_LEVEL] = true, .level = level(p, eps, start.y) * p->k * p->k / p->det_J};
+    const iso_sample begin = scene_at(ctx, point, 0);
+    iso_start as_ball = {.model = ISO_BALL};
+    copy(begin.ball, as_ball.y, ISO_STATE);
+    for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
+        iso_orbit *back = both_shown(p, &as_ball, &e, backend, ISO_CLOCK_S);
+        compare(p, back, point, iso_picture_name((int)backend), &from_ball);
+        laws_note(&coupling, fabs(iso_orbit_coupling(back) / eps - 1), 1e-13, p, iso_picture_name((int)backend));
+        iso_orbit_free(back);
+    }
+    double least = INFINITY, most = 0;
+    bool backwards = false;
+    for (int i = 0; i <= 500; i++) {
+        const iso_sample s = scene_at(ctx, point, 0.1 * i);
+        least = fmin(least, laws_norm(s.point));
+        most = fmax(most, laws_norm(s.point));
+        backwards = backwards || dot(s.point, start.y) < 0;
+        laws_note(&turning, fabs(level(p, eps, s.point) - level(p, eps, start.y)), 1e-12 * (most * most + eps), p,
+                  "H along the way");
+    }
+    if (plane) *(backwards && least < 0.1 * most ? &turned : &gone_round) += 1;
+    iso_orbit_free(point);
+    iso_orbit_free(ball);
+}
+
+static void check_points(iso_random *random)
+{
+    static const double sizes[] = {0.15, 0.6, 1.4};
+    for (int which = 0; which < ROLLINGS; which++)
+        for (int i = 0; i < 3; i++) {
+            const rolling ball = rolling_ball(ctx, which);
+            check_point(&ball.p, sizes[i], false, random);
+            check_point(&ball.p, sizes[i], true, random);
+        }
+    laws_report(&to_ball, "points off the level H = 0: backends point and ball agree");
+    laws_report(&from_ball, "their balls in the potential of the level are theirs");
+    laws_report(&coupling, "and have their eps");
+    laws_report(&turning, "H is what it was");
+    gsl_test(turned < 4 || gone_round < 4, "of the points in a plane %d turn back (M through 0) and %d go round",
+             turned, gone_round);
+}
+
+/* --- Neumann's problem another way ------------------------------------------------------------------------------ */
+
+static laws_worst shifted;
+
+/* k = -1: at the energy E the point is that of a free ball with moments J + E/eps, where these are positive. Gives
+ * the sign of E, or 0. */
+static int check_shift(double size, iso_random *random)
+{
+    static const double J[3] = {1.4, 2.1, 3.0};
+    const double eps = 0.8;
+    const iso_params p = laws_params(-1, J);
+    iso_start start = point_off_level(&p, eps, size, false, random);
+    const double shift = level(&p, eps, start.y) / eps;
+    const double J_shifted[3] = {J[0] + shift, J[1] + shift, J[2] + shift};
+    if (!(min3(J_shifted) > 0.1)) return 0;
+    const iso_params free_p = laws_params(-1, J_shifted);
+    iso_orbit *point = both_shown(&p, &start, NULL, ISO_POINT, ISO_CLOCK_S);
+    start.eps = NAN;
+    iso_orbit *ball = both_shown(&free_p, &start, NULL, ISO_BALL, ISO_CLOCK_S);
+    const iso_effects none = iso_orbit_effects(ball);
+    laws_note(&shifted, none.on[ISO_LEVEL] ? 1 : 0, 0.5, &free_p, "free");
+    laws_note(&shifted, fabs(iso_orbit_coupling(ball) / eps - 1), 1e-13, &free_p, "eps");
+    for (int i = 0; i < TIMES; i++) {
+        const iso_sample a = scene_at(ctx, point, times[i]), b = scene_at(ctx, ball, times[i]);
+        laws_note(&shifted, laws_distance(a.point + 3, b.point + 3), 1e-10, &free_p, "gamma");
+    }
+    iso_orbit_free(point);
+    iso_orbit_free(ball);
+    return shift > 0 ? 1 : -1;
+}
+
+static void check_shifts(iso_random *random)
+{
+    int above = 0, below = 0;
+    for (double size = 0.4; size < 2; size += 0.1) {
+        const int sign = check_shift(size, random);
+        above += sign > 0;
+        below += sign < 0;
+    }
+    laws_report(&shifted, "Neumann at energy E is a free ball with J + E/eps");
+    gsl_test(above < 3 || below < 3, "%d points with E > 0, %d with E < 0", above, below);
+}
+
+/* --- reversal --------------------------------------------------------------------------------------------------- */
+
+static laws_worst reversed, not_reversed;
+
+/* (w, n, t) -> (-w, n, -t): the orbit back and forth. What is seen of n, of the attitude and of the force is the
+ * same. */
+static void check_reversal(const rolling *ball, const iso_effects *e, double spin, iso_random *random,
+                           laws_worst *worst)
+{
+    iso_start start = scene_start(ball, random), back;
+    add_scaled(start.y, spin, start.y + 3);
+    back = start;
+    scale(back.y, -1);
+    iso_orbit *there = scene_orbit(ctx, ball, &start, e, NULL), *again = scene_orbit(ctx, ball, &back, e, NULL);
+    for (double t = 1; t <= 10; t += 3) {
+        const iso_sample a = scene_at(ctx, there, t), b = scene_at(ctx, again, -t);
+        const double turned_w[3] = {-b.ball[0], -b.ball[1], -b.ball[2]};
+        const double allowed = 1e-10 * pace_of(&a) * pace_of(&a);
+        laws_note(worst, laws_distance(a.ball, turned_w), allowed, &ball->p, "w");
+        laws_note(worst, laws_distance(a.ball + 3, b.ball + 3), allowed, &ball->p, "n");
+        laws_note(worst, laws_distance(a.centre, b.centre), allowed * (1 + norm(a.centre)), &ball->p, "centre");
+        laws_note(worst, laws_distance(a.force, b.force), allowed * (1 + norm(a.force)), &ball->p, "N");
+        laws_note(worst, laws_distance(a.quaternion + 1, b.quaternion + 1), allowed, &ball->p, "Q");
+    }
+    iso_orbit_free(there);
+    iso_orbit_free(again);
+}
+
+static void check_reversals(iso_random *random)
+{
+    for (int which = 0; which < ROLLINGS; which++) {
+        const rolling ball = rolling_ball(ctx, which);
+        iso_effects e = {.on[ISO_REACTIONS] = true};
+        double up[3];
+        iso_random_direction(random, up);
+        add_gravity(&ball, 0.5, up, &e);
+        add_field(&e);
+        add_attitude(random, &e);
+        e.on[ISO_LEVEL] = true, e.level = level_of(&ball.p, 0.2);
+        check_reversal(&ball, &e, 0, random, &reversed);
+        add_twist(0, &e);
+        check_reversal(&ball, &e, 0.7, random, &reversed);
+        iso_effects resisted = e;
+        resisted.on[ISO_TWIST] = false, resisted.on[ISO_ROLLING_RESISTANCE] = true, resisted.resistance = 0.1;
+        laws_worst one = {0};
+        check_reversal(&ball, &resisted, 0, random, &one);
+        laws_note(&not_reversed, 1 / one.ratio, 1e-6, &ball.p, ball.name);
+    }
+    laws_report(&reversed, "weight, field, level, twist without resistance: reversible");
+    laws_report(&not_reversed, "rolling resistance is not reversible (1/ratio of the bound)");
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    iso_random *random = iso_random_create(74);
+    check_energies(random);
+    check_backends(random);
+    check_points(random);
+    check_shifts(random);
+    check_reversals(random);
+    iso_random_free(random);
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}
