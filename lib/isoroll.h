@@ -42,6 +42,7 @@ extern "C" {
 #include "orbit/convert.h"
 
 /* study: what people do with orbits */
+#include "study/analogue.h"
 #include "study/check.h"
 #include "study/compare.h"
 

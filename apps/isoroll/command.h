@@ -25,9 +25,11 @@ typedef struct options {
     const char *method;    /* --method                                                         */
     iso_picture backend, as, to; /* -1: not given                                              */
     double tolerance, end, step, k, eps, h, bound; /* NAN: not given                           */
-    double J[3];           /* J[0] NAN: not given                                              */
+    double J[3], neumann[3]; /* [0] NAN: not given                                             */
+    double energy;         /* NAN: not given                                                   */
+    double mass, radius;   /* --mass, --radius                                                 */
     double rows;           /* --rows                                                           */
-    bool json, verbose, help;
+    bool json, level, verbose, help;
 } options;
 
 typedef struct command {
@@ -39,7 +41,8 @@ typedef struct command {
     int (*run)(iso_context *ctx, const options *o);
 } command;
 
-extern const command command_run, command_convert, command_compare, command_check, command_explain, command_list;
+extern const command command_run, command_convert, command_compare, command_check, command_analogue, command_explain,
+    command_list;
 
 /* Reads the options of `command`. False: wrong ones, a message has been given. */
 bool options_read(const command *c, int argc, char **argv, options *o);

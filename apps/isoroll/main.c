@@ -13,8 +13,8 @@
 
 #include "command.h"
 
-static const command *const commands[] = {&command_run,   &command_convert, &command_compare,
-                                          &command_check, &command_explain, &command_list};
+static const command *const commands[] = {&command_run,      &command_convert, &command_compare, &command_check,
+                                          &command_analogue, &command_explain, &command_list};
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
 static volatile sig_atomic_t stop_asked;

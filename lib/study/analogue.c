@@ -1,0 +1,352 @@
+#include "study/analogue.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "map/state.h"
+
+/* A free ball by a shift of J is taken only if its moments are not further apart than this: J1 is the difference of
+ * 2 E and c, and loses as many digits. */
+#define MOST_SPREAD 1e8
+
+/* --- the problem ------------------------------------------------------------------------------------------------ */
+
+/* c of V = (1/2) sum c_i gamma_i^2 = -eps (gamma, J gamma), for k = -1 */
+static void neumann_c(const iso_analogue_problem *p, double c[3])
+{
+    for (int i = 0; i < 3; i++) c[i] = p->neumann ? p->c[i] : -2 * p->eps * p->J[i];
+}
+
+static double potential(const iso_analogue_problem *p, const double gamma[3])
+{
+    if (p->neumann) return dot_diag(gamma, p->c, gamma) / 2;
+    return -p->eps * pow(dot_diag(gamma, p->J, gamma), -1 / p->k);
+}
+
+/* V is monotonic in one quadratic form: its extremes are at the ends of two axes. */
+static int find_range(const iso_analogue_problem *p, double *lowest, double *highest)
+{
+    int bottom = 0;
+    *lowest = INFINITY;
+    *highest = -INFINITY;
+    for (int i = 0; i < 3; i++) {
+        const double axis[3] = {i == 0, i == 1, i == 2}, V = potential(p, axis) + 0.0; /* no -0 */
+        if (V < *lowest) *lowest = V, bottom = i;
+        *highest = fmax(*highest, V);
+    }
+    return bottom;
+}
+
+static iso_status check_numbers(iso_context *ctx, const iso_analogue_problem *p)
+{
+    iso_params params;
+    if (!isfinite(p->energy))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "energy", "energy %g: it must be finite", p->energy);
+    for (int i = 0; p->neumann && i < 3; i++)
+        if (!isfinite(p->c[i]))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "c", "c%d = %g: it must be finite", i + 1, p->c[i]);
+    if (p->neumann) return ISO_OK;
+    if (!isfinite(p->eps))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "eps = %g: the coupling must be finite", p->eps);
+    return iso_params_reduced(ctx, p->k, p->J, &params);
+}
+
+static bool is_constant(const iso_analogue_problem *p)
+{
+    const double *x = p->neumann ? p->c : p->J;
+    return (x[0] == x[1] && x[1] == x[2]) || (!p->neumann && p->eps == 0);
+}
+
+/* What the difference of two energies may be by rounding. */
+static double rounding(const iso_analogue *a)
+{
+    return 4 * DBL_EPSILON * fmax(fabs(a->problem.energy), fmax(fabs(a->lowest), fabs(a->highest)));
+}
+
+/* Whether anything moves at this energy. The least V itself, to rounding, is a point that rests at the bottom. */
+static iso_status check_energy(iso_context *ctx, const iso_analogue *a)
+{
+    const double E = a->problem.energy;
+    const bool fits = isfinite(a->lowest) && isfinite(a->highest) &&
+                      (a->problem.neumann || a->problem.eps == 0 || (isnormal(a->lowest) && isnormal(a->highest)));
+    if (!fits)
+        return iso_context_fail(ctx, ISO_NUMERICAL, "k",
+                                "V leaves the range of doubles on the sphere: k is too small, "
+                                "or J too far from 1");
+    if (is_constant(&a->problem) && E - a->lowest <= rounding(a))
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, "energy",
+                                "V = %.10g is constant, so at the energy %.10g %s: a ball at rest has no twin",
+                                a->lowest, E,
+                                E < a->lowest ? "there is no motion" : "the point rests wherever it is");
+    if (E - a->lowest >= -rounding(a)) return ISO_OK;
+    if (E == 0 && !a->problem.neumann)
+        return iso_context_fail(
+            ctx, ISO_NOT_MAPPED, "energy",
+            "no motion has the energy 0: eps = %.10g is negative, and so is h = eps k^2/det J of a "
+            "free ball. V is at least %.10g, from that energy on there is a ball",
+            a->problem.eps, a->lowest);
+    return iso_context_fail(ctx, ISO_NOT_MAPPED, "energy",
+                            "no motion has the energy %.10g: V is between %.10g and %.10g on the sphere", E,
+                            a->lowest, a->highest);
+}
+
+/* --- the reduced ball ------------------------------------------------------------------------------------------- */
+
+/* J1 + J2 - J3 of the sorted J: positive for a body's. */
+static double triangle_room(const double J[3])
+{
+    const double least = min3(J), most = max3(J), middle = fmax(fmin(J[0], J[1]), fmin(fmax(J[0], J[1]), J[2]));
+    return least - (most - middle);
+}
+
+static iso_status make_ball(iso_context *ctx, double k, const double J[3], double eps, double level_energy,
+                            iso_analogue_ball *ball)
+{
+    const iso_status status = iso_params_reduced(ctx, k, J, &ball->params);
+    if (status != ISO_OK) return status;
+    ball->eps = eps;
+    ball->h = iso_energy(&ball->params, eps);
+    ball->level = iso_energy(&ball->params, level_energy);
+    const bool fits = isnormal(ball->params.det_J) && isfinite(eps) && isfinite(ball->h) && isfinite(ball->level) &&
+                      (eps == 0) == (ball->h == 0) && (level_energy == 0) == (ball->level == 0);
+    if (fits) return ISO_OK;
+    return iso_context_fail(
+        ctx, ISO_NUMERICAL, "",
+        "the ball of k = %g, J = %g %g %g, eps = %g, E = %g has an h or c that does not fit a double: "
+        "use other units",
+        k, J[0], J[1], J[2], eps, level_energy);
+}
+
+/* V is a constant: the moments as stated if they are equal, else such that the ball is of order one. */
+static iso_status make_constant(iso_context *ctx, iso_analogue *a)
+{
+    const iso_analogue_problem *p = &a->problem;
+    const double k = p->neumann ? -1 : p->k, over = p->energy - a->lowest;
+    const double size = p->neumann ? 2 * over : cbrt(p->J[0]) * cbrt(p->J[1]) * cbrt(p->J[2]);
+    const bool stated = !p->neumann && p->J[0] == p->J[1] && p->J[1] == p->J[2];
+    const double one = stated ? p->J[0] : size, J[3] = {one, one, one};
+    a->way = ISO_ANALOGUE_CONSTANT;
+    a->shift = p->energy;
+    return make_ball(ctx, k, J, over * pow(one, 1 / k), 0, &a->reduced);
+}
+
+/* k = -1: J = d - c, eps = 1/2, on the level E - d/2. Where eps > 0 is stated J is measured so that it stays. */
+static iso_status make_shifted(iso_context *ctx, iso_analogue *a, double d, double level_energy)
+{
+    const iso_analogue_problem *p = &a->problem;
+    const double unit = !p->neumann && p->eps > 0 ? 2 * p->eps : 1;
+    double J[3];
+    neumann_c(p, J);
+    for (int i = 0; i < 3; i++) J[i] = p->neumann || p->eps < 0 ? d - J[i] : p->J[i] + d / unit;
+    a->shift = d / 2;
+    return make_ball(ctx, -1, J, unit / 2, level_energy, &a->reduced);
+}
+
+/* Whether J = 2 E - c is positive, and says in a->not_free what it is where it is not. */
+static bool shift_is_free(iso_analogue *a)
+{
+    double c[3], J[3];
+    neumann_c(&a->problem, c);
+    for (int i = 0; i < 3; i++) J[i] = 2 * a->problem.energy - c[i];
+    if (min3(J) > 0 && min3(J) * MOST_SPREAD >= max3(J)) return true;
+    snprintf(a->not_free, sizeof a->not_free,
+             "no free ball: 2 E - c = %.6g %.6g %.6g must be positive (and within a factor %g of each other)", J[0],
+             J[1], J[2], MOST_SPREAD);
+    return false;
+}
+
+static iso_status make_level(iso_context *ctx, iso_analogue *a)
+{
+    const iso_analogue_problem *p = &a->problem;
+    double c[3];
+    if (p->neumann || (p->k == -1 && triangle_room(p->J) <= 0)) {
+        neumann_c(p, c);
+        const double d = max3(c) + 2 * (max3(c) - min3(c));
+        a->way = ISO_ANALOGUE_SHIFTED;
+        return make_shifted(ctx, a, d, p->energy - d / 2);
+    }
+    a->way = ISO_ANALOGUE_STATED;
+    return make_ball(ctx, p->k, p->J, p->eps, p->energy, &a->reduced);
+}
+
+static iso_status make_reduced(iso_context *ctx, iso_analogue *a)
+{
+    const iso_analogue_problem *p = &a->problem;
+    const bool shell = p->neumann || p->k == -1;
+    if (is_constant(p)) return make_constant(ctx, a);
+    if (!p->neumann && p->energy == 0 && !(p->level && shell)) return make_level(ctx, a);
+    if (p->level && shell) {
+        snprintf(a->not_free, sizeof a->not_free, "a ball in the potential of a level was asked for");
+    } else if (!shell) {
+        snprintf(a->not_free, sizeof a->not_free,
+                 "no free ball: only for k = -1 is the energy a shift of J, for k = %.10g a free ball has E = 0",
+                 p->k);
+    } else if (shift_is_free(a)) {
+        a->way = ISO_ANALOGUE_FREE;
+        return make_shifted(ctx, a, 2 * p->energy, 0);
+    }
+    return make_level(ctx, a);
+}
+
+/* --- the body --------------------------------------------------------------------------------------------------- */
+
+/* The surface that gives k: A/(A+B), 1, A/(A-B), -A/(B-A). */
+static void choose_surface(double k, iso_body *body)
+{
+    const double B = body->radius;
+    body->surface = k == 1 ? ISO_PLANE : k > 1 ? ISO_INSIDE : k > 0 ? ISO_OUTSIDE : ISO_SHELL;
+    body->surface_radius = k == 1 ? 0 : k > 1 || k < 0 ? B * (k / (k - 1)) : B * (k / (1 - k));
+}
+
+/* The scale by which D = m B^2 stands in the middle of (0, s room]. */
+static void make_body(iso_context *ctx, double mass, double radius, iso_analogue *a)
+{
+    const iso_analogue_ball *r = &a->reduced;
+    iso_body body = {.mass = mass, .radius = radius};
+    iso_params params;
+    const double D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
+    a->room = triangle_room(r->params.J);
+    if (!(a->room > 0)) {
+        snprintf(a->no_body, sizeof a->no_body,
+                 "triangle inequality: J1 + J2 - J3 = %.6g is not positive (J sorted), so that I = J - D breaks "
+                 "I3 <= I1 + I2 for every D = m B^2 > 0",
+                 a->room);
+        return;
+    }
+    a->scale = 2 * (D / a->room);
+    for (int i = 0; i < 3; i++) body.inertia[i] = D * (2 * (r->params.J[i] / a->room) - 1);
+    choose_surface(r->params.k, &body);
+    iso_status status = iso_params_physical(ctx, &body, &params);
+    if (status == ISO_OK)
+        status = make_ball(ctx, params.k, params.J, r->eps * pow(a->scale, 1 / r->params.k), level_energy, &a->body);
+    a->has_body = status == ISO_OK;
+    if (a->has_body)
+        a->body.params = params;
+    else
+        snprintf(a->no_body, sizeof a->no_body, "%s", iso_context_message(ctx));
+}
+
+iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *problem, double mass, double radius,
+                             iso_analogue *a)
+{
+    memset(a, 0, sizeof *a);
+    a->problem = *problem;
+    iso_status status = check_numbers(ctx, problem);
+    if (status != ISO_OK) return status;
+    find_range(problem, &a->lowest, &a->highest);
+    status = check_energy(ctx, a);
+    if (status == ISO_OK) status = make_reduced(ctx, a);
+    if (status != ISO_OK) return status;
+    if (a->reduced.level == 0) a->not_free[0] = '\0';
+    make_body(ctx, mass, radius, a);
+    return ISO_OK;
+}
+
+/* --- starts and scenes ------------------------------------------------------------------------------------------ */
+
+/* What acts on the ball beyond its level changes the point's potential, or has no point. */
+static iso_status check_effects(iso_context *ctx, const iso_effects *e)
+{
+    for (int id = 0; id < ISO_EFFECTS; id++)
+        if (e->on[id] && (id == ISO_FIELD || iso_effect_list[id]->breaks))
+            return iso_context_fail(ctx, ISO_NOT_MAPPED, iso_effect_list[id]->name,
+                                    "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out",
+                                    iso_effect_list[id]->name);
+    return ISO_OK;
+}
+
+/* The orbit knows what a start's coupling and level are, stated or not. */
+iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
+                                   double point[ISO_STATE])
+{
+    iso_orbit *orbit;
+    iso_sample sample;
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    iso_effects effects = scene->effects;
+    if (scene->start.model != ISO_POINT)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "this scene is a ball already: an analogue is of a 'point'");
+    iso_status status = check_effects(ctx, &effects);
+    if (status != ISO_OK) return status;
+    for (int e = ISO_ATTITUDE; e < ISO_EFFECTS; e++) effects.on[e] = false; /* they are the ball's */
+    o.effects = &effects;
+    status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    if (status != ISO_OK) return status;
+    status = iso_orbit_at(orbit, 0, &sample);
+    if (status == ISO_OK) {
+        effects = iso_orbit_effects(orbit);
+        *problem = (iso_analogue_problem){.k = scene->params.k, .eps = iso_orbit_coupling(orbit)};
+        copy(scene->params.J, problem->J, 3);
+        problem->energy = effects.on[ISO_LEVEL] ? iso_coupling(&scene->params, effects.level) : 0;
+        copy(sample.point, point, ISO_STATE);
+    }
+    iso_orbit_free(orbit);
+    return status;
+}
+
+/* From a direction off all planes of symmetry halfway to the bottom, again and again, until half of what the energy
+ * has above the bottom is motion. */
+double iso_analogue_start(const iso_analogue *a, double point[ISO_STATE])
+{
+    static const double off[3] = {0.48, 0.6, 0.64}, way[3] = {0.6, -0.48, 0.64};
+    const iso_analogue_problem *p = &a->problem;
+    const double over = p->energy - a->lowest, most = fmax(p->energy, a->highest) - a->lowest;
+    double lowest, highest, *M = point, *gamma = point + 3;
+    const int bottom = find_range(p, &lowest, &highest);
+    copy(off, gamma, 3);
+    for (int i = 0; i < 30 && potential(p, gamma) - a->lowest > over / 2; i++) {
+        gamma[bottom] += 1;
+        make_unit(gamma);
+    }
+    if (over <= rounding(a)) /* at rest at the bottom */
+        for (int i = 0; i < 3; i++) gamma[i] = i == bottom;
+    copy(way, M, 3);
+    remove_along(M, gamma);
+    make_unit(M);
+    remove_along(M, gamma); /* the first time left a rounding error */
+    scale(M, sqrt(2 * fmax(p->energy - potential(p, gamma), 0)));
+    return 20 * acos(-1) / sqrt(2 * most);
+}
+
+/* (18) in own units, where its powers are of order one. */
+static iso_status start_ball(iso_context *ctx, const iso_params *p, const double point[ISO_STATE], iso_start *start)
+{
+    iso_units units;
+    double y[ISO_STATE];
+    iso_units_choose(p, 0, &units);
+    const double unit_M = iso_unit(&units, iso_system_point.fast_dimension);
+    copy(point, y, ISO_STATE);
+    for (int i = 0; i < 3; i++) y[i] /= unit_M;
+    iso_point_to_ball(&units.own, y, y);
+    for (int i = 0; i < 3; i++) y[i] *= units.w;
+    if (isfinite(largest(y)) && isfinite(largest(y + 3)))
+        return iso_start_ball(ctx, y, y + 3, ISO_SPIN_REMOVE, start);
+    return iso_context_fail(ctx, ISO_NUMERICAL, "angular_velocity",
+                            "the ball's angular velocity does not fit a double: use other units, or a larger |k|");
+}
+
+iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, const double point[ISO_STATE],
+                              double s_end, iso_scene *scene)
+{
+    iso_orbit *orbit;
+    iso_sample sample;
+    iso_scene s = iso_scene_default();
+    s.params = ball->params;
+    s.effects = (iso_effects){.level = ball->level, .quaternion = {1}};
+    s.effects.on[ISO_LEVEL] = ball->level != 0;
+    iso_status status = start_ball(ctx, &s.params, point, &s.start);
+    if (status != ISO_OK) return status;
+    iso_orbit_options o = iso_orbit_defaults(&s.start);
+    o.effects = &s.effects;
+    o.clock = ISO_CLOCK_S;
+    o.carry[ISO_CLOCK_T] = true;
+    status = iso_orbit_create(ctx, &s.params, &s.start, &o, &orbit);
+    if (status != ISO_OK) return status;
+    status = iso_orbit_at(orbit, s_end, &sample);
+    s.end = sample.clock[ISO_CLOCK_T];
+    iso_orbit_free(orbit);
+    if (status == ISO_OK) *scene = s;
+    return status;
+}

@@ -1,0 +1,138 @@
+#!/bin/sh
+# analogue.sh ISOROLL - `isoroll analogue`: its output is a report and a scene; that scene, run as a ball and carried to the
+# point, is the orbit of the problem; and what it refuses.
+. "$(dirname "$0")/lib.sh"
+worst=0
+
+# reports WORDS: the last output has them in its # lines
+reports() {
+    checks=$((checks + 1))
+    grep '^#' out | grep -F -q -e "$1" || fail "isoroll $last: expected the words '$1' in the report"
+}
+
+# agrees NAME: the scene in `out` is taken by compare, whose backends agree
+agrees() {
+    silent
+    cp out ball.yaml
+    last="$1: compare -"
+    checks=$((checks + 1))
+    "$isoroll" compare - <ball.yaml >table 2>err || fail "$last"
+    difference=$(tail -n 1 table | awk -F, '{ for (i = 1; i <= NF; i++) { split($i, x, " "); if (x[2] + 0 > m) m = x[2] + 0
+        n += x[2] ~ /^[0-9.]+e[-+][0-9]+$/ } print n == 6 ? m + 0 : "table" }')
+    at_most "$last" "$difference" 1e-9
+    worst=$(larger "$worst" "$difference")
+}
+
+# finds NAME WORDS ARGUMENT...: a report with these words, and a scene
+finds() {
+    of=$1 words=$2
+    shift 2
+    run 0 analogue "$@"
+    reports "$words"
+    agrees "$of"
+}
+
+# --- every branch
+finds "free Neumann" "ball: free: V = E - eps (gamma, J gamma), the energy is a shift of J, to 2 E - c" --neumann 1,2,2.5 --energy 2
+check "2 E - c" grep -qx '# reduced: k = -1, J = 3 2 1.5' out
+reports "h = eps k^2/det J = 0.055555555555555552" # 1/(2 x 9)
+check "B = 2 A" grep -qx 'surface: {kind: shell, radius: 0.5}' out
+# J1 + J2 - J3 = 0.5, twice D: J times 4, less D = 1
+check "the body" grep -qx 'ball:    {mass: 1, radius: 1, inertia: \[11, 7, 5\]}' out
+finds "free Neumann of no body" "triangle inequality: J1 + J2 - J3 = -0.5" --neumann 1,2,4 --energy 2.25
+reports "--level gives one that has a body"
+check "k and J" grep -qx 'reduced: {k: -1, J: \[3.5, 2.5, 0.5\]}' out
+finds "Neumann with --level" "d = 10" --neumann 1,2,4 --energy 2.25 --level
+check "it has a body" grep -q '^ball: .*inertia' out
+check "and a level" grep -q '^effects: {level: {c: ' out
+finds "Neumann below the top" "no free ball: 2 E - c = 1 0 -1" --neumann 1,2,3 --energy 1
+finds "Neumann, E = 0 by default" "energy M^2/2 + V = 0; V is between -4.5 and -0.5" --neumann -1,-5,-9
+finds "at rest" "energy M^2/2 + V = 0.5; V is between 0.5 and 1.5" --neumann 1,2,3 --energy 0.5
+check "a ball at rest" grep -qx '  angular_velocity: \[0, 0, 0\]' out
+finds "constant" "V is constant" --neumann 2,2,2 --energy 3
+finds "plane" "ball: free, since the energy is 0" --k 1 --J 1.4,2.1,3 --eps 6.5
+check "a plane has no radius" grep -qx 'surface: {kind: plane}' out
+finds "outside" "body: outside, m = 3, B = 0.1, A = 0.2333333333" --k 0.7 --J 1.4,2.1,3 --eps 6.5 --energy 2 --mass 3 --radius 0.1
+reports "no free ball: only for k = -1 is the energy a shift of J, for k = 0.7"
+finds "inside" "eps and h are negative" --k 2 --J 1.4,2.1,3 --eps -1.5 --energy 1
+finds "k and J alone" "no body:" --k 2 --J 1.4,2.1,4 --eps 1.5
+check "no body" grep -qx 'reduced: {k: 2, J: \[1.3999999999999999, 2.1000000000000001, 4\]}' out
+finds "J + E/eps" "to J + E/eps" --k -1 --J 1.4,2.1,3 --eps 4 --energy 2
+check "J + E/eps" grep -q '^# reduced: k = -1, J = 1.89.* 2.60.* 3.5$' out
+finds "a shell of eps < 0" "to 2 E - c" --k -1 --J 1.4,2.1,3 --eps -1 --energy 4
+
+# --- a scene's start: the point of `run`, in s, is the ball's twin at the same times
+# carries NAME ENERGY EPS SECTIONS [ARGUMENT...]: a scene with these sections and its start
+carries() {
+    of=$1 energy=$2 eps=$3
+    printf '%s\n' "$4" 'initial: {gamma: [0.6, 0, 0.8], M: [0.64, 1.0, -0.48]}' 'time: {end: 20, step: 0.5}' >point.yaml
+    shift 4
+    run 0 analogue point.yaml "$@"
+    reports "eps = $eps"
+    reports "energy M^2/2 + V = $energy;"
+    reports "start: the scene's"
+    agrees "$of"
+    # the moments of the ball's rows in s, at which the original point is asked for
+    run 0 run ball.yaml --backend ball --as both --tol 1e-14 -o both.csv
+    check "$of: as many rows" test "$(rows both.csv | wc -l)" -eq 41
+    rows both.csv | cut -d, -f3 >moments # t, tau, s
+    run 0 run point.yaml --backend point --times moments --tol 1e-14 -o original.csv
+    rows original.csv | awk -F, 'NR == 1 && $1 != 0 { exit 1 } END { exit !($1 > 19.999999 && $1 < 20.000001) }' ||
+        fail "$of: from s = 0 to 20"
+    error=$(difference original.csv both.csv)
+    at_most "$of: the original orbit" "$error" 1e-9
+    worst=$(larger "$worst" "$error")
+}
+carries "E = 0" 0 0.5 'point: {k: -1, J: [1, 1.5, 2], eps: 0.5}'
+carries "E = 0, no eps" 0 0.5 'point: {k: -1, J: [1, 1.5, 2]}'
+carries "E > 0" 0.41 0.25 'point: {k: -1, J: [1, 1.5, 2], eps: 0.25}'
+carries "E > 0, --level" 0.41 0.25 'point: {k: -1, J: [1, 1.5, 2], eps: 0.25}' --level
+carries "E < 0" -0.41 0.75 'point: {k: -1, J: [1, 1.5, 2], eps: 0.75}' --mass 0.01 --radius 7
+carries "E < -J1" -4.1 3 'point: {k: -1, J: [1, 1.5, 2], eps: 3}'
+carries "eps < 0" 2.46 -1 'point: {k: -1, J: [1, 1.5, 2], eps: -1}'
+carries "k = 1" 0.2102439024 1 'point: {k: 1, J: [1, 1.5, 2], eps: 1}'
+carries "a level stated" 0.3 0.3170731707 'point: {k: -1, J: [1, 1.5, 2]}
+effects: {level: {c: 0.1}}'
+cp point.yaml level.yaml
+"$isoroll" analogue <point.yaml >piped 2>err
+check "from standard input" cmp piped ball.yaml
+sed 's/^effects.*/effects: {level: {c: 0.1}, attitude: {}, clock: {}}/' point.yaml >more.yaml
+run 0 analogue more.yaml
+check "what acts on nothing is left out" cmp out ball.yaml
+sed 's/end: 20/end: -20/' point.yaml >back.yaml
+run 0 analogue back.yaml
+check "backwards" grep -q '^time:    {end: -' out
+agrees "backwards"
+
+# --- refusals
+refuses 3 "no motion has the energy 0.4: V is between 0.5 and 1.5" analogue --neumann 1,2,3 --energy 0.4
+refuses 3 "eps = -1.5 is negative, and so is h" analogue --k 2 --J 1.4,2.1,3 --eps -1.5
+refuses 3 "V = 1 is constant, so at the energy 1 the point rests" analogue --neumann 2,2,2 --energy 1
+refuses 3 "k = 0: the geometry number" analogue --k 0 --J 1,2,3 --eps 1
+refuses 3 "J3 = -3: moments of inertia must be positive" analogue --k 1 --J 1,2,-3 --eps 1
+refuses 4 "V leaves the range of doubles" analogue --k 1e-5 --J 1.4,2.1,3 --eps 1
+refuses 2 "--neumann has k = -1" analogue --neumann 1,2,3 --k 2
+refuses 2 "--eps is missing" analogue --k 1 --J 1,2,3
+refuses 2 "--J is missing" analogue --k 1 --eps 2
+refuses 2 "--k is missing" analogue --eps 2
+refuses 2 "'point.yaml' and a problem in options" analogue --neumann 1,2,3 point.yaml
+refuses 2 "--energy needs --neumann" analogue --energy 1 point.yaml
+refuses 2 "--neumann '1,2': expected three numbers" analogue --neumann 1,2
+refuses 2 "--energy 'much': expected a number" analogue --neumann 1,2,3 --energy much
+for option in mass radius; do
+    for bad in 0 -1 nan; do refuses 2 "--$option '$bad': expected a positive number" analogue --neumann 1,2,3 --$option "$bad"; done
+done
+run 0 analogue --neumann 1,2,3 --energy 1 --mass 1e-200 --radius 1e-100
+reports "no body:"
+agrees "a mass that does not fit"
+refuses 5 "cannot open 'absent.yaml'" analogue absent.yaml
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 5 0.25 >ball.yaml
+refuses 3 "ball.yaml: this scene is a ball already" analogue ball.yaml
+sed 's/^effects.*/effects: {field: {linear: [1, 0, 0]}}/' level.yaml >field.yaml
+refuses 3 "field.yaml:2:" analogue field.yaml
+says "is more than V = -eps"
+refuses 3 "field.yaml:2:" analogue field.yaml
+sed 's/^effects.*/effects: {rubber: 1}/' level.yaml >unknown.yaml
+refuses 3 "unknown.yaml:2:" analogue unknown.yaml
+echo "worst difference: $worst"
+finish
