@@ -1,0 +1,128 @@
+/* bench_effects - what each effect costs: states, one right-hand side, a whole orbit; as ratios to the free ball's.
+ *
+ *     cmake -S . -B .build/release -DBUILD_TESTING=ON && cmake --build .build/release -j && .build/release/tests/bench_effects
+ *
+ * The ball is the shell k = -1, J = (1.4, 2.1, 3.0), D = 0.5; its orbit runs to t = 100 with method auto at tolerance
+ * 1e-12. Each time is the least of several; the rounds go over all cases in turn, so that the ratios hold on a noisy
+ * machine.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include "isoroll.h"
+
+enum { CALLS = 20000, ROUNDS = 15, MOST = 16 };
+
+typedef struct run {
+    const char *name;
+    iso_effects effects;
+    iso_picture backend;
+    int states;
+    double rhs, orbit; /* least seconds so far */
+} run;
+
+static const double J[3] = {1.4, 2.1, 3.0};
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static iso_effects all_numbers(void)
+{
+    return (iso_effects){.mgb = 0.7,
+                         .up = {0, 0.6, 0.8},
+                         .quadratic = {0.3, 0.1, 0, 0.1, -0.2, 0.05, 0, 0.05, 0.1},
+                         .linear = {0.1, -0.2, 0.3},
+                         .level = 0.1,
+                         .twist = 10,
+                         .resistance = 0.01,
+                         .quaternion = {1, 0, 0, 0},
+                         .two_sided = true};
+}
+
+static void must(iso_context *ctx, iso_status status)
+{
+    if (status == ISO_OK) return;
+    fprintf(stderr, "bench_effects: %s\n", iso_context_message(ctx));
+    exit(1);
+}
+
+static void time_rhs(const iso_orbit *orbit, run *r)
+{
+    const iso_model *m = iso_orbit_model(orbit);
+    double y[ISO_MAX_STATE], dy[ISO_MAX_STATE];
+    const double six[ISO_STATE] = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8};
+    iso_model_begin(m, six, y);
+    const double begin = seconds();
+    for (int i = 0; i < CALLS; i++) {
+        m->rhs(m, y, dy);
+        y[0] += 1e-18 * dy[0]; /* each call waits for the one before */
+    }
+    r->rhs = fmin(r->rhs, (seconds() - begin) / CALLS);
+    r->states = m->dim;
+}
+
+static void measure(iso_context *ctx, const iso_params *p, run *r)
+{
+    iso_start start;
+    iso_orbit *orbit;
+    iso_sample sample;
+    must(ctx,
+         iso_start_ball(ctx, (double[]){0.9, -0.3, -0.225}, (double[]){0.36, 0.48, 0.8}, ISO_SPIN_REFUSE, &start));
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    o.effects = &r->effects;
+    o.backend = r->backend;
+    o.carry[ISO_CLOCK_TAU] = o.carry[ISO_CLOCK_S] = r->effects.on[ISO_CLOCK];
+    must(ctx, iso_orbit_create(ctx, p, &start, &o, &orbit));
+    time_rhs(orbit, r);
+    const double begin = seconds();
+    must(ctx, iso_orbit_at(orbit, 100, &sample));
+    r->orbit = fmin(r->orbit, seconds() - begin);
+    iso_orbit_free(orbit);
+}
+
+static int list_runs(run runs[])
+{
+    int count = 0;
+    runs[count++] = (run){"free ball", all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};
+    for (int e = 0; e < ISO_EFFECTS; e++) {
+        runs[count] = (run){iso_effect_list[e]->name, all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};
+        runs[count++].effects.on[e] = true;
+    }
+    for (int stiff = 0; stiff < 2; stiff++) { /* the contact's torque is a state */
+        runs[count] =
+            (run){stiff ? "twist, c = 1e8" : "twist, c = 1e2", all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};
+        runs[count].effects.twist = stiff ? 1e8 : 1e2;
+        runs[count++].effects.on[ISO_TWIST] = true;
+    }
+    runs[count] = (run){"all together", all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};
+    for (int e = 0; e < ISO_EFFECTS; e++) runs[count].effects.on[e] = true;
+    count++;
+    runs[count++] = (run){"free point", all_numbers(), ISO_POINT, 0, INFINITY, INFINITY};
+    runs[count] = (run){"point in a field", all_numbers(), ISO_POINT, 0, INFINITY, INFINITY};
+    runs[count++].effects.on[ISO_FIELD] = true;
+    return count;
+}
+
+int main(void)
+{
+    iso_context *ctx = iso_context_create();
+    iso_params p;
+    run runs[MOST];
+    const int count = list_runs(runs);
+    must(ctx, iso_params_reduced(ctx, -1, J, &p));
+    must(ctx, iso_params_set_D(ctx, 0.5, &p));
+    for (int round = 0; round < ROUNDS; round++)
+        for (int i = 0; i < count; i++) measure(ctx, &p, &runs[i]);
+    printf("%-20s %6s %20s %20s\n", "", "states", "right-hand side", "orbit to t = 100");
+    for (int i = 0; i < count; i++)
+        printf("%-20s %6d %10.0f ns %6.2f %10.2f ms %6.2f\n", runs[i].name, runs[i].states, 1e9 * runs[i].rhs,
+               runs[i].rhs / runs[0].rhs, 1e3 * runs[i].orbit, runs[i].orbit / runs[0].orbit);
+    iso_context_free(ctx);
+    return 0;
+}
