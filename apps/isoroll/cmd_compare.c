@@ -205,6 +205,8 @@ static int run(iso_context *ctx, const options *o)
     int result = finish_scene(ctx, o, &scene, status);
     progress_end();
     if (!c) return result;
+    for (int e = ISO_ATTITUDE; e <= ISO_REACTIONS; e++)
+        if (scene.effects.on[e]) complain("'%s' acts on nothing and is not compared", iso_effect_list[e]->name);
     if (status == ISO_STOPPED)
         complain("interrupted: %zu of %zu rows", iso_record_rows(c->difference), iso_scene_rows(&scene));
     if (o->json) {

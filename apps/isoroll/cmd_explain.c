@@ -18,7 +18,9 @@ static void explain_ball(const iso_params *p)
         printf("  m = %g, B = %g, I = %g %g %g; m B^2 = %g\n", b->mass, b->radius, b->inertia[0], b->inertia[1],
                b->inertia[2], b->mass * b->radius * b->radius);
     if (b->surface > ISO_PLANE) printf("  on a fixed sphere of radius A = %g\n", b->surface_radius);
-    printf("  k = %.17g, J = %.17g %.17g %.17g\n\n", p->k, p->J[0], p->J[1], p->J[2]);
+    printf("  k = %.17g, J = %.17g %.17g %.17g\n", p->k, p->J[0], p->J[1], p->J[2]);
+    if (b->surface == ISO_REDUCED && p->D > 0) printf("  D = m b^2 = %.17g\n", p->D);
+    printf("\n");
 }
 
 /* What acts on the ball or is asked of it, with its numbers. */
@@ -38,8 +40,10 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
                                    : "no further integral is known";
     const iso_effects effects = iso_orbit_effects(orbit);
     const iso_effect *breaking = iso_effects_breaking(&effects);
-    printf("isomorphism\n  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s, %s\n", -1 / p->k,
-           effects.on[ISO_FIELD] ? " + U/G" : "", effects.on[ISO_FIELD] ? "no further integral is known" : kind);
+    printf("isomorphism\n");
+    if (!breaking)
+        printf("  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s, %s\n", -1 / p->k,
+               effects.on[ISO_FIELD] ? " + U/G" : "", effects.on[ISO_FIELD] ? "in a field: see the integrals below" : kind);
     if (iso_orbit_has_twin(orbit))
         printf("  holds: this orbit has both models, (18) and the clocks t, tau, s%s\n",
                effects.on[ISO_LEVEL] ? "; the point is off the level H = 0, at H = c det J/k^2" : "");

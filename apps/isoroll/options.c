@@ -239,15 +239,18 @@ iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int
                              iso_orbit **orbit)
 {
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    bool ball = false, point = false;
+    bool ball = false, point = false, attitude = false;
     for (int i = 0; i < count; i++) {
+        attitude = attitude || iso_column_effect(columns[i]) == ISO_ATTITUDE;
         if (columns[i] < ISO_CLOCKS) o.carry[columns[i]] = true;
         ball = ball || (columns[i] >= ISO_COLUMN_BALL && columns[i] < ISO_COLUMN_POINT) ||
                columns[i] >= ISO_COLUMN_EFFECTS;
         point = point || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_EFFECTS);
     }
     ball = ball || scene->effects.on[ISO_REACTIONS]; /* loss of contact is looked for */
-    o.effects = &scene->effects;
+    iso_effects effects = scene->effects; /* what acts on nothing is there for its columns */
+    effects.on[ISO_ATTITUDE] = effects.on[ISO_ATTITUDE] && attitude;
+    o.effects = &effects;
     o.show = ball && point ? ISO_BOTH : ball ? ISO_BALL : point ? ISO_POINT : scene->start.model;
     o.backend = scene->backend;
     o.method = iso_method_find(scene->method);

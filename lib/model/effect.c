@@ -110,6 +110,9 @@ iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double
     if (status == ISO_OK && e->on[ISO_FIELD]) status = check_field(ctx, e);
     if (status == ISO_OK && e->on[ISO_LEVEL] && e->level == 0)
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "c", "level: 'c' is 0 and changes nothing: take it out");
+    if (status == ISO_OK && e->on[ISO_LEVEL] && p->J[0] == p->J[1] && p->J[1] == p->J[2])
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "level",
+                                  "with equal moments this potential is a constant and changes nothing: take it out");
     if (status == ISO_OK && e->on[ISO_TWIST]) status = check_positive(ctx, "twist", "resistance", e->twist, true);
     if (status == ISO_OK && e->on[ISO_TWIST]) status = check_mass(ctx, p, "twist");
     if (status == ISO_OK && e->on[ISO_ROLLING_RESISTANCE])

@@ -99,8 +99,6 @@ static void stiff_torque_slope(const iso_field *f, const double y[], int dim, do
     for (int j = 0; j < 3; j++) slope[dim * j + 3 + j] += y[at];
 }
 
-/* --- the rows ------------------------------------------------------------------------------------------------------- */
-
 /* --- integrals of the classical ball, whose momentum about the contact stands still in space ------------------------- */
 
 /* K, and the size of its terms */

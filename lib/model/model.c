@@ -177,7 +177,7 @@ const char *iso_model_state_name(const iso_model *m, int i, const char **reason)
 {
     *reason = "";
     if (i < ISO_STATE) return m->system->state[i];
-    *reason = "clock, because a column asks for it";
+    *reason = "clock: a column, or the effect clock, asks for it";
     if (i >= m->moving) return iso_clock_name(m->carry[i - m->moving]);
     iso_effect_id last = ISO_GRAVITY;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)

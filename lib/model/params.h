@@ -23,7 +23,7 @@ const char *iso_surface_name(int surface);
 /* A ball one can hold, in any consistent units of mass and length. */
 typedef struct iso_body {
     double mass;           /* m > 0                                                        */
-    double radius;         /* B > 0, of the moving sphere                                  */
+    double radius;         /* B > 0, of the moving sphere; may be known (not 0) of a reduced one */
     double inertia[3];     /* central principal moments I_i > 0, triangle inequalities     */
     iso_surface surface;   /* not ISO_REDUCED                                              */
     double surface_radius; /* A > 0, of the fixed sphere; not read for a plane             */

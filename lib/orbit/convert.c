@@ -194,7 +194,9 @@ static iso_status convert_lines(const conversion *c, iso_picture to, iso_record 
     const char *key, *value;
     iso_status status = ISO_OK;
     for (size_t i = 0; status == ISO_OK && iso_record_line(c->in, i, &key, &value); i++)
-        status = iso_record_set(c->ctx, out, key, value);
+        if (strcmp(key, "effects") != 0 && strncmp(key, "attitude.", 9) != 0) /* the ball's columns are not carried over */
+            status = iso_record_set(c->ctx, out, key, value);
+    if (status == ISO_OK) status = iso_record_describe_effects(c->ctx, out, &c->effects);
     if (status == ISO_OK) status = describe_energy(c, to, out);
     if (status != ISO_OK || c->own_column < 0) return status;
     const char *origin = origin_line[c->own];

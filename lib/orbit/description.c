@@ -14,8 +14,7 @@ static void line_key(char key[ISO_NAME_SIZE], const iso_effect *effect, const is
     snprintf(key, ISO_NAME_SIZE, "%s.%s", effect->name, n->name);
 }
 
-/* The names of those that act or have numbers, and the numbers. */
-static iso_status describe_effects(iso_context *ctx, iso_record *r, const iso_effects *effects)
+iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const iso_effects *effects)
 {
     char names[256] = "", key[ISO_NAME_SIZE];
     iso_status status = ISO_OK;
@@ -42,10 +41,13 @@ iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *mode
     const bool twin = iso_orbit_has_twin(orbit);
     const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
     const iso_effects effects = iso_orbit_effects(orbit);
-    if (effects.on[ISO_TWIST]) status = iso_record_set_numbers(ctx, r, "D", 1, &p->D);
+    const bool reactions = effects.on[ISO_REACTIONS], lengths = reactions || effects.on[ISO_ATTITUDE];
+    if (effects.on[ISO_TWIST] || reactions) status = iso_record_set_numbers(ctx, r, "D", 1, &p->D);
+    if (status == ISO_OK && lengths && p->body.radius > 0)
+        status = iso_record_set_numbers(ctx, r, "radius", 1, &p->body.radius);
     if (status == ISO_OK && twin && isnormal(h)) status = iso_record_set_numbers(ctx, r, "h", 1, &h);
     if (status == ISO_OK && twin && isnormal(eps)) status = iso_record_set_numbers(ctx, r, "eps", 1, &eps);
-    return status == ISO_OK ? describe_effects(ctx, r, &effects) : status;
+    return status == ISO_OK ? iso_record_describe_effects(ctx, r, &effects) : status;
 }
 
 iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *p)
@@ -59,8 +61,10 @@ iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *
     if (has_k && has_J) {
         double D;
         status = iso_params_reduced(ctx, k, J, p);
-        if (status != ISO_OK || !iso_record_get_numbers(ctx, r, "D", 1, &D, &status)) return status;
-        return iso_params_set_D(ctx, D, p);
+        if (status != ISO_OK) return status;
+        if (iso_record_get_numbers(ctx, r, "D", 1, &D, &status)) status = iso_params_set_D(ctx, D, p);
+        if (status == ISO_OK) iso_record_get_numbers(ctx, r, "radius", 1, &p->body.radius, &status);
+        return status;
     }
     return iso_context_fail(ctx, ISO_BAD_INPUT, has_k ? "J" : "k",
                             "the trajectory does not say its %s: a line '# %s' or the option --%s must",

@@ -1,8 +1,9 @@
 /* description.h - the # lines of a trajectory: what a record says of its ball and its effects.
  *
  *     # k, J, D      the ball; D = m b^2 where an effect needs it
+ *     # radius       |b|, the unit of lengths where columns have some; without it 1
  *     # h, eps       energy of the ball, coupling of the point
- *     # effects      names of those that act, and `# gravity.mgb`, `# level.c`, ... their numbers (iso_effect_number)
+ *     # effects      names of those that have numbers, and `# gravity.mgb`, `# level.c`, ... their numbers (iso_effect_number)
  */
 #ifndef ISO_ORBIT_DESCRIPTION_H
 #define ISO_ORBIT_DESCRIPTION_H
@@ -14,6 +15,9 @@
  * effects. What is no normal double in these units is left out: h and eps follow from any row. */
 iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,
                                const iso_orbit *orbit);
+
+/* Those of the effects alone. */
+iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, const iso_effects *effects);
 
 /* Reads them back: parameters from `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent or wrong). */
 iso_status iso_record_params(iso_context *ctx, const iso_record *record, iso_params *params);

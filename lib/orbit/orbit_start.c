@@ -170,7 +170,7 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     if (!all_finite(start->y, ISO_STATE) || (start->model == ISO_POINT && isinf(start->eps)))
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "the start is not finite");
     if (o->options.effects) o->effects = *o->options.effects;
-    o->length = p->body.surface == ISO_REDUCED ? 1 : p->body.radius;
+    o->length = p->body.radius > 0 ? p->body.radius : 1;
     iso_status status = check_effects(o, p, start);
     if (status != ISO_OK) return status;
     set_units(o, p, 0);

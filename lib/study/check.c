@@ -19,6 +19,8 @@ typedef struct checker {
     iso_residuals *out;
 } checker;
 
+enum { VERTICAL = ISO_COLUMN_EFFECTS, ATTITUDE = VERTICAL + 3, REACTIONS = ATTITUDE + 13 };
+
 static const int first_column[] = {
     [ISO_BALL] = ISO_COLUMN_BALL, [ISO_POINT] = ISO_COLUMN_POINT}; /* in iso_trajectory_columns */
 
@@ -149,16 +151,44 @@ static iso_status next_sample(const checker *c, iso_picture model, int clock, si
     return iso_context_fail(c->ctx, status, "", "row %zu: %s", row + 1, iso_context_message(c->ctx));
 }
 
-/* What turns with the ball, vertical and quaternion, in row `row` and after the flow from the row before. */
-static void check_turning(checker *c, const iso_sample *flow, size_t row)
+/* The columns that effects add, in groups of one size; what moves along a plane goes on from the row before. */
+static const struct {
+    const char *name;
+    int first, count;
+    bool moves;
+} groups[] = {{"e flow", VERTICAL, 3, false},      {"q flow", ATTITUDE, 4, false}, {"contact flow", ATTITUDE + 4, 3, true},
+              {"trace flow", ATTITUDE + 7, 3, false}, {"centre flow", ATTITUDE + 10, 3, true},
+              {"N flow", REACTIONS, 3, false},     {"force flow", REACTIONS + 3, 2, false},
+              {"lambda flow", REACTIONS + 6, 1, false}};
+enum { GROUPS = sizeof groups / sizeof *groups };
+
+/* What the effects' columns say in row `row`, against the flow from the row before, in units of the group's largest. */
+static void check_effects(checker *c, const iso_sample *flow, size_t row)
 {
-    iso_sample there;
-    double error[2] = {0};
+    iso_sample there, before;
+    const double length = c->params->body.radius > 0 ? c->params->body.radius : 1;
+    const double force = largest(flow->force) * fmax(1, length);
     read_sample(c, row, &there);
-    for (int i = 0; i < 3; i++) error[0] = fmax(error[0], fabs(flow->vertical[i] - there.vertical[i]));
-    for (int i = 0; i < 4; i++) error[1] = fmax(error[1], fabs(flow->quaternion[i] - there.quaternion[i]));
-    if (c->effects.on[ISO_GRAVITY]) note(c, "vertical flow", "e, each row integrated to the next", error[0], row);
-    if (c->effects.on[ISO_ATTITUDE]) note(c, "attitude flow", "q, each row integrated to the next", error[1], row);
+    read_sample(c, row - 1, &before);
+    for (int g = 0; g < GROUPS; g++) {
+        double error = 0, size = 0;
+        for (int i = groups[g].first; i < groups[g].first + groups[g].count; i++) {
+            const bool plane = c->params->k == 1 && groups[g].moves;
+            double expected = iso_sample_column(flow, i);
+            if (plane) expected += iso_sample_column(&before, ATTITUDE + 4 + (i - groups[g].first));
+            if (isnan(expected) || c->columns[i] < 0) continue;
+            error = fmax(error, fabs(expected - iso_sample_column(&there, i)));
+            size = fmax(size, fmax(fabs(expected), fabs(iso_sample_column(&there, i))));
+        }
+        if (groups[g].first >= REACTIONS) size = fmax(size, force); /* of which lambda is the torque */
+        if (size > 0) note(c, groups[g].name, "effects' columns, each row integrated to the next", error / size, row);
+    }
+}
+
+/* The quaternion, and on a plane the way, without which the height is not known. */
+static bool has_attitude(const checker *c)
+{
+    return c->columns[ATTITUDE] >= 0 && (c->params->k != 1 || c->columns[ATTITUDE + 4] >= 0);
 }
 
 static iso_status check_step(checker *c, iso_picture model, int clock, size_t row)
@@ -172,7 +202,7 @@ static iso_status check_step(checker *c, iso_picture model, int clock, size_t ro
     snprintf(name, sizeof name, "%s flow", iso_picture_name((int)model));
     note(c, name, "each row integrated to the next", distance(model == ISO_BALL ? sample.ball : sample.point, next),
          row + 1);
-    check_turning(c, &sample, row + 1);
+    check_effects(c, &sample, row + 1);
     for (int k = 0; k < ISO_CLOCKS; k++) {
         if (k == clock || c->columns[k] < 0 || isnan(sample.clock[k])) continue;
         snprintf(name, sizeof name, "clock %s", iso_clock_name((iso_clock)k));
@@ -251,7 +281,8 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
         c.columns[i] = iso_record_find(record, iso_trajectory_columns[i]);
     iso_status status = measure_clocks(&c);
     if (status == ISO_OK) status = iso_record_effects(ctx, record, &c.effects);
-    if (c.columns[ISO_COLUMN_EFFECTS + 3] < 0) c.effects.on[ISO_ATTITUDE] = false; /* it acts on nothing */
+    c.effects.on[ISO_ATTITUDE] = c.effects.on[ISO_ATTITUDE] && has_attitude(&c); /* they act on nothing */
+    c.effects.on[ISO_REACTIONS] = params->D > 0 && c.columns[REACTIONS] >= 0;
     if (status != ISO_OK) return status;
     const bool ball = has_model(&c, ISO_BALL), point = has_model(&c, ISO_POINT);
     if (!ball && !point)

@@ -27,6 +27,8 @@ typedef struct iso_residuals {
  *   if the record has a ball's columns or clocks;
  * - flow: each row integrated to the time of the next (rk8pd at `tolerance`), the difference relative to the
  *   largest component of omega or M and to 1; for this the record needs a clock;
+ * - the columns of effects (e, q, contact, trace, centre, N, pressure, friction, lambda): likewise, relative to the largest
+ *   number of the vector;
  * - the map: with both models in the record, each row's point against the point of its ball;
  * - clocks: with two of t, tau, s in the record, the steps of the one along the other, relative to the whole.
  * Errors, with the row: ISO_BAD_INPUT (no model's columns, a row that is no state, a time that is not finite),

@@ -148,8 +148,25 @@ for words in "k = -1, J = 1.3999999999999999" "Neumann's problem" "backend ball,
 done
 check_not "explain: no clock without a column" grep -q "because a column asks" out
 run 0 explain scene.yaml --as both --backend point
-for words in "backend point" "  M1 M2 M3 " " gamma3 " "  tau s                  clock, because a column asks for it"; do
+for words in "backend point" "  M1 M2 M3 " " gamma3 " "  tau s                  clock: a column, or the effect clock, asks for it"; do
     check "explain --as both --backend point: $words" grep -F -q -e "$words" out
 done
 refuses 2 "unknown or ambiguous option" explain scene.yaml --rows 3
+# Lengths and heights of a body that is not 1 m large: the file says its radius.
+cat >tilted.yaml <<'END'
+ball: {mass: 0.1, radius: 0.03, inertia: [3.4e-5, 3.6e-5, 3.8e-5]}
+surface: {kind: plane}
+initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [4, -3, 0]}
+time: {end: 1, step: 0.05}
+effects: {gravity: {g: 9.81, up: [0.399533429, 0.449412623, 0.799000208]}, attitude: {}, reactions: {}}
+END
+run 0 run tilted.yaml -o tilted.csv
+run 0 check tilted.csv --max 1e-11
+for residual in "ball h" "q flow" "contact flow" "trace flow" "centre flow" "N flow" "force flow" "lambda flow"; do
+    check "$residual" grep -q "^$residual " out
+done
+for column in 17 20 23 26 29; do # contact3 trace3 centre3 N3 pressure
+    awk -F, -v OFS=, -v c=$column '/^[0-9]/ {$(c + 1) = 7} 1' tilted.csv >damaged.csv
+    run 1 check damaged.csv --max 1e-9
+done
 finish

@@ -56,7 +56,7 @@ has t,tau,s,$ball,$point,$stands --as both
 physical inside 3 "clock: {}" "reactions: {two_sided: true}" "$attitude" "$resistance" "$twist" "$level" "$field" "$gravity" >scene.yaml
 has t,tau,s,$ball,$e,$stands,$pressed
 check "the lines, whatever the order in the scene" test "$(sed -n 's/^# \([a-zA-Z_.]*\): .*/\1/p' out | tr '\n' ' ')" = \
-    "model k J D gravity.mgb gravity.up field.quadratic field.linear level.c twist.resistance \
+    "model k J D radius gravity.mgb gravity.up field.quadratic field.linear level.c twist.resistance \
 rolling_resistance.coefficient attitude.quaternion effects backend method tolerance isoroll "
 check "the line effects" grep -qx '# effects: gravity field level twist rolling_resistance attitude' out
 check "mgb has the sign of b" grep -qx '# gravity.mgb: -19.62[0-9]*' out
@@ -357,7 +357,7 @@ physical inside 3 "$gravity" "$field" "$level" "$twist" "$resistance" "$attitude
 run 0 explain scene.yaml
 silent
 for words in "integrated: backend ball, 15 states, in the clock t" "  e1 e2 e3               vertical in body axes" "torque of the weight" \
-    "  q0 q1 q2 q3            attitude, from body to space axes" "  tau s                  clock, because a column asks for it" \
+    "  q0 q1 q2 q3            how the ball stands, from body to space axes" "  tau s                  clock: a column, or the effect clock, asks for it" \
     "mgb = -19.62" "quadratic = 1 0.2 0 0.2 2 0.1 0 0.1 0" "linear = 0.1 0.2 0.3" "c = 0.3" "resistance = 3" "coefficient = 0.1" \
     "quaternion = 0.5 0.5 -0.5 0.5" "does not hold: 'gravity' breaks it: its torque depends on the vertical" "  ball  |e|" "  ball  |q|"; do
     check "explain: $words" grep -F -q -e "$words" out
