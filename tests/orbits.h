@@ -54,6 +54,12 @@ static inline orbit orbit_rotation(iso_context *ctx, double k, double w)
     return o;
 }
 
+/* Whether a method is one for the system's equations. */
+static inline bool orbit_served(const iso_method *method, const iso_system *system)
+{
+    return !method->system || method->system == system;
+}
+
 /* An integrator that has been started at y0; ends the test when that is refused. */
 static inline iso_integrator *orbit_start(const orbit *o, const iso_method *method, const iso_method_options *options)
 {

@@ -226,6 +226,7 @@ static void check_orbits(const iso_method *m)
     static const level levels[] = {{5, 1, 0, 1}, {3, 1, 0.4, -1e-200}, {0, 1, 0.1, 1}};
     for (int s = 0; iso_systems[s]; s++)
         for (int k = 0; k < ORBIT_K; k++) {
+            if (!orbit_served(m, iso_systems[s])) continue;
             const orbit o = orbit_sample(ctx, iso_systems[s], orbit_k[k], orbit_J, 17 + (unsigned long)k);
             const int direction = (k + s) % 3 - 1;
             check_orbit(&o, m, &levels[k % 3], 1, direction);
@@ -244,6 +245,7 @@ static void check_agreement(void)
     iso_integrator_free(it);
     for (int i = 0; iso_methods[i]; i++) {
         const iso_method *m = iso_methods[i];
+        if (!orbit_served(m, o.model.system)) continue;
         double t = 0, worst = 0;
         it = start(&o, m);
         for (int e = 0; e < 5; e++) {
@@ -288,11 +290,12 @@ int main(void)
 {
     ctx = iso_context_create();
     for (int i = 0; iso_methods[i]; i++) {
+        check_orbits(iso_methods[i]);
+        if (!orbit_served(iso_methods[i], &iso_system_ball)) continue; /* the others know ball's orbits exactly */
         check_rotation(iso_methods[i]);
         check_tangents(iso_methods[i]);
         check_touching(iso_methods[i]);
         check_ends(iso_methods[i]);
-        check_orbits(iso_methods[i]);
         if (iso_methods[i]->fixed) check_exact_zero(iso_methods[i]);
     }
     check_agreement();

@@ -17,7 +17,7 @@ static void hold(const char *name, clause *check)
         for (int s = 0; iso_systems[s]; s++)
             for (int k = 0; k < ORBIT_K; k++) {
                 const orbit o = orbit_sample(ctx, iso_systems[s], orbit_k[k], orbit_J, 5 + (unsigned long)k);
-                check(&o, iso_methods[i], &worst);
+                if (orbit_served(iso_methods[i], iso_systems[s])) check(&o, iso_methods[i], &worst);
             }
     laws_report(&worst, name);
 }
@@ -153,7 +153,8 @@ static void statistics(const orbit *o, const iso_method *m, laws_worst *worst)
     iso_integrator_at(it, TURN * o->unit, y);
     s = iso_integrator_statistics(it);
     note_true(worst, o, m, s.steps >= TURN && s.steps < 100000);
-    note_true(worst, o, m, s.rhs >= s.steps && s.rhs < 300 * s.steps); /* bsimp makes 138 in a step */
+    const long trials = m->system ? 40000 : 0; /* of fixed steps, before the first */
+    note_true(worst, o, m, s.rhs >= s.steps && s.rhs < 300 * s.steps + trials); /* bsimp makes 138 in a step */
     note_true(worst, o, m, s.rejected >= 0 && s.rejected < s.steps);
     note_true(worst, o, m, (s.jacobians > 0) == m->implicit && s.jacobians <= s.rhs);
     iso_integrator_last(it, &t, last);

@@ -111,11 +111,13 @@ static void check_extrapolation(void)
     gsl_test(bsimp->order != 0 || !(mean > 8), "bsimp: no order is claimed, that of seven columns is high: %.2f", mean);
 }
 
+/* Compositions reach rounding before their order shows on these short ways: see test_splitting.c. */
 static void check_orders(void)
 {
     make_bundles(1.5);
     for (int i = 0; iso_methods[i]; i++)
-        for (int bare = 0; iso_methods[i]->order > 0 && bare <= 1; bare++) check_order(iso_methods[i], bare);
+        for (int bare = 0; iso_methods[i]->order > 0 && !iso_methods[i]->system && bare <= 1; bare++)
+            check_order(iso_methods[i], bare);
     check_extrapolation();
     for (int i = 0; iso_methods[i]; i++)
         gsl_test(!iso_methods[i]->fixed && iso_methods[i]->order > 0, "%s: what has an order takes fixed steps",
@@ -145,16 +147,19 @@ static void make_samples(sample samples[ORBITS])
 static double sample_error(const sample samples[ORBITS], const iso_method *m, double tolerance, double *worst)
 {
     double sum = 0;
+    int count = 0;
     *worst = 0;
     for (int i = 0; i < ORBITS; i++) {
         const sample *s = &samples[i];
+        if (!orbit_served(m, s->orbit.model.system)) continue;
         double y[ISO_MAX_STATE];
         orbit_solve(&s->orbit, m, &(iso_method_options){.tolerance = tolerance}, s->t, y);
         const double error = orbit_error(&s->orbit, y, s->reference);
         sum += log10(error);
+        count++;
         if (!(error <= *worst)) *worst = error;
     }
-    return sum / ORBITS;
+    return sum / count;
 }
 
 /* The error after 20 radians is C times the tolerance, C about the number of steps: up to 300 for one-step methods, up

@@ -36,13 +36,14 @@ static void list_effects(void)
 
 static void list_methods(void)
 {
-    printf("  %-22s %-7s %-6s %s\n", "name", "family", "order", "");
+    printf("  %-22s %-9s %-6s %s\n", "name", "family", "order", "");
     for (int i = 0; iso_methods[i]; i++) {
         const iso_method *m = iso_methods[i];
         char order[16] = "varies";
         if (m->order) snprintf(order, sizeof order, "%d", m->order);
-        printf("  %-22s %-7s %-6s %s%s%s\n", m->name, m->family, order, m->doc, m->implicit ? "; stiff" : "",
+        printf("  %-22s %-9s %-6s %s%s%s", m->name, m->family, order, m->doc, m->implicit ? "; stiff" : "",
                m->projects ? "" : "; no projection");
+        printf(m->system ? "; %s only\n" : "\n", m->system ? m->system->name : "");
     }
 }
 

@@ -154,7 +154,7 @@ iso_status iso_integrator_reach(iso_integrator *it, int direction, double t)
 
 iso_status iso_integrator_within(iso_integrator *it, double dt, double y[])
 {
-    if (dt != 0 && dt != it->h) return iso_leap(it, dt, y);
+    if (dt != 0 && dt != it->h) return it->method->within ? it->method->within(it, dt, y) : iso_leap(it, dt, y);
     copy(dt == 0 ? it->at_left : it->at_right, y, it->model.dim);
     return ISO_OK;
 }

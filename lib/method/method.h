@@ -7,11 +7,13 @@
  *     iso_integrator_free(it);
  *
  * Times are those of the model's independent clock. The contract:
- * - A method takes its own steps; what is asked between them is reached from the step's left end by a leap with
- *   GSL's rk8pd (bsimp for stiff models) at the same tolerance (13 right-hand sides as a rule). So a state at time t depends on the method and
- *   the tolerance, never on which other times were asked.
+ * - A method takes its own steps; what is asked between them is reached from the step's left end by the method itself
+ *   where it can (`within`), else by a leap with GSL's rk8pd (bsimp for stiff models) at the same tolerance (13
+ *   right-hand sides as a rule). So a state at time t depends on the method and the tolerance, never on which other
+ *   times were asked.
  * - `tolerance` bounds the estimated error of one step in units of iso_model_size(): the largest component for
- *   GSL methods, the root mean square for SUNDIALS. The error of a long orbit is larger: it adds up.
+ *   GSL methods, the root mean square for SUNDIALS. Splittings keep one step in s, chosen by trial runs over the
+ *   first two turns. The error of a long orbit is larger: it adds up.
  * - The elapsed time is the compensated sum of the steps taken, exact to 1e-30 relative: systems are autonomous, and
  *   the library's own uncompensated t += h would cost 1e-9 at t = 1000 (see SUNDIALS in the README).
  * - After each step the model's constraints and energy are restored where the method allows it (`projects`); the
@@ -49,11 +51,14 @@ typedef struct iso_method {
     bool projects; /* restores constraints after each step                                             */
     bool fixed;    /* can take fixed steps                                                             */
     int variant;   /* which of its family                                                              */
+    const iso_system *system; /* the only one it serves, by equations of its own; NULL: every model, by its rhs */
 
     /* Make and release the method's own data; begin at it->right; take one step, see integrator_impl.h. */
     iso_status (*create)(iso_integrator *it);
     iso_status (*start)(iso_integrator *it);
     iso_status (*step)(iso_integrator *it, double y[], double *h);
+    /* The state at dt from the step's left end, |dt| < |h|, by the method's own; NULL: by a leap. */
+    iso_status (*within)(iso_integrator *it, double dt, double y[]);
     void (*free)(iso_integrator *it);
 } iso_method;
 
@@ -67,8 +72,8 @@ const iso_method *iso_method_find(const char *name);
 /* What "auto" means for a model: the cheapest method that is exact enough. */
 const iso_method *iso_method_auto(const iso_model *model);
 
-/* Errors: ISO_BAD_ARGUMENT (no method, tolerance out of range, fixed steps with a method that has none),
- * ISO_NO_MEMORY. */
+/* Errors: ISO_BAD_ARGUMENT (no method, one that does not serve the model, tolerance out of range, fixed steps with a
+ * method that has none, or not in this clock), ISO_NO_MEMORY. */
 iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
                                  const iso_method_options *options, iso_integrator **integrator);
 void iso_integrator_free(iso_integrator *it);

@@ -32,11 +32,12 @@ void iso_sample_set_column(iso_sample *sample, int column, double value)
 
 /* --- making an orbit --------------------------------------------------------------------------------------------- */
 
-/* Effects that only the ball shows need the ball. */
+/* Effects that only the ball shows need the ball, and some methods are for one system. */
 static iso_picture choose_backend(const iso_orbit_options *opt, const iso_start *start)
 {
     const iso_effects *e = opt->effects;
     if (opt->backend != ISO_AUTO) return opt->backend;
+    if (opt->method && opt->method->system) return opt->method->system == &iso_system_ball ? ISO_BALL : ISO_POINT;
     return e && (iso_effects_breaking(e) || e->on[ISO_ATTITUDE] || e->on[ISO_REACTIONS]) ? ISO_BALL : start->model;
 }
 

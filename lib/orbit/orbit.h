@@ -20,7 +20,7 @@ typedef struct iso_orbit iso_orbit;
 typedef struct iso_orbit_options {
     const iso_effects *effects; /* what acts on the ball, in the caller's units; NULL: nothing             */
     iso_picture backend;      /* the model that is integrated; ISO_AUTO: that of the start, the ball where
-                                 effects need it                                                           */
+                                 effects need it, the one that the method is for                           */
     const iso_method *method; /* NULL: iso_method_auto()                                                   */
     double tolerance;
     long max_steps;           /* after which a call fails with ISO_NUMERICAL; 0: no bound                  */

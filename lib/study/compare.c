@@ -76,6 +76,8 @@ static iso_status open_backend(runner *r, iso_picture backend)
     o.method = iso_method_find(r->scene->method);
     if (!o.method && strcmp(r->scene->method, "auto") != 0)
         return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "method", "there is no method '%s'", r->scene->method);
+    const iso_system *const system = backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
+    if (o.method && o.method->system && o.method->system != system) o.method = NULL; /* auto: it is for the other */
     o.tolerance = r->scene->tolerance;
     o.show = ISO_BOTH;
     for (int clock = 0; clock < ISO_CLOCKS; clock++) o.carry[clock] = true;

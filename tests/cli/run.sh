@@ -55,6 +55,10 @@ header point.yaml "$ball" --as ball
 run 0 run scene.yaml --backend point --as both
 check "the line backend: point" grep -qx '# backend: point' out
 at_most "backends" "$(difference both.csv out)" 1e-11
+run 0 run scene.yaml --method kahan_li8 --as both
+check "a method for the point chooses it" grep -qx '# backend: point' out
+at_most "splitting" "$(difference both.csv out)" 1e-9
+refuses 2 'kahan_li8 is for the point' run scene.yaml --method kahan_li8 --backend ball
 
 # --- times
 printf '5 1,5\t-3 0 # 99\n\n2,,7 \r\n# 4\n10' >asked # unsorted, repeated, both directions

@@ -1,0 +1,392 @@
+/* splitting.c - symplectic compositions of two exact flows for the point (24), H = M^2/2 + V(gamma).
+ *
+ *     M^2/2 alone:    M stays, gamma turns on a great circle:  gamma cos(x) + (gamma x M)/|M| sin(x),   x = |M| h
+ *     V alone:        gamma stays, M += h gamma x dV/dgamma
+ *
+ * Either keeps |gamma| = 1 and (M,gamma) = 0, so every composition does, up to rounding. A symmetric composition of
+ * order p solves a Hamiltonian system whose H differs from ours by O(h^p): with steps that are all alike the energy
+ * error stays bounded, and the way back is the way forth. Kicks do not feel M and the kinetic energy is quadratic
+ * in it, so {V,{V,{V,T}}} = 0 and the tables of Runge-Kutta-Nystrom type hold here as well.
+ *
+ * Another clock c with dc/ds = r(gamma) comes along as the coordinate of a momentum p_c = 0: V + p_c r is again a
+ * potential of the positions, its kick adds h r(gamma) to c, and the composition has its order for c too.
+ *
+ * Steps are fixed in s. A run in another clock finds the s where that clock shows a time by Newton's method. Sums
+ * over steps are compensated: that divides the rounding errors by the angle of a stage, ten or more.
+ */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "method/integrator_impl.h"
+#include "method/methods_impl.h"
+
+/* --- coefficients ---------------------------------------------------------------------------------------------- */
+
+/* The first halves of symmetric lists, in units of the step. A middle one (two, if their number is even) takes what
+ * the others leave. Without drifts the table composes Strang's steps drift/2, kick, drift/2 of the kicks' lengths. */
+typedef struct table {
+    int kicks;
+    bool kick_first;
+    const double *kick, *drift;
+} table;
+
+enum { STRANG, BLANES_MOAN4, BLANES_MOAN6, KAHAN_LI8, SOFRONIOU_SPALETTA10, MOST_KICKS = 35 };
+
+static const table tables[] = {
+    /* Strang, SIAM J. Numer. Anal. 5 (1968) 506 */
+    [STRANG] = {.kicks = 1},
+    /* Blanes, Moan, J. Comput. Appl. Math. 142 (2002) 313, table 3: SRKN 6b */
+    [BLANES_MOAN4] = {.kicks = 7,
+                      .kick_first = true,
+                      .kick = (const double[]){0.0829844064174052, 0.396309801498368, -0.0390563049223486},
+                      .drift = (const double[]){0.245298957184271, 0.604872665711080}},
+    /* the same, table 3: SRKN 14a */
+    [BLANES_MOAN6] = {.kicks = 14,
+                      .kick = (const double[]){0.09171915262446165, 0.183983170005006, -0.05653436583288827,
+                                               0.004914688774712854, 0.143761127168358, 0.328567693746804},
+                      .drift = (const double[]){0.0378593198406116, 0.102635633102435, -0.0258678882665587,
+                                                0.314241403071447, -0.130144459517415, 0.106417700369543,
+                                                -0.00879424312851058}},
+    /* Kahan, Li, Math. Comp. 66 (1997) 1089: s17odr8a */
+    [KAHAN_LI8] = {.kicks = 17,
+                   .kick = (const double[]){0.13020248308889008087881763, 0.56116298177510838456196441,
+                                            -0.38947496264484728640807860, 0.15884190655515560089621075,
+                                            -0.39590389413323757733623154, 0.18453964097831570709183254,
+                                            0.25837438768632204729397911, 0.29501172360931029887096624}},
+    /* Sofroniou, Spaletta, Optim. Methods Softw. 20 (2005) 597: order 10, 35 stages */
+    [SOFRONIOU_SPALETTA10] = {.kicks = MOST_KICKS,
+                              .kick = (const double[]){0.07879572252168641926390768, 0.31309610341510852776481247,
+                                                       0.02791838323507806610952027, -0.22959284159390709415121340,
+                                                       0.13096206107716486317465686, -0.26973340565451071434460973,
+                                                       0.07497334315589143566613711, 0.11199342399981020488957508,
+                                                       0.36613344954622675119314812, -0.39910563013603589787862981,
+                                                       0.10308739852747107731580277, 0.41143087395589023782070412,
+                                                       -0.00486636058313526176219566, -0.39203335370863990644808194,
+                                                       0.05194250296244964703718290, 0.05066509075992449633587434,
+                                                       0.04967437063972987905456880}},
+};
+
+/* A step of given length: drift[0], kick[0], drift[1] ... kick[kicks - 1], drift[kicks] */
+typedef struct schedule {
+    int kicks;
+    double kick[MOST_KICKS], drift[MOST_KICKS + 1];
+} schedule;
+
+/* A symmetric list of `count` parts of h */
+static void divide(double h, int count, const double half[], double part[])
+{
+    const int given = (count - 1) / 2, middle = count - 2 * given;
+    double rest = h;
+    for (int i = 0; i < given; i++) {
+        part[i] = part[count - 1 - i] = h * half[i];
+        rest -= 2 * part[i];
+    }
+    for (int i = 0; i < middle; i++) part[given + i] = rest / middle;
+}
+
+static void plan(const table *t, double h, schedule *s)
+{
+    const int kicks = s->kicks = t->kicks;
+    divide(h, kicks, t->kick, s->kick);
+    s->drift[0] = s->drift[kicks] = t->kick_first ? 0 : s->kick[0] / 2;
+    for (int i = 1; i < kicks; i++) s->drift[i] = (s->kick[i - 1] + s->kick[i]) / 2;
+    if (t->drift) divide(h, kicks + (t->kick_first ? -1 : 1), t->drift, s->drift + t->kick_first);
+}
+
+/* --- the two flows --------------------------------------------------------------------------------------------- */
+
+/* (M, gamma) + rest, and how far the clocks have come since the step began */
+typedef struct state {
+    double y[ISO_STATE], rest[ISO_STATE], clock[ISO_CLOCKS];
+} state;
+
+typedef struct splitting {
+    double step;                     /* in s, positive                                        */
+    schedule whole;                  /* of a step in the direction of the run                 */
+    bool clocks;                     /* others than s are wanted                              */
+    double rest[ISO_MAX_STATE];      /* what the state at the end of the last step lacks ...  */
+    double rest_left[ISO_MAX_STATE]; /* ... and at its beginning                              */
+    int until_restored;              /* steps                                                 */
+} splitting;
+
+/* *sum + *rest + x without rounding, but for the last bits of the rest (Knuth's two-sum) */
+static inline void add(double *sum, double *rest, double x)
+{
+    const double more = x + *rest, total = *sum + more, part = total - *sum;
+    *rest = (*sum - (total - part)) + (more - part);
+    *sum = total;
+}
+
+static inline void add3(double sum[3], double rest[3], const double x[3])
+{
+    add(&sum[0], &rest[0], x[0]);
+    add(&sum[1], &rest[1], x[1]);
+    add(&sum[2], &rest[2], x[2]);
+}
+
+/* sin(a)/a and (1 - cos a)/a^2 at x = a^2. The angles of a stage are small as a rule and their series short; sums of
+ * pairs wait for each other less than Horner's rule does. */
+static inline void turn(double x, double *sine, double *versine)
+{
+    if (x > 0.25) {
+        const double a = sqrt(x), half = sin(a / 2);
+        *sine = sin(a) / a;
+        *versine = 2 * half * half / x;
+        return;
+    }
+    const double x2 = x * x, x4 = x2 * x2;
+    *sine = 1 + ((x * (-1. / 6) + x2 * (1. / 120 + x * (-1. / 5040))) +
+                 x4 * ((1. / 362880 + x * (-1. / 39916800)) + x2 * (1. / 6227020800 + x * (-1. / 1307674368000))));
+    *versine = (0.5 + x * (-1. / 24) + x2 * (1. / 720 + x * (-1. / 40320))) +
+               x4 * ((1. / 3628800 + x * (-1. / 479001600)) + x2 * (1. / 87178291200));
+}
+
+static inline void drift(double h, state *z)
+{
+    const double *M = z->y, x = h * h * dot(M, M);
+    double *gamma = z->y + 3, side[3], sine, versine;
+    turn(x, &sine, &versine);
+    cross(gamma, M, side);
+    const double along = x * versine, across = h * sine;
+    const double move[3] = {across * side[0] - along * gamma[0], across * side[1] - along * gamma[1],
+                            across * side[2] - along * gamma[2]};
+    add3(gamma, z->rest + 3, move);
+}
+
+/* gamma x dV/dgamma = (2 eps/k) q^(-1/k - 1) gamma x J gamma + effects,   dtau/ds = 1/G = (det J/k^2) q^(-1/k),
+ * dt/ds = 1/(G N) = (det J/k^2) q^(-1/k - 1 + 1/(2k)):     one power, v = q^(-1/k), gives them all. */
+static inline void kick(const iso_model *m, bool clocks, double h, state *z)
+{
+    const iso_params *p = &m->field.p;
+    const double *J = p->J, *gamma = z->y + 3, k = p->k, q = dot_diag(gamma, J, gamma);
+    const double v = k == -1 ? q : k == 1 ? 1 / q : pow(q, -1 / k), v_q = k == -1 ? 1 : k == 1 ? v * v : v / q;
+    const double a = h * (2 * m->field.eps / k) * v_q;
+    double push[3] = {a * ((J[2] - J[1]) * (gamma[1] * gamma[2])), a * ((J[0] - J[2]) * (gamma[2] * gamma[0])),
+                      a * ((J[1] - J[0]) * (gamma[0] * gamma[1]))};
+    if (m->forces > 0) {
+        double T[3] = {0, 0, 0};
+        for (int i = 0; i < m->forces; i++) m->force[i]->image(&m->field, z->y, T);
+        add_scaled(push, h, T);
+    }
+    add3(z->y, z->rest, push);
+    if (!clocks) return;
+    const double rate = h * (p->det_J / (k * k));
+    z->clock[ISO_CLOCK_TAU] += rate * v;
+    z->clock[ISO_CLOCK_T] += rate * (v_q / sqrt(v));
+}
+
+static void advance(iso_integrator *it, const schedule *s, bool clocks, state *z)
+{
+    for (int i = 0; i < s->kicks; i++) {
+        if (s->drift[i] != 0) drift(s->drift[i], z);
+        kick(&it->model, clocks, s->kick[i], z);
+    }
+    if (s->drift[s->kicks] != 0) drift(s->drift[s->kicks], z);
+    it->statistics.rhs += s->kicks;
+}
+
+/* --- how long a step may be ------------------------------------------------------------------------------------ */
+
+/* A trial of about two turns from the start, RADIANS, in n steps and in 2n: at LOOKS places they may differ by
+ * half a tolerance for each radian of the way. */
+enum { RADIANS = 12, LOOKS = 4, FIRST_TRIAL = LOOKS, LAST_TRIAL = 512 };
+
+static state begin(const double y[])
+{
+    state z = {.clock = {0}};
+    copy(y, z.y, ISO_STATE);
+    return z;
+}
+
+static void trial(iso_integrator *it, bool clocks, double way, int steps, state at[LOOKS])
+{
+    schedule s;
+    state z = begin(it->at_right);
+    plan(&tables[it->method->variant], way / steps, &s);
+    for (int i = 1; i <= steps; i++) {
+        advance(it, &s, clocks, &z);
+        if (i % (steps / LOOKS) == 0) at[i / (steps / LOOKS) - 1] = z;
+    }
+}
+
+/* Largest difference, in units of the speed, of a radian, and of what a clock shows after one; infinite for NaN */
+static double difference(const state a[LOOKS], const state b[LOOKS], double speed)
+{
+    double most = 0;
+    for (int l = 0; l < LOOKS; l++) {
+        for (int i = 0; i < ISO_STATE; i++) {
+            const double d = fabs(a[l].y[i] - b[l].y[i]) / (i < 3 ? speed : 1);
+            if (!(d <= most)) most = d;
+        }
+        for (int c = 0; c < ISO_CLOCKS; c++) {
+            const double d = RADIANS * fabs(a[l].clock[c] - b[l].clock[c]), all = fabs(b[LOOKS - 1].clock[c]);
+            if (!(d <= most * all)) most = d / all;
+        }
+    }
+    return isnan(most) ? INFINITY : most;
+}
+
+/* The number of steps that makes the difference as large as it may be: between two trials on logarithmic scales,
+ * beyond the last by the order; but no step longer than a radian. */
+static double choose_step(iso_integrator *it, bool clocks)
+{
+    const double speed = it->model.system->speed(&it->model.field, it->at_right);
+    const double may = RADIANS * it->options.tolerance / 2, way = it->direction * RADIANS / speed;
+    double n = FIRST_TRIAL, before, now = INFINITY;
+    state coarse[LOOKS], fine[LOOKS];
+    if (speed == 0) return 1024; /* nothing moves */
+    trial(it, clocks, way, FIRST_TRIAL, fine);
+    do {
+        before = now;
+        memcpy(coarse, fine, sizeof fine);
+        trial(it, clocks, way, 2 * (int)n, fine);
+        now = difference(coarse, fine, speed);
+        n *= 2;
+    } while (now > may && n < 2 * LAST_TRIAL);
+    n /= 2; /* steps of the coarse one */
+    const double order = now < may ? log2(before / now) : it->method->order;
+    if (isfinite(order) && order > 0) n *= pow(fmin(now / may, 1e12), 1 / order);
+    return fabs(way) / fmax(RADIANS, n);
+}
+
+/* --- the method ------------------------------------------------------------------------------------------------ */
+
+static void release(iso_integrator *it)
+{
+    free(it->data);
+}
+
+static iso_status create(iso_integrator *it)
+{
+    const iso_model *m = &it->model;
+    if (m->system != it->method->system)
+        return iso_context_fail(
+            it->ctx, ISO_BAD_ARGUMENT, "method",
+            "%s is for the point: the ball's equations do not split into flows that are known exactly",
+            it->method->name);
+    if (it->options.fixed_step > 0 && m->clock != ISO_CLOCK_S)
+        return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "method",
+                                "the steps of %s are fixed in s: they cannot be in %s", it->method->name,
+                                iso_clock_name(m->clock));
+    splitting *d = it->data = calloc(1, sizeof *d);
+    if (!d) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for %s", it->method->name);
+    d->clocks = m->clock != ISO_CLOCK_S;
+    for (int c = 0; c < m->carried; c++) d->clocks = d->clocks || m->carry[c] != ISO_CLOCK_S;
+    return ISO_OK;
+}
+
+/* Every so many steps rounding is taken out of |gamma| = 1 and (M,gamma) = 0. */
+enum { STEPS_TO_RESTORE = 1024 };
+
+static void restore(state *z)
+{
+    double *M = z->y, *gamma = z->y + 3;
+    const double longer = (dot(gamma, gamma) - 1) / 2 + dot(gamma, z->rest + 3), along = dot(M, gamma);
+    for (int i = 0; i < 3; i++) {
+        add(&M[i], &z->rest[i], -along * gamma[i]);
+        add(&gamma[i], &z->rest[3 + i], -longer * gamma[i]);
+    }
+}
+
+static iso_status start(iso_integrator *it)
+{
+    splitting *d = it->data;
+    *d = (splitting){.clocks = d->clocks, .until_restored = STEPS_TO_RESTORE, .step = it->options.fixed_step};
+    if (d->step == 0) d->step = choose_step(it, d->clocks);
+    plan(&tables[it->method->variant], it->direction * d->step, &d->whole);
+    return ISO_OK;
+}
+
+/* From y and its rest by s->..., a step or a part of one that is `ds` long */
+static void move(iso_integrator *it, const schedule *s, double ds, double y[], double rest[], state *z)
+{
+    const splitting *d = it->data;
+    *z = begin(y);
+    copy(rest, z->rest, ISO_STATE);
+    advance(it, s, d->clocks, z);
+    z->clock[ISO_CLOCK_S] = ds;
+    copy(z->y, y, ISO_STATE);
+    copy(z->rest, rest, ISO_STATE);
+    for (int c = 0; c < it->model.carried; c++)
+        add(&y[ISO_STATE + c], &rest[ISO_STATE + c], z->clock[it->model.carry[c]]);
+}
+
+static iso_status step(iso_integrator *it, double y[], double *h)
+{
+    splitting *d = it->data;
+    state z;
+    double sum = 0;
+    copy(d->rest, d->rest_left, it->model.dim);
+    move(it, &d->whole, it->direction * d->step, y, d->rest, &z);
+    if (!it->options.no_projection && --d->until_restored == 0) {
+        restore(&z);
+        copy(z.y, y, ISO_STATE);
+        copy(z.rest, d->rest, ISO_STATE);
+        d->until_restored = STEPS_TO_RESTORE;
+    }
+    *h = z.clock[it->model.clock];
+    for (int i = 0; i < it->model.dim; i++) sum += y[i] * 0; /* NaN if any is not finite */
+    return sum == 0 && isfinite(*h) ? ISO_OK : iso_integrator_stopped(it, "the state is not finite");
+}
+
+/* A part of a step is a step of that length. */
+static void part(iso_integrator *it, double ds, double y[], state *z)
+{
+    const splitting *d = it->data;
+    double rest[ISO_MAX_STATE];
+    schedule s;
+    copy(it->at_left, y, it->model.dim);
+    copy(d->rest_left, rest, it->model.dim);
+    plan(&tables[it->method->variant], ds, &s);
+    move(it, &s, ds, y, rest, z);
+}
+
+/* Newton's method on the clock of the model; in s it has nothing to do. */
+static iso_status within(iso_integrator *it, double dt, double y[])
+{
+    enum { MAX_ITERATIONS = 20 };
+    const iso_model *m = &it->model;
+    const splitting *d = it->data;
+    double ds = it->model.clock == ISO_CLOCK_S ? dt : dt / it->h * (it->direction * d->step), reached[ISO_MAX_STATE];
+    state z;
+    for (int i = 0; i < MAX_ITERATIONS; i++) {
+        part(it, ds, reached, &z);
+        const double miss = dt - z.clock[m->clock], q = m->system->q(&m->field.p, reached, NULL);
+        if (!(fabs(miss) > DBL_EPSILON * fabs(it->h))) break;
+        ds +=
+            miss * iso_clock_rate(&m->field.p, ISO_CLOCK_S, q, NULL) / iso_clock_rate(&m->field.p, m->clock, q, NULL);
+    }
+    if (!isfinite(ds)) return iso_integrator_stopped(it, "the time is not reached");
+    copy(reached, y, m->dim);
+    return ISO_OK;
+}
+
+#define SPLITTING                                                                                                    \
+    .family = "splitting", .system = &iso_system_point, .fixed = true, .create = create, .start = start,             \
+    .step = step, .within = within, .free = release
+
+const iso_method iso_method_strang = {
+    .name = "strang", .order = 2, .variant = STRANG, .doc = "Strang's splitting", SPLITTING};
+const iso_method iso_method_blanes_moan4 = {.name = "blanes_moan4",
+                                            .order = 4,
+                                            .variant = BLANES_MOAN4,
+                                            .doc = "Blanes-Moan splitting SRKN 6b, 7 kicks",
+                                            SPLITTING};
+const iso_method iso_method_blanes_moan6 = {.name = "blanes_moan6",
+                                            .order = 6,
+                                            .variant = BLANES_MOAN6,
+                                            .doc = "Blanes-Moan splitting SRKN 14a, 14 kicks",
+                                            SPLITTING};
+const iso_method iso_method_kahan_li8 = {.name = "kahan_li8",
+                                         .order = 8,
+                                         .variant = KAHAN_LI8,
+                                         .doc = "Kahan-Li composition s17odr8a, 17 kicks",
+                                         SPLITTING};
+const iso_method iso_method_sofroniou_spaletta10 = {.name = "sofroniou_spaletta10",
+                                                    .order = 10,
+                                                    .variant = SOFRONIOU_SPALETTA10,
+                                                    .doc = "Sofroniou-Spaletta composition, 35 kicks",
+                                                    SPLITTING};
