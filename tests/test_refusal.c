@@ -87,7 +87,7 @@ static void check_wall(const iso_system *system, const iso_method *m, int direct
 /* Methods with equations of their own do not meet walls that stand in the model's. */
 static bool meets_walls(const iso_method *m)
 {
-    return !m->system;
+    return !m->own_equations;
 }
 
 static void check_walls(void)

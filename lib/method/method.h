@@ -51,7 +51,8 @@ typedef struct iso_method {
     bool projects; /* restores constraints after each step                                             */
     bool fixed;    /* can take fixed steps                                                             */
     int variant;   /* which of its family                                                              */
-    const iso_system *system; /* the only one it serves, by equations of its own; NULL: every model, by its rhs */
+    bool own_equations;       /* its own form of the equations of motion, not the model's rhs            */
+    const iso_system *system; /* the only one it serves; NULL: every model                              */
 
     /* Make and release the method's own data; begin at it->right; take one step, see integrator_impl.h. */
     iso_status (*create)(iso_integrator *it);

@@ -365,7 +365,8 @@ static iso_status within(iso_integrator *it, double dt, double y[])
 }
 
 #define SPLITTING                                                                                                    \
-    .family = "splitting", .system = &iso_system_point, .fixed = true, .create = create, .start = start,             \
+    .family = "splitting", .own_equations = true, .system = &iso_system_point, .fixed = true, .create = create,     \
+    .start = start,                                                                                                \
     .step = step, .within = within, .free = release
 
 const iso_method iso_method_strang = {

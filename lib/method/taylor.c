@@ -1,0 +1,64 @@
+/* taylor.c - Taylor series of the equations themselves: the method, on the code for this processor.
+ *
+ * Each step expands the solution about its left end to a high order by the recurrences of taylor_kernel_impl.h, and goes as
+ * far as the last terms allow: few long steps, about as many as half turns of the ball. A free point is expanded in the
+ * form that needs fewest products (section 5b of the theory): in s for k = -1, where it is polynomial, with the other clocks
+ * as further series; in the ball's own time for other k, where the powers of q cancel. What stands between the steps is the
+ * series itself. The constraints are restored from defects computed exactly, so that their rounding has no bias.
+ */
+#include <stdlib.h>
+
+#include "method/methods_impl.h"
+#include "method/taylor_impl.h"
+
+static const iso_taylor_code *code_of(const iso_integrator *it)
+{
+    return *(const iso_taylor_code *const *)it->data;
+}
+
+static iso_status create_with(iso_integrator *it, const iso_taylor_code *code)
+{
+    const iso_status status = code->create(it);
+    if (status == ISO_OK) *(const iso_taylor_code **)it->data = code;
+    return status;
+}
+
+static iso_status create(iso_integrator *it)
+{
+    return create_with(it, iso_taylor_has_avx2() ? &iso_taylor_avx2 : &iso_taylor_plain);
+}
+
+static iso_status create_extended(iso_integrator *it)
+{
+    return create_with(it, &iso_taylor_extended);
+}
+
+static iso_status start(iso_integrator *it)
+{
+    return code_of(it)->start(it);
+}
+
+static iso_status step(iso_integrator *it, double y[], double *h)
+{
+    return code_of(it)->step(it, y, h);
+}
+
+static iso_status within(iso_integrator *it, double dt, double y[])
+{
+    return code_of(it)->within(it, dt, y);
+}
+
+static void release(iso_integrator *it)
+{
+    free(it->data);
+}
+
+#define TAYLOR                                                                                                     \
+    .family = "isoroll", .own_equations = true, .projects = true, .fixed = true, .start = start, .step = step,     \
+    .within = within, .free = release
+
+const iso_method iso_method_taylor = {
+    .name = "taylor", .doc = "Taylor series by recurrences, order 10-30 from the tolerance", .create = create, TAYLOR};
+const iso_method iso_method_taylor_extended = {
+    .name = "taylor_extended", .doc = "the same in long double, a reference for the others",
+    .create = create_extended, TAYLOR};

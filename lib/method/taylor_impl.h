@@ -1,0 +1,20 @@
+/* taylor_impl.h - the method `taylor` compiled several times: for processors, and for kinds of numbers. */
+#ifndef ISO_METHOD_TAYLOR_IMPL_H
+#define ISO_METHOD_TAYLOR_IMPL_H
+
+#include "method/integrator_impl.h"
+
+/* One compilation: the functions of iso_method. What `create` leaves in it->data begins with a pointer to its own. */
+typedef struct iso_taylor_code {
+    iso_status (*create)(iso_integrator *it);
+    iso_status (*start)(iso_integrator *it);
+    iso_status (*step)(iso_integrator *it, double y[], double *h);
+    iso_status (*within)(iso_integrator *it, double dt, double y[]);
+} iso_taylor_code;
+
+extern const iso_taylor_code iso_taylor_plain, iso_taylor_avx2, iso_taylor_extended;
+
+/* Whether this processor can run iso_taylor_avx2, and this build has it. */
+bool iso_taylor_has_avx2(void);
+
+#endif
