@@ -30,6 +30,20 @@ static void explain_effects(const iso_orbit *orbit)
     print_effects(&effects, true);
 }
 
+/* What is simulated for the reactions alone. */
+static void explain_level_plane(const iso_scene *scene, const iso_orbit *orbit)
+{
+    const iso_effects effects = iso_orbit_effects(orbit);
+    const double *n = scene->start.y + 3, *up = effects.up;
+    double apart = 0;
+    if (!effects.on[ISO_GRAVITY] || scene->params.k != 1) return;
+    for (int i = 0; i < 3; i++)
+        apart = fmax(apart, fabs(up[(i + 1) % 3] * n[(i + 2) % 3] - up[(i + 2) % 3] * n[(i + 1) % 3]));
+    if (apart < 1e-15)
+        printf("  the plane is level: the weight has no torque and only presses the ball; for the motion alone take "
+               "gravity and reactions out\n\n");
+}
+
 /* Whether the two models are one here, and the twin that the ball has for every start. */
 static void explain_map(const iso_params *p, const iso_orbit *orbit)
 {
@@ -43,7 +57,8 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
     printf("isomorphism\n");
     if (!breaking)
         printf("  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s, %s\n", -1 / p->k,
-               effects.on[ISO_FIELD] ? " + U/G" : "", effects.on[ISO_FIELD] ? "in a field: see the integrals below" : kind);
+               effects.on[ISO_FIELD] ? " + U/G" : "",
+               effects.on[ISO_FIELD] ? "in a field: see the integrals below" : kind);
     if (iso_orbit_has_twin(orbit))
         printf("  holds: this orbit has both models, (18) and the clocks t, tau, s%s\n",
                effects.on[ISO_LEVEL] ? "; the point is off the level H = 0, at H = c det J/k^2" : "");
@@ -159,6 +174,7 @@ static int run(iso_context *ctx, const options *o)
     if (status != ISO_OK) return finish_scene(ctx, o, &scene, status);
     explain_ball(&scene.params);
     explain_effects(orbit);
+    explain_level_plane(&scene, orbit);
     explain_map(&scene.params, orbit);
     explain_states(&scene, orbit, columns, count);
     explain_integrals(orbit);

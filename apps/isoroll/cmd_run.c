@@ -148,6 +148,21 @@ typedef struct contact {
     double last[2];        /* times looked at so far, or where contact is lost */
 } contact;
 
+/* Nothing presses the ball at the start: on which sides of it does the support pull a moment later? */
+static iso_status look_both_ways(const iso_scene *scene, iso_orbit *orbit, contact *c)
+{
+    c->watched = true;
+    for (int side = 0; side < 2; side++) {
+        iso_sample sample;
+        const double moment = (side ? -1e-6 : 1e-6) * (scene->end != 0 ? fabs(scene->end) : 1);
+        const iso_status status = iso_orbit_at(orbit, moment, &sample);
+        if (status != ISO_OK) return status;
+        c->lost[side] = sample.pressure < 0;
+    }
+    if (c->lost[scene->end < 0]) complain("contact is lost at 0: there is a row there, and none beyond");
+    return ISO_OK;
+}
+
 /* A ball that is pressed to its support at the start can lose it. */
 static iso_status watch_contact(const iso_scene *scene, iso_orbit *orbit, contact *c)
 {
@@ -157,6 +172,7 @@ static iso_status watch_contact(const iso_scene *scene, iso_orbit *orbit, contac
     const iso_status status = iso_orbit_at(orbit, 0, &sample);
     if (status != ISO_OK) return status;
     c->watched = sample.pressure > 0;
+    if (sample.pressure == 0 && scene->effects.on[ISO_GRAVITY]) return look_both_ways(scene, orbit, c);
     if (sample.pressure < 0)
         complain("the support would have to pull the ball from the start (pressure %.3g): this is the motion of a "
                  "two-sided contact",

@@ -15,7 +15,7 @@
 
 typedef struct cvode {
     void *memory;
-    N_Vector y;
+    N_Vector y, between;
     SUNMatrix matrix;            /* BDF   */
     SUNLinearSolver linear;      /* BDF   */
     SUNNonlinearSolver iterator; /* Adams */
@@ -57,6 +57,7 @@ static void release(iso_integrator *it)
     if (c->iterator) SUNNonlinSolFree(c->iterator);
     if (c->linear) SUNLinSolFree(c->linear);
     if (c->matrix) SUNMatDestroy(c->matrix);
+    if (c->between) N_VDestroy(c->between);
     if (c->y) N_VDestroy(c->y);
     free(c);
 }
@@ -85,7 +86,8 @@ static iso_status create(iso_integrator *it)
     const SUNContext sun = iso_context_sundials(it->ctx);
     cvode *c = it->data = calloc(1, sizeof *c);
     if (sun && c) c->y = N_VNew_Serial(it->model.dim, sun);
-    if (c && c->y) c->memory = CVodeCreate(it->method->variant, sun);
+    if (c && c->y) c->between = N_VClone(c->y);
+    if (c && c->between) c->memory = CVodeCreate(it->method->variant, sun);
     if (!c || !c->memory) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for CVODE");
     ISO_SUN_QUIET(CVodeSetErrHandlerFn, c->memory);
     N_VConst(1, c->y);
@@ -121,10 +123,23 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     return ISO_OK;
 }
 
+/* BDF's own interpolant: its steps may be too long for anything that is not implicit. */
+static iso_status within(iso_integrator *it, double dt, double y[])
+{
+    cvode *c = it->data;
+    sunrealtype t;
+    CVodeGetCurrentTime(c->memory, &t);
+    const int failed = CVodeGetDky(c->memory, t - (it->h - dt), 0, c->between);
+    if (failed) return iso_sundials_stopped(it, CVodeGetReturnFlagName(failed));
+    copy(N_VGetArrayPointer(c->between), y, it->model.dim);
+    iso_integrator_project(it, y);
+    return ISO_OK;
+}
+
 #define CVODE_METHOD .family = "cvode", .create = create, .start = start, .step = step, .free = release
 
 const iso_method iso_method_adams = {
     .name = "adams", .variant = CV_ADAMS, .doc = "CVODE, variable-order Adams-Moulton, orders 1-12", CVODE_METHOD};
 const iso_method iso_method_bdf = {
-    .name = "bdf", .variant = CV_BDF, .implicit = true, .projects = true,
+    .name = "bdf", .variant = CV_BDF, .implicit = true, .projects = true, .within = within,
     .doc = "CVODE, variable-order BDF, orders 1-5, analytic Jacobian, projection", CVODE_METHOD};

@@ -6,6 +6,8 @@
 #include "base/vec3_impl.h"
 #include "method/gsl_impl.h"
 
+enum { MOST_STEPS = 100000 }; /* a leap is one step as a rule */
+
 struct iso_leaper {
     iso_gsl gsl;
 };
@@ -36,9 +38,11 @@ iso_status iso_leap(iso_integrator *it, double dt, double y[])
     double state[ISO_MAX_STATE], h;
     copy(it->at_left, state, it->model.dim);
     iso_gsl_start(g, dt);
-    while (g->t != dt) {
+    for (long steps = 0; g->t != dt; steps++) {
+        if (!iso_context_goes_on(it->ctx)) return iso_context_fail(it->ctx, ISO_STOPPED, "", "stopped on request");
         const iso_status status = iso_gsl_step(it, g, dt, state, &h);
         if (status != ISO_OK) return status;
+        if (steps > MOST_STEPS) return iso_integrator_stopped(it, "too many steps between its own");
         if (g->t != dt && fabs(h) <= 64 * DBL_EPSILON * fabs(g->t))
             return iso_integrator_stopped(it, "steps between its own shrink to nothing");
     }

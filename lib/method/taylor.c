@@ -28,10 +28,12 @@ static iso_status create(iso_integrator *it)
     return create_with(it, iso_taylor_has_avx2() ? &iso_taylor_avx2 : &iso_taylor_plain);
 }
 
+#ifndef __clang__ /* see methods_impl.h */
 static iso_status create_extended(iso_integrator *it)
 {
     return create_with(it, &iso_taylor_extended);
 }
+#endif
 
 static iso_status start(iso_integrator *it)
 {
@@ -59,6 +61,8 @@ static void release(iso_integrator *it)
 
 const iso_method iso_method_taylor = {
     .name = "taylor", .doc = "Taylor series by recurrences, order 10-30 from the tolerance", .create = create, TAYLOR};
+#ifndef __clang__
 const iso_method iso_method_taylor_extended = {
     .name = "taylor_extended", .doc = "the same in long double, a reference for the others",
     .create = create_extended, TAYLOR};
+#endif

@@ -83,7 +83,7 @@ static inline double kinetic(const iso_field *f, const double y[])
 static double energy(const iso_field *f, const double y[], double *size)
 {
     const double T = kinetic(f, y), U = iso_effects_potential(f, y);
-    *size = T + fabs(U);
+    *size = T + fmax(fabs(U), iso_effects_range(f, y));
     return T + U;
 }
 
@@ -167,7 +167,7 @@ static double project(const iso_field *f, double y[])
     const bool is_free = iso_effects_none(&f->effects);
     if (!is_free && !iso_effects_keep_energy(f)) return correction;
     const double T = kinetic(f, y), U = is_free ? 0 : iso_effects_potential(f, y);
-    const double falling = is_free ? 0 : fmax(fabs(U), iso_effects_strength(f, y)); /* U may be 0 by cancellation */
+    const double falling = is_free ? 0 : fmax(fabs(U), iso_effects_range(f, y)); /* U may be 0 by cancellation */
     if (T < 0.1 * falling || f->energy <= U) return correction;
     const double stretch = sqrt((f->energy - U) / T);
     scale(y, stretch);

@@ -38,7 +38,7 @@ static iso_status check_unit(iso_context *ctx, const char *name, int count, doub
     const double length = sqrt(square);
     char unit[128] = "";
     int used = 0;
-    for (int i = 0; i < count && length > 0; i++)
+    for (int i = 0; i < count && length > 0 && isfinite(length); i++)
         used += snprintf(unit + used, sizeof unit - (size_t)used, "%s%.10g", i ? ", " : ": write [", x[i] / length);
     if (!(fabs(length - 1) <= 1e-6))
         return iso_context_fail(ctx, ISO_BAD_INPUT, name,
@@ -78,6 +78,12 @@ static iso_status check_field(iso_context *ctx, iso_effects *e)
             C[3 * j + i] = C[3 * i + j];
             varies = fmax(varies, fmax(fabs(C[3 * i + j]), fabs(C[4 * i] - C[4 * j])));
         }
+    if (varies > 0 && varies < 1e-10 * most)
+        return iso_context_fail(
+            ctx, ISO_BAD_INPUT, "quadratic",
+            "all but %.1g of this matrix is a constant on the unit sphere, which does nothing but "
+            "cost digits: subtract it from the diagonal",
+            varies / most);
     if (varies > 0) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "field",
                             "this potential is a constant on the unit sphere and changes nothing: take it out");
@@ -164,6 +170,14 @@ double iso_effects_strength(const iso_field *f, const double y[])
     double most = 0;
     for (int e = 0; e < ISO_EFFECTS; e++)
         if (f->effects.on[e] && iso_effect_list[e]->strength) most = fmax(most, iso_effect_list[e]->strength(f, y));
+    return most;
+}
+
+double iso_effects_range(const iso_field *f, const double y[])
+{
+    double most = iso_effects_strength(f, y);
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (f->effects.on[e] && iso_effect_list[e]->range) most = fmax(most, iso_effect_list[e]->range(f, y));
     return most;
 }
 

@@ -48,6 +48,7 @@ typedef struct iso_effect {
     void (*torque_slope)(const iso_field *f, const double y[], int dim, double slope[]);
     double (*potential)(const iso_field *f, const double y[]);
     double (*strength)(const iso_field *f, const double y[]);
+    double (*range)(const iso_field *f, const double y[]); /* how large U can be, if more than that */
 
     /* Its image on the point: gamma x dV/dgamma, its slope, and V. */
     void (*image)(const iso_field *f, const double y[], double T[3]);
@@ -76,6 +77,7 @@ const iso_effect *iso_effects_breaking(const iso_effects *effects);
 double iso_effects_potential(const iso_field *f, const double y[]);
 double iso_effects_image(const iso_field *f, const double y[]);
 double iso_effects_strength(const iso_field *f, const double y[]);
+double iso_effects_range(const iso_field *f, const double y[]);
 
 /* Whether no torque acts but that of `level`, which the isomorphism turns into a constant. */
 bool iso_effects_free(const iso_effects *effects);

@@ -92,6 +92,13 @@ static double strength(const iso_field *f, const double y[])
     return fabs(f->effects.mgb);
 }
 
+/* next to k = 1 the potential is a large constant, and its changes are lost in it */
+static double range(const iso_field *f, const double y[])
+{
+    (void)y;
+    return f->p.k == 1 ? fabs(f->effects.mgb) : fabs(f->effects.mgb / (1 - f->p.k));
+}
+
 static double vertical_length(const iso_field *f, const double y[], double *value_size)
 {
     *value_size = 1;
@@ -140,5 +147,6 @@ const iso_effect iso_effect_gravity = {
     .torque_slope = torque_slope,
     .potential = potential,
     .strength = strength,
+    .range = range,
     .integrals = integrals,
 };

@@ -19,10 +19,10 @@ iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const is
     char names[256] = "", key[ISO_NAME_SIZE];
     iso_status status = ISO_OK;
     for (int e = 0; status == ISO_OK && e < ISO_EFFECTS; e++) {
-        if (!effects->on[e] || !iso_effect_list[e]->numbers) continue;
+        if (!effects->on[e] || e == ISO_CLOCK) continue;
         const size_t used = strlen(names);
         snprintf(names + used, sizeof names - used, "%s%s", used ? " " : "", iso_effect_list[e]->name);
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; status == ISO_OK && n->name; n++) {
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; status == ISO_OK && n && n->name; n++) {
             line_key(key, iso_effect_list[e], n);
             status = iso_record_set_numbers(ctx, r, key, (size_t)n->count,
                                             (const double *)((const char *)effects + n->offset));
@@ -98,13 +98,33 @@ static iso_effect_id find_effect(const char *name, size_t length)
     return (iso_effect_id)e;
 }
 
+/* Numbers or columns of an effect that the line `effects` does not name: the line is lost or damaged. */
+static iso_status check_named(iso_context *ctx, const iso_record *r, const iso_effects *effects)
+{
+    char key[ISO_NAME_SIZE];
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; !effects->on[e] && n && n->name; n++) {
+            line_key(key, iso_effect_list[e], n);
+            if (iso_record_get(r, key))
+                return iso_context_fail(ctx, ISO_BAD_INPUT, "effects",
+                                        "there is a line '# %s', but no line '# effects' that names '%s'", key,
+                                        iso_effect_list[e]->name);
+        }
+    if (effects->on[ISO_GRAVITY] || iso_record_find(r, iso_trajectory_columns[ISO_COLUMN_EFFECTS]) < 0) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "effects",
+                            "there is a column '%s', but no line '# effects' that names "
+                            "'gravity'",
+                            iso_trajectory_columns[ISO_COLUMN_EFFECTS]);
+}
+
 iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects *effects)
 {
     const char *names = iso_record_get(r, "effects");
     iso_status status;
     *effects = (iso_effects){.on = {false}};
-    for (size_t length; names && *names; names += length + (names[length] != '\0')) {
-        length = strcspn(names, " ");
+    if (names) names += strspn(names, " \t");
+    for (size_t length; names && *names; names += length + strspn(names + length, " \t")) {
+        length = strcspn(names, " \t");
         const iso_effect_id e = find_effect(names, length);
         if (e == ISO_EFFECTS)
             return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "there is no effect '%.*s'", (int)length, names);
@@ -120,7 +140,7 @@ iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects
                                     iso_effect_list[e]->name, key);
         }
     }
-    return ISO_OK;
+    return check_named(ctx, r, effects);
 }
 
 /* What turns with the ball: vertical and quaternion of a row are those of an orbit that starts there. */

@@ -186,6 +186,9 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
                                 "a ball at rest (h = 0) has no twin: the point's potential would vanish");
     status = check_units(o, start);
     if (status != ISO_OK) return status;
+    if (start->model == ISO_BALL && o->effects.on[ISO_LEVEL] && o->effects.level == 0)
+        return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
+                                "level: c is out of the range of doubles in the ball's own units");
     if (backend == ISO_POINT && start->model == ISO_BALL) iso_ball_to_point(&o->units.own, y, y);
     if (backend == ISO_BALL && start->model == ISO_POINT) iso_point_to_ball(&o->units.own, y, y);
     const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */

@@ -73,12 +73,25 @@ static double read_clock(const checker *c, int clock, size_t row)
     return iso_record_const_row(c->record, row)[c->columns[clock]];
 }
 
+/* Those that a model's orbit has: a point shows nothing of the ball's, and its level follows from each row if
+ * eps is known. */
+static iso_effects effects_of(const checker *c, iso_picture model)
+{
+    iso_effects effects = c->effects;
+    if (model == ISO_BALL) return effects;
+    effects.on[ISO_ATTITUDE] = effects.on[ISO_REACTIONS] = false;
+    if (iso_record_get(c->record, "eps") || iso_record_get(c->record, "h")) effects.level = NAN;
+    return effects;
+}
+
 /* --- constraints and integrals, in the units of the first row ----------------------------------------------------- */
 
 static void check_integrals(checker *c, iso_picture model, const iso_orbit *first)
 {
     const iso_system *system = system_of(model);
-    const double claimed = c->effects.on[ISO_LEVEL] ? iso_orbit_model(first)->field.energy : 0;
+    const iso_params *own = &iso_orbit_units(first)->own;
+    const double unit = iso_unit(iso_orbit_units(first), iso_effect_list[ISO_LEVEL]->numbers->dimension);
+    const double claimed = c->effects.on[ISO_LEVEL] ? iso_coupling(own, c->effects.level / unit) : 0;
     const bool twin = c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || has_model(c, ISO_BALL);
     char name[sizeof c->out->residual[0].name];
     const iso_integral *list[ISO_MAX_INTEGRALS];
@@ -128,7 +141,7 @@ static int clock_to_follow(const checker *c, iso_picture model)
 static iso_status next_sample(const checker *c, iso_picture model, int clock, size_t row, iso_sample *sample)
 {
     iso_start start;
-    iso_effects effects = c->effects;
+    iso_effects effects = effects_of(c, model);
     iso_orbit *orbit;
     iso_status status = iso_record_start(c->ctx, c->record, c->params, model, row, &start, &effects);
     if (status != ISO_OK) return status;
@@ -243,7 +256,7 @@ static void check_map(checker *c)
 static iso_status check_model(checker *c, iso_picture model)
 {
     iso_start start;
-    iso_effects effects = c->effects;
+    iso_effects effects = effects_of(c, model);
     iso_orbit *first;
     iso_status status = ISO_OK;
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(c->record); row++)
@@ -282,7 +295,7 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
     iso_status status = measure_clocks(&c);
     if (status == ISO_OK) status = iso_record_effects(ctx, record, &c.effects);
     c.effects.on[ISO_ATTITUDE] = c.effects.on[ISO_ATTITUDE] && has_attitude(&c); /* they act on nothing */
-    c.effects.on[ISO_REACTIONS] = params->D > 0 && c.columns[REACTIONS] >= 0;
+    if (params->D > 0 && c.columns[REACTIONS] >= 0) c.effects.on[ISO_REACTIONS] = true;
     if (status != ISO_OK) return status;
     const bool ball = has_model(&c, ISO_BALL), point = has_model(&c, ISO_POINT);
     if (!ball && !point)

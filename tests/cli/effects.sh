@@ -58,7 +58,7 @@ has t,tau,s,$ball,$e,$stands,$pressed
 check "the lines, whatever the order in the scene" test "$(sed -n 's/^# \([a-zA-Z_.]*\): .*/\1/p' out | tr '\n' ' ')" = \
     "model k J D radius gravity.mgb gravity.up field.quadratic field.linear level.c twist.resistance \
 rolling_resistance.coefficient attitude.quaternion effects backend method tolerance isoroll "
-check "the line effects" grep -qx '# effects: gravity field level twist rolling_resistance attitude' out
+check "the line effects" grep -qx '# effects: gravity field level twist rolling_resistance attitude reactions' out
 check "mgb has the sign of b" grep -qx '# gravity.mgb: -19.62[0-9]*' out
 check "9 rows" test "$(rows out | wc -l)" -eq 9
 cp out everything.csv
