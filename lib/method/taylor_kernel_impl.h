@@ -253,12 +253,12 @@ static void NAME(point_end)(NAME(series) *S, int n)
     S->n[n + 2] = S->inverse[n + 1] * S->inverse[n + 2] * NAME(componentwise)(S->c, S->n, n);
 }
 
-/* in s, k = -1: c_i = 2 eps (J_i - 2 q) - 2 H */
+/* in s, k = -1: c_i = a (2 q - J_i) - 2 H,  a = -2 eps */
 static void NAME(neumann)(NAME(series) *S, int n)
 {
     NAME(point_q)(S, n);
-    S->c[n] = -2 * S->coupling * S->base[n] - (NAME(vector))ZERO;
-    if (n == 0) S->c[0] += S->coupling * S->J - 2 * S->energy;
+    S->c[n] = 2 * S->coupling * S->base[n] - (NAME(vector))ZERO;
+    if (n == 0) S->c[0] -= S->coupling * S->J + 2 * S->energy;
     NAME(point_end)(S, n);
 }
 

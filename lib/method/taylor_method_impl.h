@@ -80,7 +80,6 @@ static void NAME(set_numbers)(const iso_model *m, NAME(taylor) *T)
     S->resistance = e->resistance;
     S->alpha = -1 - 1 / S->k;
     S->coupling = 2 * (REAL)f->eps / S->k;
-    if (S->k == -1) S->coupling = 2 * (REAL)f->eps;
     for (int i = 0; i < 3; i++) { /* of the point: B = J^(1/2) C J^(1/2), m = J^(1/2) l */
         const REAL scale_i = T->is_point ? ROOT(S->J[i]) : 1;
         S->l[i] = scale_i * e->linear[i];
@@ -196,9 +195,9 @@ static REAL NAME(number)(const REAL a[], int order, REAL x)
 static void NAME(state_at)(const iso_model *m, NAME(taylor) *T, REAL x, NAME(state) *s)
 {
     NAME(series) *S = &T->S;
-    NAME(value)(S->n, S->order, x, s->n);
+    NAME(value)(S->n, S->order + T->is_point, x, s->n); /* of gamma one more is known, which gamma' needs */
     if (T->is_point)
-        NAME(rate)(S->n, S->count, S->order, x, s->w);
+        NAME(rate)(S->n, S->count, S->order + 1, x, s->w);
     else
         NAME(value)(S->w, S->order, x, s->w);
     if (m->field.at[ISO_GRAVITY]) NAME(value)(S->e, S->order, x, s->e);
@@ -254,6 +253,11 @@ static double NAME(coefficient)(const iso_model *m, NAME(taylor) *T, int n)
     if (!T->is_point) {
         const REAL w = NAME(largest_of)(S->w[n]) / (NAME(largest_of)(S->w[0]) + (REAL)1e-100);
         most = w > most ? w : most;
+    }
+    for (int i = 0; i < S->clocks; i++) { /* in units of their rates, over the way on which n turns by a radian */
+        const REAL *clock = S->clock[S->clock_of[i]];
+        const REAL c = NAME(largest_of)(S->n[1]) * FABS(clock[n] / clock[1]);
+        most = c > most ? c : most;
     }
     if (m->field.at[ISO_GRAVITY] && NAME(largest_of)(S->e[n]) > most) most = NAME(largest_of)(S->e[n]);
     if (m->field.at[ISO_ATTITUDE] && NAME(largest_of)(S->Q[n]) > most) most = NAME(largest_of)(S->Q[n]);
@@ -321,11 +325,14 @@ static iso_status NAME(step)(iso_integrator *it, double y[], double *h)
     NAME(begin_at)(m, T, &T->now);
     NAME(expand)(&T->S);
     it->statistics.rhs += T->S.order;
-    T->length = it->options.fixed_step > 0 ? it->direction * it->options.fixed_step : NAME(choose_step)(it, T);
-    *h = (double)T->length;
-    if (m->clock != T->own) {
-        const REAL *clock = T->S.clock[m->clock];
-        *h = (double)(NAME(number)(clock + 1, T->S.order - 1, T->length) * T->length);
+    const REAL *clock = T->S.clock[m->clock];
+    if (it->options.fixed_step > 0) {
+        *h = it->direction * it->options.fixed_step;
+        T->length = NAME(find)(m, T, *h, m->clock == T->own ? *h : *h / (double)clock[1]);
+    } else {
+        T->length = NAME(choose_step)(it, T);
+        *h = (double)T->length;
+        if (m->clock != T->own) *h = (double)(NAME(number)(clock + 1, T->S.order - 1, T->length) * T->length);
     }
     return NAME(arrive)(it, T, T->length, &T->now, y) ? ISO_OK : iso_integrator_stopped(it, "the series diverges");
 }

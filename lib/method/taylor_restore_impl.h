@@ -59,7 +59,7 @@ static REAL NAME(shell_defect)(const NAME(taylor) *T, const NAME(state) *s, REAL
         MM[i] = M[i];
         JM[i] = S->J[i] * M[i] / det;
         MM[3 + i] = s->n[i];
-        JM[3 + i] = S->coupling * S->inv_J[i] * s->n[i];
+        JM[3 + i] = -S->coupling * S->inv_J[i] * s->n[i]; /* coupling = -2 eps */
     }
     return NAME(defect)(MM, JM, 6, T->second);
 }

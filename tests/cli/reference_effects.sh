@@ -67,7 +67,9 @@ done
 check "12 rows in the references" test "$rows" -eq 12
 echo "auto: $worst_auto"
 
+"$isoroll" list methods >methods
 while read -r method bound; do
+    grep -q -w "$method" methods || continue # taylor_extended is not there with every compiler
     worst=0
     for file in gravity finite_twist attitude; do
         grep '^open' "$source/tests/reference/$file.csv" >lines
@@ -78,6 +80,8 @@ while read -r method bound; do
     done
     others="$others $method $worst"
 done <<END
+taylor 1e-12
+taylor_extended 1e-14
 rk8pd 1e-12
 fehlberg_13_7_8 1e-11
 verner_8_5_6 1e-11

@@ -1,0 +1,395 @@
+/* The Taylor series of lib/method/taylor.c: recurrences, orders, processors, the way back, long runs. */
+#include <float.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "effects.h"
+#include "method/taylor_impl.h"
+#include "orbit/orbit.h"
+#include "orbits.h"
+
+static iso_context *ctx;
+static const iso_method *taylor, *extended, *exact; /* not every compiler has long double: extended may be NULL */
+static const iso_method_options finest = {.tolerance = 1e-15};
+
+/* --- every recurrence ------------------------------------------------------------------------------------------- */
+
+/* A case of effects.h in one clock with the others carried; a point at times off the level H = 0. */
+static orbit orbit_of(const effects_case *c, int variant)
+{
+    orbit o = {.ctx = ctx, .model = c->model};
+    iso_field *const f = &o.model.field;
+    const iso_clock clock = (iso_clock)(variant % ISO_CLOCKS);
+    const bool point = c->system == &iso_system_point, all = variant / ISO_CLOCKS % 2 == 0;
+    copy(c->y, o.y0, c->model.dim);
+    if (point && variant / (2 * ISO_CLOCKS) % 2 == 1) scale(o.y0, 1.1);
+    double unused;
+    f->energy = c->system->integrals[0].value(f, o.y0, &unused);
+    if (fabs(f->energy) < 1e-12 * c->kinetic) f->energy = 0;
+    orbit_clocks(&o, clock, all && clock != ISO_CLOCK_T, all && clock != ISO_CLOCK_TAU, all && clock != ISO_CLOCK_S);
+    return o;
+}
+
+/* What acts on neither the motion nor a state of it doubles the cases for nothing. */
+static bool idle(const effects_case *c)
+{
+    return c->subset & (1 << ISO_REACTIONS | 1 << ISO_CLOCK);
+}
+
+/* The time in which the equations change much, in the orbit's clock. */
+static double stretch(const effects_case *c, const orbit *o)
+{
+    double f[ISO_MAX_STATE], own[ISO_MAX_STATE];
+    o->model.rhs(&o->model, o->y0, f);
+    c->model.rhs(&c->model, c->y, own);
+    return 128 * effects_step(c) * norm(own + 3) / norm(f + 3);
+}
+
+typedef struct course {
+    iso_integrator *it;
+    bool failed;
+} course;
+
+static void state_at(const void *data, const double t[], double y[])
+{
+    course *const way = *(course *const *)data;
+    if (iso_integrator_at(way->it, *t, y) != ISO_OK) way->failed = true;
+}
+
+/* y' = f(y) of the model, of which the method knows nothing: differences within the steps, both ways. A stiff contact
+ * is followed while it relaxes, forwards only, and its torque c (w,n) has the rounding of w times c. */
+static void differences(const effects_case *c, const iso_method *m, laws_worst *worst)
+{
+    if (idle(c)) return;
+    static int variant;
+    const orbit o = orbit_of(c, variant++);
+    const bool stiff = effects_lambda(c) > 0;
+    const double rate = iso_effects_stiffness(&c->model.field);
+    const double unit = stretch(c, &o) / (stiff ? rate : 1), bound = 1e-12 * (stiff ? rate : 1), forward = 1;
+    course way = {orbit_start(&o, m, &finest), false}, *const data = &way;
+    for (int i = stiff ? 1 : -2; i <= 3; i += 4) {
+        const double t = 0.3 * i * unit;
+        double y[ISO_MAX_STATE], f[ISO_MAX_STATE], slope[ISO_MAX_STATE], size[ISO_MAX_STATE];
+        state_at(&data, &t, y);
+        o.model.rhs(&o.model, y, f);
+        iso_model_size(&o.model, y, size);
+        laws_slope(state_at, &data, o.model.dim, 1, &t, &forward, unit / 64, slope);
+        for (int j = 0; j < o.model.dim; j++) {
+            char name[64];
+            snprintf(name, sizeof name, "y[%d]' in %s%s", j, iso_clock_name(o.model.clock), i < 0 ? ", back" : "");
+            effects_note(c, worst, way.failed ? NAN : fabs(slope[j] - f[j]) * unit, bound * size[j], name);
+        }
+    }
+    iso_integrator_free(way.it);
+}
+
+static void differences_double(const effects_case *c, laws_worst *worst)
+{
+    differences(c, taylor, worst);
+}
+
+static void differences_extended(const effects_case *c, laws_worst *worst)
+{
+    differences(c, extended, worst);
+}
+
+/* The same states as by rk8pd from the model's equations, and by long double. */
+static void states(const effects_case *c, laws_worst *worst)
+{
+    if (idle(c) || effects_lambda(c) > 0) return;
+    static int variant;
+    const orbit o = orbit_of(c, variant++);
+    const double t = 4 * stretch(c, &o) * (variant % 5 < 3 ? 1 : -1);
+    double y[ISO_MAX_STATE], long_y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
+    orbit_solve(&o, taylor, &finest, t, y);
+    orbit_solve(&o, exact, &finest, t, long_y);
+    orbit_reference(&o, t, expected);
+    effects_note(c, worst, orbit_error(&o, y, long_y), 1e-13, "long double");
+    effects_note(c, worst, orbit_error(&o, y, expected), 1e-13, "rk8pd");
+}
+
+/* --- order ------------------------------------------------------------------------------------------------------ */
+
+/* The order that the tolerance chooses: by how much the error falls when fixed steps are halved. */
+static void check_order(const iso_method *m, const iso_system *system, iso_clock clock, double k, int order)
+{
+    enum { ORBITS = 12 };
+    const int steps = order == 6 ? 96 : order == 10 ? 36 : 30;
+    const double finer = m == extended ? 1e4 : 1, length = 6;
+    double logarithm[2] = {0, 0};
+    for (int i = 0; i < ORBITS; i++) {
+        orbit o = orbit_sample(ctx, system, k, orbit_J, 50 + (unsigned long)i);
+        orbit_clocks(&o, clock, false, false, false);
+        double y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
+        orbit_solve(&o, exact, &finest, length * o.unit, expected);
+        for (int j = 0; j < 2; j++) {
+            const double h = length * o.unit / (steps << j);
+            const iso_method_options options = {.tolerance = finer * pow(10, (4 - order) / 1.6), .fixed_step = h};
+            orbit_solve(&o, m, &options, length * o.unit, y);
+            logarithm[j] += log2(orbit_error(&o, y, expected)) / ORBITS;
+        }
+    }
+    const double slope = logarithm[0] - logarithm[1];
+    gsl_test(!(fabs(slope - order) < (order > 10 ? 1 : 0.4)),
+             "%s, %s in %s, k = %g: order %d, measured %.2f from errors %.1e", m->name, system->name,
+             iso_clock_name(clock), k, order, slope, exp2(logarithm[0]));
+}
+
+/* --- processors ------------------------------------------------------------------------------------------------- */
+
+/* The method on one code, whatever this processor would choose. */
+static iso_method method_of(const iso_taylor_code *code)
+{
+    iso_method m = *taylor;
+    m.create = code->create, m.start = code->start, m.step = code->step, m.within = code->within;
+    return m;
+}
+
+static void check_processors(void)
+{
+    const bool both = iso_taylor_has_avx2();
+    if (!both) printf("no AVX2 here: only the plain code is tested\n");
+    const iso_method plain = method_of(&iso_taylor_plain), avx2 = both ? method_of(&iso_taylor_avx2) : plain;
+    for (int i = 0; i < 2 * ORBIT_K; i++) {
+        const orbit o = orbit_sample(ctx, iso_systems[i % 2], orbit_k[i / 2], orbit_J, 5 + (unsigned long)i);
+        const double t = 10 * 2 * M_PI * o.unit;
+        double y[3][ISO_MAX_STATE], expected[ISO_MAX_STATE];
+        orbit_solve(&o, &plain, &finest, t, y[0]);
+        orbit_solve(&o, &avx2, &finest, t, y[1]);
+        orbit_solve(&o, taylor, &finest, t, y[2]);
+        orbit_solve(&o, exact, &finest, t, expected);
+        const double apart = orbit_error(&o, y[0], y[1]), wrong = orbit_error(&o, y[0], expected);
+        gsl_test(!(apart < 1e-12 && wrong < (extended ? 2e-12 : 2e-11)),
+                 "%s, k = %g: plain and avx2 apart by %.1e, wrong by %.1e", o.model.system->name, orbit_k[i / 2],
+                 apart, wrong);
+        gsl_test(memcmp(y[both], y[2], sizeof(double) * ISO_STATE) != 0, "the best code for the processor is taken");
+    }
+}
+
+/* --- one orbit, five k: J = (1.4, 2.1, 3.0), n = (0.36, 0.48, 0.8), w = (0.9, -0.3, -0.225) -------------------- */
+
+enum { GEOMETRIES = 5 };
+static const double geometries[GEOMETRIES] = {-1, 1, 0.5, 0.75, -0.4};
+static const iso_start beginning = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
+
+static iso_orbit *orbit_by(const iso_method *m, double k, const iso_start *start, iso_picture backend,
+                           double tolerance)
+{
+    const iso_params p = laws_params(k, orbit_J);
+    iso_orbit_options o = iso_orbit_defaults(start);
+    iso_orbit *path;
+    o.method = m, o.backend = backend, o.tolerance = tolerance, o.show = ISO_BOTH;
+    if (iso_orbit_create(ctx, &p, start, &o, &path) == ISO_OK) return path;
+    gsl_test(1, "an orbit is refused: %s", iso_context_message(ctx));
+    exit(gsl_test_summary());
+}
+
+/* NaN everywhere where the orbit does not get there. */
+static iso_sample sample_at(iso_orbit *path, double t)
+{
+    iso_sample s;
+    if (iso_orbit_at(path, t, &s) != ISO_OK)
+        for (int i = 0; i < ISO_STATE; i++) s.ball[i] = s.point[i] = NAN;
+    return s;
+}
+
+static double apart(const iso_sample *a, const double b[ISO_STATE])
+{
+    const double d[2] = {laws_distance(a->ball, b) / laws_norm(b), laws_distance(a->ball + 3, b + 3)};
+    return laws_max(2, d);
+}
+
+/* The best tolerance's error at t = 1000, by long double from the same start, and the way to t = 100 and back. What
+ * the rounding of the point's start makes of the orbit is all that the two backends may differ by in long double. */
+static void check_long(double k, iso_picture backend, double bound)
+{
+    iso_orbit *truth = orbit_by(extended, k, &beginning, backend, 1e-15);
+    iso_orbit *other = orbit_by(extended, k, &beginning, backend == ISO_BALL ? ISO_POINT : ISO_BALL, 1e-15);
+    const iso_sample end = sample_at(truth, 1000), same = sample_at(other, 1000);
+    double best = INFINITY;
+    for (double tolerance = 1e-15; tolerance < 2e-12; tolerance *= 10) {
+        iso_orbit *path = orbit_by(taylor, k, &beginning, backend, tolerance);
+        const iso_sample s = sample_at(path, 1000);
+        best = fmin(best, apart(&s, end.ball));
+        iso_orbit_free(path);
+    }
+    const char *name = backend == ISO_BALL ? "ball" : "point";
+    gsl_test(!(best < bound), "%s, k = %g, t = 1000: %.1e, allowed %.0e", name, k, best, bound);
+    gsl_test(!(apart(&end, same.ball) < 1e-12), "k = %g: ball and point in long double, %.1e", k,
+             apart(&end, same.ball));
+    iso_orbit *forth = orbit_by(taylor, k, &beginning, backend, 1e-15);
+    const iso_sample there = sample_at(forth, 100);
+    iso_start turn = beginning;
+    copy(there.ball, turn.y, ISO_STATE);
+    iso_orbit *back = orbit_by(taylor, k, &turn, backend, 1e-15);
+    const iso_sample home = sample_at(back, -100);
+    gsl_test(!(apart(&home, beginning.y) < 1e-12), "%s, k = %g: to t = 100 and back %.1e", name, k,
+             apart(&home, beginning.y));
+    iso_orbit_free(truth), iso_orbit_free(other), iso_orbit_free(forth), iso_orbit_free(back);
+}
+
+static double third(const iso_sample *s, const void *data)
+{
+    (void)data;
+    return s->ball[5];
+}
+
+static void check_events(double k, iso_picture backend)
+{
+    iso_orbit *orbits[2] = {orbit_by(taylor, k, &beginning, backend, 1e-15),
+                            orbit_by(iso_method_find("rk8pd"), k, &beginning, backend, 1e-15)};
+    double worst = 0, from = 0;
+    int count = 0;
+    for (bool found = true; count < 6 && found; count += found) {
+        iso_sample s[2];
+        for (int i = 0; i < 2 && found; i++)
+            if (iso_orbit_event(orbits[i], third, NULL, 0, from, 200, &found, &s[i]) != ISO_OK) found = false;
+        if (!found) break;
+        worst = fmax(worst, fmax(fabs(s[0].clock[ISO_CLOCK_T] - s[1].clock[ISO_CLOCK_T]), apart(&s[0], s[1].ball)));
+        worst = fmax(worst, fabs(s[0].ball[5]));
+        from = s[0].clock[ISO_CLOCK_T] + 1e-3;
+    }
+    gsl_test(!(count == 6 && worst < 1e-11), "k = %g: %d zeros of n3 as by rk8pd, %.1e", k, count, worst);
+    iso_orbit_free(orbits[0]), iso_orbit_free(orbits[1]);
+}
+
+/* What is asked, and in which order, does not matter by a bit. */
+static void check_asking(double k, iso_picture backend)
+{
+    static const double times[] = {3, -7.25, 11.5, 0.01, 40, 39.5, -2};
+    iso_orbit *busy = orbit_by(taylor, k, &beginning, backend, 1e-15);
+    int different = 0;
+    for (size_t i = 0; i < sizeof times / sizeof *times; i++) {
+        iso_orbit *fresh = orbit_by(taylor, k, &beginning, backend, 1e-15);
+        const iso_sample a = sample_at(busy, times[i]), b = sample_at(fresh, times[i]);
+        different += memcmp(a.ball, b.ball, sizeof a.ball) != 0 || !isfinite(a.ball[0]);
+        iso_orbit_free(fresh);
+    }
+    gsl_test(different, "k = %g: a state does not depend on the times asked before", k);
+    iso_orbit_free(busy);
+}
+
+/* Constraints after each of the steps to t = 10000, and the energy. */
+static void check_drift(const iso_system *system, double k)
+{
+    const orbit o = orbit_sample(ctx, system, k, orbit_J, 8);
+    iso_integrator *it = orbit_start(&o, taylor, &finest);
+    double constraints = 0, energy = 0, t, y[ISO_MAX_STATE], last = -1;
+    for (int i = 1; i <= 20000; i++) {
+        double size, unused[ISO_MAX_STATE];
+        if (iso_integrator_at(it, i * o.unit / 2, unused) != ISO_OK) energy = NAN;
+        iso_integrator_last(it, &t, y);
+        if (t == last) continue;
+        last = t;
+        const double H = system->integrals[0].value(&o.model.field, y, &size);
+        const long double n2 = (long double)y[3] * y[3] + (long double)y[4] * y[4] + (long double)y[5] * y[5];
+        const long double wn = (long double)y[0] * y[3] + (long double)y[1] * y[4] + (long double)y[2] * y[5];
+        energy = isnan(energy) ? NAN : fmax(energy, fabs(H - o.model.field.energy) / size);
+        constraints = fmax(constraints, (double)fmaxl(fabsl(sqrtl(n2) - 1), fabsl(wn) / (long double)norm(y)));
+    }
+    gsl_test(!(constraints < 3e-16 && energy < 2e-15), "%s, k = %g, 10^4 radians: constraints %.1e, energy %.1e",
+             system->name, k, constraints, energy);
+    iso_integrator_free(it);
+}
+
+/* --- edges ------------------------------------------------------------------------------------------------------ */
+
+/* At rest nothing moves, with the normal upright neither; beside it the ball falls as it does by rk8pd. */
+static void check_rest(const iso_method *m)
+{
+    static const double up[3] = {0.6, 0, 0.8}, beside[3] = {0, 0.6, 0.8};
+    for (int i = 0; i < 3; i++) {
+        iso_field f = {.p = laws_params(0.5, orbit_J)};
+        double start[ISO_STATE] = {0}, y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
+        copy(up, start + 3, 3);
+        copy(i == 2 ? beside : up, f.effects.up, 3);
+        f.effects.on[ISO_GRAVITY] = i > 0, f.effects.mgb = 0.7;
+        if (i > 0) f.energy = f.effects.mgb * dot(up, f.effects.up) / (1 - f.p.k);
+        orbit o = {.ctx = ctx,
+                   .model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[3]){0, 1, 1})};
+        iso_model_begin(&o.model, start, o.y0);
+        orbit_solve(&o, m, &finest, i == 2 ? 4 : 50, y);
+        orbit_reference(&o, i == 2 ? 4 : 50, expected);
+        const double error = orbit_error(&o, y, expected), moved = laws_distance(y + 3, up) + norm(y);
+        gsl_test(!(error < 1e-13 && (i == 2 ? moved > 0.1 : moved < 4e-16)), "%s at rest: moved %.1e, wrong by %.1e",
+                 m->name, moved, error);
+    }
+}
+
+/* (w, t) -> (c w, t/c) is the same curve. */
+static void check_units(iso_picture backend)
+{
+    static const double cs[] = {1e-150, 3e-77, 7e-4, 1e9, 1e150};
+    iso_orbit *path = orbit_by(taylor, 0.75, &beginning, backend, 1e-15);
+    const iso_sample truth = sample_at(path, 30);
+    double worst = 0;
+    for (size_t i = 0; i < sizeof cs / sizeof *cs; i++) {
+        iso_start start = beginning;
+        scale(start.y, cs[i]);
+        iso_orbit *scaled = orbit_by(taylor, 0.75, &start, backend, 1e-15);
+        iso_sample s = sample_at(scaled, 30 / cs[i]);
+        scale(s.ball, 1 / cs[i]);
+        worst = apart(&s, truth.ball) <= worst ? worst : apart(&s, truth.ball);
+        iso_orbit_free(scaled);
+    }
+    gsl_test(!(worst < 1e-13), "units from 1e-150 to 1e150: %.1e", worst);
+    iso_orbit_free(path);
+}
+
+/* Backwards, a resistance makes the ball faster without end, until its coefficients fit no double: a failure in
+ * words, and a last good state before it. */
+static void check_failure(const iso_method *m)
+{
+    iso_field f = {.p = laws_params(0.5, orbit_J)};
+    f.effects.on[ISO_ROLLING_RESISTANCE] = true, f.effects.resistance = 1e9;
+    orbit o = {.ctx = ctx, .model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[3]){0})};
+    copy(beginning.y, o.y0, ISO_STATE);
+    iso_integrator *it = orbit_start(&o, m, &finest);
+    it->options.max_steps = 100000;
+    double t, y[ISO_MAX_STATE] = {NAN}, good[ISO_MAX_STATE];
+    const iso_status status = iso_integrator_at(it, -1, y);
+    gsl_test(status != ISO_NUMERICAL || !isnan(y[0]) || !strstr(iso_context_message(ctx), "diverges"), "%s",
+             iso_context_message(ctx));
+    iso_integrator_last(it, &t, good);
+    gsl_test(!(t < -1e-8 && isfinite(laws_max(ISO_STATE, good)) && fabs(norm(good + 3) - 1) < 1e-15),
+             "last good t = %g", t);
+    gsl_test(iso_integrator_at(it, -1e-9, y) != ISO_OK || !isfinite(y[0]), "times before the failure can be asked");
+    iso_integrator_free(it);
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    taylor = iso_method_find("taylor");
+    extended = iso_method_find("taylor_extended");
+    exact = extended ? extended : iso_method_find("rk8pd");
+    if (!extended) printf("no taylor_extended here: less is tested\n");
+    effects_hold("y' = f(y) by differences within the steps", NULL, 6, differences_double);
+    if (extended) effects_hold("the same in long double", NULL, 11, differences_extended);
+    effects_hold("states as by rk8pd and by long double", NULL, 6, states);
+    for (int order = 6; order <= (extended ? 10 : 6); order += 4) {
+        for (int i = 0; i < ORBIT_K; i++) {
+            check_order(taylor, &iso_system_ball, ISO_CLOCK_T, orbit_k[i], order);
+            if (order == 6 || orbit_k[i] < 0) /* singularities of q near by hide the others */
+                check_order(taylor, &iso_system_point, ISO_CLOCK_S, orbit_k[i], order);
+            if (orbit_k[i] != -1) check_order(taylor, &iso_system_point, ISO_CLOCK_T, orbit_k[i], order);
+        }
+    }
+    if (extended) check_order(extended, &iso_system_ball, ISO_CLOCK_T, 0.5, 12);
+    check_processors();
+    for (int i = 0; i < GEOMETRIES; i++)
+        for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
+            if (extended) check_long(geometries[i], backend, backend == ISO_BALL ? 2e-12 : 1e-12);
+            check_events(geometries[i], backend);
+            check_asking(geometries[i], backend);
+        }
+    for (int i = 0; i < 6; i++) check_drift(iso_systems[i % 2], orbit_k[i / 2]);
+    check_rest(taylor);
+    if (extended) check_rest(extended);
+    check_units(ISO_BALL);
+    check_units(ISO_POINT);
+    check_failure(taylor);
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}
