@@ -145,7 +145,7 @@ static iso_status make_effects(iso_draft *d, iso_picture model)
     const yaml_node_t *effects, *key;
     if (!find(d, "effects", NULL, NULL, &effects)) return ISO_OK;
     if (e->on[ISO_GRAVITY]) {
-        const double b = p->k > 1 || p->k < 0 ? -p->body.radius : p->body.radius;
+        const double b = iso_params_sign_of_radius(p) * p->body.radius;
         const char *wanted = body ? "g" : "mgb", *other = body ? "mgb" : "g";
         if (find_effect_key(d, effects, "gravity", other, &key))
             return iso_yaml_fail(&d->yaml, key->start_mark, "'%s' does not belong here: %s, give '%s'", other,

@@ -1,14 +1,14 @@
 /* taylor_kernel_impl.h - Taylor coefficients by recurrence, in one kind of number.
  *
- * Included with REAL, the kind of number, ROOT, LOG and EXP of it, and NAME(x), which makes names for it. A series is an
- * array of coefficients: a[n] of x^n for a number, a[n][0..2] for a vector (of VECTOR numbers, so that it fills a register).
- * Of an equation y' = f(y) the recurrences give coefficient n of f from those up to n of y, and with it n+1 of y:
+ * Included with REAL, the kind of number, ROOT, LOG and EXP of it, and NAME(x), which makes names for it. A series is
+ * an array of coefficients, a[n] of x^n; vectors of R^3 are the compiler's, with a fourth number that is 0. Of an
+ * equation y' = f(y) the recurrences give coefficient n of f from those up to n of y, and with it n+1 of y:
  *
  *     (a b)_n = sum_j a_j b_(n-j)                                                     Cauchy's product
  *     r = a/b:    r_n = (a_n - sum_(j>0) b_j r_(n-j))/b_0                             since b r = a
  *     v = b^p:    v_n = sum_(j>0) ((p+1) j - n) b_j v_(n-j) / (n b_0)                 since b v' = p b' v
  *
- * The equations themselves are the terms below. A model calls for some of them (taylor_forms_impl.h); nothing else is
+ * The equations themselves are the terms below. A model calls for some of them (taylor_method_impl.h); nothing else is
  * computed.
  */
 typedef REAL NAME(vector) __attribute__((vector_size(4 * sizeof(REAL))));
@@ -35,9 +35,10 @@ struct NAME(series) {
     /* what terms hand on: vectors, then numbers */
     NAME(vector) K[TAYLOR_MOST + 2], u[TAYLOR_MOST + 2], x[TAYLOR_MOST + 2], c[TAYLOR_MOST + 2], z[TAYLOR_MOST + 2],
         a[TAYLOR_MOST + 2], y[TAYLOR_MOST + 2], b[TAYLOR_MOST + 2];
-    REAL base[TAYLOR_MOST + 3], slope[TAYLOR_MOST + 3] /* n base[n] */, spin[TAYLOR_MOST + 2], r[TAYLOR_MOST + 2], lambda[TAYLOR_MOST + 2],
-        gap[TAYLOR_MOST + 2], v[TAYLOR_MOST + 2], v1[TAYLOR_MOST + 2], v2[TAYLOR_MOST + 2], P[TAYLOR_MOST + 2], L[TAYLOR_MOST + 2],
-        qP[TAYLOR_MOST + 2], qL[TAYLOR_MOST + 2], speed[ISO_CLOCKS][TAYLOR_MOST + 2];
+    REAL base[TAYLOR_MOST + 3], slope[TAYLOR_MOST + 3]; /* g of a ball, q of a point; n base[n] */
+    REAL spin[TAYLOR_MOST + 2], r[TAYLOR_MOST + 2], lambda[TAYLOR_MOST + 2], gap[TAYLOR_MOST + 2];
+    REAL v[TAYLOR_MOST + 2], v1[TAYLOR_MOST + 2], v2[TAYLOR_MOST + 2], speed[ISO_CLOCKS][TAYLOR_MOST + 2];
+    REAL P[TAYLOR_MOST + 2], L[TAYLOR_MOST + 2], qP[TAYLOR_MOST + 2], qL[TAYLOR_MOST + 2];
 };
 
 /* --- products ------------------------------------------------------------------------------------------------------ */

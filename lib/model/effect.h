@@ -32,8 +32,9 @@ typedef struct iso_effect {
     const char *breaks;               /* why no isomorphism survives it; NULL: it does                           */
     const iso_effect_number *numbers; /* ended by a row without a name                                           */
 
-    /* Its own states: names, how many there are here, what they are, where they begin, y' (the
-     * system's in dy already) and its slope d y'_i/d y_j at jac[dim i + j] (the system's rows there already), sizes for error control, and what brings them back to their constraints (relative correction). */
+    /* Its own states: names, what they are, how many there are here, where they begin; y' (in dy the system's is
+     * there already) and its slope d y'_i/d y_j at jac[dim i + j] (likewise); sizes for error control; what brings
+     * them back to their constraints, and the relative correction. */
     const char *const *state, *states_doc;
     int (*states)(const iso_field *f);
     void (*begin)(const iso_field *f, double y[]);

@@ -31,8 +31,8 @@ static double twist_torque(const iso_field *f, const double y[], const double T[
 iso_reactions iso_reactions_at(const iso_field *f, const double y[])
 {
     const double *w = y, *n = y + 3, D = f->p.D, k = f->p.k, spin = dot(w, n);
-    const double side = k > 1 ? -1 : 1;       /* inside a sphere the support is on the other side of the centre ... */
-    const double b = k > 1 || k < 0 ? -1 : 1; /* ... the sign of the ball's radius is another matter            */
+    const double side = k > 1 ? -1 : 1; /* inside a sphere the support is on the other side of the centre */
+    const double b = iso_params_sign_of_radius(&f->p);
     double T[3], dy[ISO_STATE], across[3];
     torques(f, y, T);
     iso_contact_of(f)->solve(f, y, T, dy);

@@ -133,6 +133,11 @@ iso_status iso_params_physical(iso_context *ctx, const iso_body *b, iso_params *
     return ISO_OK;
 }
 
+int iso_params_sign_of_radius(const iso_params *p)
+{
+    return p->k > 1 || p->k < 0 ? -1 : 1;
+}
+
 void iso_units_choose(const iso_params *p, double speed, iso_units *u)
 {
     const double mean_log2 = (log2(p->J[0]) + log2(p->J[1]) + log2(p->J[2])) / 3;

@@ -52,6 +52,9 @@ iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *params);
  * inequality I_i <= I_j + I_l broken by more than rounding, radii that give no k). */
 iso_status iso_params_physical(iso_context *ctx, const iso_body *body, iso_params *params);
 
+/* The sign of the ball's radius b: -1 inside a sphere and of a shell, else 1. */
+int iso_params_sign_of_radius(const iso_params *params);
+
 /* A number x with which a quantity is measured: x = J^(J + J_2k/(2k)) w^(w), J a moment of inertia, w a rate.
  * With it every quantity of either model can be carried from one system of units to another. */
 typedef struct iso_dimension {

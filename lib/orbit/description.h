@@ -3,7 +3,7 @@
  *     # k, J, D      the ball; D = m b^2 where an effect needs it
  *     # radius       |b|, the unit of lengths where columns have some; without it 1
  *     # h, eps       energy of the ball, coupling of the point
- *     # effects      names of those there are (but clock), and `# gravity.mgb`, `# level.c`, ... their numbers (iso_effect_number)
+ *     # effects      names of those there are (but clock), and their numbers: `# gravity.mgb`, `# level.c`, ...
  */
 #ifndef ISO_ORBIT_DESCRIPTION_H
 #define ISO_ORBIT_DESCRIPTION_H

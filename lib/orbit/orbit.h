@@ -48,11 +48,12 @@ typedef struct iso_sample {
 double iso_sample_column(const iso_sample *sample, int column);
 void iso_sample_set_column(iso_sample *sample, int column, double value);
 
-/* Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a free ball at rest (h = 0) has no point (a
- * point's orbit has a ball at every energy, off the level H = 0 in the potential of the effect `level`, which is then
- * added); or where an effect breaks the isomorphism (named by iso_context_field). ISO_BAD_INPUT for numbers of effects that
- * make no sense (iso_effects_check). ISO_NUMERICAL where M or a clock asked for does not fit a double in the caller's units, or k is too extreme for the
- * powers q^(1/k) of everything but the ball in its own time; ISO_BAD_ARGUMENT, ISO_NO_MEMORY. */
+/* A point's orbit has a ball at every energy: off the level H = 0 in the potential of the effect `level`, which is then
+ * added. Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a free ball at rest (h = 0) has
+ * no point, nor a ball with an effect that breaks the isomorphism (named by iso_context_field); ISO_BAD_INPUT for numbers
+ * of effects that make no sense (iso_effects_check); ISO_NUMERICAL where M or a clock asked for does not fit a double in
+ * the caller's units, or k is too extreme for the powers q^(1/k) of everything but the ball in its own time;
+ * ISO_BAD_ARGUMENT, ISO_NO_MEMORY. */
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
                             const iso_orbit_options *options, iso_orbit **orbit);
 void iso_orbit_free(iso_orbit *orbit);

@@ -7,22 +7,17 @@
 #include "model/reactions.h"
 #include "orbit/orbit_impl.h"
 
-/* The signed radii in units of |b|: b is negative inside a sphere and for a shell, a never is. */
-static double radius_b(const iso_params *p)
-{
-    return p->k > 1 || p->k < 0 ? -1 : 1;
-}
-
+/* The radius of the fixed sphere in units of |b|, never negative. */
 static double radius_a(const iso_params *p)
 {
-    return radius_b(p) * p->k / (1 - p->k);
+    return iso_params_sign_of_radius(p) * p->k / (1 - p->k);
 }
 
 /* The contact goes round the fixed sphere at a R n; on a plane it goes with the centre, b x. */
 static void sample_attitude(const iso_orbit *o, const double y[], iso_sample *s)
 {
     const iso_field *f = &o->model.field;
-    const double *n = y + 3, *Q = y + f->at[ISO_ATTITUDE], b = radius_b(&f->p);
+    const double *n = y + 3, *Q = y + f->at[ISO_ATTITUDE], b = iso_params_sign_of_radius(&f->p);
     double space_n[3];
     copy(Q, s->quaternion, 4);
     iso_turn_to_space(Q, n, space_n);
