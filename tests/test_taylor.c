@@ -9,7 +9,7 @@
 #include "orbits.h"
 
 static iso_context *ctx;
-static const iso_method *taylor, *extended, *exact; /* not every compiler has long double: extended may be NULL */
+static const iso_method *taylor, *extended;
 static const iso_method_options finest = {.tolerance = 1e-15};
 
 /* --- every recurrence ------------------------------------------------------------------------------------------- */
@@ -102,7 +102,7 @@ static void states(const effects_case *c, laws_worst *worst)
     const double t = 4 * stretch(c, &o) * (variant % 5 < 3 ? 1 : -1);
     double y[ISO_MAX_STATE], long_y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
     orbit_solve(&o, taylor, &finest, t, y);
-    orbit_solve(&o, exact, &finest, t, long_y);
+    orbit_solve(&o, extended, &finest, t, long_y);
     orbit_reference(&o, t, expected);
     effects_note(c, worst, orbit_error(&o, y, long_y), 1e-13, "long double");
     effects_note(c, worst, orbit_error(&o, y, expected), 1e-13, "rk8pd");
@@ -113,7 +113,7 @@ static void states(const effects_case *c, laws_worst *worst)
 /* The order that the tolerance chooses: by how much the error falls when fixed steps are halved. */
 static void check_order(const iso_method *m, const iso_system *system, iso_clock clock, double k, int order)
 {
-    enum { ORBITS = 12 };
+    enum { ORBITS = 64 };
     const int steps = order == 6 ? 96 : order == 10 ? (k == -1 ? 26 : 36) : 30; /* errors above rounding */
     const double finer = m == extended ? 1e4 : 1, length = 6;
     double logarithm[2] = {0, 0};
@@ -121,7 +121,7 @@ static void check_order(const iso_method *m, const iso_system *system, iso_clock
         orbit o = orbit_sample(ctx, system, k, orbit_J, 50 + (unsigned long)i);
         orbit_clocks(&o, clock, false, false, false);
         double y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
-        orbit_solve(&o, exact, &finest, length * o.unit, expected);
+        orbit_solve(&o, extended, &finest, length * o.unit, expected);
         for (int j = 0; j < 2; j++) {
             const double h = length * o.unit / (steps << j);
             const iso_method_options options = {.tolerance = finer * pow(10, (4 - order) / 1.6), .fixed_step = h};
@@ -157,12 +157,27 @@ static void check_processors(void)
         orbit_solve(&o, &plain, &finest, t, y[0]);
         orbit_solve(&o, &avx2, &finest, t, y[1]);
         orbit_solve(&o, taylor, &finest, t, y[2]);
-        orbit_solve(&o, exact, &finest, t, expected);
+        orbit_solve(&o, extended, &finest, t, expected);
         const double apart = orbit_error(&o, y[0], y[1]), wrong = orbit_error(&o, y[0], expected);
-        gsl_test(!(apart < 1e-12 && wrong < (extended ? 2e-12 : 2e-11)),
+        gsl_test(!(apart < 1e-12 && wrong < 2e-12),
                  "%s, k = %g: plain and avx2 apart by %.1e, wrong by %.1e", o.model.system->name, orbit_k[i / 2],
                  apart, wrong);
         gsl_test(memcmp(y[both], y[2], sizeof(double) * ISO_STATE) != 0, "the best code for the processor is taken");
+    }
+}
+
+/* Long double against numbers of 128 bits, which round 2000 times less: what they differ by is the former's error. */
+static void check_quad(void)
+{
+    const iso_method *quad = iso_method_find("taylor_quad");
+    if (!quad) printf("no taylor_quad here: long double is tested against doubles alone\n");
+    for (int i = 0; quad && i < 2 * ORBIT_K; i++) {
+        const orbit o = orbit_sample(ctx, iso_systems[i % 2], orbit_k[i / 2], orbit_J, 70 + (unsigned long)i);
+        double y[2][ISO_MAX_STATE];
+        orbit_solve(&o, extended, &finest, 20 * o.unit, y[0]);
+        orbit_solve(&o, quad, &(iso_method_options){.tolerance = i < ORBIT_K ? 1e-15 : 1e-6}, 20 * o.unit, y[1]);
+        const double apart = orbit_error(&o, y[0], y[1]);
+        gsl_test(!(apart < 3e-16), "%s, k = %g: 64 and 113 bits apart by %.1e", o.model.system->name, orbit_k[i / 2], apart);
     }
 }
 
@@ -363,12 +378,10 @@ int main(void)
     ctx = iso_context_create();
     taylor = iso_method_find("taylor");
     extended = iso_method_find("taylor_extended");
-    exact = extended ? extended : iso_method_find("rk8pd");
-    if (!extended) printf("no taylor_extended here: less is tested\n");
     effects_hold("y' = f(y) by differences within the steps", NULL, 6, differences_double);
-    if (extended) effects_hold("the same in long double", NULL, 11, differences_extended);
+    effects_hold("the same in long double", NULL, 11, differences_extended);
     effects_hold("states as by rk8pd and by long double", NULL, 6, states);
-    for (int order = 6; order <= (extended ? 10 : 6); order += 4) {
+    for (int order = 6; order <= 10; order += 4) {
         for (int i = 0; i < ORBIT_K; i++) {
             check_order(taylor, &iso_system_ball, ISO_CLOCK_T, orbit_k[i], order);
             if (order == 6 || orbit_k[i] < 0) /* singularities of q near by hide the others */
@@ -376,17 +389,18 @@ int main(void)
             if (orbit_k[i] != -1) check_order(taylor, &iso_system_point, ISO_CLOCK_T, orbit_k[i], order);
         }
     }
-    if (extended) check_order(extended, &iso_system_ball, ISO_CLOCK_T, 0.5, 12);
+    check_order(extended, &iso_system_ball, ISO_CLOCK_T, 0.5, 12);
     check_processors();
+    check_quad();
     for (int i = 0; i < GEOMETRIES; i++)
         for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
-            if (extended) check_long(geometries[i], backend, backend == ISO_BALL ? 2e-12 : 1e-12);
+            check_long(geometries[i], backend, backend == ISO_BALL ? 2e-12 : 1e-12);
             check_events(geometries[i], backend);
             check_asking(geometries[i], backend);
         }
     for (int i = 0; i < 6; i++) check_drift(iso_systems[i % 2], orbit_k[i / 2]);
     check_rest(taylor);
-    if (extended) check_rest(extended);
+    check_rest(extended);
     check_units(ISO_BALL);
     check_units(ISO_POINT);
     check_failure(taylor);

@@ -51,6 +51,7 @@ typedef struct iso_method {
     bool projects; /* restores constraints after each step                                             */
     bool fixed;    /* can take fixed steps                                                             */
     int variant;   /* which of its family                                                              */
+    bool reference;           /* exact to the rounding of doubles at any tolerance, and slow             */
     bool own_equations;       /* its own form of the equations of motion, not the model's rhs            */
     const iso_system *system; /* the only one it serves; NULL: every model                              */
 

@@ -4,11 +4,13 @@
 
 #include "method/method.h"
 
-/* clang's vectors of long double lose numbers (14). */
-#ifdef __clang__
-#define ISO_EXTENDED(X)
+/* gcc and the GNU C library have numbers of 128 bits. */
+#include <math.h>
+#if defined __HAVE_FLOAT128 && __HAVE_FLOAT128 && !defined __clang__
+#define ISO_TAYLOR_HAS_QUAD
+#define ISO_QUAD(X) X(taylor_quad)
 #else
-#define ISO_EXTENDED(X) X(taylor_extended)
+#define ISO_QUAD(X)
 #endif
 
 #define ISO_METHOD_LIST(X)                                                                                         \
@@ -16,7 +18,7 @@
     X(heun_euler) X(bogacki_shampine) X(ark324) X(zonneveld) X(ark436) X(ark437) X(sayfy_aburub)                   \
     X(cash_karp) X(fehlberg45) X(dormand_prince) X(ark548) X(ark548b) X(verner) X(fehlberg78) /* arkode.c */       \
     X(rk4) X(rkf45) X(rkck) X(rk8pd) X(msadams) X(msbdf) X(bsimp)                             /* gsl.c    */       \
-    X(taylor) ISO_EXTENDED(X)                                                                 /* taylor.c */       \
+    X(taylor) X(taylor_extended) ISO_QUAD(X)                                                  /* taylor.c */       \
     X(strang) X(blanes_moan4) X(blanes_moan6) X(kahan_li8) X(sofroniou_spaletta10)        /* splitting.c */
 
 #define ISO_METHOD_DECLARE(name) extern const iso_method iso_method_##name;

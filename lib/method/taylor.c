@@ -28,10 +28,15 @@ static iso_status create(iso_integrator *it)
     return create_with(it, iso_taylor_has_avx2() ? &iso_taylor_avx2 : &iso_taylor_plain);
 }
 
-#ifndef __clang__ /* see methods_impl.h */
 static iso_status create_extended(iso_integrator *it)
 {
     return create_with(it, &iso_taylor_extended);
+}
+
+#ifdef ISO_TAYLOR_HAS_QUAD
+static iso_status create_quad(iso_integrator *it)
+{
+    return create_with(it, &iso_taylor_quad);
 }
 #endif
 
@@ -61,8 +66,11 @@ static void release(iso_integrator *it)
 
 const iso_method iso_method_taylor = {
     .name = "taylor", .doc = "Taylor series by recurrences, order 10-30 from the tolerance", .create = create, TAYLOR};
-#ifndef __clang__
 const iso_method iso_method_taylor_extended = {
     .name = "taylor_extended", .doc = "the same in long double, a reference for the others",
     .create = create_extended, TAYLOR};
+#ifdef ISO_TAYLOR_HAS_QUAD
+const iso_method iso_method_taylor_quad = {
+    .name = "taylor_quad", .doc = "the same in numbers of 128 bits, slow", .reference = true,
+    .create = create_quad, TAYLOR};
 #endif

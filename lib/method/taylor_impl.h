@@ -12,7 +12,7 @@ typedef struct iso_taylor_code {
     iso_status (*within)(iso_integrator *it, double dt, double y[]);
 } iso_taylor_code;
 
-extern const iso_taylor_code iso_taylor_plain, iso_taylor_avx2, iso_taylor_extended;
+extern const iso_taylor_code iso_taylor_plain, iso_taylor_avx2, iso_taylor_extended, iso_taylor_quad;
 
 /* Whether this processor can run iso_taylor_avx2, and this build has it. */
 bool iso_taylor_has_avx2(void);

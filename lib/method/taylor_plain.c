@@ -1,5 +1,15 @@
 /* taylor_plain.c - Taylor series in double precision, for any processor. */
-#define NAME(x) plain_##x
-#include "method/taylor_double_impl.h"
+#define NUMBER       double
+#define ROOT         sqrt
+#define LOG          log
+#define EXP          exp
+#define FMA          fma
+#define EPSILON      DBL_EPSILON
+#define FINER        1
+#define FINEST_ORDER 32
+#define LANES        1
+#define PACKED
 
-const iso_taylor_code iso_taylor_plain = {plain_create, plain_start, plain_step, plain_within};
+#include "method/taylor_single_impl.h"
+
+const iso_taylor_code iso_taylor_plain = {create, start, step, within};

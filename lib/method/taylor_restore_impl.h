@@ -1,117 +1,185 @@
-/* taylor_restore_impl.h - what brings a state back to its constraints after a step, for taylor_method_impl.h.
+/* taylor_restore_impl.h - what brings a state back to its constraints after a step.
  *
  * Corrections are small, and their defects computed exactly: a projection that rounds its defect turns each step the same
  * way, and the phase drifts like t^2.
  */
+#include "method/taylor_form_impl.h"
 
 /* (a,b) - target with the rounding of one number only (Dot2 of Ogita, Rump and Oishi). */
-static REAL NAME(defect)(const REAL a[], const REAL b[], int count, REAL target)
+static inline real defect_of(const real a[], const real b[], int count, real target)
 {
-    REAL sum = -target, lost = 0;
+    real sum = -target, lost = zero;
     for (int i = 0; i < count; i++) {
-        const REAL p = a[i] * b[i], p_lost = FMA(a[i], b[i], -p);
-        const REAL next = sum + p, part = next - sum;
+        const real p = a[i] * b[i], p_lost = fused(a[i], b[i], -p);
+        const real next = sum + p, part = next - sum;
         lost += ((sum - (next - part)) + (p - part)) + p_lost;
         sum = next;
     }
     return sum + lost;
 }
 
-/* Makes |a|^2 the target; gives the relative correction. */
-static REAL NAME(restore_length)(REAL a[], int count, REAL target)
+/* Makes |a|^2 the target where `wanted`; gives the relative correction. */
+static inline real restore_length(real a[], int count, real target, mask wanted)
 {
-    REAL worst = 0;
-    for (int pass = 0; pass < 3; pass++) {
-        const REAL part = NAME(defect)(a, a, count, target) / (2 * target);
+    real worst = zero;
+    for (int pass = 0; pass < 3 && any(wanted); pass++) {
+        const real part = choose(wanted, defect_of(a, a, count, target) / (2 * target), zero);
         for (int i = 0; i < count; i++) a[i] -= part * a[i];
-        worst += FABS(part);
-        if (FABS(part) < (REAL)1e-9) break;
+        worst += magnitude(part);
+        wanted = both(wanted, magnitude(part) >= spread((NUMBER)1e-9));
     }
     return worst;
 }
 
 /* |gamma'|^2 on the level: 2 (E - V) in s; B k q^2 in t */
-static REAL NAME(square_of_speed)(const iso_model *m, NAME(taylor) *T, const REAL gamma[3])
+static real square_of_speed(const form *T, const real gamma[3])
 {
-    NAME(series) *S = &T->S;
-    REAL q = 0, P = 0, L = 0;
-    for (int i = 0; i < 3; i++) q += gamma[i] * S->J[i] * gamma[i];
+    const series *S = &T->S;
+    const real q = q_of(S, gamma);
     if (T->in_t) return S->coupling * S->k * q * q;
-    const REAL fall = EXP(-LOG(q) / S->k);
-    REAL square = 2 * (S->energy + (REAL)m->field.eps * fall);
+    const real fall = raised(q, -1 / S->k);
+    const real square = 2 * S->energy + S->coupling * S->k * fall;
     if (!S->in_field) return square;
+    const vector n = packed(gamma);
+    const real P = total(by(n, matrix_times(S, n))) / 2, L = total(by(S->l, n));
+    return square - 2 * S->factor * fall * (P / q + L / root(q));
+}
+
+/* The second integral F of a free orbit as sum_i a_i b_i = F divisor, and how the sum changes as w moves along `across`, which
+ * touches no other integral. Left alone F goes at random by a rounding error a step, the frequencies with it, and the
+ * phase like t^(3/2).
+ *     k = -1   point, in s: (M,JM)/det J + 2 eps (gamma,J^-1 gamma), M = gamma' x gamma
+ *              ball:        [ (K,K) + 2 h det J (u,u) ]/g,  K = Jw,  u = J^-1 n,  g = (n,u)
+ *     k = 1    point, in s: (gamma',J^-1 gamma') + 2 H (gamma,J^-1 gamma);  in t, H = 0: (gamma',J^-1 gamma')/q^3
+ *              ball:        (K,K) - (K,n)^2                                                                           */
+typedef struct second_integral {
+    int count;
+    real a[6], b[6], divisor, across[3], slope;
+} second_integral;
+
+static void second_of_point(const form *T, const state *s, second_integral *F)
+{
+    const series *S = &T->S;
+    const real det = S->factor * S->k * S->k;
+    real M[3];
+    F->count = 6;
+    F->divisor = spread(1);
+    cross_product(s->w, s->n, M);
+    cross_product(s->n, s->w, F->across);
     for (int i = 0; i < 3; i++) {
-        L += S->l[i] * gamma[i];
-        for (int j = 0; j < 3; j++) P += gamma[i] * S->C[i][j] * gamma[j] / 2;
+        const real J = AT(S->J, i), inv_J = AT(S->inv_J, i);
+        F->a[i] = T->second_of == SHELL ? M[i] : s->w[i];
+        F->b[i] = T->second_of == SHELL ? J * M[i] / det : inv_J * s->w[i];
+        F->a[3 + i] = s->n[i];
+        F->b[3 + i] = (T->second_of == SHELL ? -S->coupling : 2 * S->energy) * inv_J * s->n[i]; /* coupling = -2 eps */
+        F->slope += 2 * F->b[i] * (T->second_of == SHELL ? s->w[i] : F->across[i]);
     }
-    return square - 2 * S->factor * fall * (P / q + L / ROOT(q));
+    if (!T->in_t) return;
+    const real q = q_of(S, s->n);
+    F->count = 3;
+    F->divisor = q * q * q;
 }
 
-/* The second integral of k = -1, F = (M,JM)/det J + 2 eps (gamma,J^-1 gamma), M = gamma' x gamma, against its value at the
- * start. Left alone it goes at random by a rounding error a step, the frequencies with it, and the phase like t^(3/2). */
-static REAL NAME(shell_defect)(const NAME(taylor) *T, const NAME(state) *s, REAL M[3])
+static void second_of_ball(const form *T, const state *s, second_integral *F)
 {
-    const NAME(series) *S = &T->S;
-    const REAL det = S->factor * S->k * S->k;
-    REAL JM[6], MM[6];
-    NAME(cross_product)(s->w, s->n, M);
+    const series *S = &T->S;
+    const real det = S->factor * S->k * S->k;
+    real K[3], K_n = zero, across_n = zero;
     for (int i = 0; i < 3; i++) {
-        MM[i] = M[i];
-        JM[i] = S->J[i] * M[i] / det;
-        MM[3 + i] = s->n[i];
-        JM[3 + i] = -S->coupling * S->inv_J[i] * s->n[i]; /* coupling = -2 eps */
+        F->a[i] = F->b[i] = K[i] = AT(S->J, i) * s->w[i];
+        K_n += K[i] * s->n[i];
     }
-    return NAME(defect)(MM, JM, 6, T->second);
+    cross_product(s->n, K, F->across);
+    for (int i = 0; i < 3; i++) {
+        const real u = AT(S->inv_J, i) * s->n[i], change = AT(S->J, i) * F->across[i];
+        F->a[3 + i] = 2 * S->energy * det * u;
+        F->b[3 + i] = u;
+        F->slope += 2 * K[i] * change;
+        F->divisor += u * s->n[i];
+        across_n += change * s->n[i];
+    }
+    F->count = 6;
+    if (T->second_of == SHELL) return;
+    F->count = 4;
+    F->divisor = spread(1);
+    F->slope -= 2 * K_n * across_n;
+    F->a[3] = -K_n;
+    F->b[3] = K_n;
 }
 
-/* Turns gamma' in the tangent plane, which leaves all else; not where F does not feel it. */
-static void NAME(restore_second)(const NAME(taylor) *T, NAME(state) *s)
+static second_integral second_of(const form *T, const state *s)
 {
-    const NAME(series) *S = &T->S;
-    REAL M[3], slope = 0, across[3];
-    const REAL defect = NAME(shell_defect)(T, s, M), det = S->factor * S->k * S->k;
-    for (int i = 0; i < 3; i++) slope += 2 * s->w[i] * S->J[i] * M[i] / det;
-    if (!(FABS(slope) > (REAL)0.1 * FABS(T->second)) || FABS(defect) > (REAL)1e-9 * FABS(T->second)) return;
-    NAME(cross_product)(s->n, s->w, across);
-    for (int i = 0; i < 3; i++) s->w[i] -= defect / slope * across[i];
+    second_integral F = {0};
+    T->is_point ? second_of_point(T, s, &F) : second_of_ball(T, s, &F);
+    return F;
 }
 
-static REAL NAME(restore_point)(const iso_model *m, NAME(taylor) *T, NAME(state) *s)
+/* Not where w hardly changes F. */
+static void restore_second(const form *T, state *s)
 {
-    REAL worst = NAME(restore_length)(s->n, 3, 1);
-    const REAL along = NAME(defect)(s->n, s->w, 3, 0);
+    const second_integral F = second_of(T, s);
+    const real target = T->second * F.divisor, size = magnitude(target);
+    const real defect = defect_of(F.a, F.b, F.count, target);
+    const mask felt = both(magnitude(F.slope) > (NUMBER)0.1 * size, magnitude(defect) <= (NUMBER)1e-9 * size);
+    const real part = choose(felt, defect / F.slope, zero);
+    for (int i = 0; i < 3; i++) s->w[i] -= part * F.across[i];
+}
+
+static real restore_point(const form *T, state *s)
+{
+    real worst = restore_length(s->n, 3, spread(1), s->n[0] == s->n[0]);
+    const real along = defect_of(s->n, s->w, 3, zero);
     for (int i = 0; i < 3; i++) s->w[i] -= along * s->n[i];
-    const REAL square = NAME(square_of_speed)(m, T, s->n);
-    const REAL now = s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2];
-    if (square > 0 && now > square / 2 && now > (REAL)0.1 * FABS(2 * T->S.energy))
-        worst += NAME(restore_length)(s->w, 3, square);
-    if (T->S.term[0] == NAME(neumann)) NAME(restore_second)(T, s);
+    const real square = square_of_speed(T, s->n);
+    const real now = s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2];
+    const mask fast = both(now > square / 2, now > (NUMBER)0.1 * magnitude(2 * T->S.energy));
+    worst += restore_length(s->w, 3, square, both(square > zero, fast));
+    if (T->second_of) restore_second(T, s);
     return worst;
 }
 
 /* (w,n) = 0 of a ball that does not twist; a free ball's energy. */
-static REAL NAME(restore_ball)(const iso_model *m, NAME(taylor) *T, NAME(state) *s)
+static real restore_ball(const form *T, state *s)
 {
-    NAME(series) *S = &T->S;
-    REAL worst = NAME(restore_length)(s->n, 3, 1), K[3];
-    if (m->field.effects.on[ISO_TWIST]) return worst;
-    const REAL spin = NAME(defect)(s->w, s->n, 3, 0);
+    const series *S = &T->S;
+    real worst = restore_length(s->n, 3, spread(1), s->n[0] == s->n[0]), K[3];
+    if (T->shape.field.effects.on[ISO_TWIST]) return worst;
+    const real spin = defect_of(s->w, s->n, 3, zero);
     for (int i = 0; i < 3; i++) s->w[i] -= spin * s->n[i];
-    if (m->forces > 0) return worst;
-    for (int i = 0; i < 3; i++) K[i] = S->J[i] * s->w[i];
-    const REAL twice = 2 * S->energy;
-    if (!(twice > 0)) return worst;
-    const REAL part = NAME(defect)(s->w, K, 3, twice) / (2 * twice);
+    if (T->shape.forces > 0) return worst;
+    for (int i = 0; i < 3; i++) K[i] = AT(S->J, i) * s->w[i];
+    const real twice = 2 * S->energy;
+    const real part = choose(twice > zero, defect_of(s->w, K, 3, twice) / (2 * twice), zero);
     for (int i = 0; i < 3; i++) s->w[i] -= part * s->w[i];
-    return worst + FABS(part);
+    if (T->second_of) restore_second(T, s);
+    return worst + magnitude(part);
 }
 
-static void NAME(restore)(iso_integrator *it, NAME(taylor) *T, NAME(state) *s)
+/* Gives the relative size of the correction. */
+static real restore(const form *T, state *s)
 {
-    const iso_model *m = &it->model;
-    if (it->options.no_projection && !T->is_point) return; /* off them a point's equations are unstable */
-    REAL worst = T->is_point ? NAME(restore_point)(m, T, s) : NAME(restore_ball)(m, T, s);
-    if (m->field.at[ISO_GRAVITY]) worst += NAME(restore_length)(s->e, 3, 1);
-    if (m->field.at[ISO_ATTITUDE]) worst += NAME(restore_length)(s->Q, 4, 1);
-    it->statistics.correction = fmax(it->statistics.correction, (double)worst);
+    if (T->unprojected && !T->is_point) return zero; /* off them a point's equations are unstable */
+    real worst = T->is_point ? restore_point(T, s) : restore_ball(T, s);
+    if (T->shape.field.at[ISO_GRAVITY]) worst += restore_length(s->e, 3, spread(1), s->e[0] == s->e[0]);
+    if (T->shape.field.at[ISO_ATTITUDE]) worst += restore_length(s->Q, 4, spread(1), s->Q[0] == s->Q[0]);
+    return worst;
+}
+
+/* A new orbit in a lane, at y. */
+static void set_out(form *T, int lane, const iso_model *m, const double y[])
+{
+    set_numbers(T, lane, m);
+    load(T, lane, y);
+    if (!T->second_of) return;
+    const second_integral F = second_of(T, &T->now);
+    const real second = defect_of(F.a, F.b, F.count, zero) / F.divisor;
+    LANE(T->second, lane) = LANE(second, lane);
+}
+
+/* The state at x of the series. */
+static real arrive(const form *T, real x, state *s)
+{
+    memset(s, 0, sizeof *s);
+    state_at(T, x, s);
+    return restore(T, s);
 }

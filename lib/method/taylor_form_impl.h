@@ -1,0 +1,340 @@
+/* taylor_form_impl.h - what a model is expanded as: its terms and numbers, states in and out, the length of a step. */
+#include "method/taylor_kernel_impl.h"
+#include "model/model.h"
+
+/* A state, in the own variable of a form: of a point n = gamma, w = gamma'. */
+typedef struct state {
+    real n[3], w[3], e[3], Q[4], way[3], clock[ISO_CLOCKS]; /* Q: q1 q2 q3 q0 */
+} state;
+
+/* One orbit in each lane, all of the same shape: the same system, effects and clocks, and k = -1 or not. `own` is the
+ * variable of the series; the model's clock is a series of it, if another. */
+typedef struct form {
+    series S;
+    iso_model shape;
+    iso_clock own;
+    bool is_point, in_t, is_neumann, rolls, unprojected;
+    enum { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
+    double tolerance; /* of the last terms, in units of the state */
+    real second;      /* the second integral at the start */
+    state now;        /* at the end of the last step */
+} form;
+
+/* --- which terms a model calls for ---------------------------------------------------------------------------------- */
+
+static void call(series *S, recurrence *term)
+{
+    S->term[S->terms++] = term;
+}
+
+static void call_ball(form *T)
+{
+    series *S = &T->S;
+    const bool *on = T->shape.field.effects.on, twists = on[ISO_TWIST];
+    call(S, twists ? twisting_ball : ball);
+    if (on[ISO_GRAVITY]) call(S, gravity);
+    if (on[ISO_FIELD]) call(S, field);
+    if (on[ISO_LEVEL]) call(S, level);
+    if (on[ISO_ROLLING_RESISTANCE]) call(S, resistance);
+    call(S, twists ? loose : rigid);
+    if (on[ISO_ATTITUDE]) call(S, attitude);
+    if (T->rolls) call(S, roll);
+}
+
+/* In the ball's time the powers cancel, for free points on H = 0; k = -1 is polynomial in s. */
+static void call_point(form *T)
+{
+    series *S = &T->S;
+    const iso_field *f = &T->shape.field;
+    S->in_field = f->effects.on[ISO_FIELD];
+    T->is_neumann = f->p.k == -1 && !S->in_field;
+    T->in_t = !S->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1;
+    call(S, T->in_t ? point_t : T->is_neumann ? neumann : point_s);
+    if (S->in_field) call(S, point_field);
+}
+
+static void call_clock(form *T, iso_clock clock)
+{
+    if (clock != T->own) T->S.clock_of[T->S.clocks++] = clock;
+}
+
+/* The order of least work for the tolerance (measured: 10 % more at 4 above or below). */
+static int order_for(double tolerance)
+{
+    const int order = (int)lrint(4 - 1.6 * log10(tolerance));
+    return order < 6 ? 6 : order > MOST ? MOST : order;
+}
+
+static void set_shape(form *T, const iso_model *m, double tolerance)
+{
+    series *S = &T->S;
+    memset(T, 0, sizeof *T);
+    T->shape = *m;
+    T->tolerance = tolerance * FINER;
+    T->is_point = m->system == &iso_system_point;
+    T->rolls = m->field.at[ISO_ATTITUDE] && m->field.p.k == 1;
+    if (T->is_point ? !m->field.effects.on[ISO_FIELD] : m->forces == 0 && !m->field.effects.on[ISO_TWIST])
+        T->second_of = m->field.p.k == -1 ? SHELL : m->field.p.k == 1 ? PLANE : NONE;
+    S->order = order_for(T->tolerance);
+    for (int i = 1; i < MOST + 3; i++) S->count[i] = spread((NUMBER)i), S->inverse[i] = 1 / S->count[i];
+    T->is_point ? call_point(T) : call_ball(T);
+    T->own = T->is_point && !T->in_t ? ISO_CLOCK_S : ISO_CLOCK_T;
+    call_clock(T, m->clock);
+    for (int i = 0; i < m->carried; i++) call_clock(T, m->carry[i]);
+    if (S->clocks > 0) call(S, clocks);
+}
+
+/* --- the numbers of one orbit ---------------------------------------------------------------------------------------- */
+
+/* clock' = rate base^power, by iso_clock_rate: q = base for a point, 1/base for a ball */
+static void set_clock(form *T, int lane, const iso_params *p, iso_clock clock, NUMBER factor)
+{
+    double e, e_own;
+    (void)lane; /* where there is only one */
+    iso_clock_rate(p, clock, 1, &e);
+    iso_clock_rate(p, T->own, 1, &e_own);
+    LANE(T->S.rate[clock], lane) = (clock == ISO_CLOCK_S ? 1 / factor : 1) * (T->own == ISO_CLOCK_S ? factor : 1);
+    LANE(T->S.power[clock], lane) = T->is_point ? e - e_own : e_own - e;
+}
+
+static void set_numbers(form *T, int lane, const iso_model *m)
+{
+    const iso_field *f = &m->field;
+    const iso_effects *e = &f->effects;
+    series *S = &T->S;
+    (void)lane;
+    const NUMBER k = f->p.k, eps = f->eps, J[3] = {f->p.J[0], f->p.J[1], f->p.J[2]};
+    const NUMBER factor = J[0] * J[1] * J[2] / (k * k);
+    LANE(S->k, lane) = k;
+    LANE(S->D, lane) = f->p.D;
+    LANE(S->factor, lane) = factor;
+    LANE(S->energy, lane) = f->energy;
+    LANE(S->mgb, lane) = e->mgb;
+    LANE(S->level, lane) = e->level;
+    LANE(S->twist, lane) = e->twist;
+    LANE(S->resistance, lane) = e->resistance;
+    /* in t, with eps = h det J/k^2: B = 2 h k/det J */
+    LANE(S->alpha, lane) = T->in_t ? 1 + 1 / (2 * k) : -1 - 1 / k;
+    LANE(S->coupling, lane) = T->in_t ? 2 * eps / (k * factor * factor) : 2 * eps / k;
+    for (int i = 0; i < 3; i++) { /* of the point: B = J^(1/2) C J^(1/2), m = J^(1/2) l */
+        const NUMBER root_J = T->is_point ? ROOT(J[i]) : 1;
+        LANE(AT(S->J, i), lane) = J[i];
+        LANE(AT(S->inv_J, i), lane) = 1 / J[i];
+        LANE(AT(S->l, i), lane) = root_J * e->linear[i];
+        for (int j = 0; j < 3; j++)
+            LANE(AT(S->C[j], i), lane) = root_J * e->quadratic[3 * i + j] * (T->is_point ? ROOT(J[j]) : 1);
+        if (T->is_neumann) LANE(AT(S->c[0], i), lane) = 2 * eps / k * J[i] + 2 * f->energy;
+    }
+    for (int i = 0; i < S->clocks; i++) set_clock(T, lane, &f->p, S->clock_of[i], factor);
+}
+
+/* --- states: in, along the series, out -------------------------------------------------------------------------------- */
+
+static void cross_product(const real a[], const real b[], real c[])
+{
+    c[0] = a[1] * b[2] - a[2] * b[1];
+    c[1] = a[2] * b[0] - a[0] * b[2];
+    c[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+static real q_of(const series *S, const real gamma[])
+{
+    real q = zero;
+    for (int i = 0; i < 3; i++) q += gamma[i] * AT(S->J, i) * gamma[i];
+    return q;
+}
+
+/* d(own variable)/ds of a point at gamma */
+static real pace(const form *T, const real gamma[])
+{
+    if (!T->in_t) return spread(1);
+    return T->S.factor * raised(q_of(&T->S, gamma), -1 - 1 / (2 * T->S.k));
+}
+
+/* gamma' = gamma x M in s */
+static void load(form *T, int lane, const double y[])
+{
+    const int *at = T->shape.field.at;
+    const iso_model *m = &T->shape;
+    state *s = &T->now;
+    (void)lane;
+    for (int i = 0; i < 3; i++) {
+        LANE(s->w[i], lane) = y[i];
+        LANE(s->n[i], lane) = y[3 + i];
+        if (at[ISO_GRAVITY]) LANE(s->e[i], lane) = y[at[ISO_GRAVITY] + i];
+        if (T->rolls) LANE(s->way[i], lane) = y[at[ISO_ATTITUDE] + 4 + i];
+    }
+    if (T->is_point) {
+        const real speed = pace(T, s->n);
+        real turned[3];
+        cross_product(s->n, s->w, turned);
+        for (int i = 0; i < 3; i++) LANE(s->w[i], lane) = LANE(turned[i], lane) / LANE(speed, lane);
+    }
+    for (int i = 0; at[ISO_ATTITUDE] && i < 4; i++) LANE(s->Q[(i + 3) % 4], lane) = y[at[ISO_ATTITUDE] + i];
+    for (int i = 0; i < m->carried; i++) LANE(s->clock[m->carry[i]], lane) = y[m->moving + i];
+}
+
+static void store(const form *T, int lane, const state *s, double y[])
+{
+    const iso_model *m = &T->shape;
+    const int *at = m->field.at;
+    (void)lane;
+    for (int i = 0; i < 3; i++) {
+        y[i] = (double)LANE(s->w[i], lane);
+        y[3 + i] = (double)LANE(s->n[i], lane);
+        if (at[ISO_GRAVITY]) y[at[ISO_GRAVITY] + i] = (double)LANE(s->e[i], lane);
+        if (T->rolls) y[at[ISO_ATTITUDE] + 4 + i] = (double)LANE(s->way[i], lane);
+    }
+    if (T->is_point) {
+        const real speed = pace(T, s->n);
+        real M[3];
+        cross_product(s->w, s->n, M);
+        for (int i = 0; i < 3; i++) y[i] = (double)(LANE(M[i], lane) * LANE(speed, lane));
+    }
+    if (at[ISO_TWIST])
+        y[at[ISO_TWIST]] = -(double)LANE(T->S.twist, lane) * (y[0] * y[3] + y[1] * y[4] + y[2] * y[5]);
+    for (int i = 0; at[ISO_ATTITUDE] && i < 4; i++) y[at[ISO_ATTITUDE] + i] = (double)LANE(s->Q[(i + 3) % 4], lane);
+    for (int i = 0; i < m->carried; i++) y[m->moving + i] = (double)LANE(s->clock[m->carry[i]], lane);
+}
+
+static vector packed(const real a[3])
+{
+    vector v = nought;
+    for (int i = 0; i < 3; i++) AT(v, i) = a[i];
+    return v;
+}
+
+/* T->now into the coefficients 0 (of gamma' into 1 of gamma) */
+static void begin(form *T)
+{
+    series *S = &T->S;
+    const state *s = &T->now;
+    S->n[0] = packed(s->n);
+    *(T->is_point ? &S->n[1] : &S->w[0]) = packed(s->w);
+    if (T->shape.field.at[ISO_GRAVITY]) S->e[0] = packed(s->e);
+    if (T->shape.field.at[ISO_ATTITUDE]) {
+        S->Q[0] = packed(s->Q);
+        S->Q0[0] = s->Q[3];
+        S->way[0] = packed(s->way);
+    }
+    for (int i = 0; i < T->shape.carried; i++) S->clock[T->shape.carry[i]][0] = s->clock[T->shape.carry[i]];
+}
+
+/* p(x), or p'(x), of a vector's series, or of a number's */
+static inline void value(const vector a[], int order, real x, real out[3])
+{
+    vector p = nought;
+    for (int n = order; n >= 0; n--) p = plus(times(x, p), a[n]);
+    for (int i = 0; i < 3; i++) out[i] = AT(p, i);
+}
+
+static inline void rate(const vector a[], const real count[], int order, real x, real out[3])
+{
+    vector p = nought;
+    for (int n = order; n >= 1; n--) p = plus(times(x, p), times(count[n], a[n]));
+    for (int i = 0; i < 3; i++) out[i] = AT(p, i);
+}
+
+static inline real number(const real a[], int order, real x)
+{
+    real p = zero;
+    for (int n = order; n >= 0; n--) p = p * x + a[n];
+    return p;
+}
+
+static void state_at(const form *T, real x, state *s)
+{
+    const series *S = &T->S;
+    const iso_model *m = &T->shape;
+    value(S->n, S->order + T->is_point, x, s->n); /* of gamma one more is known, which gamma' needs */
+    if (T->is_point)
+        rate(S->n, S->count, S->order + 1, x, s->w);
+    else
+        value(S->w, S->order, x, s->w);
+    if (m->field.at[ISO_GRAVITY]) value(S->e, S->order, x, s->e);
+    if (m->field.at[ISO_ATTITUDE]) {
+        s->Q[3] = number(S->Q0, S->order, x);
+        value(S->Q, S->order, x, s->Q);
+        if (T->rolls) value(S->way, S->order, x, s->way);
+    }
+    for (int i = 0; i < m->carried; i++) {
+        const iso_clock c = m->carry[i];
+        s->clock[c] = c == T->own ? S->clock[c][0] + x : number(S->clock[c], S->order, x);
+    }
+}
+
+/* --- steps ------------------------------------------------------------------------------------------------------------ */
+
+static inline real largest(vector a)
+{
+    return larger(larger(magnitude(AT(a, 0)), magnitude(AT(a, 1))), magnitude(AT(a, 2)));
+}
+
+/* The largest coefficient n of the states, in units of their sizes. */
+static real coefficient(const form *T, int n)
+{
+    const series *S = &T->S;
+    real most = largest(S->n[n]);
+    if (!T->is_point) most = larger(most, largest(S->w[n]) / (largest(S->w[0]) + spread((NUMBER)1e-100)));
+    for (int i = 0; i < S->clocks; i++) { /* in units of their rates, over the way on which n turns by a radian */
+        const real *clock = S->clock[S->clock_of[i]];
+        most = larger(most, largest(S->n[1]) * magnitude(clock[n] / clock[1]));
+    }
+    if (T->shape.field.at[ISO_GRAVITY]) most = larger(most, largest(S->e[n]));
+    if (T->shape.field.at[ISO_ATTITUDE]) most = larger(most, largest(S->Q[n]));
+    return most;
+}
+
+/* x^(1/n), at most 6 % too large: the bits of a double are about its logarithm. */
+static inline double rough_root(double x, int n)
+{
+    const double one = 1;
+    int64_t bits, bits_of_one;
+    memcpy(&bits, &x, sizeof bits);
+    memcpy(&bits_of_one, &one, sizeof bits_of_one);
+    bits = bits_of_one + (int64_t)((double)(bits - bits_of_one) / n);
+    memcpy(&x, &bits, sizeof bits);
+    return x;
+}
+
+/* The step whose last two terms are as small as the tolerance; 1000 where there are none. */
+static real choose_step(const form *T)
+{
+    real h = spread(1e3);
+    for (int n = T->S.order - 1; n <= T->S.order; n++) {
+        const real c = coefficient(T, n);
+        for (int i = 0; i < LANES; i++) {
+            const double small = T->tolerance / fabs((double)LANE(c, i)); /* c may be -0 */
+            const double longest = small < 1e300 ? 0.97 * rough_root(small, n) : 1e3;
+            if (!(longest > (double)LANE(h, i))) LANE(h, i) = longest;
+        }
+    }
+    return h;
+}
+
+/* How far the model's clock has gone on at x. */
+static inline real elapsed(const form *T, real x)
+{
+    return T->shape.clock == T->own ? x : x * number(T->S.clock[T->shape.clock] + 1, T->S.order - 1, x);
+}
+
+/* The x at which the model's clock has gone on by dt. */
+static real find(const form *T, real dt, real guess)
+{
+    if (T->shape.clock == T->own) return dt;
+    const series *S = &T->S;
+    const real *clock = S->clock[T->shape.clock];
+    real x = guess;
+    mask far = dt == dt;
+    for (int i = 0; i < 20 && any(far); i++) {
+        real p = zero, dp = zero;
+        for (int n = S->order; n >= 1; n--) {
+            dp = dp * x + S->count[n] * clock[n];
+            p = p * x + clock[n];
+        }
+        const real step = (p * x - dt) / dp;
+        x = choose(far, x - step, x);
+        far = both(far, magnitude(step) > 4 * (NUMBER)EPSILON * magnitude(x));
+    }
+    return x;
+}

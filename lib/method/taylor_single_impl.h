@@ -1,0 +1,60 @@
+/* taylor_single_impl.h - one orbit by Taylor series, as an iso_integrator. */
+#include "method/integrator_impl.h"
+#include "method/taylor_impl.h"
+#include "method/taylor_restore_impl.h"
+
+typedef struct single {
+    const iso_taylor_code *code; /* set by taylor.c */
+    form T;
+    real length; /* of the last step, in the own variable */
+} single;
+
+static iso_status create(iso_integrator *it)
+{
+    single *own = it->data = aligned_alloc(64, (sizeof *own + 63) / 64 * 64);
+    if (!own) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for %s", it->method->name);
+    set_shape(&own->T, &it->model, it->options.tolerance);
+    own->T.unprojected = it->options.no_projection;
+    return ISO_OK;
+}
+
+static iso_status start(iso_integrator *it)
+{
+    single *own = it->data;
+    set_out(&own->T, 0, &it->model, it->at_right);
+    return ISO_OK;
+}
+
+static iso_status arrive_at(iso_integrator *it, real x, state *s, double y[])
+{
+    single *own = it->data;
+    double sum = 0;
+    it->statistics.correction = fmax(it->statistics.correction, (double)arrive(&own->T, x, s));
+    store(&own->T, 0, s, y);
+    for (int i = 0; i < it->model.dim; i++) sum += y[i] * 0; /* NaN if any is not finite */
+    return sum == 0 ? ISO_OK : iso_integrator_stopped(it, "the series diverges");
+}
+
+static iso_status step(iso_integrator *it, double y[], double *h)
+{
+    single *own = it->data;
+    form *T = &own->T;
+    begin(T);
+    expand(&T->S);
+    it->statistics.rhs += T->S.order;
+    if (it->options.fixed_step > 0) {
+        *h = it->direction * it->options.fixed_step;
+        own->length = find(T, *h, *h / (it->model.clock == T->own ? 1 : T->S.clock[it->model.clock][1]));
+    } else {
+        own->length = it->direction * choose_step(T);
+        *h = (double)elapsed(T, own->length);
+    }
+    return arrive_at(it, own->length, &T->now, y);
+}
+
+static iso_status within(iso_integrator *it, double dt, double y[])
+{
+    single *own = it->data;
+    state s;
+    return arrive_at(it, find(&own->T, dt, own->length * (dt / it->h)), &s, y);
+}
