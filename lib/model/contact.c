@@ -90,17 +90,10 @@ static void solve_A(const iso_params *p, const double n[3], const double x[3], d
     for (int i = 0; i < 3; i++) v[i] = p->inv_J[i] * x[i] + along * u[i];
 }
 
-/* K */
-static void momentum(const iso_params *p, const double y[], double K[3])
-{
-    diag(p->J, y, K);
-    add_scaled(K, -p->D * dot(y, y + 3), y + 3);
-}
-
 static void loose_solve(const iso_field *f, const double y[], const double T[3], double dy[])
 {
     double K[3], x[3];
-    momentum(&f->p, y, K);
+    contact_momentum(&f->p, y, K);
     cross(K, y, x);
     turn_of_normal(f, y, dy + 3);
     add_scaled(x, 1, T);
@@ -114,7 +107,7 @@ static void loose_slope(const iso_field *f, const double y[], const double T[3],
     const iso_params *p = &f->p;
     const double *w = y, *n = y + 3, spin = dot(w, n);
     double K[3], dy[6], x[3], column[3];
-    momentum(p, y, K);
+    contact_momentum(p, y, K);
     loose_solve(f, y, T, dy);
     for (int j = 0; j < dim; j++) {
         for (int i = 0; i < 3; i++) x[i] = jac[dim * i + j];

@@ -9,6 +9,7 @@
 #ifndef ISO_MODEL_CONTACT_IMPL_H
 #define ISO_MODEL_CONTACT_IMPL_H
 
+#include "base/vec3_impl.h"
 #include "model/field.h"
 
 typedef struct iso_contact {
@@ -20,5 +21,12 @@ extern const iso_contact iso_contact_rigid, iso_contact_loose;
 
 /* The contact that a field's effects make. */
 const iso_contact *iso_contact_of(const iso_field *f);
+
+/* K of a loose contact, the momentum about it. */
+static inline void contact_momentum(const iso_params *p, const double y[], double K[3])
+{
+    diag(p->J, y, K);
+    add_scaled(K, -p->D * dot(y, y + 3), y + 3);
+}
 
 #endif

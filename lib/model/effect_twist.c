@@ -104,10 +104,10 @@ static void stiff_torque_slope(const iso_field *f, const double y[], int dim, do
 /* K, and the size of its terms */
 static double momentum(const iso_field *f, const double y[], double K[3])
 {
-    diag(f->p.J, y, K);
-    const double size = norm(K);
-    add_scaled(K, -f->p.D * dot(y, y + 3), y + 3);
-    return size;
+    double Jw[3];
+    diag(f->p.J, y, Jw);
+    contact_momentum(&f->p, y, K);
+    return norm(Jw);
 }
 
 static double momentum_square(const iso_field *f, const double y[], double *value_size)
