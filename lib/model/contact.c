@@ -79,6 +79,12 @@ static void rigid_slope(const iso_field *f, const double y[], const double T[3],
     slope_of_normal(f, y, dim, jac);
 }
 
+static double rigid_twist(const iso_field *f, const double y[], const double T[3])
+{
+    double u[3], x[3];
+    return rigid_parts(f, y, T, u, x);
+}
+
 /* --- loose -------------------------------------------------------------------------------------------------------- */
 
 /* v = A^-1 x */
@@ -138,7 +144,15 @@ static void loose_slope(const iso_field *f, const double y[], const double T[3],
     slope_of_normal(f, y, dim, jac);
 }
 
-const iso_contact iso_contact_rigid = {rigid_solve, rigid_slope}, iso_contact_loose = {loose_solve, loose_slope};
+static double loose_twist(const iso_field *f, const double y[], const double T[3])
+{
+    (void)T;
+    const int at = f->at[ISO_TWIST];
+    return at > 0 ? y[at] : -f->effects.twist * dot(y, y + 3);
+}
+
+const iso_contact iso_contact_rigid = {rigid_solve, rigid_slope, rigid_twist},
+                  iso_contact_loose = {loose_solve, loose_slope, loose_twist};
 
 const iso_contact *iso_contact_of(const iso_field *f)
 {

@@ -4,7 +4,8 @@
  *     loose   K' = K x w + T,  K = J w - D (w,n) n        (T has the twist resistance in it)
  *
  * Both give dy[0..5] = (w', n'), n' = k n x w. `slope`: on entry column j of the first three rows of jac (row-major, dim
- * columns) is dT/dy_j; on return the first six rows are those of the Jacobian.
+ * columns) is dT/dy_j; on return the first six rows are those of the Jacobian. `twist`: lambda of the contact's
+ * torque lambda n, (9)'s or -c (w,n), which is a state where it is stiff.
  */
 #ifndef ISO_MODEL_CONTACT_IMPL_H
 #define ISO_MODEL_CONTACT_IMPL_H
@@ -15,6 +16,7 @@
 typedef struct iso_contact {
     void (*solve)(const iso_field *f, const double y[], const double T[3], double dy[]);
     void (*slope)(const iso_field *f, const double y[], const double T[3], int dim, double jac[]);
+    double (*twist)(const iso_field *f, const double y[], const double T[3]);
 } iso_contact;
 
 extern const iso_contact iso_contact_rigid, iso_contact_loose;

@@ -14,18 +14,6 @@ static void torques(const iso_field *f, const double y[], double T[3])
     }
 }
 
-static double twist_torque(const iso_field *f, const double y[], const double T[3])
-{
-    if (f->at[ISO_TWIST] > 0) return y[f->at[ISO_TWIST]];
-    if (f->effects.on[ISO_TWIST]) return -f->effects.twist * dot(y, y + 3);
-    double Jw[3], u[3], x[3];
-    diag(f->p.J, y, Jw);
-    diag(f->p.inv_J, y + 3, u);
-    cross(Jw, y, x);
-    add_scaled(x, 1, T);
-    return -dot(x, u) / dot(y + 3, u);
-}
-
 /* w x n' + w x (w x n) = (1-k) w x (w x n) = (1-k) [ (w,n) w - w^2 n ]. The parts along n and across are found one by one:
  * on a plane without weight the first is exactly 0. */
 iso_reactions iso_reactions_at(const iso_field *f, const double y[])
@@ -33,9 +21,10 @@ iso_reactions iso_reactions_at(const iso_field *f, const double y[])
     const double *w = y, *n = y + 3, D = f->p.D, k = f->p.k, spin = dot(w, n);
     const double side = k > 1 ? -1 : 1; /* inside a sphere the support is on the other side of the centre */
     const double b = iso_params_sign_of_radius(&f->p);
+    const iso_contact *contact = iso_contact_of(f);
     double T[3], dy[ISO_STATE], across[3];
     torques(f, y, T);
-    iso_contact_of(f)->solve(f, y, T, dy);
+    contact->solve(f, y, T, dy);
     cross(dy, n, across);
     add_scaled(across, (1 - k) * spin, w);
     scale(across, D);
@@ -47,7 +36,7 @@ iso_reactions iso_reactions_at(const iso_field *f, const double y[])
     }
     normal += D * (1 - k) * spin * spin;
     remove_along(across, n);
-    iso_reactions r = {.pressure = side * b * normal, .friction = norm(across), .twist = twist_torque(f, y, T)};
+    iso_reactions r = {.pressure = side * b * normal, .friction = norm(across), .twist = contact->twist(f, y, T)};
     r.needed = r.friction / fabs(r.pressure);
     for (int i = 0; i < 3; i++) r.force[i] = b * (across[i] + normal * n[i]);
     return r;
