@@ -43,7 +43,9 @@ double iso_effects_stiffness(const iso_field *f)
 
 const iso_effect *iso_effect_row(const iso_field *f, iso_effect_id id)
 {
-    return id == ISO_TWIST && iso_effects_stiffness(f) > ISO_STIFF ? &iso_effect_stiff_twist : iso_effect_list[id];
+    if (id != ISO_TWIST) return iso_effect_list[id];
+    if (f->effects.twist == 0) return &iso_effect_free_twist;
+    return iso_effects_stiffness(f) > ISO_STIFF ? &iso_effect_stiff_twist : &iso_effect_twist;
 }
 
 /* --- stiff: lambda is a state -------------------------------------------------------------------------------------- */
@@ -184,6 +186,8 @@ static const iso_integral integrals[] = {
     .breaks = "the ball is free to twist: (omega,n) is not 0", .numbers = numbers, .integrals = integrals
 
 const iso_effect iso_effect_twist = {TWIST, .torque = torque, .torque_slope = torque_slope};
+
+const iso_effect iso_effect_free_twist = {TWIST};
 
 static const char *const state_names[] = {"lambda"};
 

@@ -7,7 +7,8 @@
 #include "model/effect.h"
 
 extern const iso_effect iso_effect_gravity, iso_effect_field, iso_effect_level, iso_effect_twist,
-    iso_effect_stiff_twist, iso_effect_rolling_resistance, iso_effect_attitude, iso_effect_reactions, iso_effect_clock;
+    iso_effect_free_twist, iso_effect_stiff_twist, iso_effect_rolling_resistance, iso_effect_attitude,
+    iso_effect_reactions, iso_effect_clock;
 
 /* Whether there are none: the free ball asks at each step, and should not look through the table. */
 static inline bool iso_effects_none(const iso_effects *effects)
@@ -16,7 +17,7 @@ static inline bool iso_effects_none(const iso_effects *effects)
     return memcmp(effects->on, off, sizeof off) == 0;
 }
 
-/* The row of an effect here: its own, or that of a stiff contact. */
+/* The row of an effect here: its own, or that of a contact that twists freely (the classical ball) or is stiff. */
 const iso_effect *iso_effect_row(const iso_field *f, iso_effect_id id);
 
 /* Adds column j, the derivative by y[j], of a torque to its slope. */

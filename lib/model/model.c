@@ -129,8 +129,7 @@ static void add_effects(iso_model *m)
         const iso_effect *effect = iso_effect_row(&m->field, e);
         m->field.at[e] = 0;
         if (!m->field.effects.on[e]) continue;
-        const bool idle = e == ISO_TWIST && m->field.effects.twist == 0; /* the classical ball twists freely */
-        if (ball ? effect->torque && !idle : effect->image != NULL) m->force[m->forces++] = effect;
+        if (ball ? effect->torque != NULL : effect->image != NULL) m->force[m->forces++] = effect;
         if (!ball || !effect->states) continue;
         m->field.at[e] = m->moving;
         m->moving += effect->states(&m->field);
