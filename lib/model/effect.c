@@ -142,6 +142,13 @@ iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *unit
     return scaled;
 }
 
+iso_effects iso_effects_acting(const iso_effects *effects)
+{
+    iso_effects acting = *effects;
+    for (int e = ISO_ATTITUDE; e < ISO_EFFECTS; e++) acting.on[e] = false;
+    return acting;
+}
+
 const iso_effect *iso_effects_breaking(const iso_effects *effects)
 {
     for (int e = 0; e < ISO_EFFECTS; e++)

@@ -70,6 +70,9 @@ iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const d
 /* The effects carried from the caller's units to own ones (power -1), or back (power 1). */
 iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power);
 
+/* Those that act on the motion: without attitude, reactions and clock, which are only asked of it. */
+iso_effects iso_effects_acting(const iso_effects *effects);
+
 /* The first effect that breaks the isomorphism; NULL: none. */
 const iso_effect *iso_effects_breaking(const iso_effects *effects);
 

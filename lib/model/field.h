@@ -11,7 +11,7 @@
 
 #include "params.h"
 
-/* In the order in which their states follow the system's six. */
+/* In the order in which their states follow the system's six; those from ISO_ATTITUDE on act on nothing. */
 typedef enum iso_effect_id {
     ISO_GRAVITY,
     ISO_FIELD,

@@ -255,7 +255,7 @@ static iso_status prepare(conversion *c, double *origin)
     c->other_column = iso_record_find(c->in, iso_clock_name(c->other));
     status = iso_record_effects(c->ctx, c->in, &c->effects);
     if (status == ISO_OK) status = refuse_effect(c);
-    for (int e = ISO_ATTITUDE; e < ISO_EFFECTS; e++) c->effects.on[e] = false; /* they act on nothing */
+    c->effects = iso_effects_acting(&c->effects);
     if (status == ISO_OK) status = open_first(c);
     if (status != ISO_OK) return status;
     *origin = 0;

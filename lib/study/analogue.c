@@ -265,12 +265,11 @@ iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso
     iso_orbit *orbit;
     iso_sample sample;
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    iso_effects effects = scene->effects;
+    iso_effects effects = iso_effects_acting(&scene->effects);
     if (scene->start.model != ISO_POINT)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "this scene is a ball already: an analogue is of a 'point'");
     iso_status status = check_effects(ctx, &effects);
     if (status != ISO_OK) return status;
-    for (int e = ISO_ATTITUDE; e < ISO_EFFECTS; e++) effects.on[e] = false; /* they are the ball's */
     o.effects = &effects;
     status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
     if (status != ISO_OK) return status;

@@ -77,9 +77,8 @@ static double read_clock(const checker *c, int clock, size_t row)
  * eps is known. */
 static iso_effects effects_of(const checker *c, iso_picture model)
 {
-    iso_effects effects = c->effects;
-    if (model == ISO_BALL) return effects;
-    effects.on[ISO_ATTITUDE] = effects.on[ISO_REACTIONS] = false;
+    if (model == ISO_BALL) return c->effects;
+    iso_effects effects = iso_effects_acting(&c->effects);
     if (iso_record_get(c->record, "eps") || iso_record_get(c->record, "h")) effects.level = NAN;
     return effects;
 }
