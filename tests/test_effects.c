@@ -253,8 +253,8 @@ static void accepted(const effects_case *c, laws_worst *worst)
     for (int i = 0; i < ISO_EFFECTS; i++)
         for (const iso_effect_number *n = iso_effect_list[i]->numbers; n && n->name; n++)
             for (int j = 0; j < n->count; j++) {
-                const double *old = (const double *)((const char *)&c->model.field.effects + n->offset);
-                const double *new = (const double *)((const char *)&e + n->offset);
+                const double *old = iso_effect_values(&c->model.field.effects, n);
+                const double *new = iso_effect_values(&e, n);
                 effects_note(c, worst, fabs(new[j] - old[j]), 4 * DBL_EPSILON * fabs(old[j]), n->name);
             }
 }
@@ -289,7 +289,7 @@ static void attempt_number(iso_effect_id id, const char *number, int index, doub
 {
     iso_effects e = sound;
     for (const iso_effect_number *n = iso_effect_list[id]->numbers; n->name; n++)
-        if (strcmp(n->name, number) == 0) ((double *)((char *)&e + n->offset))[index] = value;
+        if (strcmp(n->name, number) == 0) iso_effect_values(&e, n)[index] = value;
     char what[64];
     snprintf(what, sizeof what, "%s %s[%d] = %g", iso_effect_list[id]->name, number, index, value);
     attempt(what, 0.5, 0.3, id, e, field);

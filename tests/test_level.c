@@ -316,8 +316,8 @@ static void scaled_and_back(const effects_case *c, laws_worst *worst)
         for (int i = 0; i < ISO_EFFECTS; i++)
             for (const iso_effect_number *n = iso_effect_list[i]->numbers; n && n->name; n++)
                 for (int j = 0; j < n->count; j++) {
-                    const double x = ((const double *)((const char *)e + n->offset))[j];
-                    const double again = ((const double *)((const char *)&back + n->offset))[j];
+                    const double x = iso_effect_values(e, n)[j];
+                    const double again = iso_effect_values(&back, n)[j];
                     const bool exact = n->dimension.J_2k == 0 || rint(1 / k) == 1 / k;
                     effects_note(c, worst, fabs(again - x), exact ? DBL_MIN : 4 * DBL_EPSILON * fabs(x), n->name);
                 }

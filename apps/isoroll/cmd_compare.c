@@ -134,7 +134,7 @@ static json_t *effects_of(const iso_effects *effects)
         if (!effects->on[e]) continue;
         json_t *numbers = json_object();
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
-            const double *x = (const double *)((const char *)effects + n->offset);
+            const double *x = iso_effect_values(effects, n);
             json_t *list = json_array();
             for (int i = 0; i < n->count; i++) json_array_append_new(list, number(x[i]));
             json_object_set_new(numbers, n->name, list);

@@ -3,7 +3,7 @@
 
 static void print_number(const iso_effects *effects, const iso_effect_number *n)
 {
-    const double *x = (const double *)((const char *)effects + n->offset);
+    const double *x = iso_effect_values(effects, n);
     printf("  %s =", n->name);
     for (int i = 0; i < n->count; i++) printf(" %.10g", x[i]);
 }

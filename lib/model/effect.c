@@ -18,12 +18,17 @@ const iso_effect *const iso_effect_list[ISO_EFFECTS] = {
     [ISO_CLOCK] = &iso_effect_clock,
 };
 
+double *iso_effect_values(const iso_effects *effects, const iso_effect_number *number)
+{
+    return (double *)((char *)effects + number->offset);
+}
+
 /* --- do the numbers make sense ------------------------------------------------------------------------------------- */
 
 static iso_status check_finite(iso_context *ctx, const iso_effect *effect, const iso_effects *e)
 {
     for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
-        const double *x = (const double *)((const char *)e + n->offset);
+        const double *x = iso_effect_values(e, n);
         for (int i = 0; i < n->count; i++)
             if (!isfinite(x[i]))
                 return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is not finite", effect->name, n->name);
@@ -135,7 +140,7 @@ iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *unit
     iso_effects scaled = *effects;
     for (int e = 0; e < ISO_EFFECTS; e++)
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; scaled.on[e] && n && n->name; n++) {
-            double *x = (double *)((char *)&scaled + n->offset);
+            double *x = iso_effect_values(&scaled, n);
             const double unit = iso_unit(units, n->dimension);
             for (int i = 0; i < n->count; i++) x[i] = x[i] == 0 ? 0 : power > 0 ? x[i] * unit : x[i] / unit;
         }

@@ -19,7 +19,7 @@
 
 #include "system.h"
 
-/* A number that a scene or a trajectory file states of an effect: where it stands in iso_effects. */
+/* A number that a scene or a trajectory file states of an effect, and where it stands in iso_effects. */
 typedef struct iso_effect_number {
     const char *name;
     size_t offset;
@@ -61,6 +61,9 @@ typedef struct iso_effect {
 
 /* The registry, in the order of iso_effect_id. */
 extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
+
+/* Where an effect's number stands: number->count doubles, as const as `effects` is. */
+double *iso_effect_values(const iso_effects *effects, const iso_effect_number *number);
 
 /* What is wrong with numbers or combinations, as the physics sees it: an effect that cannot matter here (gravity on a
  * level plane, a constant field), numbers that are none. `normal` is n at the start. Makes `up` and `quaternion` unit

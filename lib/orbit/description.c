@@ -24,8 +24,7 @@ iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const is
         snprintf(names + used, sizeof names - used, "%s%s", used ? " " : "", iso_effect_list[e]->name);
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; status == ISO_OK && n && n->name; n++) {
             line_key(key, iso_effect_list[e], n);
-            status = iso_record_set_numbers(ctx, r, key, (size_t)n->count,
-                                            (const double *)((const char *)effects + n->offset));
+            status = iso_record_set_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, n));
         }
     }
     return status == ISO_OK && *names ? iso_record_set(ctx, r, "effects", names) : status;
@@ -132,8 +131,7 @@ iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
             char key[ISO_NAME_SIZE];
             line_key(key, iso_effect_list[e], n);
-            if (iso_record_get_numbers(ctx, r, key, (size_t)n->count, (double *)((char *)effects + n->offset),
-                                       &status))
+            if (iso_record_get_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, n), &status))
                 continue;
             if (status != ISO_OK) return status;
             return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "effect '%s' needs a line '# %s: ...'",
