@@ -109,11 +109,11 @@ static iso_status check_named(iso_context *ctx, const iso_record *r, const iso_e
                                         "there is a line '# %s', but no line '# effects' that names '%s'", key,
                                         iso_effect_list[e]->name);
         }
-    if (effects->on[ISO_GRAVITY] || iso_record_find(r, iso_trajectory_columns[ISO_COLUMN_EFFECTS]) < 0) return ISO_OK;
+    if (effects->on[ISO_GRAVITY] || iso_record_find(r, iso_trajectory_columns[ISO_COLUMN_GRAVITY]) < 0) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "effects",
                             "there is a column '%s', but no line '# effects' that names "
                             "'gravity'",
-                            iso_trajectory_columns[ISO_COLUMN_EFFECTS]);
+                            iso_trajectory_columns[ISO_COLUMN_GRAVITY]);
 }
 
 iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects *effects)
@@ -148,8 +148,8 @@ static iso_status turn_effects(iso_context *ctx, const iso_record *r, size_t row
         iso_effect_id effect;
         double *numbers;
         int column, count;
-    } turning[] = {{ISO_GRAVITY, effects->up, ISO_COLUMN_EFFECTS, 3},
-                   {ISO_ATTITUDE, effects->quaternion, ISO_COLUMN_EFFECTS + 3, 4}};
+    } turning[] = {{ISO_GRAVITY, effects->up, ISO_COLUMN_GRAVITY, 3},
+                   {ISO_ATTITUDE, effects->quaternion, ISO_COLUMN_ATTITUDE, 4}};
     for (int i = 0; i < 2; i++) {
         int columns[4];
         const char *missing;

@@ -14,11 +14,10 @@ const char *const iso_trajectory_columns[ISO_TRAJECTORY_COLUMNS] = {
 
 iso_effect_id iso_column_effect(int column)
 {
-    const int first[] = {ISO_COLUMN_EFFECTS, ISO_COLUMN_EFFECTS + 3, ISO_COLUMN_EFFECTS + 16};
-    return column < first[0]   ? ISO_EFFECTS
-           : column < first[1] ? ISO_GRAVITY
-           : column < first[2] ? ISO_ATTITUDE
-                               : ISO_REACTIONS;
+    return column < ISO_COLUMN_GRAVITY     ? ISO_EFFECTS
+           : column < ISO_COLUMN_ATTITUDE  ? ISO_GRAVITY
+           : column < ISO_COLUMN_REACTIONS ? ISO_ATTITUDE
+                                           : ISO_REACTIONS;
 }
 
 const char *iso_picture_name(int picture)

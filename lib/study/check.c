@@ -19,8 +19,6 @@ typedef struct checker {
     iso_residuals *out;
 } checker;
 
-enum { VERTICAL = ISO_COLUMN_EFFECTS, ATTITUDE = VERTICAL + 3, REACTIONS = ATTITUDE + 13 };
-
 static const int first_column[] = {
     [ISO_BALL] = ISO_COLUMN_BALL, [ISO_POINT] = ISO_COLUMN_POINT}; /* in iso_trajectory_columns */
 
@@ -168,10 +166,16 @@ static const struct {
     const char *name;
     int first, count;
     bool moves;
-} groups[] = {{"e flow", VERTICAL, 3, false},      {"q flow", ATTITUDE, 4, false}, {"contact flow", ATTITUDE + 4, 3, true},
-              {"trace flow", ATTITUDE + 7, 3, false}, {"centre flow", ATTITUDE + 10, 3, true},
-              {"N flow", REACTIONS, 3, false},     {"force flow", REACTIONS + 3, 2, false},
-              {"lambda flow", REACTIONS + 6, 1, false}};
+} groups[] = {
+    {"e flow", ISO_COLUMN_GRAVITY, 3, false},
+    {"q flow", ISO_COLUMN_ATTITUDE, 4, false},
+    {"contact flow", ISO_COLUMN_ATTITUDE + 4, 3, true},
+    {"trace flow", ISO_COLUMN_ATTITUDE + 7, 3, false},
+    {"centre flow", ISO_COLUMN_ATTITUDE + 10, 3, true},
+    {"N flow", ISO_COLUMN_REACTIONS, 3, false},
+    {"force flow", ISO_COLUMN_REACTIONS + 3, 2, false},
+    {"lambda flow", ISO_COLUMN_REACTIONS + 6, 1, false},
+};
 enum { GROUPS = sizeof groups / sizeof *groups };
 
 /* What the effects' columns say in row `row`, against the flow from the row before, in units of the group's largest. */
@@ -187,12 +191,12 @@ static void check_effects(checker *c, const iso_sample *flow, size_t row)
         for (int i = groups[g].first; i < groups[g].first + groups[g].count; i++) {
             const bool plane = c->params->k == 1 && groups[g].moves;
             double expected = iso_sample_column(flow, i);
-            if (plane) expected += iso_sample_column(&before, ATTITUDE + 4 + (i - groups[g].first));
+            if (plane) expected += iso_sample_column(&before, ISO_COLUMN_ATTITUDE + 4 + (i - groups[g].first));
             if (isnan(expected) || c->columns[i] < 0) continue;
             error = fmax(error, fabs(expected - iso_sample_column(&there, i)));
             size = fmax(size, fmax(fabs(expected), fabs(iso_sample_column(&there, i))));
         }
-        if (groups[g].first >= REACTIONS) size = fmax(size, force); /* of which lambda is the torque */
+        if (groups[g].first >= ISO_COLUMN_REACTIONS) size = fmax(size, force); /* of which lambda is the torque */
         if (size > 0) note(c, groups[g].name, "effects' columns, each row integrated to the next", error / size, row);
     }
 }
@@ -200,7 +204,7 @@ static void check_effects(checker *c, const iso_sample *flow, size_t row)
 /* The quaternion, and on a plane the way, without which the height is not known. */
 static bool has_attitude(const checker *c)
 {
-    return c->columns[ATTITUDE] >= 0 && (c->params->k != 1 || c->columns[ATTITUDE + 4] >= 0);
+    return c->columns[ISO_COLUMN_ATTITUDE] >= 0 && (c->params->k != 1 || c->columns[ISO_COLUMN_ATTITUDE + 4] >= 0);
 }
 
 static iso_status check_step(checker *c, iso_picture model, int clock, size_t row)
@@ -294,7 +298,7 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
     iso_status status = measure_clocks(&c);
     if (status == ISO_OK) status = iso_record_effects(ctx, record, &c.effects);
     c.effects.on[ISO_ATTITUDE] = c.effects.on[ISO_ATTITUDE] && has_attitude(&c); /* they act on nothing */
-    if (params->D > 0 && c.columns[REACTIONS] >= 0) c.effects.on[ISO_REACTIONS] = true;
+    if (params->D > 0 && c.columns[ISO_COLUMN_REACTIONS] >= 0) c.effects.on[ISO_REACTIONS] = true;
     if (status != ISO_OK) return status;
     const bool ball = has_model(&c, ISO_BALL), point = has_model(&c, ISO_POINT);
     if (!ball && !point)
