@@ -1,10 +1,8 @@
 #include "method/method.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <string.h>
 
-#include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 
 const iso_method *const iso_methods[] = {
@@ -52,8 +50,6 @@ enum { VERY_STIFF = 1000 };
 
 const iso_method *iso_method_auto(const iso_model *model)
 {
-    const iso_field *f = &model->field;
-    const double braking = f->effects.on[ISO_ROLLING_RESISTANCE] ? f->effects.resistance / min3(f->p.J) : 0;
-    const double stiffness = fmax(iso_effects_stiffness(f), braking);
+    const double stiffness = iso_effects_stiffness(&model->field);
     return stiffness <= ISO_STIFF ? &iso_method_rk8pd : stiffness <= VERY_STIFF ? &iso_method_bsimp : &iso_method_bdf;
 }

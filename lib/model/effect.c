@@ -193,6 +193,14 @@ double iso_effects_range(const iso_field *f, const double y[])
     return most;
 }
 
+double iso_effects_stiffness(const iso_field *f)
+{
+    double most = 0;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (f->effects.on[e] && iso_effect_list[e]->stiffness) most = fmax(most, iso_effect_list[e]->stiffness(f));
+    return most;
+}
+
 bool iso_effects_free(const iso_effects *effects)
 {
     return !effects->on[ISO_GRAVITY] && !effects->on[ISO_FIELD] && !effects->on[ISO_TWIST] &&

@@ -50,6 +50,7 @@ typedef struct iso_effect {
     double (*potential)(const iso_field *f, const double y[]);
     double (*strength)(const iso_field *f, const double y[]);
     double (*range)(const iso_field *f, const double y[]); /* how large U can be, if more than that */
+    double (*stiffness)(const iso_field *f);               /* see iso_effects_stiffness             */
 
     /* Its image on the point: gamma x dV/dgamma, its slope, and V. */
     void (*image)(const iso_field *f, const double y[], double T[3]);
@@ -92,8 +93,8 @@ bool iso_effects_free(const iso_effects *effects);
 /* Whether the energy is conserved, and known from the state: on a plane the height is a state of `attitude`. */
 bool iso_effects_keep_energy(const iso_field *f);
 
-/* How many times faster than the ball turns, in its own units, the contact takes spin out of it; above ISO_STIFF the torque of
- * the contact is a state, lambda, and explicit methods are held up by it. */
+/* How many times faster than the ball turns, in its own units, the effects make motion die away: the largest of them.
+ * Above ISO_STIFF explicit methods are held up; the torque of a contact that alone is as stiff is a state, lambda. */
 enum { ISO_STIFF = 50 };
 double iso_effects_stiffness(const iso_field *f);
 

@@ -13,6 +13,12 @@ static void torque_slope(const iso_field *f, const double y[], int dim, double s
     for (int j = 0; j < 3; j++) slope[dim * j + j] -= f->effects.resistance;
 }
 
+/* (J w)' = -c_r w + ... */
+static double stiffness(const iso_field *f)
+{
+    return f->effects.resistance / min3(f->p.J);
+}
+
 static const iso_effect_number numbers[] = {
     {"coefficient", offsetof(iso_effects, resistance), 1, {1, 0, 1}},
     {0},
@@ -25,4 +31,5 @@ const iso_effect iso_effect_rolling_resistance = {
     .numbers = numbers,
     .torque = torque,
     .torque_slope = torque_slope,
+    .stiffness = stiffness,
 };

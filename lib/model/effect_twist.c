@@ -34,9 +34,8 @@ static void torque_slope(const iso_field *f, const double y[], int dim, double s
 }
 
 /* (w,n)' = -c (n, A^-1 n) (w,n) + ..., A = J - D n n^T: spin dies away at the rate c g/(1 - D g), g = (n, J^-1 n) */
-double iso_effects_stiffness(const iso_field *f)
+static double stiffness(const iso_field *f)
 {
-    if (!f->effects.on[ISO_TWIST]) return 0;
     const double g = 1 / min3(f->p.J);
     return f->effects.twist * g / (1 - f->p.D * g) / fmax(1, fabs(f->p.k));
 }
@@ -45,7 +44,7 @@ const iso_effect *iso_effect_row(const iso_field *f, iso_effect_id id)
 {
     if (id != ISO_TWIST) return iso_effect_list[id];
     if (f->effects.twist == 0) return &iso_effect_free_twist;
-    return iso_effects_stiffness(f) > ISO_STIFF ? &iso_effect_stiff_twist : &iso_effect_twist;
+    return stiffness(f) > ISO_STIFF ? &iso_effect_stiff_twist : &iso_effect_twist;
 }
 
 /* --- stiff: lambda is a state -------------------------------------------------------------------------------------- */
@@ -183,7 +182,8 @@ static const iso_integral integrals[] = {
 #define TWIST \
     .name = "twist", \
     .doc = "finite resistance of the contact against twisting: torque -c (omega,n) n; c = 0: classical ball", \
-    .breaks = "the ball is free to twist: (omega,n) is not 0", .numbers = numbers, .integrals = integrals
+    .breaks = "the ball is free to twist: (omega,n) is not 0", .numbers = numbers, .integrals = integrals, \
+    .stiffness = stiffness
 
 const iso_effect iso_effect_twist = {TWIST, .torque = torque, .torque_slope = torque_slope};
 
