@@ -34,12 +34,7 @@ static void explain_effects(const iso_orbit *orbit)
 static void explain_level_plane(const iso_scene *scene, const iso_orbit *orbit)
 {
     const iso_effects effects = iso_orbit_effects(orbit);
-    const double *n = scene->start.y + 3, *up = effects.up;
-    double apart = 0;
-    if (!effects.on[ISO_GRAVITY] || scene->params.k != 1) return;
-    for (int i = 0; i < 3; i++)
-        apart = fmax(apart, fabs(up[(i + 1) % 3] * n[(i + 2) % 3] - up[(i + 2) % 3] * n[(i + 1) % 3]));
-    if (apart < 1e-15)
+    if (iso_effects_on_level_plane(&scene->params, scene->start.y + 3, &effects))
         printf("  the plane is level: the weight has no torque and only presses the ball; for the motion alone take "
                "gravity and reactions out\n\n");
 }

@@ -53,16 +53,19 @@ static iso_status check_unit(iso_context *ctx, const char *name, int count, doub
     return ISO_OK;
 }
 
-/* On a level plane the weight only presses the ball down. */
-static iso_status check_gravity(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *e)
+bool iso_effects_on_level_plane(const iso_params *p, const double normal[3], const iso_effects *e)
 {
     double e_n[3];
+    cross(e->up, normal, e_n);
+    return e->on[ISO_GRAVITY] && p->k == 1 && norm(e_n) <= 4 * DBL_EPSILON;
+}
+
+static iso_status check_gravity(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *e)
+{
     if (e->mgb == 0)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "gravity", "gravity of 0 changes nothing: take it out");
     const iso_status status = check_unit(ctx, "up", 3, e->up);
-    if (status != ISO_OK || p->k != 1) return status;
-    cross(e->up, n, e_n);
-    if (norm(e_n) > 4 * DBL_EPSILON || e->on[ISO_REACTIONS]) return ISO_OK;
+    if (status != ISO_OK || e->on[ISO_REACTIONS] || !iso_effects_on_level_plane(p, n, e)) return status;
     return iso_context_fail(
         ctx, ISO_BAD_INPUT, "gravity",
         "on a level plane (up along the normal) gravity has no torque and changes nothing: take it "

@@ -71,6 +71,10 @@ double *iso_effect_values(const iso_effects *effects, const iso_effect_number *n
  * vectors (to 1e-6). Errors: ISO_BAD_INPUT about the effect's name or its number's. */
 iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3], iso_effects *effects);
 
+/* Whether gravity has no torque, up to rounding: on a plane with `up`, a unit vector, along the normal the weight
+ * only presses the ball down. */
+bool iso_effects_on_level_plane(const iso_params *params, const double normal[3], const iso_effects *effects);
+
 /* The effects carried from the caller's units to own ones (power -1), or back (power 1). */
 iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power);
 
