@@ -190,8 +190,9 @@ static iso_status take_sample(iso_orbit *orbit, double time, contact *c, iso_sam
     *row = !c->lost[side];
     if (c->lost[side]) return ISO_OK;
     const iso_status status = iso_orbit_lost_contact(orbit, c->last[side], time, &c->lost[side], sample);
+    if (status != ISO_OK) return status;
     c->last[side] = c->lost[side] ? sample->clock[clock] : time;
-    if (status != ISO_OK || !c->lost[side]) return status == ISO_OK ? iso_orbit_at(orbit, time, sample) : status;
+    if (!c->lost[side]) return iso_orbit_at(orbit, time, sample);
     complain("contact is lost at %s = %.17g: there is a row there, and none beyond", iso_clock_name(clock),
              c->last[side]);
     return ISO_OK;
