@@ -87,6 +87,17 @@ larger() {
     awk -v a="$1" -v b="$2" 'BEGIN { print (a + 0 > b + 0 ? a : b) }'
 }
 
+# each_method COMMAND...: for each line "METHOD BOUND" of standard input runs COMMAND METHOD BOUND, which raises
+# $worst to its largest error, and prints that. Passes taylor_extended over where the compiler has not made it.
+each_method() {
+    while read -r method bound; do
+        if [ "$method" = taylor_extended ] && ! "$isoroll" list methods | grep -q -w "$method"; then continue; fi
+        worst=0
+        "$@" "$method" "$bound"
+        echo "$method: $worst"
+    done
+}
+
 # rows FILE: a trajectory without its lines of # and without its header
 rows() {
     grep -v '^#' "$1" | tail -n +2
