@@ -144,6 +144,16 @@ static void orbits_to_rigid(void)
     iso_context_free(ctx);
 }
 
+/* The rates at which the contact takes spin out, and rolling resistance motion about the axis of the least moment. */
+static void stiffness(const effects_case *c, laws_worst *worst)
+{
+    const iso_field *f = &c->model.field;
+    const double J = min3(f->p.J), free = 1 - f->p.D / J;
+    const double spin = effects_on(c, ISO_TWIST) ? f->effects.twist / (J * free) / fmax(1, fabs(f->p.k)) : 0;
+    const double most = fmax(spin, effects_on(c, ISO_ROLLING_RESISTANCE) ? f->effects.resistance / J : 0);
+    effects_note(c, worst, fabs(iso_effects_stiffness(f) - most), 8 * DBL_EPSILON / free * most, "stiffness");
+}
+
 /* --- D --------------------------------------------------------------------------------------------------------- */
 
 static void bounds_of_D(void)
@@ -268,6 +278,7 @@ int main(void)
     effects_hold("loose contact: K' = K x w + T", &iso_system_ball, 1, loose_equation);
     effects_hold("loose contact tends to the rigid one", &iso_system_ball, 1, loose_to_rigid);
     orbits_to_rigid();
+    effects_hold("stiffness", &iso_system_ball, 1, stiffness);
     bounds_of_D();
     effects_hold("projection restores, and touches nothing else", &iso_system_ball, 1, projection);
     effects_hold("projection reports its correction", &iso_system_ball, 1, correction);
