@@ -38,6 +38,7 @@ extern "C" {
 /* orbit: where the ball, or the point, is at any time */
 #include "orbit/scene.h"
 #include "orbit/orbit.h"
+#include "orbit/batch.h"
 #include "orbit/description.h"
 #include "orbit/convert.h"
 

@@ -12,11 +12,12 @@ if(SUNDIALS_VERSION VERSION_LESS 6.4.1)
   message(FATAL_ERROR "isoroll needs SUNDIALS 6.4.1 or later, found ${SUNDIALS_VERSION}")
 endif()
 find_package(GSL REQUIRED)
+find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(isoroll_yaml REQUIRED IMPORTED_TARGET yaml-0.1)
 
 # The serial vector and the dense matrix and solver are part of the cvode and arkode libraries.
-set(ISO_DEPENDENCIES SUNDIALS::cvode SUNDIALS::arkode GSL::gsl PkgConfig::isoroll_yaml m)
+set(ISO_DEPENDENCIES SUNDIALS::cvode SUNDIALS::arkode GSL::gsl PkgConfig::isoroll_yaml Threads::Threads m)
 set(ISO_SUNDIALS_LIBS "-lsundials_cvode -lsundials_arkode") # the same for isoroll.pc: SUNDIALS has no .pc file
 if(TARGET SUNDIALS::core) # 7.x
   list(PREPEND ISO_DEPENDENCIES SUNDIALS::core)

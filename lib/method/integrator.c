@@ -47,20 +47,9 @@ double iso_integrator_first_step(iso_integrator *it, int order)
     return it->direction * (rate > 0 && isfinite(rate) ? h / rate : 1);
 }
 
-/* --- time: sums of two doubles ----------------------------------------------------------------------------------- */
-
-/* a + h without rounding (Knuth's two-sum), renormalised */
-static iso_instant later(iso_instant a, double h)
-{
-    const double sum = a.head + h, part = sum - a.head;
-    const double tail = a.tail + ((a.head - (sum - part)) + (h - part));
-    const double head = sum + tail;
-    return (iso_instant){head, tail - (head - sum)};
-}
-
 double iso_integrator_since(const iso_integrator *it, double t)
 {
-    return (t - it->left.head) - it->left.tail;
+    return iso_instant_since(it->left, t);
 }
 
 /* --- the front ---------------------------------------------------------------------------------------------------- */
@@ -137,7 +126,7 @@ iso_status iso_integrator_advance(iso_integrator *it)
     if (fabs(h) <= 64 * DBL_EPSILON * fabs(it->left.head)) return iso_integrator_stopped(it, "steps shrink to nothing");
     it->stopped = false;
     it->statistics.steps++;
-    it->left = later(it->left, it->h);
+    it->left = iso_instant_later(it->left, it->h);
     it->h = h;
     copy(it->at_right, it->at_left, it->model.dim);
     copy(y, it->at_right, it->model.dim);
@@ -169,7 +158,7 @@ iso_status iso_integrator_at(iso_integrator *it, double t, double y[])
 
 void iso_integrator_last(const iso_integrator *it, double *t, double y[])
 {
-    *t = later(it->left, it->h).head;
+    *t = iso_instant_later(it->left, it->h).head;
     copy(it->at_right, y, it->model.dim);
 }
 

@@ -11,6 +11,21 @@ typedef struct iso_instant {
     double head, tail;
 } iso_instant;
 
+/* a + h without rounding (Knuth's two-sum), renormalised */
+static inline iso_instant iso_instant_later(iso_instant a, double h)
+{
+    const double sum = a.head + h, part = sum - a.head;
+    const double tail = a.tail + ((a.head - (sum - part)) + (h - part));
+    const double head = sum + tail;
+    return (iso_instant){head, tail - (head - sum)};
+}
+
+/* t - a: exact but for the last bit */
+static inline double iso_instant_since(iso_instant a, double t)
+{
+    return (t - a.head) - a.tail;
+}
+
 struct iso_integrator {
     iso_context *ctx;
     const iso_method *method;

@@ -41,10 +41,10 @@ static iso_picture choose_backend(const iso_orbit_options *opt, const iso_start 
     return e && (iso_effects_breaking(e) || e->on[ISO_ATTITUDE] || e->on[ISO_REACTIONS]) ? ISO_BALL : start->model;
 }
 
-static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *start)
+iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_MAX_STATE])
 {
     iso_orbit_options *opt = &o->options;
-    double six[ISO_STATE], y[ISO_MAX_STATE], size;
+    double six[ISO_STATE], size;
     opt->backend = choose_backend(opt, start);
     if ((opt->backend != ISO_BALL && opt->backend != ISO_POINT) || (int)opt->show < 0 || opt->show > ISO_BOTH)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "backend",
@@ -58,6 +58,15 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
     iso_model_begin(&o->model, six, y);
     if (ball) o->model.field.energy = iso_system_ball.integrals[0].value(&o->model.field, y, &size);
     if (!opt->method) opt->method = iso_method_auto(&o->model);
+    return ISO_OK;
+}
+
+static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *start)
+{
+    double y[ISO_MAX_STATE];
+    iso_status status = iso_orbit_prepare(o, p, start, y);
+    if (status != ISO_OK) return status;
+    const iso_orbit_options *opt = &o->options;
     const iso_method_options m = {
         .tolerance = opt->tolerance, .time_unit = o->unit_clock[opt->clock], .max_steps = opt->max_steps};
     status = iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator);
@@ -104,17 +113,17 @@ static iso_status to_users_units(const iso_orbit *o, const char *name, double un
         "%s is out of the range of doubles in these units: use other units of mass, length or time", name);
 }
 
-static void blank(iso_sample *s)
+void iso_sample_blank(iso_sample *s)
 {
     for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) iso_sample_set_column(s, c, NAN);
 }
 
-static iso_status make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s)
+iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s)
 {
     const iso_params *own = &o->units.own;
     const bool is_ball = o->options.backend == ISO_BALL;
     iso_status status = ISO_OK;
-    blank(s);
+    iso_sample_blank(s);
     s->clock[o->model.clock] = time;
     for (int i = 0; status == ISO_OK && i < o->model.carried; i++) {
         const iso_clock c = o->model.carry[i];
@@ -182,7 +191,7 @@ iso_status iso_orbit_at(iso_orbit *o, double time, iso_sample *sample)
     iso_status status = to_own_time(o, time, &own_time);
     if (status == ISO_OK) status = iso_integrator_at(o->integrator, own_time, y);
     if (status == ISO_OK) status = check_drift(o, y);
-    return status == ISO_OK ? make_sample(o, time, y, sample) : status;
+    return status == ISO_OK ? iso_orbit_make_sample(o, time, y, sample) : status;
 }
 
 typedef struct sampled_event {
@@ -198,7 +207,7 @@ static double event_function(const iso_model *model, const double y[], const voi
     const sampled_event *e = data;
     iso_sample sample;
     (void)model;
-    if (*e->status == ISO_OK) *e->status = make_sample(e->orbit, NAN, y, &sample);
+    if (*e->status == ISO_OK) *e->status = iso_orbit_make_sample(e->orbit, NAN, y, &sample);
     return *e->status == ISO_OK ? e->g(&sample, e->data) : 0;
 }
 
@@ -216,7 +225,7 @@ iso_status iso_orbit_event(iso_orbit *o, double (*g)(const iso_sample *sample, c
     if (status == ISO_OK) status = sampled;
     if (status != ISO_OK) *found = false;
     if (status != ISO_OK) return status;
-    return *found ? make_sample(o, own_time * o->unit_clock[o->model.clock], y, sample) : status;
+    return *found ? iso_orbit_make_sample(o, own_time * o->unit_clock[o->model.clock], y, sample) : status;
 }
 
 /* The pressure of a sample. */
@@ -242,7 +251,7 @@ iso_status iso_orbit_last(iso_orbit *o, iso_sample *sample)
 {
     double own_time, y[ISO_MAX_STATE];
     iso_integrator_last(o->integrator, &own_time, y);
-    return make_sample(o, iso_orbit_reached(o), y, sample);
+    return iso_orbit_make_sample(o, iso_orbit_reached(o), y, sample);
 }
 
 /* --- what it is made of ------------------------------------------------------------------------------------------- */

@@ -1,0 +1,141 @@
+/* taylor_lanes_impl.h - the jobs of lanes_impl.h, LANES at a time. */
+#include "method/integrator_impl.h"
+#include "method/lanes_impl.h"
+#include "method/taylor_restore_impl.h"
+
+typedef struct crew {
+    form T;
+    iso_lane_job *job[LANES];  /* NULL: idle, the lane goes on with its last orbit and nobody looks */
+    iso_instant left[LANES];   /* the time at the step's left end */
+    real direction;
+    iso_lane_job *const *next; /* jobs still to be taken */
+    size_t waiting;
+    const iso_lane_options *options;
+} crew;
+
+static double row_time(const iso_lane_job *job, size_t row)
+{
+    return job->time[row] / job->unit;
+}
+
+/* Gives the lane its next job that has anything to be done. */
+static void take_next(crew *c, int lane)
+{
+    c->job[lane] = NULL;
+    while (c->waiting > 0 && !c->job[lane]) {
+        iso_lane_job *job = *c->next++;
+        c->waiting--;
+        job->done = 0, job->steps = 0, job->last = 0, job->error = NULL;
+        if (job->rows > 0) c->job[lane] = job;
+    }
+    const iso_lane_job *job = c->job[lane];
+    if (!job) return;
+    c->left[lane] = (iso_instant){0, 0};
+    LANE(c->direction, lane) = row_time(job, job->rows - 1) < 0 ? -1 : 1;
+    set_out(&c->T, lane, job->model, job->start);
+}
+
+static bool is_finite(const double y[], int count)
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++) sum += y[i] * 0;
+    return sum == 0;
+}
+
+/* From a lane's left end to its next row, if that does not lie beyond the step of dt; else 0. */
+static bool row_is_due(const crew *c, int lane, double dt, double *target)
+{
+    const iso_lane_job *job = c->job[lane];
+    *target = 0;
+    if (!job || job->done == job->rows) return false;
+    const double ahead = iso_instant_since(c->left[lane], row_time(job, job->done));
+    if (!(dt > 0 ? ahead <= dt : ahead >= dt)) return false;
+    *target = ahead;
+    return true;
+}
+
+/* The rows within the step: each lane's next, as long as any has one. */
+static void output(crew *c, real length, real dt)
+{
+    form *T = &c->T;
+    state s;
+    for (;;) {
+        bool due[LANES], found = false;
+        real target = zero;
+        for (int i = 0; i < LANES; i++) {
+            double ahead;
+            due[i] = row_is_due(c, i, (double)LANE(dt, i), &ahead);
+            LANE(target, i) = ahead;
+            found |= due[i];
+        }
+        if (!found) return;
+        arrive(T, find(T, target, length * (target / dt)), &s);
+        for (int i = 0; i < LANES; i++) {
+            if (!due[i]) continue;
+            iso_lane_job *job = c->job[i];
+            double *row = job->states + job->done * job->stride;
+            store(T, i, &s, row);
+            if (is_finite(row, T->shape.dim)) job->done++;
+            else job->error = "the series diverges";
+            if (job->error) take_next(c, i);
+        }
+    }
+}
+
+/* NaN in a lane whose state is not finite. */
+static real check(const state *s)
+{
+    real sum = zero;
+    for (int i = 0; i < 3; i++) sum += s->n[i] + s->w[i] + s->e[i] + s->Q[i] + s->way[i];
+    for (int i = 0; i < ISO_CLOCKS; i++) sum += s->clock[i];
+    return sum - sum;
+}
+
+static void end_step(crew *c, int lane, double dt)
+{
+    iso_lane_job *job = c->job[lane];
+    if (!job) return;
+    job->last = c->left[lane].head;
+    job->steps++;
+    if (job->done < job->rows) {
+        if (!isfinite(dt)) job->error = "the series diverges";
+        else if (fabs(dt) <= 64 * DBL_EPSILON * fabs(c->left[lane].head)) job->error = "steps shrink to nothing";
+        else if (c->options->max_steps > 0 && job->steps >= c->options->max_steps) job->error = "more steps than allowed";
+    }
+    c->left[lane] = iso_instant_later(c->left[lane], dt);
+    if (job->done == job->rows || job->error) take_next(c, lane);
+}
+
+static bool busy(const crew *c)
+{
+    for (int i = 0; i < LANES; i++)
+        if (c->job[i]) return true;
+    return false;
+}
+
+static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options)
+{
+    crew *c = aligned_alloc(64, (sizeof *c + 63) / 64 * 64);
+    if (!c) return false;
+    bool going_on = true;
+    memset(c, 0, sizeof *c);
+    set_shape(&c->T, jobs[0]->model, options->tolerance);
+    for (int i = 0; i < LANES; i++) set_out(&c->T, i, jobs[0]->model, jobs[0]->start); /* no lane without numbers */
+    c->direction = spread(1);
+    c->options = options;
+    c->next = jobs;
+    c->waiting = count;
+    for (int i = 0; i < LANES; i++) take_next(c, i);
+    while (busy(c) && going_on) {
+        begin(&c->T);
+        expand(&c->T.S);
+        const real length = c->direction * choose_step(&c->T), dt = elapsed(&c->T, length);
+        output(c, length, dt);
+        arrive(&c->T, length, &c->T.now);
+        const real step = dt + check(&c->T.now);
+        for (int i = 0; i < LANES; i++) end_step(c, i, (double)LANE(step, i));
+        going_on = !options->go_on || options->go_on(options->data);
+    }
+    free(c);
+    return going_on;
+}

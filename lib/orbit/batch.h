@@ -1,0 +1,50 @@
+/* batch.h - many orbits at once: as fast as this processor can, on as many threads as it has.
+ *
+ *     iso_batch_orbit orbits[1000];                           {&params, &start, NULL} each
+ *     iso_batch_options o = iso_batch_defaults();
+ *     iso_batch_run(ctx, orbits, 1000, &o, (double[]){50, 100}, 2, samples, statuses);
+ *
+ * samples[2 i + 1] is then orbit i at t = 100. The method is `taylor`, with an orbit in each lane of the processor's
+ * vectors (8 with AVX-512, 4 with AVX2, else 2) and its own steps; stiff models, for which it is not made, are
+ * integrated one by one with the method auto. An orbit's samples depend on the processor, but not by a bit on the
+ * orbits beside it, their order, or the number of threads.
+ */
+#ifndef ISO_ORBIT_BATCH_H
+#define ISO_ORBIT_BATCH_H
+
+#include "orbit.h"
+
+typedef struct iso_batch_orbit {
+    const iso_params *params;
+    const iso_start *start;
+    const iso_effects *effects; /* in the caller's units; NULL: nothing acts */
+} iso_batch_orbit;
+
+/* As in iso_orbit_options, for all orbits. */
+typedef struct iso_batch_options {
+    iso_picture backend;    /* ISO_AUTO: the point where the orbit has one and |k| >= 1/8, which costs less, else the ball */
+    double tolerance;
+    long max_steps;         /* of each orbit; 0: no bound */
+    iso_clock clock;
+    iso_picture show;
+    bool carry[ISO_CLOCKS];
+    int threads;            /* 0: as many as there are processors to run on */
+} iso_batch_options;
+
+/* Balls in their time t; backend ISO_AUTO, tolerance 1e-12, no bound on the steps, all processors. */
+iso_batch_options iso_batch_defaults(void);
+
+/* Fills samples[i rows + j] with orbit i at times[j], in the options' clock: none before 0 and growing, or none after 0
+ * and falling. status[i] (may be NULL) says how orbit i went; the rows that it has not reached are NaN in every column.
+ * Gives ISO_OK, or the status of the first orbit that failed, with its number and reason in the message (numbers from 0);
+ * the others go on. Errors of one orbit: those of iso_orbit_create and iso_orbit_at. Errors of all: ISO_BAD_ARGUMENT
+ * (tolerance, times, threads), ISO_NO_MEMORY, ISO_STOPPED by the context's watch (asked by the calling thread alone):
+ * status and rows of what is done by then are valid. */
+iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
+                         const iso_batch_options *options, const double times[], size_t rows, iso_sample samples[],
+                         iso_status status[]);
+
+/* What vectors are used here ("avx512", "avx2", "plain"), and how many orbits stand in one. */
+const char *iso_batch_vectors(int *lanes);
+
+#endif

@@ -1,0 +1,144 @@
+/* Orbits per second: 1000 balls with J = (1.4, 2.1, 3.0), random starts of the energy h = 0.81, to t = 100.
+ *
+ *     bench_batch [K] [REPETITIONS]
+ *
+ * One row for each tolerance of rk8pd and of taylor one by one, of iso_batch_run on one thread for each kind of vectors of
+ * this processor, and on all threads: 50th, 95th and 99th percentile of the largest errors of the final states in units of
+ * their vectors (next to a separatrix they are a hundred times the median), orbits per second of processor time, and on all
+ * threads of wall time; then their ratio to rk8pd at a 95th percentile of 1e-9. Errors are against long double.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bench.h"
+#include "map/state.h"
+#include "orbit/batch.h"
+
+enum { ORBITS = 1000, LOOSEST = 8, TIGHTEST = 13 };
+
+static iso_params params;
+static iso_start starts[ORBITS];
+static iso_sample truth[ORBITS], found[ORBITS];
+
+static void stop(const iso_context *ctx)
+{
+    fprintf(stderr, "bench_batch: %s\n", iso_context_message(ctx));
+    exit(1);
+}
+
+static void make_starts(iso_context *ctx, double k)
+{
+    static const double J[3] = {1.4, 2.1, 3.0};
+    if (iso_params_reduced(ctx, k, J, &params) != ISO_OK) stop(ctx);
+    iso_field field = {.p = params};
+    iso_random *random = iso_random_create(1);
+    for (int i = 0; i < ORBITS; i++) {
+        starts[i].model = ISO_BALL;
+        iso_system_ball.sample(&field, random, starts[i].y);
+        const double scale = sqrt(0.81 / iso_ball_energy(&params, starts[i].y));
+        for (int j = 0; j < 3; j++) starts[i].y[j] *= scale;
+    }
+    iso_random_free(random);
+}
+
+static void one_by_one(iso_context *ctx, const char *method, double tolerance, iso_picture backend, iso_sample samples[])
+{
+    for (int i = 0; i < ORBITS; i++) {
+        iso_orbit *orbit;
+        iso_orbit_options o = iso_orbit_defaults(&starts[i]);
+        o.method = iso_method_find(method), o.tolerance = tolerance, o.backend = backend;
+        if (iso_orbit_create(ctx, &params, &starts[i], &o, &orbit) != ISO_OK) stop(ctx);
+        if (iso_orbit_at(orbit, 100, &samples[i]) != ISO_OK) stop(ctx);
+        iso_orbit_free(orbit);
+    }
+}
+
+static void together(iso_context *ctx, double tolerance, int threads, iso_sample samples[])
+{
+    static iso_batch_orbit orbits[ORBITS];
+    const double end = 100;
+    iso_batch_options o = iso_batch_defaults();
+    o.tolerance = tolerance, o.threads = threads;
+    for (int i = 0; i < ORBITS; i++) orbits[i] = (iso_batch_orbit){&params, &starts[i], NULL};
+    if (iso_batch_run(ctx, orbits, ORBITS, &o, &end, 1, samples, NULL) != ISO_OK) stop(ctx);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static void errors(double sorted[ORBITS])
+{
+    for (int i = 0; i < ORBITS; i++) {
+        const double *w = truth[i].ball;
+        const double speed = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+        sorted[i] = 0;
+        for (int j = 0; j < ISO_STATE; j++)
+            sorted[i] = fmax(sorted[i], fabs(found[i].ball[j] - w[j]) / (j < 3 ? speed : 1));
+    }
+    qsort(sorted, ORBITS, sizeof *sorted, ascending);
+}
+
+/* A way to solve them all: `threads` < 0: one by one. */
+typedef struct way {
+    const char *name, *method;
+    iso_picture backend;
+    int threads;
+} way;
+
+/* Orbits per second at a 95th percentile of 1e-9, between the tolerances on logarithmic scales. */
+static double measure(iso_context *ctx, const way *w, int repetitions, double unit)
+{
+    double before = NAN, rate_before = NAN, at_1e9 = NAN, sorted[ORBITS];
+    for (int digits = LOOSEST; digits <= TIGHTEST; digits++) {
+        double least = INFINITY;
+        for (int i = 0; i < repetitions; i++) {
+            const double begin = w->threads == 0 ? bench_wall_milliseconds() : bench_milliseconds();
+            if (w->threads < 0) one_by_one(ctx, w->method, pow(10, -digits), w->backend, found);
+            else together(ctx, pow(10, -digits), w->threads, found);
+            const double end = w->threads == 0 ? bench_wall_milliseconds() : bench_milliseconds();
+            least = fmin(least, end - begin);
+        }
+        errors(sorted);
+        const double rate = 1e3 * ORBITS / least, error = sorted[ORBITS * 95 / 100];
+        printf("%-24s 1e-%02d%9.1e%9.1e%9.1e%10.0f\n", w->name, digits, sorted[ORBITS / 2], error,
+               sorted[ORBITS * 99 / 100], rate);
+        if (before > 1e-9 && error <= 1e-9)
+            at_1e9 = rate_before * pow(rate / rate_before, log(before / 1e-9) / log(before / error));
+        if (digits == LOOSEST && error <= 1e-9) at_1e9 = rate;
+        before = error, rate_before = rate;
+    }
+    printf("%-24s at 1e-9: %.0f orbits per second, %.2f times rk8pd\n\n", w->name, at_1e9, at_1e9 / (unit > 0 ? unit : at_1e9));
+    fflush(stdout);
+    return at_1e9;
+}
+
+int main(int argc, char **argv)
+{
+    int lanes;
+    char name[2][32];
+    iso_context *ctx = iso_context_create();
+    const int repetitions = argc > 2 ? atoi(argv[2]) : 3;
+    make_starts(ctx, argc > 1 ? atof(argv[1]) : -1);
+    one_by_one(ctx, "taylor_extended", 1e-15, ISO_BALL, truth);
+    const char *vectors = iso_batch_vectors(&lanes);
+    snprintf(name[0], sizeof name[0], "batch, %s", vectors);
+    snprintf(name[1], sizeof name[2], "batch, all threads, wall");
+    const way ways[] = {{"rk8pd", "rk8pd", ISO_BALL, -1},
+                        {"taylor, ball", "taylor", ISO_BALL, -1},
+                        {"taylor, point", "taylor", ISO_POINT, -1},
+                        {name[0], "", ISO_AUTO, 1},
+                        {name[1], "", ISO_AUTO, 0}};
+    printf("%-24s %5s%9s%9s%9s%10s\n", "way", "tol", "50 %", "95 %", "99 %", "orbits/s");
+    double unit = 0;
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        const double rate = measure(ctx, &ways[i], repetitions, unit);
+        if (i == 0) unit = rate;
+    }
+    iso_context_free(ctx);
+    return 0;
+}
