@@ -108,6 +108,7 @@ static void set_numbers(form *T, int lane, const iso_model *m)
     LANE(S->k, lane) = k;
     LANE(S->D, lane) = f->p.D;
     LANE(S->factor, lane) = factor;
+    LANE(S->over_det, lane) = 1 / (J[0] * J[1] * J[2]);
     LANE(S->energy, lane) = f->energy;
     LANE(S->mgb, lane) = e->mgb;
     LANE(S->level, lane) = e->level;
@@ -270,44 +271,45 @@ static inline real largest(vector a)
     return larger(larger(magnitude(AT(a, 0)), magnitude(AT(a, 1))), magnitude(AT(a, 2)));
 }
 
-/* The largest coefficient n of the states, in units of their sizes. */
+/* The largest coefficient n of the states, in units of their sizes; clocks in units of their rates, over the way on which
+ * n turns by a radian. */
 static real coefficient(const form *T, int n)
 {
     const series *S = &T->S;
     real most = largest(S->n[n]);
     if (!T->is_point) most = larger(most, largest(S->w[n]) / (largest(S->w[0]) + spread((NUMBER)1e-100)));
-    for (int i = 0; i < S->clocks; i++) { /* in units of their rates, over the way on which n turns by a radian */
+    for (int i = 0; i < S->clocks; i++) {
         const real *clock = S->clock[S->clock_of[i]];
-        most = larger(most, largest(S->n[1]) * magnitude(clock[n] / clock[1]));
+        most = larger(most, largest(S->n[1]) / magnitude(clock[1]) * magnitude(clock[n]));
     }
     if (T->shape.field.at[ISO_GRAVITY]) most = larger(most, largest(S->e[n]));
     if (T->shape.field.at[ISO_ATTITUDE]) most = larger(most, largest(S->Q[n]));
     return most;
 }
 
-/* x^(1/n), at most 6 % too large: the bits of a double are about its logarithm. */
-static inline double rough_root(double x, int n)
+/* x^(1/n) within 6 %: the bits of a double are about its logarithm. */
+static inline real rough_root(real x, int n)
 {
-    const double one = 1;
-    int64_t bits, bits_of_one;
-    memcpy(&bits, &x, sizeof bits);
-    memcpy(&bits_of_one, &one, sizeof bits_of_one);
-    bits = bits_of_one + (int64_t)((double)(bits - bits_of_one) / n);
-    memcpy(&x, &bits, sizeof bits);
-    return x;
+    const double one = 1, part = one / n;
+    double y[LANES];
+    int64_t bits[LANES], of_one;
+    for (int i = 0; i < LANES; i++) y[i] = (double)LANE(x, i);
+    memcpy(bits, y, sizeof bits);
+    memcpy(&of_one, &one, sizeof of_one);
+    for (int i = 0; i < LANES; i++) bits[i] = of_one + (int64_t)((double)(bits[i] - of_one) * part);
+    memcpy(y, bits, sizeof bits);
+    for (int i = 0; i < LANES; i++) LANE(x, i) = y[i];
+    return 0.97 * x; /* never too large by more than 3 % */
 }
 
-/* The step whose last two terms are as small as the tolerance; 1000 where there are none. */
+/* The step whose last two terms are as small as the tolerance; at most 1000. */
 static real choose_step(const form *T)
 {
-    real h = spread(1e3);
+    const real least = spread((NUMBER)1e-290);
+    real h = spread(1000);
     for (int n = T->S.order - 1; n <= T->S.order; n++) {
-        const real c = coefficient(T, n);
-        for (int i = 0; i < LANES; i++) {
-            const double small = T->tolerance / fabs((double)LANE(c, i)); /* c may be -0 */
-            const double longest = small < 1e300 ? 0.97 * rough_root(small, n) : 1e3;
-            if (!(longest > (double)LANE(h, i))) LANE(h, i) = longest;
-        }
+        const real longest = rough_root(T->tolerance / larger(coefficient(T, n), least), n);
+        h = choose(longest < h, longest, h);
     }
     return h;
 }

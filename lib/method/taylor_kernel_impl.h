@@ -24,7 +24,7 @@ struct series {
     recurrence *term[TERMS];
     /* what distinguishes one orbit's equations from another's */
     vector J, inv_J, C[3], l;
-    real k, D, factor, energy, mgb, level, twist, resistance, alpha, coupling;
+    real k, D, factor, over_det, energy, mgb, level, twist, resistance, alpha, coupling;
     real rate[ISO_CLOCKS], power[ISO_CLOCKS]; /* clock' = rate base^power, base = q or g */
     bool in_field;
     int clocks;
@@ -36,6 +36,7 @@ struct series {
     /* what terms hand on: vectors, then numbers */
     vector K[MOST + 2], u[MOST + 2], x[MOST + 2], c[MOST + 2], z[MOST + 2], a[MOST + 2], y[MOST + 2], b[MOST + 2];
     real base[MOST + 3], slope[MOST + 3]; /* g of a ball, q of a point; n base[n] */
+    real over_base, over_gap;             /* 1/base[0], 1/gap[0] */
     real spin[MOST + 2], r[MOST + 2], lambda[MOST + 2], gap[MOST + 2];
     real v[MOST + 2], v1[MOST + 2], v2[MOST + 2], speed[ISO_CLOCKS][MOST + 2];
     real P[MOST + 2], L[MOST + 2], qP[MOST + 2], qL[MOST + 2];
@@ -111,8 +112,8 @@ static inline vector cross(const vector a[], const vector b[], int n)
     return turn(minus(forth, back));
 }
 
-/* r_n of r = a/b */
-static inline real quotient(real a_n, const real b[], const real r[], int n)
+/* r_n of r = a/b; over_b = 1/b[0] */
+static inline real quotient(real a_n, const real b[], real over_b, const real r[], int n)
 {
     real even = zero, odd = zero;
     int j = n;
@@ -121,12 +122,13 @@ static inline real quotient(real a_n, const real b[], const real r[], int n)
         odd += b[j - 1] * r[n - j + 1];
     }
     if (j == 1) even += b[1] * r[n - 1];
-    return (a_n - (even + odd)) / b[0];
+    return (a_n - (even + odd)) * over_b;
 }
 
-/* v_n of v = b^p; jb[j] = j b[j] */
-static inline real power(const series *S, const real b[], const real jb[], real p, const real v[], int n)
+/* v_n of v = b^p, b = base */
+static inline real power(const series *S, real p, const real v[], int n)
 {
+    const real *b = S->base, *jb = S->slope;
     if (n == 0) return raised(b[0], p);
     real even = zero, odd = zero, plain_even = zero, plain_odd = zero;
     int j = n;
@@ -140,7 +142,7 @@ static inline real power(const series *S, const real b[], const real jb[], real 
         even += jb[1] * v[n - 1];
         plain_even += b[1] * v[n - 1];
     }
-    return ((p + 1) * (even + odd) - S->count[n] * (plain_even + plain_odd)) * (S->inverse[n] / b[0]);
+    return ((p + 1) * (even + odd) - S->count[n] * (plain_even + plain_odd)) * (S->inverse[n] * S->over_base);
 }
 
 /* --- the ball (9) -------------------------------------------------------------------------------------------------- */
@@ -151,6 +153,7 @@ static inline void normal(series *S, int n)
     S->u[n] = by(S->inv_J, S->n[n]);
     S->base[n] = dot(S->n, S->u, n);
     S->slope[n] = S->count[n] * S->base[n];
+    if (n == 0) S->over_base = 1 / S->base[0];
 }
 
 /* x = J w x w, n' = k n x w */
@@ -165,7 +168,7 @@ static void ball(series *S, int n)
 /* w' = J^-1 x + lambda u, lambda = -(x,u)/g */
 static void rigid(series *S, int n)
 {
-    S->lambda[n] = quotient(-dot(S->x, S->u, n), S->base, S->lambda, n);
+    S->lambda[n] = quotient(-dot(S->x, S->u, n), S->base, S->over_base, S->lambda, n);
     S->w[n + 1] = times(S->inverse[n + 1], plus(by(S->inv_J, S->x[n]), scaled(S->lambda, S->u, n)));
 }
 
@@ -185,7 +188,8 @@ static void twisting_ball(series *S, int n)
 static void loose(series *S, int n)
 {
     S->gap[n] = (n == 0 ? spread(1) : zero) - S->D * S->base[n];
-    S->lambda[n] = quotient(dot(S->u, S->x, n), S->gap, S->lambda, n);
+    if (n == 0) S->over_gap = 1 / S->gap[0];
+    S->lambda[n] = quotient(dot(S->u, S->x, n), S->gap, S->over_gap, S->lambda, n);
     S->w[n + 1] = times(S->inverse[n + 1], plus(by(S->inv_J, S->x[n]), times(S->D, scaled(S->lambda, S->u, n))));
 }
 
@@ -214,7 +218,7 @@ static void field(series *S, int n)
 /* 2 c g^(-1/k-1) n x u */
 static void level(series *S, int n)
 {
-    S->v[n] = power(S, S->base, S->slope, S->alpha, S->v, n);
+    S->v[n] = power(S, S->alpha, S->v, n);
     S->a[n] = cross(S->n, S->u, n);
     S->x[n] = plus(S->x[n], times(2 * S->level, scaled(S->v, S->a, n)));
 }
@@ -248,6 +252,7 @@ static inline void point_q(series *S, int n)
 {
     S->base[n] = total(by(S->J, squares(S->n, n)));
     S->slope[n] = S->count[n] * S->base[n];
+    if (n == 0) S->over_base = 1 / S->base[0];
 }
 
 /* gamma'' = f */
@@ -267,7 +272,7 @@ static void neumann(series *S, int n)
 static void point_s(series *S, int n)
 {
     point_q(S, n);
-    S->v[n] = power(S, S->base, S->slope, S->alpha, S->v, n);
+    S->v[n] = power(S, S->alpha, S->v, n);
     S->v1[n] = product(S->base, S->v, n);
     const real falling = S->coupling * (1 - S->k) * S->v1[n] - (n == 0 ? 2 * S->energy : zero);
     for (int i = 0; i < 3; i++) AT(S->c[n], i) = falling - S->coupling * AT(S->J, i) * S->v[n];
@@ -283,10 +288,10 @@ static void point_field(series *S, int n)
     S->x[n] = matrix_times(S, S->n[n]);
     S->P[n] = dot(S->n, S->x, n) / 2;
     S->L[n] = total(by(S->l, S->n[n]));
-    S->v2[n] = power(S, S->base, S->slope, b, S->v2, n);
+    S->v2[n] = power(S, b, S->v2, n);
     S->qP[n] = product(S->v, S->P, n);
     S->qL[n] = product(S->v2, S->L, n);
-    S->r[n] = quotient(a * S->qP[n] + b * S->qL[n], S->base, S->r, n);
+    S->r[n] = quotient(a * S->qP[n] + b * S->qL[n], S->base, S->over_base, S->r, n);
     const real radial = (4 + 2 * a) * S->qP[n] + (3 + 2 * b) * S->qL[n];
     for (int i = 0; i < 3; i++) AT(S->c[n], i) += F * (radial - 2 * AT(S->J, i) * S->r[n]);
     const vector force = plus(scaled(S->v, S->x, n), times(S->v2[n], S->l));
@@ -299,7 +304,7 @@ static void point_t(series *S, int n)
     if (n == 0) point_q(S, 0);
     point_q(S, n + 1);
     S->w[n] = times(S->count[n + 1], S->n[n + 1]);
-    S->r[n] = quotient(S->slope[n + 1], S->base, S->r, n);
+    S->r[n] = quotient(S->slope[n + 1], S->base, S->over_base, S->r, n);
     const real falling = S->coupling * (1 - S->k) * product(S->base, S->base, n);
     for (int i = 0; i < 3; i++) AT(S->c[n], i) = falling - S->coupling * AT(S->J, i) * S->base[n];
     accelerate(S, n, plus(componentwise(S->c, S->n, n), times(S->alpha, scaled(S->r, S->w, n))));
@@ -311,7 +316,7 @@ static void clocks(series *S, int n)
 {
     for (int i = 0; i < S->clocks; i++) {
         const iso_clock c = S->clock_of[i];
-        S->speed[c][n] = power(S, S->base, S->slope, S->power[c], S->speed[c], n);
+        S->speed[c][n] = power(S, S->power[c], S->speed[c], n);
         S->clock[c][n + 1] = S->rate[c] * S->speed[c][n] * S->inverse[n + 1];
     }
 }

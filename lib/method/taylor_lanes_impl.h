@@ -7,15 +7,17 @@ typedef struct crew {
     form T;
     iso_lane_job *job[LANES];  /* NULL: idle, the lane goes on with its last orbit and nobody looks */
     iso_instant left[LANES];   /* the time at the step's left end */
+    double row[LANES];         /* the time of the next row */
     real direction;
     iso_lane_job *const *next; /* jobs still to be taken */
     size_t waiting;
     const iso_lane_options *options;
 } crew;
 
-static double row_time(const iso_lane_job *job, size_t row)
+static void next_row(crew *c, int lane)
 {
-    return job->time[row] / job->unit;
+    const iso_lane_job *job = c->job[lane];
+    if (job->done < job->rows) c->row[lane] = job->time[job->done] / job->unit;
 }
 
 /* Gives the lane its next job that has anything to be done. */
@@ -31,7 +33,8 @@ static void take_next(crew *c, int lane)
     const iso_lane_job *job = c->job[lane];
     if (!job) return;
     c->left[lane] = (iso_instant){0, 0};
-    LANE(c->direction, lane) = row_time(job, job->rows - 1) < 0 ? -1 : 1;
+    LANE(c->direction, lane) = job->time[job->rows - 1] < 0 ? -1 : 1;
+    next_row(c, lane);
     set_out(&c->T, lane, job->model, job->start);
 }
 
@@ -48,7 +51,7 @@ static bool row_is_due(const crew *c, int lane, double dt, double *target)
     const iso_lane_job *job = c->job[lane];
     *target = 0;
     if (!job || job->done == job->rows) return false;
-    const double ahead = iso_instant_since(c->left[lane], row_time(job, job->done));
+    const double ahead = iso_instant_since(c->left[lane], c->row[lane]);
     if (!(dt > 0 ? ahead <= dt : ahead >= dt)) return false;
     *target = ahead;
     return true;
@@ -78,6 +81,7 @@ static void output(crew *c, real length, real dt)
             if (is_finite(row, T->shape.dim)) job->done++;
             else job->error = "the series diverges";
             if (job->error) take_next(c, i);
+            else next_row(c, i);
         }
     }
 }

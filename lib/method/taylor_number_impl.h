@@ -85,20 +85,29 @@ static inline real fused(real a, real b, real c)
     return c;
 }
 
-/* a^p for a > 0; most powers are halves of small integers */
-static inline NUMBER raised_number(NUMBER a, NUMBER p)
+/* a^(twice/2) for a > 0 */
+static inline real half_power(real a, int twice)
 {
-    const int twice = p >= -4 && p <= 4 ? (int)(2 * p) : 0;
-    if (twice != 2 * p) return EXP(p * LOG(a));
-    NUMBER power = twice % 2 != 0 ? ROOT(a) : 1;
+    real power = twice % 2 != 0 ? root(a) : spread(1);
     for (int i = abs(twice) / 2; i > 0; i--) power *= a;
     return twice < 0 ? 1 / power : power;
 }
 
+/* a^p for a > 0. Most powers are halves of small integers, and those of all lanes the same. */
 static inline real raised(real a, real p)
 {
-    for (int i = 0; i < LANES; i++) LANE(a, i) = raised_number(LANE(a, i), LANE(p, i));
-    return a;
+    const NUMBER first = LANE(p, 0);
+    const bool small = first >= -4 && first <= 4;
+    const int twice = small ? (int)(2 * first) : 0;
+    real result = half_power(a, twice);
+    for (int i = 0; i < LANES; i++) {
+        const NUMBER own = LANE(p, i);
+        if (own == (NUMBER)twice / 2) continue;
+        const bool half = own >= -4 && own <= 4 && (NUMBER)(int)(2 * own) == 2 * own;
+        const real alone = half_power(a, half ? (int)(2 * own) : 0);
+        LANE(result, i) = half ? LANE(alone, i) : EXP(own * LOG(LANE(a, i)));
+    }
+    return result;
 }
 
 /* --- vectors of R^3 ------------------------------------------------------------------------------------------------ */

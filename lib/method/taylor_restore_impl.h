@@ -60,7 +60,6 @@ typedef struct second_integral {
 static void second_of_point(const form *T, const state *s, second_integral *F)
 {
     const series *S = &T->S;
-    const real det = S->factor * S->k * S->k;
     real M[3];
     F->count = 6;
     F->divisor = spread(1);
@@ -69,7 +68,7 @@ static void second_of_point(const form *T, const state *s, second_integral *F)
     for (int i = 0; i < 3; i++) {
         const real J = AT(S->J, i), inv_J = AT(S->inv_J, i);
         F->a[i] = T->second_of == SHELL ? M[i] : s->w[i];
-        F->b[i] = T->second_of == SHELL ? J * M[i] / det : inv_J * s->w[i];
+        F->b[i] = T->second_of == SHELL ? J * S->over_det * M[i] : inv_J * s->w[i];
         F->a[3 + i] = s->n[i];
         F->b[3 + i] = (T->second_of == SHELL ? -S->coupling : 2 * S->energy) * inv_J * s->n[i]; /* coupling = -2 eps */
         F->slope += 2 * F->b[i] * (T->second_of == SHELL ? s->w[i] : F->across[i]);
@@ -83,7 +82,6 @@ static void second_of_point(const form *T, const state *s, second_integral *F)
 static void second_of_ball(const form *T, const state *s, second_integral *F)
 {
     const series *S = &T->S;
-    const real det = S->factor * S->k * S->k;
     real K[3], K_n = zero, across_n = zero;
     for (int i = 0; i < 3; i++) {
         F->a[i] = F->b[i] = K[i] = AT(S->J, i) * s->w[i];
@@ -92,7 +90,7 @@ static void second_of_ball(const form *T, const state *s, second_integral *F)
     cross_product(s->n, K, F->across);
     for (int i = 0; i < 3; i++) {
         const real u = AT(S->inv_J, i) * s->n[i], change = AT(S->J, i) * F->across[i];
-        F->a[3 + i] = 2 * S->energy * det * u;
+        F->a[3 + i] = 2 * S->energy / S->over_det * u;
         F->b[3 + i] = u;
         F->slope += 2 * K[i] * change;
         F->divisor += u * s->n[i];
