@@ -7,6 +7,7 @@
 #define EPSILON      LDBL_EPSILON
 #define FINER        1e-4 /* the tolerance is that of doubles: terms are kept to what is beyond them */
 #define FINEST_ORDER 36
+#define NODES        12
 #define LANES        1
 
 #include "method/taylor_single_impl.h"

@@ -1,5 +1,6 @@
 /* taylor_form_impl.h - what a model is expanded as: its terms and numbers, states in and out, the length of a step. */
 #include "method/taylor_kernel_impl.h"
+#include "method/taylor_quadrature_impl.h"
 #include "model/model.h"
 
 /* A state, in the own variable of a form: of a point n = gamma, w = gamma'. */
@@ -17,7 +18,12 @@ typedef struct form {
     enum { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
     double tolerance; /* of the last terms, in units of the state */
     real second;      /* the second integral at the start */
+    quadrature rule;
+    int clocks; /* those that are not the own */
+    iso_clock clock_of[ISO_CLOCKS];
+    real rate[ISO_CLOCKS], power[ISO_CLOCKS]; /* clock' = rate base^power, base = q of a point, g of a ball */
     state now;        /* at the end of the last step */
+    real clock[ISO_CLOCKS]; /* at its beginning */
 } form;
 
 /* --- which terms a model calls for ---------------------------------------------------------------------------------- */
@@ -55,7 +61,7 @@ static void call_point(form *T)
 
 static void call_clock(form *T, iso_clock clock)
 {
-    if (clock != T->own) T->S.clock_of[T->S.clocks++] = clock;
+    if (clock != T->own) T->clock_of[T->clocks++] = clock;
 }
 
 /* The order of least work for the tolerance (measured: 10 % more at 4 above or below). */
@@ -81,7 +87,7 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     T->own = T->is_point && !T->in_t ? ISO_CLOCK_S : ISO_CLOCK_T;
     call_clock(T, m->clock);
     for (int i = 0; i < m->carried; i++) call_clock(T, m->carry[i]);
-    if (S->clocks > 0) call(S, clocks);
+    if (T->clocks > 0) make_rule(&T->rule);
 }
 
 /* --- the numbers of one orbit ---------------------------------------------------------------------------------------- */
@@ -93,8 +99,8 @@ static void set_clock(form *T, int lane, const iso_params *p, iso_clock clock, N
     (void)lane; /* where there is only one */
     iso_clock_rate(p, clock, 1, &e);
     iso_clock_rate(p, T->own, 1, &e_own);
-    LANE(T->S.rate[clock], lane) = (clock == ISO_CLOCK_S ? 1 / factor : 1) * (T->own == ISO_CLOCK_S ? factor : 1);
-    LANE(T->S.power[clock], lane) = T->is_point ? e - e_own : e_own - e;
+    LANE(T->rate[clock], lane) = (clock == ISO_CLOCK_S ? 1 / factor : 1) * (T->own == ISO_CLOCK_S ? factor : 1);
+    LANE(T->power[clock], lane) = T->is_point ? e - e_own : e_own - e;
 }
 
 static void set_numbers(form *T, int lane, const iso_model *m)
@@ -126,7 +132,7 @@ static void set_numbers(form *T, int lane, const iso_model *m)
             LANE(AT(S->C[j], i), lane) = root_J * e->quadratic[3 * i + j] * (T->is_point ? ROOT(J[j]) : 1);
         if (T->is_neumann) LANE(AT(S->c[0], i), lane) = 2 * eps / k * J[i] + 2 * f->energy;
     }
-    for (int i = 0; i < S->clocks; i++) set_clock(T, lane, &f->p, S->clock_of[i], factor);
+    for (int i = 0; i < T->clocks; i++) set_clock(T, lane, &f->p, T->clock_of[i], factor);
 }
 
 /* --- states: in, along the series, out -------------------------------------------------------------------------------- */
@@ -218,7 +224,7 @@ static void begin(form *T)
         S->Q0[0] = s->Q[3];
         S->way[0] = packed(s->way);
     }
-    for (int i = 0; i < T->shape.carried; i++) S->clock[T->shape.carry[i]][0] = s->clock[T->shape.carry[i]];
+    memcpy(T->clock, s->clock, sizeof T->clock);
 }
 
 /* p(x), or p'(x), of a vector's series, or of a number's */
@@ -243,6 +249,18 @@ static inline real number(const real a[], int order, real x)
     return p;
 }
 
+/* How far the clocks go on from 0 to x; gives the relative error of that, estimated. */
+static inline real pass_time(const form *T, real x, real gained[ISO_CLOCKS])
+{
+    real doubt = zero;
+    gained[T->own] = x;
+    for (int i = 0; i < T->clocks; i++) {
+        const iso_clock c = T->clock_of[i];
+        gained[c] = integral_of_power(&T->rule, T->S.base, T->S.order - 1, T->power[c], x, &doubt) * T->rate[c];
+    }
+    return doubt;
+}
+
 static void state_at(const form *T, real x, state *s)
 {
     const series *S = &T->S;
@@ -258,10 +276,10 @@ static void state_at(const form *T, real x, state *s)
         value(S->Q, S->order, x, s->Q);
         if (T->rolls) value(S->way, S->order, x, s->way);
     }
-    for (int i = 0; i < m->carried; i++) {
-        const iso_clock c = m->carry[i];
-        s->clock[c] = c == T->own ? S->clock[c][0] + x : number(S->clock[c], S->order, x);
-    }
+    if (m->carried == 0) return;
+    real gained[ISO_CLOCKS];
+    pass_time(T, x, gained);
+    for (int i = 0; i < m->carried; i++) s->clock[m->carry[i]] = T->clock[m->carry[i]] + gained[m->carry[i]];
 }
 
 /* --- steps ------------------------------------------------------------------------------------------------------------ */
@@ -271,17 +289,12 @@ static inline real largest(vector a)
     return larger(larger(magnitude(AT(a, 0)), magnitude(AT(a, 1))), magnitude(AT(a, 2)));
 }
 
-/* The largest coefficient n of the states, in units of their sizes; clocks in units of their rates, over the way on which
- * n turns by a radian. */
+/* The largest coefficient n of the states, in units of their sizes. */
 static real coefficient(const form *T, int n)
 {
     const series *S = &T->S;
     real most = largest(S->n[n]);
     if (!T->is_point) most = larger(most, largest(S->w[n]) / (largest(S->w[0]) + spread((NUMBER)1e-100)));
-    for (int i = 0; i < S->clocks; i++) {
-        const real *clock = S->clock[S->clock_of[i]];
-        most = larger(most, largest(S->n[1]) / magnitude(clock[1]) * magnitude(clock[n]));
-    }
     if (T->shape.field.at[ISO_GRAVITY]) most = larger(most, largest(S->e[n]));
     if (T->shape.field.at[ISO_ATTITUDE]) most = larger(most, largest(S->Q[n]));
     return most;
@@ -302,39 +315,35 @@ static inline real rough_root(real x, int n)
     return 0.97 * x; /* never too large by more than 3 % */
 }
 
-/* The step whose last two terms are as small as the tolerance; at most 1000. */
-static real choose_step(const form *T)
+/* The step whose last two terms are as small as the tolerance, at most 1000; shorter where the clocks need it. */
+static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
 {
-    const real least = spread((NUMBER)1e-290);
+    const real least = spread((NUMBER)1e-290), tolerance = spread(T->tolerance);
     real h = spread(1000);
     for (int n = T->S.order - 1; n <= T->S.order; n++) {
         const real longest = rough_root(T->tolerance / larger(coefficient(T, n), least), n);
         h = choose(longest < h, longest, h);
     }
-    return h;
+    for (int i = 0; i < 20; i++) {
+        const real doubt = pass_time(T, direction * h, gained);
+        const mask bad = doubt > tolerance;
+        if (!any(bad)) break;
+        h = choose(bad, h * (NUMBER)0.9 * rough_root(tolerance / larger(doubt, least), 2 * NODES), h);
+    }
+    return direction * h;
 }
 
-/* How far the model's clock has gone on at x. */
-static inline real elapsed(const form *T, real x)
-{
-    return T->shape.clock == T->own ? x : x * number(T->S.clock[T->shape.clock] + 1, T->S.order - 1, x);
-}
-
-/* The x at which the model's clock has gone on by dt. */
+/* The x at which the model's clock has gone on by dt: Newton's method. */
 static real find(const form *T, real dt, real guess)
 {
-    if (T->shape.clock == T->own) return dt;
-    const series *S = &T->S;
-    const real *clock = S->clock[T->shape.clock];
-    real x = guess;
+    const iso_clock c = T->shape.clock;
+    if (c == T->own) return dt;
+    real x = guess, gained[ISO_CLOCKS];
     mask far = dt == dt;
     for (int i = 0; i < 20 && any(far); i++) {
-        real p = zero, dp = zero;
-        for (int n = S->order; n >= 1; n--) {
-            dp = dp * x + S->count[n] * clock[n];
-            p = p * x + clock[n];
-        }
-        const real step = (p * x - dt) / dp;
+        pass_time(T, x, gained);
+        const real q = number(T->S.base, T->S.order - 1, x);
+        const real step = (gained[c] - dt) / (T->rate[c] * raised(q, T->power[c]));
         x = choose(far, x - step, x);
         far = both(far, magnitude(step) > 4 * (NUMBER)EPSILON * magnitude(x));
     }

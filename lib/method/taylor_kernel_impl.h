@@ -14,7 +14,7 @@
 #include "model/system.h"
 
 /* The highest order, for the least tolerance, and the most terms of a model. */
-enum { MOST = FINEST_ORDER, TERMS = 12 };
+enum { MOST = FINEST_ORDER, TERMS = 8 };
 
 typedef struct series series;
 typedef void recurrence(series *S, int n);
@@ -25,20 +25,17 @@ struct series {
     /* what distinguishes one orbit's equations from another's */
     vector J, inv_J, C[3], l;
     real k, D, factor, over_det, energy, mgb, level, twist, resistance, alpha, coupling;
-    real rate[ISO_CLOCKS], power[ISO_CLOCKS]; /* clock' = rate base^power, base = q or g */
     bool in_field;
-    int clocks;
-    iso_clock clock_of[ISO_CLOCKS];
     real count[MOST + 3], inverse[MOST + 3]; /* n, 1/n */
     /* the states */
     vector w[MOST + 3], n[MOST + 3], e[MOST + 3], Q[MOST + 3], way[MOST + 3];
-    real Q0[MOST + 3], clock[ISO_CLOCKS][MOST + 3];
+    real Q0[MOST + 3];
     /* what terms hand on: vectors, then numbers */
     vector K[MOST + 2], u[MOST + 2], x[MOST + 2], c[MOST + 2], z[MOST + 2], a[MOST + 2], y[MOST + 2], b[MOST + 2];
     real base[MOST + 3], slope[MOST + 3]; /* g of a ball, q of a point; n base[n] */
     real over_base, over_gap;             /* 1/base[0], 1/gap[0] */
     real spin[MOST + 2], r[MOST + 2], lambda[MOST + 2], gap[MOST + 2];
-    real v[MOST + 2], v1[MOST + 2], v2[MOST + 2], speed[ISO_CLOCKS][MOST + 2];
+    real v[MOST + 2], v1[MOST + 2], v2[MOST + 2];
     real P[MOST + 2], L[MOST + 2], qP[MOST + 2], qL[MOST + 2];
 };
 
@@ -308,17 +305,6 @@ static void point_t(series *S, int n)
     const real falling = S->coupling * (1 - S->k) * product(S->base, S->base, n);
     for (int i = 0; i < 3; i++) AT(S->c[n], i) = falling - S->coupling * AT(S->J, i) * S->base[n];
     accelerate(S, n, plus(componentwise(S->c, S->n, n), times(S->alpha, scaled(S->r, S->w, n))));
-}
-
-/* --- clocks: clock' = rate base^power ------------------------------------------------------------------------------- */
-
-static void clocks(series *S, int n)
-{
-    for (int i = 0; i < S->clocks; i++) {
-        const iso_clock c = S->clock_of[i];
-        S->speed[c][n] = power(S, S->power[c], S->speed[c], n);
-        S->clock[c][n + 1] = S->rate[c] * S->speed[c][n] * S->inverse[n + 1];
-    }
 }
 
 static void expand(series *S)

@@ -133,7 +133,8 @@ static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_optio
     while (busy(c) && going_on) {
         begin(&c->T);
         expand(&c->T.S);
-        const real length = c->direction * choose_step(&c->T), dt = elapsed(&c->T, length);
+        real gained[ISO_CLOCKS];
+        const real length = choose_step(&c->T, c->direction, gained), dt = gained[c->T.shape.clock];
         output(c, length, dt);
         arrive(&c->T, length, &c->T.now);
         const real step = dt + check(&c->T.now);

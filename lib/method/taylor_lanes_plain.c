@@ -7,6 +7,7 @@
 #define EPSILON      DBL_EPSILON
 #define FINER        1
 #define FINEST_ORDER 32
+#define NODES        8
 #define LANES        2
 
 #include "method/taylor_lanes_impl.h"

@@ -5,6 +5,9 @@
  * orbit only) the three share a register of four. No operation mixes lanes: what an orbit gets does not depend on its
  * neighbours.
  */
+#ifndef ISO_METHOD_TAYLOR_NUMBER_IMPL_H
+#define ISO_METHOD_TAYLOR_NUMBER_IMPL_H
+
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
@@ -184,3 +187,5 @@ static inline real total(vector a)
 {
     return AT(a, 0) + AT(a, 1) + AT(a, 2);
 }
+
+#endif

@@ -14,6 +14,7 @@ __extension__ typedef _Float128 quad;
 #define EPSILON      0x1p-112
 #define FINER        1e-15 /* the tolerance is that of doubles */
 #define FINEST_ORDER 52
+#define NODES        20
 #define LANES        1
 
 #include "method/taylor_single_impl.h"

@@ -42,12 +42,13 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     begin(T);
     expand(&T->S);
     it->statistics.rhs += T->S.order;
+    real gained[ISO_CLOCKS];
+    own->length = choose_step(T, it->direction, gained);
+    *h = (double)gained[it->model.clock];
     if (it->options.fixed_step > 0) {
+        const double part = it->direction * it->options.fixed_step / *h;
         *h = it->direction * it->options.fixed_step;
-        own->length = find(T, *h, *h / (it->model.clock == T->own ? 1 : T->S.clock[it->model.clock][1]));
-    } else {
-        own->length = it->direction * choose_step(T);
-        *h = (double)elapsed(T, own->length);
+        own->length = find(T, *h, own->length * part);
     }
     return arrive_at(it, own->length, &T->now, y);
 }

@@ -1,0 +1,67 @@
+/* taylor_quadrature_impl.h - integrals of a power of a series, by the rule of Gauss and Legendre with NODES nodes.
+ *
+ * A clock's rate is a power of q or g, whose series is there already: the integral of that over a step needs a few values
+ * of a polynomial, side by side, where a series of the clock itself would need two more products a coefficient. The
+ * rule has order 2 NODES. From the values f_i it also has the last Legendre coefficient they show,
+ *     c = (2 NODES - 1) sum_i w_i P_(NODES-1)(x_i) f_i,
+ * and as coefficients fall geometrically, its error is about c^2 (relative to f).
+ */
+#include "method/taylor_number_impl.h"
+
+/* On [0,1]. */
+typedef struct quadrature {
+    real node[NODES];
+    real weight[NODES], last[NODES]; /* w_i, and (2 NODES - 1) w_i P_(NODES-1)(x_i) */
+} quadrature;
+
+/* P_n(x), and P_(n-1)(x) */
+static NUMBER legendre(int n, NUMBER x, NUMBER *before)
+{
+    NUMBER p = 1, last = 0;
+    for (int i = 0; i < n; i++) {
+        const NUMBER next = ((2 * i + 1) * x * p - i * last) / (i + 1);
+        last = p;
+        p = next;
+    }
+    *before = last;
+    return p;
+}
+
+/* Nodes are zeros of P_n by Newton's method, P_n' = n (x P_n - P_(n-1))/(x^2 - 1); weights 1/((1 - x^2) P_n'^2) on [0,1]. */
+static void make_rule(quadrature *rule)
+{
+    for (int i = 0; i < NODES; i++) {
+        NUMBER x = (NUMBER)-cos(3.14159265358979 * (i + 0.75) / (NODES + 0.5)), before, slope = 1;
+        for (int pass = 0; pass < 7; pass++) {
+            const NUMBER p = legendre(NODES, x, &before);
+            slope = NODES * (x * p - before) / (x * x - 1);
+            x -= p / slope;
+        }
+        legendre(NODES, x, &before);
+        slope = NODES * before / (1 - x * x);
+        const NUMBER weight = 1 / ((1 - x * x) * slope * slope);
+        rule->node[i] = spread((1 + x) / 2);
+        rule->weight[i] = spread(weight);
+        rule->last[i] = spread((2 * NODES - 1) * weight * before);
+    }
+}
+
+/* The integral of b^p from 0 to x, b a series; the larger of its relative error, estimated, and *doubt into *doubt. */
+static inline real integral_of_power(const quadrature *rule, const real b[], int order, real p, real x, real *doubt)
+{
+    real at[NODES], value[NODES], sum = zero, last = zero;
+    for (int i = 0; i < NODES; i++) {
+        at[i] = x * rule->node[i];
+        value[i] = b[order];
+    }
+    for (int n = order - 1; n >= 0; n--)
+        for (int i = 0; i < NODES; i++) value[i] = value[i] * at[i] + b[n];
+    for (int i = 0; i < NODES; i++) {
+        const real f = raised(value[i], p);
+        sum += rule->weight[i] * f;
+        last += rule->last[i] * f;
+    }
+    const real c = last / sum;
+    *doubt = larger(*doubt, c * c);
+    return x * sum;
+}
