@@ -1,12 +1,15 @@
 #include "method/lanes_impl.h"
 
+#include <string.h>
+
 const iso_lane_code *const iso_lane_codes[] = {&iso_lanes_avx512, &iso_lanes_avx2, &iso_lanes_plain, NULL};
 
-const iso_lane_code *iso_lane_code_here(void)
+const iso_lane_code *iso_lane_code_find(const char *name)
 {
-    int i = 0;
-    while (!iso_lane_codes[i]->runs_here()) i++;
-    return iso_lane_codes[i];
+    for (int i = 0; iso_lane_codes[i]; i++)
+        if ((!name || strcmp(name, iso_lane_codes[i]->name) == 0) && iso_lane_codes[i]->runs_here())
+            return iso_lane_codes[i];
+    return NULL;
 }
 
 bool iso_lanes_alike(const iso_model *a, const iso_model *b)
@@ -19,9 +22,4 @@ bool iso_lanes_alike(const iso_model *a, const iso_model *b)
     for (int e = 0; e < ISO_EFFECTS && alike; e++)
         alike = f->effects.on[e] == g->effects.on[e] && f->at[e] == g->at[e];
     return alike;
-}
-
-bool iso_lanes_solve(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options)
-{
-    return count == 0 || iso_lane_code_here()->solve(jobs, count, options);
 }

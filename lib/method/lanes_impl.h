@@ -37,21 +37,19 @@ typedef struct iso_lane_code {
     const char *name;
     int lanes;
     bool (*runs_here)(void);
-    bool (*solve)(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options); /* false: no memory */
+    /* Solves jobs (one at least) of models that are alike and not stiff. False: no memory, or stopped by go_on; jobs that
+     * are not done have no error then. */
+    bool (*solve)(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options);
 } iso_lane_code;
 
 /* The codes of this build, widest first, ended by NULL; the last runs everywhere. */
 extern const iso_lane_code *const iso_lane_codes[];
 
-/* The widest for this processor. */
-const iso_lane_code *iso_lane_code_here(void);
+/* The one called `name`, or for NULL the widest, that this processor can run; NULL: none. */
+const iso_lane_code *iso_lane_code_find(const char *name);
 
 /* Whether two models can share lanes: the same system, effects and clocks, and the same form of the equations. */
 bool iso_lanes_alike(const iso_model *a, const iso_model *b);
-
-/* Solves jobs of models that are alike, which must be models for explicit methods. False: no memory, or stopped by
- * go_on; jobs that are not done have no error then. */
-bool iso_lanes_solve(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options);
 
 extern const iso_lane_code iso_lanes_plain, iso_lanes_avx2, iso_lanes_avx512;
 

@@ -21,6 +21,7 @@ typedef struct batch {
     const double *times;
     iso_sample *samples;
     iso_status *status;
+    const iso_lane_code *code;
     size_t chunk;
     atomic_size_t next;  /* the first orbit that nobody has taken */
     atomic_bool stopped;
@@ -47,11 +48,14 @@ iso_batch_options iso_batch_defaults(void)
     return (iso_batch_options){.backend = ISO_AUTO, .tolerance = 1e-12, .clock = ISO_CLOCK_T, .show = ISO_BALL};
 }
 
-const char *iso_batch_vectors(int *lanes)
+const char *iso_batch_vectors(int i, int *lanes)
 {
-    const iso_lane_code *code = iso_lane_code_here();
-    *lanes = code->lanes;
-    return code->name;
+    for (const iso_lane_code *const *code = iso_lane_codes; *code; code++) {
+        if (!(*code)->runs_here() || i-- > 0) continue;
+        if (lanes) *lanes = (*code)->lanes;
+        return (*code)->name;
+    }
+    return NULL;
 }
 
 /* --- one orbit ------------------------------------------------------------------------------------------------------ */
@@ -155,7 +159,7 @@ static bool solve_groups(worker *w, iso_lane_job *jobs[], size_t count)
         for (size_t i = 1; i < count; i++)
             if (iso_lanes_alike(jobs[0]->model, jobs[i]->model)) jobs[alike++] = jobs[i];
             else other[others++] = jobs[i];
-        if (!iso_lanes_solve(jobs, alike, &lanes)) return atomic_load(&w->b->stopped);
+        if (!w->b->code->solve(jobs, alike, &lanes)) return atomic_load(&w->b->stopped);
         memcpy(jobs, other, others * sizeof *jobs);
         count = others;
     }
@@ -214,6 +218,9 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const doub
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", o->tolerance);
     if (o->threads < 0 || o->threads > MOST_THREADS)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, 1024]", o->threads);
+    if (!iso_lane_code_find(o->vectors))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors", "this processor, or this build, has no vectors '%s'",
+                                o->vectors);
     for (size_t j = 0; j < rows; j++) {
         const double before = j > 0 ? times[j - 1] : 0;
         const bool back = times[rows - 1] < 0;
@@ -269,7 +276,7 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     const size_t wanted = options->threads > 0 ? (size_t)options->threads : processors > 0 ? (size_t)processors : 1;
     batch b = {.orbits = orbits, .count = count, .rows = rows, .options = options, .times = times,
-               .samples = samples, .chunk = CHUNK};
+               .samples = samples, .code = iso_lane_code_find(options->vectors), .chunk = CHUNK};
     if (count / wanted < CHUNK) b.chunk = count / wanted + 1;
     worker *workers = calloc(wanted, sizeof *workers);
     b.status = status ? status : malloc((count + 1) * sizeof *b.status);

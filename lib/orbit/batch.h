@@ -6,8 +6,8 @@
  *
  * samples[2 i + 1] is then orbit i at t = 100. The method is `taylor`, with an orbit in each lane of the processor's
  * vectors (8 with AVX-512, 4 with AVX2, else 2) and its own steps; stiff models, for which it is not made, are
- * integrated one by one with the method auto. An orbit's samples depend on the processor, but not by a bit on the
- * orbits beside it, their order, or the number of threads.
+ * integrated one by one with the method auto. An orbit's samples depend on the kind of vectors, but not by a
+ * bit on the orbits beside it, their order, or the number of threads.
  */
 #ifndef ISO_ORBIT_BATCH_H
 #define ISO_ORBIT_BATCH_H
@@ -29,6 +29,7 @@ typedef struct iso_batch_options {
     iso_picture show;
     bool carry[ISO_CLOCKS];
     int threads;            /* 0: as many as there are processors to run on */
+    const char *vectors;    /* "avx512", "avx2", "plain"; NULL: the widest of this processor */
 } iso_batch_options;
 
 /* Balls in their time t; backend ISO_AUTO, tolerance 1e-12, no bound on the steps, all processors. */
@@ -38,13 +39,14 @@ iso_batch_options iso_batch_defaults(void);
  * and falling. status[i] (may be NULL) says how orbit i went; the rows that it has not reached are NaN in every column.
  * Gives ISO_OK, or the status of the first orbit that failed, with its number and reason in the message (numbers from 0);
  * the others go on. Errors of one orbit: those of iso_orbit_create and iso_orbit_at. Errors of all: ISO_BAD_ARGUMENT
- * (tolerance, times, threads), ISO_NO_MEMORY, ISO_STOPPED by the context's watch (asked by the calling thread alone):
+ * (tolerance, times, threads, vectors), ISO_NO_MEMORY, ISO_STOPPED by the context's watch (asked by the calling thread alone):
  * status and rows of what is done by then are valid. */
 iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
                          const iso_batch_options *options, const double times[], size_t rows, iso_sample samples[],
                          iso_status status[]);
 
-/* What vectors are used here ("avx512", "avx2", "plain"), and how many orbits stand in one. */
-const char *iso_batch_vectors(int *lanes);
+/* The vectors of this processor, widest first: "avx512", "avx2", "plain", and how many orbits stand in one (lanes may be
+ * NULL); NULL past the end. */
+const char *iso_batch_vectors(int i, int *lanes);
 
 #endif

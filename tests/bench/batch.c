@@ -55,12 +55,12 @@ static void one_by_one(iso_context *ctx, const char *method, double tolerance, i
     }
 }
 
-static void together(iso_context *ctx, double tolerance, int threads, iso_sample samples[])
+static void together(iso_context *ctx, double tolerance, int threads, const char *vectors, iso_sample samples[])
 {
     static iso_batch_orbit orbits[ORBITS];
     const double end = 100;
     iso_batch_options o = iso_batch_defaults();
-    o.tolerance = tolerance, o.threads = threads;
+    o.tolerance = tolerance, o.threads = threads, o.vectors = vectors;
     for (int i = 0; i < ORBITS; i++) orbits[i] = (iso_batch_orbit){&params, &starts[i], NULL};
     if (iso_batch_run(ctx, orbits, ORBITS, &o, &end, 1, samples, NULL) != ISO_OK) stop(ctx);
 }
@@ -83,7 +83,7 @@ static void errors(double sorted[ORBITS])
     qsort(sorted, ORBITS, sizeof *sorted, ascending);
 }
 
-/* A way to solve them all: `threads` < 0: one by one. */
+/* A way to solve them all. One by one (threads < 0): by a method; else in vectors of the name. */
 typedef struct way {
     const char *name, *method;
     iso_picture backend;
@@ -99,7 +99,7 @@ static double measure(iso_context *ctx, const way *w, int repetitions, double un
         for (int i = 0; i < repetitions; i++) {
             const double begin = w->threads == 0 ? bench_wall_milliseconds() : bench_milliseconds();
             if (w->threads < 0) one_by_one(ctx, w->method, pow(10, -digits), w->backend, found);
-            else together(ctx, pow(10, -digits), w->threads, found);
+            else together(ctx, pow(10, -digits), w->threads, w->method, found);
             const double end = w->threads == 0 ? bench_wall_milliseconds() : bench_milliseconds();
             least = fmin(least, end - begin);
         }
@@ -119,23 +119,21 @@ static double measure(iso_context *ctx, const way *w, int repetitions, double un
 
 int main(int argc, char **argv)
 {
-    int lanes;
-    char name[2][32];
+    enum { MOST = 8 };
     iso_context *ctx = iso_context_create();
     const int repetitions = argc > 2 ? atoi(argv[2]) : 3;
+    way ways[MOST] = {{"rk8pd", "rk8pd", ISO_BALL, -1},
+                      {"taylor, ball", "taylor", ISO_BALL, -1},
+                      {"taylor, point", "taylor", ISO_POINT, -1}};
+    int count = 3;
+    for (int i = 0; iso_batch_vectors(i, NULL) && count < MOST - 1; i++)
+        ways[count++] = (way){iso_batch_vectors(i, NULL), iso_batch_vectors(i, NULL), ISO_AUTO, 1};
+    ways[count++] = (way){"widest, all threads", NULL, ISO_AUTO, 0};
     make_starts(ctx, argc > 1 ? atof(argv[1]) : -1);
     one_by_one(ctx, "taylor_extended", 1e-15, ISO_BALL, truth);
-    const char *vectors = iso_batch_vectors(&lanes);
-    snprintf(name[0], sizeof name[0], "batch, %s", vectors);
-    snprintf(name[1], sizeof name[2], "batch, all threads, wall");
-    const way ways[] = {{"rk8pd", "rk8pd", ISO_BALL, -1},
-                        {"taylor, ball", "taylor", ISO_BALL, -1},
-                        {"taylor, point", "taylor", ISO_POINT, -1},
-                        {name[0], "", ISO_AUTO, 1},
-                        {name[1], "", ISO_AUTO, 0}};
     printf("%-24s %5s%9s%9s%9s%10s\n", "way", "tol", "50 %", "95 %", "99 %", "orbits/s");
     double unit = 0;
-    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+    for (int i = 0; i < count; i++) {
         const double rate = measure(ctx, &ways[i], repetitions, unit);
         if (i == 0) unit = rate;
     }
