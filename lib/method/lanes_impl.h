@@ -1,7 +1,7 @@
 /* lanes_impl.h - Taylor series of many orbits at once: one in each lane of the processor's vectors.
  *
- * Each lane has its own orbit, step and time; when its orbit is done, it takes the next. No operation mixes lanes, so the
- * states of an orbit do not depend, bit for bit, on the orbits beside it, nor on their order.
+ * Each lane has its own orbit, step and time; when its orbit is done, it takes the next. No operation mixes lanes, so
+ * the states of an orbit do not depend, bit for bit, on the orbits beside it, nor on their order.
  */
 #ifndef ISO_METHOD_LANES_IMPL_H
 #define ISO_METHOD_LANES_IMPL_H
@@ -16,19 +16,19 @@ typedef struct iso_lane_job {
     double start[ISO_MAX_STATE];
     size_t rows;
     const double *time;
-    double unit;       /* time[i]/unit is in the model's units          */
-    double *states;    /* model->dim numbers at states[row stride]      */
+    double unit;       /* time[i]/unit is in the model's units      */
+    double *states;    /* model->dim numbers at states[row stride]  */
     size_t stride;
-    size_t done;       /* how many of them have been reached            */
-    double last;       /* the last good time, in the model's units      */
+    size_t done;       /* how many of them have been reached        */
+    double last;       /* the last good time, in the model's units  */
     long steps;
-    const char *error; /* NULL, or why it ended before the last row     */
+    const char *error; /* NULL, or why it ended before the last row */
 } iso_lane_job;
 
 typedef struct iso_lane_options {
     double tolerance;
-    long max_steps; /* of one orbit; 0: no bound */
-    bool (*go_on)(void *data); /* asked at each step; NULL: nobody */
+    long max_steps;            /* of one orbit; 0: no bound         */
+    bool (*go_on)(void *data); /* asked at each step; NULL: nobody  */
     void *data;
 } iso_lane_options;
 
@@ -37,8 +37,8 @@ typedef struct iso_lane_code {
     const char *name;
     int lanes;
     bool (*runs_here)(void);
-    /* Solves jobs (one at least) of models that are alike and not stiff. False: no memory, or stopped by go_on; jobs that
-     * are not done have no error then. */
+    /* Solves jobs (one at least) of models that are alike and not stiff. False: no memory, or stopped by go_on; jobs
+     * that are not done have no error then. */
     bool (*solve)(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options);
 } iso_lane_code;
 

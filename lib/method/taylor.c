@@ -1,10 +1,14 @@
 /* taylor.c - Taylor series of the equations themselves: the method, on the code for this processor.
  *
- * Each step expands the solution about its left end to a high order by the recurrences of taylor_kernel_impl.h, and goes as
- * far as the last terms allow: few long steps, about as many as half turns of the ball. A free point is expanded in the
- * form that needs fewest products (section 5b of the theory): in s for k = -1, where it is polynomial, with the other clocks
- * as further series; in the ball's own time for other k, where the powers of q cancel. What stands between the steps is the
- * series itself. The constraints are restored from defects computed exactly, so that their rounding has no bias.
+ * Each step expands the solution about its left end to a high order by the recurrences of taylor_kernel_impl.h, and
+ * goes as far as the last terms allow: few long steps, about as many as half turns of the ball. A free point is
+ * expanded in the form that needs fewest products (section 5b of the theory): in s for k = -1, where it is
+ * polynomial, in the ball's own time for other k, where the powers of q cancel. Other clocks are integrals of a power
+ * of q over the step. What stands between the steps is the series itself. Constraints, energy and, for k = 1 and -1,
+ * the second integral are restored from defects computed exactly, so that their rounding has no bias.
+ *
+ * The source is one: numbers (taylor_number_impl.h), recurrences (kernel), quadrature, what a model is expanded as
+ * (form), what is restored (restore); around them one orbit (single), or many in lanes (lanes, for batches).
  */
 #include <stdlib.h>
 
@@ -60,17 +64,22 @@ static void release(iso_integrator *it)
     free(it->data);
 }
 
-#define TAYLOR                                                                                                     \
-    .family = "isoroll", .own_equations = true, .projects = true, .fixed = true, .start = start, .step = step,     \
+#define TAYLOR                                                                                                       \
+    .family = "isoroll", .own_equations = true, .projects = true, .fixed = true, .start = start, .step = step,       \
     .within = within, .free = release
 
-const iso_method iso_method_taylor = {
-    .name = "taylor", .doc = "Taylor series by recurrences, order 10-30 from the tolerance", .create = create, TAYLOR};
-const iso_method iso_method_taylor_extended = {
-    .name = "taylor_extended", .doc = "the same in long double, a reference for the others",
-    .create = create_extended, TAYLOR};
+const iso_method iso_method_taylor = {.name = "taylor",
+                                      .doc = "Taylor series by recurrences, order 10-30 from the tolerance",
+                                      .create = create,
+                                      TAYLOR};
+const iso_method iso_method_taylor_extended = {.name = "taylor_extended",
+                                               .doc = "the same in long double, a reference for the others",
+                                               .create = create_extended,
+                                               TAYLOR};
 #ifdef ISO_TAYLOR_HAS_QUAD
-const iso_method iso_method_taylor_quad = {
-    .name = "taylor_quad", .doc = "the same in numbers of 128 bits, slow", .reference = true,
-    .create = create_quad, TAYLOR};
+const iso_method iso_method_taylor_quad = {.name = "taylor_quad",
+                                           .doc = "the same in numbers of 128 bits, slow",
+                                           .reference = true,
+                                           .create = create_quad,
+                                           TAYLOR};
 #endif

@@ -1,18 +1,18 @@
-/* taylor_avx2.c - the same for x86 processors with AVX2 and FMA: vectors of four numbers in one register. Compiled with
- * the flags of CMakeLists.txt, called only where iso_taylor_has_avx2() says so. */
+/* taylor_avx2.c - the same for x86 processors with AVX2 and FMA: vectors of four numbers in one register. Compiled
+ * with the flags of CMakeLists.txt, called only where iso_taylor_has_avx2() says so. */
 #include "method/taylor_impl.h"
 
 #ifdef ISO_TAYLOR_AVX2
-#define NUMBER       double
-#define ROOT         sqrt
-#define LOG          log
-#define EXP          exp
-#define FMA          fma
-#define EPSILON      DBL_EPSILON
-#define FINER        1
+#define NUMBER double
+#define ROOT sqrt
+#define LOG log
+#define EXP exp
+#define FMA fma
+#define EPSILON DBL_EPSILON
+#define FINER 1
 #define FINEST_ORDER 32
-#define NODES        8
-#define LANES        1
+#define NODES 8
+#define LANES 1
 #define PACKED
 
 #include "method/taylor_single_impl.h"

@@ -1,4 +1,5 @@
-/* taylor_form_impl.h - what a model is expanded as: its terms and numbers, states in and out, the length of a step. */
+/* taylor_form_impl.h - what a model is expanded as: its terms and numbers, states in and out, the length of a
+ * step. */
 #include "method/taylor_kernel_impl.h"
 #include "method/taylor_quadrature_impl.h"
 #include "model/model.h"
@@ -16,17 +17,17 @@ typedef struct form {
     iso_clock own;
     bool is_point, in_t, is_neumann, rolls, unprojected;
     enum { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
-    double tolerance; /* of the last terms, in units of the state */
-    real second;      /* the second integral at the start */
+    double tolerance;                      /* of the last terms, in units of the state */
+    real second;                           /* the second integral at the start */
     quadrature rule;
     int clocks; /* those that are not the own */
     iso_clock clock_of[ISO_CLOCKS];
     real rate[ISO_CLOCKS], power[ISO_CLOCKS]; /* clock' = rate base^power, base = q of a point, g of a ball */
-    state now;        /* at the end of the last step */
-    real clock[ISO_CLOCKS]; /* at its beginning */
+    state now;                                /* at the end of the last step */
+    real clock[ISO_CLOCKS];                   /* at its beginning */
 } form;
 
-/* --- which terms a model calls for ---------------------------------------------------------------------------------- */
+/* --- which terms a model calls for ------------------------------------------------------------------------------ */
 
 static void call(series *S, recurrence *term)
 {
@@ -90,7 +91,7 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     if (T->clocks > 0) make_rule(&T->rule);
 }
 
-/* --- the numbers of one orbit ---------------------------------------------------------------------------------------- */
+/* --- the numbers of one orbit ----------------------------------------------------------------------------------- */
 
 /* clock' = rate base^power, by iso_clock_rate: q = base for a point, 1/base for a ball */
 static void set_clock(form *T, int lane, const iso_params *p, iso_clock clock, NUMBER factor)
@@ -135,7 +136,7 @@ static void set_numbers(form *T, int lane, const iso_model *m)
     for (int i = 0; i < T->clocks; i++) set_clock(T, lane, &f->p, T->clock_of[i], factor);
 }
 
-/* --- states: in, along the series, out -------------------------------------------------------------------------------- */
+/* --- states: in, along the series, out -------------------------------------------------------------------------- */
 
 static void cross_product(const real a[], const real b[], real c[])
 {
@@ -198,8 +199,7 @@ static void store(const form *T, int lane, const state *s, double y[])
         cross_product(s->w, s->n, M);
         for (int i = 0; i < 3; i++) y[i] = (double)(LANE(M[i], lane) * LANE(speed, lane));
     }
-    if (at[ISO_TWIST])
-        y[at[ISO_TWIST]] = -(double)LANE(T->S.twist, lane) * (y[0] * y[3] + y[1] * y[4] + y[2] * y[5]);
+    if (at[ISO_TWIST]) y[at[ISO_TWIST]] = -(double)LANE(T->S.twist, lane) * (y[0] * y[3] + y[1] * y[4] + y[2] * y[5]);
     for (int i = 0; at[ISO_ATTITUDE] && i < 4; i++) y[at[ISO_ATTITUDE] + i] = (double)LANE(s->Q[(i + 3) % 4], lane);
     for (int i = 0; i < m->carried; i++) y[m->moving + i] = (double)LANE(s->clock[m->carry[i]], lane);
 }
@@ -282,7 +282,7 @@ static void state_at(const form *T, real x, state *s)
     for (int i = 0; i < m->carried; i++) s->clock[m->carry[i]] = T->clock[m->carry[i]] + gained[m->carry[i]];
 }
 
-/* --- steps ------------------------------------------------------------------------------------------------------------ */
+/* --- steps ------------------------------------------------------------------------------------------------------ */
 
 static inline real largest(vector a)
 {

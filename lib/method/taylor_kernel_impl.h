@@ -1,7 +1,7 @@
 /* taylor_kernel_impl.h - Taylor coefficients by recurrence, in the numbers of taylor_number_impl.h.
  *
- * A series is an array of coefficients, a[n] of x^n. Of an equation y' = f(y) the recurrences give coefficient n of f from
- * those up to n of y, and with it n+1 of y:
+ * A series is an array of coefficients, a[n] of x^n. Of an equation y' = f(y) the recurrences give coefficient n of f
+ * from those up to n of y, and with it n+1 of y:
  *
  *     (a b)_n = sum_j a_j b_(n-j)                                                     Cauchy's product
  *     r = a/b:    r_n = (a_n - sum_(j>0) b_j r_(n-j))/b_0                             since b r = a
@@ -39,7 +39,7 @@ struct series {
     real P[MOST + 2], L[MOST + 2], qP[MOST + 2], qL[MOST + 2];
 };
 
-/* --- products: sums in two parts, which the processor adds side by side ------------------------------------------------ */
+/* --- products: sums in two parts, which the processor adds side by side ----------------------------------------- */
 
 static inline real product(const real a[], const real b[], int n)
 {
@@ -142,7 +142,7 @@ static inline real power(const series *S, real p, const real v[], int n)
     return ((p + 1) * (even + odd) - S->count[n] * (plain_even + plain_odd)) * (S->inverse[n] * S->over_base);
 }
 
-/* --- the ball (9) -------------------------------------------------------------------------------------------------- */
+/* --- the ball (9) ----------------------------------------------------------------------------------------------- */
 
 /* u = J^-1 n, g = (n,u) */
 static inline void normal(series *S, int n)
@@ -190,7 +190,7 @@ static void loose(series *S, int n)
     S->w[n + 1] = times(S->inverse[n + 1], plus(by(S->inv_J, S->x[n]), times(S->D, scaled(S->lambda, S->u, n))));
 }
 
-/* --- its effects: torques added to x, states ------------------------------------------------------------------------ */
+/* --- its effects: torques added to x, states -------------------------------------------------------------------- */
 
 static void gravity(series *S, int n)
 {
@@ -242,7 +242,7 @@ static void roll(series *S, int n)
     S->way[n + 1] = times(S->inverse[n + 1], plus(S->y[n], plus(turned, turned)));
 }
 
-/* --- the point: n = gamma, second order ----------------------------------------------------------------------------- */
+/* --- the point: n = gamma, second order ------------------------------------------------------------------------- */
 
 /* q = (gamma, J gamma) */
 static inline void point_q(series *S, int n)
@@ -265,7 +265,8 @@ static void neumann(series *S, int n)
     accelerate(S, n, minus(times(2 * S->coupling, scaled(S->base, S->n, n)), by(S->c[0], S->n[n])));
 }
 
-/* in s: gamma'' = c gamma by components, c_i = a (1-k) q^(alpha+1) - a q^alpha J_i - 2 H,  a = 2 eps/k, alpha = -1 - 1/k */
+/* in s: gamma'' = c gamma by components, c_i = a (1-k) q^(alpha+1) - a q^alpha J_i - 2 H,  a = 2 eps/k, alpha = -1 -
+ * 1/k */
 static void point_s(series *S, int n)
 {
     point_q(S, n);
@@ -276,9 +277,11 @@ static void point_s(series *S, int n)
     if (!S->in_field) accelerate(S, n, componentwise(S->c, S->n, n));
 }
 
-/* With a field, V + F [q^alpha P + q^beta L], F = det J/k^2, P = (gamma,B gamma)/2, L = (m,gamma), beta = alpha + 1/2:
+/* With a field, V + F [q^alpha P + q^beta L], F = det J/k^2, P = (gamma,B gamma)/2, L = (m,gamma), beta = alpha +
+ * 1/2:
  *     gamma'' = c gamma - F (q^alpha B gamma + q^beta m),
- *     c_i += F [ (4 + 2 alpha) q^alpha P + (3 + 2 beta) q^beta L - 2 J_i (alpha q^(alpha-1) P + beta q^(beta-1) L) ]     */
+ *     c_i += F [ (4 + 2 alpha) q^alpha P + (3 + 2 beta) q^beta L - 2 J_i (alpha q^(alpha-1) P + beta q^(beta-1)
+ * L) ] */
 static void point_field(series *S, int n)
 {
     const real a = S->alpha, b = S->alpha + spread(0.5), F = S->factor;

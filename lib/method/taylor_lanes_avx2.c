@@ -1,17 +1,18 @@
-/* taylor_lanes_avx2.c - four orbits at a time, on x86 processors with AVX2 and FMA. Compiled with the flags of CMakeLists.txt. */
+/* taylor_lanes_avx2.c - four orbits at a time, on x86 processors with AVX2 and FMA. Compiled with the flags of
+ * CMakeLists.txt. */
 #include "method/lanes_impl.h"
 
 #ifdef ISO_TAYLOR_AVX2
-#define NUMBER       double
-#define ROOT         sqrt
-#define LOG          log
-#define EXP          exp
-#define FMA          fma
-#define EPSILON      DBL_EPSILON
-#define FINER        1
+#define NUMBER double
+#define ROOT sqrt
+#define LOG log
+#define EXP exp
+#define FMA fma
+#define EPSILON DBL_EPSILON
+#define FINER 1
 #define FINEST_ORDER 32
-#define NODES        8
-#define LANES        4
+#define NODES 8
+#define LANES 4
 
 #include "method/taylor_lanes_impl.h"
 

@@ -5,9 +5,9 @@
 
 typedef struct crew {
     form T;
-    iso_lane_job *job[LANES];  /* NULL: idle, the lane goes on with its last orbit and nobody looks */
-    iso_instant left[LANES];   /* the time at the step's left end */
-    double row[LANES];         /* the time of the next row */
+    iso_lane_job *job[LANES]; /* NULL: idle, the lane goes on with its last orbit and nobody looks */
+    iso_instant left[LANES];  /* the time at the step's left end */
+    double row[LANES];        /* the time of the next row */
     real direction;
     iso_lane_job *const *next; /* jobs still to be taken */
     size_t waiting;
@@ -78,10 +78,14 @@ static void output(crew *c, real length, real dt)
             iso_lane_job *job = c->job[i];
             double *row = job->states + job->done * job->stride;
             store(T, i, &s, row);
-            if (is_finite(row, T->shape.dim)) job->done++;
-            else job->error = "the series diverges";
-            if (job->error) take_next(c, i);
-            else next_row(c, i);
+            if (is_finite(row, T->shape.dim))
+                job->done++;
+            else
+                job->error = "the series diverges";
+            if (job->error)
+                take_next(c, i);
+            else
+                next_row(c, i);
         }
     }
 }
@@ -102,9 +106,12 @@ static void end_step(crew *c, int lane, double dt)
     job->last = c->left[lane].head;
     job->steps++;
     if (job->done < job->rows) {
-        if (!isfinite(dt)) job->error = "the series diverges";
-        else if (fabs(dt) <= 64 * DBL_EPSILON * fabs(c->left[lane].head)) job->error = "steps shrink to nothing";
-        else if (c->options->max_steps > 0 && job->steps >= c->options->max_steps) job->error = "more steps than allowed";
+        if (!isfinite(dt))
+            job->error = "the series diverges";
+        else if (fabs(dt) <= 64 * DBL_EPSILON * fabs(c->left[lane].head))
+            job->error = "steps shrink to nothing";
+        else if (c->options->max_steps > 0 && job->steps >= c->options->max_steps)
+            job->error = "more steps than allowed";
     }
     c->left[lane] = iso_instant_later(c->left[lane], dt);
     if (job->done == job->rows || job->error) take_next(c, lane);

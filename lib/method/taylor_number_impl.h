@@ -1,9 +1,9 @@
 /* taylor_number_impl.h - the numbers Taylor series are made of.
  *
- * Included with NUMBER, a kind of number, ROOT, LOG, EXP and FMA of it, and LANES, how many orbits are computed side by
- * side. A `real` is one NUMBER of each orbit, a `mask` one decision for each, a `vector` three reals. With PACKED (one
- * orbit only) the three share a register of four. No operation mixes lanes: what an orbit gets does not depend on its
- * neighbours.
+ * Included with NUMBER, a kind of number, ROOT, LOG, EXP and FMA of it, and LANES, how many orbits are computed side
+ * by side. A `real` is one NUMBER of each orbit, a `mask` one decision for each, a `vector` three reals. With PACKED
+ * (one orbit only) the three share a register of four. No operation mixes lanes: what an orbit gets does not depend
+ * on its neighbours.
  */
 #ifndef ISO_METHOD_TAYLOR_NUMBER_IMPL_H
 #define ISO_METHOD_TAYLOR_NUMBER_IMPL_H
@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- reals and masks ----------------------------------------------------------------------------------------------- */
+/* --- reals and masks -------------------------------------------------------------------------------------------- */
 
 #if LANES == 1
 
@@ -113,7 +113,7 @@ static inline real raised(real a, real p)
     return result;
 }
 
-/* --- vectors of R^3 ------------------------------------------------------------------------------------------------ */
+/* --- vectors of R^3 --------------------------------------------------------------------------------------------- */
 
 #ifdef PACKED
 

@@ -1,8 +1,8 @@
 /* taylor_quadrature_impl.h - integrals of a power of a series, by the rule of Gauss and Legendre with NODES nodes.
  *
- * A clock's rate is a power of q or g, whose series is there already: the integral of that over a step needs a few values
- * of a polynomial, side by side, where a series of the clock itself would need two more products a coefficient. The
- * rule has order 2 NODES. From the values f_i it also has the last Legendre coefficient they show,
+ * A clock's rate is a power of q or g, whose series is there already: the integral of that over a step needs a few
+ * values of a polynomial, side by side, where a series of the clock itself would need two more products a
+ * coefficient. The rule has order 2 NODES. From the values f_i it also has the last Legendre coefficient they show,
  *     c = (2 NODES - 1) sum_i w_i P_(NODES-1)(x_i) f_i,
  * and as coefficients fall geometrically, its error is about c^2 (relative to f).
  */
@@ -27,7 +27,8 @@ static NUMBER legendre(int n, NUMBER x, NUMBER *before)
     return p;
 }
 
-/* Nodes are zeros of P_n by Newton's method, P_n' = n (x P_n - P_(n-1))/(x^2 - 1); weights 1/((1 - x^2) P_n'^2) on [0,1]. */
+/* Nodes are zeros of P_n by Newton's method, P_n' = n (x P_n - P_(n-1))/(x^2 - 1); weights 1/((1 - x^2) P_n'^2) on
+ * [0,1]. */
 static void make_rule(quadrature *rule)
 {
     for (int i = 0; i < NODES; i++) {
@@ -46,7 +47,8 @@ static void make_rule(quadrature *rule)
     }
 }
 
-/* The integral of b^p from 0 to x, b a series; the larger of its relative error, estimated, and *doubt into *doubt. */
+/* The integral of b^p from 0 to x, b a series; the larger of its relative error, estimated, and *doubt into
+ * *doubt. */
 static inline real integral_of_power(const quadrature *rule, const real b[], int order, real p, real x, real *doubt)
 {
     real at[NODES], value[NODES], sum = zero, last = zero;

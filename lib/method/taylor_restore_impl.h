@@ -1,7 +1,7 @@
 /* taylor_restore_impl.h - what brings a state back to its constraints after a step.
  *
- * Corrections are small, and their defects computed exactly: a projection that rounds its defect turns each step the same
- * way, and the phase drifts like t^2.
+ * Corrections are small, and their defects computed exactly: a projection that rounds its defect turns each step the
+ * same way, and the phase drifts like t^2.
  */
 #include "method/taylor_form_impl.h"
 
@@ -45,13 +45,13 @@ static real square_of_speed(const form *T, const real gamma[3])
     return square - 2 * S->factor * fall * (P / q + L / root(q));
 }
 
-/* The second integral F of a free orbit as sum_i a_i b_i = F divisor, and how the sum changes as w moves along `across`, which
- * touches no other integral. Left alone F goes at random by a rounding error a step, the frequencies with it, and the
- * phase like t^(3/2).
+/* The second integral F of a free orbit as sum_i a_i b_i = F divisor, and how the sum changes as w moves along
+ * `across`, which touches no other integral. Left alone F goes at random by a rounding error a step, the frequencies
+ * with it, and the phase like t^(3/2).
  *     k = -1   point, in s: (M,JM)/det J + 2 eps (gamma,J^-1 gamma), M = gamma' x gamma
  *              ball:        [ (K,K) + 2 h det J (u,u) ]/g,  K = Jw,  u = J^-1 n,  g = (n,u)
  *     k = 1    point, in s: (gamma',J^-1 gamma') + 2 H (gamma,J^-1 gamma);  in t, H = 0: (gamma',J^-1 gamma')/q^3
- *              ball:        (K,K) - (K,n)^2                                                                           */
+ *              ball:        (K,K) - (K,n)^2 */
 typedef struct second_integral {
     int count;
     real a[6], b[6], divisor, across[3], slope;
@@ -70,7 +70,7 @@ static void second_of_point(const form *T, const state *s, second_integral *F)
         F->a[i] = T->second_of == SHELL ? M[i] : s->w[i];
         F->b[i] = T->second_of == SHELL ? J * S->over_det * M[i] : inv_J * s->w[i];
         F->a[3 + i] = s->n[i];
-        F->b[3 + i] = (T->second_of == SHELL ? -S->coupling : 2 * S->energy) * inv_J * s->n[i]; /* coupling = -2 eps */
+        F->b[3 + i] = (T->second_of == SHELL ? -S->coupling : 2 * S->energy) * inv_J * s->n[i]; /* here -2 eps */
         F->slope += 2 * F->b[i] * (T->second_of == SHELL ? s->w[i] : F->across[i]);
     }
     if (!T->in_t) return;

@@ -23,7 +23,7 @@ typedef struct batch {
     iso_status *status;
     const iso_lane_code *code;
     size_t chunk;
-    atomic_size_t next;  /* the first orbit that nobody has taken */
+    atomic_size_t next; /* the first orbit that nobody has taken */
     atomic_bool stopped;
 } batch;
 
@@ -58,7 +58,7 @@ const char *iso_batch_vectors(int i, int *lanes)
     return NULL;
 }
 
-/* --- one orbit ------------------------------------------------------------------------------------------------------ */
+/* --- one orbit -------------------------------------------------------------------------------------------------- */
 
 static void note(worker *w, size_t i, iso_status status)
 {
@@ -120,7 +120,7 @@ static bool is_stiff(const member *m)
     return iso_effects_stiffness(&m->orbit.model.field) > ISO_STIFF;
 }
 
-/* --- a chunk of them ---------------------------------------------------------------------------------------------------- */
+/* --- a chunk of them -------------------------------------------------------------------------------------------- */
 
 static bool going_on(void *data)
 {
@@ -157,8 +157,10 @@ static bool solve_groups(worker *w, iso_lane_job *jobs[], size_t count)
         size_t alike = 1, others = 0;
         iso_lane_job *other[CHUNK];
         for (size_t i = 1; i < count; i++)
-            if (iso_lanes_alike(jobs[0]->model, jobs[i]->model)) jobs[alike++] = jobs[i];
-            else other[others++] = jobs[i];
+            if (iso_lanes_alike(jobs[0]->model, jobs[i]->model))
+                jobs[alike++] = jobs[i];
+            else
+                other[others++] = jobs[i];
         if (!w->b->code->solve(jobs, alike, &lanes)) return atomic_load(&w->b->stopped);
         memcpy(jobs, other, others * sizeof *jobs);
         count = others;
@@ -210,24 +212,25 @@ static void *work(void *data)
     return memory ? NULL : w;
 }
 
-/* --- all ------------------------------------------------------------------------------------------------------------------ */
+/* --- all -------------------------------------------------------------------------------------------------------- */
 
 static iso_status check(iso_context *ctx, const iso_batch_options *o, const double times[], size_t rows)
 {
     if (!(o->tolerance >= ISO_LEAST_TOLERANCE && o->tolerance <= ISO_MOST_TOLERANCE))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", o->tolerance);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]",
+                                o->tolerance);
     if (o->threads < 0 || o->threads > MOST_THREADS)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, 1024]", o->threads);
     if (!iso_lane_code_find(o->vectors))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors", "this processor, or this build, has no vectors '%s'",
-                                o->vectors);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors",
+                                "this processor, or this build, has no vectors '%s'", o->vectors);
     for (size_t j = 0; j < rows; j++) {
         const double before = j > 0 ? times[j - 1] : 0;
         const bool back = times[rows - 1] < 0;
         if (!isfinite(times[j]) || (back ? times[j] > before || times[j] > 0 : times[j] < before))
             return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times",
-                                    "the times of a batch go away from 0, in one direction: not %g after %g", times[j],
-                                    before);
+                                    "the times of a batch go away from 0, in one direction: not %g after %g",
+                                    times[j], before);
     }
     return ISO_OK;
 }
@@ -252,8 +255,10 @@ static iso_status run(iso_context *ctx, batch *b, worker workers[], size_t threa
     const worker *first = &workers[0];
     for (size_t i = 0; i < threads; i++) {
         workers[i] = (worker){.b = b, .ctx = iso_context_create(), .asks = i == 0 ? ctx : NULL, .failed = b->count};
-        if (!workers[i].ctx) threads = i;
-        else iso_context_watch(workers[i].ctx, going_on, &workers[i]);
+        if (!workers[i].ctx)
+            threads = i;
+        else
+            iso_context_watch(workers[i].ctx, going_on, &workers[i]);
     }
     const bool memory = threads > 0 && work_together(workers, threads);
     for (size_t i = 0; i < threads; i++) {
@@ -275,14 +280,22 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
     for (size_t i = 0; i < count * rows; i++) iso_sample_blank(&samples[i]);
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     const size_t wanted = options->threads > 0 ? (size_t)options->threads : processors > 0 ? (size_t)processors : 1;
-    batch b = {.orbits = orbits, .count = count, .rows = rows, .options = options, .times = times,
-               .samples = samples, .code = iso_lane_code_find(options->vectors), .chunk = CHUNK};
+    batch b = {.orbits = orbits,
+               .count = count,
+               .rows = rows,
+               .options = options,
+               .times = times,
+               .samples = samples,
+               .code = iso_lane_code_find(options->vectors),
+               .chunk = CHUNK};
     if (count / wanted < CHUNK) b.chunk = count / wanted + 1;
     worker *workers = calloc(wanted, sizeof *workers);
     b.status = status ? status : malloc((count + 1) * sizeof *b.status);
     for (size_t i = 0; b.status && i < count; i++) b.status[i] = ISO_STOPPED;
-    if (workers && b.status) checked = run(ctx, &b, workers, wanted);
-    else checked = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a batch");
+    if (workers && b.status)
+        checked = run(ctx, &b, workers, wanted);
+    else
+        checked = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a batch");
     free(workers);
     if (!status) free(b.status);
     return checked;

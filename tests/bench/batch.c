@@ -2,10 +2,11 @@
  *
  *     bench_batch [K] [REPETITIONS]
  *
- * One row for each tolerance of rk8pd and of taylor one by one, of iso_batch_run on one thread for each kind of vectors of
- * this processor, and on all threads: 50th, 95th and 99th percentile of the largest errors of the final states in units of
- * their vectors (next to a separatrix they are a hundred times the median), orbits per second of processor time, and on all
- * threads of wall time; then their ratio to rk8pd at a 95th percentile of 1e-9. Errors are against long double.
+ * One row for each tolerance of rk8pd and of taylor one by one, of iso_batch_run on one thread for each kind of
+ * vectors of this processor, and on all threads: 50th, 95th and 99th percentile of the largest errors of the final
+ * states in units of their vectors (next to a separatrix they are a hundred times the median), orbits per second of
+ * processor time, and on all threads of wall time; then their ratio to rk8pd at a 95th percentile of 1e-9. Errors are
+ * against long double.
  */
 #include <math.h>
 #include <stdio.h>
@@ -43,7 +44,8 @@ static void make_starts(iso_context *ctx, double k)
     iso_random_free(random);
 }
 
-static void one_by_one(iso_context *ctx, const char *method, double tolerance, iso_picture backend, iso_sample samples[])
+static void one_by_one(iso_context *ctx, const char *method, double tolerance, iso_picture backend,
+                       iso_sample samples[])
 {
     for (int i = 0; i < ORBITS; i++) {
         iso_orbit *orbit;
@@ -98,8 +100,10 @@ static double measure(iso_context *ctx, const way *w, int repetitions, double un
         double least = INFINITY;
         for (int i = 0; i < repetitions; i++) {
             const double begin = w->threads == 0 ? bench_wall_milliseconds() : bench_milliseconds();
-            if (w->threads < 0) one_by_one(ctx, w->method, pow(10, -digits), w->backend, found);
-            else together(ctx, pow(10, -digits), w->threads, w->method, found);
+            if (w->threads < 0)
+                one_by_one(ctx, w->method, pow(10, -digits), w->backend, found);
+            else
+                together(ctx, pow(10, -digits), w->threads, w->method, found);
             const double end = w->threads == 0 ? bench_wall_milliseconds() : bench_milliseconds();
             least = fmin(least, end - begin);
         }
@@ -112,7 +116,8 @@ static double measure(iso_context *ctx, const way *w, int repetitions, double un
         if (digits == LOOSEST && error <= 1e-9) at_1e9 = rate;
         before = error, rate_before = rate;
     }
-    printf("%-24s at 1e-9: %.0f orbits per second, %.2f times rk8pd\n\n", w->name, at_1e9, at_1e9 / (unit > 0 ? unit : at_1e9));
+    printf("%-24s at 1e-9: %.0f orbits per second, %.2f times rk8pd\n\n", w->name, at_1e9,
+           at_1e9 / (unit > 0 ? unit : at_1e9));
     fflush(stdout);
     return at_1e9;
 }

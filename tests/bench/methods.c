@@ -2,16 +2,16 @@
  *
  *     bench_methods [--long] [METHOD...]
  *
- * Problem A is the ball's state at t = 1000 for five k, by the equations of the ball and by those of the point; problem B is
- * the point's state at the s of that moment. First table, one row for each method and tolerance: largest error of the ball's
- * final state in units of the vector it belongs to, CPU milliseconds, and their ratio to rk8pd on the ball at the same
- * tolerance. Second table: milliseconds for an error, between the tolerances on logarithmic scales, their ratios to rk8pd on
- * the ball at the same error, and the best error. --long instead: the ball's state at t = 1e6, k = -1, against the time
- * rk8pd takes for t = 1e5.
+ * Problem A is the ball's state at t = 1000 for five k, by the equations of the ball and by those of the point;
+ * problem B is the point's state at the s of that moment. First table, one row for each method and tolerance: largest
+ * error of the ball's final state in units of the vector it belongs to, CPU milliseconds, and their ratio to rk8pd on
+ * the ball at the same tolerance. Second table: milliseconds for an error, between the tolerances on logarithmic
+ * scales, their ratios to rk8pd on the ball at the same error, and the best error. --long instead: the ball's state
+ * at t = 1e6, k = -1, against the time rk8pd takes for t = 1e5.
  *
- * Times are medians of passes that take turns; those of one machine do not carry to another, ratios do. Errors are against
- * Taylor series in long double where there are any (about 1e-16), else rk8pd at 1e-15 (about 1e-12). A run that needs more
- * than 300000 steps is left out ("-").
+ * Times are medians of passes that take turns; those of one machine do not carry to another, ratios do. Errors are
+ * against Taylor series in long double where there are any (about 1e-16), else rk8pd at 1e-15 (about 1e-12). A run
+ * that needs more than 300000 steps is left out ("-").
  */
 #include <math.h>
 #include <stdbool.h>
@@ -53,7 +53,7 @@ static void stop(const iso_context *ctx)
     exit(1);
 }
 
-/* --- problems -------------------------------------------------------------------------------------------------------- */
+/* --- problems --------------------------------------------------------------------------------------------------- */
 
 static problem make_problem(iso_context *ctx, const char *name, double k, const iso_system *system, iso_clock clock)
 {
@@ -88,12 +88,14 @@ static void solve(iso_context *ctx, double k, double end, double ball[], double 
     const iso_method *extended = iso_method_find("taylor_extended");
     problem p = make_problem(ctx, "", k, &iso_system_ball, ISO_CLOCK_T);
     double y[ISO_MAX_STATE];
-    p.model = iso_model_assemble(&iso_system_ball, &p.model.field, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false, false, true});
+    p.model = iso_model_assemble(&iso_system_ball, &p.model.field, ISO_CLOCK_T,
+                                 (const bool[ISO_CLOCKS]){false, false, true});
     double with_clock[ISO_MAX_STATE];
     iso_model_begin(&p.model, p.start, with_clock);
     iso_integrator *it;
     const iso_method_options options = {.tolerance = 1e-15};
-    if (iso_integrator_create(ctx, extended ? extended : iso_method_find("rk8pd"), &p.model, &options, &it) != ISO_OK ||
+    if (iso_integrator_create(ctx, extended ? extended : iso_method_find("rk8pd"), &p.model, &options, &it) !=
+            ISO_OK ||
         iso_integrator_start(it, with_clock) != ISO_OK || iso_integrator_at(it, end, y) != ISO_OK)
         stop(ctx);
     memcpy(ball, y, ISO_STATE * sizeof *ball);
@@ -107,18 +109,20 @@ static double error_of(const problem *p, const double y[], const double referenc
     double ball[ISO_STATE], worst = 0;
     memcpy(ball, y, sizeof ball);
     if (p->model.system == &iso_system_point) iso_point_to_ball(&p->model.field.p, y, ball);
-    const double speed = sqrt(reference[0] * reference[0] + reference[1] * reference[1] + reference[2] * reference[2]);
+    const double speed =
+        sqrt(reference[0] * reference[0] + reference[1] * reference[1] + reference[2] * reference[2]);
     for (int i = 0; i < ISO_STATE; i++) worst = fmax(worst, fabs(ball[i] - reference[i]) / (i < 3 ? speed : 1));
     return worst;
 }
 
-/* --- measuring --------------------------------------------------------------------------------------------------------- */
+/* --- measuring -------------------------------------------------------------------------------------------------- */
 
 static void measure(iso_context *ctx, table *t, int digits, int pass, const double reference[])
 {
     cell *c = &t->of[digits];
     double y[ISO_MAX_STATE];
-    if (pass == 0 && digits > LOOSEST) c->error = isnan(t->of[digits - 1].error) ? NAN : 0; /* tighter ones fail too */
+    if (pass == 0 && digits > LOOSEST)
+        c->error = isnan(t->of[digits - 1].error) ? NAN : 0; /* tighter ones fail too */
     if (isnan(c->error)) return;
     const double begin = bench_milliseconds();
     const bool done = run(ctx, t->method, t->problem, pow(10, -digits), t->problem->end, y);
@@ -151,7 +155,7 @@ static double time_for(const table *t, double error)
     return NAN;
 }
 
-/* --- tables ------------------------------------------------------------------------------------------------------------ */
+/* --- tables ----------------------------------------------------------------------------------------------------- */
 
 static void print_number(const char *format, double x)
 {
@@ -217,7 +221,7 @@ static void bench(iso_context *ctx, double k, const iso_method *const methods[],
     print_second_table(tables, made, &tables[0]);
 }
 
-/* --- long runs --------------------------------------------------------------------------------------------------------- */
+/* --- long runs -------------------------------------------------------------------------------------------------- */
 
 static void bench_long(iso_context *ctx, const iso_method *const methods[], int count)
 {
@@ -228,8 +232,8 @@ static void bench_long(iso_context *ctx, const iso_method *const methods[], int 
     double begin = bench_milliseconds();
     run(ctx, iso_method_find("rk8pd"), &ball, 1e-13, 1e5, y);
     const double unit = bench_milliseconds() - begin;
-    printf("%-22s %-8s%5s%9s%9s%9s   (rk8pd, t = 1e5: %.0f ms)\n", "t = 1e6", "problem", "tol", "error", "ms", "/rk8pd",
-           unit);
+    printf("%-22s %-8s%5s%9s%9s%9s   (rk8pd, t = 1e5: %.0f ms)\n", "t = 1e6", "problem", "tol", "error", "ms",
+           "/rk8pd", unit);
     for (int i = 0; i < count; i++)
         for (const problem *p = &ball; p; p = p == &ball ? &point : NULL) {
             if (methods[i]->system && methods[i]->system != p->model.system) continue;
@@ -258,7 +262,8 @@ int main(int argc, char **argv)
         if (!methods[count++])
             return fprintf(stderr, "bench_methods: no method, or several, are called '%s'\n", argv[i]), 2;
     }
-    for (int i = 0; argc == 1 + is_long && iso_methods[i] && count < MOST_METHODS; i++) methods[count++] = iso_methods[i];
+    for (int i = 0; argc == 1 + is_long && iso_methods[i] && count < MOST_METHODS; i++)
+        methods[count++] = iso_methods[i];
     if (is_long) bench_long(ctx, methods, count);
     for (int i = 0; !is_long && i < GEOMETRIES; i++) bench(ctx, geometries[i], methods, count);
     iso_context_free(ctx);
