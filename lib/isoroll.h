@@ -35,6 +35,9 @@ extern "C" {
 /* method: integrators behind one table */
 #include "method/method.h"
 
+/* exact: any time at the same cost, for k = 1 and k = -1 */
+#include "exact/exact.h"
+
 /* orbit: where the ball, or the point, is at any time */
 #include "orbit/scene.h"
 #include "orbit/orbit.h"

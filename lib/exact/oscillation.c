@@ -1,0 +1,181 @@
+#include "exact/oscillation_impl.h"
+
+#include <float.h>
+#include <math.h>
+
+/* --- elliptic functions (Abramowitz, Stegun, 16.4, with m1 in the place of m) ----------------------------------- */
+
+void iso_elliptic_set(elliptic *e, real m1)
+{
+    real a = 1, b = sqrtl(m1);
+    e->m1 = m1;
+    e->steps = 0;
+    while (a - b > 4 * LDBL_EPSILON * a && e->steps < MOST_LANDEN - 1) {
+        const real mean = (a + b) / 2;
+        e->steps++;
+        e->c[e->steps] = (a - b) / 2;
+        e->a[e->steps] = mean;
+        b = sqrtl(a * b);
+        a = mean;
+    }
+    e->K = ISO_PI / (2 * a);
+}
+
+void iso_elliptic_at(const elliptic *e, real xi, real *sn, real *cn, real *dn)
+{
+    real phi = ldexpl(xi / 2, e->steps);
+    for (int i = e->steps; i > 0; i--) phi = (phi + asinl(e->c[i] / e->a[i] * sinl(phi))) / 2;
+    *sn = sinl(phi);
+    *cn = cosl(phi);
+    *dn = sqrtl(e->m1 + (1 - e->m1) * *cn * *cn);
+}
+
+real iso_elliptic_inverse(const elliptic *e, real phi)
+{
+    real a = 1, b = sqrtl(e->m1);
+    for (int i = 1; i <= e->steps;
+         i++) { /* phi' - phi with tan(phi' - phi) = (b/a) tan phi, on the branch next to phi */
+        const real more = atan2l(b * sinl(phi), a * cosl(phi));
+        phi += more + 2 * ISO_PI * roundl((phi - more) / (2 * ISO_PI));
+        const real mean = (a + b) / 2;
+        b = sqrtl(a * b);
+        a = mean;
+    }
+    return ldexpl(phi, 1 - e->steps);
+}
+
+/* --- series
+ * --------------------------------------------------------------------------------------------------------- */
+
+void iso_cosine_transform(int N, const real f[], real a[])
+{
+    real cosine[2 * MOST_MODES];
+    for (int i = 0; i < 2 * N; i++) cosine[i] = cosl(ISO_PI * i / N);
+    for (int n = 0; n <= N; n++) {
+        real sum = (f[0] + (n % 2 ? -f[N] : f[N])) / 2;
+        for (int j = 1; j < N; j++) sum += f[j] * cosine[n * j % (2 * N)];
+        a[n] = sum * (n == 0 || n == N ? 1 : 2) / N;
+    }
+}
+
+/* sum_n b_n sin n x, and its derivative, by Clenshaw's rule for both parts of exp(i n x) */
+static real sine_series(const real b[], int modes, real x, real *derivative)
+{
+    const real twice = 2 * cosl(x), s = sinl(x), c = cosl(x);
+    real p = 0, p1 = 0, q = 0, q1 = 0;
+    for (int n = modes; n >= 1; n--) {
+        const real r = b[n] + twice * p - p1, t = n * b[n] + twice * q - q1;
+        p1 = p, p = r;
+        q1 = q, q = t;
+    }
+    *derivative = q * c - q1;
+    return p * s;
+}
+
+real iso_oscillation_theta(const oscillation *o, real xi)
+{
+    real unused;
+    return xi + sine_series(o->beta, o->modes, xi, &unused);
+}
+
+double iso_oscillation_xi(const oscillation *o, double theta)
+{
+    const double twice = 2 * cos(theta);
+    double p = 0, p1 = 0;
+    for (int n = o->samples; n >= 1; n--) {
+        const double r = o->gamma[n] + twice * p - p1;
+        p1 = p, p = r;
+    }
+    return theta + p * sin(theta);
+}
+
+/* --- an oscillation
+ * ------------------------------------------------------------------------------------------------- */
+
+real iso_oscillation_rate(const oscillation *o, real z)
+{
+    real square = 2 * o->C;
+    for (int i = 0; i < o->factors; i++) square *= fabsl(o->e[i] - z);
+    return sqrtl(o->over_z ? square / z : square);
+}
+
+static real z_at(const oscillation *o, real xi)
+{
+    real sn, cn, dn;
+    iso_elliptic_at(&o->f, xi, &sn, &cn, &dn);
+    return o->origin + o->span * sn * sn;
+}
+
+/* Whether a series has come down to the last digits before it ends. */
+static bool resolved(const real a[], int N, real rounding)
+{
+    return fabsl(a[N]) + fabsl(a[N - 1]) + fabsl(a[N - 2]) <= rounding * fabsl(a[0]);
+}
+
+/* xi where theta is th, in [low, pi]: Newton's method, kept in its interval */
+static real invert(const oscillation *o, real th, real low, real *slope)
+{
+    real high = ISO_PI, xi = low, derivative;
+    for (int i = 0; i < 100; i++) {
+        const real miss = xi + sine_series(o->beta, o->modes, xi, &derivative) - th;
+        if (miss > 0)
+            high = xi;
+        else
+            low = xi;
+        real next = xi - miss / (1 + derivative);
+        if (!(next >= low && next <= high)) next = (low + high) / 2;
+        const real moved = fabsl(next - xi);
+        xi = next;
+        if (moved < 4 * LDBL_EPSILON) break;
+    }
+    *slope = 1 + derivative;
+    return xi;
+}
+
+/* beta and omega: sigma = integral of dx/rate */
+static bool find_theta(oscillation *o)
+{
+    real f[MOST_MODES + 1], a[MOST_MODES + 1];
+    int N = 16;
+    for (;; N *= 2) {
+        for (int j = 0; j <= N; j++) f[j] = 1 / iso_oscillation_rate(o, z_at(o, ISO_PI * j / N));
+        iso_cosine_transform(N, f, a);
+        if (N == MOST_MODES || resolved(a, N, 1e-18L)) break;
+    }
+    o->omega = ISO_PI / (a[0] * o->f.K);
+    o->modes = 0;
+    for (int n = 1; n <= N; n++) {
+        o->beta[n] = a[n] / (a[0] * n);
+        if (fabsl(o->beta[n]) > LDBL_EPSILON / 8) o->modes = n;
+    }
+    o->samples = N;
+    return resolved(a, N, 1e-17L);
+}
+
+void iso_oscillation_sample(const oscillation *o, int samples, real z[])
+{
+    real low = 0, slope;
+    for (int j = 0; j <= samples; j++) z[j] = z_at(o, low = invert(o, ISO_PI * j / samples, low, &slope));
+}
+
+bool iso_oscillation_solve(oscillation *o, real m1)
+{
+    real slope[MOST_MODES + 1], f[MOST_MODES + 1], a[MOST_MODES + 1];
+    iso_elliptic_set(&o->f, m1);
+    if (!find_theta(o)) return false;
+    for (int N = o->samples;; N *= 2) {
+        real low = 0;
+        o->samples = N;
+        for (int j = 0; j <= N; j++) {
+            f[j] = z_at(o, low = invert(o, ISO_PI * j / N, low, &slope[j]));
+            slope[j] = 1 / slope[j];
+        }
+        iso_cosine_transform(N, slope, a); /* dxi/dtheta */
+        for (int n = 1; n <= N; n++) o->gamma[n] = (double)(a[n] / n);
+        const bool enough = resolved(a, N, 1e-17L);
+        if (!enough && N < MOST_MODES) continue;
+        iso_cosine_transform(N, f, a);
+        for (int n = 0; n <= N; n++) o->z[n] = (double)a[n];
+        return enough || resolved(a, N, 1e-15L);
+    }
+}

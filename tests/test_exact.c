@@ -1,0 +1,87 @@
+/* The closed solution for k = 1, -1 against long double, on random bodies, with equal moments among them. */
+#include "exact/exact.h"
+#include "map/state.h"
+#include "orbits.h"
+
+static iso_context *ctx;
+
+/* A random point on H = 0, speeds of order one; two moments of every fifth body are equal. */
+static orbit random_point(int i, iso_random *random)
+{
+    double J[3];
+    for (int j = 0; j < 3; j++) J[j] = iso_random_uniform(random, 1, i % 4 < 2 ? 2 : 7);
+    if (i % 5 == 4) J[i % 2] = J[i % 2 + 1];
+    return orbit_sample(ctx, &iso_system_point, i % 2 == 0 ? -1 : 1, J, 100 + (unsigned long)i);
+}
+
+/* States and clocks at a time of each clock, forwards and backwards; energy and constraints of what comes back. */
+static void check_orbit(int i, const orbit *point, double *worst, double *worst_clock, double *worst_energy,
+                        int *refused)
+{
+    static const double turns[3] = {0.3, 20, -7};
+    const iso_clock clock = (iso_clock)(i % ISO_CLOCKS);
+    orbit o = *point;
+    iso_exact *exact;
+    if (iso_exact_create(ctx, &o.model.field, o.y0, &exact) != ISO_OK) {
+        ++*refused;
+        return;
+    }
+    orbit_clocks(&o, clock, clock != ISO_CLOCK_T, clock != ISO_CLOCK_TAU, clock != ISO_CLOCK_S);
+    iso_integrator *it =
+        orbit_start(&o, iso_method_find("taylor_extended"), &(iso_method_options){.tolerance = 1e-15});
+    for (int j = 0; j < 3; j++) {
+        const double time = turns[j] * 2 * M_PI * o.unit;
+        double expected[ISO_MAX_STATE], y[ISO_MAX_STATE], clocks[ISO_CLOCKS], size;
+        iso_exact_at(ctx, exact, clock, time, y, clocks);
+        if (iso_integrator_at(it, time, expected) != ISO_OK) expected[0] = NAN;
+        copy(expected + ISO_STATE, y + ISO_STATE, o.model.carried);
+        *worst = fmax(*worst, isfinite(y[0]) ? orbit_error(&o, y, expected) : INFINITY);
+        for (int c = 0; c < o.model.carried; c++) {
+            const double error = fabs(clocks[o.model.carry[c]] / expected[ISO_STATE + c] - 1);
+            *worst_clock = fmax(*worst_clock, error);
+        }
+        const double H = iso_system_point.integrals[0].value(&o.model.field, y, &size);
+        *worst_energy = fmax(*worst_energy, fmax(fabs(H) / size, fabs(norm(y + 3) - 1)));
+    }
+    iso_integrator_free(it);
+    iso_exact_free(exact);
+}
+
+static void check_refusals(void)
+{
+    iso_exact *exact;
+    orbit o = orbit_sample(ctx, &iso_system_point, 0.5, orbit_J, 1);
+    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, &exact) != ISO_BAD_ARGUMENT || exact, "k = 0.5: %s",
+             iso_context_message(ctx));
+    o = orbit_sample(ctx, &iso_system_point, 1, orbit_J, 1);
+    double y[ISO_STATE], clocks[ISO_CLOCKS];
+    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, &exact) != ISO_OK, "k = 1 is solved");
+    gsl_test(iso_exact_at(ctx, exact, ISO_CLOCK_T, INFINITY, y, clocks) != ISO_BAD_ARGUMENT,
+             "a time that is infinite: %s", iso_context_message(ctx));
+    iso_exact_free(exact);
+    o.model.field.effects.on[ISO_FIELD] = true;
+    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, &exact) != ISO_BAD_ARGUMENT || exact, "with a field: %s",
+             iso_context_message(ctx));
+}
+
+int main(void)
+{
+    enum { ORBITS = 120 };
+    double worst = 0, clock = 0, energy = 0;
+    int refused = 0;
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    iso_random *random = iso_random_create(9);
+    for (int i = 0; i < ORBITS; i++) {
+        const orbit point = random_point(i, random);
+        check_orbit(i, &point, &worst, &clock, &energy, &refused);
+    }
+    gsl_test(!(worst < 2e-12), "states of %d orbits within 20 turns: %.1e", ORBITS, worst);
+    gsl_test(!(clock < 1e-13), "their clocks: %.1e", clock);
+    gsl_test(!(energy < 1e-14), "their energy and |gamma| - 1: %.1e", energy);
+    gsl_test(refused > ORBITS / 40, "%d refused, too close to the separatrix", refused);
+    check_refusals();
+    iso_random_free(random);
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}
