@@ -15,7 +15,8 @@
 
 typedef struct cvode {
     void *memory;
-    N_Vector y, between;
+    N_Vector y;
+    N_Vector between;            /* BDF: the state at a time within a step */
     SUNMatrix matrix;            /* BDF   */
     SUNLinearSolver linear;      /* BDF   */
     SUNNonlinearSolver iterator; /* Adams */
@@ -70,6 +71,8 @@ static int set_up_adams(cvode *c, SUNContext sun)
 
 static int set_up_bdf(const iso_integrator *it, cvode *c, SUNContext sun)
 {
+    c->between = N_VClone(c->y);
+    if (!c->between) return -1;
     c->matrix = SUNDenseMatrix(it->model.dim, it->model.dim, sun);
     c->linear = c->matrix ? SUNLinSol_Dense(c->y, c->matrix, sun) : NULL;
     if (!c->linear || CVodeSetLinearSolver(c->memory, c->linear, c->matrix) != 0) return -1;
@@ -86,8 +89,7 @@ static iso_status create(iso_integrator *it)
     const SUNContext sun = iso_context_sundials(it->ctx);
     cvode *c = it->data = calloc(1, sizeof *c);
     if (sun && c) c->y = N_VNew_Serial(it->model.dim, sun);
-    if (c && c->y) c->between = N_VClone(c->y);
-    if (c && c->between) c->memory = CVodeCreate(it->method->variant, sun);
+    if (c && c->y) c->memory = CVodeCreate(it->method->variant, sun);
     if (!c || !c->memory) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for CVODE");
     ISO_SUN_QUIET(CVodeSetErrHandlerFn, c->memory);
     N_VConst(1, c->y);

@@ -73,8 +73,8 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     it->method = method;
     it->model = *model;
     it->options = o;
-    it->leaper = iso_leaper_create(it);
-    iso_status status = it->leaper ? method->create(it) : ISO_NO_MEMORY;
+    iso_status status = method->create(it);
+    if (status == ISO_OK && !method->within) status = iso_leaper_create(it);
     if (status != ISO_OK) return iso_integrator_free(it), status;
     *integrator = it;
     return ISO_OK;

@@ -41,7 +41,7 @@ struct iso_integrator {
     double at_left[ISO_MAX_STATE], at_right[ISO_MAX_STATE];
 
     void *data;         /* the method's own                                                           */
-    iso_leaper *leaper; /* reaches times within a step                                                */
+    iso_leaper *leaper; /* reaches times within a step; NULL where the method does                    */
 };
 
 /* The contract of iso_method.step: y holds the state at the end of the last step (and, after start, at time 0);
@@ -76,8 +76,8 @@ double iso_integrator_since(const iso_integrator *it, double t);
 /* The state at dt from the step's left end: an end of the step, or a leap. */
 iso_status iso_integrator_within(iso_integrator *it, double dt, double y[]);
 
-/* leap.c: from at_left by dt, |dt| <= |h|, at the integrator's tolerance. */
-iso_leaper *iso_leaper_create(iso_integrator *it);
+/* leap.c: from at_left by dt, |dt| <= |h|, at the integrator's tolerance. Created into it->leaper. */
+iso_status iso_leaper_create(iso_integrator *it);
 void iso_leaper_free(iso_leaper *leaper);
 iso_status iso_leap(iso_integrator *it, double dt, double y[]);
 

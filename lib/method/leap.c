@@ -17,12 +17,14 @@ static const gsl_odeiv2_step_type *leap_type(const iso_integrator *it)
     return iso_method_auto(&it->model)->implicit ? gsl_odeiv2_step_bsimp : gsl_odeiv2_step_rk8pd;
 }
 
-iso_leaper *iso_leaper_create(iso_integrator *it)
+iso_status iso_leaper_create(iso_integrator *it)
 {
     iso_leaper *leaper = calloc(1, sizeof *leaper);
-    if (leaper && iso_gsl_open(it, leap_type(it), &leaper->gsl) == ISO_OK) return leaper;
-    free(leaper);
-    return NULL;
+    if (!leaper) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for an integrator");
+    const iso_status status = iso_gsl_open(it, leap_type(it), &leaper->gsl);
+    if (status != ISO_OK) return free(leaper), status;
+    it->leaper = leaper;
+    return ISO_OK;
 }
 
 void iso_leaper_free(iso_leaper *leaper)
