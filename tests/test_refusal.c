@@ -327,8 +327,33 @@ static void check_names(void)
         gsl_test(iso_method_find(m->name) != m, "%s is found by its name", m->name);
         for (int j = 0; j < i; j++) gsl_test(strcmp(m->name, iso_methods[j]->name) == 0, "%s: one row", m->name);
     }
-    const orbit o = orbit_rotation(ctx, 1, 1);
-    gsl_test(!iso_method_auto(&o.model), "there is an automatic choice: %s", iso_method_auto(&o.model)->name);
+}
+
+/* What "auto" is for a system at this k, with this resistance to twisting (0: none). */
+static void check_auto(const iso_system *system, double k, double resistance, const char *wanted)
+{
+    iso_field f = {.p = laws_params(k, orbit_J), .effects = {.on[ISO_TWIST] = resistance > 0, .twist = resistance}};
+    f.p.D = 0.5;
+    const iso_model m = iso_model_assemble(system, &f, system->clock, (const bool[ISO_CLOCKS]){false});
+    gsl_test_str(iso_method_auto(&m)->name, wanted, "auto: %s, k = %g, c = %g", system->name, k, resistance);
+}
+
+/* Where the series would overflow, and where the model is stiff, it is another method. */
+static void check_choices(void)
+{
+    for (int i = 0; i < ORBIT_K; i++) {
+        check_auto(&iso_system_ball, orbit_k[i], 0, "taylor");
+        check_auto(&iso_system_point, orbit_k[i], 0, "taylor");
+    }
+    check_auto(&iso_system_ball, 0.03, 0, "taylor");
+    check_auto(&iso_system_point, 0.04, 0, "taylor"); /* (3/1.4)^(1/k) = 1.9e8 ... */
+    check_auto(&iso_system_point, 0.03, 0, "rk8pd");  /* ... and 1.1e11         */
+    check_auto(&iso_system_point, -0.03, 0, "rk8pd");
+    check_auto(&iso_system_ball, 1e7, 0, "rk8pd");
+    check_auto(&iso_system_point, -1e7, 0, "rk8pd");
+    check_auto(&iso_system_ball, -1, 10, "taylor");
+    check_auto(&iso_system_ball, -1, 1e2, "bsimp");
+    check_auto(&iso_system_ball, -1, 1e4, "bdf");
 }
 
 int main(void)
@@ -346,6 +371,7 @@ int main(void)
     check_times();
     check_silence();
     check_names();
+    check_choices();
     iso_context_free(ctx);
     exit(gsl_test_summary());
 }

@@ -41,7 +41,6 @@ const command command_check = {
     .argument = "[FILE]",
     .doc = "residuals of a trajectory: constraints, integrals, whether it solves its model",
     .options = " k J eps h tol max ",
-    .more = "Residuals are relative. 'flow' integrates each row to the time of the next with rk8pd at --tol (default "
-            "1e-13).",
+    .more = "Residuals are relative. 'flow' integrates each row to the time of the next at --tol (default 1e-13).",
     .run = run,
 };

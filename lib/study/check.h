@@ -25,7 +25,7 @@ typedef struct iso_residuals {
  * - constraints (|n| = 1, (w,n) = 0 / |gamma| = 1, (M,gamma) = 0), relative to the vectors' lengths;
  * - integrals that hold for k and J: |I(row) - I(first row)| / size (iso_integral); H of a point against 0
  *   if the record has a ball's columns or clocks;
- * - flow: each row integrated to the time of the next (rk8pd at `tolerance`), the difference relative to the
+ * - flow: each row integrated to the time of the next (at `tolerance`), the difference relative to the
  *   largest component of omega or M and to 1; for this the record needs a clock;
  * - the columns of effects (e, q, contact, trace, centre, N, pressure, friction, lambda): likewise, relative to the largest
  *   number of the vector;

@@ -39,7 +39,7 @@ for k in 1 -1 0.5 -0.4 0.05 -0.05 50 -50; do
 done
 for k in 1 -1 0.6; do
     scene "$k" "1e-3, 1, 1e3" "0.9, -0.3, -0.225" "$normal" 5 0.25 >scene.yaml
-    round_trip "J to 1e6, k = $k" "$k" scene.yaml ball 1e-9 # an ulp of s is 1e-10 of t where ds/dt is small
+    round_trip "J to 1e6, k = $k" "$k" scene.yaml ball 1e-8 # an ulp of s is 1e-10 of t where ds/dt is small, and s has some
 done
 for power in -150 -75 75 150; do
     scene -0.7 "1.4, 2.1, 3.0" "0.9e$power, -0.3e$power, -0.225e$power" "$normal" "5e$((-power))" "1e$((-power))" >scene.yaml
