@@ -49,6 +49,7 @@ extern "C" {
 #include "study/analogue.h"
 #include "study/check.h"
 #include "study/compare.h"
+#include "study/error.h"
 
 /* io: scene and trajectory files, plots */
 #include "io/scene_file.h"

@@ -8,57 +8,10 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "laws.h"
-#include "orbit/orbit.h"
-
-enum { ROWS = 29, NUMBERS = 18 };
-
-/* One row: k, J, the start n and w, then t, w, n and s. */
-typedef struct reference {
-    iso_params p;
-    iso_start start;
-    double t, ball[ISO_STATE], s;
-} reference;
+#include "reference.h"
 
 static iso_context *ctx;
-
-static bool read_row(char *line, reference *r)
-{
-    double x[NUMBERS];
-    char *at = strchr(line, ',');
-    for (int i = 0; i < NUMBERS; i++) {
-        if (!at) return false;
-        x[i] = strtod(at + 1, NULL);
-        at = strchr(at + 1, ',');
-    }
-    r->p = laws_params(x[0], x + 1);
-    for (int i = 0; i < 3; i++) {
-        r->ball[i] = x[11 + i];
-        r->ball[3 + i] = x[14 + i];
-    }
-    r->t = x[10];
-    r->s = x[17];
-    return iso_start_ball(ctx, x + 7, x + 4, false, &r->start) == ISO_OK;
-}
-
-static int read_all(reference rows[ROWS])
-{
-    FILE *file = fopen(ISO_TEST_DATA "/free_ball.csv", "r");
-    char line[2048];
-    int count = 0;
-    while (file && fgets(line, sizeof line, file)) {
-        if (strncmp(line, "open", 4) != 0) continue; /* comments and names */
-        if (count == ROWS || !read_row(line, &rows[count++])) {
-            gsl_test(1, "free_ball.csv, row %d is not understood: %s", count, iso_context_message(ctx));
-            exit(gsl_test_summary());
-        }
-    }
-    if (file) fclose(file);
-    gsl_test_int(count, ROWS, "rows of free_ball.csv");
-    return count;
-}
 
 static double state_error(const iso_sample *s, const reference *r)
 {
@@ -120,10 +73,10 @@ int main(void)
         {"rkf45", 1e-11, {3e-7, 3e-8}, 3e-9, 0},      {"msadams", 1e-11, {2e-6, 1e-4}, 2e-6, 0},
         {"bsimp", 1e-11, {3e-7, 1e-7}, 1e-9, 0},
     };
-    reference rows[ROWS];
+    reference rows[REFERENCE_ROWS];
     gsl_test_verbose(1);
     ctx = iso_context_create();
-    const int count = read_all(rows);
+    const int count = reference_read(ctx, rows);
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) check(&runs[i], rows, count);
     iso_context_free(ctx);
     exit(gsl_test_summary());

@@ -199,7 +199,7 @@ static iso_status take_sample(iso_orbit *orbit, double time, contact *c, iso_sam
 }
 
 static iso_status write_rows(iso_context *ctx, iso_orbit *orbit, const times *t, const int columns[], int count,
-                             iso_trajectory_writer *writer, size_t *written)
+                             iso_trajectory_writer *writer, iso_error_rows *rows, size_t *written)
 {
     work w = {orbit, farthest(t)};
     contact c;
@@ -212,6 +212,7 @@ static iso_status write_rows(iso_context *ctx, iso_orbit *orbit, const times *t,
         if (interrupted()) return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
         status = take_sample(orbit, time_at(t, i), &c, &sample, &row);
         if (status == ISO_OK && row) status = write_sample(ctx, &sample, columns, count, writer);
+        if (status == ISO_OK && row && rows) iso_error_keep(rows, &sample);
         *written += status == ISO_OK && row;
     }
     return status;
@@ -226,25 +227,67 @@ static void tell(const iso_orbit *orbit, size_t rows)
              s.jacobians, s.correction);
 }
 
-/* Writes all rows it can: what was computed before a failure or an interruption is kept. */
+static bool not_interrupted(void *data)
+{
+    (void)data;
+    return !interrupted();
+}
+
+/* Up to two digits: what is said to be at most so large must be. */
+static double rounded_up(double x)
+{
+    const double unit = x > 0 && isfinite(x) ? pow(10, floor(log10(x)) - 1) : 1;
+    return ceil(x / unit) * unit;
+}
+
+static void tell_error(const char *what, const char *clock, const iso_error_of *e)
+{
+    if (!isnan(e->worst))
+        complain("error of %s at most %.2g, at %s = %.6g; %.2g in the last row", what, rounded_up(e->worst), clock,
+                 e->worst_time, rounded_up(e->last));
+}
+
+/* The error of the rows, or why it is not known. */
+static void tell_errors(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *o, const iso_orbit *orbit,
+                        const iso_error_rows *rows)
+{
+    iso_error e;
+    iso_context_watch(ctx, not_interrupted, NULL);
+    const iso_status status = iso_error_find(ctx, &scene->params, &scene->start, o, orbit, rows, &e);
+    iso_context_watch(ctx, NULL, NULL);
+    if (status != ISO_OK) {
+        complain("error not known: %s", iso_context_message(ctx));
+        return;
+    }
+    const char *clock = iso_clock_name(o->clock);
+    tell_error("(omega, n)", clock, &e.state[ISO_BALL]);
+    tell_error("(M, gamma)", clock, &e.state[ISO_POINT]);
+    for (int c = 0; c < ISO_CLOCKS; c++) tell_error(iso_clock_name((iso_clock)c), clock, &e.clock[c]);
+    complain("errors are relative, in %zu rows: from the same orbit by %s at tolerance %.2g, in %.2g s; of the first, %.2g is "
+             "the rounding of the start",
+             e.rows, e.method->name, e.tolerance, e.seconds, e.start);
+}
+
+/* Writes all rows it can: what was computed before a failure or an interruption is kept. `rows` (may be NULL) is given
+ * them, too. */
 static int write_file(iso_context *ctx, const options *o, iso_orbit *orbit, const times *t, const iso_record *header,
-                      const int columns[], int count)
+                      const int columns[], int count, iso_error_rows *rows)
 {
     iso_trajectory_writer *writer;
-    size_t rows = 0;
+    size_t written = 0;
     stop_gently();
     iso_status status = iso_trajectory_open(ctx, o->output, &writer);
     if (status != ISO_OK) return finish(ctx, status);
     status = iso_trajectory_write_header(ctx, writer, header);
-    if (status == ISO_OK) status = write_rows(ctx, orbit, t, columns, count, writer, &rows);
+    if (status == ISO_OK) status = write_rows(ctx, orbit, t, columns, count, writer, rows, &written);
     iso_context_watch(ctx, NULL, NULL);
-    const bool keep = status == ISO_OK || status == ISO_STOPPED || (status == ISO_NUMERICAL && rows > 0);
+    const bool keep = status == ISO_OK || status == ISO_STOPPED || (status == ISO_NUMERICAL && written > 0);
     const int result = finish(ctx, status);
     const iso_status closed = iso_trajectory_close(ctx, writer, keep);
     if (closed != ISO_OK) return result == EXIT_DONE ? finish(ctx, closed) : result;
-    if (o->verbose) tell(orbit, rows);
+    if (o->verbose) tell(orbit, written);
     if (result == EXIT_NUMERICAL || status == ISO_STOPPED)
-        complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", keep ? rows : 0,
+        complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", keep ? written : 0,
                  t->count);
     return result;
 }
@@ -272,18 +315,28 @@ static int run(iso_context *ctx, const options *o)
     iso_record *header = NULL;
     int columns[ISO_MAX_COLUMNS], count = 0, result;
     times t = {.scene = &scene};
+    iso_effects effects;
+    iso_orbit_options how;
+    iso_error_rows *rows = NULL;
     iso_status status = check_files(ctx, o);
     if (status == ISO_OK) status = scene_with_options(ctx, o, &scene);
     if (status == ISO_OK && o->times) status = read_times(ctx, o->times, &t);
     if (status == ISO_OK) {
         if (!t.list) t.count = iso_scene_rows(&scene);
         count = iso_scene_columns(&scene, columns);
-        status = orbit_for_columns(ctx, &scene, columns, count, &orbit);
+        how = options_for_columns(&scene, columns, count, &effects);
+        status = iso_orbit_create(ctx, &scene.params, &scene.start, &how, &orbit);
     }
     if (status == ISO_OK) status = iso_orbit_check_time(orbit, farthest(&t));
     if (status == ISO_OK) status = describe(ctx, &scene, orbit, columns, count, &header);
-    result = status == ISO_OK ? write_file(ctx, o, orbit, &t, header, columns, count)
+    if (status == ISO_OK && o->verbose) {
+        rows = calloc(1, sizeof *rows);
+        if (!rows) status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the rows");
+    }
+    result = status == ISO_OK ? write_file(ctx, o, orbit, &t, header, columns, count, rows)
                               : finish_scene(ctx, o, &scene, status);
+    if (rows && result != EXIT_FILE) tell_errors(ctx, &scene, &how, orbit, rows);
+    free(rows);
     iso_record_free(header);
     iso_orbit_free(orbit);
     free(t.list);
@@ -298,6 +351,7 @@ const command command_run = {
     .more =
         "The times of --t-end, --step and --times are those of the clock of the scene's model: t of a ball, s of a "
         "point.\nRows do not depend on which other times are asked. Interrupted (Ctrl-C), the rows so far are "
-        "kept.",
+        "kept.\n--verbose computes the orbit once more, finer, and tells the largest error of the rows: it covers "
+        "the method's error and\nthe rounding of the start, not numbers of k, effects and times that are no doubles.",
     .run = run,
 };

@@ -115,7 +115,7 @@ static const struct row {
     {"mass", "M", "a positive number", "of the ball (default 1)", set_positive, AT(mass)},
     {"radius", "B", "a positive number", "of the ball (default 1)", set_positive, AT(radius)},
     {"max", "X", "a number from 0 on", "exit with 1 if any residual is larger", set_bound, AT(bound)},
-    {"verbose", NULL, NULL, "tell on stderr how it went", set_flag, AT(verbose)},
+    {"verbose", NULL, NULL, "tell on stderr how it went, and the error", set_flag, AT(verbose)},
     {"help", NULL, NULL, "this text (-h)", set_flag, AT(help)},
 #undef AT
 };
@@ -235,8 +235,7 @@ int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso
     return finish(ctx, from_option ? status : iso_scene_blame(ctx, scene, name, status));
 }
 
-iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
-                             iso_orbit **orbit)
+iso_orbit_options options_for_columns(const iso_scene *scene, const int columns[], int count, iso_effects *effects)
 {
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     bool ball = false, point = false, attitude = false;
@@ -248,12 +247,20 @@ iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int
         point = point || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_EFFECTS);
     }
     ball = ball || scene->effects.on[ISO_REACTIONS]; /* loss of contact is looked for */
-    iso_effects effects = scene->effects; /* what acts on nothing is there for its columns */
-    effects.on[ISO_ATTITUDE] = effects.on[ISO_ATTITUDE] && attitude;
-    o.effects = &effects;
+    *effects = scene->effects; /* what acts on nothing is there for its columns */
+    effects->on[ISO_ATTITUDE] = effects->on[ISO_ATTITUDE] && attitude;
+    o.effects = effects;
     o.show = ball && point ? ISO_BOTH : ball ? ISO_BALL : point ? ISO_POINT : scene->start.model;
     o.backend = scene->backend;
     o.method = iso_method_find(scene->method);
     o.tolerance = scene->tolerance;
+    return o;
+}
+
+iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
+                             iso_orbit **orbit)
+{
+    iso_effects effects;
+    const iso_orbit_options o = options_for_columns(scene, columns, count, &effects);
     return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
 }

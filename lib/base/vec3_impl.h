@@ -66,6 +66,19 @@ static inline void copy(const double *from, double *to, int count)
     for (int i = 0; i < count; i++) to[i] = from[i];
 }
 
+/* |a - b| / |a|, 0 for a = 0; squares of components may overflow */
+static inline double relative_difference(const double a[3], const double b[3])
+{
+    const double size = largest(a);
+    if (!(size > 0)) return 0;
+    double d[3], u[3];
+    for (int i = 0; i < 3; i++) {
+        d[i] = a[i] / size - b[i] / size;
+        u[i] = a[i] / size;
+    }
+    return norm(d) / norm(u);
+}
+
 /* Makes a a unit vector and gives its old length. */
 static inline double make_unit(double a[3])
 {

@@ -3,16 +3,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/vec3_impl.h"
-
-static double processor_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+#include "study/seconds_impl.h"
 
 typedef struct runner {
     iso_context *ctx;
@@ -126,19 +119,6 @@ static iso_status take_rows(runner *r, bool (*progress)(double part, void *data)
 
 /* --- differences -------------------------------------------------------------------------------------------------- */
 
-/* |a - b| / |a| for vectors whose squares may overflow */
-static double vector_difference(const double a[3], const double b[3])
-{
-    const double size = largest(a);
-    if (!(size > 0)) return 0;
-    double d[3], u[3];
-    for (int i = 0; i < 3; i++) {
-        d[i] = a[i] / size - b[i] / size;
-        u[i] = a[i] / size;
-    }
-    return norm(d) / norm(u);
-}
-
 static double largest_in_column(const iso_record *r, int column)
 {
     double most = 0;
@@ -162,7 +142,7 @@ static iso_status compare_rows(iso_context *ctx, iso_comparison *c)
         if (status != ISO_OK) break;
         d[0] = x[c->clock];
         for (int v = 0; v < 4; v++)
-            d[1 + v] = vector_difference(x + ISO_COLUMN_BALL + 3 * v, y + ISO_COLUMN_BALL + 3 * v);
+            d[1 + v] = relative_difference(x + ISO_COLUMN_BALL + 3 * v, y + ISO_COLUMN_BALL + 3 * v);
         d[5] = scale[0] > 0 ? fabs(x[first] - y[first]) / scale[0] : 0;
         d[6] = scale[1] > 0 ? fabs(x[second] - y[second]) / scale[1] : 0;
         c->worst[0] = d[0];

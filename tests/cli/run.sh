@@ -163,8 +163,35 @@ done <methods
 run 0 run scene.yaml --method dormand
 check "a beginning is enough" grep -qx '# method: dormand_prince_7_4_5' out
 run 0 run scene.yaml --method auto --verbose
-says "11 rows; backend ball, method"
+check "--verbose says how it went" grep -q "^isoroll: 11 rows; backend ball, method taylor: " err
 check "--verbose changes nothing in the file" cmp out ball.csv
+
+# estimate WHAT: the error of WHAT that the last run has told
+estimate() {
+    sed -n "s/^isoroll: error of $1 at most \([^,]*\), .*/\1/p" err
+}
+at_most "estimate at 1e-12" "$(estimate '(omega, n)')" 1e-11
+check "how it was found" grep -q "^isoroll: errors are relative, in 11 rows: from the same orbit by taylor_extended" err
+run 0 run scene.yaml --method taylor_extended --tol 1e-15 --as both
+cp out exact.csv
+for tolerance in 1e-3 1e-6 1e-9 1e-12; do
+    run 0 run scene.yaml --tol $tolerance --as both --verbose
+    bound=0
+    for what in "(omega, n)" "(M, gamma)" tau s; do
+        check "an estimate at $tolerance: $what" test -n "$(estimate "$what")"
+        bound=$(larger "$bound" "$(estimate "$what")")
+    done
+    error=$(difference exact.csv out)
+    at_most "the estimate covers the error at $tolerance" "$error" "$bound"
+    at_most "and is not much larger" "$bound" "$(awk -v e="$error" 'BEGIN { print 10 * e + 1e-12 }')"
+done
+at_most "the estimate at 1e-3 is large" 1e-6 "$("$isoroll" run scene.yaml --tol 1e-3 --verbose 2>err >out; estimate '(omega, n)')"
+sed 's/k: -1,/k: -1, D: 0.5,/' scene.yaml >stiff.yaml
+echo "effects: {twist: {resistance: 100}}" >>stiff.yaml
+run 0 run stiff.yaml --verbose --tol 1e-9
+check "an estimate for a stiff model" grep -q "from the same orbit by bsimp at tolerance 1e-11" err
+run 0 run stiff.yaml --verbose --tol 1e-14
+check "nothing finer is said" grep -q "^isoroll: error not known: there is nothing finer than bsimp at 1e-14" err
 
 # --- a ball one can hold, and the same by its k and J
 cat >physical.yaml <<END

@@ -1,0 +1,59 @@
+/* reference.h - the rows of reference/free_ball.csv, quadruple-precision states of the free ball. */
+#ifndef ISO_TESTS_REFERENCE_H
+#define ISO_TESTS_REFERENCE_H
+
+#include <gsl/gsl_test.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "laws.h"
+#include "orbit/orbit.h"
+
+enum { REFERENCE_ROWS = 29, REFERENCE_NUMBERS = 18 };
+
+/* One row: k, J, the start n and w, then t, w, n and s. */
+typedef struct reference {
+    iso_params p;
+    iso_start start;
+    double t, ball[ISO_STATE], s;
+} reference;
+
+static inline bool reference_read_row(iso_context *ctx, char *line, reference *r)
+{
+    double x[REFERENCE_NUMBERS];
+    char *at = strchr(line, ',');
+    for (int i = 0; i < REFERENCE_NUMBERS; i++) {
+        if (!at) return false;
+        x[i] = strtod(at + 1, NULL);
+        at = strchr(at + 1, ',');
+    }
+    r->p = laws_params(x[0], x + 1);
+    for (int i = 0; i < 3; i++) {
+        r->ball[i] = x[11 + i];
+        r->ball[3 + i] = x[14 + i];
+    }
+    r->t = x[10];
+    r->s = x[17];
+    return iso_start_ball(ctx, x + 7, x + 4, false, &r->start) == ISO_OK;
+}
+
+/* All rows; ends the test when one is not understood. */
+static inline int reference_read(iso_context *ctx, reference rows[REFERENCE_ROWS])
+{
+    FILE *file = fopen(ISO_TEST_DATA "/free_ball.csv", "r");
+    char line[2048];
+    int count = 0;
+    while (file && fgets(line, sizeof line, file)) {
+        if (strncmp(line, "open", 4) != 0) continue; /* comments and names */
+        if (count == REFERENCE_ROWS || !reference_read_row(ctx, line, &rows[count++])) {
+            gsl_test(1, "free_ball.csv, row %d is not understood: %s", count, iso_context_message(ctx));
+            exit(gsl_test_summary());
+        }
+    }
+    if (file) fclose(file);
+    gsl_test_int(count, REFERENCE_ROWS, "rows of free_ball.csv");
+    return count;
+}
+
+#endif

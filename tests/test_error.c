@@ -1,0 +1,178 @@
+/* The estimated error of an orbit (study/error.h) covers the true one, and is not much larger. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/vec3_impl.h"
+#include "laws.h"
+#include "reference.h"
+#include "study/error.h"
+
+static iso_context *ctx;
+
+/* An orbit run to t in a number of rows, and what is thought of its error. */
+typedef struct trial {
+    iso_orbit *orbit;
+    iso_sample last;
+    iso_error_rows rows;
+    iso_error error;
+    iso_status found;
+} trial;
+
+static void give_up(const char *what)
+{
+    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
+    exit(gsl_test_summary());
+}
+
+static trial *try(const iso_params *p, const iso_start *start, const iso_orbit_options *o, double t, size_t rows)
+{
+    trial *r = calloc(1, sizeof *r);
+    if (!r || iso_orbit_create(ctx, p, start, o, &r->orbit) != ISO_OK) give_up("an orbit");
+    for (size_t i = 0; i < rows; i++) {
+        if (iso_orbit_at(r->orbit, i + 1 == rows ? t : t * (double)i / (double)(rows - 1), &r->last) != ISO_OK)
+            give_up("an orbit stops");
+        iso_error_keep(&r->rows, &r->last);
+    }
+    r->found = iso_error_find(ctx, p, start, o, r->orbit, &r->rows, &r->error);
+    return r;
+}
+
+static void end(trial *r)
+{
+    iso_orbit_free(r->orbit);
+    free(r);
+}
+
+static double distance(const double a[ISO_STATE], const double b[ISO_STATE])
+{
+    return fmax(relative_difference(a, b), relative_difference(a + 3, b + 3));
+}
+
+/* How a true error compares with its estimate: to be covered, by at most 50 times and what rounding may be. */
+static void compare(laws_worst *covered, laws_worst *tight, double true_error, double estimate, const iso_params *p,
+                    const char *where)
+{
+    laws_note(covered, true_error, estimate, p, where);
+    laws_note(tight, estimate, 50 * true_error + 1e-12, p, where);
+}
+
+static void check_references(const char *method, double tolerance, iso_picture backend, double longest)
+{
+    reference rows[REFERENCE_ROWS];
+    laws_worst state = {0}, state_tight = {0}, clock = {0}, clock_tight = {0};
+    const int count = reference_read(ctx, rows);
+    for (int i = 0; i < count; i++) {
+        const reference *r = &rows[i];
+        char where[64], title[128];
+        if (r->t > longest) continue;
+        iso_orbit_options o = iso_orbit_defaults(&r->start);
+        o.backend = backend;
+        o.method = iso_method_find(method);
+        o.tolerance = tolerance;
+        o.carry[ISO_CLOCK_S] = true;
+        trial *run = try(&r->p, &r->start, &o, r->t, 5);
+        snprintf(where, sizeof where, "t = %g", r->t);
+        snprintf(title, sizeof title, "%s at %g, backend %s", method, tolerance, iso_picture_name((int)backend));
+        gsl_test(run->found != ISO_OK, "%s, row %d: an estimate", title, i);
+        compare(&state, &state_tight, distance(run->last.ball, r->ball), run->error.state[ISO_BALL].last, &r->p, where);
+        compare(&clock, &clock_tight, fabs(run->last.clock[ISO_CLOCK_S] / r->s - 1), run->error.clock[ISO_CLOCK_S].last,
+                &r->p, where);
+        end(run);
+    }
+    printf("%s at %g, backend %s:\n", method, tolerance, iso_picture_name((int)backend));
+    laws_report(&state, "the error of (w, n) is covered");
+    laws_report(&state_tight, "and not much overestimated");
+    laws_report(&clock, "the error of s is covered");
+    laws_report(&clock_tight, "and not much overestimated");
+}
+
+static const double J[3] = {1.4, 2.1, 3.0};
+
+/* A contact that resists twisting as strongly as this; the truth is by bsimp at 1e-14. */
+static void check_stiff(double c)
+{
+    iso_params p = laws_params(-0.6, J);
+    const iso_start start = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
+    iso_effects effects = {.on[ISO_TWIST] = true, .twist = c};
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    if (iso_params_set_D(ctx, 0.4, &p) != ISO_OK) give_up("D");
+    o.effects = &effects;
+    for (double tolerance = 1e-6; tolerance > 1e-12; tolerance *= 1e-2) {
+        laws_worst covered = {0}, tight = {0};
+        o.tolerance = tolerance;
+        o.method = NULL;
+        trial *run = try(&p, &start, &o, 10, 5);
+        gsl_test(run->found != ISO_OK || run->error.method != iso_orbit_method(run->orbit), "c = %g: by %s again", c,
+                 iso_orbit_method(run->orbit)->name);
+        o.method = iso_method_find("bsimp");
+        o.tolerance = 1e-14;
+        trial *truth = try(&p, &start, &o, 10, 5);
+        compare(&covered, &tight, distance(run->last.ball, truth->last.ball), run->error.state[ISO_BALL].last, &p, "t = 10");
+        printf("c = %g, tolerance %g:\n", c, tolerance);
+        laws_report(&covered, "the error is covered");
+        laws_report(&tight, "and not much overestimated");
+        end(run);
+        end(truth);
+    }
+}
+
+/* Which rows are kept: evenly spread ones, the last always. */
+static void check_rows(void)
+{
+    static iso_error_rows rows;
+    const size_t many = 5 * ISO_ERROR_ROWS + 3;
+    for (size_t i = 0; i < many; i++) iso_error_keep(&rows, &(iso_sample){.clock = {(double)i}});
+    bool even = rows.seen == many && rows.count <= ISO_ERROR_ROWS && rows.count > ISO_ERROR_ROWS / 2;
+    for (size_t i = 0; i < rows.count; i++) even = even && rows.sample[i].clock[0] == (double)(i * rows.stride);
+    gsl_test(!even || rows.count != (many + rows.stride - 1) / rows.stride, "every %zu-th row is kept", rows.stride);
+    gsl_test(rows.last.clock[0] != (double)(many - 1), "and the last");
+}
+
+/* A point's orbit backwards in s; what is not shown is not judged; nothing finer than the finest. */
+static void check_others(void)
+{
+    const iso_params p = laws_params(-1, J);
+    const iso_start start = {.model = ISO_POINT, .y = {0.64, 1, -0.48, 0.6, 0, 0.8}, .eps = NAN};
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    o.tolerance = 1e-5;
+    trial *run = try(&p, &start, &o, -30, 1000);
+    const iso_error *e = &run->error;
+    gsl_test(run->found != ISO_OK || e->rows != 251 || !isnan(e->state[ISO_BALL].worst) || !isnan(e->clock[0].worst),
+             "a point alone has no omega, and no t");
+    gsl_test(!(e->state[ISO_POINT].worst > 1e-6) || !(e->state[ISO_POINT].worst >= e->state[ISO_POINT].last) ||
+                 !(e->state[ISO_POINT].worst_time < 0),
+             "a loose tolerance makes a large error: %.1e at s = %g", e->state[ISO_POINT].worst,
+             e->state[ISO_POINT].worst_time);
+    gsl_test(!(e->start > 0 && e->start < 1e-10), "the start makes %.1e of it", e->start);
+    end(run);
+    o.method = iso_method_find("taylor_quad") ? iso_method_find("taylor_quad") : iso_method_find("taylor_extended");
+    run = try(&p, &start, &o, 1, 2);
+    gsl_test(run->found != ISO_BAD_ARGUMENT, "nothing is finer than %s: %s", o.method->name, iso_context_message(ctx));
+    const iso_error_rows none = {.seen = 0};
+    gsl_test(iso_error_find(ctx, &p, &start, &o, run->orbit, &none, &run->error) != ISO_BAD_ARGUMENT, "no rows: %s",
+             iso_context_message(ctx));
+    end(run);
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
+        check_references("taylor", 1e-6, backend, 100);
+        check_references("taylor", 1e-12, backend, 1000);
+        check_references("taylor", 1e-15, backend, 1000);
+        if (iso_method_find("taylor_quad")) check_references("taylor_extended", 1e-15, backend, 100); /* by gcc */
+        check_references("rk8pd", 1e-12, backend, 1000);
+        check_references("adams", 1e-9, backend, 100);
+    }
+    check_references("blanes_moan6", 1e-8, ISO_POINT, 100);
+    check_stiff(1e2);
+    check_stiff(1e5);
+    check_rows();
+    check_others();
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}
