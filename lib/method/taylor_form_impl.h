@@ -294,7 +294,9 @@ static real coefficient(const form *T, int n)
 {
     const series *S = &T->S;
     real most = largest(S->n[n]);
-    if (!T->is_point) most = larger(most, largest(S->w[n]) / (largest(S->w[0]) + spread((NUMBER)1e-100)));
+    const vector rest = T->is_point ? times(S->count[n + 1], S->n[n + 1]) : S->w[n]; /* of gamma', or w */
+    const real speed = largest(T->is_point ? S->n[1] : S->w[0]);
+    most = larger(most, largest(rest) / (speed + spread((NUMBER)1e-100)));
     if (T->shape.field.at[ISO_GRAVITY]) most = larger(most, largest(S->e[n]));
     if (T->shape.field.at[ISO_ATTITUDE]) most = larger(most, largest(S->Q[n]));
     return most;
