@@ -56,8 +56,10 @@ static void collect(const effects_case *c, laws_worst *worst)
     static int variant;
     static const double part[ROWS] = {0, 0.3, 1.7, 4};
     (void)worst;
-    if (c->subset & (1 << ISO_REACTIONS | 1 << ISO_CLOCK) || iso_effects_stiffness(&c->model.field) > ISO_STIFF) return;
-    if (c->system == &iso_system_point && c->subset & ~(1 << ISO_FIELD | 1 << ISO_LEVEL)) return; /* the others have no image */
+    if (c->subset & (1 << ISO_REACTIONS | 1 << ISO_CLOCK) || iso_effects_stiffness(&c->model.field) > ISO_STIFF)
+        return;
+    if (c->system == &iso_system_point && c->subset & ~(1 << ISO_FIELD | 1 << ISO_LEVEL))
+        return; /* the others have no image */
     if (pow(laws_spread(&c->model.field.p), 1 / fabs(c->model.field.p.k)) > 1e50) return; /* s has no scale */
     member *m = &members[count++];
     memset(m, 0, sizeof *m);
@@ -96,8 +98,12 @@ static void shuffle(iso_lane_job *list[], int length)
 
 static iso_lane_job job_of(const member *m, int first, double *states)
 {
-    iso_lane_job job = {.model = &m->o.model, .rows = (size_t)(ROWS - first), .time = m->time + first, .unit = 1,
-                        .states = states, .stride = ISO_MAX_STATE};
+    iso_lane_job job = {.model = &m->o.model,
+                        .rows = (size_t)(ROWS - first),
+                        .time = m->time + first,
+                        .unit = 1,
+                        .states = states,
+                        .stride = ISO_MAX_STATE};
     copy(m->o.y0, job.start, m->o.model.dim);
     return job;
 }

@@ -307,6 +307,36 @@ static void check_drift(const iso_system *system, double k)
     iso_integrator_free(it);
 }
 
+/* The integral of that name, each radian of 10^4: how far it goes from its start, and the root mean square of that in the
+ * last tenth beside the first. Of a ball: in t. A point: in either clock, and off the level H = 0 in s. */
+static void check_second(const iso_system *system, double k, iso_clock clock, double stretch, const char *name,
+                         unsigned long seed)
+{
+    enum { RADIANS = 10000, TENTH = RADIANS / 10 };
+    const iso_integral *F = laws_integral(system, name);
+    orbit o = orbit_sample(ctx, system, k, orbit_J, seed);
+    double square[2] = {0, 0}, worst = 0, size;
+    scale(o.y0, stretch);
+    if (stretch != 1) o.model.field.energy = system->integrals[0].value(&o.model.field, o.y0, &size);
+    orbit_clocks(&o, clock, false, false, false);
+    iso_integrator *it = orbit_start(&o, taylor, &finest);
+    const double start = F->value(&o.model.field, o.y0, &size);
+    for (int i = 1; i <= RADIANS; i++) {
+        double y[ISO_MAX_STATE] = {NAN};
+        iso_integrator_at(it, i * o.unit, y);
+        const double off = fabs(F->value(&o.model.field, y, &size) - start) / size;
+        worst = off <= worst ? worst : off;
+        if (i <= TENTH) square[0] += off * off / TENTH;
+        if (i > RADIANS - TENTH) square[1] += off * off / TENTH;
+    }
+    const double first = sqrt(square[0]), last = sqrt(square[1]);
+    const bool holds = F->holds(&o.model.field);
+    gsl_test(holds ? !(worst < 1e-14 && last < 1.5 * first + 1e-16) : !(worst > 1e-2),
+             "%s, k = %g, %s, H = %.2g: %s %s to %.1e, rms %.1e at first, %.1e at last", system->name, k,
+             iso_clock_name(clock), o.model.field.energy, name, holds ? "keeps" : "drifts", worst, first, last);
+    iso_integrator_free(it);
+}
+
 /* --- edges ------------------------------------------------------------------------------------------------------ */
 
 /* At rest nothing moves, with the normal upright neither; beside it the ball falls as it does by rk8pd. */
@@ -399,6 +429,15 @@ int main(void)
             check_asking(geometries[i], backend);
         }
     for (int i = 0; i < 6; i++) check_drift(iso_systems[i % 2], orbit_k[i / 2]);
+    for (int i = 0; i < 3; i++) {
+        const double k = (const double[]){1, -1, 0.5}[i];
+        const char *name = k == -1 ? "F_shell" : "F_plane";
+        check_second(&iso_system_ball, k, ISO_CLOCK_T, 1, name, 3);
+        check_second(&iso_system_point, k, ISO_CLOCK_T, 1, name, 3);
+        check_second(&iso_system_point, k, ISO_CLOCK_S, 1, name, 3);
+        if (k != 0.5) check_second(&iso_system_point, k, ISO_CLOCK_S, 1.1, name, 3);
+    }
+    check_second(&iso_system_ball, 0.5, ISO_CLOCK_T, 1, "F_shell", 3);
     check_rest(taylor);
     check_rest(extended);
     check_units(ISO_BALL);
