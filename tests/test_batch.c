@@ -10,7 +10,7 @@
 static iso_context *ctx;
 static iso_random *dice;
 
-/* --- orbits ------------------------------------------------------------------------------------------------------- */
+/* --- orbits ----------------------------------------------------------------------------------------------------- */
 
 enum { ORBITS = 66, MOST_ROWS = 8 };
 
@@ -84,7 +84,7 @@ static iso_sample *run(const iso_batch_orbit orbits[], int count, const iso_batc
     return samples;
 }
 
-/* --- as by iso_orbit ------------------------------------------------------------------------------------------------ */
+/* --- as by iso_orbit -------------------------------------------------------------------------------------------- */
 
 static laws_worst right, statuses;
 
@@ -197,10 +197,10 @@ static void check_right(void)
     laws_report(&statuses, "statuses as by iso_orbit");
 }
 
-/* --- not by a bit --------------------------------------------------------------------------------------------------- */
+/* --- not by a bit ----------------------------------------------------------------------------------------------- */
 
-/* Neighbours of every kind: in principal planes with zeros of both signs, stiff, at rest, refused, and so fast that the
- * series has no numbers. */
+/* Neighbours of every kind: in principal planes with zeros of both signs, stiff, at rest, refused, and so fast that
+ * the series has no numbers. */
 static void add_odd(pool *all, int i, const iso_params *p)
 {
     static iso_effects stiff = {.on[ISO_TWIST] = true, .twist = 1e6}, wrong = {.on[ISO_GRAVITY] = true, .mgb = NAN};
@@ -286,7 +286,7 @@ static void check_bits(const iso_batch_options *options)
     free(truth);
 }
 
-/* --- what cannot be --------------------------------------------------------------------------------------------------- */
+/* --- what cannot be --------------------------------------------------------------------------------------------- */
 
 static const double J_three[3] = {1.4, 2.1, 3.0};
 
@@ -341,7 +341,7 @@ static void check_refusals(void)
     gsl_test(iso_batch_run(ctx, NULL, 0, &o, &time, 1, NULL, NULL), "no orbits");
 }
 
-/* --- one that fails among others -------------------------------------------------------------------------------------- */
+/* --- one that fails among others -------------------------------------------------------------------------------- */
 
 static int blank_columns(const iso_sample *s)
 {
@@ -459,7 +459,7 @@ static void check_stiff(void)
     free(samples);
 }
 
-/* --- what is conserved -------------------------------------------------------------------------------------------------- */
+/* --- what is conserved ------------------------------------------------------------------------------------------ */
 
 static void check_conserved(iso_picture backend)
 {

@@ -1,4 +1,4 @@
-/* Taylor series in lanes, lib/method/lanes_impl.h: the states of each code, and that no lane feels another by a bit. */
+/* Taylor series in lanes, lib/method/lanes_impl.h: the states of each code, and that no lane feels another. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,7 +13,7 @@ static iso_context *ctx;
 static iso_random *dice;
 static const iso_method *extended;
 
-/* --- orbits ------------------------------------------------------------------------------------------------------- */
+/* --- orbits ----------------------------------------------------------------------------------------------------- */
 
 typedef struct member {
     effects_case c;
@@ -83,7 +83,7 @@ static void collect_all(void)
     for (int i = 0; iso_systems[i]; i++) effects_each(iso_systems[i], J_STEP, collect, &unused);
 }
 
-/* --- groups of orbits that are alike ------------------------------------------------------------------------------ */
+/* --- groups of orbits that are alike ---------------------------------------------------------------------------- */
 
 enum { MOST = 1024 };
 

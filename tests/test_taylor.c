@@ -307,8 +307,8 @@ static void check_drift(const iso_system *system, double k)
     iso_integrator_free(it);
 }
 
-/* The integral of that name, each radian of 10^4: how far it goes from its start, and the root mean square of that in the
- * last tenth beside the first. Of a ball: in t. A point: in either clock, and off the level H = 0 in s. */
+/* The integral of that name, each radian of 10^4: how far it goes from its start, and the root mean square of that in
+ * the last tenth beside the first. Of a ball: in t. A point: in either clock, and off the level H = 0 in s. */
 static void check_second(const iso_system *system, double k, iso_clock clock, double stretch, const char *name,
                          unsigned long seed)
 {
