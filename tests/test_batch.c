@@ -393,7 +393,7 @@ static void check_failure(const iso_batch_options *options, const iso_batch_orbi
 
 static void check_failures(void)
 {
-    const iso_params p = laws_params(0.5, J_three);
+    const iso_params p = laws_params(0.5, J_three), fast = laws_params(1e12, J_three);
     const iso_start start = start_of(0.9, -0.3, -0.225, 0.36, 0.48, 0.8), rest = start_of(0, 0, 0, 0.36, 0.48, 0.8);
     const iso_effects bad = {.on[ISO_GRAVITY] = true, .mgb = NAN, .up = {0, 0, 1}};
     const iso_effects brake = {.on[ISO_ROLLING_RESISTANCE] = true, .resistance = 10};
@@ -404,6 +404,37 @@ static void check_failures(void)
     o.show = ISO_BALL;
     o.max_steps = 2000;
     check_failure(&o, &(iso_batch_orbit){&p, &start, &brake}, -40, ISO_NUMERICAL, "more steps than allowed", 2);
+    o.max_steps = 0;
+    o.backend = ISO_BALL;
+    o.tolerance = 1e-15;
+    check_failure(&o, &(iso_batch_orbit){&fast, &start, NULL}, 4, ISO_NUMERICAL, "diverges", 0);
+}
+
+/* M leaves the range of doubles on the way: no row from there on. */
+static void check_range(void)
+{
+    static pool one;
+    const double J[3] = {1e200, 4e200, 9e200}, times[] = {1e-7, 3e-7, 5e-7, 7e-7, 9e-7};
+    iso_batch_options o = iso_batch_defaults();
+    o.show = ISO_BOTH;
+    int failed = 0, wrong = 0;
+    for (int i = 0; i < 40; i++) {
+        iso_status status, whole;
+        one.count = 0;
+        const double w = 1e7 * pow(10, i / 40.0);
+        add(&one, laws_params(1, J), start_of(w, 0, 0, 0, 0.8, 0.6), NULL);
+        add_random(&one, 1, J_three, 1e200, w, ISO_CLOCK_T, 0);
+        iso_sample *samples = run(&one.orbit[1], 1, &o, times, 5, &status, &whole);
+        bool before = false;
+        for (int j = 0; j < 5; j++) {
+            const int blank = blank_columns(&samples[j]);
+            wrong += blank != ISO_TRAJECTORY_COLUMNS && (before || !isfinite(laws_max(12, samples[j].ball)));
+            before = before || blank == ISO_TRAJECTORY_COLUMNS;
+        }
+        failed += status == ISO_NUMERICAL && blank_columns(&samples[0]) != ISO_TRAJECTORY_COLUMNS;
+        free(samples);
+    }
+    gsl_test(failed == 0 || wrong > 0, "%d left the range on the way, %d rows behind that", failed, wrong);
 }
 
 /* Steps: as many as are allowed. */
@@ -459,6 +490,55 @@ static void check_stiff(void)
     free(samples);
 }
 
+/* --- stopped ---------------------------------------------------------------------------------------------------- */
+
+static bool some_times(void *data)
+{
+    return --*(long *)data >= 0;
+}
+
+/* Whatever is done by then is right, and said to be. */
+static void check_stopped(int threads)
+{
+    enum { COUNT = 600, ROWS = 3 };
+    static pool all;
+    const double times[ROWS] = {1, 5, 10};
+    iso_batch_options o = iso_batch_defaults();
+    iso_batch_orbit orbits[COUNT];
+    iso_status status[COUNT], whole;
+    fill_mixed(&all);
+    o.max_steps = 1000;
+    for (int i = 0; i < COUNT; i++) orbits[i] = all.orbit[i % all.count];
+    iso_sample *truth = run(all.orbit, all.count, &o, times, ROWS, status, &whole);
+    iso_status expected[ORBITS];
+    memcpy(expected, status, sizeof expected);
+    o.threads = threads;
+    int wrong = 0, stopped = 0, done = 0, early = 0;
+    for (long asks = 0; asks < 30000; asks = asks + asks / 2 + 1) {
+        long left = asks;
+        iso_context_watch(ctx, some_times, &left);
+        iso_sample *samples = run(orbits, COUNT, &o, times, ROWS, status, &whole);
+        iso_context_watch(ctx, NULL, NULL);
+        bool all_done = true;
+        for (int i = 0; i < COUNT; i++) {
+            const iso_sample *a = &samples[i * ROWS], *b = &truth[i % all.count * ROWS];
+            stopped += status[i] == ISO_STOPPED;
+            done += status[i] == ISO_OK;
+            all_done = all_done && status[i] != ISO_STOPPED;
+            wrong += status[i] != ISO_STOPPED && status[i] != expected[i % all.count];
+            for (int j = 0; j < ROWS; j++)
+                wrong += memcmp(&a[j], &b[j], sizeof *a) != 0 &&
+                         (status[i] != ISO_STOPPED || blank_columns(&a[j]) != ISO_TRAJECTORY_COLUMNS);
+        }
+        early += whole == ISO_STOPPED;
+        wrong += whole != ISO_STOPPED && !all_done;
+        free(samples);
+    }
+    gsl_test(wrong > 0 || stopped == 0 || done == 0 || early == 0, "stopped on %d threads: %d, done %d, wrong %d",
+             threads, stopped, done, wrong);
+    free(truth);
+}
+
 /* --- what is conserved ------------------------------------------------------------------------------------------ */
 
 static void check_conserved(iso_picture backend)
@@ -510,8 +590,11 @@ int main(void)
     laws_report(&bits, "no orbit feels another, by a bit");
     check_refusals();
     check_failures();
+    check_range();
     check_steps();
     check_stiff();
+    check_stopped(1);
+    check_stopped(3);
     check_conserved(ISO_BALL);
     check_conserved(ISO_POINT);
     iso_random_free(dice);

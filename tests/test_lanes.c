@@ -117,7 +117,7 @@ static bool same(const member *m, int code, int first, double y[][ISO_MAX_STATE]
     return equal;
 }
 
-static laws_worst right, bits;
+static laws_worst right, bits, broken;
 
 /* As for one orbit by itself; long bodies amplify rounding. */
 static double allowed(const member *m)
@@ -133,19 +133,25 @@ static void note_member(const member *m, int code, const iso_lane_job *job)
         effects_note(&m->c, &right, orbit_error(&m->o, m->y[code][i], m->expected[i]), allowed(m), name);
 }
 
-/* All of a group in random order, each twice, all rows and the last alone; then each by itself. */
+/* All of a group in random order, each twice, all rows and the last alone, and among them some that are no numbers;
+ * then each by itself. */
 static void solve_group(member *group[], int size, int code)
 {
     const iso_lane_code *lanes = iso_lane_codes[code];
-    static iso_lane_job full[MOST], last[MOST];
-    static double one[MOST][1][ISO_MAX_STATE];
-    iso_lane_job *list[2 * MOST];
+    static iso_lane_job full[MOST], last[MOST], none[MOST / 8];
+    static double one[MOST][1][ISO_MAX_STATE], nowhere[MOST / 8][ROWS][ISO_MAX_STATE];
+    iso_lane_job *list[3 * MOST];
     int length = 0;
     for (int i = 0; i < size; i++) {
         full[i] = job_of(group[i], 0, group[i]->y[code][0]);
         last[i] = job_of(group[i], ROWS - 1, one[i][0]);
         list[length++] = &full[i];
         list[length++] = &last[i];
+        if (i % 8 != 0) continue;
+        iso_lane_job *const nan = &none[i / 8];
+        *nan = job_of(group[i], 0, nowhere[i / 8][0]);
+        nan->start[iso_random_uniform(dice, 0, 2) < 1 ? 0 : 4] = NAN;
+        list[length++] = nan;
     }
     shuffle(list, length);
     effects_note(&group[0]->c, &bits, lanes->solve(list, (size_t)length, &finest) ? 0 : 1, 0.5, "solved");
@@ -156,6 +162,10 @@ static void solve_group(member *group[], int size, int code)
         note_member(group[i], code, &full[i]);
         effects_note(&group[i]->c, &bits, same(group[i], code, 0, alone) ? 0 : 1, 0.5, "alone");
         effects_note(&group[i]->c, &bits, same(group[i], code, ROWS - 1, one[i]) ? 0 : 1, 0.5, "the last row alone");
+        if (i % 8 != 0) continue;
+        const iso_lane_job *const nan = &none[i / 8];
+        effects_note(&group[i]->c, &broken, nan->done == 0 && nan->error && strstr(nan->error, "diverges") ? 0 : 1,
+                     0.5, lanes->name);
     }
 }
 
@@ -176,6 +186,7 @@ static void solve_groups(void)
     printf("%d orbits in %d groups\n", count, groups);
     laws_report(&right, "lanes: states as by long double");
     laws_report(&bits, "lanes: no orbit feels another, by a bit");
+    laws_report(&broken, "lanes: what is no number is said to diverge");
 }
 
 int main(void)

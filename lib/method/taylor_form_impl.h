@@ -317,12 +317,13 @@ static inline real rough_root(real x, int n)
     return 0.97 * x; /* never too large by more than 3 % */
 }
 
-/* The step whose last two terms are as small as the tolerance, at most 1000; shorter where the clocks need it. */
+/* The step whose last three terms are as small as the tolerance, at most 1000; shorter where the clocks need it. Two
+ * may be small by chance: coefficients next to a pair of conjugate poles go like a cosine of n. */
 static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
 {
     const real least = spread((NUMBER)1e-290), tolerance = spread(T->tolerance);
     real h = spread(1000);
-    for (int n = T->S.order - 1; n <= T->S.order; n++) {
+    for (int n = T->S.order - 2; n <= T->S.order; n++) {
         const real longest = rough_root(T->tolerance / larger(coefficient(T, n), least), n);
         h = choose(longest < h, longest, h);
     }

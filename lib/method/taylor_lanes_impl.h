@@ -50,7 +50,7 @@ static bool row_is_due(const crew *c, int lane, double dt, double *target)
 {
     const iso_lane_job *job = c->job[lane];
     *target = 0;
-    if (!job || job->done == job->rows) return false;
+    if (!job || job->error || job->done == job->rows) return false;
     const double ahead = iso_instant_since(c->left[lane], c->row[lane]);
     if (!(dt > 0 ? ahead <= dt : ahead >= dt)) return false;
     *target = ahead;
@@ -82,10 +82,7 @@ static void output(crew *c, real length, real dt)
                 job->done++;
             else
                 job->error = "the series diverges";
-            if (job->error)
-                take_next(c, i);
-            else
-                next_row(c, i);
+            if (!job->error) next_row(c, i);
         }
     }
 }
@@ -105,7 +102,7 @@ static void end_step(crew *c, int lane, double dt)
     if (!job) return;
     job->last = c->left[lane].head;
     job->steps++;
-    if (job->done < job->rows) {
+    if (job->done < job->rows && !job->error) {
         if (!isfinite(dt))
             job->error = "the series diverges";
         else if (fabs(dt) <= 64 * DBL_EPSILON * fabs(c->left[lane].head))

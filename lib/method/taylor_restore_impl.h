@@ -31,18 +31,21 @@ static inline real restore_length(real a[], int count, real target, mask wanted)
     return worst;
 }
 
-/* |gamma'|^2 on the level: 2 (E - V) in s; B k q^2 in t */
-static real square_of_speed(const form *T, const real gamma[3])
+/* |gamma'|^2 on the level, 2 (E - V) in s, B k q^2 in t, and the size of the terms that it is the difference of. */
+static real square_of_speed(const form *T, const real gamma[3], real *terms)
 {
     const series *S = &T->S;
     const real q = q_of(S, gamma);
+    *terms = zero;
     if (T->in_t) return S->coupling * S->k * q * q;
-    const real fall = raised(q, -1 / S->k);
-    const real square = 2 * S->energy + S->coupling * S->k * fall;
-    if (!S->in_field) return square;
+    const real fall = raised(q, -1 / S->k), own = S->coupling * S->k * fall;
+    *terms = magnitude(2 * S->energy) + magnitude(own);
+    if (!S->in_field) return 2 * S->energy + own;
     const vector n = packed(gamma);
-    const real P = total(by(n, matrix_times(S, n))) / 2, L = total(by(S->l, n));
-    return square - 2 * S->factor * fall * (P / q + L / root(q));
+    const real P = S->factor * fall * total(by(n, matrix_times(S, n))) / q;
+    const real L = 2 * S->factor * fall * total(by(S->l, n)) / root(q);
+    *terms += magnitude(P) + magnitude(L);
+    return 2 * S->energy + own - P - L;
 }
 
 /* The second integral F of a free orbit as sum_i a_i b_i = F divisor, and how the sum changes as w moves along
@@ -112,15 +115,15 @@ static second_integral second_of(const form *T, const state *s)
     return F;
 }
 
-/* Not where w hardly changes F. */
+/* Where w hardly changes F only a part, so that rounding errors of F are not made large ones of w: many steps do it. */
 static void restore_second(const form *T, state *s)
 {
     const second_integral F = second_of(T, s);
-    const real target = T->second * F.divisor, size = magnitude(target);
+    const real target = T->second * F.divisor, size = magnitude(target), weak = (NUMBER)0.1 * size;
     const real defect = defect_of(F.a, F.b, F.count, target);
-    const mask felt = both(magnitude(F.slope) > (NUMBER)0.1 * size, magnitude(defect) <= (NUMBER)1e-9 * size);
-    const real part = choose(felt, defect / F.slope, zero);
-    for (int i = 0; i < 3; i++) s->w[i] -= part * F.across[i];
+    const real part = defect * F.slope / (F.slope * F.slope + weak * weak);
+    const real angle = choose(magnitude(defect) <= (NUMBER)1e-3 * size, part, zero);
+    for (int i = 0; i < 3; i++) s->w[i] -= angle * F.across[i];
 }
 
 static real restore_point(const form *T, state *s)
@@ -128,9 +131,10 @@ static real restore_point(const form *T, state *s)
     real worst = restore_length(s->n, 3, spread(1), s->n[0] == s->n[0]);
     const real along = defect_of(s->n, s->w, 3, zero);
     for (int i = 0; i < 3; i++) s->w[i] -= along * s->n[i];
-    const real square = square_of_speed(T, s->n);
+    real terms;
+    const real square = square_of_speed(T, s->n, &terms);
     const real now = s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2];
-    const mask fast = both(now > square / 2, now > (NUMBER)0.1 * magnitude(2 * T->S.energy));
+    const mask fast = both(now > square / 2, now > (NUMBER)0.1 * terms); /* else rounding would be scaled up */
     worst += restore_length(s->w, 3, square, both(square > zero, fast));
     if (T->second_of) restore_second(T, s);
     return worst;

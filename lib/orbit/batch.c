@@ -140,7 +140,8 @@ static iso_status finish(worker *w, size_t i, const member *m)
         iso_sample *sample = &b->samples[i * b->rows + j];
         memcpy(y, sample, (size_t)m->orbit.model.dim * sizeof *y);
         const iso_status status = iso_orbit_make_sample(&m->orbit, b->times[j], y, sample);
-        if (status != ISO_OK) return iso_sample_blank(sample), status;
+        for (; status != ISO_OK && j < job->done; j++) iso_sample_blank(&b->samples[i * b->rows + j]);
+        if (status != ISO_OK) return status;
     }
     if (job->error)
         return iso_context_fail(w->ctx, ISO_NUMERICAL, "", "taylor stopped after %ld steps: %s; last good %s = %.17g",
@@ -189,6 +190,7 @@ static bool solve_chunk(worker *w, member members[], size_t first, size_t count)
         job->states = (double *)&b->samples[(first + i) * b->rows];
         job->stride = sizeof(iso_sample) / sizeof(double);
         job->done = 0;
+        job->error = NULL;
         jobs[waiting++] = job;
     }
     if (!solve_groups(w, jobs, waiting)) return false;
