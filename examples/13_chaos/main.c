@@ -3,9 +3,10 @@
  *     cc main.c $(pkg-config --cflags --libs isoroll) -Wl,-rpath,$(pkg-config --variable=libdir isoroll) -lm -o chaos
  *     ./chaos
  *
- * For each k, 200 pairs of balls of energy h = 1 start 1e-10 of their spin apart. By t = 1000 (some 200 turns) neighbours
- * on regular orbits are a thousand times as far from each other, on chaotic ones anywhere: those beyond 1e-5 are counted.
- * None are where the problem is integrable, on a plane (k = 1) and in a shell around a ball half its size (k = -1).
+ * For each k, 200 pairs of balls of energy h = 1 start 1e-10 of their spin apart. By t = 1000 (some 200 turns)
+ * neighbours on regular orbits are a thousand times as far from each other, on chaotic ones anywhere: those beyond
+ * 1e-5 are counted. None are where the problem is integrable, on a plane (k = 1) and in a shell around a ball half
+ * its size (k = -1).
  */
 #include <math.h>
 #include <stdio.h>

@@ -46,9 +46,10 @@ const iso_method *iso_method_find(const char *name)
     return candidates == 1 ? candidate : NULL;
 }
 
-/* The series of a point are of powers of q = (gamma, J gamma) up to q^(1/k). Where q^(1/k) ranges over more than MOST_DECADES
- * along an orbit, as for small |k|, coefficients overflow and steps shrink; right-hand sides do not mind. Nor do they where
- * the normal turns |k| times faster than the ball, which coefficient n has to the n-th power (it overflows from 1e11 on). */
+/* The series of a point are of powers of q = (gamma, J gamma) up to q^(1/k). Where q^(1/k) ranges over more than
+ * MOST_DECADES along an orbit, as for small |k|, coefficients overflow and steps shrink; right-hand sides do not
+ * mind. Nor do they where the normal turns |k| times faster than the ball, which coefficient n has to the n-th power
+ * (it overflows from 1e11 on). */
 enum { MOST_DECADES = 10, MOST_K = 1000000 };
 
 static bool suits_series(const iso_model *m)
@@ -58,8 +59,9 @@ static bool suits_series(const iso_model *m)
     return m->system != &iso_system_point || log10(max3(p->J) / min3(p->J)) <= MOST_DECADES * fabs(p->k);
 }
 
-/* Taylor series need the least time for every error (tests/bench/methods.c), of the library methods rk8pd. Of those for stiff
- * models bsimp is the most exact for its time up to VERY_STIFF, from where on bdf needs fewer right-hand sides. */
+/* Taylor series need the least time for every error (tests/bench/methods.c), of the library methods rk8pd. Of those
+ * for stiff models bsimp is the most exact for its time up to VERY_STIFF, from where on bdf needs fewer right-hand
+ * sides. */
 enum { VERY_STIFF = 1000 };
 
 const iso_method *iso_method_auto(const iso_model *model)

@@ -69,7 +69,7 @@ static void release(iso_integrator *it)
     .within = within, .free = release
 
 const iso_method iso_method_taylor = {.name = "taylor",
-                                      .doc = "Taylor series by recurrences, order 10-30 from the tolerance",
+                                      .doc = "Taylor series by recurrences, order 6-28 from the tolerance",
                                       .create = create,
                                       TAYLOR};
 const iso_method iso_method_taylor_extended = {.name = "taylor_extended",

@@ -3,15 +3,8 @@
 #include "method/taylor_impl.h"
 
 #ifdef ISO_TAYLOR_AVX2
-#define NUMBER double
-#define ROOT sqrt
-#define LOG log
-#define EXP exp
-#define FMA fma
-#define EPSILON DBL_EPSILON
-#define FINER 1
-#define FINEST_ORDER 32
-#define NODES 8
+#include "method/taylor_double_impl.h"
+
 #define LANES 1
 #define PACKED
 

@@ -13,7 +13,7 @@
 #include "method/taylor_number_impl.h"
 #include "model/system.h"
 
-/* The highest order, for the least tolerance, and the most terms of a model. */
+/* The highest order, that of the least tolerance, and the most terms of a model. */
 enum { MOST = FINEST_ORDER, TERMS = 8 };
 
 typedef struct series series;
@@ -24,7 +24,8 @@ struct series {
     recurrence *term[TERMS];
     /* what distinguishes one orbit's equations from another's */
     vector J, inv_J, C[3], l;
-    real k, D, factor, over_det, energy, mgb, level, twist, resistance, alpha, coupling;
+    real k, D, factor, over_det, energy, mgb, level, twist, resistance; /* factor: det J/k^2 */
+    real alpha, coupling; /* each form's own: see its term */
     bool in_field;
     real count[MOST + 3], inverse[MOST + 3]; /* n, 1/n */
     /* the states */
@@ -265,8 +266,8 @@ static void neumann(series *S, int n)
     accelerate(S, n, minus(times(2 * S->coupling, scaled(S->base, S->n, n)), by(S->c[0], S->n[n])));
 }
 
-/* in s: gamma'' = c gamma by components, c_i = a (1-k) q^(alpha+1) - a q^alpha J_i - 2 H,  a = 2 eps/k, alpha = -1 -
- * 1/k */
+/* in s: gamma'' = c gamma by components, c_i = a (1-k) q^(alpha+1) - a q^alpha J_i - 2 H,
+ * a = 2 eps/k, alpha = -1 - 1/k */
 static void point_s(series *S, int n)
 {
     point_q(S, n);
@@ -277,11 +278,11 @@ static void point_s(series *S, int n)
     if (!S->in_field) accelerate(S, n, componentwise(S->c, S->n, n));
 }
 
-/* With a field, V + F [q^alpha P + q^beta L], F = det J/k^2, P = (gamma,B gamma)/2, L = (m,gamma), beta = alpha +
- * 1/2:
+/* With a field, V + F [q^alpha P + q^beta L], F = det J/k^2, P = (gamma,B gamma)/2, L = (m,gamma),
+ * beta = alpha + 1/2:
  *     gamma'' = c gamma - F (q^alpha B gamma + q^beta m),
- *     c_i += F [ (4 + 2 alpha) q^alpha P + (3 + 2 beta) q^beta L - 2 J_i (alpha q^(alpha-1) P + beta q^(beta-1)
- * L) ] */
+ *     c_i += F [ (4 + 2 alpha) q^alpha P + (3 + 2 beta) q^beta L
+ *                - 2 J_i (alpha q^(alpha-1) P + beta q^(beta-1) L) ] */
 static void point_field(series *S, int n)
 {
     const real a = S->alpha, b = S->alpha + spread(0.5), F = S->factor;

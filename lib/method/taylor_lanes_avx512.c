@@ -3,22 +3,15 @@
 #include "method/lanes_impl.h"
 
 #ifdef ISO_TAYLOR_AVX512
-#define NUMBER double
-#define ROOT sqrt
-#define LOG log
-#define EXP exp
-#define FMA fma
-#define EPSILON DBL_EPSILON
-#define FINER 1
-#define FINEST_ORDER 32
-#define NODES 8
+#include "method/taylor_double_impl.h"
+
 #define LANES 8
 
 #include "method/taylor_lanes_impl.h"
 
 static bool runs_here(void)
 {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq");
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma");
 }
 
 const iso_lane_code iso_lanes_avx512 = {"avx512", LANES, runs_here, solve};

@@ -1,6 +1,6 @@
 /* taylor_number_impl.h - the numbers Taylor series are made of.
  *
- * Included with NUMBER, a kind of number, ROOT, LOG, EXP and FMA of it, and LANES, how many orbits are computed side
+ * Included with NUMBER, a kind of number, ROOT, POW and FMA of it, and LANES, how many orbits are computed side
  * by side. A `real` is one NUMBER of each orbit, a `mask` one decision for each, a `vector` three reals. With PACKED
  * (one orbit only) the three share a register of four. No operation mixes lanes: what an orbit gets does not depend
  * on its neighbours.
@@ -33,6 +33,11 @@ static inline mask both(mask a, mask b)
     return a && b;
 }
 
+static inline mask other(mask a)
+{
+    return !a;
+}
+
 #else
 
 typedef NUMBER real __attribute__((vector_size(LANES * sizeof(NUMBER))));
@@ -49,6 +54,11 @@ static inline mask both(mask a, mask b)
     return a & b;
 }
 
+static inline mask other(mask a)
+{
+    return ~a;
+}
+
 #endif
 
 static const real zero = {0};
@@ -56,6 +66,11 @@ static const real zero = {0};
 static inline real spread(NUMBER x)
 {
     return x - zero;
+}
+
+static inline mask everywhere(void)
+{
+    return zero == zero;
 }
 
 static inline bool any(mask m)
@@ -108,7 +123,7 @@ static inline real raised(real a, real p)
         if (own == (NUMBER)twice / 2) continue;
         const bool half = own >= -4 && own <= 4 && (NUMBER)(int)(2 * own) == 2 * own;
         const real alone = half_power(a, half ? (int)(2 * own) : 0);
-        LANE(result, i) = half ? LANE(alone, i) : EXP(own * LOG(LANE(a, i)));
+        LANE(result, i) = half ? LANE(alone, i) : POW(LANE(a, i), own);
     }
     return result;
 }

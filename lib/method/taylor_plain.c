@@ -1,13 +1,6 @@
 /* taylor_plain.c - Taylor series in double precision, for any processor. */
-#define NUMBER double
-#define ROOT sqrt
-#define LOG log
-#define EXP exp
-#define FMA fma
-#define EPSILON DBL_EPSILON
-#define FINER 1
-#define FINEST_ORDER 32
-#define NODES 8
+#include "method/taylor_double_impl.h"
+
 #define LANES 1
 #define PACKED
 

@@ -8,8 +8,7 @@ __extension__ typedef _Float128 quad;
 
 #define NUMBER quad
 #define ROOT sqrtf128
-#define LOG logf128
-#define EXP expf128
+#define POW powf128
 #define FMA fmaf128
 #define EPSILON 0x1p-112
 #define FINER 1e-15 /* the tolerance is that of doubles */

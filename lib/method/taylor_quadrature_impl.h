@@ -2,16 +2,17 @@
  *
  * A clock's rate is a power of q or g, whose series is there already: the integral of that over a step needs a few
  * values of a polynomial, side by side, where a series of the clock itself would need two more products a
- * coefficient. The rule has order 2 NODES. From the values f_i it also has the last Legendre coefficient they show,
- *     c = (2 NODES - 1) sum_i w_i P_(NODES-1)(x_i) f_i,
- * and as coefficients fall geometrically, its error is about c^2 (relative to f).
+ * coefficient. The rule has order 2 NODES. From the values f_i it also has the last Legendre coefficients they show,
+ *     c_n = (2 n + 1) sum_i w_i P_n(x_i) f_i,   n = NODES - 1, NODES - 2
+ * (one may be 0 by symmetry), and as coefficients fall geometrically, its error is of the order of c_n^2, relative to
+ * f.
  */
 #include "method/taylor_number_impl.h"
 
 /* On [0,1]. */
 typedef struct quadrature {
     real node[NODES];
-    real weight[NODES], last[NODES]; /* w_i, and (2 NODES - 1) w_i P_(NODES-1)(x_i) */
+    real weight[NODES], last[2][NODES]; /* w_i, and (2 n + 1) w_i P_n(x_i) */
 } quadrature;
 
 /* P_n(x), and P_(n-1)(x) */
@@ -43,15 +44,16 @@ static void make_rule(quadrature *rule)
         const NUMBER weight = 1 / ((1 - x * x) * slope * slope);
         rule->node[i] = spread((1 + x) / 2);
         rule->weight[i] = spread(weight);
-        rule->last[i] = spread((2 * NODES - 1) * weight * before);
+        rule->last[0][i] = spread((2 * NODES - 1) * weight * before);
+        legendre(NODES - 1, x, &before);
+        rule->last[1][i] = spread((2 * NODES - 3) * weight * before);
     }
 }
 
-/* The integral of b^p from 0 to x, b a series; the larger of its relative error, estimated, and *doubt into
- * *doubt. */
+/* The integral of b^p from 0 to x, b a series; its relative error, estimated, into *doubt if that is less. */
 static inline real integral_of_power(const quadrature *rule, const real b[], int order, real p, real x, real *doubt)
 {
-    real at[NODES], value[NODES], sum = zero, last = zero;
+    real at[NODES], value[NODES], sum = zero, c[2] = {zero, zero};
     for (int i = 0; i < NODES; i++) {
         at[i] = x * rule->node[i];
         value[i] = b[order];
@@ -61,9 +63,10 @@ static inline real integral_of_power(const quadrature *rule, const real b[], int
     for (int i = 0; i < NODES; i++) {
         const real f = raised(value[i], p);
         sum += rule->weight[i] * f;
-        last += rule->last[i] * f;
+        c[0] += rule->last[0][i] * f;
+        c[1] += rule->last[1][i] * f;
     }
-    const real c = last / sum;
-    *doubt = larger(*doubt, c * c);
+    const real least = larger(*doubt, larger(c[0] * c[0], c[1] * c[1]) / (sum * sum));
+    *doubt = choose(sum == sum, least, sum);
     return x * sum;
 }

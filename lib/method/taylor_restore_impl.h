@@ -115,26 +115,28 @@ static second_integral second_of(const form *T, const state *s)
     return F;
 }
 
-/* Where w hardly changes F only a part, so that rounding errors of F are not made large ones of w: many steps do it. */
+/* The most that F may be off, a thousandth: beyond that it is another orbit's. Where w changes F by less than a tenth
+ * of it, only a part is put back, so that rounding errors of F are not made large ones of w: many steps do it. */
 static void restore_second(const form *T, state *s)
 {
     const second_integral F = second_of(T, s);
     const real target = T->second * F.divisor, size = magnitude(target), weak = (NUMBER)0.1 * size;
     const real defect = defect_of(F.a, F.b, F.count, target);
     const real part = defect * F.slope / (F.slope * F.slope + weak * weak);
-    const real angle = choose(magnitude(defect) <= (NUMBER)1e-3 * size, part, zero);
+    const mask near = both(size > zero, magnitude(defect) <= (NUMBER)1e-3 * size);
+    const real angle = choose(near, part, zero);
     for (int i = 0; i < 3; i++) s->w[i] -= angle * F.across[i];
 }
 
 static real restore_point(const form *T, state *s)
 {
-    real worst = restore_length(s->n, 3, spread(1), s->n[0] == s->n[0]);
+    real worst = restore_length(s->n, 3, spread(1), everywhere());
     const real along = defect_of(s->n, s->w, 3, zero);
     for (int i = 0; i < 3; i++) s->w[i] -= along * s->n[i];
     real terms;
     const real square = square_of_speed(T, s->n, &terms);
     const real now = s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2];
-    const mask fast = both(now > square / 2, now > (NUMBER)0.1 * terms); /* else rounding would be scaled up */
+    const mask fast = both(now > square / 2, now > (NUMBER)0.1 * terms); /* else rounding errors would grow */
     worst += restore_length(s->w, 3, square, both(square > zero, fast));
     if (T->second_of) restore_second(T, s);
     return worst;
@@ -144,7 +146,7 @@ static real restore_point(const form *T, state *s)
 static real restore_ball(const form *T, state *s)
 {
     const series *S = &T->S;
-    real worst = restore_length(s->n, 3, spread(1), s->n[0] == s->n[0]), K[3];
+    real worst = restore_length(s->n, 3, spread(1), everywhere()), K[3];
     if (T->shape.field.effects.on[ISO_TWIST]) return worst;
     const real spin = defect_of(s->w, s->n, 3, zero);
     for (int i = 0; i < 3; i++) s->w[i] -= spin * s->n[i];
@@ -157,13 +159,13 @@ static real restore_ball(const form *T, state *s)
     return worst + magnitude(part);
 }
 
-/* Gives the relative size of the correction. */
+/* Gives the relative size of the corrections to lengths and energy. */
 static real restore(const form *T, state *s)
 {
     if (T->unprojected && !T->is_point) return zero; /* off them a point's equations are unstable */
     real worst = T->is_point ? restore_point(T, s) : restore_ball(T, s);
-    if (T->shape.field.at[ISO_GRAVITY]) worst += restore_length(s->e, 3, spread(1), s->e[0] == s->e[0]);
-    if (T->shape.field.at[ISO_ATTITUDE]) worst += restore_length(s->Q, 4, spread(1), s->Q[0] == s->Q[0]);
+    if (T->shape.field.at[ISO_GRAVITY]) worst += restore_length(s->e, 3, spread(1), everywhere());
+    if (T->shape.field.at[ISO_ATTITUDE]) worst += restore_length(s->Q, 4, spread(1), everywhere());
     return worst;
 }
 

@@ -2,15 +2,16 @@
 
 #include <math.h>
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "method/lanes_impl.h"
 #include "orbit/orbit_impl.h"
 
-/* Orbits that a thread takes at a time: enough to keep all lanes busy to the end. */
+/* Orbits that a thread takes at a time, if there are so many: enough to keep its lanes busy to the end. */
 enum { CHUNK = 256, MOST_THREADS = 1024 };
 
 /* What all threads share. */
@@ -31,7 +32,7 @@ typedef struct worker {
     batch *b;
     iso_context *ctx, *asks; /* its own; the caller's, for the thread that may ask it (else NULL) */
     size_t failed;           /* the first of its orbits that failed, with its message in ctx; else count */
-    char message[512];
+    char message[1024], field[32];
     pthread_t thread;
 } worker;
 
@@ -65,7 +66,8 @@ static void note(worker *w, size_t i, iso_status status)
     w->b->status[i] = status;
     if (status == ISO_OK || i >= w->failed) return;
     w->failed = i;
-    strncpy(w->message, iso_context_message(w->ctx), sizeof w->message - 1);
+    snprintf(w->message, sizeof w->message, "%s", iso_context_message(w->ctx));
+    snprintf(w->field, sizeof w->field, "%s", iso_context_field(w->ctx));
 }
 
 static iso_orbit_options options_of(const batch *b, size_t i, iso_picture backend)
@@ -270,7 +272,15 @@ static iso_status run(iso_context *ctx, batch *b, worker workers[], size_t threa
     if (!memory) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", b->count);
     if (atomic_load(&b->stopped)) return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
     if (first->failed == b->count) return ISO_OK;
-    return iso_context_fail(ctx, b->status[first->failed], "", "orbit %zu: %s", first->failed, first->message);
+    return iso_context_fail(ctx, b->status[first->failed], first->field, "orbit %zu: %s", first->failed,
+                            first->message);
+}
+
+/* Those this process may run on. */
+static size_t processors(void)
+{
+    cpu_set_t set;
+    return sched_getaffinity(0, sizeof set, &set) == 0 ? (size_t)CPU_COUNT(&set) : 1;
 }
 
 iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
@@ -280,8 +290,9 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
     iso_status checked = check(ctx, options, times, rows);
     if (checked != ISO_OK) return checked;
     for (size_t i = 0; i < count * rows; i++) iso_sample_blank(&samples[i]);
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    const size_t wanted = options->threads > 0 ? (size_t)options->threads : processors > 0 ? (size_t)processors : 1;
+    const size_t most = count / (size_t)iso_lane_code_find(options->vectors)->lanes + 1; /* more would have no work */
+    const size_t asked = options->threads > 0 ? (size_t)options->threads : processors(),
+                 wanted = asked < most ? asked : most;
     batch b = {.orbits = orbits,
                .count = count,
                .rows = rows,

@@ -22,14 +22,14 @@ typedef struct iso_batch_orbit {
 
 /* As in iso_orbit_options, for all orbits. */
 typedef struct iso_batch_options {
-    iso_picture backend;       /* ISO_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the ball */
+    iso_picture backend; /* ISO_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the ball */
     double tolerance;
-    long max_steps;            /* of each orbit; 0: no bound                                                         */
+    long max_steps;      /* of each orbit; 0: no bound                                                         */
     iso_clock clock;
     iso_picture show;
     bool carry[ISO_CLOCKS];
-    int threads;               /* 0: as many as there are processors to run on                                       */
-    const char *vectors;       /* "avx512", "avx2", "plain"; NULL: the widest of this processor                      */
+    int threads;         /* 0: as many as there are processors to run on                                       */
+    const char *vectors; /* "avx512", "avx2", "plain"; NULL: the widest of this processor                      */
 } iso_batch_options;
 
 /* Balls in their time t; backend ISO_AUTO, tolerance 1e-12, no bound on the steps, all processors. */

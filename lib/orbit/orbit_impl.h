@@ -16,16 +16,16 @@ struct iso_orbit {
     iso_integrator *integrator;
 };
 
-/* Sets o->units, o->effects, o->h, o->eps and o->level from a start and what o->options ask for (backend not ISO_AUTO), and
- * gives the start in the backend's variables and own units. Errors: those of iso_orbit_create. */
+/* Sets o->units, o->effects, o->h, o->eps and o->level from a start and what o->options ask for (backend not
+ * ISO_AUTO), and gives the start in the backend's variables and own units. Errors: those of iso_orbit_create. */
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE]);
 
-/* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model. Errors:
- * those of iso_orbit_create. */
+/* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model.
+ * Errors: those of iso_orbit_create. */
 iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_MAX_STATE]);
 
-/* The sample at `time` (in the caller's units) where the model's state is y. Errors: ISO_NUMERICAL where a number does not
- * fit the caller's units. */
+/* The sample at `time` (in the caller's units) where the model's state is y. Errors: ISO_NUMERICAL where a number
+ * does not fit the caller's units. */
 iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s);
 
 /* NaN in every column. */
