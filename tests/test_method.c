@@ -197,6 +197,7 @@ static void no_projection(const orbit *o, const iso_method *m, laws_worst *worst
     iso_method_options options = options_for(m);
     if (m->reference) return; /* no drift that a double could show */
     if (m->own_equations && o->model.system == &iso_system_point) return; /* of second order, on the sphere alone */
+    if (m->own_equations) options.tolerance *= 100; /* long double is too good for its own */
     options.no_projection = true;
     iso_integrator *it = orbit_start(o, m, &options);
     double y[ISO_MAX_STATE];
