@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "base/vec3_impl.h"
+#include "effects.h"
 #include "laws.h"
 #include "method/method.h"
 
@@ -26,7 +27,8 @@ static const double orbit_J[3] = {1.4, 2.1, 3.0};
 static inline void orbit_clocks(orbit *o, iso_clock clock, bool carry_t, bool carry_tau, bool carry_s)
 {
     double f[ISO_MAX_STATE];
-    o->model = iso_model_assemble(o->model.system, &o->model.field, clock, (const bool[]){carry_t, carry_tau, carry_s});
+    o->model =
+        iso_model_assemble(o->model.system, &o->model.field, clock, (const bool[]){carry_t, carry_tau, carry_s});
     o->model.rhs(&o->model, o->y0, f);
     o->unit = norm(f + 3) > 0 ? 1 / norm(f + 3) : 1;
 }
@@ -52,6 +54,31 @@ static inline orbit orbit_rotation(iso_context *ctx, double k, double w)
     o.model.field.energy = orbit_J[2] * w * w / 2;
     orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
     return o;
+}
+
+/* A case of effects.h in one clock with the others carried; a point at times off the level H = 0. */
+static inline orbit orbit_of(iso_context *ctx, const effects_case *c, int variant)
+{
+    orbit o = {.ctx = ctx, .model = c->model};
+    iso_field *const f = &o.model.field;
+    const iso_clock clock = (iso_clock)(variant % ISO_CLOCKS);
+    const bool point = c->system == &iso_system_point, all = variant / ISO_CLOCKS % 2 == 0;
+    copy(c->y, o.y0, c->model.dim);
+    if (point && variant / (2 * ISO_CLOCKS) % 2 == 1) scale(o.y0, 1.1);
+    double unused;
+    f->energy = c->system->integrals[0].value(f, o.y0, &unused);
+    if (fabs(f->energy) < 1e-12 * c->kinetic) f->energy = 0;
+    orbit_clocks(&o, clock, all && clock != ISO_CLOCK_T, all && clock != ISO_CLOCK_TAU, all && clock != ISO_CLOCK_S);
+    return o;
+}
+
+/* The time in which the equations change much, in the orbit's clock. */
+static inline double orbit_stretch(const effects_case *c, const orbit *o)
+{
+    double f[ISO_MAX_STATE], own[ISO_MAX_STATE];
+    o->model.rhs(&o->model, o->y0, f);
+    c->model.rhs(&c->model, c->y, own);
+    return 128 * effects_step(c) * norm(own + 3) / norm(f + 3);
 }
 
 /* Whether a method is one for the system's equations. */

@@ -25,31 +25,6 @@ typedef struct member {
 static member *members;
 static int count;
 
-/* A case of effects.h in one clock with the others carried; a point at times off the level H = 0. */
-static orbit orbit_of(const effects_case *c, int variant)
-{
-    orbit o = {.ctx = ctx, .model = c->model};
-    iso_field *const f = &o.model.field;
-    const iso_clock clock = (iso_clock)(variant % ISO_CLOCKS);
-    const bool point = c->system == &iso_system_point, all = variant / ISO_CLOCKS % 2 == 0;
-    copy(c->y, o.y0, c->model.dim);
-    if (point && variant / (2 * ISO_CLOCKS) % 2 == 1) scale(o.y0, 1.1);
-    double unused;
-    f->energy = c->system->integrals[0].value(f, o.y0, &unused);
-    if (fabs(f->energy) < 1e-12 * c->kinetic) f->energy = 0;
-    orbit_clocks(&o, clock, all && clock != ISO_CLOCK_T, all && clock != ISO_CLOCK_TAU, all && clock != ISO_CLOCK_S);
-    return o;
-}
-
-/* The time in which the equations change much, in the orbit's clock. */
-static double stretch(const effects_case *c, const orbit *o)
-{
-    double f[ISO_MAX_STATE], own[ISO_MAX_STATE];
-    o->model.rhs(&o->model, o->y0, f);
-    c->model.rhs(&c->model, c->y, own);
-    return 128 * effects_step(c) * norm(own + 3) / norm(f + 3);
-}
-
 /* Not what lanes are not made for, nor what acts on neither the motion nor a state of it. */
 static void collect(const effects_case *c, laws_worst *worst)
 {
@@ -64,8 +39,8 @@ static void collect(const effects_case *c, laws_worst *worst)
     member *m = &members[count++];
     memset(m, 0, sizeof *m);
     m->c = *c;
-    m->o = orbit_of(c, variant);
-    const double length = stretch(c, &m->o) * (variant++ % 5 < 3 ? 1 : -1);
+    m->o = orbit_of(ctx, c, variant);
+    const double length = orbit_stretch(c, &m->o) * (variant++ % 5 < 3 ? 1 : -1);
     iso_integrator *it = orbit_start(&m->o, extended, &(iso_method_options){.tolerance = 1e-15});
     for (int i = 0; i < ROWS; i++) {
         m->time[i] = part[i] * length;

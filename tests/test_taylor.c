@@ -14,35 +14,10 @@ static const iso_method_options finest = {.tolerance = 1e-15};
 
 /* --- every recurrence ------------------------------------------------------------------------------------------- */
 
-/* A case of effects.h in one clock with the others carried; a point at times off the level H = 0. */
-static orbit orbit_of(const effects_case *c, int variant)
-{
-    orbit o = {.ctx = ctx, .model = c->model};
-    iso_field *const f = &o.model.field;
-    const iso_clock clock = (iso_clock)(variant % ISO_CLOCKS);
-    const bool point = c->system == &iso_system_point, all = variant / ISO_CLOCKS % 2 == 0;
-    copy(c->y, o.y0, c->model.dim);
-    if (point && variant / (2 * ISO_CLOCKS) % 2 == 1) scale(o.y0, 1.1);
-    double unused;
-    f->energy = c->system->integrals[0].value(f, o.y0, &unused);
-    if (fabs(f->energy) < 1e-12 * c->kinetic) f->energy = 0;
-    orbit_clocks(&o, clock, all && clock != ISO_CLOCK_T, all && clock != ISO_CLOCK_TAU, all && clock != ISO_CLOCK_S);
-    return o;
-}
-
 /* What acts on neither the motion nor a state of it doubles the cases for nothing. */
 static bool idle(const effects_case *c)
 {
     return c->subset & (1 << ISO_REACTIONS | 1 << ISO_CLOCK);
-}
-
-/* The time in which the equations change much, in the orbit's clock. */
-static double stretch(const effects_case *c, const orbit *o)
-{
-    double f[ISO_MAX_STATE], own[ISO_MAX_STATE];
-    o->model.rhs(&o->model, o->y0, f);
-    c->model.rhs(&c->model, c->y, own);
-    return 128 * effects_step(c) * norm(own + 3) / norm(f + 3);
 }
 
 typedef struct course {
@@ -62,10 +37,10 @@ static void differences(const effects_case *c, const iso_method *m, laws_worst *
 {
     if (idle(c)) return;
     static int variant;
-    const orbit o = orbit_of(c, variant++);
+    const orbit o = orbit_of(ctx, c, variant++);
     const bool stiff = effects_lambda(c) > 0;
     const double rate = iso_effects_stiffness(&c->model.field);
-    const double unit = stretch(c, &o) / (stiff ? rate : 1), bound = 1e-12 * (stiff ? rate : 1), forward = 1;
+    const double unit = orbit_stretch(c, &o) / (stiff ? rate : 1), bound = 1e-12 * (stiff ? rate : 1), forward = 1;
     course way = {orbit_start(&o, m, &finest), false}, *const data = &way;
     for (int i = stiff ? 1 : -2; i <= 3; i += 4) {
         const double t = 0.3 * i * unit;
@@ -98,8 +73,8 @@ static void states(const effects_case *c, laws_worst *worst)
 {
     if (idle(c) || effects_lambda(c) > 0) return;
     static int variant;
-    const orbit o = orbit_of(c, variant++);
-    const double t = 4 * stretch(c, &o) * (variant % 5 < 3 ? 1 : -1);
+    const orbit o = orbit_of(ctx, c, variant++);
+    const double t = 4 * orbit_stretch(c, &o) * (variant % 5 < 3 ? 1 : -1);
     double y[ISO_MAX_STATE], long_y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
     orbit_solve(&o, taylor, &finest, t, y);
     orbit_solve(&o, extended, &finest, t, long_y);
@@ -177,7 +152,8 @@ static void check_quad(void)
         orbit_solve(&o, extended, &finest, 20 * o.unit, y[0]);
         orbit_solve(&o, quad, &(iso_method_options){.tolerance = i < ORBIT_K ? 1e-15 : 1e-6}, 20 * o.unit, y[1]);
         const double apart = orbit_error(&o, y[0], y[1]);
-        gsl_test(!(apart < 5e-16), "%s, k = %g: 64 and 113 bits apart by %.1e", o.model.system->name, orbit_k[i / 2], apart);
+        gsl_test(!(apart < 5e-16), "%s, k = %g: 64 and 113 bits apart by %.1e", o.model.system->name,
+                 orbit_k[i / 2], apart);
     }
 }
 
