@@ -1,5 +1,6 @@
 #include "orbit/batch.h"
 
+#include <errno.h>
 #include <math.h>
 #include <pthread.h>
 #include <sched.h>
@@ -7,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "method/lanes_impl.h"
 #include "orbit/orbit_impl.h"
@@ -195,10 +197,10 @@ static bool solve_chunk(worker *w, member members[], size_t first, size_t count)
         job->error = NULL;
         jobs[waiting++] = job;
     }
-    if (!solve_groups(w, jobs, waiting)) return false;
+    const bool memory = solve_groups(w, jobs, waiting);
     for (size_t i = 0; i < count; i++)
         if (in_lanes[i]) note(w, first + i, finish(w, first + i, &members[i]));
-    return true;
+    return memory;
 }
 
 static void *work(void *data)
@@ -239,18 +241,28 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const doub
     return ISO_OK;
 }
 
-/* Starts threads beside this one, as many as can be had, and works with them. */
+/* Waits for a thread, and meanwhile asks the caller's watch. */
+static void *await(worker *asking, pthread_t thread)
+{
+    enum { SLICE = 20000000 }; /* nanoseconds */
+    void *result = NULL;
+    struct timespec until;
+    do {
+        going_on(asking);
+        clock_gettime(CLOCK_REALTIME, &until);
+        until.tv_nsec += SLICE;
+        if (until.tv_nsec >= 1000000000) until.tv_sec++, until.tv_nsec -= 1000000000;
+    } while (pthread_timedjoin_np(thread, &result, &until) == ETIMEDOUT);
+    return result;
+}
+
+/* Starts threads beside this one, as many as can be had, and works with them. False: no memory. */
 static bool work_together(worker workers[], size_t count)
 {
     size_t started = 1;
-    bool memory = true;
     while (started < count && pthread_create(&workers[started].thread, NULL, work, &workers[started]) == 0) started++;
-    memory = work(&workers[0]) == NULL;
-    for (size_t i = 1; i < started; i++) {
-        void *failed;
-        pthread_join(workers[i].thread, &failed);
-        memory = memory && !failed;
-    }
+    bool memory = work(&workers[0]) == NULL;
+    for (size_t i = 1; i < started; i++) memory = await(&workers[0], workers[i].thread) == NULL && memory;
     return memory;
 }
 
