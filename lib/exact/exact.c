@@ -61,7 +61,7 @@ static void integrate(const separation *s, torus_clock *c, const double d[])
 static bool make_clock(const separation *s, iso_clock clock, torus_clock *c)
 {
     const int M = s->u.samples, N = s->v.samples;
-    real u[MOST_MODES + 1], v[MOST_MODES + 1], mean = 0;
+    real mean = 0;
     c->rows = M + 1;
     c->columns = N + 1;
     const size_t size = (size_t)c->rows * (size_t)c->columns;
@@ -69,11 +69,9 @@ static bool make_clock(const separation *s, iso_clock clock, torus_clock *c)
     c->at_sine = malloc(size * sizeof *c->at_sine);
     c->at_cosine = malloc(size * sizeof *c->at_cosine);
     if (!d || !c->at_sine || !c->at_cosine) return free(d), false;
-    iso_oscillation_sample(&s->u, M, u);
-    iso_oscillation_sample(&s->v, N, v);
     for (int j = 0; j <= M; j++)
         for (int l = 0; l <= N; l++) {
-            const real r = iso_separation_rate(s, clock, u[j], v[l]);
+            const real r = iso_separation_rate(s, clock, s->u.at[j], s->v.at[l]);
             mean += r * (j % M == 0 ? 0.5L : 1) * (l % N == 0 ? 0.5L : 1);
             d[j * c->columns + l] = (double)r;
         }

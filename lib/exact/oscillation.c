@@ -152,29 +152,23 @@ static bool find_theta(oscillation *o)
     return resolved(a, N, 1e-17L);
 }
 
-void iso_oscillation_sample(const oscillation *o, int samples, real z[])
-{
-    real low = 0, slope;
-    for (int j = 0; j <= samples; j++) z[j] = z_at(o, low = invert(o, ISO_PI * j / samples, low, &slope));
-}
-
 bool iso_oscillation_solve(oscillation *o, real m1)
 {
-    real slope[MOST_MODES + 1], f[MOST_MODES + 1], a[MOST_MODES + 1];
+    real slope[MOST_MODES + 1], a[MOST_MODES + 1];
     iso_elliptic_set(&o->f, m1);
     if (!find_theta(o)) return false;
     for (int N = o->samples;; N *= 2) {
         real low = 0;
         o->samples = N;
         for (int j = 0; j <= N; j++) {
-            f[j] = z_at(o, low = invert(o, ISO_PI * j / N, low, &slope[j]));
+            o->at[j] = z_at(o, low = invert(o, ISO_PI * j / N, low, &slope[j]));
             slope[j] = 1 / slope[j];
         }
         iso_cosine_transform(N, slope, a); /* dxi/dtheta */
         for (int n = 1; n <= N; n++) o->gamma[n] = (double)(a[n] / n);
         const bool enough = resolved(a, N, 1e-17L);
         if (!enough && N < MOST_MODES) continue;
-        iso_cosine_transform(N, f, a);
+        iso_cosine_transform(N, o->at, a);
         for (int n = 0; n <= N; n++) o->z[n] = (double)a[n];
         return enough || resolved(a, N, 1e-15L);
     }

@@ -44,8 +44,9 @@ typedef struct oscillation {
     real omega; /* dtheta/dsigma                     */
     real beta[MOST_MODES + 1];
     double gamma[MOST_MODES + 1], z[MOST_MODES + 1];
-    int modes, samples; /* of beta; intervals of [0, pi] that resolve the functions of theta */
-    real start;         /* theta at sigma = 0                */
+    int modes, samples;      /* of beta; intervals of [0, pi] that resolve the functions of theta */
+    real at[MOST_MODES + 1]; /* z where theta = pi j/samples */
+    real start;              /* theta at sigma = 0                */
 } oscillation;
 
 /* dx/dsigma */
@@ -56,9 +57,6 @@ bool iso_oscillation_solve(oscillation *o, real m1);
 
 real iso_oscillation_theta(const oscillation *o, real xi);
 double iso_oscillation_xi(const oscillation *o, double theta);
-
-/* z at theta_j = pi j/samples, j = 0 ... samples. */
-void iso_oscillation_sample(const oscillation *o, int samples, real z[]);
 
 /* f(pi j/N) = sum_n a_n cos(n pi j/N), j, n = 0 ... N. */
 void iso_cosine_transform(int N, const real f[], real a[]);
