@@ -100,17 +100,18 @@ static void end_step(crew *c, int lane, double dt)
 {
     iso_lane_job *job = c->job[lane];
     if (!job) return;
-    job->last = c->left[lane].head;
+    const double before = c->left[lane].head;
+    c->left[lane] = iso_instant_later(c->left[lane], dt);
+    job->last = isfinite(dt) && !job->error ? c->left[lane].head : before;
     job->steps++;
     if (job->done < job->rows && !job->error) {
         if (!isfinite(dt))
             job->error = "the series diverges";
-        else if (fabs(dt) <= 64 * DBL_EPSILON * fabs(c->left[lane].head))
+        else if (fabs(dt) <= 64 * DBL_EPSILON * fabs(before))
             job->error = "steps shrink to nothing";
         else if (c->options->max_steps > 0 && job->steps >= c->options->max_steps)
             job->error = "more steps than allowed";
     }
-    c->left[lane] = iso_instant_later(c->left[lane], dt);
     if (job->done == job->rows || job->error) take_next(c, lane);
 }
 

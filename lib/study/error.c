@@ -18,10 +18,12 @@ static const double directions[MOVED][3][3] = {
     {{1.0, -0.5, -0.8}, {0.6, 0.9, 0.7}, {0.7, 0.6, 1.0}},
 };
 
-/* What the second orbit of the same method, at a hundredth of the tolerance, is taken to have of the first one's error. */
+/* What the second orbit of the same method, at a hundredth of the tolerance, is taken to have of the first one's
+ * error. */
 static const double SHARE = 0.1;
 
-/* --- rows ----------------------------------------------------------------------------------------------------------- */
+/* --- rows
+ * ----------------------------------------------------------------------------------------------------------- */
 
 void iso_error_keep(iso_error_rows *rows, const iso_sample *sample)
 {
@@ -44,14 +46,15 @@ static const iso_sample *row_of(const iso_error_rows *rows, size_t i)
     return i < rows->count ? &rows->sample[i] : &rows->last;
 }
 
-/* --- the other orbits ----------------------------------------------------------------------------------------------- */
+/* --- the other orbits
+ * ----------------------------------------------------------------------------------------------- */
 
 /* Options of the finer orbit; false where there is none. */
 static bool make_finer(const iso_orbit *orbit, iso_orbit_options *o)
 {
     const iso_method *own = iso_orbit_method(orbit), *extended = iso_method_find("taylor_extended");
     o->backend = iso_orbit_model(orbit)->system == &iso_system_ball ? ISO_BALL : ISO_POINT;
-    o->max_steps = 1000 * (iso_orbit_statistics(orbit).steps + 100);
+    o->max_steps = 20 * (iso_orbit_statistics(orbit).steps + 100);
     if (iso_method_auto(iso_orbit_model(orbit))->own_equations) {
         o->method = own == extended ? iso_method_find("taylor_quad") : extended;
         o->tolerance = ISO_LEAST_TOLERANCE;
@@ -94,7 +97,8 @@ static iso_status move_start(iso_context *ctx, const iso_orbit_options *o, const
     return iso_start_ball(ctx, y, y + 3, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start);
 }
 
-/* --- errors --------------------------------------------------------------------------------------------------------- */
+/* --- errors
+ * --------------------------------------------------------------------------------------------------------- */
 
 /* The larger distance of the two vectors of a from those of b, relative to the shorter one; NaN: not shown. */
 static double state_distance(const double a[ISO_STATE], const double b[ISO_STATE])

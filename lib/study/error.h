@@ -6,14 +6,18 @@
  *     iso_error_find(ctx, &params, &start, &options, orbit, rows, &error);     error.state[ISO_BALL].worst
  *
  * The estimate of a row is the sum of two parts:
- * - its distance from the row of a finer orbit: by `taylor_extended` at 1e-15, that is in long double and by another code than
- *   the model's right-hand side; where series do not serve (iso_method_auto), by the orbit's method at a hundredth of its
+ * - its distance from the row of a finer orbit: by `taylor_extended` at 1e-15, that is in long double and by another
+ * code than
+ *   the model's right-hand side; where series do not serve (iso_method_auto), by the orbit's method at a hundredth of
+ * its
  *   tolerance, which is taken to leave at most a tenth of the error;
- * - what ISO_ERROR_ULPS ulps in the numbers of the start and in J would make of it, from four more orbits whose starts differ
- *   in generic directions by far more than that. It covers decimals that are no doubles, and what becomes of them on the way
+ * - what ISO_ERROR_ULPS ulps in the numbers of the start and in J would make of it, from four more orbits whose
+ * starts differ
+ *   in generic directions by far more than that. It covers decimals that are no doubles, and what becomes of them on
+ * the way
  *   to own units.
- * It does not cover an error of the equations themselves, or numbers of k, of effects and of times that are no doubles; nor,
- * after the orbit has lost its start altogether (an estimate of about 1), how far it is away.
+ * It does not cover an error of the equations themselves, or numbers of k, of effects and of times that are no
+ * doubles; nor, after the orbit has lost its start altogether (an estimate of about 1), how far it is away.
  */
 #ifndef ISO_STUDY_ERROR_H
 #define ISO_STUDY_ERROR_H
@@ -45,9 +49,9 @@ typedef struct iso_error {
 } iso_error;
 
 /* The error of `orbit` at the rows kept of it; params, start and options are those it was created with. Errors:
- * ISO_BAD_ARGUMENT where there is nothing finer (taylor_quad, taylor_extended without it, tolerances below 1e-13 where series
- * do not serve) or no row; ISO_NUMERICAL when the finer orbit does not get there, or needs more than a thousand times the
- * steps; ISO_STOPPED, ISO_NO_MEMORY. */
+ * ISO_BAD_ARGUMENT where there is nothing finer (taylor_quad, taylor_extended without it, tolerances below 1e-13
+ * where series do not serve) or no row; ISO_NUMERICAL when the finer orbit does not get there, or needs more than
+ * twenty times the steps; ISO_STOPPED, ISO_NO_MEMORY. */
 iso_status iso_error_find(iso_context *ctx, const iso_params *params, const iso_start *start,
                           const iso_orbit_options *options, const iso_orbit *orbit, const iso_error_rows *rows,
                           iso_error *error);
