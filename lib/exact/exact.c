@@ -1,10 +1,10 @@
 #include "exact/exact.h"
 
 #include <float.h>
+#include <gsl/gsl_fft_real.h>
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/vec3_impl.h"
 #include "exact/separation_impl.h"
 #include "model/effect.h"
 
@@ -13,7 +13,8 @@
  * theta_v ] less its value at sigma = 0. */
 typedef struct torus_clock {
     real mean;
-    int rows, columns; /* m < rows, n < columns */
+    int rows, columns;          /* m < rows, n < columns ... */
+    int length[MOST_MODES + 1]; /* ... and n < length[m]: beyond it there is nothing */
     double *at_sine, *at_cosine, zero, range;
 } torus_clock;
 
@@ -25,36 +26,41 @@ struct iso_exact {
 /* --- the clocks on the torus
  * ------------------------------------------------------------------------------------------ */
 
-/* Transforms the rows of `count` + 1 numbers, `stride` apart. */
+/* Cosine transforms, as of iso_cosine_transform, of `lines` lines of N + 1 numbers: each is half of an even
+ * function. */
 static void transform_lines(double x[], int lines, int line, int N, int stride)
 {
-    double cosine[2 * MOST_MODES], out[MOST_MODES + 1];
-    for (int i = 0; i < 2 * N; i++) cosine[i] = cos((double)ISO_PI * i / N);
+    double even[2 * MOST_MODES];
     for (int l = 0; l < lines; l++) {
         double *f = x + l * line;
-        for (int n = 0; n <= N; n++) {
-            double sum = (f[0] + (n % 2 ? -1 : 1) * f[N * stride]) / 2;
-            for (int j = 1; j < N; j++) sum += f[j * stride] * cosine[n * j % (2 * N)];
-            out[n] = sum * (n == 0 || n == N ? 1 : 2) / N;
-        }
-        for (int n = 0; n <= N; n++) f[n * stride] = out[n];
+        for (int j = 0; j <= N; j++) even[j] = even[(2 * N - j) % (2 * N)] = f[j * stride];
+        gsl_fft_real_radix2_transform(even, 1, 2 * (size_t)N);
+        for (int n = 0; n <= N; n++) f[n * stride] = even[n] / (n % N == 0 ? 2 * N : N);
     }
 }
 
-/* d_mn into the two tables of the integral: sin(m theta_u +- n theta_v)/(m omega_u +- n omega_v), each with
- * d_mn/2. */
+/* What of a coefficient is above the rounding of its transform, and a difference of frequencies above theirs. */
+static const double LEAST = 4e-17, RESONANT = 1e-15;
+
+/* d_mn into the two tables of the integral: sin(m theta_u +- n theta_v)/(m omega_u +- n omega_v), each with d_mn/2.
+ * Where the frequencies are in the ratio n : m, m theta_u - n theta_v stays what it is. */
 static void integrate(const separation *s, torus_clock *c, const double d[])
 {
+    const double least = LEAST * (double)c->mean;
     for (int m = 0; m < c->rows; m++)
         for (int n = 0; n < c->columns; n++) {
             const int i = m * c->columns + n;
             c->at_sine[i] = c->at_cosine[i] = 0;
-            if (i == 0 || fabs(d[i]) < 1e-19 * (double)c->mean) continue;
-            const double sum = (double)(m * s->u.omega + n * s->v.omega),
-                         gap = (double)(m * s->u.omega - n * s->v.omega);
-            c->at_sine[i] = d[i] / 2 / sum + d[i] / 2 / gap;
-            c->at_cosine[i] = d[i] / 2 / sum - d[i] / 2 / gap;
-            c->range += fabs(c->at_sine[i]) + fabs(c->at_cosine[i]);
+            if (i == 0 || fabs(d[i]) < least) continue;
+            const double sum = (double)(m * s->u.omega + n * s->v.omega);
+            const double gap = (double)(m * s->u.omega - n * s->v.omega);
+            const bool apart = fabs(gap) > RESONANT * sum;
+            const double of_sum = d[i] / 2 / sum, of_gap = apart ? d[i] / 2 / gap : 0;
+            if (!apart) c->mean += d[i] / 2 * cosl(m * s->u.start - n * s->v.start);
+            c->at_sine[i] = of_sum + of_gap;
+            c->at_cosine[i] = of_sum - of_gap;
+            c->range += fabs(of_sum) + fabs(of_gap);
+            c->length[m] = n + 1;
         }
 }
 
@@ -113,7 +119,7 @@ static real clock_at(const torus_clock *c, const place *p)
     for (int m = 0; m < c->rows; m++) {
         const double *a = c->at_sine + m * c->columns, *b = c->at_cosine + m * c->columns;
         double sine = 0, cosine = 0;
-        for (int n = 0; n < c->columns; n++) {
+        for (int n = 0; n < c->length[m]; n++) {
             sine += a[n] * p->cosine[1][n];
             cosine += b[n] * p->sine[1][n];
         }

@@ -20,7 +20,7 @@ typedef long double real;
 
 #define ISO_PI 3.141592653589793238462643383279502884L
 
-enum { MOST_MODES = 256, MOST_LANDEN = 16 };
+enum { MOST_MODES = 1024, MOST_LANDEN = 16 }; /* modes: a power of 2 */
 
 /* sn, cn, dn of parameter m = 1 - m1, by Landen's transformation; m1 itself is carried, which 1 - m would lose. */
 typedef struct elliptic {
