@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 
@@ -9,11 +10,9 @@
 
 bool iso_integrator_rhs(iso_integrator *it, const double y[], double dy[])
 {
-    double sum = 0;
     it->statistics.rhs++;
     it->model.rhs(&it->model, y, dy);
-    for (int i = 0; i < it->model.dim; i++) sum += dy[i] * 0; /* NaN if any is not finite */
-    return sum == 0;
+    return all_finite(dy, it->model.dim);
 }
 
 void iso_integrator_project(iso_integrator *it, double y[])

@@ -19,6 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
@@ -318,7 +319,6 @@ static iso_status step(iso_integrator *it, double y[], double *h)
 {
     splitting *d = it->data;
     state z;
-    double sum = 0;
     copy(d->rest, d->rest_left, it->model.dim);
     move(it, &d->whole, it->direction * d->step, y, d->rest, &z);
     if (!it->options.no_projection && --d->until_restored == 0) {
@@ -328,8 +328,7 @@ static iso_status step(iso_integrator *it, double y[], double *h)
         d->until_restored = STEPS_TO_RESTORE;
     }
     *h = z.clock[it->model.clock];
-    for (int i = 0; i < it->model.dim; i++) sum += y[i] * 0; /* NaN if any is not finite */
-    return sum == 0 && isfinite(*h) ? ISO_OK : iso_integrator_stopped(it, "the state is not finite");
+    return all_finite(y, it->model.dim) && isfinite(*h) ? ISO_OK : iso_integrator_stopped(it, "the state is not finite");
 }
 
 /* A part of a step is a step of that length. */

@@ -1,4 +1,5 @@
 /* taylor_lanes_impl.h - the jobs of lanes_impl.h, LANES at a time. */
+#include "base/finite_impl.h"
 #include "method/integrator_impl.h"
 #include "method/lanes_impl.h"
 #include "method/taylor_restore_impl.h"
@@ -38,13 +39,6 @@ static void take_next(crew *c, int lane)
     set_out(&c->T, lane, job->model, job->start);
 }
 
-static bool is_finite(const double y[], int count)
-{
-    double sum = 0;
-    for (int i = 0; i < count; i++) sum += y[i] * 0;
-    return sum == 0;
-}
-
 /* From a lane's left end to its next row, if that does not lie beyond the step of dt; else 0. */
 static bool row_is_due(const crew *c, int lane, double dt, double *target)
 {
@@ -78,7 +72,7 @@ static void output(crew *c, real length, real dt)
             iso_lane_job *job = c->job[i];
             double *row = job->states + job->done * job->stride;
             store(T, i, &s, row);
-            if (is_finite(row, T->shape.dim))
+            if (all_finite(row, T->shape.dim))
                 job->done++;
             else
                 job->error = "the series diverges";

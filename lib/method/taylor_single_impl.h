@@ -1,4 +1,5 @@
 /* taylor_single_impl.h - one orbit by Taylor series, as an iso_integrator. */
+#include "base/finite_impl.h"
 #include "method/integrator_impl.h"
 #include "method/taylor_impl.h"
 #include "method/taylor_restore_impl.h"
@@ -28,11 +29,9 @@ static iso_status start(iso_integrator *it)
 static iso_status arrive_at(iso_integrator *it, real x, state *s, double y[])
 {
     single *own = it->data;
-    double sum = 0;
     it->statistics.correction = fmax(it->statistics.correction, (double)arrive(&own->T, x, s));
     store(&own->T, 0, s, y);
-    for (int i = 0; i < it->model.dim; i++) sum += y[i] * 0; /* NaN if any is not finite */
-    return sum == 0 ? ISO_OK : iso_integrator_stopped(it, "the series diverges");
+    return all_finite(y, it->model.dim) ? ISO_OK : iso_integrator_stopped(it, "the series diverges");
 }
 
 static iso_status step(iso_integrator *it, double y[], double *h)

@@ -1,16 +1,10 @@
 /* orbit_start.c - where an orbit starts: in the ball's own units, in the model that is integrated; or why it cannot. */
 #include <math.h>
 
+#include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "orbit/orbit_impl.h"
-
-static bool all_finite(const double x[], int count)
-{
-    for (int i = 0; i < count; i++)
-        if (!isfinite(x[i])) return false;
-    return true;
-}
 
 static void set_units(iso_orbit *o, const iso_params *p, double speed)
 {
