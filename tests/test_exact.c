@@ -1,7 +1,9 @@
-/* The closed solution for k = 1, -1 against long double, on random bodies, with equal moments among them. */
+/* The closed solution for k = 1, -1 against long double, on random bodies, with equal moments among them, and against
+ * reference states. */
 #include "exact/exact.h"
 #include "map/state.h"
 #include "orbits.h"
+#include "reference.h"
 
 static iso_context *ctx;
 
@@ -47,6 +49,32 @@ static void check_orbit(int i, const orbit *point, double *worst, double *worst_
     iso_exact_free(exact);
 }
 
+/* The rows with k = 1, -1 of states in quadruple precision, to t = 1000. */
+static void check_reference(void)
+{
+    static reference rows[REFERENCE_ROWS];
+    const int count = reference_read(ctx, rows);
+    double worst = 0;
+    int solved = 0;
+    for (int i = 0; i < count; i++) {
+        const reference *r = &rows[i];
+        iso_field f = {.p = r->p};
+        double point[ISO_STATE], ball[ISO_STATE], clocks[ISO_CLOCKS];
+        iso_exact *exact;
+        if (fabs(r->p.k) != 1) continue;
+        f.eps = iso_coupling(&f.p, iso_ball_energy(&f.p, r->start.y));
+        iso_ball_to_point(&f.p, r->start.y, point);
+        if (iso_exact_create(ctx, &f, point, &exact) != ISO_OK) continue;
+        iso_exact_at(ctx, exact, ISO_CLOCK_T, r->t, point, clocks);
+        iso_point_to_ball(&f.p, point, ball);
+        for (int j = 0; j < ISO_STATE; j++) worst = fmax(worst, fabs(ball[j] - r->ball[j]));
+        worst = fmax(worst, fabs(clocks[ISO_CLOCK_S] / r->s - 1));
+        solved++;
+        iso_exact_free(exact);
+    }
+    gsl_test(!(solved == 10 && worst < 1e-12), "%d of 10 reference states, and their s: %.1e", solved, worst);
+}
+
 static void check_refusals(void)
 {
     iso_exact *exact;
@@ -80,6 +108,7 @@ int main(void)
     gsl_test(!(clock < 1e-13), "their clocks: %.1e", clock);
     gsl_test(!(energy < 1e-14), "their energy and |gamma| - 1: %.1e", energy);
     gsl_test(refused > ORBITS / 40, "%d refused, too close to the separatrix", refused);
+    check_reference();
     check_refusals();
     iso_random_free(random);
     iso_context_free(ctx);
