@@ -94,16 +94,14 @@ double iso_oscillation_xi(const oscillation *o, double theta)
 
 real iso_oscillation_rate(const oscillation *o, real z)
 {
-    real square = 2 * o->C;
-    for (int i = 0; i < o->factors; i++) square *= fabsl(o->e[i] - z);
-    return sqrtl(o->over_z ? square / z : square);
+    return sqrtl(2 * o->C * (o->over_z ? 1 / z : fabsl(o->e - z)));
 }
 
 static real z_at(const oscillation *o, real xi)
 {
     real sn, cn, dn;
     iso_elliptic_at(&o->f, xi, &sn, &cn, &dn);
-    return o->origin + o->span * sn * sn;
+    return o->origin + o->span * sn * sn / (1 + o->bend * sn * sn);
 }
 
 /* Whether a series has come down to the last digits before it ends. */

@@ -1,10 +1,9 @@
 /* oscillation_impl.h - one sphero-conical coordinate in the clock sigma, by an angle that grows evenly.
  *
- *     z = origin + span sn^2(x|m),   dx/dsigma = sqrt(2 C prod_j |e_j - z| [/z])
+ *     z = origin + span sn^2(x|m)/(1 + bend sn^2(x|m)),   dx/dsigma = sqrt(2 C {|e - z| or 1/z})
  *
- * Of the roots of (dz/dsigma)^2 two bound the motion and one may come close to them: it makes m -> 1, and the
- * elliptic functions take it in. What is left of dx/dsigma is smooth. With xi = pi x/K the angle theta = omega sigma
- * is
+ * Of the five roots of (dz/dsigma)^2 two bound the motion, and two more may come close to them: elliptic functions
+ * take in all four. What is left of dx/dsigma is smooth. With xi = pi x/K the angle theta = omega sigma is
  *
  *     theta = xi + sum_n beta_n sin n xi,    xi = theta + sum_n gamma_n sin n theta,
  *
@@ -37,8 +36,7 @@ void iso_elliptic_at(const elliptic *e, real xi, real *sn, real *cn, real *dn);
 real iso_elliptic_inverse(const elliptic *e, real phi);
 
 typedef struct oscillation {
-    real origin, span, C, e[2];
-    int factors;
+    real origin, span, bend, C, e;
     bool over_z;
     elliptic f;
     real omega; /* dtheta/dsigma                     */
@@ -52,7 +50,7 @@ typedef struct oscillation {
 /* dx/dsigma */
 real iso_oscillation_rate(const oscillation *o, real z);
 
-/* The rest from origin ... over_z and m1. False: MOST_MODES are not enough. */
+/* The rest from origin ... over_z and 1 - m. False: MOST_MODES are not enough. */
 bool iso_oscillation_solve(oscillation *o, real m1);
 
 real iso_oscillation_theta(const oscillation *o, real xi);

@@ -70,38 +70,37 @@ static real find_constant(separation *s, const real gamma[3], const real M[3])
     return kappa;
 }
 
-/* The two oscillations: which roots bound them, which comes close. */
+/* The two oscillations. With the roots a > b > c > d = top, above, below, bottom, and w what else is in
+ * (dz/dsigma)^2 = 8 |(z-a)(z-b)(z-c)(z-d)| w(z) (Byrd, Friedman, 252 and 257):
+ *
+ *     sn^2(x) = (a-c)(u-d)/((c-d)(a-u)),   sn^2(y) = (b-d)(a-v)/((a-b)(v-d)),   1-m = (b-c)(a-d)/((a-c)(b-d)),
+ *     dx/dsigma = sqrt(2 (a-c)(b-d) w(u)),  dy/dsigma = sqrt(2 (a-c)(b-d) w(v)). */
 static bool make_oscillations(separation *s, real kappa)
 {
-    const real *b = s->b, b1 = b[0], b2 = b[1], b3 = b[2], half = (b1 + b2 + b3) / 2;
+    const real *b = s->b, half = (b[0] + b[1] + b[2]) / 2;
     const bool neumann = s->k == -1;
-    const real be = neumann ? half + sqrtl(half * half + s->c / s->eps) : INFINITY; /* the other root of R + c */
-    const real gap = neumann ? kappa / (s->eps * (be - b2)) : kappa * b2 / s->c;    /* b2 - al */
-    const real al = b2 - gap, W = neumann ? s->eps : s->c;
-    oscillation *u = &s->u, *v = &s->v;
+    const real be = neumann ? half + sqrtl(half * half + s->c / s->eps) : INFINITY;  /* the other root of R + c */
+    const real gap = neumann ? kappa / (s->eps * (be - b[1])) : kappa * b[1] / s->c; /* b2 - al */
+    const real al = b[1] - gap;
     s->librates_low = gap > 0;
-    s->below_b3 = be < b3;
-    s->distance = kappa / (neumann ? s->eps * b2 * (b1 + b3) : s->eps * b1 * b3);
-    u->over_z = v->over_z = !neumann;
-    u->factors = v->factors = neumann ? 2 : 1;
-    u->e[0] = b3, v->e[0] = b1;
-    u->e[1] = be, v->e[1] = s->below_b3 ? b3 : be;
-    u->origin = b1;
-    if (s->librates_low) { /* b1 <= u <= al < b2 <= v <= b3 */
-        u->span = fmaxl(al - b1, 0);
-        u->C = W * (b2 - b1);
-        v->origin = b3;
-        v->span = b2 - b3;
-        v->C = W * (b3 - al);
-        return iso_oscillation_solve(u, fminl(gap / (b2 - b1), 1)) && iso_oscillation_solve(v, gap / (b3 - al));
-    }
-    v->origin = fminl(b3, be); /* b1 <= u <= b2 < al <= v */
-    u->span = b2 - b1;
-    u->C = W * (al - b1);
-    v->span = fminl(al - v->origin, 0);
-    v->C = W * (v->origin - b2);
-    return gap < 0 && iso_oscillation_solve(u, -gap / (al - b1)) &&
-           iso_oscillation_solve(v, fminl(-gap / (v->origin - b2), 1));
+    s->below_b3 = be < b[2];
+    s->distance = kappa / (neumann ? s->eps * b[1] * (b[0] + b[2]) : s->eps * b[0] * b[2]);
+    const real top = s->top = fminl(b[2], be), bottom = s->bottom = b[0];
+    const real below = s->below = s->librates_low ? fmaxl(al, bottom) : b[1];
+    const real above = s->above = s->librates_low ? b[1] : fminl(al, top);
+    if (gap == 0) return false;
+    const real long_way = (top - below) * (above - bottom);
+    const oscillation both = {
+        .C = (neumann ? s->eps : s->c) * long_way, .e = s->below_b3 ? b[2] : be, .over_z = !neumann};
+    s->u = s->v = both;
+    s->u.origin = bottom;
+    s->u.span = (top - bottom) * (below - bottom) / (top - below);
+    s->u.bend = (below - bottom) / (top - below);
+    s->v.origin = top;
+    s->v.span = -(top - above) * (top - bottom) / (above - bottom);
+    s->v.bend = (top - above) / (above - bottom);
+    const real m1 = fminl(fabsl(gap) * (top - bottom) / long_way, 1);
+    return iso_oscillation_solve(&s->u, m1) && iso_oscillation_solve(&s->v, m1);
 }
 
 /* u, v as roots of z^2 - (b1+b2+b3 - (gamma,b gamma)) z + D (gamma,b^-1 gamma), and their rates */
@@ -136,34 +135,60 @@ static real turning(real x, real dx, real y, real dy, int *sense)
     return atan2l(*sense * x, y);
 }
 
-/* The amplitudes at sigma = 0 where al < b2: gamma1 ~ sin phi swings, (gamma3, gamma2) ~ (sin, cos) psi turn. */
-static void phases_low(separation *s, const moment *m, real *phi, real *psi)
+/* gamma_i = size_i f_i/E, E^2 = (1 + bend_u sn_u^2)(1 + bend_v sn_v^2) = (a-d)^2/((a-u)(v-d)), with f of sn, cn,
+ * dn. */
+typedef struct sizes {
+    real of[3];
+} sizes;
+
+static sizes component_sizes(const separation *s)
 {
-    const real *g = m->gamma, *d = m->velocity, b1 = s->b[0], b3 = s->b[2];
-    const real m_u = 1 - s->u.f.m1, r1 = sqrtl(m_u * fmaxl(m->v - b1, 0) / (b3 - b1));
-    *phi = swinging(&s->u, g[0], d[0], r1, m->dv / (2 * (m->v - b1)), m->u);
-    const real dn = sqrtl(s->u.f.m1 + m_u * cosl(*phi) * cosl(*phi)), r3 = sqrtl((b3 - m->u) / (b3 - b1));
-    const real d_dn = -m_u * sinl(*phi) * cosl(*phi) * iso_oscillation_rate(&s->u, m->u);
-    *psi = turning(g[2] / r3, (d[2] + g[2] * m->du / (2 * (b3 - m->u))) / r3, g[1] / dn,
-                   (d[1] - g[1] / dn * d_dn) / dn, &s->turn);
+    const real a = s->top, b = s->above, c = s->below, d = s->bottom, b3 = s->b[2];
+    if (s->librates_low)
+        return (sizes){{sqrtl((a - d) * (c - d) / ((a - c) * (b - d))), 1, sqrtl((a - d) / (b - d))}};
+    return (sizes){{(a - d) / sqrtl((a - c) * (b3 - d)), sqrtl((a - c) / (b3 - c)),
+                    sqrtl((a - d) * (a - b) / ((a - c) * (b - d)))}};
 }
 
-/* ... and where al > b2: (gamma1, gamma2) ~ (sin, cos) phi turn, gamma3 ~ sin psi swings, or keeps its side. */
-static void phases_high(separation *s, const moment *m, real *phi, real *psi)
+/* dn at an amplitude, and its logarithmic derivative */
+static real dn_at(const oscillation *o, real amplitude, real z, real *d_log)
 {
-    const real *g = m->gamma, *d = m->velocity, b1 = s->b[0], b2 = s->b[1], b3 = s->b[2];
-    const real r1 = sqrtl((m->v - b1) / (b3 - b1)), r2 = sqrtl((m->v - b2) / (b3 - b2));
-    *phi = turning(g[0] / r1, (d[0] - g[0] * m->dv / (2 * (m->v - b1))) / r1, g[1] / r2,
-                   (d[1] - g[1] * m->dv / (2 * (m->v - b2))) / r2, &s->turn);
+    const real sn = sinl(amplitude), cn = cosl(amplitude), m = 1 - o->f.m1, dn = sqrtl(o->f.m1 + m * cn * cn);
+    *d_log = -m * sn * cn / dn * iso_oscillation_rate(o, z);
+    return dn;
+}
+
+/* The amplitude of v from v and its rate alone, where gamma3 keeps its side. */
+static real amplitude_of_v(const separation *s, const moment *m)
+{
     const oscillation *v = &s->v;
-    if (!s->below_b3) {
-        const real r3 = sqrtl(-v->span / (b3 - b2) * (b3 - m->u) / (b3 - b1));
-        *psi = swinging(v, g[2], d[2], r3, -m->du / (2 * (b3 - m->u)), m->v);
-        return;
+    const real ratio = (s->above - s->bottom) * (s->top - m->v) / ((s->top - s->above) * (m->v - s->bottom));
+    const real square = fminl(fmaxl(ratio, 0), 1), dn = sqrtl(v->f.m1 + (1 - v->f.m1) * (1 - square));
+    const real bent = 1 + v->bend * square, product = m->dv * bent * bent / (2 * v->span * dn);
+    return atan2l(2 * product / iso_oscillation_rate(v, m->v), 1 - 2 * square) / 2; /* sin 2 psi, cos 2 psi */
+}
+
+/* The amplitudes at sigma = 0. Where al < b2, gamma1 ~ sn_u swings and (gamma3, gamma2) ~ (sn_v, cn_v dn_u) turn;
+ * else gamma3 ~ sn_v swings, or keeps its side, and (gamma1, gamma2) ~ (sn_u, cn_u dn_v) turn. */
+static void find_amplitudes(separation *s, const moment *m, real *phi, real *psi)
+{
+    const real *g = m->gamma, *d = m->velocity,
+               E = (s->top - s->bottom) / sqrtl((s->top - m->u) * (m->v - s->bottom));
+    const real L = (m->dv / (m->v - s->bottom) - m->du / (s->top - m->u)) / 2; /* of 1/E */
+    const sizes size = component_sizes(s);
+    const int turns = s->librates_low ? 2 : 0;
+    real d_dn, dn;
+    if (s->librates_low) {
+        *phi = swinging(&s->u, g[0], d[0], size.of[0] / E, L, m->u);
+        dn = dn_at(&s->u, *phi, m->u, &d_dn);
+    } else {
+        *psi = s->below_b3 ? amplitude_of_v(s, m) : swinging(&s->v, g[2], d[2], size.of[2] / E, L, m->v);
+        dn = dn_at(&s->v, *psi, m->v, &d_dn);
     }
-    const real square = fminl(fmaxl((m->v - v->origin) / v->span, 0), 1); /* sin^2 psi */
-    const real fast = iso_oscillation_rate(v, m->v) * sqrtl(v->f.m1 + (1 - v->f.m1) * (1 - square));
-    *psi = atan2l(m->dv / (v->span * fast), 1 - 2 * square) / 2; /* sin 2 psi, cos 2 psi */
+    const real sine = E / size.of[turns], cosine = E / (size.of[1] * dn);
+    const real amplitude = turning(g[turns] * sine, (d[turns] - g[turns] * L) * sine, g[1] * cosine,
+                                   (d[1] - g[1] * (L + d_dn)) * cosine, &s->turn);
+    *(s->librates_low ? psi : phi) = amplitude;
 }
 
 bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE])
@@ -179,7 +204,7 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
     if (!make_oscillations(s, find_constant(s, m.gamma, M))) return false;
     find_coordinates(s, M, &m);
     s->side = m.gamma[2] < 0 ? -1 : 1;
-    (s->librates_low ? phases_low : phases_high)(s, &m, &phi, &psi);
+    find_amplitudes(s, &m, &phi, &psi);
     s->u.start = iso_oscillation_theta(&s->u, iso_elliptic_inverse(&s->u.f, phi));
     s->v.start = iso_oscillation_theta(&s->v, iso_elliptic_inverse(&s->v.f, psi));
     return true;
@@ -188,48 +213,42 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
 /* --- to a state
  * -------------------------------------------------------------------------------------------------------- */
 
-/* A coordinate with its elliptic functions and rate. */
+/* A coordinate with its elliptic functions and their rates. */
 typedef struct swing {
-    real z, dz, sn, cn, dn, fast; /* fast: dx/dsigma */
+    real z, dz, sn, cn, dn, d_sn, d_cn, d_dn;
 } swing;
 
 static swing swing_at(const oscillation *o, double theta)
 {
     swing w;
     iso_elliptic_at(&o->f, iso_oscillation_xi(o, theta), &w.sn, &w.cn, &w.dn);
-    w.z = o->origin + o->span * w.sn * w.sn;
-    w.fast = iso_oscillation_rate(o, w.z);
-    w.dz = 2 * o->span * w.sn * w.cn * w.dn * w.fast;
+    const real bent = 1 + o->bend * w.sn * w.sn;
+    w.z = o->origin + o->span * w.sn * w.sn / bent;
+    const real fast = iso_oscillation_rate(o, w.z);
+    w.d_sn = w.cn * w.dn * fast;
+    w.d_cn = -w.sn * w.dn * fast;
+    w.d_dn = -(1 - o->f.m1) * w.sn * w.cn * fast;
+    w.dz = 2 * o->span * w.sn * w.d_sn / (bent * bent);
     return w;
-}
-
-/* x = a r and its rate */
-static void component(real a, real da, real r, real d_log_r, real *x, real *dx)
-{
-    *x = a * r;
-    *dx = da * r + *x * d_log_r;
 }
 
 static void components(const separation *s, const swing *u, const swing *v, real g[3], real d[3])
 {
-    const real b1 = s->b[0], b2 = s->b[1], b3 = s->b[2], m_u = 1 - s->u.f.m1;
-    const real r1 = sqrtl((v->z - b1) / (b3 - b1)), d1 = v->dz / (2 * (v->z - b1));
-    const real r3 = sqrtl((b3 - u->z) / (b3 - b1)), d3 = -u->dz / (2 * (b3 - u->z));
-    const real d_sn_u = u->cn * u->dn * u->fast, d_sn_v = v->cn * v->dn * v->fast;
-    if (s->librates_low) {
-        component(u->sn, d_sn_u, sqrtl(m_u) * r1, d1, &g[0], &d[0]);
-        component(s->turn * v->sn, s->turn * d_sn_v, r3, d3, &g[2], &d[2]);
-        g[1] = v->cn * u->dn;
-        d[1] = -v->sn * v->dn * v->fast * u->dn - v->cn * m_u * u->sn * u->cn * u->fast;
-        return;
+    const real over_E = sqrtl((s->top - u->z) * (v->z - s->bottom)) / (s->top - s->bottom), b3 = s->b[2];
+    const real L = (v->dz / (v->z - s->bottom) - u->dz / (s->top - u->z)) / 2;
+    const sizes size = component_sizes(s);
+    const swing *turns = s->librates_low ? v : u, *other = s->librates_low ? u : v;
+    const int sine = s->librates_low ? 2 : 0;
+    const real f[3] = {s->turn * turns->sn, turns->cn * other->dn, other->sn};
+    const real df[3] = {s->turn * turns->d_sn, turns->d_cn * other->dn + turns->cn * other->d_dn, other->d_sn};
+    for (int i = 0; i < 3; i++) {
+        const int to = i == 1 ? 1 : i == 0 ? sine : 2 - sine;
+        g[to] = size.of[to] * f[i] * over_E;
+        d[to] = size.of[to] * df[i] * over_E + g[to] * L;
     }
-    component(s->turn * u->sn, s->turn * d_sn_u, r1, d1, &g[0], &d[0]);
-    component(u->cn, -u->sn * u->dn * u->fast, sqrtl((v->z - b2) / (b3 - b2)), v->dz / (2 * (v->z - b2)), &g[1],
-              &d[1]);
-    if (!s->below_b3)
-        component(v->sn, d_sn_v, sqrtl(-s->v.span / (b3 - b2)) * r3, d3, &g[2], &d[2]);
-    else
-        component(s->side, 0, sqrtl((b3 - v->z) / (b3 - b2)) * r3, d3 - v->dz / (2 * (b3 - v->z)), &g[2], &d[2]);
+    if (!s->below_b3) return;
+    g[2] = s->side * sqrtl((b3 - u->z) * (b3 - v->z) / ((b3 - s->b[0]) * (b3 - s->b[1])));
+    d[2] = -g[2] * (u->dz / (b3 - u->z) + v->dz / (b3 - v->z)) / 2;
 }
 
 void iso_separation_state(const separation *s, const double theta[2], double point[ISO_STATE])

@@ -21,6 +21,8 @@ typedef struct separation {
     int k, axis[3]; /* axis[i]: the caller's axis with b[i]                                        */
     real b[3], eps, c, distance, det;
     bool librates_low, below_b3; /* below_b3: k = -1 and v ends at the other root of R + c, not at b3  */
+    real top, above, below,
+        bottom; /* the roots that bound v and u: bottom <= u <= below < above <= v <= top                    */
     oscillation u, v;
     int turn, side; /* the sense of the rotating pair of components; the sign of gamma3, below_b3  */
 } separation;
