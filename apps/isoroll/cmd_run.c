@@ -263,8 +263,8 @@ static void tell_errors(iso_context *ctx, const iso_scene *scene, const iso_orbi
     tell_error("(omega, n)", clock, &e.state[ISO_BALL]);
     tell_error("(M, gamma)", clock, &e.state[ISO_POINT]);
     for (int c = 0; c < ISO_CLOCKS; c++) tell_error(iso_clock_name((iso_clock)c), clock, &e.clock[c]);
-    complain("errors are relative, in %zu rows: from the same orbit by %s at tolerance %.2g, in %.2g s; of the first, %.2g is "
-             "the rounding of the start",
+    complain("errors are relative, in %zu rows: from the same orbit by %s at tolerance %.2g, in %.2g s; of the first, "
+             "%.2g is the rounding of the start",
              e.rows, e.method->name, e.tolerance, e.seconds, e.start);
 }
 

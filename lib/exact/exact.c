@@ -9,8 +9,8 @@
 #include "model/effect.h"
 
 /* A clock on the torus: d clock/d sigma = mean + sum_mn d_mn cos m theta_u cos n theta_v, integrated term by term:
- *     clock = mean sigma + sum_mn [ at_sine[m][n] sin m theta_u cos n theta_v + at_cosine[m][n] cos m theta_u sin n
- * theta_v ] less its value at sigma = 0. */
+ *     clock = mean sigma + sum_mn [ at_sine[m][n] sin m theta_u cos n theta_v
+ *                                   + at_cosine[m][n] cos m theta_u sin n theta_v ],   less its value at sigma = 0. */
 typedef struct torus_clock {
     real mean;
     int rows, columns;          /* m < rows, n < columns ... */
@@ -23,8 +23,7 @@ struct iso_exact {
     torus_clock clock[ISO_CLOCKS];
 };
 
-/* --- the clocks on the torus
- * ------------------------------------------------------------------------------------------ */
+/* --- the clocks on the torus ------------------------------------------------------------------------------------ */
 
 /* Cosine transforms, as of iso_cosine_transform, of `lines` lines of N + 1 numbers: each is half of an even
  * function. */
@@ -157,8 +156,7 @@ static void find_place(const iso_exact *x, iso_clock clock, real time, place *p)
     }
 }
 
-/* --- the front
- * ------------------------------------------------------------------------------------------------------------ */
+/* --- the front -------------------------------------------------------------------------------------------------- */
 
 static iso_status check(iso_context *ctx, const iso_field *f)
 {

@@ -2,7 +2,7 @@
  *
  *     iso_exact *exact;
  *     iso_exact_create(ctx, &field, point, &exact);        field: k, J and eps; H = 0
- *     iso_exact_at(exact, ISO_CLOCK_T, 1e6, y, clocks);     the point a million units of the ball's time later
+ *     iso_exact_at(ctx, exact, ISO_CLOCK_T, 1e6, y, clocks);     the point a million units of the ball's time later
  *     iso_exact_free(exact);
  *
  * In sphero-conical coordinates of gamma the problem separates into two oscillations with a clock sigma of their own
@@ -31,9 +31,9 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock cloc
 
 /* The motion on its torus. */
 typedef struct iso_exact_torus {
-    double c;        /* the separation constant: 2 A(z) p_z^2 = R(z) + c for both coordinates                  */
-    double distance; /* R(b2) + c in units of its terms: 0 on the separatrix, > 0: the lower coordinate librates,
-                            < 0: the upper                                                                         */
+    double c;                        /* the separation constant: 2 A(z) p_z^2 = R(z) + c for both coordinates      */
+    double distance;                 /* R(b2) + c in units of its terms: 0 on the separatrix; > 0: the lower
+                                        coordinate librates, < 0: the upper                                        */
     double frequency[ISO_CLOCKS][2]; /* of the lower and the upper coordinate, radians in each clock, both > 0     */
 } iso_exact_torus;
 

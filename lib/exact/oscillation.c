@@ -44,8 +44,7 @@ real iso_elliptic_inverse(const elliptic *e, real phi)
     return ldexpl(phi, 1 - e->steps);
 }
 
-/* --- series
- * --------------------------------------------------------------------------------------------------------- */
+/* --- series ----------------------------------------------------------------------------------------------------- */
 
 void iso_cosine_transform(int N, const real f[], real a[])
 {
@@ -89,8 +88,7 @@ double iso_oscillation_xi(const oscillation *o, double theta)
     return theta + p * sin(theta);
 }
 
-/* --- an oscillation
- * ------------------------------------------------------------------------------------------------- */
+/* --- an oscillation --------------------------------------------------------------------------------------------- */
 
 real iso_oscillation_rate(const oscillation *o, real z)
 {

@@ -16,8 +16,7 @@ real iso_separation_rate(const separation *s, iso_clock clock, real u, real v)
     return det * (v - u) / (s->k == -1 ? sqrtl(q) : q * sqrtl(q));
 }
 
-/* --- from a state
- * ----------------------------------------------------------------------------------------------------- */
+/* --- from a state ----------------------------------------------------------------------------------------------- */
 
 static void sort_axes(separation *s, const double J[3])
 {
@@ -210,8 +209,7 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
     return true;
 }
 
-/* --- to a state
- * -------------------------------------------------------------------------------------------------------- */
+/* --- to a state ------------------------------------------------------------------------------------------------- */
 
 /* A coordinate with its elliptic functions and their rates. */
 typedef struct swing {

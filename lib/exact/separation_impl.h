@@ -7,9 +7,12 @@
  *
  *     (dz/dsigma)^2 = 8 A(z) (R(z) + c),   A(z) = (b1-z)(b2-z)(b3-z),   z = u and z = v,   ds = (v - u) dsigma.
  *
- * The constant c is a polynomial in M and gamma: c = -(M,bM)/2 + eps x { -D (gamma,b^-1 gamma) | (b1+b2+b3 - (gamma,b
- * gamma))/q }. Between b1 and b3 lies one root al of R + c. Below b2 it is the upper end of u (`librates_low`), else
- * the lower end of v.
+ * The constant c is a polynomial in M and gamma,
+ *
+ *     c = -(M,bM)/2 + eps x { -D (gamma,b^-1 gamma)  |  (b1+b2+b3 - (gamma,b gamma))/q }.
+ *
+ * Between b1 and b3 lies one root al of R + c. Below b2 it is the upper end of u (`librates_low`), else the lower end
+ * of v.
  */
 #ifndef ISO_EXACT_SEPARATION_IMPL_H
 #define ISO_EXACT_SEPARATION_IMPL_H
@@ -18,13 +21,13 @@
 #include "model/system.h"
 
 typedef struct separation {
-    int k, axis[3]; /* axis[i]: the caller's axis with b[i]                                        */
+    int k, axis[3];                 /* axis[i]: the caller's axis with b[i]                                   */
     real b[3], eps, c, distance, det;
-    bool librates_low, below_b3; /* below_b3: k = -1 and v ends at the other root of R + c, not at b3  */
-    real top, above, below,
-        bottom; /* the roots that bound v and u: bottom <= u <= below < above <= v <= top                    */
+    bool librates_low, below_b3;    /* below_b3: k = -1 and v ends at the other root of R + c, not at b3      */
+    real top, above, below, bottom; /* the roots that bound v and u: bottom <= u <= below < above <= v <= top */
     oscillation u, v;
-    int turn, side; /* the sense of the rotating pair of components; the sign of gamma3, below_b3  */
+    int turn, side;                 /* the sense of the turning pair of components; the sign of gamma3 if
+                                       below_b3                                                               */
 } separation;
 
 /* From (M, gamma). False: on the separatrix, or too close. */

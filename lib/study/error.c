@@ -22,8 +22,7 @@ static const double directions[MOVED][3][3] = {
  * error. */
 static const double SHARE = 0.1;
 
-/* --- rows
- * ----------------------------------------------------------------------------------------------------------- */
+/* --- rows ------------------------------------------------------------------------------------------------------- */
 
 void iso_error_keep(iso_error_rows *rows, const iso_sample *sample)
 {
@@ -46,8 +45,7 @@ static const iso_sample *row_of(const iso_error_rows *rows, size_t i)
     return i < rows->count ? &rows->sample[i] : &rows->last;
 }
 
-/* --- the other orbits
- * ----------------------------------------------------------------------------------------------- */
+/* --- the other orbits ------------------------------------------------------------------------------------------- */
 
 /* Options of the finer orbit; false where there is none. */
 static bool make_finer(const iso_orbit *orbit, iso_orbit_options *o)
@@ -97,8 +95,7 @@ static iso_status move_start(iso_context *ctx, const iso_orbit_options *o, const
     return iso_start_ball(ctx, y, y + 3, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start);
 }
 
-/* --- errors
- * --------------------------------------------------------------------------------------------------------- */
+/* --- errors ----------------------------------------------------------------------------------------------------- */
 
 /* The larger distance of the two vectors of a from those of b, relative to the shorter one; NaN: not shown. */
 static double state_distance(const double a[ISO_STATE], const double b[ISO_STATE])

@@ -7,15 +7,11 @@
  *
  * The estimate of a row is the sum of two parts:
  * - its distance from the row of a finer orbit: by `taylor_extended` at 1e-15, that is in long double and by another
- * code than
- *   the model's right-hand side; where series do not serve (iso_method_auto), by the orbit's method at a hundredth of
- * its
- *   tolerance, which is taken to leave at most a tenth of the error;
- * - what ISO_ERROR_ULPS ulps in the numbers of the start and in J would make of it, from four more orbits whose
- * starts differ
- *   in generic directions by far more than that. It covers decimals that are no doubles, and what becomes of them on
- * the way
- *   to own units.
+ *   code than the model's right-hand side; where series do not serve (iso_method_auto), by the orbit's method at a
+ *   hundredth of its tolerance, which is taken to leave at most a tenth of the error;
+ * - what ISO_ERROR_ULPS ulps in the numbers of the start and in J would make of it, from four more orbits whose starts
+ *   differ in generic directions by far more than that. It covers decimals that are no doubles, and what becomes of
+ *   them on the way to own units.
  * It does not cover an error of the equations themselves, or numbers of k, of effects and of times that are no
  * doubles; nor, after the orbit has lost its start altogether (an estimate of about 1), how far it is away.
  */
@@ -40,12 +36,12 @@ typedef struct iso_error_of {
 } iso_error_of;
 
 typedef struct iso_error {
-    iso_error_of state[2];          /* of (omega, n) and of (M, gamma): each vector relative to its length            */
-    iso_error_of clock[ISO_CLOCKS]; /* of a carried clock, relative to its largest value in the rows                  */
-    double start;                   /* the part of the largest state error that is the start's                        */
-    size_t rows;                    /* how many were compared                                                          */
-    const iso_method *method;       /* of the finer orbit                                                              */
-    double tolerance, seconds;      /* its tolerance; processor time for all of it                                      */
+    iso_error_of state[2];          /* of (omega, n) and of (M, gamma): each vector relative to its length */
+    iso_error_of clock[ISO_CLOCKS]; /* of a carried clock, relative to its largest value in the rows       */
+    double start;                   /* the part of the largest state error that is the start's             */
+    size_t rows;                    /* how many were compared                                              */
+    const iso_method *method;       /* of the finer orbit                                                  */
+    double tolerance, seconds;      /* its tolerance; processor time for all of it                         */
 } iso_error;
 
 /* The error of `orbit` at the rows kept of it; params, start and options are those it was created with. Errors:
