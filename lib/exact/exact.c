@@ -10,7 +10,8 @@
 
 /* A clock on the torus: d clock/d sigma = mean + sum_mn d_mn cos m theta_u cos n theta_v, integrated term by term:
  *     clock = mean sigma + sum_mn [ at_sine[m][n] sin m theta_u cos n theta_v
- *                                   + at_cosine[m][n] cos m theta_u sin n theta_v ],   less its value at sigma = 0. */
+ *                                   + at_cosine[m][n] cos m theta_u sin n theta_v ]
+ * less its value at sigma = 0. */
 typedef struct torus_clock {
     real mean;
     int rows, columns;          /* m < rows, n < columns ... */
@@ -25,8 +26,8 @@ struct iso_exact {
 
 /* --- the clocks on the torus ------------------------------------------------------------------------------------ */
 
-/* Cosine transforms, as of iso_cosine_transform, of `lines` lines of N + 1 numbers: each is half of an even
- * function. */
+/* From f(pi j/N) to the a_n of f(x) = sum_n a_n cos n x, j, n = 0 ... N, for each of `lines` lines: halves of even
+ * functions. */
 static void transform_lines(double x[], int lines, int line, int N, int stride)
 {
     double even[2 * MOST_MODES];

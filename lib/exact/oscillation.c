@@ -46,7 +46,8 @@ real iso_elliptic_inverse(const elliptic *e, real phi)
 
 /* --- series ----------------------------------------------------------------------------------------------------- */
 
-void iso_cosine_transform(int N, const real f[], real a[])
+/* f(pi j/N) = sum_n a_n cos(n pi j/N), j, n = 0 ... N */
+static void cosine_transform(int N, const real f[], real a[])
 {
     real cosine[2 * MOST_MODES];
     for (int i = 0; i < 2 * N; i++) cosine[i] = cosl(ISO_PI * i / N);
@@ -135,7 +136,7 @@ static bool find_theta(oscillation *o)
     int N = 16;
     for (;; N *= 2) {
         for (int j = 0; j <= N; j++) f[j] = 1 / iso_oscillation_rate(o, z_at(o, ISO_PI * j / N));
-        iso_cosine_transform(N, f, a);
+        cosine_transform(N, f, a);
         if (N == MOST_MODES || resolved(a, N, 1e-18L)) break;
     }
     o->omega = ISO_PI / (a[0] * o->f.K);
@@ -160,11 +161,11 @@ bool iso_oscillation_solve(oscillation *o, real m1)
             o->at[j] = z_at(o, low = invert(o, ISO_PI * j / N, low, &slope[j]));
             slope[j] = 1 / slope[j];
         }
-        iso_cosine_transform(N, slope, a); /* dxi/dtheta */
+        cosine_transform(N, slope, a); /* dxi/dtheta */
         for (int n = 1; n <= N; n++) o->gamma[n] = (double)(a[n] / n);
         const bool enough = resolved(a, N, 1e-17L);
         if (!enough && N < MOST_MODES) continue;
-        iso_cosine_transform(N, o->at, a);
+        cosine_transform(N, o->at, a);
         for (int n = 0; n <= N; n++) o->z[n] = (double)a[n];
         return enough || resolved(a, N, 1e-15L);
     }

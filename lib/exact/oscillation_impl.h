@@ -56,7 +56,4 @@ bool iso_oscillation_solve(oscillation *o, real m1);
 real iso_oscillation_theta(const oscillation *o, real xi);
 double iso_oscillation_xi(const oscillation *o, double theta);
 
-/* f(pi j/N) = sum_n a_n cos(n pi j/N), j, n = 0 ... N. */
-void iso_cosine_transform(int N, const real f[], real a[]);
-
 #endif

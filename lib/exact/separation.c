@@ -102,6 +102,16 @@ static bool make_oscillations(separation *s, real kappa)
     return iso_oscillation_solve(&s->u, m1) && iso_oscillation_solve(&s->v, m1);
 }
 
+/* gamma_i = size_i f_i/E, E^2 = (1 + bend_u sn_u^2)(1 + bend_v sn_v^2) = (a-d)^2/((a-u)(v-d)), f_i of sn, cn, dn. */
+static void find_sizes(separation *s)
+{
+    const real a = s->top, b = s->above, c = s->below, d = s->bottom, b3 = s->b[2];
+    const bool low = s->librates_low;
+    s->size[0] = low ? sqrtl((a - d) * (c - d) / ((a - c) * (b - d))) : (a - d) / sqrtl((a - c) * (b3 - d));
+    s->size[1] = low ? 1 : sqrtl((a - c) / (b3 - c));
+    s->size[2] = low ? sqrtl((a - d) / (b - d)) : sqrtl((a - d) * (a - b) / ((a - c) * (b - d)));
+}
+
 /* u, v as roots of z^2 - (b1+b2+b3 - (gamma,b gamma)) z + D (gamma,b^-1 gamma), and their rates */
 static void find_coordinates(const separation *s, const real M[3], moment *m)
 {
@@ -134,21 +144,6 @@ static real turning(real x, real dx, real y, real dy, int *sense)
     return atan2l(*sense * x, y);
 }
 
-/* gamma_i = size_i f_i/E, E^2 = (1 + bend_u sn_u^2)(1 + bend_v sn_v^2) = (a-d)^2/((a-u)(v-d)), with f of sn, cn,
- * dn. */
-typedef struct sizes {
-    real of[3];
-} sizes;
-
-static sizes component_sizes(const separation *s)
-{
-    const real a = s->top, b = s->above, c = s->below, d = s->bottom, b3 = s->b[2];
-    if (s->librates_low)
-        return (sizes){{sqrtl((a - d) * (c - d) / ((a - c) * (b - d))), 1, sqrtl((a - d) / (b - d))}};
-    return (sizes){{(a - d) / sqrtl((a - c) * (b3 - d)), sqrtl((a - c) / (b3 - c)),
-                    sqrtl((a - d) * (a - b) / ((a - c) * (b - d)))}};
-}
-
 /* dn at an amplitude, and its logarithmic derivative */
 static real dn_at(const oscillation *o, real amplitude, real z, real *d_log)
 {
@@ -174,17 +169,16 @@ static void find_amplitudes(separation *s, const moment *m, real *phi, real *psi
     const real *g = m->gamma, *d = m->velocity,
                E = (s->top - s->bottom) / sqrtl((s->top - m->u) * (m->v - s->bottom));
     const real L = (m->dv / (m->v - s->bottom) - m->du / (s->top - m->u)) / 2; /* of 1/E */
-    const sizes size = component_sizes(s);
     const int turns = s->librates_low ? 2 : 0;
     real d_dn, dn;
     if (s->librates_low) {
-        *phi = swinging(&s->u, g[0], d[0], size.of[0] / E, L, m->u);
+        *phi = swinging(&s->u, g[0], d[0], s->size[0] / E, L, m->u);
         dn = dn_at(&s->u, *phi, m->u, &d_dn);
     } else {
-        *psi = s->below_b3 ? amplitude_of_v(s, m) : swinging(&s->v, g[2], d[2], size.of[2] / E, L, m->v);
+        *psi = s->below_b3 ? amplitude_of_v(s, m) : swinging(&s->v, g[2], d[2], s->size[2] / E, L, m->v);
         dn = dn_at(&s->v, *psi, m->v, &d_dn);
     }
-    const real sine = E / size.of[turns], cosine = E / (size.of[1] * dn);
+    const real sine = E / s->size[turns], cosine = E / (s->size[1] * dn);
     const real amplitude = turning(g[turns] * sine, (d[turns] - g[turns] * L) * sine, g[1] * cosine,
                                    (d[1] - g[1] * (L + d_dn)) * cosine, &s->turn);
     *(s->librates_low ? psi : phi) = amplitude;
@@ -201,6 +195,7 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
     sort_axes(s, field->p.J);
     take_state(s, point, m.gamma, M);
     if (!make_oscillations(s, find_constant(s, m.gamma, M))) return false;
+    find_sizes(s);
     find_coordinates(s, M, &m);
     s->side = m.gamma[2] < 0 ? -1 : 1;
     find_amplitudes(s, &m, &phi, &psi);
@@ -234,15 +229,14 @@ static void components(const separation *s, const swing *u, const swing *v, real
 {
     const real over_E = sqrtl((s->top - u->z) * (v->z - s->bottom)) / (s->top - s->bottom), b3 = s->b[2];
     const real L = (v->dz / (v->z - s->bottom) - u->dz / (s->top - u->z)) / 2;
-    const sizes size = component_sizes(s);
     const swing *turns = s->librates_low ? v : u, *other = s->librates_low ? u : v;
     const int sine = s->librates_low ? 2 : 0;
     const real f[3] = {s->turn * turns->sn, turns->cn * other->dn, other->sn};
     const real df[3] = {s->turn * turns->d_sn, turns->d_cn * other->dn + turns->cn * other->d_dn, other->d_sn};
     for (int i = 0; i < 3; i++) {
         const int to = i == 1 ? 1 : i == 0 ? sine : 2 - sine;
-        g[to] = size.of[to] * f[i] * over_E;
-        d[to] = size.of[to] * df[i] * over_E + g[to] * L;
+        g[to] = s->size[to] * f[i] * over_E;
+        d[to] = s->size[to] * df[i] * over_E + g[to] * L;
     }
     if (!s->below_b3) return;
     g[2] = s->side * sqrtl((b3 - u->z) * (b3 - v->z) / ((b3 - s->b[0]) * (b3 - s->b[1])));

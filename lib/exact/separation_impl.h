@@ -25,6 +25,7 @@ typedef struct separation {
     real b[3], eps, c, distance, det;
     bool librates_low, below_b3;    /* below_b3: k = -1 and v ends at the other root of R + c, not at b3      */
     real top, above, below, bottom; /* the roots that bound v and u: bottom <= u <= below < above <= v <= top */
+    real size[3];                   /* of the components of gamma                                             */
     oscillation u, v;
     int turn, side;                 /* the sense of the turning pair of components; the sign of gamma3 if
                                        below_b3                                                               */
