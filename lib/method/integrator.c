@@ -53,6 +53,12 @@ double iso_integrator_since(const iso_integrator *it, double t)
 
 /* --- the front ---------------------------------------------------------------------------------------------------- */
 
+iso_status iso_tolerance_check(iso_context *ctx, double tolerance)
+{
+    if (tolerance >= ISO_LEAST_TOLERANCE && tolerance <= ISO_MOST_TOLERANCE) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", tolerance);
+}
+
 iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
                                  const iso_method_options *options, iso_integrator **integrator)
 {
@@ -64,8 +70,7 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     if (o.fixed_step > 0 && !method->fixed)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s does not take fixed steps", method->name);
     if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of leaps to times between the steps */
-    if (!(o.tolerance >= ISO_LEAST_TOLERANCE && o.tolerance <= ISO_MOST_TOLERANCE))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", o.tolerance);
+    if (iso_tolerance_check(ctx, o.tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
     iso_integrator *it = calloc(1, sizeof *it);
     if (!it) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an integrator");
     it->ctx = ctx;

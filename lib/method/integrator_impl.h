@@ -64,6 +64,9 @@ double iso_integrator_rate(iso_integrator *it, const double y[]);
  * own size, signed. */
 double iso_integrator_first_step(iso_integrator *it, int order);
 
+/* Whether steps can be held to a tolerance. Errors: ISO_BAD_ARGUMENT about "tolerance". */
+iso_status iso_tolerance_check(iso_context *ctx, double tolerance);
+
 /* Takes one step. */
 iso_status iso_integrator_advance(iso_integrator *it);
 

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "method/integrator_impl.h"
 #include "method/lanes_impl.h"
 #include "orbit/orbit_impl.h"
 
@@ -220,14 +221,13 @@ static void *work(void *data)
 
 /* --- all -------------------------------------------------------------------------------------------------------- */
 
-static iso_status check(iso_context *ctx, const iso_batch_options *o, const double times[], size_t rows)
+static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_lane_code *code, const double times[],
+                        size_t rows)
 {
-    if (!(o->tolerance >= ISO_LEAST_TOLERANCE && o->tolerance <= ISO_MOST_TOLERANCE))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]",
-                                o->tolerance);
+    if (iso_tolerance_check(ctx, o->tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (o->threads < 0 || o->threads > MOST_THREADS)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, 1024]", o->threads);
-    if (!iso_lane_code_find(o->vectors))
+    if (!code)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors",
                                 "this processor, or this build, has no vectors '%s'", o->vectors);
     for (size_t j = 0; j < rows; j++) {
@@ -299,10 +299,11 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
                          const iso_batch_options *options, const double times[], size_t rows, iso_sample samples[],
                          iso_status status[])
 {
-    iso_status checked = check(ctx, options, times, rows);
+    const iso_lane_code *code = iso_lane_code_find(options->vectors);
+    iso_status checked = check(ctx, options, code, times, rows);
     if (checked != ISO_OK) return checked;
     for (size_t i = 0; i < count * rows; i++) iso_sample_blank(&samples[i]);
-    const size_t most = count / (size_t)iso_lane_code_find(options->vectors)->lanes + 1; /* more would have no work */
+    const size_t most = count / (size_t)code->lanes + 1; /* more would have no work */
     const size_t asked = options->threads > 0 ? (size_t)options->threads : processors(),
                  wanted = asked < most ? asked : most;
     batch b = {.orbits = orbits,
@@ -311,7 +312,7 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
                .options = options,
                .times = times,
                .samples = samples,
-               .code = iso_lane_code_find(options->vectors),
+               .code = code,
                .chunk = CHUNK};
     if (count / wanted < CHUNK) b.chunk = count / wanted + 1;
     worker *workers = calloc(wanted, sizeof *workers);

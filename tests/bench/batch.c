@@ -67,12 +67,6 @@ static void together(iso_context *ctx, double tolerance, int threads, const char
     if (iso_batch_run(ctx, orbits, ORBITS, &o, &end, 1, samples, NULL) != ISO_OK) stop(ctx);
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void errors(double sorted[ORBITS])
 {
     for (int i = 0; i < ORBITS; i++) {
@@ -82,7 +76,7 @@ static void errors(double sorted[ORBITS])
         for (int j = 0; j < ISO_STATE; j++)
             sorted[i] = fmax(sorted[i], fabs(found[i].ball[j] - w[j]) / (j < 3 ? speed : 1));
     }
-    qsort(sorted, ORBITS, sizeof *sorted, ascending);
+    bench_sort(sorted, ORBITS);
 }
 
 /* A way to solve them all. One by one (threads < 0): by a method; else in vectors of the name. */

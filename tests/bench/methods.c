@@ -127,15 +127,9 @@ static void measure(iso_context *ctx, table *t, int digits, int pass, const doub
     c->error = done ? error_of(t->problem, y, reference) : NAN;
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static void take_median(cell *c)
 {
-    qsort(c->pass, PASSES, sizeof *c->pass, ascending);
+    bench_sort(c->pass, PASSES);
     c->milliseconds = isnan(c->error) ? NAN : c->pass[PASSES / 2];
 }
 
