@@ -6,6 +6,7 @@
 #include "reference.h"
 
 static iso_context *ctx;
+static const bool all_clocks[ISO_CLOCKS] = {true, true, true};
 
 /* A random point on H = 0, speeds of order one; two moments of every fifth body are equal. */
 static orbit random_point(int i, iso_random *random)
@@ -24,7 +25,7 @@ static void check_orbit(int i, const orbit *point, double *worst, double *worst_
     const iso_clock clock = (iso_clock)(i % ISO_CLOCKS);
     orbit o = *point;
     iso_exact *exact;
-    if (iso_exact_create(ctx, &o.model.field, o.y0, &exact) != ISO_OK) {
+    if (iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_OK) {
         ++*refused;
         return;
     }
@@ -64,7 +65,7 @@ static void check_reference(void)
         if (fabs(r->p.k) != 1) continue;
         f.eps = iso_coupling(&f.p, iso_ball_energy(&f.p, r->start.y));
         iso_ball_to_point(&f.p, r->start.y, point);
-        if (iso_exact_create(ctx, &f, point, &exact) != ISO_OK) continue;
+        if (iso_exact_create(ctx, &f, point, all_clocks, &exact) != ISO_OK) continue;
         iso_exact_at(ctx, exact, ISO_CLOCK_T, r->t, point, clocks);
         iso_point_to_ball(&f.p, point, ball);
         for (int j = 0; j < ISO_STATE; j++) worst = fmax(worst, fabs(ball[j] - r->ball[j]));
@@ -79,17 +80,17 @@ static void check_refusals(void)
 {
     iso_exact *exact;
     orbit o = orbit_sample(ctx, &iso_system_point, 0.5, orbit_J, 1);
-    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, &exact) != ISO_BAD_ARGUMENT || exact, "k = 0.5: %s",
-             iso_context_message(ctx));
+    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_BAD_ARGUMENT || exact,
+             "k = 0.5: %s", iso_context_message(ctx));
     o = orbit_sample(ctx, &iso_system_point, 1, orbit_J, 1);
     double y[ISO_STATE], clocks[ISO_CLOCKS];
-    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, &exact) != ISO_OK, "k = 1 is solved");
+    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_OK, "k = 1 is solved");
     gsl_test(iso_exact_at(ctx, exact, ISO_CLOCK_T, INFINITY, y, clocks) != ISO_BAD_ARGUMENT,
              "a time that is infinite: %s", iso_context_message(ctx));
     iso_exact_free(exact);
     o.model.field.effects.on[ISO_FIELD] = true;
-    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, &exact) != ISO_BAD_ARGUMENT || exact, "with a field: %s",
-             iso_context_message(ctx));
+    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_BAD_ARGUMENT || exact,
+             "with a field: %s", iso_context_message(ctx));
 }
 
 int main(void)

@@ -21,6 +21,7 @@ typedef struct torus_clock {
 
 struct iso_exact {
     separation s;
+    bool has[ISO_CLOCKS];
     torus_clock clock[ISO_CLOCKS];
 };
 
@@ -175,7 +176,7 @@ static iso_status check(iso_context *ctx, const iso_field *f)
 }
 
 iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const double point[ISO_STATE],
-                            iso_exact **exact)
+                            const bool clocks[ISO_CLOCKS], iso_exact **exact)
 {
     *exact = NULL;
     iso_status status = check(ctx, field);
@@ -191,6 +192,8 @@ iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const doub
     place p;
     set_place(x, 0, &p);
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) {
+        x->has[c] = clocks[c];
+        if (!clocks[c]) continue;
         if (!make_clock(&x->s, c, &x->clock[c])) {
             iso_exact_free(x);
             return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a closed solution");
@@ -215,18 +218,37 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
                         double clocks[ISO_CLOCKS])
 {
     if (!isfinite(time)) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a time is not finite");
+    if (!x->has[clock])
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "this closed solution was made without the clock %s",
+                                iso_clock_name(clock));
     place p;
     find_place(x, clock, time, &p);
-    for (int c = 0; c < ISO_CLOCKS; c++) clocks[c] = c == (int)clock ? time : (double)clock_at(&x->clock[c], &p);
+    for (int c = 0; c < ISO_CLOCKS; c++)
+        clocks[c] = c == (int)clock ? time : x->has[c] ? (double)clock_at(&x->clock[c], &p) : NAN;
     iso_separation_state(&x->s, p.theta, point);
     return ISO_OK;
 }
 
+iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock, double start, double step,
+                          size_t count, double points[], double clocks[])
+{
+    double unused[ISO_CLOCKS];
+    iso_status status = ISO_OK;
+    for (size_t i = 0; status == ISO_OK && i < count; i++)
+        status = iso_exact_at(ctx, x, clock, start + (double)i * step, points + ISO_STATE * i,
+                              clocks ? clocks + ISO_CLOCKS * i : unused);
+    return status;
+}
+
 iso_exact_torus iso_exact_describe(const iso_exact *x)
 {
-    iso_exact_torus torus = {.c = (double)x->s.c, .distance = (double)x->s.distance};
-    const real omega[2] = {x->s.u.omega, x->s.v.omega};
-    for (int c = 0; c < ISO_CLOCKS; c++)
-        for (int i = 0; i < 2; i++) torus.frequency[c][i] = (double)(omega[i] / x->clock[c].mean);
+    iso_exact_torus torus = {.angles = 2, .c = (double)x->s.c, .distance = (double)x->s.distance};
+    const oscillation *const o[2] = {&x->s.u, &x->s.v};
+    for (int i = 0; i < 2; i++) {
+        const bool once = i == 1 && x->s.below_b3; /* one swing of the coordinate is the loop, else two */
+        torus.action[i] = (double)(iso_separation_action(&x->s, o[i]) * (once ? 1 : 2));
+        for (int c = 0; c < ISO_CLOCKS; c++)
+            torus.frequency[c][i] = x->has[c] ? (double)(o[i]->omega / x->clock[c].mean / (once ? 1 : 2)) : NAN;
+    }
     return torus;
 }

@@ -1,14 +1,19 @@
-/* exact.h - the closed solution of the free problem for k = 1 and k = -1: any time, the same cost.
+/* exact.h - the closed solution of the free problem: any time, the same cost.
  *
  *     iso_exact *exact;
- *     iso_exact_create(ctx, &field, point, &exact);        field: k, J and eps; H = 0
- *     iso_exact_at(ctx, exact, ISO_CLOCK_T, 1e6, y, clocks);     the point a million units of the ball's time later
+ *     iso_exact_create(ctx, &field, point, all_clocks, &exact);    field: k, J, eps and the level H
+ *     iso_exact_at(ctx, exact, ISO_CLOCK_T, 1e6, y, clocks);         the point a million units of the ball's time later
  *     iso_exact_free(exact);
  *
- * In sphero-conical coordinates of gamma the problem separates into two oscillations with a clock sigma of their own
- * (theory: section 5 of the paper). Each is brought to an angle that grows evenly with sigma, by elliptic functions
- * and a Fourier series; the clocks are a linear term and a Fourier series of both angles. What is asked at a time is
- * found by Newton's method on sigma. Numbers that grow with time are carried in long double.
+ * It exists where there are as many integrals as it takes:
+ * - k = 1 on H = 0, and k = -1 on every level: in sphero-conical coordinates of gamma the problem separates into two
+ *   oscillations with a clock sigma of their own (theory: section 5 of the paper);
+ * - two equal moments of inertia, every k: gamma along the axis swings, the angle about the axis follows;
+ * - a start in a principal plane, every k: gamma never leaves it.
+ *
+ * Each oscillation is brought to an angle by elliptic functions and Fourier series; the clocks are linear terms and
+ * Fourier series of the angles. What is asked at a time is found by Newton's method. Numbers that grow with time are
+ * carried in long double.
  */
 #ifndef ISO_EXACT_EXACT_H
 #define ISO_EXACT_EXACT_H
@@ -17,24 +22,44 @@
 
 typedef struct iso_exact iso_exact;
 
-/* From the state (M, gamma) at time 0, in any consistent units; |gamma| and H = 0 are restored. Takes about a
- * millisecond, longer next to the separatrix. Errors: ISO_BAD_ARGUMENT about "k" (neither 1 nor -1), "eps" (not > 0),
- * or an effect that acts; ISO_NUMERICAL on the separatrix, or too close to it; ISO_NO_MEMORY. */
+/* From the state (M, gamma) at time 0, in any consistent units; |gamma| and H = field->energy are restored. `clocks`
+ * are those that will be asked for, as a time or with a state. Takes less than a millisecond, longer next to a
+ * separatrix or for extreme bodies.
+ * Errors: ISO_BAD_ARGUMENT where there is no closed solution: about "k" (and unequal moments), "eps" (not > 0), or
+ * the name of an effect that acts; ISO_NUMERICAL: too many terms would be needed; ISO_NO_MEMORY. */
 iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const double point[ISO_STATE],
-                            iso_exact **exact);
+                            const bool clocks[ISO_CLOCKS], iso_exact **exact);
 void iso_exact_free(iso_exact *exact);
 
-/* The state (M, gamma) at `time` of `clock`, before or after 0, and the three clocks there.
- * Errors: ISO_BAD_ARGUMENT: a time that is not finite. */
+/* The state (M, gamma) at `time` of `clock`, before or after 0, and the clocks there (NaN: not among those of the
+ * creation). Errors: ISO_BAD_ARGUMENT: a time that is not finite, a clock that was not among them. */
 iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock clock, double time,
                         double point[ISO_STATE], double clocks[ISO_CLOCKS]);
 
-/* The motion on its torus. */
+/* The states at the times start + i step, i < count, to rounding those of iso_exact_at, in less time where steps are
+ * short: points[ISO_STATE i ...], clocks[ISO_CLOCKS i ...]; clocks may be NULL. Errors: as iso_exact_at. */
+iso_status iso_exact_grid(iso_context *ctx, const iso_exact *exact, iso_clock clock, double start, double step,
+                          size_t count, double points[], double clocks[]);
+
+typedef enum iso_exact_kind {
+    ISO_EXACT_SEPARATED,  /* angles of the lower and the upper sphero-conical coordinate                       */
+    ISO_EXACT_SYMMETRIC,  /* angles of the swing along the axis and of the turning about it                    */
+    ISO_EXACT_PLANE,      /* one angle: of gamma in a principal plane                                          */
+    ISO_EXACT_SEPARATRIX, /* none: the orbit leaves an unstable rotation and comes back to it, once            */
+    ISO_EXACT_KINDS
+} iso_exact_kind;
+
+/* The motion on its torus. A number that the kind has not is NaN. */
 typedef struct iso_exact_torus {
-    double c;                        /* the separation constant: 2 A(z) p_z^2 = R(z) + c for both coordinates      */
-    double distance;                 /* R(b2) + c in units of its terms: 0 on the separatrix; > 0: the lower
-                                        coordinate librates, < 0: the upper                                        */
-    double frequency[ISO_CLOCKS][2]; /* of the lower and the upper coordinate, radians in each clock, both > 0     */
+    iso_exact_kind kind;
+    int angles;                      /* 2, 1 or 0                                                              */
+    double frequency[ISO_CLOCKS][2]; /* radians in each clock (NaN: not created). The state returns where
+                                        both angles have grown by multiples of 2 pi                            */
+    double action[2];                /* (1/2 pi) times the integral of (momentum) d(coordinate) round the loop
+                                        of each angle, >= 0; about an axis: M along it, with its sign          */
+    double c;                        /* separated: the constant of 2 A(z) p_z^2 = R(z) + H z + c               */
+    double distance;                 /* from the separatrix, relative: 0 on it. Separated: (R(b2) + H b2 + c)
+                                        in units of its terms, > 0 where the lower coordinate librates         */
 } iso_exact_torus;
 
 iso_exact_torus iso_exact_describe(const iso_exact *exact);

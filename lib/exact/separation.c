@@ -16,6 +16,18 @@ real iso_separation_rate(const separation *s, iso_clock clock, real u, real v)
     return det * (v - u) / (s->k == -1 ? sqrtl(q) : q * sqrtl(q));
 }
 
+/* p_z dz = z'^2/(4 A) dsigma = 2 (R + c) dsigma */
+real iso_separation_action(const separation *s, const oscillation *o)
+{
+    const real *b = s->b, D = b[0] * b[1] * b[2], S = b[0] + b[1] + b[2];
+    real mean = 0;
+    for (int j = 0; j <= o->samples; j++) {
+        const real z = o->at[j], R = s->k == -1 ? s->eps * z * (S - z) : -s->eps * D / z;
+        mean += 2 * fabsl(R + s->c) * (j % o->samples == 0 ? 0.5L : 1) / o->samples;
+    }
+    return mean / o->omega;
+}
+
 /* --- from a state ----------------------------------------------------------------------------------------------- */
 
 static void sort_axes(separation *s, const double J[3])

@@ -40,4 +40,7 @@ void iso_separation_state(const separation *s, const double theta[2], double poi
 /* d clock/dsigma: ds = (v - u) dsigma, d tau = (det J/k^2) q^(-1/k) ds, dt = (det J/k^2) q^(-1 - 1/(2k)) ds. */
 real iso_separation_rate(const separation *s, iso_clock clock, real u, real v);
 
+/* (1/2 pi) times the integral of |p_z dz| over one swing of z */
+real iso_separation_action(const separation *s, const oscillation *o);
+
 #endif
