@@ -3,46 +3,7 @@
 #include <float.h>
 #include <math.h>
 
-/* --- elliptic functions (Abramowitz, Stegun, 16.4, with m1 in the place of m) ----------------------------------- */
-
-void iso_elliptic_set(elliptic *e, real m1)
-{
-    real a = 1, b = sqrtl(m1);
-    e->m1 = m1;
-    e->steps = 0;
-    while (a - b > 4 * LDBL_EPSILON * a && e->steps < MOST_LANDEN - 1) {
-        const real mean = (a + b) / 2;
-        e->steps++;
-        e->c[e->steps] = (a - b) / 2;
-        e->a[e->steps] = mean;
-        b = sqrtl(a * b);
-        a = mean;
-    }
-    e->K = ISO_PI / (2 * a);
-}
-
-void iso_elliptic_at(const elliptic *e, real xi, real *sn, real *cn, real *dn)
-{
-    real phi = ldexpl(xi / 2, e->steps);
-    for (int i = e->steps; i > 0; i--) phi = (phi + asinl(e->c[i] / e->a[i] * sinl(phi))) / 2;
-    *sn = sinl(phi);
-    *cn = cosl(phi);
-    *dn = sqrtl(e->m1 + (1 - e->m1) * *cn * *cn);
-}
-
-real iso_elliptic_inverse(const elliptic *e, real phi)
-{
-    real a = 1, b = sqrtl(e->m1);
-    for (int i = 1; i <= e->steps;
-         i++) { /* phi' - phi with tan(phi' - phi) = (b/a) tan phi, on the branch next to phi */
-        const real more = atan2l(b * sinl(phi), a * cosl(phi));
-        phi += more + 2 * ISO_PI * roundl((phi - more) / (2 * ISO_PI));
-        const real mean = (a + b) / 2;
-        b = sqrtl(a * b);
-        a = mean;
-    }
-    return ldexpl(phi, 1 - e->steps);
-}
+#include "exact/series_impl.h"
 
 /* --- series ----------------------------------------------------------------------------------------------------- */
 
@@ -59,7 +20,7 @@ static void cosine_transform(int N, const real f[], real a[])
 }
 
 /* sum_n b_n sin n x, and its derivative, by Clenshaw's rule for both parts of exp(i n x) */
-static real sine_series(const real b[], int modes, real x, real *derivative)
+static real sine_series_l(const real b[], int modes, real x, real *derivative)
 {
     const real twice = 2 * cosl(x), s = sinl(x), c = cosl(x);
     real p = 0, p1 = 0, q = 0, q1 = 0;
@@ -75,32 +36,26 @@ static real sine_series(const real b[], int modes, real x, real *derivative)
 real iso_oscillation_theta(const oscillation *o, real xi)
 {
     real unused;
-    return xi + sine_series(o->beta, o->modes, xi, &unused);
+    return xi + sine_series_l(o->beta, o->modes, xi, &unused);
 }
 
 double iso_oscillation_xi(const oscillation *o, double theta)
 {
-    const double twice = 2 * cos(theta);
-    double p = 0, p1 = 0;
-    for (int n = o->samples; n >= 1; n--) {
-        const double r = o->gamma[n] + twice * p - p1;
-        p1 = p, p = r;
-    }
-    return theta + p * sin(theta);
+    return theta + sine_series(o->gamma, o->terms, theta);
 }
 
 /* --- an oscillation --------------------------------------------------------------------------------------------- */
 
-real iso_oscillation_rate(const oscillation *o, real z)
-{
-    return sqrtl(2 * o->C * (o->over_z ? 1 / z : fabsl(o->e - z)));
-}
-
-static real z_at(const oscillation *o, real xi)
+/* z and dx/dsigma at xi */
+static real z_at(const oscillation *o, real xi, real *rate)
 {
     real sn, cn, dn;
     iso_elliptic_at(&o->f, xi, &sn, &cn, &dn);
-    return o->origin + o->span * sn * sn / (1 + o->bend * sn * sn);
+    const real B2 = cn * cn + o->left * sn * sn, moved = o->span * sn * sn / B2;
+    const real z = o->origin + o->upwards * moved,
+               to_rest = o->far + (o->rest_by_sn ? moved : o->to_cn * cn * cn / B2);
+    *rate = sqrtl(2 * o->C * (o->over_z ? 1 / z : to_rest));
+    return z;
 }
 
 /* Whether a series has come down to the last digits before it ends. */
@@ -114,7 +69,7 @@ static real invert(const oscillation *o, real th, real low, real *slope)
 {
     real high = ISO_PI, xi = low, derivative;
     for (int i = 0; i < 100; i++) {
-        const real miss = xi + sine_series(o->beta, o->modes, xi, &derivative) - th;
+        const real miss = xi + sine_series_l(o->beta, o->modes, xi, &derivative) - th;
         if (miss > 0)
             high = xi;
         else
@@ -135,7 +90,10 @@ static bool find_theta(oscillation *o)
     real f[MOST_MODES + 1], a[MOST_MODES + 1];
     int N = 16;
     for (;; N *= 2) {
-        for (int j = 0; j <= N; j++) f[j] = 1 / iso_oscillation_rate(o, z_at(o, ISO_PI * j / N));
+        for (int j = 0; j <= N; j++) {
+            z_at(o, ISO_PI * j / N, &f[j]);
+            f[j] = 1 / f[j];
+        }
         cosine_transform(N, f, a);
         if (N == MOST_MODES || resolved(a, N, 1e-18L)) break;
     }
@@ -158,7 +116,8 @@ bool iso_oscillation_solve(oscillation *o, real m1)
         real low = 0;
         o->samples = N;
         for (int j = 0; j <= N; j++) {
-            o->at[j] = z_at(o, low = invert(o, ISO_PI * j / N, low, &slope[j]));
+            real unused;
+            o->at[j] = z_at(o, low = invert(o, ISO_PI * j / N, low, &slope[j]), &unused);
             slope[j] = 1 / slope[j];
         }
         cosine_transform(N, slope, a); /* dxi/dtheta */
@@ -166,7 +125,11 @@ bool iso_oscillation_solve(oscillation *o, real m1)
         const bool enough = resolved(a, N, 1e-17L);
         if (!enough && N < MOST_MODES) continue;
         cosine_transform(N, o->at, a);
-        for (int n = 0; n <= N; n++) o->z[n] = (double)a[n];
+        o->terms = 0;
+        for (int n = 0; n <= N; n++) {
+            o->z[n] = (double)a[n];
+            if (n > 0 && (fabs(o->gamma[n]) > 1e-18 || fabs(o->z[n]) > 1e-18 * fabs(o->z[0]))) o->terms = n;
+        }
         return enough || resolved(a, N, 1e-15L);
     }
 }

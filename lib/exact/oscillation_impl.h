@@ -1,9 +1,13 @@
 /* oscillation_impl.h - one sphero-conical coordinate in the clock sigma, by an angle that grows evenly.
  *
- *     z = origin + span sn^2(x|m)/(1 + bend sn^2(x|m)),   dx/dsigma = sqrt(2 C {|e - z| or 1/z})
+ * (dz/dsigma)^2 is a product of distances to roots. Of the two that bound the motion z starts at one, where sn = 0, and
+ * turns at the other, where cn = 0. Two more may come close to them; elliptic functions take in all four:
  *
- * Of the five roots of (dz/dsigma)^2 two bound the motion, and two more may come close to them: elliptic functions
- * take in all four. What is left of dx/dsigma is smooth. With xi = pi x/K the angle theta = omega sigma is
+ *     |z - root of sn| = span sn^2/B^2     |z - root of cn| = to_cn cn^2/B^2     B^2 = 1 + bend sn^2
+ *     |z - root of dn| = to_dn dn^2/B^2    |z - base|       = to_base/B^2
+ *     dx/dsigma = sqrt(2 C {|z - rest| or 1/z}),   |z - rest| = far + |z - nearest root|
+ *
+ * What is left of dx/dsigma is smooth. With xi = pi x/K the angle theta = omega sigma is
  *
  *     theta = xi + sum_n beta_n sin n xi,    xi = theta + sum_n gamma_n sin n theta,
  *
@@ -15,42 +19,25 @@
 
 #include <stdbool.h>
 
-typedef long double real;
+#include "exact/elliptic_impl.h"
 
-#define ISO_PI 3.141592653589793238462643383279502884L
-
-enum { MOST_MODES = 1024, MOST_LANDEN = 16 }; /* modes: a power of 2 */
-
-/* sn, cn, dn of parameter m = 1 - m1, by Landen's transformation; m1 itself is carried, which 1 - m would lose. */
-typedef struct elliptic {
-    real m1, K, a[MOST_LANDEN], c[MOST_LANDEN];
-    int steps;
-} elliptic;
-
-void iso_elliptic_set(elliptic *e, real m1);
-
-/* At xi = pi x/K. */
-void iso_elliptic_at(const elliptic *e, real xi, real *sn, real *cn, real *dn);
-
-/* pi x/K for the amplitude phi = am(x|m). */
-real iso_elliptic_inverse(const elliptic *e, real phi);
+enum { MOST_MODES = 1024 }; /* a power of 2 */
 
 typedef struct oscillation {
-    real origin, span, bend, C, e;
-    bool over_z;
+    real origin, span, bend, left, to_cn, to_dn, to_base; /* left: 1 + bend; all but origin and bend are >= 0 */
+    int upwards;                                          /* 1: z grows from origin, -1: it falls                */
+    real C, far;
+    bool over_z, rest_by_sn; /* no rest but 1/z; the root next to the rest is that of sn, not of cn              */
     elliptic f;
     real omega; /* dtheta/dsigma                     */
     real beta[MOST_MODES + 1];
     double gamma[MOST_MODES + 1], z[MOST_MODES + 1];
-    int modes, samples;      /* of beta; intervals of [0, pi] that resolve the functions of theta */
-    real at[MOST_MODES + 1]; /* z where theta = pi j/samples */
-    real start;              /* theta at sigma = 0                */
+    int modes, samples, terms; /* of beta; intervals of [0, pi] that resolve the functions of theta; of gamma and z */
+    real at[MOST_MODES + 1];   /* z where theta = pi j/samples      */
+    real start;                /* theta at sigma = 0                */
 } oscillation;
 
-/* dx/dsigma */
-real iso_oscillation_rate(const oscillation *o, real z);
-
-/* The rest from origin ... over_z and 1 - m. False: MOST_MODES are not enough. */
+/* Finds the series; all above `f` is given, and 1 - m. False: MOST_MODES are not enough. */
 bool iso_oscillation_solve(oscillation *o, real m1);
 
 real iso_oscillation_theta(const oscillation *o, real xi);

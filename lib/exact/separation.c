@@ -3,10 +3,23 @@
 #include <math.h>
 #include <string.h>
 
-/* The state in the sorted axes: velocities are d/dsigma. */
+enum { U, V };           /* the coordinates         */
+enum { AL = 3, BE = 4 }; /* roots beyond b1, b2, b3 */
+
+/* A state in the sorted axes. The rates of u and v are in arc length and s, so that rate^2 = 2 |R + c|/(v - u). */
 typedef struct moment {
-    real gamma[3], velocity[3], u, v, du, dv;
+    real gamma[3], M[3], gap, z[2], from[2][3], rate[2]; /* v - u; u and v, |b_i - u| and |b_i - v|, rates */
 } moment;
+
+/* x and y, the larger >= 0, of which the sum, the product and about the difference are known. */
+static void split(real sum, real product, real difference, real *x, real *y)
+{
+    const real larger = (sum + fabsl(difference)) / 2, smaller = larger > 0 ? product / larger : 0;
+    *x = difference > 0 ? larger : smaller;
+    *y = difference > 0 ? smaller : larger;
+}
+
+/* --- along the motion ------------------------------------------------------------------------------------------- */
 
 real iso_separation_rate(const separation *s, iso_clock clock, real u, real v)
 {
@@ -19,16 +32,16 @@ real iso_separation_rate(const separation *s, iso_clock clock, real u, real v)
 /* p_z dz = z'^2/(4 A) dsigma = 2 (R + c) dsigma */
 real iso_separation_action(const separation *s, const oscillation *o)
 {
-    const real *b = s->b, D = b[0] * b[1] * b[2], S = b[0] + b[1] + b[2];
     real mean = 0;
     for (int j = 0; j <= o->samples; j++) {
-        const real z = o->at[j], R = s->k == -1 ? s->eps * z * (S - z) : -s->eps * D / z;
-        mean += 2 * fabsl(R + s->c) * (j % o->samples == 0 ? 0.5L : 1) / o->samples;
+        const real z = o->at[j], from_al = z - s->b[1] + s->to_al[1];
+        const real excess = s->k == -1 ? s->eps * from_al * (s->to_be[1] + s->b[1] - z) : s->c * from_al / z;
+        mean += 2 * fabsl(excess) * (j % o->samples == 0 ? 0.5L : 1) / o->samples;
     }
     return mean / o->omega;
 }
 
-/* --- from a state ----------------------------------------------------------------------------------------------- */
+/* --- from a state: constants ------------------------------------------------------------------------------------ */
 
 static void sort_axes(separation *s, const double J[3])
 {
@@ -41,6 +54,8 @@ static void sort_axes(separation *s, const double J[3])
                 s->axis[i + 1] = other;
             }
     for (int i = 0; i < 3; i++) s->b[i] = s->k == -1 ? (real)J[s->axis[i]] : 1 / (real)J[s->axis[i]];
+    const real *const b = s->b;
+    for (int i = 0; i < 3; i++) s->norm[i] = (double)sqrtl(fabsl((b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3])));
 }
 
 /* sum_i b_i^power x_i y_i */
@@ -51,219 +66,263 @@ static real form(const separation *s, int power, const real x[3], const real y[3
     return sum;
 }
 
-/* gamma and M in long double, on |gamma| = 1, (M,gamma) = 0 and H = 0, sorted; M's components keep the caller's
+/* gamma and M in long double, on |gamma| = 1, (M,gamma) = 0 and H = energy, sorted; M's components keep the caller's
  * sense */
-static void take_state(const separation *s, const double point[ISO_STATE], real gamma[3], real M[3])
+static void take_state(const separation *s, double energy, const double point[ISO_STATE], moment *m)
 {
+    real *gamma = m->gamma, *M = m->M;
     for (int i = 0; i < 3; i++) M[i] = point[s->axis[i]], gamma[i] = point[3 + s->axis[i]];
     const real length = sqrtl(form(s, 0, gamma, gamma));
     for (int i = 0; i < 3; i++) gamma[i] /= length;
     const real along = form(s, 0, M, gamma);
     for (int i = 0; i < 3; i++) M[i] -= along * gamma[i];
     const real fall = s->k == -1 ? form(s, 1, gamma, gamma) : 1 / form(s, -1, gamma, gamma);
-    const real scale = sqrtl(2 * s->eps * fall / form(s, 0, M, M));
-    for (int i = 0; i < 3; i++) M[i] *= scale;
+    const real now = form(s, 0, M, M), wanted = fmaxl(2 * (s->eps * fall + energy), 0);
+    for (int i = 0; i < 3; i++) M[i] *= now > 0 ? sqrtl(wanted / now) : 0;
 }
 
-/* c and kappa = R(b2) + c, which decides where al lies, without its cancellation. */
-static real find_constant(separation *s, const real gamma[3], const real M[3])
+/* Unit vectors m along M (any tangent one where M = 0) and l = m x gamma. */
+static void tangents(const moment *at, real m[3], real l[3])
 {
-    const real *b = s->b, D = b[0] * b[1] * b[2], turning = form(s, 1, M, M) / 2;
+    const real *g = at->gamma, *M = at->M, M2 = M[0] * M[0] + M[1] * M[1] + M[2] * M[2];
+    const int flat = fabsl(g[0]) < fabsl(g[1]) ? 0 : 1; /* an axis not along gamma */
+    real length = 0;
+    for (int i = 0; i < 3; i++) {
+        m[i] = M2 > 0 ? M[i] : (i == flat) - g[flat] * g[i];
+        length += m[i] * m[i];
+    }
+    for (int i = 0; i < 3; i++) m[i] /= sqrtl(length);
+    for (int i = 0; i < 3; i++) l[i] = m[(i + 1) % 3] * g[(i + 2) % 3] - m[(i + 2) % 3] * g[(i + 1) % 3];
+}
+
+/* R(b_j) + c, and the size of its terms */
+static real excess(const separation *s, const moment *m, int j, real *size)
+{
+    const real *b = s->b, E = s->k == -1 ? s->eps : s->eps / (form(s, -1, m->gamma, m->gamma) * b[j]);
+    const int k = (j + 1) % 3, l = (j + 2) % 3;
+    const real g = E * (b[j] - b[k]) * (b[j] - b[l]) * m->gamma[j] * m->gamma[j];
+    const real x = (b[j] - b[k]) * m->M[k] * m->M[k] / 2, y = (b[j] - b[l]) * m->M[l] * m->M[l] / 2;
+    *size = fabsl(g) + fabsl(x) + fabsl(y);
+    return x + y - g;
+}
+
+/* v - u, and al, be. At k = -1 these are the eigenvalues of b + (M^2/2 eps) l l^T across gamma, u and v those of b. */
+static void find_roots(separation *s, moment *m)
+{
+    const real *b = s->b;
+    real unit[3], l[3], size;
+    tangents(m, unit, l);
+    const real sum = form(s, 1, l, l) + form(s, 1, unit, unit), P = form(s, 0, m->M, m->M) / (2 * s->eps);
+    const real X = form(s, 1, l, l) - form(s, 1, unit, unit), Y = 2 * form(s, 1, unit, l);
+    const real gap = m->gap = hypotl(X, Y);
+    s->width = s->k == 1 ? INFINITY : gap > 0 ? hypotl(gap + P * X / gap, P * Y / gap) : P;
+    s->c = form(s, 1, m->M, m->M) / -2;
+    if (s->k == 1)
+        s->c += s->eps * sum / form(s, -1, m->gamma, m->gamma);
+    else
+        s->c -= s->eps * b[0] * b[1] * b[2] * form(s, -1, m->gamma, m->gamma);
+    for (int j = 0; j < 3; j++) {
+        const real kappa = excess(s, m, j, &size);
+        if (j == 1) s->distance = size > 0 ? kappa / size : 0;
+        if (s->k == 1) {
+            s->to_al[j] = kappa * b[j] / s->c;
+            s->to_be[j] = INFINITY;
+            continue;
+        }
+        /* (b_j - al)(be - b_j) = kappa/eps */
+        const real difference = 2 * b[j] - sum - P;
+        split(s->width, kappa / s->eps, difference, &s->to_al[j], &s->to_be[j]);
+    }
+}
+
+/* u and v: (u - b1)(v - b1) = gamma1^2 (b2-b1)(b3-b1), and so on; their rates along e_z,i ~ -gamma_i/(b_i - z). */
+static void find_coordinates(const separation *s, moment *m)
+{
+    const real *b = s->b, *g = m->gamma, *M = m->M, gap = m->gap;
+    const int *a = s->axis, handed = (a[1] - a[0] + 3) % 3 == 1 ? 1 : -1; /* of the sorted axes */
+    real n[3], *to_u = m->from[U], *to_v = m->from[V];
+    for (int i = 0; i < 3; i++) n[i] = fabsl((b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3]));
+    const real sum = b[0] + b[1] + b[2] - form(s, 1, g, g);
+    m->z[U] = (sum - gap) / 2, m->z[V] = (sum + gap) / 2;
+    to_v[0] = m->z[V] - b[0], to_u[0] = g[0] * g[0] * n[0] / to_v[0];
+    to_u[2] = b[2] - m->z[U], to_v[2] = g[2] * g[2] * n[2] / to_u[2];
+    split(gap, g[1] * g[1] * n[1], 2 * b[1] - sum, &to_u[1], &to_v[1]);
+    m->rate[U] = m->rate[V] = 0;
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, l = (i + 2) % 3, side = g[i] < 0 ? -1 : 1;
+        const real velocity = handed * (g[j] * M[l] - g[l] * M[j]), scale = side / sqrtl(gap * n[i]);
+        m->rate[U] += velocity * scale * (i == 0 ? 1 : -1) * sqrtl(to_v[i] * to_u[j] * to_u[l]);
+        m->rate[V] += velocity * scale * (i == 2 ? -1 : 1) * sqrtl(to_u[i] * to_v[j] * to_v[l]);
+    }
+}
+
+/* --- from a state: the oscillations ----------------------------------------------------------------------------- */
+
+/* Root j less root i */
+static real between(const separation *s, int i, int j)
+{
+    if (i < 3 && j < 3) return s->b[j] - s->b[i];
+    if (i < 3) return j == AL ? -s->to_al[i] : s->to_be[i];
+    return j < 3 ? -between(s, j, i) : j == i ? 0 : j == BE ? s->width : -s->width;
+}
+
+static void give_roles(separation *s, int which, int sn, int cn, int dn, int base, int rest)
+{
+    const oscillation *o = &s->coordinate[which];
+    const int root[5] = {sn, cn, dn, base, rest};
+    const real size[5] = {o->span, o->to_cn, o->to_dn, o->to_base, 0};
+    for (int i = 0; i < 5; i++) {
+        s->role[which][root[i]] = o->over_z && i == ROOT_REST ? ROOT_NONE : (root_role)i;
+        s->size[which][root[i]] = (double)sqrtl(size[i]);
+    }
+}
+
+/* With roots a > b > c > d and z in [d, c] or in [b, a] (Byrd, Friedman, 252 and 257):
+ *     sn^2 = (a-c)(u-d)/((c-d)(a-u)),   sn^2 = (b-d)(a-v)/((a-b)(v-d)),   1-m = (b-c)(a-d)/((a-c)(b-d)),
+ *     dx/dsigma = sqrt(2 lead (a-c)(b-d) |rest - z|) */
+static real make_lower(separation *s, real lead, int a, int b, int c, int d, int e)
+{
+    oscillation *o = &s->coordinate[U];
+    const real ac = between(s, c, a), bd = between(s, d, b), ad = between(s, d, a), cd = between(s, d, c);
+    *o = (oscillation){.origin = s->b[d], .upwards = 1, .span = ad * cd / ac, .bend = cd / ac, .left = ad / ac};
+    o->to_cn = cd, o->to_dn = bd, o->to_base = ad;
+    o->C = lead * ac * bd;
+    o->over_z = s->k == 1;
+    o->far = between(s, c, e);
+    give_roles(s, U, d, c, b, a, e);
+    return between(s, c, b) * ad / (ac * bd);
+}
+
+/* v with the base d as above; or, where e is nearer to v's range than d is, in [b, a] between e, a, b, c (255):
+ *     sn^2 = (e-b)(a-v)/((a-b)(e-v)),   1-m = (e-a)(b-c)/((e-b)(a-c)) */
+static real make_upper(separation *s, real lead, int a, int b, int c, int d, int e)
+{
+    oscillation *o = &s->coordinate[V];
+    const real ab = between(s, b, a), ac = between(s, c, a), bd = between(s, d, b), ad = between(s, d, a);
+    const real ea = between(s, a, e), eb = between(s, b, e), bc = between(s, c, b);
+    const bool usual = !(ea < bd);
+    *o = (oscillation){.origin = a == BE ? s->b[2] + s->to_be[2] : s->b[a], .upwards = -1};
+    o->span = usual ? ad * ab / bd : ab * ea / eb;
+    o->bend = usual ? ab / bd : -ab / eb;
+    o->left = usual ? ad / bd : ea / eb;
+    o->to_cn = ab, o->to_dn = ac, o->to_base = usual ? ad : ea;
+    o->C = lead * ac * (usual ? bd : eb);
+    o->over_z = s->k == 1;
+    o->far = usual ? ea : bd;
+    o->rest_by_sn = usual;
+    give_roles(s, V, a, b, c, usual ? d : e, usual ? e : d);
+    return usual ? bc * ad / (ac * bd) : ea * bc / (eb * ac);
+}
+
+/* How far u is below al, v above al, and v below be: 2 (R + c) = rate^2 (v - u). */
+static void find_distances(const separation *s, const moment *m, real *al_u, real *v_al, real *be_v)
+{
+    const real power_u = m->rate[U] * m->rate[U] * m->gap / 2, power_v = m->rate[V] * m->rate[V] * m->gap / 2;
+    *be_v = INFINITY;
     if (s->k == 1) {
-        const real q = form(s, -1, gamma, gamma);
-        s->c = s->eps * (b[0] + b[1] + b[2] - form(s, 1, gamma, gamma)) / q - turning;
-        return s->c - s->eps * D / b[1];
+        *al_u = m->z[U] * power_u / s->c;
+        *v_al = m->z[V] * power_v / s->c;
+        return;
     }
-    s->c = -s->eps * D * form(s, -1, gamma, gamma) - turning;
-    const real terms[3] = {b[0] * b[1], b[1] * (b[0] + b[2]) - b[0] * b[2], b[1] * b[2]};
-    real kappa = -turning;
-    for (int i = 0; i < 3; i++) kappa += s->eps * terms[i] * gamma[i] * gamma[i];
-    return kappa;
-}
-
-/* The two oscillations. With the roots a > b > c > d = top, above, below, bottom, and w what else is in
- * (dz/dsigma)^2 = 8 |(z-a)(z-b)(z-c)(z-d)| w(z) (Byrd, Friedman, 252 and 257):
- *
- *     sn^2(x) = (a-c)(u-d)/((c-d)(a-u)),   sn^2(y) = (b-d)(a-v)/((a-b)(v-d)),   1-m = (b-c)(a-d)/((a-c)(b-d)),
- *     dx/dsigma = sqrt(2 (a-c)(b-d) w(u)),  dy/dsigma = sqrt(2 (a-c)(b-d) w(v)). */
-static bool make_oscillations(separation *s, real kappa)
-{
-    const real *b = s->b, half = (b[0] + b[1] + b[2]) / 2;
-    const bool neumann = s->k == -1;
-    const real be = neumann ? half + sqrtl(half * half + s->c / s->eps) : INFINITY;  /* the other root of R + c */
-    const real gap = neumann ? kappa / (s->eps * (be - b[1])) : kappa * b[1] / s->c; /* b2 - al */
-    const real al = b[1] - gap;
-    s->librates_low = gap > 0;
-    s->below_b3 = be < b[2];
-    s->distance = kappa / (neumann ? s->eps * b[1] * (b[0] + b[2]) : s->eps * b[0] * b[2]);
-    const real top = s->top = fminl(b[2], be), bottom = s->bottom = b[0];
-    const real below = s->below = s->librates_low ? fmaxl(al, bottom) : b[1];
-    const real above = s->above = s->librates_low ? b[1] : fminl(al, top);
-    if (gap == 0) return false;
-    const real long_way = (top - below) * (above - bottom);
-    const oscillation both = {
-        .C = (neumann ? s->eps : s->c) * long_way, .e = s->below_b3 ? b[2] : be, .over_z = !neumann};
-    s->u = s->v = both;
-    s->u.origin = bottom;
-    s->u.span = (top - bottom) * (below - bottom) / (top - below);
-    s->u.bend = (below - bottom) / (top - below);
-    s->v.origin = top;
-    s->v.span = -(top - above) * (top - bottom) / (above - bottom);
-    s->v.bend = (top - above) / (above - bottom);
-    const real m1 = fminl(fabsl(gap) * (top - bottom) / long_way, 1);
-    return iso_oscillation_solve(&s->u, m1) && iso_oscillation_solve(&s->v, m1);
-}
-
-/* gamma_i = size_i f_i/E, E^2 = (1 + bend_u sn_u^2)(1 + bend_v sn_v^2) = (a-d)^2/((a-u)(v-d)), f_i of sn, cn, dn. */
-static void find_sizes(separation *s)
-{
-    const real a = s->top, b = s->above, c = s->below, d = s->bottom, b3 = s->b[2];
-    const bool low = s->librates_low;
-    s->size[0] = low ? sqrtl((a - d) * (c - d) / ((a - c) * (b - d))) : (a - d) / sqrtl((a - c) * (b3 - d));
-    s->size[1] = low ? 1 : sqrtl((a - c) / (b3 - c));
-    s->size[2] = low ? sqrtl((a - d) / (b - d)) : sqrtl((a - d) * (a - b) / ((a - c) * (b - d)));
-}
-
-/* u, v as roots of z^2 - (b1+b2+b3 - (gamma,b gamma)) z + D (gamma,b^-1 gamma), and their rates */
-static void find_coordinates(const separation *s, const real M[3], moment *m)
-{
-    const real *b = s->b, D = b[0] * b[1] * b[2];
-    real g[3], p[3];
-    const real sum = b[0] + b[1] + b[2] - form(s, 1, m->gamma, m->gamma), over = D * form(s, -1, m->gamma, m->gamma);
-    m->v = (sum + sqrtl(fmaxl(sum * sum - 4 * over, 0))) / 2;
-    m->u = over / m->v;
-    for (int i = 0; i < 3; i++) g[s->axis[i]] = m->gamma[i], p[s->axis[i]] = M[i];
-    const real turned[3] = {g[1] * p[2] - g[2] * p[1], g[2] * p[0] - g[0] * p[2], g[0] * p[1] - g[1] * p[0]};
-    for (int i = 0; i < 3; i++) m->velocity[i] = (m->v - m->u) * turned[s->axis[i]];
-    const real d_sum = -2 * form(s, 1, m->gamma, m->velocity), d_over = 2 * D * form(s, -1, m->gamma, m->velocity);
-    m->du = (d_over - m->u * d_sum) / (m->v - m->u);
-    m->dv = (m->v * d_sum - d_over) / (m->v - m->u);
-}
-
-/* The amplitude whose sine is x/r, where x swings: its cosine from x' = cos am dn (dx/dsigma) r + x r'/r. */
-static real swinging(const oscillation *o, real x, real velocity, real r, real d_log_r, real z)
-{
-    if (!(r > 0)) return 0;
-    const real sine = fmaxl(fminl(x / r, 1), -1), m = 1 - o->f.m1;
-    const real fast = iso_oscillation_rate(o, z) * sqrtl(o->f.m1 + m * (1 - sine * sine));
-    return atan2l(sine, (velocity - x * d_log_r) / (r * fast));
-}
-
-/* The amplitude of two components that turn, x ~ sense sine and y ~ cosine, and the sense in which they do. */
-static real turning(real x, real dx, real y, real dy, int *sense)
-{
-    *sense = y * dx - x * dy < 0 ? -1 : 1;
-    return atan2l(*sense * x, y);
-}
-
-/* dn at an amplitude, and its logarithmic derivative */
-static real dn_at(const oscillation *o, real amplitude, real z, real *d_log)
-{
-    const real sn = sinl(amplitude), cn = cosl(amplitude), m = 1 - o->f.m1, dn = sqrtl(o->f.m1 + m * cn * cn);
-    *d_log = -m * sn * cn / dn * iso_oscillation_rate(o, z);
-    return dn;
-}
-
-/* The amplitude of v from v and its rate alone, where gamma3 keeps its side. */
-static real amplitude_of_v(const separation *s, const moment *m)
-{
-    const oscillation *v = &s->v;
-    const real ratio = (s->above - s->bottom) * (s->top - m->v) / ((s->top - s->above) * (m->v - s->bottom));
-    const real square = fminl(fmaxl(ratio, 0), 1), dn = sqrtl(v->f.m1 + (1 - v->f.m1) * (1 - square));
-    const real bent = 1 + v->bend * square, product = m->dv * bent * bent / (2 * v->span * dn);
-    return atan2l(2 * product / iso_oscillation_rate(v, m->v), 1 - 2 * square) / 2; /* sin 2 psi, cos 2 psi */
-}
-
-/* The amplitudes at sigma = 0. Where al < b2, gamma1 ~ sn_u swings and (gamma3, gamma2) ~ (sn_v, cn_v dn_u) turn;
- * else gamma3 ~ sn_v swings, or keeps its side, and (gamma1, gamma2) ~ (sn_u, cn_u dn_v) turn. */
-static void find_amplitudes(separation *s, const moment *m, real *phi, real *psi)
-{
-    const real *g = m->gamma, *d = m->velocity,
-               E = (s->top - s->bottom) / sqrtl((s->top - m->u) * (m->v - s->bottom));
-    const real L = (m->dv / (m->v - s->bottom) - m->du / (s->top - m->u)) / 2; /* of 1/E */
-    const int turns = s->librates_low ? 2 : 0;
-    real d_dn, dn;
+    *al_u = power_u / s->eps / (s->to_be[1] + m->from[U][1]);
     if (s->librates_low) {
-        *phi = swinging(&s->u, g[0], d[0], s->size[0] / E, L, m->u);
-        dn = dn_at(&s->u, *phi, m->u, &d_dn);
-    } else {
-        *psi = s->below_b3 ? amplitude_of_v(s, m) : swinging(&s->v, g[2], d[2], s->size[2] / E, L, m->v);
-        dn = dn_at(&s->v, *psi, m->v, &d_dn);
-    }
-    const real sine = E / s->size[turns], cosine = E / (s->size[1] * dn);
-    const real amplitude = turning(g[turns] * sine, (d[turns] - g[turns] * L) * sine, g[1] * cosine,
-                                   (d[1] - g[1] * (L + d_dn)) * cosine, &s->turn);
-    *(s->librates_low ? psi : phi) = amplitude;
+        *v_al = m->from[V][1] + s->to_al[1];
+        *be_v = power_v / s->eps / *v_al;
+    } else
+        split(s->width, power_v / s->eps, 2 * m->from[V][1] + s->to_al[1] - s->to_be[1], v_al, be_v);
+}
+
+/* theta where the distances to the roots of sn and cn are these, with the signs of sn and cn */
+static real angle(const oscillation *o, real to_sn, real to_cn, int sn, int cn)
+{
+    if (!(o->span > 0)) return 0;
+    const real amplitude = atan2l(sn * sqrtl(to_sn / o->span), cn * sqrtl(to_cn / o->to_cn));
+    return iso_oscillation_theta(o, iso_elliptic_inverse(&o->f, amplitude));
+}
+
+/* gamma1 ~ sn_u always; gamma2 ~ dn_u cn_v or cn_u dn_v; gamma3 ~ sn_v, unless it keeps its side. */
+static void find_angles(separation *s, const moment *m)
+{
+    int side[3], rising[2];
+    real al_u, v_al, be_v;
+    for (int i = 0; i < 3; i++) side[i] = m->gamma[i] < 0 ? -1 : 1;
+    for (int i = 0; i < 2; i++) rising[i] = m->rate[i] < 0 ? -1 : 1;
+    find_distances(s, m, &al_u, &v_al, &be_v);
+    const int cn_u = side[0] * rising[U], cn_if_low = s->below_b3 ? side[1] : -side[2] * rising[V];
+    const int cn_v = s->librates_low ? cn_if_low : s->below_b3 ? -rising[V] : cn_if_low;
+    oscillation *u = &s->coordinate[U], *v = &s->coordinate[V];
+    u->start = angle(u, m->from[U][0], s->librates_low ? al_u : m->from[U][1], side[0], cn_u);
+    v->start =
+        angle(v, s->below_b3 ? be_v : m->from[V][2], s->librates_low ? m->from[V][1] : v_al, -cn_v * rising[V], cn_v);
+    s->sign[0] = 1;
+    s->sign[1] = side[1] * (s->librates_low ? cn_v : cn_u);
+    s->sign[2] = s->below_b3 ? side[2] : 1;
 }
 
 bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE])
 {
     moment m;
-    real M[3], phi, psi;
     memset(s, 0, sizeof *s);
     s->k = (int)field->p.k;
     s->eps = field->eps;
     s->det = (real)field->p.J[0] * field->p.J[1] * field->p.J[2];
     sort_axes(s, field->p.J);
-    take_state(s, point, m.gamma, M);
-    if (!make_oscillations(s, find_constant(s, m.gamma, M))) return false;
-    find_sizes(s);
-    find_coordinates(s, M, &m);
-    s->side = m.gamma[2] < 0 ? -1 : 1;
-    find_amplitudes(s, &m, &phi, &psi);
-    s->u.start = iso_oscillation_theta(&s->u, iso_elliptic_inverse(&s->u.f, phi));
-    s->v.start = iso_oscillation_theta(&s->v, iso_elliptic_inverse(&s->v.f, psi));
+    take_state(s, field->energy, point, &m);
+    find_roots(s, &m);
+    s->librates_low = s->to_al[1] > 0;
+    s->below_b3 = s->to_be[2] < 0;
+    const int a = s->below_b3 ? BE : 2, e = s->below_b3 ? 2 : BE;
+    const int b = s->librates_low ? 1 : AL, c = s->librates_low ? AL : 1;
+    if (s->to_al[1] == 0 || s->to_be[2] == 0 || m.gap == 0) return false;
+    find_coordinates(s, &m);
+    const real lead = s->k == 1 ? s->c : s->eps;
+    const real m1_u = make_lower(s, lead, a, b, c, 0, e), m1_v = make_upper(s, lead, a, b, c, 0, e);
+    s->gap = (double)between(s, c, b);
+    if (!iso_oscillation_solve(&s->coordinate[U], fminl(m1_u, 1)) ||
+        !iso_oscillation_solve(&s->coordinate[V], fminl(m1_v, 1)))
+        return false;
+    find_angles(s, &m);
     return true;
 }
 
 /* --- to a state ------------------------------------------------------------------------------------------------- */
 
-/* A coordinate with its elliptic functions and their rates. */
-typedef struct swing {
-    real z, dz, sn, cn, dn, d_sn, d_cn, d_dn;
-} swing;
-
-static swing swing_at(const oscillation *o, double theta)
+/* Square roots of the distances from a coordinate to all roots, with the signs that make them smooth, and the distance
+ * to its root of cn. */
+static double roots_at(const separation *s, int which, double theta, double root[SEPARATION_ROOTS])
 {
-    swing w;
-    iso_elliptic_at(&o->f, iso_oscillation_xi(o, theta), &w.sn, &w.cn, &w.dn);
-    const real bent = 1 + o->bend * w.sn * w.sn;
-    w.z = o->origin + o->span * w.sn * w.sn / bent;
-    const real fast = iso_oscillation_rate(o, w.z);
-    w.d_sn = w.cn * w.dn * fast;
-    w.d_cn = -w.sn * w.dn * fast;
-    w.d_dn = -(1 - o->f.m1) * w.sn * w.cn * fast;
-    w.dz = 2 * o->span * w.sn * w.d_sn / (bent * bent);
-    return w;
-}
-
-static void components(const separation *s, const swing *u, const swing *v, real g[3], real d[3])
-{
-    const real over_E = sqrtl((s->top - u->z) * (v->z - s->bottom)) / (s->top - s->bottom), b3 = s->b[2];
-    const real L = (v->dz / (v->z - s->bottom) - u->dz / (s->top - u->z)) / 2;
-    const swing *turns = s->librates_low ? v : u, *other = s->librates_low ? u : v;
-    const int sine = s->librates_low ? 2 : 0;
-    const real f[3] = {s->turn * turns->sn, turns->cn * other->dn, other->sn};
-    const real df[3] = {s->turn * turns->d_sn, turns->d_cn * other->dn + turns->cn * other->d_dn, other->d_sn};
-    for (int i = 0; i < 3; i++) {
-        const int to = i == 1 ? 1 : i == 0 ? sine : 2 - sine;
-        g[to] = s->size[to] * f[i] * over_E;
-        d[to] = s->size[to] * df[i] * over_E + g[to] * L;
+    const oscillation *o = &s->coordinate[which];
+    double sn, cn, dn;
+    iso_elliptic_double(&o->f, iso_oscillation_xi(o, theta), &sn, &cn, &dn);
+    const double B2 = cn * cn + (double)o->left * sn * sn, over_B = 1 / sqrt(B2);
+    const double moved = (double)o->span * sn * sn / B2, to_cn = (double)o->to_cn * cn * cn / B2;
+    const double part[4] = {sn * over_B, cn * over_B, dn * over_B, over_B};
+    for (int i = 0; i < SEPARATION_ROOTS; i++) {
+        const root_role role = s->role[which][i];
+        root[i] = role == ROOT_NONE   ? 1 / sqrt((double)o->origin + o->upwards * moved)
+                  : role == ROOT_REST ? sqrt((double)o->far + (o->rest_by_sn ? moved : to_cn))
+                                      : s->size[which][i] * part[role];
     }
-    if (!s->below_b3) return;
-    g[2] = s->side * sqrtl((b3 - u->z) * (b3 - v->z) / ((b3 - s->b[0]) * (b3 - s->b[1])));
-    d[2] = -g[2] * (u->dz / (b3 - u->z) + v->dz / (b3 - v->z)) / 2;
+    return to_cn;
 }
 
+/* gamma_i = +-r_u,i r_v,i/norm_i and its rate: (r^2)' = +-z', and z' = +-sqrt(8 lead) times all r */
 void iso_separation_state(const separation *s, const double theta[2], double point[ISO_STATE])
 {
-    const swing u = swing_at(&s->u, theta[0]), v = swing_at(&s->v, theta[1]);
-    real g[3], d[3], x[3], y[3];
-    components(s, &u, &v, g, d);
-    for (int i = 0; i < 3; i++) x[s->axis[i]] = g[i], y[s->axis[i]] = d[i] / (v.z - u.z);
+    double ru[SEPARATION_ROOTS], rv[SEPARATION_ROOTS], x[3], y[3];
+    const double gap = roots_at(s, U, theta[U], ru) + s->gap + roots_at(s, V, theta[V], rv);
+    const double fast = sqrt(2 * (double)(s->k == 1 ? s->c : s->eps)) / gap;
+    for (int i = 0; i < 3; i++) {
+        double others_u = ru[AL] * ru[BE], others_v = rv[AL] * rv[BE];
+        for (int j = 0; j < 3; j++)
+            if (j != i) others_u *= ru[j], others_v *= rv[j];
+        const double d_ru = (i == 0 ? 1 : -1) * others_u, d_rv = (i == 2 ? 1 : -1) * others_v;
+        x[s->axis[i]] = s->sign[i] / s->norm[i] * ru[i] * rv[i];
+        y[s->axis[i]] = s->sign[i] / s->norm[i] * fast * (d_ru * rv[i] + ru[i] * d_rv);
+    }
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
-        point[i] = (double)(y[j] * x[l] - y[l] * x[j]);
-        point[3 + i] = (double)x[i];
+        point[i] = y[j] * x[l] - y[l] * x[j];
+        point[3 + i] = x[i];
     }
 }

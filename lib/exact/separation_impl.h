@@ -1,18 +1,19 @@
-/* separation_impl.h - the free problem on H = 0 for k = 1, -1 in sphero-conical coordinates u <= v of gamma.
+/* separation_impl.h - the free problem for k = 1 (on H = 0) and k = -1 in sphero-conical coordinates u <= v of gamma.
  *
  * With b = J (k = -1) or 1/J (k = 1), ascending, and D = b1 b2 b3,
  *
- *     k = -1:  q = b1 + b2 + b3 - u - v,   R(z) = eps z (b1 + b2 + b3 - z)
+ *     k = -1:  q = b1 + b2 + b3 - u - v,   R(z) = eps z (b1 + b2 + b3 - z) + H z
  *     k = 1:   q = u v/D,                  R(z) = -eps D/z
  *
  *     (dz/dsigma)^2 = 8 A(z) (R(z) + c),   A(z) = (b1-z)(b2-z)(b3-z),   z = u and z = v,   ds = (v - u) dsigma.
  *
- * The constant c is a polynomial in M and gamma,
+ * The roots of R + c are al and, at k = -1, be > al. The motion is bounded by b1 <= u <= min(al, b2) and
+ * max(al, b2) <= v <= min(be, b3). At the moments R + c is, without cancellation near principal planes,
  *
- *     c = -(M,bM)/2 + eps x { -D (gamma,b^-1 gamma)  |  (b1+b2+b3 - (gamma,b gamma))/q }.
+ *     R(b_j) + c = (1/2) sum_i (b_j - b_i) M_i^2 - E_j (b_j - b_k)(b_j - b_l) gamma_j^2,   E_j = {eps | eps/(q b_j)}
  *
- * Between b1 and b3 lies one root al of R + c. Below b2 it is the upper end of u (`librates_low`), else the lower end
- * of v.
+ * and from there on distances between roots are carried, never their differences taken. Two separatrices: al = b2, and
+ * at k = -1 be = b3.
  */
 #ifndef ISO_EXACT_SEPARATION_IMPL_H
 #define ISO_EXACT_SEPARATION_IMPL_H
@@ -20,18 +21,23 @@
 #include "exact/oscillation_impl.h"
 #include "model/system.h"
 
+enum { SEPARATION_ROOTS = 5 }; /* b1, b2, b3, al, be */
+
+/* What a root is to an oscillation. */
+typedef enum root_role { ROOT_SN, ROOT_CN, ROOT_DN, ROOT_BASE, ROOT_REST, ROOT_NONE } root_role;
+
 typedef struct separation {
-    int k, axis[3];                 /* axis[i]: the caller's axis with b[i]                                   */
+    int k, axis[3];                    /* axis[i]: the caller's axis with b[i]                                 */
     real b[3], eps, c, distance, det;
-    bool librates_low, below_b3;    /* below_b3: k = -1 and v ends at the other root of R + c, not at b3      */
-    real top, above, below, bottom; /* the roots that bound v and u: bottom <= u <= below < above <= v <= top */
-    real size[3];                   /* of the components of gamma                                             */
-    oscillation u, v;
-    int turn, side;                 /* the sense of the turning pair of components; the sign of gamma3 if
-                                       below_b3                                                               */
+    real to_al[3], to_be[3], width;    /* b_j - al; be - b_j; be - al (k = 1: infinite)                        */
+    bool librates_low, below_b3;       /* al < b2: u turns at al, else v does; be < b3: v turns there, not at b3 */
+    oscillation coordinate[2];         /* u, v                                                                 */
+    root_role role[2][SEPARATION_ROOTS];
+    double size[2][SEPARATION_ROOTS];  /* sqrt of the distance that goes with sn^2 ... at the role             */
+    double norm[3], gap, sign[3];      /* sqrt(product of |b_i - b_j|); of the roots between u and v; of gamma */
 } separation;
 
-/* From (M, gamma). False: on the separatrix, or too close. */
+/* From (M, gamma). False: more than MOST_MODES would be needed. */
 bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE]);
 
 /* (M, gamma) at the angles of u and v. */

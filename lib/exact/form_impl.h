@@ -1,0 +1,32 @@
+/* form_impl.h - the forms a closed solution can have: one table, used by exact.c. */
+#ifndef ISO_EXACT_FORM_IMPL_H
+#define ISO_EXACT_FORM_IMPL_H
+
+#include "exact/elliptic_impl.h"
+#include "exact/exact.h"
+
+/* A state, its clocks, and where on the way it is: the form's own angle or clock, which grows with time. */
+typedef struct form_place {
+    double point[ISO_STATE];
+    real clock[ISO_CLOCKS], along;
+} form_place;
+
+typedef struct iso_form {
+    bool (*serves)(const iso_field *field, const double point[ISO_STATE]);
+
+    /* Into *data. ISO_NUMERICAL: too many terms would be needed; ISO_NO_MEMORY; messages are the caller's. */
+    iso_status (*make)(const iso_field *field, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
+                       void **data);
+    void (*free)(void *data);
+
+    /* Where `clock` shows `time`; p->along is not NaN: a good guess of it. Clocks that were not made: NaN. */
+    void (*find)(const void *data, iso_clock clock, real time, form_place *p);
+
+    /* The mean rate at which a clock grows with p->along. */
+    real (*rate)(const void *data, iso_clock clock);
+    void (*describe)(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *torus);
+} iso_form;
+
+extern const iso_form iso_form_revolution, iso_form_separated;
+
+#endif

@@ -1,0 +1,497 @@
+/* revolution.c - the form of one angle: two equal moments of inertia, and motion in a principal plane, for every k.
+ *
+ * With x the component of gamma along the axis (of moment J_a; J_e across it), y = x^2 and q = J_e + (J_a - J_e) y,
+ *
+ *     M^2 = m(y) = 2 (H + eps q^(-1/k)),     (dx/ds)^2 = P(y) = (1 - y) m(y) - M_x^2,     d phi/ds = M_x/(1 - y)
+ *
+ * with M_x, the part of M along the axis, constant. x swings as an elliptic function of an angle xi,
+ *
+ *     equator:  x = sqrt(a) cn,  between -sqrt(a) and sqrt(a)             P = (a - y)(y - b) Q,  b <= 0
+ *     side:     x = +-sqrt(a) dn,  between sqrt(b) and sqrt(a)            P = (a - y)(y - b) Q,  b >= 0
+ *
+ * (cn = cos where P has no root b near by), and the rest is a quadrature: with f[y,a,b] divided differences,
+ * P[y,a] = (1 - y) m[y,a] - m(a) and Q = m[a,b] - (1 - y) m[y,a,b], sums without cancellation. The component across
+ * the axis is an elementary factor, which turns through the pole as fast as need be, times a smooth one:
+ *
+ *     gamma_1 + i gamma_2 = (sqrt(1 - a) cn + i sqrt(1 - b') sn) exp(i psi),    b' = {0, b}
+ *
+ * A principal plane is the same with M_x = 0: J_a and J_e are the moments of the two axes in it.
+ */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "exact/form_impl.h"
+#include "exact/series_impl.h"
+
+enum { LEAST_SAMPLES = 16, MOST_SAMPLES = 1 << 15, PSI = ISO_CLOCKS, SERIES };
+
+/* A function of xi: mean (xi - start) + sum_n b_n sin n xi - zero, 0 at the start. */
+typedef struct growing {
+    real mean;
+    double zero, range, *b;
+    int modes;
+} growing;
+
+typedef struct revolution {
+    int axis[3];                     /* the caller's axes, right-handed; the first is x's                    */
+    bool plane, side, has_b;         /* a principal plane; x keeps its sign; P has a root b near y           */
+    real Je, Ja, eps, H, power, det; /* power = -1/k, det = det J/k^2                                         */
+    real x0, dx0, y0, Mx;            /* at the start, and M_x for good                                        */
+    real a, b, a_b, rest_a, rest_b;  /* roots of P about y; a - b, 1 - a, 1 - b'                              */
+    real floor, distance, force;     /* b' = max(b, 0); P(0)/m(0); mean of M^2 ds/dxi                         */
+    elliptic f;
+    real start;              /* xi at time 0                                                          */
+    double turned[2], sense; /* exp(i longitude) of the smooth factor at time 0; of growing longitude */
+    growing of[SERIES];      /* the clocks, and psi (in the sense of growing longitude)               */
+} revolution;
+
+/* --- divided differences of m(y) = 2 (H + eps q^power) ----------------------------------------------------------- */
+
+static real q_at(const revolution *r, real y)
+{
+    return r->Je + (r->Ja - r->Je) * y;
+}
+
+static real m_at(const revolution *r, real y)
+{
+    return 2 * (r->H + r->eps * powl(q_at(r, y), r->power));
+}
+
+/* m[y,z] */
+static real slope(const revolution *r, real y, real z)
+{
+    const real q = q_at(r, y), x = (r->Ja - r->Je) * (z - y) / q;
+    const real part = x == 0 ? r->power : expm1l(r->power * log1pl(x)) / x;
+    return 2 * r->eps * (r->Ja - r->Je) * powl(q, r->power - 1) * part;
+}
+
+/* m[x,y,z]: where the three are close, sum_n binomial(power, n+2) h_n(t) in the complete symmetric polynomials h_n of
+ * their distances t from the middle; else from the two that are farthest apart. */
+static real bend(const revolution *r, real x, real y, real z)
+{
+    const real low = fminl(x, fminl(y, z)), high = fmaxl(x, fmaxl(y, z)), other = x + y + z - low - high;
+    const real q = q_at(r, (low + high) / 2), scale = (r->Ja - r->Je) / q, half = (high - low) / 2;
+    if (fabsl(scale) * half * fmaxl(1, fabsl(r->power)) > 0.1L)
+        return (slope(r, other, high) - slope(r, other, low)) / (high - low);
+    const real t[3] = {scale * half, -scale * half, scale * (other - (low + high) / 2)};
+    real p[3] = {1, 1, 1}, binomial = r->power * (r->power - 1) / 2, sum = 0; /* p[i]: h_n of the first i + 1 */
+    for (int n = 0; n < 40; n++) {
+        sum += binomial * p[2];
+        binomial *= (r->power - n - 2) / (n + 3);
+        p[0] *= t[0];
+        p[1] = p[0] + t[1] * p[1];
+        p[2] = p[1] + t[2] * p[2];
+    }
+    return 2 * r->eps * scale * scale * powl(q, r->power) * sum;
+}
+
+/* P[y,z], and P(y) as it differs from the start's */
+static real P_slope(const revolution *r, real y, real z)
+{
+    return (1 - y) * slope(r, y, z) - m_at(r, z);
+}
+
+static real P_at(const revolution *r, real y)
+{
+    return y == 1 ? -r->Mx * r->Mx : r->dx0 * r->dx0 + (y - r->y0) * P_slope(r, y, r->y0);
+}
+
+/* --- the range of y ----------------------------------------------------------------------------------------------- */
+
+typedef real function(const revolution *r, real y);
+
+static real P_rate(const revolution *r, real y)
+{
+    return P_slope(r, y, y);
+}
+
+/* The zero between low and high, where f has different signs or is zero at one of them. */
+static real bisect(const revolution *r, function *f, real low, real high)
+{
+    const bool rising = f(r, high) > 0;
+    for (int i = 0; i < 200; i++) {
+        const real middle = (low + high) / 2;
+        if (middle == low || middle == high) break;
+        *((f(r, middle) > 0) == rising ? &high : &low) = middle;
+    }
+    return (low + high) / 2;
+}
+
+/* A zero of P, by bisection and, as long as it gets better, Newton's method. */
+static real root_of_P(const revolution *r, real low, real high)
+{
+    real y = bisect(r, P_at, low, high);
+    for (int i = 0; i < 4; i++) {
+        const real next = y - P_at(r, y) / P_rate(r, y);
+        if (!(next >= low && next <= high && fabsl(P_at(r, next)) < fabsl(P_at(r, y)))) break;
+        y = next;
+    }
+    return y;
+}
+
+/* Places between which P is monotonic, by Rolle: P'' = 0 at one y at most. The last is 1, the first negative. */
+static int monotonic_parts(const revolution *r, real place[5])
+{
+    const real d = r->Ja - r->Je, p = r->power, low = d > 0 ? fmaxl(-1, -r->Je / (2 * d)) : -1;
+    const real turn = ((p - 1) * d - 2 * r->Je) / (d * (p + 1));
+    real part[3] = {low, turn > low && turn < 1 ? turn : 1, 1};
+    int count = 0;
+    place[count++] = low;
+    for (int i = 0; i < 2; i++)
+        if (part[i] < part[i + 1] && (P_rate(r, part[i]) > 0) != (P_rate(r, part[i + 1]) > 0))
+            place[count++] = bisect(r, P_rate, part[i], part[i + 1]);
+    place[count++] = 1;
+    return count;
+}
+
+/* 1 - y at a root of P, where P = (1 - y) m - M_x^2: near the pole the difference has no digits. */
+static real rest_of(const revolution *r, real y)
+{
+    const real m = m_at(r, y), rest = r->Mx * r->Mx / m;
+    return m > 0 && fabsl(rest - (1 - y)) < 1e-14L ? rest : 1 - y;
+}
+
+/* a and b: from y0 to where P falls to zero. */
+static void find_range(revolution *r)
+{
+    real place[5], from = r->y0;
+    const int count = monotonic_parts(r, place);
+    for (int i = 0; i < count; i++) {
+        if (place[i] <= r->y0) continue;
+        r->a = place[i];
+        if (P_at(r, place[i]) > 0) {
+            from = place[i];
+            continue;
+        }
+        r->a = place[i] == 1 && r->Mx == 0 && P_at(r, from) > 0 ? 1 : root_of_P(r, from, place[i]);
+        break;
+    }
+    if (r->y0 >= 1) r->a = 1;
+    from = r->y0;
+    for (int i = count - 1; i >= 0 && !r->has_b; i--) {
+        if (place[i] >= r->y0) continue;
+        r->has_b = P_at(r, place[i]) <= 0;
+        if (r->has_b) r->b = root_of_P(r, place[i], from);
+        from = place[i];
+    }
+    r->rest_a = rest_of(r, r->a);
+    r->side = r->has_b && r->b > 0;
+    r->floor = r->side ? r->b : 0;
+    r->rest_b = r->side ? rest_of(r, r->b) : 1;
+    const real above = r->dx0 * r->dx0 / -P_slope(r, r->a, r->y0), below = r->dx0 * r->dx0 / P_slope(r, r->b, r->y0);
+    r->a_b = r->side && above >= 0 && below >= 0 ? above + below : r->a - r->b;
+    r->distance = P_at(r, 0) / m_at(r, 0);
+}
+
+/* --- along the way ------------------------------------------------------------------------------------------------- */
+
+/* dpsi/dx and dx/ds of the elliptic x at y, where dn is given */
+static real rate_at(const revolution *r, real y, real to_a, real dn, real *psi)
+{
+    const real rest = r->rest_a + to_a, reach = !r->has_b ? 1 : r->side ? r->a : r->a - r->b;
+    const real curved = r->has_b ? bend(r, y, r->a, r->b) : 0;
+    const real Q = r->has_b ? slope(r, r->a, r->b) - rest * curved : m_at(r, r->a) - rest * slope(r, y, r->a);
+    const real rate = sqrtl(reach * Q), S = sqrtl(r->rest_a * r->rest_b);
+    const real more = r->side ? r->rest_b * (slope(r, r->a, r->b) + y * curved) : slope(r, y, r->a);
+    const real sum = fabsl(r->Mx) / rate + S * dn;
+    *psi = sum > 0 ? r->rest_a * more / (reach * Q) / sum : 0;
+    return rate;
+}
+
+/* d/dxi of the clocks and of psi at xi; y is even about 0 and pi */
+static void rates_at(const revolution *r, real xi, real rate[SERIES])
+{
+    real sn, cn, dn;
+    iso_elliptic_at(&r->f, xi, &sn, &cn, &dn);
+    const real to_a = (r->side ? r->a_b : r->a) * sn * sn, y = r->side ? r->a * dn * dn : r->a * cn * cn;
+    const real q = q_at(r, y), ds = r->f.K / ISO_PI / rate_at(r, y, to_a, dn, &rate[PSI]);
+    rate[PSI] *= r->f.K / ISO_PI;
+    rate[ISO_CLOCK_S] = ds;
+    rate[ISO_CLOCK_TAU] = r->det * powl(q, r->power) * ds;
+    rate[ISO_CLOCK_T] = r->det * powl(q, r->power / 2 - 1) * ds;
+}
+
+static double largest_of(const double a[], int from, int to)
+{
+    double most = 0;
+    for (int n = from; n <= to; n++) most = fmax(most, fabs(a[n]));
+    return most;
+}
+
+/* From samples of f' in `a`. False: they are too few, or memory is. */
+static bool integrate(growing *f, double a[], int N, double work[])
+{
+    iso_cosine_series(a, N, 1, work);
+    const double most = largest_of(a, 0, N);
+    if (!(largest_of(a, N - N / 16, N) <= 1e-15 * most)) return false;
+    f->modes = 0;
+    for (int n = 1; n <= N; n++)
+        if (fabs(a[n]) > 2e-17 * most) f->modes = n;
+    f->b = malloc(((size_t)f->modes + 1) * sizeof *f->b);
+    for (int n = 1; f->b && n <= f->modes; n++) {
+        f->b[n] = a[n] / n;
+        f->range += fabs(f->b[n]);
+    }
+    return f->b != NULL;
+}
+
+static void forget(revolution *r)
+{
+    for (int i = 0; i < SERIES; i++) {
+        free(r->of[i].b);
+        r->of[i] = (growing){0};
+    }
+}
+
+/* One number of samples. */
+static bool make_series(revolution *r, int N, double *samples, double work[])
+{
+    real rate[SERIES], sn, cn, dn;
+    forget(r);
+    r->force = 0;
+    for (int j = 0; j <= N; j++) {
+        const real weight = (j % N == 0 ? 0.5L : 1) / N;
+        rates_at(r, ISO_PI * j / N, rate);
+        iso_elliptic_at(&r->f, ISO_PI * j / N, &sn, &cn, &dn);
+        r->force += weight * rate[ISO_CLOCK_S] * m_at(r, r->side ? r->a * dn * dn : r->a * cn * cn);
+        for (int i = 0; i < SERIES; i++) {
+            samples[i * (N + 1) + j] = (double)rate[i];
+            r->of[i].mean += weight * rate[i];
+        }
+    }
+    bool enough = true;
+    for (int i = 0; i < SERIES && enough; i++) enough = integrate(&r->of[i], samples + i * (N + 1), N, work);
+    return enough;
+}
+
+static iso_status find_series(revolution *r)
+{
+    for (int N = LEAST_SAMPLES; N <= MOST_SAMPLES; N *= 2) {
+        double *samples = malloc(SERIES * ((size_t)N + 1) * sizeof *samples),
+               *work = malloc(2 * (size_t)N * sizeof *work);
+        const bool room = samples && work, done = room && make_series(r, N, samples, work);
+        free(samples);
+        free(work);
+        if (!room) return ISO_NO_MEMORY;
+        if (done) return ISO_OK;
+    }
+    return ISO_NUMERICAL;
+}
+
+/* sum_n b_n sin n xi and its slope, by Clenshaw's rule for both parts of exp(i n xi) */
+static double series_at(const growing *f, double xi, double *slope)
+{
+    const double s = sin(xi), c = cos(xi), twice = 2 * c;
+    double p = 0, p1 = 0, q = 0, q1 = 0;
+    for (int n = f->modes; n >= 1; n--) {
+        const double v = f->b[n] + twice * p - p1, w = n * f->b[n] + twice * q - q1;
+        p1 = p, p = v;
+        q1 = q, q = w;
+    }
+    *slope = q * c - q1;
+    return p * s;
+}
+
+static real growing_at(const revolution *r, int i, real along, real *slope)
+{
+    const growing *f = &r->of[i];
+    double part;
+    const double series = series_at(f, (double)remainderl(r->start + along, 2 * ISO_PI), &part);
+    *slope = f->mean + part;
+    return f->mean * along + (series - f->zero);
+}
+
+/* --- the state ------------------------------------------------------------------------------------------------------ */
+
+/* x, dx/ds and the elementary factor of gamma_1 + i gamma_2 at xi */
+static void swing_at(const revolution *r, double xi, double W, double *x, double *dx, double h[2], double dh[2])
+{
+    double sn, cn, dn;
+    iso_elliptic_double(&r->f, xi, &sn, &cn, &dn);
+    const double root_a = sqrt((double)r->a), up = r->x0 < 0 ? -1 : 1;
+    *x = r->side ? up * root_a * dn : root_a * cn;
+    *dx = r->side ? -up * (double)r->a_b / root_a * sn * cn * W : -root_a * sn * dn * W;
+    h[0] = sqrt((double)r->rest_a) * cn;
+    h[1] = r->sense * sqrt((double)r->rest_b) * sn;
+    dh[0] = 0; /* at the pole, the only place that asks, sn = 0 */
+    dh[1] = r->sense * sqrt((double)r->rest_b) * cn * dn * W;
+}
+
+static void turn(const double by[2], double h[2])
+{
+    const double x = h[0] * by[0] - h[1] * by[1];
+    h[1] = h[0] * by[1] + h[1] * by[0];
+    h[0] = x;
+}
+
+/* gamma' = gamma x M: with M_x the component across obeys h' = (-x x' - i M_x)/conj(h). */
+static void state_at(const revolution *r, real along, double point[ISO_STATE])
+{
+    real s_rate, unused;
+    double x, dx, h[2], dh[2];
+    growing_at(r, ISO_CLOCK_S, along, &s_rate);
+    const double psi = r->sense * (double)remainderl(growing_at(r, PSI, along, &unused), 2 * ISO_PI);
+    const double xi = (double)remainderl(r->start + along, 4 * ISO_PI), by[2] = {cos(psi), sin(psi)};
+    swing_at(r, xi, (double)(r->f.K / ISO_PI / s_rate), &x, &dx, h, dh);
+    turn(by, h), turn(r->turned, h);
+    turn(by, dh), turn(r->turned, dh);
+    const double rest = h[0] * h[0] + h[1] * h[1], u = -x * dx, w = -(double)r->Mx;
+    if (rest > 0) {
+        dh[0] = (u * h[0] - w * h[1]) / rest;
+        dh[1] = (w * h[0] + u * h[1]) / rest;
+    }
+    const double g[3] = {x, h[0], h[1]}, d[3] = {dx, dh[0], dh[1]};
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, l = (i + 2) % 3;
+        point[r->axis[i]] = i == 0 ? (double)r->Mx : d[j] * g[l] - d[l] * g[j];
+        point[3 + r->axis[i]] = g[i];
+    }
+}
+
+/* --- from a state ---------------------------------------------------------------------------------------------------- */
+
+/* The axis across a principal plane in which the point is and stays; -1: none. */
+static int across_plane(const double point[ISO_STATE])
+{
+    for (int i = 0; i < 3; i++)
+        if (point[3 + i] == 0 && point[(i + 1) % 3] == 0 && point[(i + 2) % 3] == 0) return i;
+    return -1;
+}
+
+/* The axis of revolution; -1: none. */
+static int symmetry_axis(const double J[3])
+{
+    for (int i = 0; i < 3; i++)
+        if (J[(i + 1) % 3] == J[(i + 2) % 3]) return i;
+    return -1;
+}
+
+static bool serves(const iso_field *f, const double point[ISO_STATE])
+{
+    return across_plane(point) >= 0 || symmetry_axis(f->p.J) >= 0;
+}
+
+/* gamma, gamma' = gamma x M on |gamma| = 1, (M,gamma) = 0 and the level H; sets what the body and the start give. */
+static void take_state(revolution *r, const iso_field *f, const double point[ISO_STATE], real g[3], real d[3])
+{
+    const int plane = across_plane(point), first = plane >= 0 ? (plane + 1) % 3 : symmetry_axis(f->p.J);
+    real M[3], length = 0, along = 0, M2 = 0;
+    r->plane = plane >= 0;
+    for (int i = 0; i < 3; i++) r->axis[i] = (first + i) % 3;
+    r->Ja = f->p.J[first], r->Je = f->p.J[(first + 1) % 3];
+    r->eps = f->eps, r->H = f->energy, r->power = -1 / (real)f->p.k;
+    r->det = (real)f->p.J[0] * f->p.J[1] * f->p.J[2] / ((real)f->p.k * f->p.k);
+    for (int i = 0; i < 3; i++) g[i] = point[3 + r->axis[i]], M[i] = point[r->axis[i]], length += g[i] * g[i];
+    for (int i = 0; i < 3; i++) g[i] /= sqrtl(length), along += M[i] * g[i];
+    for (int i = 0; i < 3; i++) M[i] -= along * g[i], M2 += M[i] * M[i];
+    const real scale = M2 > 0 ? sqrtl(fmaxl(m_at(r, g[0] * g[0]), 0) / M2) : 0;
+    for (int i = 0; i < 3; i++) M[i] *= scale;
+    for (int i = 0; i < 3; i++) d[i] = g[(i + 1) % 3] * M[(i + 2) % 3] - g[(i + 2) % 3] * M[(i + 1) % 3];
+    r->x0 = g[0], r->y0 = g[0] * g[0], r->dx0 = d[0];
+    r->Mx = r->plane ? 0 : M[0];
+    r->sense = r->Mx > 0 ? -1 : 1;
+}
+
+/* xi at the start: P = (a - y)(y - b) Q gives what sn^2 takes of y0 */
+static void find_start(revolution *r)
+{
+    const real turned = r->dx0 * r->dx0, from_a = turned > 0 ? turned / -P_slope(r, r->a, r->y0) : r->a - r->y0;
+    const int up = r->x0 < 0 ? -1 : 1, rising = r->dx0 < 0 ? -1 : 1;
+    real sn, cn;
+    if (r->side) {
+        const real from_b = turned > 0 ? turned / P_slope(r, r->b, r->y0) : r->y0 - r->b;
+        sn = sqrtl(fmaxl(from_a, 0)), cn = -up * rising * sqrtl(fmaxl(from_b, 0));
+    } else
+        sn = -rising * sqrtl(fmaxl(from_a, 0)), cn = r->x0;
+    r->start = sn == 0 && cn == 0 ? 0 : iso_elliptic_inverse(&r->f, atan2l(sn, cn));
+}
+
+/* exp(i longitude) of the smooth factor: what gamma across the axis (at the pole, its rate) is beside the other. */
+static void find_longitude(revolution *r, const real g[3], const real d[3])
+{
+    double x, dx, h[2], dh[2];
+    real s_rate;
+    for (int i = 0; i < SERIES; i++) {
+        real unused;
+        r->of[i].zero = (double)growing_at(r, i, 0, &unused);
+    }
+    growing_at(r, ISO_CLOCK_S, 0, &s_rate);
+    swing_at(r, (double)r->start, (double)(r->f.K / ISO_PI / s_rate), &x, &dx, h, dh);
+    const bool pole = g[1] == 0 && g[2] == 0;
+    const double *elementary = pole ? dh : h, y[2] = {(double)(pole ? d[1] : g[1]), (double)(pole ? d[2] : g[2])};
+    r->turned[0] = elementary[0] * y[0] + elementary[1] * y[1];
+    r->turned[1] = elementary[0] * y[1] - elementary[1] * y[0];
+    const double length = hypot(r->turned[0], r->turned[1]);
+    r->turned[0] = length > 0 ? r->turned[0] / length : 1;
+    r->turned[1] = length > 0 ? r->turned[1] / length : 0;
+}
+
+static iso_status make(const iso_field *f, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS], void **data)
+{
+    (void)clocks; /* all of them cost little */
+    real g[3], d[3];
+    revolution *r = *data = calloc(1, sizeof *r);
+    if (!r) return ISO_NO_MEMORY;
+    take_state(r, f, point, g, d);
+    find_range(r);
+    const real least = 1e-40L;
+    iso_elliptic_set(&r->f, !r->has_b ? 1 : fmaxl(r->side ? r->b / r->a : r->b / (r->b - r->a), least));
+    find_start(r);
+    const iso_status status = find_series(r);
+    if (status == ISO_OK) find_longitude(r, g, d);
+    return status;
+}
+
+/* --- the form ---------------------------------------------------------------------------------------------------------- */
+
+static void find(const void *data, iso_clock clock, real time, form_place *p)
+{
+    const revolution *r = data;
+    const growing *f = &r->of[clock];
+    const real about = (time + f->zero) / f->mean, around = f->range / f->mean;
+    real low = about - around, high = about + around, slope;
+    if (isnan(p->along)) p->along = about;
+    for (int i = 0; i < 100; i++) {
+        const real miss = growing_at(r, clock, p->along, &slope) - time;
+        *(miss > 0 ? &high : &low) = p->along;
+        const real next = p->along - miss / slope;
+        if (fabsl(next - p->along) <= 1e-9L) {
+            p->along = next;
+            break;
+        }
+        p->along = next >= low && next <= high ? next : (low + high) / 2;
+    }
+    for (iso_clock k = 0; k < ISO_CLOCKS; k++)
+        p->clock[k] = k == clock ? time : growing_at(r, (int)k, p->along, &slope);
+    state_at(r, p->along, p->point);
+}
+
+static real mean_rate(const void *data, iso_clock clock)
+{
+    return ((const revolution *)data)->of[clock].mean;
+}
+
+static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *to)
+{
+    const revolution *r = data;
+    const real swing = r->side && !r->plane ? 1 : 0.5L, turning = 0.5L + r->of[PSI].mean; /* radians per xi */
+    to->kind = r->plane ? ISO_EXACT_PLANE : ISO_EXACT_SYMMETRIC;
+    to->angles = r->plane ? 1 : 2;
+    to->action[0] = (double)((r->force - fabsl(r->Mx) * turning) / swing);
+    if (!r->plane) to->action[1] = (double)r->Mx, to->distance = (double)r->distance;
+    for (int c = 0; c < ISO_CLOCKS; c++) {
+        if (!clocks[c]) continue;
+        to->frequency[c][0] = (double)(swing / r->of[c].mean);
+        if (!r->plane) to->frequency[c][1] = (double)(turning / r->of[c].mean);
+    }
+}
+
+static void release(void *data)
+{
+    if (data) forget(data);
+    free(data);
+}
+
+const iso_form iso_form_revolution = {
+    .serves = serves, .make = make, .free = release, .find = find, .rate = mean_rate, .describe = describe};

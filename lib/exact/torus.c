@@ -1,0 +1,254 @@
+/* torus.c - the separated form: both oscillations side by side, and the clocks on their torus. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "exact/form_impl.h"
+#include "exact/separation_impl.h"
+#include "exact/series_impl.h"
+
+/* A clock on the torus: d clock/d sigma = mean + sum_mn d_mn cos m theta_u cos n theta_v, integrated term by term:
+ *     clock = mean sigma + sum_mn [ at_sine[m][n] sin m theta_u cos n theta_v
+ *                                   + at_cosine[m][n] cos m theta_u sin n theta_v ]
+ * less its value at sigma = 0. */
+typedef struct torus_clock {
+    real mean;
+    int rows, columns;          /* m < rows, n < columns ... */
+    int length[MOST_MODES + 1]; /* ... and n < length[m]: beyond it there is nothing */
+    double *at_sine, *at_cosine, zero, range;
+} torus_clock;
+
+typedef struct torus {
+    separation s;
+    bool has[ISO_CLOCKS];
+    torus_clock clock[ISO_CLOCKS];
+} torus;
+
+/* --- set-up ----------------------------------------------------------------------------------------------------- */
+
+/* What of a coefficient is above the rounding of its transform, and a difference of frequencies above theirs. */
+static const double LEAST = 4e-17, RESONANT = 1e-15;
+
+/* d_mn into the two tables of the integral: sin(m theta_u +- n theta_v)/(m omega_u +- n omega_v), each with d_mn/2.
+ * Where the frequencies are in the ratio n : m, m theta_u - n theta_v stays what it is. */
+static void integrate(const separation *s, torus_clock *c, const double d[])
+{
+    const oscillation *u = &s->coordinate[0], *v = &s->coordinate[1];
+    const double least = LEAST * (double)c->mean;
+    int rows = 0;
+    for (int m = 0; m < c->rows; m++)
+        for (int n = 0; n < c->columns; n++) {
+            const int i = m * c->columns + n;
+            c->at_sine[i] = c->at_cosine[i] = 0;
+            if (i == 0 || fabs(d[i]) < least) continue;
+            const double sum = (double)(m * u->omega + n * v->omega), gap = (double)(m * u->omega - n * v->omega);
+            const bool apart = fabs(gap) > RESONANT * sum;
+            const double of_sum = d[i] / 2 / sum, of_gap = apart ? d[i] / 2 / gap : 0;
+            if (!apart) c->mean += d[i] / 2 * cosl(m * u->start - n * v->start);
+            c->at_sine[i] = of_sum + of_gap;
+            c->at_cosine[i] = of_sum - of_gap;
+            c->range += fabs(of_sum) + fabs(of_gap);
+            c->length[m] = n + 1;
+            rows = m + 1;
+        }
+    c->rows = rows;
+}
+
+static bool make_clock(const separation *s, iso_clock clock, torus_clock *c)
+{
+    const oscillation *u = &s->coordinate[0], *v = &s->coordinate[1];
+    const int M = u->samples, N = v->samples;
+    double work[2 * MOST_MODES];
+    real mean = 0;
+    c->rows = M + 1;
+    c->columns = N + 1;
+    const size_t size = (size_t)c->rows * (size_t)c->columns;
+    double *d = malloc(size * sizeof *d);
+    c->at_sine = malloc(size * sizeof *c->at_sine);
+    c->at_cosine = malloc(size * sizeof *c->at_cosine);
+    if (!d || !c->at_sine || !c->at_cosine) return free(d), false;
+    for (int j = 0; j <= M; j++)
+        for (int l = 0; l <= N; l++) {
+            const real r = iso_separation_rate(s, clock, u->at[j], v->at[l]);
+            mean += r * (j % M == 0 ? 0.5L : 1) * (l % N == 0 ? 0.5L : 1);
+            d[j * c->columns + l] = (double)r;
+        }
+    c->mean = mean / M / N;
+    for (int j = 0; j <= M; j++) iso_cosine_series(d + j * c->columns, N, 1, work);
+    for (int l = 0; l <= N; l++) iso_cosine_series(d + l, M, c->columns, work);
+    integrate(s, c, d);
+    free(d);
+    return true;
+}
+
+/* --- angles and clocks at sigma --------------------------------------------------------------------------------- */
+
+typedef struct angles {
+    real sigma;
+    double theta[2]; /* of u and v, within a turn and back */
+    double sine[2][MOST_MODES + 1], cosine[2][MOST_MODES + 1];
+} angles;
+
+static void set_angles(const torus *x, real sigma, int most, angles *a)
+{
+    a->sigma = sigma;
+    for (int i = 0; i < 2; i++) {
+        const oscillation *o = &x->s.coordinate[i];
+        a->theta[i] = (double)remainderl(o->start + o->omega * sigma, 4 * ISO_PI);
+        const double s = sin(a->theta[i]), c = cos(a->theta[i]);
+        double *sine = a->sine[i], *cosine = a->cosine[i];
+        sine[0] = 0, cosine[0] = 1;
+        for (int n = 1; n <= o->samples && n < most; n++) {
+            cosine[n] = cosine[n - 1] * c - sine[n - 1] * s;
+            sine[n] = sine[n - 1] * c + cosine[n - 1] * s;
+        }
+    }
+}
+
+/* The terms m, n < most: sums over m first, which need not be taken in any order. */
+static real clock_at(const torus_clock *c, int most, const angles *a)
+{
+    double of_sine[MOST_MODES + 1], of_cosine[MOST_MODES + 1], sum = 0;
+    int columns = 0;
+    for (int m = 0; m < c->rows && m < most; m++) {
+        const double *p = c->at_sine + m * c->columns, *q = c->at_cosine + m * c->columns;
+        const double sine = a->sine[0][m], cosine = a->cosine[0][m];
+        const int length = c->length[m] < most ? c->length[m] : most;
+        for (; columns < length; columns++) of_sine[columns] = of_cosine[columns] = 0;
+        for (int n = 0; n < length; n++) {
+            of_sine[n] += p[n] * sine;
+            of_cosine[n] += q[n] * cosine;
+        }
+    }
+    for (int n = 0; n < columns; n++) sum += of_sine[n] * a->cosine[1][n] + of_cosine[n] * a->sine[1][n];
+    return c->mean * a->sigma + (sum - c->zero);
+}
+
+static double coordinate_at(const oscillation *o, double theta)
+{
+    const double twice = 2 * cos(theta);
+    double p = 0, p1 = 0;
+    for (int n = o->terms; n >= 1; n--) {
+        const double r = o->z[n] + twice * p - p1;
+        p1 = p, p = r;
+    }
+    return o->z[0] + p * twice / 2 - p1;
+}
+
+static double rate_at(const torus *x, iso_clock clock, const double theta[2])
+{
+    const oscillation *o = x->s.coordinate;
+    return (double)iso_separation_rate(&x->s, clock, coordinate_at(&o[0], theta[0]), coordinate_at(&o[1], theta[1]));
+}
+
+enum { FEW = 6, ALL = MOST_MODES + 1 };
+
+/* Newton's method between bounds, as clocks only go forwards, on the first terms or on all, until the next step would
+ * leave less than rounding, for which the rate at both its ends counts. Gives that last step. */
+static real approach(const torus *x, iso_clock clock, real time, int most, double enough, angles *a)
+{
+    const torus_clock *c = &x->clock[clock];
+    const real about = (time + c->zero) / c->mean, around = c->range / c->mean;
+    real low = about - around, high = about + around;
+    for (int i = 0;; i++) {
+        set_angles(x, a->sigma, most, a);
+        const real miss = clock_at(c, most, a) - time;
+        *(miss > 0 ? &high : &low) = a->sigma;
+        const real rate = rate_at(x, clock, a->theta), step = -miss / rate;
+        if (fabsl(step) <= enough * around + 4 * LDBL_EPSILON * fabsl(a->sigma) || i == 100) return step;
+        const real next = a->sigma + step;
+        a->sigma = next >= low && next <= high ? next : (low + high) / 2;
+    }
+}
+
+static void turn(const torus *x, const angles *a, real step, double theta[2])
+{
+    for (int i = 0; i < 2; i++)
+        theta[i] = (double)remainderl(a->theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
+}
+
+static void find(const void *data, iso_clock clock, real time, form_place *p)
+{
+    const torus *x = data;
+    const torus_clock *c = &x->clock[clock];
+    double theta[2];
+    angles a;
+    a.sigma = p->along;
+    if (isnan(a.sigma)) {
+        a.sigma = (time + c->zero) / c->mean;
+        a.sigma += approach(x, clock, time, FEW, 1e-3, &a);
+    }
+    real step = approach(x, clock, time, ALL, 1e-6, &a);
+    turn(x, &a, step, theta);
+    const double before = rate_at(x, clock, a.theta);
+    step *= 2 * before / (before + rate_at(x, clock, theta));
+    turn(x, &a, step, theta);
+    p->along = a.sigma + step;
+    for (iso_clock k = 0; k < ISO_CLOCKS; k++) {
+        p->clock[k] = k == clock ? time : NAN;
+        if (k == clock || !x->has[k]) continue;
+        const double rate = (rate_at(x, k, a.theta) + rate_at(x, k, theta)) / 2;
+        p->clock[k] = clock_at(&x->clock[k], ALL, &a) + step * rate;
+    }
+    iso_separation_state(&x->s, theta, p->point);
+}
+
+/* --- the form --------------------------------------------------------------------------------------------------- */
+
+static bool serves(const iso_field *f, const double point[ISO_STATE])
+{
+    (void)point;
+    return f->p.k == -1 || (f->p.k == 1 && f->energy == 0);
+}
+
+static void release(void *data)
+{
+    torus *x = data;
+    for (int c = 0; x && c < ISO_CLOCKS; c++) {
+        free(x->clock[c].at_sine);
+        free(x->clock[c].at_cosine);
+    }
+    free(x);
+}
+
+static iso_status make(const iso_field *field, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
+                       void **data)
+{
+    torus *x = *data = calloc(1, sizeof *x);
+    if (!x) return ISO_NO_MEMORY;
+    if (!iso_separation_make(&x->s, field, point)) return ISO_NUMERICAL;
+    angles a;
+    set_angles(x, 0, ALL, &a);
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++) {
+        x->has[c] = clocks[c];
+        if (!clocks[c]) continue;
+        if (!make_clock(&x->s, c, &x->clock[c])) return ISO_NO_MEMORY;
+        x->clock[c].zero = (double)clock_at(&x->clock[c], ALL, &a);
+    }
+    return ISO_OK;
+}
+
+static real mean_rate(const void *data, iso_clock clock)
+{
+    return ((const torus *)data)->clock[clock].mean;
+}
+
+static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *to)
+{
+    const torus *x = data;
+    to->kind = ISO_EXACT_SEPARATED;
+    to->angles = 2;
+    to->c = (double)x->s.c;
+    to->distance = (double)x->s.distance;
+    for (int i = 0; i < 2; i++) {
+        const oscillation *o = &x->s.coordinate[i];
+        /* the state returns after one swing of v where gamma3 keeps its side and gamma2 does not swing with it, */
+        const int swings = i == 1 && x->s.below_b3 && !x->s.librates_low ? 1 : 2; /* else after two */
+        to->action[i] = (double)(iso_separation_action(&x->s, o) * swings);
+        for (int c = 0; c < ISO_CLOCKS; c++)
+            to->frequency[c][i] = clocks[c] ? (double)(o->omega / x->clock[c].mean / swings) : NAN;
+    }
+}
+
+const iso_form iso_form_separated = {
+    .serves = serves, .make = make, .free = release, .find = find, .rate = mean_rate, .describe = describe};
