@@ -2,6 +2,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "exact/series_impl.h"
 
@@ -10,7 +11,7 @@
 /* f(pi j/N) = sum_n a_n cos(n pi j/N), j, n = 0 ... N */
 static void cosine_transform(int N, const real f[], real a[])
 {
-    real cosine[2 * MOST_MODES];
+    real cosine[2 * MOST_XI_MODES];
     for (int i = 0; i < 2 * N; i++) cosine[i] = cosl(ISO_PI * i / N);
     for (int n = 0; n <= N; n++) {
         real sum = (f[0] + (n % 2 ? -f[N] : f[N])) / 2;
@@ -52,16 +53,12 @@ static real z_at(const oscillation *o, real xi, real *rate)
     real sn, cn, dn;
     iso_elliptic_at(&o->f, xi, &sn, &cn, &dn);
     const real B2 = cn * cn + o->left * sn * sn, moved = o->span * sn * sn / B2;
-    const real z = o->origin + o->upwards * moved,
-               to_rest = o->far + (o->rest_by_sn ? moved : o->to_cn * cn * cn / B2);
-    *rate = sqrtl(2 * o->C * (o->over_z ? 1 / z : to_rest));
+    const real z = o->origin + o->upwards * moved, near = o->to_cn * cn * cn / B2;
+    real square = 2 * o->C;
+    for (int i = 0; i < o->rests; i++) square *= o->far[i] + near;
+    for (int i = 0; i > o->power; i--) square /= z;
+    *rate = sqrtl(square);
     return z;
-}
-
-/* Whether a series has come down to the last digits before it ends. */
-static bool resolved(const real a[], int N, real rounding)
-{
-    return fabsl(a[N]) + fabsl(a[N - 1]) + fabsl(a[N - 2]) <= rounding * fabsl(a[0]);
 }
 
 /* xi where theta is th, in [low, pi]: Newton's method, kept in its interval */
@@ -87,7 +84,7 @@ static real invert(const oscillation *o, real th, real low, real *slope)
 /* beta and omega: sigma = integral of dx/rate */
 static bool find_theta(oscillation *o)
 {
-    real f[MOST_MODES + 1], a[MOST_MODES + 1];
+    real f[MOST_XI_MODES + 1], a[MOST_XI_MODES + 1];
     int N = 16;
     for (;; N *= 2) {
         for (int j = 0; j <= N; j++) {
@@ -95,7 +92,8 @@ static bool find_theta(oscillation *o)
             f[j] = 1 / f[j];
         }
         cosine_transform(N, f, a);
-        if (N == MOST_MODES || resolved(a, N, 1e-18L)) break;
+        if (fabsl(a[N]) + fabsl(a[N - 1]) + fabsl(a[N - 2]) <= 1e-18L * a[0]) break;
+        if (N == MOST_XI_MODES) return false;
     }
     o->omega = ISO_PI / (a[0] * o->f.K);
     o->modes = 0;
@@ -104,32 +102,53 @@ static bool find_theta(oscillation *o)
         if (fabsl(o->beta[n]) > LDBL_EPSILON / 8) o->modes = n;
     }
     o->samples = N;
-    return resolved(a, N, 1e-17L);
+    return true;
+}
+
+/* gamma and z from samples at theta = pi j/N. */
+static bool find_xi(oscillation *o, int N)
+{
+    double *const slope = o->gamma, *const work = o->z, *const z = work + 2 * N; /* work, then z, in one */
+    real low = 0, part, unused, most = 0;
+    for (int j = 0; j <= N; j++) {
+        o->at[j] = z_at(o, low = invert(o, ISO_PI * j / N, low, &part), &unused);
+        slope[j] = (double)(1 / part);
+        z[j] = (double)o->at[j];
+    }
+    iso_cosine_series(slope, N, 1, work);
+    iso_cosine_series(z, N, 1, work);
+    for (int n = 0; n <= N; n++) most = fmaxl(most, fabs(slope[n]));
+    const bool enough = fabs(slope[N]) + fabs(slope[N - 1]) + fabs(slope[N - 2]) <= 1e-15 * (double)most;
+    o->samples = N;
+    o->terms = 0;
+    for (int n = 0; n <= N; n++) {
+        o->z[n] = z[n];
+        if (n > 0) o->gamma[n] = slope[n] / n;
+        if (n > 0 && (fabs(o->gamma[n]) > 1e-18 || fabs(o->z[n]) > 1e-17 * fabs(o->z[0]))) o->terms = n;
+    }
+    return enough;
+}
+
+void iso_oscillation_release(oscillation *o)
+{
+    free(o->at);
+    free(o->gamma);
+    free(o->z);
+    o->at = NULL, o->gamma = NULL, o->z = NULL;
 }
 
 bool iso_oscillation_solve(oscillation *o, real m1)
 {
-    real slope[MOST_MODES + 1], a[MOST_MODES + 1];
     iso_elliptic_set(&o->f, m1);
     if (!find_theta(o)) return false;
-    for (int N = o->samples;; N *= 2) {
-        real low = 0;
-        o->samples = N;
-        for (int j = 0; j <= N; j++) {
-            real unused;
-            o->at[j] = z_at(o, low = invert(o, ISO_PI * j / N, low, &slope[j]), &unused);
-            slope[j] = 1 / slope[j];
-        }
-        cosine_transform(N, slope, a); /* dxi/dtheta */
-        for (int n = 1; n <= N; n++) o->gamma[n] = (double)(a[n] / n);
-        const bool enough = resolved(a, N, 1e-17L);
-        if (!enough && N < MOST_MODES) continue;
-        cosine_transform(N, o->at, a);
-        o->terms = 0;
-        for (int n = 0; n <= N; n++) {
-            o->z[n] = (double)a[n];
-            if (n > 0 && (fabs(o->gamma[n]) > 1e-18 || fabs(o->z[n]) > 1e-18 * fabs(o->z[0]))) o->terms = n;
-        }
-        return enough || resolved(a, N, 1e-15L);
+    for (int N = o->samples; N <= MOST_MODES; N *= 2) {
+        const size_t size = (size_t)N + 1;
+        iso_oscillation_release(o);
+        o->at = malloc(size * sizeof *o->at);
+        o->gamma = malloc(size * sizeof *o->gamma);
+        o->z = malloc(3 * size * sizeof *o->z);
+        if (!o->at || !o->gamma || !o->z) return false;
+        if (find_xi(o, N)) return true;
     }
+    return false;
 }

@@ -1,11 +1,12 @@
 /* oscillation_impl.h - one sphero-conical coordinate in the clock sigma, by an angle that grows evenly.
  *
- * (dz/dsigma)^2 is a product of distances to roots. Of the two that bound the motion z starts at one, where sn = 0, and
- * turns at the other, where cn = 0. Two more may come close to them; elliptic functions take in all four:
+ * (dz/dsigma)^2 is a product of distances to branch points, at most six with 0 and infinity. Two bound the motion: z
+ * starts at one, where sn = 0, and turns at the other, where cn = 0. The next one on either side, dn's and the base, may
+ * come close to them; elliptic functions take in all four:
  *
- *     |z - root of sn| = span sn^2/B^2     |z - root of cn| = to_cn cn^2/B^2     B^2 = 1 + bend sn^2
- *     |z - root of dn| = to_dn dn^2/B^2    |z - base|       = to_base/B^2
- *     dx/dsigma = sqrt(2 C {|z - rest| or 1/z}),   |z - rest| = far + |z - nearest root|
+ *     |z - root of sn| = span sn^2/B^2     |z - root of cn| = to_cn cn^2/B^2     B^2 = cn^2 + left sn^2
+ *     |z - root of dn| = to_dn dn^2/B^2    |z - base|       = to_base/B^2        (B = 1: the base is infinite)
+ *     dx/dsigma = sqrt(2 C z^power |z - rest| ...),   |z - rest| = far + |z - root of cn|
  *
  * What is left of dx/dsigma is smooth. With xi = pi x/K the angle theta = omega sigma is
  *
@@ -21,24 +22,23 @@
 
 #include "exact/elliptic_impl.h"
 
-enum { MOST_MODES = 1024 }; /* a power of 2 */
+enum { MOST_XI_MODES = 512, MOST_MODES = 1 << 13 }; /* powers of 2: of functions of xi, and of theta */
 
 typedef struct oscillation {
-    real origin, span, bend, left, to_cn, to_dn, to_base; /* left: 1 + bend; all but origin and bend are >= 0 */
-    int upwards;                                          /* 1: z grows from origin, -1: it falls                */
-    real C, far;
-    bool over_z, rest_by_sn; /* no rest but 1/z; the root next to the rest is that of sn, not of cn              */
+    real origin, span, left, to_cn, to_dn, to_base;
+    int upwards, power; /* 1: z grows from origin, -1: it falls; of z in dx/dsigma */
+    real C, far[2];
+    int rests;
     elliptic f;
-    real omega; /* dtheta/dsigma                     */
-    real beta[MOST_MODES + 1];
-    double gamma[MOST_MODES + 1], z[MOST_MODES + 1];
-    int modes, samples, terms; /* of beta; intervals of [0, pi] that resolve the functions of theta; of gamma and z */
-    real at[MOST_MODES + 1];   /* z where theta = pi j/samples      */
-    real start;                /* theta at sigma = 0                */
+    real omega, start;        /* dtheta/dsigma; theta at sigma = 0                                         */
+    int modes, samples, terms; /* of beta; intervals of [0, pi] that resolve functions of theta; of gamma, z */
+    real beta[MOST_XI_MODES + 1], *at; /* at: z where theta = pi j/samples                                 */
+    double *gamma, *z;
 } oscillation;
 
-/* Finds the series; all above `f` is given, and 1 - m. False: MOST_MODES are not enough. */
+/* Finds the series; all above `f` is given, and 1 - m. False: too many terms would be needed, or no memory. */
 bool iso_oscillation_solve(oscillation *o, real m1);
+void iso_oscillation_release(oscillation *o);
 
 real iso_oscillation_theta(const oscillation *o, real xi);
 double iso_oscillation_xi(const oscillation *o, double theta);

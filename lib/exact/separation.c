@@ -166,52 +166,58 @@ static real between(const separation *s, int i, int j)
     return j < 3 ? -between(s, j, i) : j == i ? 0 : j == BE ? s->width : -s->width;
 }
 
-static void give_roles(separation *s, int which, int sn, int cn, int dn, int base, int rest)
+/* Roots that are none of these lie beyond cn's or beyond dn's: their distance from cn's is what is kept. */
+static void give_roles(separation *s, int which, int sn, int cn, int dn, int base)
 {
     const oscillation *o = &s->coordinate[which];
-    const int root[5] = {sn, cn, dn, base, rest};
-    const real size[5] = {o->span, o->to_cn, o->to_dn, o->to_base, 0};
-    for (int i = 0; i < 5; i++) {
-        s->role[which][root[i]] = o->over_z && i == ROOT_REST ? ROOT_NONE : (root_role)i;
+    const int root[4] = {sn, cn, dn, base};
+    const real size[4] = {o->span, o->to_cn, o->to_dn, o->to_base};
+    for (int i = 0; i < SEPARATION_ROOTS; i++) {
+        s->role[which][i] = s->k == 1 && i == BE ? ROOT_NONE : ROOT_REST;
+        s->size[which][i] = (double)fabsl(between(s, cn, i));
+    }
+    for (int i = 0; i < 4 && root[i] >= 0; i++) {
+        s->role[which][root[i]] = (root_role)i;
         s->size[which][root[i]] = (double)sqrtl(size[i]);
     }
 }
 
-/* With roots a > b > c > d and z in [d, c] or in [b, a] (Byrd, Friedman, 252 and 257):
- *     sn^2 = (a-c)(u-d)/((c-d)(a-u)),   sn^2 = (b-d)(a-v)/((a-b)(v-d)),   1-m = (b-c)(a-d)/((a-c)(b-d)),
- *     dx/dsigma = sqrt(2 lead (a-c)(b-d) |rest - z|) */
-static real make_lower(separation *s, real lead, int a, int b, int c, int d, int e)
+enum { OUTSIDE = -1 }; /* 0 or infinity */
+
+/* Among roots b > c > d, z in [d, c], and infinity (k = -1) or 0 (k = 1):
+ *     sn^2 = (u-d)/(c-d) times {1 | c/u},    1-m = (b-c)/(b-d) times {1 | d/c} */
+static real make_lower(separation *s, int a, int b, int c, int d, int e)
 {
     oscillation *o = &s->coordinate[U];
-    const real ac = between(s, c, a), bd = between(s, d, b), ad = between(s, d, a), cd = between(s, d, c);
-    *o = (oscillation){.origin = s->b[d], .upwards = 1, .span = ad * cd / ac, .bend = cd / ac, .left = ad / ac};
-    o->to_cn = cd, o->to_dn = bd, o->to_base = ad;
-    o->C = lead * ac * bd;
-    o->over_z = s->k == 1;
-    o->far = between(s, c, e);
-    give_roles(s, U, d, c, b, a, e);
-    return between(s, c, b) * ad / (ac * bd);
+    const real bd = between(s, d, b), cd = between(s, d, c), low = s->b[d], high = low + cd;
+    *o = (oscillation){.origin = low, .upwards = 1, .to_cn = cd, .to_dn = bd, .far = {between(s, c, a)}};
+    o->left = s->k == 1 ? low / high : 1;
+    o->span = cd * o->left;
+    o->C = s->k == 1 ? s->c * bd * high : s->eps * bd;
+    o->power = s->k == 1 ? -2 : 0;
+    o->rests = s->k == 1 ? 1 : 2;
+    if (s->k == -1) o->far[1] = between(s, c, e);
+    give_roles(s, U, d, c, b, OUTSIDE);
+    return between(s, c, b) / bd * o->left;
 }
 
-/* v with the base d as above; or, where e is nearer to v's range than d is, in [b, a] between e, a, b, c (255):
- *     sn^2 = (e-b)(a-v)/((a-b)(e-v)),   1-m = (e-a)(b-c)/((e-b)(a-c)) */
-static real make_upper(separation *s, real lead, int a, int b, int c, int d, int e)
+/* Among roots a > b > c, v in [b, a], and e > a (k = -1) or infinity (k = 1):
+ *     sn^2 = (a-v)/(a-b) times {(e-b)/(e-v) | 1},    1-m = (b-c)/(a-c) times {(e-a)/(e-b) | 1} */
+static real make_upper(separation *s, int a, int b, int c, int d, int e)
 {
     oscillation *o = &s->coordinate[V];
-    const real ab = between(s, b, a), ac = between(s, c, a), bd = between(s, d, b), ad = between(s, d, a);
-    const real ea = between(s, a, e), eb = between(s, b, e), bc = between(s, c, b);
-    const bool usual = !(ea < bd);
-    *o = (oscillation){.origin = a == BE ? s->b[2] + s->to_be[2] : s->b[a], .upwards = -1};
-    o->span = usual ? ad * ab / bd : ab * ea / eb;
-    o->bend = usual ? ab / bd : -ab / eb;
-    o->left = usual ? ad / bd : ea / eb;
-    o->to_cn = ab, o->to_dn = ac, o->to_base = usual ? ad : ea;
-    o->C = lead * ac * (usual ? bd : eb);
-    o->over_z = s->k == 1;
-    o->far = usual ? ea : bd;
-    o->rest_by_sn = usual;
-    give_roles(s, V, a, b, c, usual ? d : e, usual ? e : d);
-    return usual ? bc * ad / (ac * bd) : ea * bc / (eb * ac);
+    const real ab = between(s, b, a), ac = between(s, c, a);
+    *o = (oscillation){.origin = a == BE ? s->b[2] + s->to_be[2] : s->b[a], .upwards = -1, .to_cn = ab, .to_dn = ac};
+    const real ea = s->k == 1 ? 1 : between(s, a, e), eb = s->k == 1 ? 1 : between(s, b, e);
+    o->left = ea / eb;
+    o->span = ab * o->left;
+    o->to_base = ea;
+    o->C = s->k == 1 ? s->c * ac : s->eps * ac * eb;
+    o->power = s->k == 1 ? -1 : 0;
+    o->rests = 1;
+    o->far[0] = between(s, d, b);
+    give_roles(s, V, a, b, c, s->k == 1 ? OUTSIDE : e);
+    return between(s, c, b) / ac * o->left;
 }
 
 /* How far u is below al, v above al, and v below be: 2 (R + c) = rate^2 (v - u). */
@@ -259,6 +265,11 @@ static void find_angles(separation *s, const moment *m)
     s->sign[2] = s->below_b3 ? side[2] : 1;
 }
 
+void iso_separation_release(separation *s)
+{
+    for (int i = 0; i < 2; i++) iso_oscillation_release(&s->coordinate[i]);
+}
+
 bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE])
 {
     moment m;
@@ -275,8 +286,7 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
     const int b = s->librates_low ? 1 : AL, c = s->librates_low ? AL : 1;
     if (s->to_al[1] == 0 || s->to_be[2] == 0 || m.gap == 0) return false;
     find_coordinates(s, &m);
-    const real lead = s->k == 1 ? s->c : s->eps;
-    const real m1_u = make_lower(s, lead, a, b, c, 0, e), m1_v = make_upper(s, lead, a, b, c, 0, e);
+    const real m1_u = make_lower(s, a, b, c, 0, e), m1_v = make_upper(s, a, b, c, 0, e);
     s->gap = (double)between(s, c, b);
     if (!iso_oscillation_solve(&s->coordinate[U], fminl(m1_u, 1)) ||
         !iso_oscillation_solve(&s->coordinate[V], fminl(m1_v, 1)))
@@ -287,8 +297,8 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
 
 /* --- to a state ------------------------------------------------------------------------------------------------- */
 
-/* Square roots of the distances from a coordinate to all roots, with the signs that make them smooth, and the distance
- * to its root of cn. */
+/* Square roots of the distances from a coordinate to all roots, with the signs that make them smooth (ROOT_NONE: 1 over
+ * that of z), and the distance to its root of cn. */
 static double roots_at(const separation *s, int which, double theta, double root[SEPARATION_ROOTS])
 {
     const oscillation *o = &s->coordinate[which];
@@ -300,7 +310,7 @@ static double roots_at(const separation *s, int which, double theta, double root
     for (int i = 0; i < SEPARATION_ROOTS; i++) {
         const root_role role = s->role[which][i];
         root[i] = role == ROOT_NONE   ? 1 / sqrt((double)o->origin + o->upwards * moved)
-                  : role == ROOT_REST ? sqrt((double)o->far + (o->rest_by_sn ? moved : to_cn))
+                  : role == ROOT_REST ? sqrt(s->size[which][i] + to_cn)
                                       : s->size[which][i] * part[role];
     }
     return to_cn;

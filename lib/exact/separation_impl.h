@@ -33,12 +33,13 @@ typedef struct separation {
     bool librates_low, below_b3;       /* al < b2: u turns at al, else v does; be < b3: v turns there, not at b3 */
     oscillation coordinate[2];         /* u, v                                                                 */
     root_role role[2][SEPARATION_ROOTS];
-    double size[2][SEPARATION_ROOTS];  /* sqrt of the distance that goes with sn^2 ... at the role             */
+    double size[2][SEPARATION_ROOTS];  /* what goes with sn, cn, dn or 1; of a rest its distance from cn's root */
     double norm[3], gap, sign[3];      /* sqrt(product of |b_i - b_j|); of the roots between u and v; of gamma */
 } separation;
 
-/* From (M, gamma). False: more than MOST_MODES would be needed. */
+/* From (M, gamma); released whatever comes of it. False: too many terms would be needed. */
 bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE]);
+void iso_separation_release(separation *s);
 
 /* (M, gamma) at the angles of u and v. */
 void iso_separation_state(const separation *s, const double theta[2], double point[ISO_STATE]);

@@ -10,17 +10,16 @@
 /* A clock on the torus: d clock/d sigma = mean + sum_mn d_mn cos m theta_u cos n theta_v, integrated term by term:
  *     clock = mean sigma + sum_mn [ at_sine[m][n] sin m theta_u cos n theta_v
  *                                   + at_cosine[m][n] cos m theta_u sin n theta_v ]
- * less its value at sigma = 0. */
+ * less its value at sigma = 0. Row m has length[m] terms, one row after the other. */
 typedef struct torus_clock {
     real mean;
-    int rows, columns;          /* m < rows, n < columns ... */
-    int length[MOST_MODES + 1]; /* ... and n < length[m]: beyond it there is nothing */
+    int rows, columns, *length; /* the longest row has `columns` */
     double *at_sine, *at_cosine, zero, range;
 } torus_clock;
 
 typedef struct torus {
     separation s;
-    bool has[ISO_CLOCKS];
+    int rows, columns; /* of what angles keep: sines and cosines of m theta_u, n theta_v */
     torus_clock clock[ISO_CLOCKS];
 } torus;
 
@@ -29,56 +28,70 @@ typedef struct torus {
 /* What of a coefficient is above the rounding of its transform, and a difference of frequencies above theirs. */
 static const double LEAST = 4e-17, RESONANT = 1e-15;
 
+enum { MOST_TERMS = 1 << 22 };
+
 /* d_mn into the two tables of the integral: sin(m theta_u +- n theta_v)/(m omega_u +- n omega_v), each with d_mn/2.
  * Where the frequencies are in the ratio n : m, m theta_u - n theta_v stays what it is. */
-static void integrate(const separation *s, torus_clock *c, const double d[])
+static void integrate_term(const separation *s, torus_clock *c, int m, int n, double d, size_t to)
 {
     const oscillation *u = &s->coordinate[0], *v = &s->coordinate[1];
-    const double least = LEAST * (double)c->mean;
-    int rows = 0;
-    for (int m = 0; m < c->rows; m++)
-        for (int n = 0; n < c->columns; n++) {
-            const int i = m * c->columns + n;
-            c->at_sine[i] = c->at_cosine[i] = 0;
-            if (i == 0 || fabs(d[i]) < least) continue;
-            const double sum = (double)(m * u->omega + n * v->omega), gap = (double)(m * u->omega - n * v->omega);
-            const bool apart = fabs(gap) > RESONANT * sum;
-            const double of_sum = d[i] / 2 / sum, of_gap = apart ? d[i] / 2 / gap : 0;
-            if (!apart) c->mean += d[i] / 2 * cosl(m * u->start - n * v->start);
-            c->at_sine[i] = of_sum + of_gap;
-            c->at_cosine[i] = of_sum - of_gap;
-            c->range += fabs(of_sum) + fabs(of_gap);
-            c->length[m] = n + 1;
-            rows = m + 1;
-        }
-    c->rows = rows;
+    const double sum = (double)(m * u->omega + n * v->omega), gap = (double)(m * u->omega - n * v->omega);
+    const bool apart = fabs(gap) > RESONANT * sum;
+    const double of_sum = d / 2 / sum, of_gap = apart ? d / 2 / gap : 0;
+    if (!apart) c->mean += d / 2 * cosl(m * u->start - n * v->start);
+    c->at_sine[to] = of_sum + of_gap;
+    c->at_cosine[to] = of_sum - of_gap;
+    c->range += fabs(of_sum) + fabs(of_gap);
 }
 
-static bool make_clock(const separation *s, iso_clock clock, torus_clock *c)
+/* d[m][n], m <= M, n <= N */
+static bool integrate(const separation *s, torus_clock *c, const double d[], int M, int N)
+{
+    const double least = LEAST * (double)c->mean;
+    size_t terms = 0, to = 0;
+    c->length = calloc((size_t)M + 1, sizeof *c->length);
+    if (!c->length) return false;
+    for (int m = 0; m <= M; m++) {
+        for (int n = 0; n <= N; n++)
+            if (m + n > 0 && fabs(d[(size_t)m * (size_t)(N + 1) + (size_t)n]) >= least) c->length[m] = n + 1;
+        terms += (size_t)c->length[m];
+        if (c->length[m] > 0) c->rows = m + 1;
+        if (c->length[m] > c->columns) c->columns = c->length[m];
+    }
+    c->at_sine = malloc((terms + 1) * sizeof *c->at_sine);
+    c->at_cosine = malloc((terms + 1) * sizeof *c->at_cosine);
+    if (!c->at_sine || !c->at_cosine) return false;
+    for (int m = 0; m < c->rows; m++)
+        for (int n = 0; n < c->length[m]; n++, to++) {
+            const double term = m + n > 0 ? d[(size_t)m * (size_t)(N + 1) + (size_t)n] : 0;
+            c->at_sine[to] = c->at_cosine[to] = 0;
+            if (fabs(term) >= least) integrate_term(s, c, m, n, term, to);
+        }
+    return true;
+}
+
+static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *c)
 {
     const oscillation *u = &s->coordinate[0], *v = &s->coordinate[1];
-    const int M = u->samples, N = v->samples;
-    double work[2 * MOST_MODES];
+    const int M = u->samples, N = v->samples, columns = N + 1;
+    const size_t size = (size_t)(M + 1) * (size_t)columns;
+    if (size > MOST_TERMS) return ISO_NUMERICAL;
+    double *d = malloc(size * sizeof *d), *work = malloc(2 * (size_t)(M > N ? M : N) * sizeof *work);
+    bool room = d && work;
     real mean = 0;
-    c->rows = M + 1;
-    c->columns = N + 1;
-    const size_t size = (size_t)c->rows * (size_t)c->columns;
-    double *d = malloc(size * sizeof *d);
-    c->at_sine = malloc(size * sizeof *c->at_sine);
-    c->at_cosine = malloc(size * sizeof *c->at_cosine);
-    if (!d || !c->at_sine || !c->at_cosine) return free(d), false;
-    for (int j = 0; j <= M; j++)
+    for (int j = 0; room && j <= M; j++)
         for (int l = 0; l <= N; l++) {
             const real r = iso_separation_rate(s, clock, u->at[j], v->at[l]);
             mean += r * (j % M == 0 ? 0.5L : 1) * (l % N == 0 ? 0.5L : 1);
-            d[j * c->columns + l] = (double)r;
+            d[j * columns + l] = (double)r;
         }
     c->mean = mean / M / N;
-    for (int j = 0; j <= M; j++) iso_cosine_series(d + j * c->columns, N, 1, work);
-    for (int l = 0; l <= N; l++) iso_cosine_series(d + l, M, c->columns, work);
-    integrate(s, c, d);
+    for (int j = 0; room && j <= M; j++) iso_cosine_series(d + j * columns, N, 1, work);
+    for (int l = 0; room && l <= N; l++) iso_cosine_series(d + l, M, columns, work);
+    room = room && integrate(s, c, d, M, N);
     free(d);
-    return true;
+    free(work);
+    return room ? ISO_OK : ISO_NO_MEMORY;
 }
 
 /* --- angles and clocks at sigma --------------------------------------------------------------------------------- */
@@ -89,6 +102,7 @@ typedef struct angles {
     double sine[2][MOST_MODES + 1], cosine[2][MOST_MODES + 1];
 } angles;
 
+/* With multiples of them below `most`. */
 static void set_angles(const torus *x, real sigma, int most, angles *a)
 {
     a->sigma = sigma;
@@ -98,23 +112,24 @@ static void set_angles(const torus *x, real sigma, int most, angles *a)
         const double s = sin(a->theta[i]), c = cos(a->theta[i]);
         double *sine = a->sine[i], *cosine = a->cosine[i];
         sine[0] = 0, cosine[0] = 1;
-        for (int n = 1; n <= o->samples && n < most; n++) {
+        const int last = i == 0 ? x->rows : x->columns;
+        for (int n = 1; n < last && n < most; n++) {
             cosine[n] = cosine[n - 1] * c - sine[n - 1] * s;
             sine[n] = sine[n - 1] * c + cosine[n - 1] * s;
         }
     }
 }
 
-/* The terms m, n < most: sums over m first, which need not be taken in any order. */
+/* The terms m, n < most: sums over m first, which can be taken side by side. */
 static real clock_at(const torus_clock *c, int most, const angles *a)
 {
     double of_sine[MOST_MODES + 1], of_cosine[MOST_MODES + 1], sum = 0;
-    int columns = 0;
-    for (int m = 0; m < c->rows && m < most; m++) {
-        const double *p = c->at_sine + m * c->columns, *q = c->at_cosine + m * c->columns;
+    const double *p = c->at_sine, *q = c->at_cosine;
+    const int columns = c->columns < most ? c->columns : most;
+    for (int n = 0; n < columns; n++) of_sine[n] = of_cosine[n] = 0;
+    for (int m = 0; m < c->rows && m < most; p += c->length[m], q += c->length[m], m++) {
         const double sine = a->sine[0][m], cosine = a->cosine[0][m];
         const int length = c->length[m] < most ? c->length[m] : most;
-        for (; columns < length; columns++) of_sine[columns] = of_cosine[columns] = 0;
         for (int n = 0; n < length; n++) {
             of_sine[n] += p[n] * sine;
             of_cosine[n] += q[n] * cosine;
@@ -186,7 +201,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     p->along = a.sigma + step;
     for (iso_clock k = 0; k < ISO_CLOCKS; k++) {
         p->clock[k] = k == clock ? time : NAN;
-        if (k == clock || !x->has[k]) continue;
+        if (k == clock || x->clock[k].rows == 0) continue;
         const double rate = (rate_at(x, k, a.theta) + rate_at(x, k, theta)) / 2;
         p->clock[k] = clock_at(&x->clock[k], ALL, &a) + step * rate;
     }
@@ -204,10 +219,13 @@ static bool serves(const iso_field *f, const double point[ISO_STATE])
 static void release(void *data)
 {
     torus *x = data;
-    for (int c = 0; x && c < ISO_CLOCKS; c++) {
+    if (!x) return;
+    for (int c = 0; c < ISO_CLOCKS; c++) {
+        free(x->clock[c].length);
         free(x->clock[c].at_sine);
         free(x->clock[c].at_cosine);
     }
+    iso_separation_release(&x->s);
     free(x);
 }
 
@@ -215,17 +233,21 @@ static iso_status make(const iso_field *field, const double point[ISO_STATE], co
                        void **data)
 {
     torus *x = *data = calloc(1, sizeof *x);
+    iso_status status = ISO_OK;
+    angles a;
     if (!x) return ISO_NO_MEMORY;
     if (!iso_separation_make(&x->s, field, point)) return ISO_NUMERICAL;
-    angles a;
-    set_angles(x, 0, ALL, &a);
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++) {
-        x->has[c] = clocks[c];
+    for (iso_clock c = 0; c < ISO_CLOCKS && status == ISO_OK; c++) {
+        torus_clock *const clock = &x->clock[c];
         if (!clocks[c]) continue;
-        if (!make_clock(&x->s, c, &x->clock[c])) return ISO_NO_MEMORY;
-        x->clock[c].zero = (double)clock_at(&x->clock[c], ALL, &a);
+        status = make_clock(&x->s, c, clock);
+        if (clock->rows > x->rows) x->rows = clock->rows;
+        if (clock->columns > x->columns) x->columns = clock->columns;
     }
-    return ISO_OK;
+    set_angles(x, 0, ALL, &a);
+    for (int c = 0; c < ISO_CLOCKS && status == ISO_OK; c++)
+        if (clocks[c]) x->clock[c].zero = (double)clock_at(&x->clock[c], ALL, &a);
+    return status;
 }
 
 static real mean_rate(const void *data, iso_clock clock)
