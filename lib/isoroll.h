@@ -35,7 +35,8 @@ extern "C" {
 /* method: integrators behind one table */
 #include "method/method.h"
 
-/* exact: any time at the same cost, for k = 1 and k = -1 */
+/* exact: separated coordinates; any time at the same cost, for k = 1 and k = -1 */
+#include "exact/coordinates.h"
 #include "exact/exact.h"
 
 /* orbit: where the ball, or the point, is at any time */

@@ -62,19 +62,17 @@ static void from_vector(const laws_case *c, laws_worst *worst)
     laws_note(worst, fabs(at.rate[0]) + fabs(at.rate[1]), DBL_TRUE_MIN, &c->field.p, "no velocity");
 }
 
-/* (13) both ways: an error of some ulp of b in z, seen through the gaps between the b_i */
-static void to_squares(const laws_case *c, laws_worst *worst)
+/* Vector and velocity come back from the angles and the speeds. */
+static void to_vector(const laws_case *c, laws_worst *worst)
 {
     const iso_params *p = &c->field.p;
-    double squares[3];
+    double x[3], velocity[3];
     iso_conical at;
-    if (!distinct(p->J)) return;
-    iso_conical_from_vector(p->J, c->y + 3, NULL, &at);
-    iso_conical_to_squares(p->J, at.z, squares);
+    iso_conical_from_vector(p->J, c->y + 3, c->y, &at);
+    iso_conical_to_vector(p->J, &at, x, velocity);
     for (int i = 0; i < 3; i++) {
-        const double x = c->y[3 + i], reach = fabs(at.above[0][i]) + fabs(at.above[1][i]);
-        const double error = 4 * DBL_EPSILON * max3(p->J) * reach / fabs(gaps(p->J, i));
-        laws_note(worst, fabs(squares[i] - x * x), error + 8 * DBL_EPSILON * x * x, p, "");
+        laws_note(worst, fabs(x[i] - c->y[3 + i]), 8 * DBL_EPSILON * fabs(x[i]), p, "vector");
+        laws_note(worst, fabs(velocity[i] - c->y[i]), 8 * DBL_EPSILON * norm(c->y), p, "velocity");
     }
 }
 
@@ -131,7 +129,38 @@ static void near_planes(const laws_case *c, laws_worst *worst)
         }
 }
 
-/* Equal moments: numbers, not NaN; the coordinate between two equal b is their value. */
+/* For b = (1, 2, 6) the vector (1, 0, 2) is an umbilic, and at (1 + d, e, 2) the cosines follow without cancellation
+ * from (cos^2 phi - 4 cos^2 psi) |x|^2 = -8 d - 4 d^2 - 3 e^2 and cos phi cos psi |x| = e. */
+static void next_to_umbilic(double d, double e, laws_worst *worst)
+{
+    const double x[3] = {1 + d, e, 2};
+    const iso_params p = laws_params(-1, (const double[]){1, 2, 6});
+    const long double sum = -8.0L * d - 4.0L * d * d - 3.0L * e * e, N = 5 + 2.0L * d + (long double)d * d + e * e;
+    const long double square = (fabsl(sum) + sqrtl(sum * sum + 16 * N * e * e)) / 2 / N;
+    const double larger = (double)sqrtl(square), smaller = (double)(2 * e / sqrtl(N * square));
+    const double phi = sum > 0 ? larger : smaller, psi = (sum > 0 ? smaller : larger) / 2;
+    iso_conical at;
+    iso_conical_from_vector(p.J, x, NULL, &at);
+    laws_note(worst, fabs(at.cosine[0] - phi), 8 * DBL_EPSILON * phi, &p, "cos phi");
+    laws_note(worst, fabs(at.cosine[1] - psi), 8 * DBL_EPSILON * psi, &p, "cos psi");
+    laws_note(worst, fabs(at.gap - phi * phi - 4 * psi * psi), 32 * DBL_EPSILON * at.gap, &p, "gap");
+}
+
+static void check_umbilics(void)
+{
+    laws_worst worst = {0};
+    for (double e = 1; e > 1e-300; e *= 1e-3) {
+        next_to_umbilic(0, e, &worst);
+        for (int bit = 2; bit <= 52; bit++) {
+            next_to_umbilic(ldexp(1, -bit), e, &worst);
+            next_to_umbilic(-ldexp(1, -bit), e, &worst);
+        }
+    }
+    laws_report(&worst, "every digit next to an umbilic");
+}
+
+/* Equal moments: numbers, not NaN; the coordinate between two equal b is their value, and the angles are longitude
+ * and latitude about axis 3 (b1 = b2) or 1. */
 static void equal_moments(const laws_case *c, laws_worst *worst)
 {
     const double *b = c->field.p.J;
@@ -141,6 +170,12 @@ static void equal_moments(const laws_case *c, laws_worst *worst)
     order_of(b, o);
     iso_conical_from_vector(b, c->y + 3, c->y, &at);
     note_coordinates(&c->field.p, c->y + 3, &at, worst, "squares");
+    const double longitude[2] = {at.sine[0] * at.cosine[1], at.sine[1] * fabs(at.cosine[0])};
+    const bool last = b[o[0]] == b[o[1]];
+    laws_note(worst, fabs(c->y[3 + at.axis[0]] - (last ? longitude[0] : at.sine[0])), 8 * DBL_EPSILON, &c->field.p,
+              "x1");
+    laws_note(worst, fabs(c->y[3 + at.axis[2]] - (last ? at.sine[1] : longitude[1])), 8 * DBL_EPSILON, &c->field.p,
+              "x3");
     for (int r = 0; r < 2; r++) {
         laws_note(worst, isfinite(at.rate[r]) ? 0 : 1, 0.5, &c->field.p, "rate");
         if (b[o[r]] == b[o[r + 1]]) {
@@ -186,10 +221,11 @@ int main(void)
 {
     gsl_test_verbose(1);
     laws_hold("coordinates of n (12)", &iso_system_ball, from_vector);
-    laws_hold("squares (13)", &iso_system_ball, to_squares);
+    laws_hold("and back", &iso_system_ball, to_vector);
     laws_hold("lam mu/det J = g", &iso_system_ball, product_is_g);
     laws_hold("axes in any order", &iso_system_ball, any_order);
     laws_hold("near coordinate planes", &iso_system_ball, near_planes);
+    check_umbilics();
     laws_hold("equal moments", &iso_system_ball, equal_moments);
     laws_hold("rates", &iso_system_ball, rates);
     exit(gsl_test_summary());

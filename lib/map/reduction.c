@@ -26,6 +26,15 @@ void iso_reduction_coordinates(const iso_params *p, const double ball[ISO_STATE]
     iso_conical_from_vector(p->J, ball + 3, velocity, c);
 }
 
+/* omega = n' x n/k */
+void iso_reduction_ball(const iso_params *p, const iso_conical *c, double ball[ISO_STATE])
+{
+    double velocity[3];
+    iso_conical_to_vector(p->J, c, ball + 3, velocity);
+    cross(velocity, ball + 3, ball);
+    scale(ball, 1 / p->k);
+}
+
 double iso_reduction_energy(const iso_params *p, const iso_conical *c)
 {
     double m[2];
@@ -49,6 +58,12 @@ void iso_reduction_momenta(const iso_params *p, const iso_conical *c, double mom
     const double N = iso_reduction_multiplier(p, c);
     inertia(p, c, momenta);
     for (int r = 0; r < 2; r++) momenta[r] *= 2 * N * c->rate[r];
+}
+
+void iso_reduction_angle_momenta(const iso_params *p, const iso_conical *c, double momenta[2])
+{
+    const double N = iso_reduction_multiplier(p, c);
+    for (int r = 0; r < 2; r++) momenta[r] = N * c->z[1 - r] * c->length[r] * c->speed[r] / (p->k * p->k);
 }
 
 double iso_reduction_hamiltonian(const iso_params *p, const iso_conical *c, const double momenta[2])

@@ -1,59 +1,189 @@
 #include "model/conical.h"
 
 #include <math.h>
+#include <stdbool.h>
 
-/* Indices of b in ascending order. */
-static void sort(const double b[3], int order[3])
+#include "base/vec3_impl.h"
+
+/* --- twofold numbers: high + low, some 105 bits ----------------------------------------------------------------- */
+
+typedef struct twofold {
+    double high, low;
+} twofold;
+
+static twofold sum(twofold x, twofold y)
 {
-    for (int i = 0; i < 3; i++) order[i] = i;
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < 2; i++)
-            if (b[order[i]] > b[order[i + 1]]) {
-                const int swap = order[i];
-                order[i] = order[i + 1];
-                order[i + 1] = swap;
-            }
+    const double s = x.high + y.high, part = s - x.high, lost = (x.high - (s - part)) + (y.high - part);
+    const double low = lost + (x.low + y.low), high = s + low;
+    return (twofold){high, low - (high - s)};
 }
 
-/* Measured from the middle one, z = b2 + x, the roots straddle 0:
- *
- *     x^2 + B x - a c x2^2 = 0,   a = b2 - b1,  c = b3 - b2,  B = a (x2^2 + x3^2) - c (x1^2 + x2^2),
- *
- * so the quadratic formula cancels nothing. The distances from b1 and b3, which (13) and A(z) need and which a
- * difference would lose near the coordinate planes, come from (13) itself, e.g. (z1 - b1)(z2 - b1) = x1^2 a (a + c). */
-void iso_conical_from_vector(const double b[3], const double x[3], const double velocity[3], iso_conical *out)
+static twofold difference(twofold x, twofold y)
 {
-    int o[3];
-    sort(b, o);
-    const double a = b[o[1]] - b[o[0]], c = b[o[2]] - b[o[1]];
-    const double x1 = x[o[0]] * x[o[0]], x2 = x[o[1]] * x[o[1]], x3 = x[o[2]] * x[o[2]];
-    const double B = a * (x2 + x3) - c * (x1 + x2), gap = sqrt(B * B + 4 * a * c * x2); /* z2 - z1 */
-    const double far = -(B + copysign(gap, B)) / 2, near = far == 0 ? 0 : -a * c * x2 / far;
-    const double root[2] = {fmin(far, near), fmax(far, near)};
-    for (int r = 0; r < 2; r++) {
-        out->z[r] = b[o[1]] + root[r];
-        out->above[r][o[1]] = root[r];
-        out->rate[r] = 0;
+    return sum(x, (twofold){-y.high, -y.low});
+}
+
+static twofold product(twofold x, twofold y)
+{
+    const double p = x.high * y.high;
+    return (twofold){p, fma(x.high, y.high, -p) + (x.high * y.low + x.low * y.high)};
+}
+
+/* --- the axes --------------------------------------------------------------------------------------------------- */
+
+/* The b in ascending order, kappa^2 = (b2 - b1)/(b3 - b1) and kappa'^2 = 1 - kappa^2. */
+typedef struct axes {
+    int axis[3];
+    double b[3], range, kappa, kappa1;
+    twofold low, high; /* b2 - b1, b3 - b2 */
+} axes;
+
+static axes sort_axes(const double b[3])
+{
+    axes a = {.axis = {0, 1, 2}};
+    for (int pass = 0; pass < 3; pass++) {
+        const int i = pass % 2, first = a.axis[i], second = a.axis[i + 1];
+        if (b[first] > b[second]) a.axis[i] = second, a.axis[i + 1] = first;
     }
-    out->above[1][o[0]] = a + root[1];
-    out->above[0][o[2]] = root[0] - c;
-    out->above[0][o[0]] = out->above[1][o[0]] > 0 ? x1 * a * (a + c) / out->above[1][o[0]] : 0;
-    out->above[1][o[2]] = out->above[0][o[2]] < 0 ? x3 * c * (a + c) / out->above[0][o[2]] : 0;
-    if (!velocity || gap == 0) return;
-    const double d1 = 2 * x[o[0]] * velocity[o[0]], d2 = 2 * x[o[1]] * velocity[o[1]],
-                 d3 = 2 * x[o[2]] * velocity[o[2]];
-    const double dB = a * (d2 + d3) - c * (d1 + d2);
-    /* each from the nearer of the two ends of its interval, where its terms are as small as itself */
-    out->rate[0] = out->above[0][o[0]] < -root[0] ? (a * (a + c) * d1 + dB * out->above[0][o[0]]) / gap
-                                                  : (a * c * d2 - dB * root[0]) / -gap;
-    out->rate[1] = -out->above[1][o[2]] < root[1] ? -(c * (a + c) * d3 + dB * out->above[1][o[2]]) / gap
-                                                  : (a * c * d2 - dB * root[1]) / gap;
+    for (int i = 0; i < 3; i++) a.b[i] = b[a.axis[i]];
+    a.low = difference((twofold){a.b[1], 0}, (twofold){a.b[0], 0});
+    a.high = difference((twofold){a.b[2], 0}, (twofold){a.b[1], 0});
+    a.range = a.low.high + a.high.high;
+    a.kappa = a.range > 0 ? sqrt(a.low.high / a.range) : 0;
+    a.kappa1 = a.range > 0 ? sqrt(a.high.high / a.range) : 1;
+    return a;
 }
 
-void iso_conical_to_squares(const double b[3], const double z[2], double squares[3])
+/* --- vector and angles ------------------------------------------------------------------------------------------ */
+
+/* (z2 - b1), (b3 - z1), (z2 - z1), each the root of it over b3 - b1, and the unit vector along (kappa cos phi,
+ * kappa' cos psi), which at an umbilic is a matter of choice. */
+typedef struct distances {
+    double above, below, gap, xi, eta;
+} distances;
+
+static distances distances_of(const axes *a, const iso_conical *c)
 {
+    const double x = a->kappa * c->cosine[0], y = a->kappa1 * c->cosine[1];
+    distances d = {.above = hypot(a->kappa, y), .below = hypot(a->kappa1, x), .gap = hypot(x, y)};
+    d.xi = d.gap > 0 ? x / d.gap : a->kappa > 0 ? copysign(1, c->cosine[0]) : 0;
+    d.eta = d.gap > 0 ? y / d.gap : a->kappa > 0 ? 0 : 1;
+    return d;
+}
+
+/* kappa^2 cos^2 phi - kappa'^2 cos^2 psi = (2 b2 - z1 - z2)/(b3 - b1) times |x|^2, which next to an umbilic cancels:
+ * [(b2 - b1)(x2^2 + x3^2) - (b3 - b2)(x1^2 + x2^2)]/(b3 - b1) */
+static double imbalance(const axes *a, const double x[3])
+{
+    twofold square[3];
+    for (int i = 0; i < 3; i++) square[i] = product((twofold){x[i], 0}, (twofold){x[i], 0});
+    const twofold first = product(a->low, sum(square[1], square[2]));
+    const twofold last = product(a->high, sum(square[0], square[1]));
+    return a->range > 0 ? difference(first, last).high / a->range : 0;
+}
+
+/* kappa^2 cos^2 phi and -kappa'^2 cos^2 psi are the roots of t^2 - imbalance t - (kappa kappa' x2)^2. The larger one
+ * is a sum, the other follows from cos phi cos psi = x2. With two equal b they are the cosines of latitude and
+ * longitude. */
+static void find_cosines(const axes *a, const double x[3], double length, iso_conical *c)
+{
+    const double balance = imbalance(a, x) / length / length, middle = fabs(x[1]) / length;
+    const double root = hypot(balance, 2 * a->kappa * a->kappa1 * middle), square = (fabs(balance) + root) / 2;
+    const bool first = balance > 0 || a->kappa1 == 0, sphere = a->kappa == 0 || a->kappa1 == 0;
+    const double larger =
+        sphere ? hypot(x[1], x[first ? 2 : 0]) / length : sqrt(square) / (first ? a->kappa : a->kappa1);
+    const double other = larger > 0 ? middle / larger : sphere ? 1 : 0;
+    c->cosine[0] = copysign(first ? larger : other, x[1]);
+    c->cosine[1] = first ? other : larger;
+}
+
+static void find_angles(const axes *a, const double x[3], iso_conical *c)
+{
+    const double length = norm(x);
+    find_cosines(a, x, length, c);
+    const distances d = distances_of(a, c);
+    c->sine[0] = d.above > 0 ? x[0] / length / d.above : copysign(0, x[0]);
+    c->sine[1] = d.below > 0 ? x[2] / length / d.below : copysign(0, x[2]);
+}
+
+/* x, and the unit vectors along dx/dphi and dx/dpsi, orthogonal to it and to each other */
+static void find_frame(const axes *a, const iso_conical *c, double x[3], double along_phi[3], double along_psi[3])
+{
+    const distances d = distances_of(a, c);
+    const double first = a->kappa > 0 ? d.xi * (d.above / a->kappa) : c->cosine[0];   /* cos phi above/gap */
+    const double last = a->kappa1 > 0 ? d.eta * (d.below / a->kappa1) : c->cosine[1]; /* cos psi below/gap */
+    const double sines = c->sine[0] * c->sine[1];
+    x[0] = c->sine[0] * d.above;
+    x[1] = c->cosine[0] * c->cosine[1];
+    x[2] = c->sine[1] * d.below;
+    along_phi[0] = first * d.below;
+    along_phi[1] = -c->sine[0] * last;
+    along_phi[2] = -a->kappa * d.xi * sines;
+    along_psi[0] = -a->kappa1 * d.eta * sines;
+    along_psi[1] = -c->sine[1] * first;
+    along_psi[2] = last * d.above;
+}
+
+static void find_speeds(const axes *a, const double velocity[3], iso_conical *c)
+{
+    double x[3], along[2][3];
+    find_frame(a, c, x, along[0], along[1]);
+    for (int r = 0; r < 2; r++) {
+        c->speed[r] = 0;
+        for (int i = 0; velocity && i < 3; i++) c->speed[r] += along[r][i] * velocity[a->axis[i]];
+    }
+}
+
+/* --- what follows ----------------------------------------------------------------------------------------------- */
+
+static void find_distances(const axes *a, iso_conical *c)
+{
+    const distances d = distances_of(a, c);
+    const int *o = a->axis;
+    c->above[0][o[0]] = a->low.high * c->sine[0] * c->sine[0];
+    c->above[0][o[1]] = -a->low.high * c->cosine[0] * c->cosine[0];
+    c->above[0][o[2]] = -a->range * d.below * d.below;
+    c->above[1][o[0]] = a->range * d.above * d.above;
+    c->above[1][o[1]] = a->high.high * c->cosine[1] * c->cosine[1];
+    c->above[1][o[2]] = -a->high.high * c->sine[1] * c->sine[1];
+    c->gap = a->range * d.gap * d.gap;
+    for (int r = 0; r < 2; r++) {
+        const int nearer = fabs(c->above[r][o[r]]) < fabs(c->above[r][o[r + 1]]) ? r : r + 1;
+        c->z[r] = a->b[nearer] + c->above[r][o[nearer]];
+    }
+    c->length[0] = d.below > 0 ? d.gap / d.below : 1;
+    c->length[1] = d.above > 0 ? d.gap / d.above : 1;
+}
+
+static void find_rates(const axes *a, iso_conical *c)
+{
+    const double range[2] = {a->low.high, -a->high.high};
+    for (int r = 0; r < 2; r++)
+        c->rate[r] = c->length[r] > 0 ? 2 * range[r] * c->sine[r] * c->cosine[r] * c->speed[r] / c->length[r] : 0;
+}
+
+void iso_conical_from_vector(const double b[3], const double x[3], const double velocity[3], iso_conical *c)
+{
+    const axes a = sort_axes(b);
+    double sorted[3];
     for (int i = 0; i < 3; i++) {
-        const double bj = b[(i + 1) % 3], bl = b[(i + 2) % 3];
-        squares[i] = (b[i] - z[0]) * (b[i] - z[1]) / ((b[i] - bj) * (b[i] - bl));
+        sorted[i] = x[a.axis[i]];
+        c->b[i] = a.b[i];
+        c->axis[i] = a.axis[i];
+    }
+    find_angles(&a, sorted, c);
+    find_speeds(&a, velocity, c);
+    find_distances(&a, c);
+    find_rates(&a, c);
+}
+
+void iso_conical_to_vector(const double b[3], const iso_conical *c, double x[3], double velocity[3])
+{
+    const axes a = sort_axes(b);
+    double sorted[3], along_phi[3], along_psi[3];
+    find_frame(&a, c, sorted, along_phi, along_psi);
+    for (int i = 0; i < 3; i++) {
+        x[a.axis[i]] = sorted[i];
+        velocity[a.axis[i]] = c->speed[0] * along_phi[i] + c->speed[1] * along_psi[i];
     }
 }

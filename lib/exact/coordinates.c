@@ -1,0 +1,117 @@
+#include "exact/coordinates.h"
+
+#include <math.h>
+
+#include "base/vec3_impl.h"
+
+/* --- states ----------------------------------------------------------------------------------------------------- */
+
+static const double *moments(const iso_params *p)
+{
+    return p->k == 1 ? p->inv_J : p->J;
+}
+
+void iso_separation_coordinates(const iso_params *p, const double point[ISO_STATE], iso_conical *c)
+{
+    double velocity[3];
+    cross(point + 3, point, velocity);
+    iso_conical_from_vector(moments(p), point + 3, velocity, c);
+}
+
+void iso_separation_point(const iso_params *p, const iso_conical *c, double point[ISO_STATE])
+{
+    double velocity[3];
+    iso_conical_to_vector(moments(p), c, point + 3, velocity);
+    cross(velocity, point + 3, point);
+}
+
+/* --- the constant of separation --------------------------------------------------------------------------------- */
+
+/* f, and what it depends on */
+typedef struct potential {
+    bool neumann, separates;
+    double b[3], eps, H;
+} potential;
+
+static potential potential_of(const iso_field *field, const double b[3])
+{
+    const double k = field->p.k;
+    const bool separates = k == -1 || (k == 1 && field->energy == 0);
+    return (potential){k == -1, separates, {b[0], b[1], b[2]}, field->eps, field->energy};
+}
+
+/* (f(x) - f(y))/(x - y) */
+static double slope(const potential *f, double x, double y)
+{
+    const double *b = f->b;
+    return f->neumann ? f->eps * (b[0] + b[1] + b[2] - x - y) + f->H : f->eps * (b[0] / x) * (b[1] / y) * b[2];
+}
+
+static double value(const potential *f, double z)
+{
+    const double *b = f->b;
+    return f->neumann ? z * slope(f, z, 0) : -f->eps * (b[0] / z) * b[1] * b[2];
+}
+
+/* f(b_j) + c is f(b_j) - f(u) - speed1^2 (v - u)/2 and f(b_j) - f(v) + speed2^2 (v - u)/2; c is then taken from the
+ * b_j where no terms cancel. */
+double iso_separation_constant(const iso_field *field, const iso_conical *at, double excess[3])
+{
+    const potential f = potential_of(field, at->b);
+    if (!f.separates) {
+        for (int j = 0; excess && j < 3; j++) excess[j] = NAN;
+        return NAN;
+    }
+    const double *b = f.b, *u = at->above[0], *v = at->above[1];
+    const int *o = at->axis;
+    const double along_u = at->gap * at->speed[0] * at->speed[0] / 2,
+                 along_v = at->gap * at->speed[1] * at->speed[1] / 2;
+    const double from_u = -u[o[1]] * slope(&f, b[1], at->z[0]), from_v = v[o[1]] * slope(&f, b[1], at->z[1]);
+    const double first = -u[o[0]] * slope(&f, b[0], at->z[0]) - along_u;
+    const double last = -v[o[2]] * slope(&f, b[2], at->z[1]) + along_v;
+    if (excess) {
+        excess[0] = first;
+        excess[1] = fabs(from_u) + along_u < fabs(from_v) + along_v ? from_u - along_u : along_v - from_v;
+        excess[2] = last;
+    }
+    return f.neumann ? first - value(&f, b[0]) : last - value(&f, b[2]);
+}
+
+/* --- where the motion changes ----------------------------------------------------------------------------------- */
+
+/* The largest f on [b2, b3], which is concave: at an end, or where its slope is 0. */
+static double summit(const potential *f)
+{
+    const double *b = f->b;
+    if (slope(f, b[2], b[2]) >= 0) return b[2];
+    if (slope(f, b[1], b[1]) <= 0) return b[1];
+    return (b[0] + b[1] + b[2] + f->H / f->eps) / 2;
+}
+
+/* Puts it in its place; one that is already there stays alone. */
+static int insert(iso_bifurcation list[], int count, iso_bifurcation one)
+{
+    int at = count;
+    for (int i = 0; i < count; i++)
+        if (list[i].z == one.z) return count;
+    for (; at > 0 && list[at - 1].c < one.c; at--) list[at] = list[at - 1];
+    list[at] = one;
+    return count + 1;
+}
+
+/* Motion needs f(u) <= -c <= f(v) for some u and v: -c is between f(b1) and the summit. */
+int iso_bifurcations(const iso_field *field, iso_bifurcation list[ISO_MOST_BIFURCATIONS])
+{
+    iso_conical at;
+    iso_conical_from_vector(moments(&field->p), (const double[]){0, 0, 1}, NULL, &at); /* for b and the axes */
+    const potential f = potential_of(field, at.b);
+    if (!f.separates || !(f.eps > 0) || !(slope(&f, f.b[0], f.b[1]) > 0)) return 0;
+    const double top = summit(&f), z[ISO_MOST_BIFURCATIONS] = {f.b[0], f.b[1], f.b[2], top};
+    int count = 0;
+    for (int j = 0; j < ISO_MOST_BIFURCATIONS; j++) {
+        if (j == 2 && slope(&f, f.b[0], f.b[2]) <= 0) continue; /* f(b3) is not between them */
+        const bool end = z[j] == f.b[0] || z[j] == top;
+        count = insert(list, count, (iso_bifurcation){-value(&f, z[j]), z[j], j < 3 ? at.axis[j] : -1, !end});
+    }
+    return count;
+}
