@@ -41,7 +41,8 @@ typedef struct revolution {
     real a, b, a_b, rest_a, rest_b;  /* roots of P about y; a - b, 1 - a, 1 - b'                              */
     real floor, distance, force;     /* b' = max(b, 0); P(0)/m(0); mean of M^2 ds/dxi                         */
     elliptic f;
-    real start;              /* xi at time 0                                                          */
+    real start; /* xi at time 0 is `start`, plus half its period of sn where half = -1     */
+    int half;
     double turned[2], sense; /* exp(i longitude) of the smooth factor at time 0; of growing longitude */
     growing of[SERIES];      /* the clocks, and psi (in the sense of growing longitude)               */
 } revolution;
@@ -152,6 +153,13 @@ static real rest_of(const revolution *r, real y)
     return m > 0 && fabsl(rest - (1 - y)) < 1e-14L ? rest : 1 - y;
 }
 
+/* How far y0 is from a root of P: P(y0) = (y0 - root) P[root,y0], of which one factor may have no digits. */
+static real distance_to(const revolution *r, real root)
+{
+    const real direct = fabsl(root - r->y0), steep = fabsl(P_slope(r, root, r->y0));
+    return direct * m_at(r, r->y0) >= steep ? direct : r->dx0 * r->dx0 / steep;
+}
+
 /* a and b: from y0 to where P falls to zero. */
 static void find_range(revolution *r)
 {
@@ -179,8 +187,7 @@ static void find_range(revolution *r)
     r->side = r->has_b && r->b > 0;
     r->floor = r->side ? r->b : 0;
     r->rest_b = r->side ? rest_of(r, r->b) : 1;
-    const real above = r->dx0 * r->dx0 / -P_slope(r, r->a, r->y0), below = r->dx0 * r->dx0 / P_slope(r, r->b, r->y0);
-    r->a_b = r->side && above >= 0 && below >= 0 ? above + below : r->a - r->b;
+    r->a_b = r->side ? distance_to(r, r->a) + distance_to(r, r->b) : r->a - r->b;
     r->distance = P_at(r, 0) / m_at(r, 0);
 }
 
@@ -304,11 +311,13 @@ static real growing_at(const revolution *r, int i, real along, real *slope)
 
 /* --- the state ------------------------------------------------------------------------------------------------------ */
 
-/* x, dx/ds and the elementary factor of gamma_1 + i gamma_2 at xi */
-static void swing_at(const revolution *r, double xi, double W, double *x, double *dx, double h[2], double dh[2])
+/* x, dx/ds and the elementary factor of gamma_1 + i gamma_2 at xi, or (half = -1) half a period of sn later */
+static void swing_at(const revolution *r, double xi, int half, double W, double *x, double *dx, double h[2],
+                     double dh[2])
 {
-    double sn, cn, dn;
-    iso_elliptic_double(&r->f, xi, &sn, &cn, &dn);
+    real sn_l, cn_l, dn_l;
+    iso_elliptic_at(&r->f, xi, &sn_l, &cn_l, &dn_l);
+    const double sn = half * (double)sn_l, cn = half * (double)cn_l, dn = (double)dn_l;
     const double root_a = sqrt((double)r->a), up = r->x0 < 0 ? -1 : 1;
     *x = r->side ? up * root_a * dn : root_a * cn;
     *dx = r->side ? -up * (double)r->a_b / root_a * sn * cn * W : -root_a * sn * dn * W;
@@ -332,8 +341,9 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
     double x, dx, h[2], dh[2];
     growing_at(r, ISO_CLOCK_S, along, &s_rate);
     const double psi = r->sense * (double)remainderl(growing_at(r, PSI, along, &unused), 2 * ISO_PI);
-    const double xi = (double)remainderl(r->start + along, 4 * ISO_PI), by[2] = {cos(psi), sin(psi)};
-    swing_at(r, xi, (double)(r->f.K / ISO_PI / s_rate), &x, &dx, h, dh);
+    int turns;
+    const double xi = (double)remquol(r->start + along, 2 * ISO_PI, &turns), by[2] = {cos(psi), sin(psi)};
+    swing_at(r, xi, turns % 2 == 0 ? r->half : -r->half, (double)(r->f.K / ISO_PI / s_rate), &x, &dx, h, dh);
     turn(by, h), turn(r->turned, h);
     turn(by, dh), turn(r->turned, dh);
     const double rest = h[0] * h[0] + h[1] * h[1], u = -x * dx, w = -(double)r->Mx;
@@ -396,15 +406,12 @@ static void take_state(revolution *r, const iso_field *f, const double point[ISO
 /* xi at the start: P = (a - y)(y - b) Q gives what sn^2 takes of y0 */
 static void find_start(revolution *r)
 {
-    const real turned = r->dx0 * r->dx0, from_a = turned > 0 ? turned / -P_slope(r, r->a, r->y0) : r->a - r->y0;
     const int up = r->x0 < 0 ? -1 : 1, rising = r->dx0 < 0 ? -1 : 1;
-    real sn, cn;
-    if (r->side) {
-        const real from_b = turned > 0 ? turned / P_slope(r, r->b, r->y0) : r->y0 - r->b;
-        sn = sqrtl(fmaxl(from_a, 0)), cn = -up * rising * sqrtl(fmaxl(from_b, 0));
-    } else
-        sn = -rising * sqrtl(fmaxl(from_a, 0)), cn = r->x0;
-    r->start = sn == 0 && cn == 0 ? 0 : iso_elliptic_inverse(&r->f, atan2l(sn, cn));
+    const real from_a = sqrtl(distance_to(r, r->a));
+    const real sn = r->side ? from_a : -rising * from_a;
+    const real cn = r->side ? -up * rising * sqrtl(distance_to(r, r->b)) : r->x0;
+    r->half = cn < 0 ? -1 : 1; /* so that a small sn keeps its digits */
+    r->start = sn == 0 ? 0 : iso_elliptic_inverse(&r->f, r->half * sn, r->half * cn);
 }
 
 /* exp(i longitude) of the smooth factor: what gamma across the axis (at the pole, its rate) is beside the other. */
@@ -417,7 +424,7 @@ static void find_longitude(revolution *r, const real g[3], const real d[3])
         r->of[i].zero = (double)growing_at(r, i, 0, &unused);
     }
     growing_at(r, ISO_CLOCK_S, 0, &s_rate);
-    swing_at(r, (double)r->start, (double)(r->f.K / ISO_PI / s_rate), &x, &dx, h, dh);
+    swing_at(r, (double)r->start, r->half, (double)(r->f.K / ISO_PI / s_rate), &x, &dx, h, dh);
     const bool pole = g[1] == 0 && g[2] == 0;
     const double *elementary = pole ? dh : h, y[2] = {(double)(pole ? d[1] : g[1]), (double)(pole ? d[2] : g[2])};
     r->turned[0] = elementary[0] * y[0] + elementary[1] * y[1];

@@ -242,8 +242,8 @@ static void find_distances(const separation *s, const moment *m, real *al_u, rea
 static real angle(const oscillation *o, real to_sn, real to_cn, int sn, int cn)
 {
     if (!(o->span > 0)) return 0;
-    const real amplitude = atan2l(sn * sqrtl(to_sn / o->span), cn * sqrtl(to_cn / o->to_cn));
-    return iso_oscillation_theta(o, iso_elliptic_inverse(&o->f, amplitude));
+    const real xi = iso_elliptic_inverse(&o->f, sn * sqrtl(to_sn / o->span), cn * sqrtl(to_cn / o->to_cn));
+    return iso_oscillation_theta(o, xi);
 }
 
 /* gamma1 ~ sn_u always; gamma2 ~ dn_u cn_v or cn_u dn_v; gamma3 ~ sn_v, unless it keeps its side. */
@@ -302,8 +302,9 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
 static double roots_at(const separation *s, int which, double theta, double root[SEPARATION_ROOTS])
 {
     const oscillation *o = &s->coordinate[which];
-    double sn, cn, dn;
-    iso_elliptic_double(&o->f, iso_oscillation_xi(o, theta), &sn, &cn, &dn);
+    real sn_l, cn_l, dn_l;
+    iso_elliptic_at(&o->f, iso_oscillation_xi(o, theta), &sn_l, &cn_l, &dn_l);
+    const double sn = (double)sn_l, cn = (double)cn_l, dn = (double)dn_l;
     const double B2 = cn * cn + (double)o->left * sn * sn, over_B = 1 / sqrt(B2);
     const double moved = (double)o->span * sn * sn / B2, to_cn = (double)o->to_cn * cn * cn / B2;
     const double part[4] = {sn * over_B, cn * over_B, dn * over_B, over_B};
