@@ -40,9 +40,13 @@ real iso_oscillation_theta(const oscillation *o, real xi)
     return xi + sine_series_l(o->beta, o->modes, xi, &unused);
 }
 
-double iso_oscillation_xi(const oscillation *o, double theta)
+/* A step of Newton's method from the first terms. */
+real iso_oscillation_xi(const oscillation *o, real theta)
 {
-    return theta + sine_series(o->gamma, o->terms, theta);
+    real slope;
+    const real xi = theta + sine_series(o->gamma, o->terms, (double)theta);
+    const real miss = xi + sine_series_l(o->beta, o->modes, xi, &slope) - theta;
+    return xi - miss / (1 + slope);
 }
 
 /* --- an oscillation --------------------------------------------------------------------------------------------- */
@@ -105,6 +109,9 @@ static bool find_theta(oscillation *o)
     return true;
 }
 
+/* What terms of gamma and z add up to rounding after one more step of Newton's method. */
+static const double FIRST = 1e-11;
+
 /* gamma and z from samples at theta = pi j/N. */
 static bool find_xi(oscillation *o, int N)
 {
@@ -124,7 +131,7 @@ static bool find_xi(oscillation *o, int N)
     for (int n = 0; n <= N; n++) {
         o->z[n] = z[n];
         if (n > 0) o->gamma[n] = slope[n] / n;
-        if (n > 0 && (fabs(o->gamma[n]) > 1e-18 || fabs(o->z[n]) > 1e-17 * fabs(o->z[0]))) o->terms = n;
+        if (n > 0 && (fabs(o->gamma[n]) > FIRST || fabs(o->z[n]) > FIRST * fabs(o->z[0]))) o->terms = n;
     }
     return enough;
 }

@@ -41,6 +41,6 @@ bool iso_oscillation_solve(oscillation *o, real m1);
 void iso_oscillation_release(oscillation *o);
 
 real iso_oscillation_theta(const oscillation *o, real xi);
-double iso_oscillation_xi(const oscillation *o, double theta);
+real iso_oscillation_xi(const oscillation *o, real theta);
 
 #endif

@@ -299,7 +299,7 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
 
 /* Square roots of the distances from a coordinate to all roots, with the signs that make them smooth (ROOT_NONE: 1 over
  * that of z), and the distance to its root of cn. */
-static double roots_at(const separation *s, int which, double theta, double root[SEPARATION_ROOTS])
+static double roots_at(const separation *s, int which, real theta, double root[SEPARATION_ROOTS])
 {
     const oscillation *o = &s->coordinate[which];
     real sn_l, cn_l, dn_l;
@@ -318,7 +318,7 @@ static double roots_at(const separation *s, int which, double theta, double root
 }
 
 /* gamma_i = +-r_u,i r_v,i/norm_i and its rate: (r^2)' = +-z', and z' = +-sqrt(8 lead) times all r */
-void iso_separation_state(const separation *s, const double theta[2], double point[ISO_STATE])
+void iso_separation_state(const separation *s, const real theta[2], double point[ISO_STATE])
 {
     double ru[SEPARATION_ROOTS], rv[SEPARATION_ROOTS], x[3], y[3];
     const double gap = roots_at(s, U, theta[U], ru) + s->gap + roots_at(s, V, theta[V], rv);

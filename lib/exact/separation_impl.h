@@ -42,7 +42,7 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
 void iso_separation_release(separation *s);
 
 /* (M, gamma) at the angles of u and v. */
-void iso_separation_state(const separation *s, const double theta[2], double point[ISO_STATE]);
+void iso_separation_state(const separation *s, const real theta[2], double point[ISO_STATE]);
 
 /* d clock/dsigma: ds = (v - u) dsigma, d tau = (det J/k^2) q^(-1/k) ds, dt = (det J/k^2) q^(-1 - 1/(2k)) ds. */
 real iso_separation_rate(const separation *s, iso_clock clock, real u, real v);

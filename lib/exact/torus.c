@@ -98,7 +98,7 @@ static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *
 
 typedef struct angles {
     real sigma;
-    double theta[2]; /* of u and v, within a turn and back */
+    real theta[2]; /* of u and v, within a turn and back */
     double sine[2][MOST_MODES + 1], cosine[2][MOST_MODES + 1];
 } angles;
 
@@ -108,8 +108,8 @@ static void set_angles(const torus *x, real sigma, int most, angles *a)
     a->sigma = sigma;
     for (int i = 0; i < 2; i++) {
         const oscillation *o = &x->s.coordinate[i];
-        a->theta[i] = (double)remainderl(o->start + o->omega * sigma, 4 * ISO_PI);
-        const double s = sin(a->theta[i]), c = cos(a->theta[i]);
+        a->theta[i] = remainderl(o->start + o->omega * sigma, 4 * ISO_PI);
+        const double s = sin((double)a->theta[i]), c = cos((double)a->theta[i]);
         double *sine = a->sine[i], *cosine = a->cosine[i];
         sine[0] = 0, cosine[0] = 1;
         const int last = i == 0 ? x->rows : x->columns;
@@ -139,9 +139,9 @@ static real clock_at(const torus_clock *c, int most, const angles *a)
     return c->mean * a->sigma + (sum - c->zero);
 }
 
-static double coordinate_at(const oscillation *o, double theta)
+static double coordinate_at(const oscillation *o, real theta)
 {
-    const double twice = 2 * cos(theta);
+    const double twice = 2 * cos((double)theta);
     double p = 0, p1 = 0;
     for (int n = o->terms; n >= 1; n--) {
         const double r = o->z[n] + twice * p - p1;
@@ -150,7 +150,7 @@ static double coordinate_at(const oscillation *o, double theta)
     return o->z[0] + p * twice / 2 - p1;
 }
 
-static double rate_at(const torus *x, iso_clock clock, const double theta[2])
+static double rate_at(const torus *x, iso_clock clock, const real theta[2])
 {
     const oscillation *o = x->s.coordinate;
     return (double)iso_separation_rate(&x->s, clock, coordinate_at(&o[0], theta[0]), coordinate_at(&o[1], theta[1]));
@@ -176,17 +176,16 @@ static real approach(const torus *x, iso_clock clock, real time, int most, doubl
     }
 }
 
-static void turn(const torus *x, const angles *a, real step, double theta[2])
+static void turn(const torus *x, const angles *a, real step, real theta[2])
 {
-    for (int i = 0; i < 2; i++)
-        theta[i] = (double)remainderl(a->theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
+    for (int i = 0; i < 2; i++) theta[i] = remainderl(a->theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
 }
 
 static void find(const void *data, iso_clock clock, real time, form_place *p)
 {
     const torus *x = data;
     const torus_clock *c = &x->clock[clock];
-    double theta[2];
+    real theta[2];
     angles a;
     a.sigma = p->along;
     if (isnan(a.sigma)) {
