@@ -1,12 +1,12 @@
-/* isoroll compare - the same orbit by both backends: table, picture, JSON. */
+/* isoroll compare - the same orbit by every backend: table, picture, JSON. */
 #include <jansson.h>
 #include <math.h>
 
 #include "command.h"
 
-static const char *backend_name(int b)
+static const char *backend_name(const iso_comparison *c, int run)
 {
-    return iso_picture_name(b);
+    return iso_picture_name((int)c->run[run].backend);
 }
 
 /* --- the table ----------------------------------------------------------------------------------------------------- */
@@ -17,12 +17,16 @@ static void print_head(const iso_scene *scene, const iso_comparison *c)
     printf("k = %.10g (%s), J = %.10g %.10g %.10g\nh = %.10g, eps = %.10g, tolerance %g\n\n", p->k,
            iso_surface_name((int)p->body.surface), p->J[0], p->J[1], p->J[2], c->h, c->eps, scene->tolerance);
     print_effects(&c->effects, false);
-    for (int b = 0; b < ISO_BACKENDS; b++) {
+    for (int b = 0; b < ISO_INTEGRATED; b++) {
         const iso_backend_run *r = &c->run[b];
-        if (!r->method) continue;
-        printf("backend %-5s  %s: %ld steps, %ld rejected, %ld right-hand sides, %.3g ms\n", backend_name(b),
+        printf("backend %-5s  %s: %ld steps, %ld rejected, %ld right-hand sides, %.3g ms\n", backend_name(c, b),
                r->method->name, r->statistics.steps, r->statistics.rejected, r->statistics.rhs, 1e3 * r->seconds);
     }
+    if (c->runs == ISO_BACKENDS)
+        printf("backend exact  the closed solution: %ld states, %.3g ms\n", c->run[ISO_BY_EXACT].statistics.states,
+               1e3 * c->run[ISO_BY_EXACT].seconds);
+    else
+        printf("exact: %s\n", c->no_exact);
 }
 
 /* The rows shown: `shown` of them, evenly spaced, first and last among them. */
@@ -31,23 +35,35 @@ static size_t shown_row(size_t i, size_t shown, size_t rows)
     return shown < 2 ? rows - 1 : i * (rows - 1) / (shown - 1);
 }
 
-/* One model's six numbers by both backends, with the larger of the differences of its two vectors. */
+/* The larger of the differences of a model's two vectors in a row: of the point from the ball; of either from the closed
+ * solution. */
+static double row_difference(const iso_comparison *c, int run, iso_picture model, size_t row)
+{
+    const int first = model == ISO_BALL ? 1 : 3;
+    double most = 0;
+    for (int b = 0; b < ISO_INTEGRATED; b++) {
+        const double *d = iso_record_const_row(run == ISO_BY_EXACT ? c->from_exact[b] : c->difference, row);
+        most = fmax(most, fmax(d[first], d[first + 1]));
+    }
+    return most;
+}
+
+/* One model's six numbers by every backend, with its difference from those above it. */
 static void print_model(const iso_comparison *c, iso_picture model, size_t shown, size_t rows)
 {
     static const char *const titles[] = {"the ball", "the point"};
-    const int first = model == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT, difference = model == ISO_BALL ? 1 : 3;
+    const int first = model == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
     const int clock = model == ISO_BALL ? 0 : 2;
     printf("\n%s\n%12s  %-7s", titles[model], iso_clock_name((iso_clock)clock), "backend");
     for (int i = 0; i < ISO_STATE; i++) printf(" %13s", iso_trajectory_columns[first + i]);
     printf("  difference\n");
     for (size_t i = 0; i < shown; i++) {
         const size_t row = shown_row(i, shown, rows);
-        const double *d = iso_record_const_row(c->difference, row);
-        for (int b = 0; b < ISO_BACKENDS; b++) {
+        for (int b = 0; b < c->runs; b++) {
             const double *x = iso_record_const_row(c->run[b].trajectory, row);
-            printf("%12.6g  %-7s", x[clock], backend_name(b));
+            printf("%12.6g  %-7s", x[clock], backend_name(c, b));
             for (int j = 0; j < ISO_STATE; j++) printf(" %13.9g", x[first + j]);
-            if (b == ISO_POINT) printf("  %8.1e", fmax(d[difference], d[difference + 1]));
+            if (b > 0) printf("  %8.1e", row_difference(c, b, model, row));
             printf("\n");
         }
     }
@@ -59,9 +75,9 @@ static void print_clocks(const iso_comparison *c, size_t shown, size_t rows)
     for (int k = 0; k < ISO_CLOCKS; k++) printf(" %22s", iso_clock_name((iso_clock)k));
     printf("\n");
     for (size_t i = 0; i < shown; i++)
-        for (int b = 0; b < ISO_BACKENDS; b++) {
+        for (int b = 0; b < c->runs; b++) {
             const double *x = iso_record_const_row(c->run[b].trajectory, shown_row(i, shown, rows));
-            printf("%-7s %22.16g %22.16g %22.16g\n", backend_name(b), x[0], x[1], x[2]);
+            printf("%-7s %22.16g %22.16g %22.16g\n", backend_name(c, b), x[0], x[1], x[2]);
         }
 }
 
@@ -71,10 +87,16 @@ static void print_integrals(const iso_comparison *c)
     for (int i = 0; i < c->run[ISO_BALL].drifts; i++) {
         const iso_drift *d = &c->run[ISO_BALL].drift[i];
         printf("  %-5s %-10s %20.12g", d->system->name, d->integral->name, d->start);
-        for (int b = 0; b < ISO_BACKENDS; b++)
-            if (i < c->run[b].drifts) printf("  %s %8.1e", backend_name(b), c->run[b].drift[i].worst);
+        for (int b = 0; b < c->runs; b++)
+            if (i < c->run[b].drifts) printf("  %s %8.1e", backend_name(c, b), c->run[b].drift[i].worst);
         printf("   %s\n", d->integral->doc);
     }
+}
+
+static void print_worst(const iso_comparison *c, const double worst[ISO_DIFFERENCES])
+{
+    for (size_t i = 1; i < ISO_DIFFERENCES; i++)
+        printf(" %s %.1e%s", iso_record_name(c->difference, i), worst[i], i + 1 < ISO_DIFFERENCES ? "," : "\n");
 }
 
 static void print_table(const iso_scene *scene, const options *o, const iso_comparison *c)
@@ -87,8 +109,11 @@ static void print_table(const iso_scene *scene, const options *o, const iso_comp
     print_clocks(c, shown, rows);
     print_integrals(c);
     printf("\nlargest relative difference of the backends over %zu rows\n ", rows);
-    for (size_t i = 1; i < ISO_DIFFERENCES; i++)
-        printf(" %s %.1e%s", iso_record_name(c->difference, i), c->worst[i], i + 1 < ISO_DIFFERENCES ? "," : "\n");
+    print_worst(c, c->worst);
+    for (int b = 0; c->runs == ISO_BACKENDS && b < ISO_INTEGRATED; b++) {
+        printf("of %s from exact\n ", backend_name(c, b));
+        print_worst(c, c->worst_from_exact[b]);
+    }
 }
 
 /* --- JSON ---------------------------------------------------------------------------------------------------------- */
@@ -120,9 +145,10 @@ static json_t *backend_of(const iso_backend_run *r)
                                                    d->integral->name, "doc", d->integral->doc, "start",
                                                    number(d->start), "drift", number(d->worst)));
     }
-    return json_pack("{s:s, s:I, s:I, s:I, s:o, s:o, s:o, s:o}", "method", r->method ? r->method->name : "", "steps",
+    return json_pack("{s:s, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o}", "method", r->method->name, "steps",
                      (json_int_t)r->statistics.steps, "rejected", (json_int_t)r->statistics.rejected,
-                     "right_hand_sides", (json_int_t)r->statistics.rhs, "correction",
+                     "right_hand_sides", (json_int_t)r->statistics.rhs, "states",
+                     (json_int_t)r->statistics.states, "correction",
                      number(r->statistics.correction), "seconds", number(r->seconds), "integrals", integrals,
                      "trajectory", columns_of(r->trajectory));
 }
@@ -144,20 +170,42 @@ static json_t *effects_of(const iso_effects *effects)
     return o;
 }
 
+static json_t *worst_of(const iso_comparison *c, const double worst[ISO_DIFFERENCES])
+{
+    json_t *o = json_object();
+    for (size_t i = 1; i < ISO_DIFFERENCES; i++)
+        json_object_set_new(o, iso_record_name(c->difference, i), number(worst[i]));
+    return o;
+}
+
+/* What the closed solution adds, or why there is none. */
+static void add_exact(json_t *o, const iso_comparison *c)
+{
+    if (c->runs < ISO_BACKENDS) {
+        json_object_set_new(o, "no_exact", json_string(c->no_exact));
+        return;
+    }
+    json_object_set_new(json_object_get(o, "backends"), "exact", backend_of(&c->run[ISO_BY_EXACT]));
+    json_object_set_new(o, "from_exact",
+                        json_pack("{s:{s:o, s:o}, s:{s:o, s:o}}", "ball", "worst_difference",
+                                  worst_of(c, c->worst_from_exact[ISO_BALL]), "difference",
+                                  columns_of(c->from_exact[ISO_BALL]), "point", "worst_difference",
+                                  worst_of(c, c->worst_from_exact[ISO_POINT]), "difference",
+                                  columns_of(c->from_exact[ISO_POINT])));
+}
+
 /* False: no memory. A full disk is found when the output is flushed. */
 static bool print_json(const iso_scene *scene, const iso_comparison *c)
 {
     const iso_params *p = &scene->params;
-    json_t *worst = json_object();
-    for (size_t i = 1; i < ISO_DIFFERENCES; i++)
-        json_object_set_new(worst, iso_record_name(c->difference, i), number(c->worst[i]));
     json_t *o =
         json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:{s:o, s:o}}", "isoroll", ISO_VERSION,
                   "k", number(p->k), "J", number(p->J[0]), number(p->J[1]), number(p->J[2]), "h", number(c->h), "eps",
                   number(c->eps), "effects", effects_of(&c->effects), "tolerance", number(scene->tolerance), "clock",
-                  iso_clock_name(c->clock), "worst_difference", worst, "difference", columns_of(c->difference),
+                  iso_clock_name(c->clock), "worst_difference", worst_of(c, c->worst), "difference", columns_of(c->difference),
                   "backends", "ball", backend_of(&c->run[ISO_BALL]), "point", backend_of(&c->run[ISO_POINT]));
     if (!o) return complain("out of memory"), false;
+    add_exact(o, c);
     json_dumpf(o, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
     printf("\n");
     json_decref(o);
@@ -179,17 +227,43 @@ static bool go_on(void *data)
     return !interrupted();
 }
 
+/* The differences of ball and point, and of each from the closed solution the largest in a row. */
+static iso_status differences_drawn(iso_context *ctx, const iso_comparison *c, iso_record **drawn)
+{
+    const char *names[ISO_DIFFERENCES + ISO_INTEGRATED] = {[ISO_DIFFERENCES] = "ball - exact", "point - exact"};
+    const int exact = c->runs == ISO_BACKENDS ? ISO_INTEGRATED : 0;
+    for (size_t i = 0; i < ISO_DIFFERENCES; i++) names[i] = iso_record_name(c->difference, i);
+    iso_status status = iso_record_create(ctx, (size_t)(ISO_DIFFERENCES + exact), names, drawn);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(c->difference); i++) {
+        const double *d = iso_record_const_row(c->difference, i);
+        double *row;
+        status = iso_record_append(ctx, *drawn, &row);
+        for (int j = 0; status == ISO_OK && j < ISO_DIFFERENCES; j++) row[j] = d[j];
+        for (int b = 0; status == ISO_OK && b < exact; b++) {
+            const double *from = iso_record_const_row(c->from_exact[b], i);
+            row[ISO_DIFFERENCES + b] = 0;
+            for (int j = 1; j < ISO_DIFFERENCES; j++)
+                row[ISO_DIFFERENCES + b] = fmax(row[ISO_DIFFERENCES + b], from[j]);
+        }
+    }
+    return status;
+}
+
 static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_comparison *c)
 {
     char title[128];
     snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g", scene->params.k, scene->params.J[0],
              scene->params.J[1], scene->params.J[2]);
+    iso_record *drawn;
+    iso_status status = differences_drawn(ctx, c, &drawn);
     const iso_plot plot = {.title = title,
                            .tolerance = scene->tolerance,
                            .ball = c->run[ISO_BALL].trajectory,
                            .point = c->run[ISO_POINT].trajectory,
-                           .difference = c->difference};
-    return iso_plot_comparison(ctx, o->plot, &plot);
+                           .difference = drawn};
+    if (status == ISO_OK) status = iso_plot_comparison(ctx, o->plot, &plot);
+    iso_record_free(drawn);
+    return status;
 }
 
 static int run(iso_context *ctx, const options *o)
@@ -225,8 +299,8 @@ static int run(iso_context *ctx, const options *o)
 const command command_compare = {
     .name = "compare",
     .argument = "SCENE",
-    .doc = "the same orbit by both backends, side by side: states, clocks, integrals",
+    .doc = "the same orbit by every backend, side by side: states, clocks, integrals",
     .options = " method tol t-end step rows plot json ",
-    .more = "Differences are relative to the size of the vector (clocks: to the largest value).",
+    .more = "The backends are ball, point and, where there is a closed solution, exact. Differences are relative to the size of the vector (clocks: to the largest value).",
     .run = run,
 };

@@ -64,6 +64,29 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
     printf("\n");
 }
 
+/* What `run --backend exact` would say of these columns. */
+static void explain_exact(iso_context *ctx, const iso_scene *scene, const int columns[], int count)
+{
+    static const char *const kinds[ISO_EXACT_KINDS] = {
+        [ISO_EXACT_SEPARATED] = "two oscillations in sphero-conical coordinates",
+        [ISO_EXACT_SYMMETRIC] = "two equal moments: a swing along the axis, a turning about it",
+        [ISO_EXACT_PLANE] = "a motion in a principal plane",
+        [ISO_EXACT_SEPARATRIX] = "on the separatrix, to the unstable rotation",
+    };
+    iso_effects effects;
+    iso_orbit *orbit;
+    iso_orbit_options o = options_for_columns(scene, columns, count, &effects);
+    o.backend = ISO_EXACT;
+    o.method = NULL;
+    printf("closed solution (--backend exact)\n");
+    if (iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit) != ISO_OK) {
+        printf("  %s\n\n", iso_context_message(ctx));
+        return;
+    }
+    printf("  any time at the same cost: %s\n\n", kinds[iso_exact_describe(iso_orbit_exact(orbit)).kind]);
+    iso_orbit_free(orbit);
+}
+
 static const char *reason_of(const iso_model *m, int state)
 {
     const char *reason;
@@ -75,7 +98,8 @@ static const char *reason_of(const iso_model *m, int state)
 static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const int columns[], int count)
 {
     const iso_model *m = iso_orbit_model(orbit);
-    printf("integrated: backend %s, %d states, in the clock %s\n", m->system->name, m->dim, iso_clock_name(m->clock));
+    printf("%s: backend %s, %d states, in the clock %s\n", iso_orbit_exact(orbit) ? "evaluated" : "integrated",
+           iso_picture_name((int)iso_orbit_backend(orbit)), m->dim, iso_clock_name(m->clock));
     for (int i = 0, first = 0; i < m->dim; i++) { /* one line for those that are there for the same reason */
         const char *reason = reason_of(m, i);
         if (i + 1 < m->dim && strcmp(reason, reason_of(m, i + 1)) == 0) continue;
@@ -86,8 +110,9 @@ static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const
                 snprintf(names + used, sizeof names - (size_t)used, "%s ", iso_model_state_name(m, first, &unused));
         printf("  %-22s %s\n", names, reason);
     }
-    printf("  method %s (%s), tolerance %g\n", iso_orbit_method(orbit)->name, iso_orbit_method(orbit)->doc,
-           scene->tolerance);
+    if (!iso_orbit_exact(orbit))
+        printf("  method %s (%s), tolerance %g\n", iso_orbit_method(orbit)->name, iso_orbit_method(orbit)->doc,
+               scene->tolerance);
     printf("  own units: moment of inertia %g, time %g\n", iso_orbit_units(orbit)->J, 1 / iso_orbit_units(orbit)->w);
     if (iso_orbit_has_twin(orbit))
         printf("  energy of the ball h = %.10g\n  coupling of the point eps = %.10g\n", iso_orbit_energy(orbit),
@@ -171,9 +196,10 @@ static int run(iso_context *ctx, const options *o)
     explain_effects(orbit);
     explain_level_plane(&scene, orbit);
     explain_map(&scene.params, orbit);
+    explain_exact(ctx, &scene, columns, count);
     explain_states(&scene, orbit, columns, count);
     explain_integrals(orbit);
-    explain_cost(iso_orbit_model(orbit));
+    if (!iso_orbit_exact(orbit)) explain_cost(iso_orbit_model(orbit));
     iso_orbit_free(orbit);
     return EXIT_DONE;
 }

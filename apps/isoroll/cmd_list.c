@@ -13,6 +13,18 @@ static void list_systems(void)
     }
 }
 
+static void list_backends(void)
+{
+    static const char *const docs[] = {
+        [ISO_BALL] = "integrates the ball (9)",
+        [ISO_POINT] = "integrates the point (24)",
+        [ISO_AUTO] = "the model of the start, the ball where effects need it, or what the method is for",
+        [ISO_EXACT] = "evaluates the closed solution, where there is one: any time at the same cost",
+    };
+    for (int i = 0; iso_picture_name(i); i++)
+        if (i != ISO_BOTH) printf("  %-22s %s\n", iso_picture_name(i), docs[i]);
+}
+
 static void list_integrals(void)
 {
     for (int s = 0; iso_systems[s]; s++)
@@ -78,7 +90,8 @@ static const struct {
     const char *name, *doc;
     void (*list)(void);
 } topics[] = {
-    {"systems", "what is integrated (--backend)", list_systems},
+    {"systems", "the two models", list_systems},
+    {"backends", "what finds an orbit (--backend)", list_backends},
     {"effects", "what can act on the ball, or be asked of it (effects:)", list_effects},
     {"methods", "integrators (--method)", list_methods},
     {"surfaces", "what the ball rolls on (surface: kind)", list_surfaces},
@@ -106,7 +119,7 @@ static int run(iso_context *ctx, const options *o)
 const command command_list = {
     .name = "list",
     .argument = "[TOPIC]",
-    .doc = "the registries: systems, effects, methods, surfaces, integrals, clocks, columns",
+    .doc = "the registries: systems, backends, effects, methods, surfaces, integrals, clocks, columns",
     .options = " ",
     .run = run,
 };

@@ -69,7 +69,7 @@ static bool set_backend(void *at, const char *text)
 
 static bool set_as(void *at, const char *text)
 {
-    return strcmp(text, "auto") != 0 && set_picture(at, text);
+    return strcmp(text, "auto") != 0 && strcmp(text, "exact") != 0 && set_picture(at, text);
 }
 
 static bool set_target(void *at, const char *text)
@@ -90,7 +90,7 @@ static const struct row {
 } table[] = {
 #define AT(field) offsetof(options, field)
     {"output", "FILE", "a file", "write there, - is standard output (-o FILE)", set_text, AT(output)},
-    {"backend", "B", "ball, point or auto", "the model that is integrated: ball, point, auto", set_backend,
+    {"backend", "B", "ball, point, exact or auto", "what finds the orbit: ball, point, exact, auto", set_backend,
      AT(backend)},
     {"method", "NAME", "a method of 'isoroll list methods', or auto", "integrator, or auto", set_method, AT(method)},
     {"tol", "X", "a number in [1e-15, 0.1]", "largest relative error of one step, in [1e-15, 0.1]", set_tolerance,
@@ -230,7 +230,8 @@ int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso
 {
     const char *field = iso_context_field(ctx);
     const bool time = strcmp(field, "end") == 0 || strcmp(field, "step") == 0;
-    const bool from_option = time && (!isnan(o->end) || !isnan(o->step));
+    const bool method = strcmp(field, "method") == 0 && o->method;
+    const bool from_option = method || (time && (!isnan(o->end) || !isnan(o->step)));
     const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
     return finish(ctx, from_option ? status : iso_scene_blame(ctx, scene, name, status));
 }

@@ -66,7 +66,7 @@ iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *fie
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
     snprintf(ctx->message, sizeof ctx->message, "%s", message);
-    snprintf(ctx->field, sizeof ctx->field, "%s", field);
+    if (field != ctx->field) snprintf(ctx->field, sizeof ctx->field, "%s", field); /* else it stays */
     return status;
 }
 

@@ -40,6 +40,8 @@ static const look looks[] = {
     {"t",     "t", "dt (2,3) lw 1.8 lc rgb '#009E73'"},
     {"tau",   "τ", "dt (2,3) lw 1.8 lc rgb '#009E73'"},
     {"s",     "s", "dt (8,3,2,3) lw 1.8 lc rgb '#CC79A7'"},
+    {"ball - exact",  "ball − exact",  "dt 1 lw 1.2 lc rgb 'black'"},
+    {"point - exact", "point − exact", "dt (8,4) lw 1.2 lc rgb 'black'"},
     {NULL,    NULL, "dt 4 lw 1.8 lc rgb 'black'"},
 };
 /* clang-format on */

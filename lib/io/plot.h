@@ -13,12 +13,13 @@
 
 #include "../base/record.h"
 
-/* Two backends on one orbit. Records are as iso_compare makes them; further columns are not read. */
+/* The two models on one orbit. Records are as iso_compare makes them; further columns are not read. */
 typedef struct iso_plot {
     const char *title;            /* one line, any characters; NULL: none                                        */
     const iso_record *ball;       /* what the backend `ball` found: columns n1..3 and gamma1..3, a row or more   */
     const iso_record *point;      /* the same from the backend `point`                                           */
-    const iso_record *difference; /* a clock, then non-negative differences; "omega", "M", "t", ... get symbols  */
+    const iso_record *difference; /* a clock, then non-negative differences; "omega", "M", "t", ... get symbols,
+                                     "ball - exact", "point - exact" lines of their own                          */
     double tolerance;             /* a line drawn among the differences for comparison; 0: none                  */
 } iso_plot;
 

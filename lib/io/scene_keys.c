@@ -354,7 +354,7 @@ static const entry solver_keys[] = {
 };
 
 static const entry output_keys[] = {
-    {"as", read_word, AT(as), .word = iso_picture_name, .words = ~BIT(ISO_AUTO)},
+    {"as", read_word, AT(as), .word = iso_picture_name, .words = BIT(ISO_BALL) | BIT(ISO_POINT) | BIT(ISO_BOTH)},
     {"columns", .read = read_columns},
     {0},
 };

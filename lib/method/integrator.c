@@ -112,7 +112,7 @@ iso_status iso_integrator_start(iso_integrator *it, const double y0[])
     set_out(it, 0);
     if (!iso_integrator_rhs(it, y0, f))
         return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "the equations of motion are not finite at the start");
-    return ISO_OK;
+    return it->method->at ? it->method->start(it) : ISO_OK;
 }
 
 iso_status iso_integrator_advance(iso_integrator *it)
@@ -137,9 +137,27 @@ iso_status iso_integrator_advance(iso_integrator *it)
     return ISO_OK;
 }
 
+/* Straight to t, where a step begins that has no length yet. */
+static iso_status jump(iso_integrator *it, int direction, double t)
+{
+    double y[ISO_MAX_STATE];
+    if (!iso_context_goes_on(it->ctx)) return iso_context_fail(it->ctx, ISO_STOPPED, "", "stopped on request");
+    if (t == 0) copy(it->y0, y, it->model.dim);
+    const iso_status status = t == 0 ? ISO_OK : it->method->at(it, t, y);
+    if (status != ISO_OK) return status;
+    it->direction = direction;
+    it->stopped = false;
+    it->left = (iso_instant){t, 0};
+    it->h = 0;
+    copy(y, it->at_left, it->model.dim);
+    copy(y, it->at_right, it->model.dim);
+    return ISO_OK;
+}
+
 iso_status iso_integrator_reach(iso_integrator *it, int direction, double t)
 {
     iso_status status = ISO_OK;
+    if (it->method->at) return jump(it, direction, t);
     if (direction != it->direction || it->direction * iso_integrator_since(it, t) < 0) status = set_out(it, direction);
     while (status == ISO_OK && it->direction * (iso_integrator_since(it, t) - it->h) > 0) status = iso_integrator_advance(it);
     return status;

@@ -70,7 +70,8 @@ iso_status iso_tolerance_check(iso_context *ctx, double tolerance);
 /* Takes one step. */
 iso_status iso_integrator_advance(iso_integrator *it);
 
-/* Takes steps in `direction` until t lies within the current one; sets out again from 0 when t lies behind it. */
+/* Takes steps in `direction` until t lies within the current one; sets out again from 0 when t lies behind it. A method
+ * that finds any state at once begins its next step there. */
 iso_status iso_integrator_reach(iso_integrator *it, int direction, double t);
 
 /* t minus the time of the step's left end: exact but for the last bit. */

@@ -18,6 +18,8 @@
  *   the library's own uncompensated t += h would cost 1e-9 at t = 1000 (see SUNDIALS in the README).
  * - After each step the model's constraints and energy are restored where the method allows it (`projects`); the
  *   statistics hold the largest correction, because corrected integrals look perfect whatever the error.
+ * - A method may know the state at any time without steps (`at`): then tolerance and max_steps mean nothing, only the
+ *   search for events goes from part to part of the way.
  * - A failing call leaves the last good time and state to be read (iso_integrator_last). Times before it can still be
  *   asked; times behind it fail again.
  */
@@ -41,6 +43,7 @@ typedef struct iso_method_options {
 
 typedef struct iso_statistics {
     long steps, rejected, rhs, jacobians; /* rhs includes the leaps to output times                    */
+    long states;                          /* found without steps, by iso_method.at                     */
     double correction;                    /* largest relative correction by projection                 */
 } iso_statistics;
 
@@ -61,6 +64,9 @@ typedef struct iso_method {
     iso_status (*step)(iso_integrator *it, double y[], double *h);
     /* The state at dt from the step's left end, |dt| < |h|, by the method's own; NULL: by a leap. */
     iso_status (*within)(iso_integrator *it, double dt, double y[]);
+    /* The state at any time t but 0, without steps; NULL: by steps. With it `start` is called once, by
+     * iso_integrator_start, and `step` only leads a search for events on. */
+    iso_status (*at)(iso_integrator *it, double t, double y[]);
     void (*free)(iso_integrator *it);
 } iso_method;
 
@@ -81,7 +87,8 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
                                  const iso_method_options *options, iso_integrator **integrator);
 void iso_integrator_free(iso_integrator *it);
 
-/* Begins anew with state y0 (model.dim numbers) at time 0. Errors: ISO_BAD_ARGUMENT when y0 is not finite. */
+/* Begins anew with state y0 (model.dim numbers) at time 0. Errors: ISO_BAD_ARGUMENT when y0 is not finite, or there is
+ * no such orbit for a method with `at`. */
 iso_status iso_integrator_start(iso_integrator *it, const double y0[]);
 
 /* The state at time t, before or after 0. Cheap when times run away from 0; turning back starts again from 0.

@@ -224,6 +224,9 @@ static void *work(void *data)
 static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_lane_code *code, const double times[],
                         size_t rows)
 {
+    if (o->backend == ISO_EXACT)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
+                                "a batch integrates: backend exact is for single orbits, which share nothing");
     if (iso_tolerance_check(ctx, o->tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (o->threads < 0 || o->threads > MOST_THREADS)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, 1024]", o->threads);

@@ -46,18 +46,21 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     iso_orbit_options *opt = &o->options;
     double six[ISO_STATE], size;
     opt->backend = choose_backend(opt, start);
-    if ((opt->backend != ISO_BALL && opt->backend != ISO_POINT) || (int)opt->show < 0 || opt->show > ISO_BOTH)
+    const bool ball = opt->backend == ISO_BALL, exact = opt->backend == ISO_EXACT;
+    if ((!ball && !exact && opt->backend != ISO_POINT) || (int)opt->show < 0 || opt->show > ISO_BOTH)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "backend",
-                                "an orbit is integrated as a ball or as a point, "
-                                "and shown as one of them or both");
+                                "an orbit is found by backend ball, point or exact, "
+                                "and shown as ball, point or both");
+    if (exact && opt->method && opt->method != &iso_method_exact)
+        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "method",
+                                "backend exact does not integrate: leave the method out, or take backend point");
     iso_status status = iso_orbit_find_start(o, p, start, six);
     if (status != ISO_OK) return status;
-    const bool ball = opt->backend == ISO_BALL;
     const iso_field field = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
     o->model = iso_model_assemble(ball ? &iso_system_ball : &iso_system_point, &field, opt->clock, opt->carry);
     iso_model_begin(&o->model, six, y);
     if (ball) o->model.field.energy = iso_system_ball.integrals[0].value(&o->model.field, y, &size);
-    if (!opt->method) opt->method = iso_method_auto(&o->model);
+    if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
     return ISO_OK;
 }
 
@@ -259,6 +262,11 @@ iso_status iso_orbit_last(iso_orbit *o, iso_sample *sample)
 iso_statistics iso_orbit_statistics(const iso_orbit *o)
 {
     return iso_integrator_statistics(o->integrator);
+}
+
+iso_picture iso_orbit_backend(const iso_orbit *o)
+{
+    return o->options.backend;
 }
 
 const iso_model *iso_orbit_model(const iso_orbit *o)

@@ -6,12 +6,14 @@
  *     iso_orbit_at(orbit, 100, &sample);                     sample.ball = omega, n at t = 100
  *     iso_orbit_free(orbit);
  *
- * The two backends integrate the ball (9) or the point (24) and answer the same questions with the same calls. Inside,
+ * The backends ball and point integrate (9) or (24), the backend exact evaluates the point's closed solution where there
+ * is one (exact/exact.h), at any time at the same cost. All answer the same questions with the same calls. Inside,
  * everything is in the ball's own units; all numbers in and out are in the caller's.
  */
 #ifndef ISO_ORBIT_ORBIT_H
 #define ISO_ORBIT_ORBIT_H
 
+#include "../exact/exact.h"
 #include "../method/method.h"
 #include "scene.h"
 
@@ -19,10 +21,10 @@ typedef struct iso_orbit iso_orbit;
 
 typedef struct iso_orbit_options {
     const iso_effects *effects; /* what acts on the ball, in the caller's units; NULL: nothing             */
-    iso_picture backend;      /* the model that is integrated; ISO_AUTO: that of the start, the ball where
-                                 effects need it, the one that the method is for                           */
-    const iso_method *method; /* NULL: iso_method_auto()                                                   */
-    double tolerance;
+    iso_picture backend;      /* the model that is integrated, or ISO_EXACT; ISO_AUTO: the model of the
+                                 start, the ball where effects need it, the one that the method is for     */
+    const iso_method *method; /* NULL: iso_method_auto(); with ISO_EXACT always                            */
+    double tolerance;         /* of the method                                                             */
     long max_steps;           /* after which a call fails with ISO_NUMERICAL; 0: no bound                  */
     iso_clock clock;          /* the clock in which times are asked                                        */
     iso_picture show;         /* the models filled into samples: ISO_BALL, ISO_POINT, ISO_BOTH             */
@@ -53,7 +55,8 @@ void iso_sample_set_column(iso_sample *sample, int column, double value);
  * no point, nor a ball with an effect that breaks the isomorphism (named by iso_context_field); ISO_BAD_INPUT for numbers
  * of effects that make no sense (iso_effects_check); ISO_NUMERICAL where M or a clock asked for does not fit a double in
  * the caller's units, or k is too extreme for the powers q^(1/k) of everything but the ball in its own time;
- * ISO_BAD_ARGUMENT, ISO_NO_MEMORY. */
+ * ISO_BAD_ARGUMENT, for ISO_EXACT about "method", or what the closed solution is not for (iso_exact_create); and its
+ * ISO_NUMERICAL; ISO_NO_MEMORY. */
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
                             const iso_orbit_options *options, iso_orbit **orbit);
 void iso_orbit_free(iso_orbit *orbit);
@@ -84,10 +87,14 @@ iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);
 
 iso_statistics iso_orbit_statistics(const iso_orbit *orbit);
 
-/* What the orbit is made of: the assembled model in own units, the units, the method. */
+/* What the orbit is made of: the backend (not ISO_AUTO), the assembled model in own units, the units, the method. */
+iso_picture iso_orbit_backend(const iso_orbit *orbit);
 const iso_model *iso_orbit_model(const iso_orbit *orbit);
 const iso_units *iso_orbit_units(const iso_orbit *orbit);
 const iso_method *iso_orbit_method(const iso_orbit *orbit);
+
+/* The closed solution behind an orbit of backend ISO_EXACT, in own units; NULL for other backends. */
+const iso_exact *iso_orbit_exact(const iso_orbit *orbit);
 
 /* Whether the orbit has both models: no effect that breaks the isomorphism, and a ball that moves. */
 bool iso_orbit_has_twin(const iso_orbit *orbit);

@@ -28,6 +28,13 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
  * does not fit the caller's units. */
 iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s);
 
+/* The method of backend ISO_EXACT: a model of the point is found by its closed solution. */
+extern const iso_method iso_method_exact;
+
+/* Records `why` there is none, for which orbits there is one, and which backend to take. Gives the status. */
+iso_status iso_orbit_not_closed(iso_context *ctx, iso_status status, const char *about, const char *why,
+                                const char *backend);
+
 /* NaN in every column. */
 void iso_sample_blank(iso_sample *s);
 

@@ -1,5 +1,6 @@
 /* orbit_start.c - where an orbit starts: in the ball's own units, in the model that is integrated; or why it cannot. */
 #include <math.h>
+#include <stdio.h>
 
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
@@ -122,19 +123,35 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
 
 /* --- what effects allow --------------------------------------------------------------------------------------------- */
 
+/* The closed solution knows what `level` does to the point, and nothing else that acts. */
+static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
+{
+    const iso_effects acting = iso_effects_acting(effects);
+    for (int id = 0; id < ISO_EFFECTS; id++) {
+        char why[64];
+        const iso_effect *effect = iso_effect_list[id];
+        if (!acting.on[id] || id == ISO_LEVEL) continue;
+        snprintf(why, sizeof why, "there is no closed solution with '%s'", effect->name);
+        return iso_orbit_not_closed(ctx, ISO_BAD_ARGUMENT, effect->name, why, effect->breaks ? "ball" : "point");
+    }
+    return ISO_OK;
+}
+
 static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_start *start)
 {
     iso_effects *e = &o->effects;
     const iso_effect *breaking = iso_effects_breaking(e);
-    const bool point = o->options.backend == ISO_POINT || o->options.show != ISO_BALL || start->model == ISO_POINT;
+    const bool by_point = o->options.backend != ISO_BALL;
+    const bool point = by_point || o->options.show != ISO_BALL || start->model == ISO_POINT;
     const double *n = start->y + 3; /* a point's gamma: only gravity asks, which a point has not */
     if (start->model == ISO_POINT && isnan(e->level)) e->on[ISO_LEVEL] = false; /* as it comes */
+    if (o->options.backend == ISO_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (breaking && point)
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, breaking->name,
                                 "'%s' breaks the isomorphism: %s. There is no such point; the ball alone can be had",
                                 breaking->name, breaking->breaks);
     for (int id = ISO_ATTITUDE; id <= ISO_REACTIONS; id++)
-        if (e->on[id] && o->options.backend == ISO_POINT)
+        if (e->on[id] && by_point)
             return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, iso_effect_list[id]->name,
                                     "'%s' is the ball's: take backend ball", iso_effect_list[id]->name);
     return iso_effects_check(o->ctx, p, n, e);
@@ -148,7 +165,7 @@ typedef struct needs {
 static needs what_is_needed(const iso_orbit_options *opt, const iso_start *start)
 {
     const bool other_clocks = opt->carry[ISO_CLOCK_TAU] || opt->carry[ISO_CLOCK_S];
-    const bool point = opt->backend == ISO_POINT || opt->show != ISO_BALL;
+    const bool point = opt->backend != ISO_BALL || opt->show != ISO_BALL;
     return (needs){
         .ball = opt->backend == ISO_BALL || opt->show != ISO_POINT || opt->clock != ISO_CLOCK_S ||
                 opt->carry[ISO_CLOCK_T] || opt->carry[ISO_CLOCK_TAU],
@@ -161,6 +178,8 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
 {
     const iso_picture backend = o->options.backend;
     const needs need = what_is_needed(&o->options, start);
+    if (start->model != ISO_BALL && start->model != ISO_POINT)
+        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "an orbit starts as a ball or as a point");
     if (!all_finite(start->y, ISO_STATE) || (start->model == ISO_POINT && isinf(start->eps)))
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "the start is not finite");
     if (o->options.effects) o->effects = *o->options.effects;
@@ -183,7 +202,7 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     if (start->model == ISO_BALL && o->effects.on[ISO_LEVEL] && o->effects.level == 0)
         return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
                                 "level: c is out of the range of doubles in the ball's own units");
-    if (backend == ISO_POINT && start->model == ISO_BALL) iso_ball_to_point(&o->units.own, y, y);
+    if (backend != ISO_BALL && start->model == ISO_BALL) iso_ball_to_point(&o->units.own, y, y);
     if (backend == ISO_BALL && start->model == ISO_POINT) iso_point_to_ball(&o->units.own, y, y);
     const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
     if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps)) &&

@@ -22,7 +22,7 @@ iso_effect_id iso_column_effect(int column)
 
 const char *iso_picture_name(int picture)
 {
-    static const char *const names[] = {"ball", "point", "both", "auto"};
+    static const char *const names[] = {"ball", "point", "both", "auto", "exact"};
     return picture >= 0 && picture < (int)(sizeof names / sizeof *names) ? names[picture] : NULL;
 }
 
@@ -152,13 +152,21 @@ iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene)
     return ISO_OK;
 }
 
+static const iso_place *find_place(const iso_scene *scene, const char *key)
+{
+    /* what need not be written follows from what is */
+    static const char *const sources[][2] = {{"k", "surface"}, {"level", "eps"}, {"eps", "initial"}};
+    for (int i = 0; i < scene->places; i++)
+        if (strcmp(scene->place[i].key, key) == 0) return &scene->place[i];
+    for (size_t i = 0; i < sizeof sources / sizeof *sources; i++)
+        if (strcmp(sources[i][0], key) == 0) return find_place(scene, sources[i][1]);
+    return NULL;
+}
+
 iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status)
 {
-    for (int i = 0; status != ISO_OK && i < scene->places; i++) {
-        const iso_place *at = &scene->place[i];
-        if (strcmp(at->key, iso_context_field(ctx)) != 0) continue;
-        return iso_context_fail(ctx, status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status, "", "%s:%d:%d: %s", name,
-                                at->line, at->column, iso_context_message(ctx));
-    }
-    return status;
+    const iso_place *at = status == ISO_OK ? NULL : find_place(scene, iso_context_field(ctx));
+    if (!at) return status;
+    return iso_context_fail(ctx, status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status, "", "%s:%d:%d: %s", name,
+                            at->line, at->column, iso_context_message(ctx));
 }

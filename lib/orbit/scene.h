@@ -10,10 +10,11 @@
 
 #include "../model/effect.h"
 
-/* The two models an orbit can be computed in, or shown in. */
-typedef enum iso_picture { ISO_BALL, ISO_POINT, ISO_BOTH, ISO_AUTO } iso_picture;
+/* The two models, in which an orbit can be computed and shown; ISO_EXACT: not computed by steps but the closed
+ * solution of the point, a backend alone. */
+typedef enum iso_picture { ISO_BALL, ISO_POINT, ISO_BOTH, ISO_AUTO, ISO_EXACT } iso_picture;
 
-/* "ball", "point", "both", "auto"; NULL past the end. */
+/* "ball", "point", "both", "auto", "exact"; NULL past the end. */
 const char *iso_picture_name(int picture);
 
 /* Where an orbit starts (its clock at 0), in one of the models. */
@@ -56,7 +57,7 @@ typedef struct iso_scene {
     iso_effects effects;        /* what acts on the ball beyond (9), or is asked of it                     */
     double end;                 /* last time, in t for a ball's start, in s for a point's; < 0: backwards  */
     double step;                /* between output rows, > 0; 0: a hundredth of |end|                       */
-    iso_picture backend;        /* the model that is integrated: ISO_BALL, ISO_POINT, ISO_AUTO             */
+    iso_picture backend;        /* what finds the orbit: ISO_BALL, ISO_POINT, ISO_EXACT, ISO_AUTO          */
     char method[ISO_NAME_SIZE]; /* a name of iso_methods, or "auto"                                        */
     double tolerance;           /* largest relative error of one step, in [1e-15, 0.1]                     */
     iso_picture as;             /* what is written: ISO_BALL, ISO_POINT or ISO_BOTH                        */
@@ -67,7 +68,7 @@ typedef struct iso_scene {
 } iso_scene;
 
 /* Puts "name:line:column: " before the context's message where the failure is about a key that the scene was read
- * with; what is then a mistake in the file is ISO_BAD_INPUT, no longer ISO_BAD_ARGUMENT. Gives the status. */
+ * with, or one that follows from it (k from `surface`); what is then a mistake in the file is ISO_BAD_INPUT, no longer ISO_BAD_ARGUMENT. Gives the status. */
 iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
 
 /* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_AUTO (the model of the start). */

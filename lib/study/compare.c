@@ -1,6 +1,7 @@
 #include "study/compare.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,11 +26,11 @@ static double larger(double largest, double x)
 /* --- integrals along an orbit ------------------------------------------------------------------------------------- */
 
 /* Lists the integrals that hold, with their values at the start. */
-static void list_drifts(runner *r, iso_picture backend, const iso_sample *start)
+static void list_drifts(runner *r, int which, const iso_sample *start)
 {
-    const iso_orbit *orbit = r->orbit[backend];
+    const iso_orbit *orbit = r->orbit[which];
     const iso_units *units = iso_orbit_units(orbit);
-    iso_backend_run *run = &r->out->run[backend];
+    iso_backend_run *run = &r->out->run[which];
     for (int s = 0; iso_systems[s]; s++) {
         const iso_integral *list[ISO_MAX_INTEGRALS];
         const int count = iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->field, list,
@@ -38,78 +39,95 @@ static void list_drifts(runner *r, iso_picture backend, const iso_sample *start)
             double size;
             const double own = iso_orbit_integral(orbit, iso_systems[s], list[i], start, &size);
             const double users = own == 0 ? 0 : own * iso_unit(units, list[i]->dimension);
-            r->at_start[backend][run->drifts] = own;
+            r->at_start[which][run->drifts] = own;
             run->drift[run->drifts++] = (iso_drift){iso_systems[s], list[i], users, 0};
         }
     }
 }
 
-static void follow_drifts(const runner *r, iso_picture backend, const iso_sample *sample)
+static void follow_drifts(const runner *r, int which, const iso_sample *sample)
 {
-    iso_backend_run *run = &r->out->run[backend];
+    iso_backend_run *run = &r->out->run[which];
     for (int i = 0; i < run->drifts; i++) {
         iso_drift *d = &run->drift[i];
         double size;
-        const double value = iso_orbit_integral(r->orbit[backend], d->system, d->integral, sample, &size);
-        const double change = value - r->at_start[backend][i];
+        const double value = iso_orbit_integral(r->orbit[which], d->system, d->integral, sample, &size);
+        const double change = value - r->at_start[which][i];
         d->worst = larger(d->worst, change == 0 ? 0 : change / size);
     }
 }
 
 /* --- one backend -------------------------------------------------------------------------------------------------- */
 
+/* The scene's method where it serves the backend; NULL: auto. */
+static const iso_method *method_for(const iso_scene *scene, iso_picture backend)
+{
+    const iso_method *m = iso_method_find(scene->method);
+    const iso_system *const system = backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
+    return !m || backend == ISO_EXACT || (m->system && m->system != system) ? NULL : m;
+}
+
 static iso_status open_backend(runner *r, iso_picture backend)
 {
-    iso_backend_run *run = &r->out->run[backend];
+    const int which = r->out->runs;
+    iso_backend_run *run = &r->out->run[which];
     iso_orbit_options o = iso_orbit_defaults(&r->scene->start);
     iso_status status = iso_record_create(r->ctx, ISO_COLUMN_EFFECTS, iso_trajectory_columns, &run->trajectory);
     if (status != ISO_OK) return status;
-    o.effects = &r->effects;
-    o.backend = backend;
-    o.method = iso_method_find(r->scene->method);
-    if (!o.method && strcmp(r->scene->method, "auto") != 0)
+    if (!iso_method_find(r->scene->method) && strcmp(r->scene->method, "auto") != 0)
         return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "method", "there is no method '%s'", r->scene->method);
-    const iso_system *const system = backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
-    if (o.method && o.method->system && o.method->system != system) o.method = NULL; /* auto: it is for the other */
+    o.effects = &r->effects;
+    o.backend = run->backend = backend;
+    o.method = method_for(r->scene, backend);
     o.tolerance = r->scene->tolerance;
     o.show = ISO_BOTH;
     for (int clock = 0; clock < ISO_CLOCKS; clock++) o.carry[clock] = true;
     const double begin = processor_seconds();
-    status = iso_orbit_create(r->ctx, &r->scene->params, &r->scene->start, &o, &r->orbit[backend]);
+    status = iso_orbit_create(r->ctx, &r->scene->params, &r->scene->start, &o, &r->orbit[which]);
     if (status != ISO_OK) return status;
     run->seconds = processor_seconds() - begin;
-    run->method = iso_orbit_method(r->orbit[backend]);
+    run->method = iso_orbit_method(r->orbit[which]);
     r->out->clock = o.clock;
-    r->out->effects = iso_orbit_effects(r->orbit[backend]);
-    r->out->h = iso_orbit_energy(r->orbit[backend]);
-    r->out->eps = iso_orbit_coupling(r->orbit[backend]);
+    r->out->effects = iso_orbit_effects(r->orbit[which]);
+    r->out->h = iso_orbit_energy(r->orbit[which]);
+    r->out->eps = iso_orbit_coupling(r->orbit[which]);
+    r->out->runs++;
     return ISO_OK;
 }
 
-static iso_status take_row(runner *r, iso_picture backend, size_t i)
+/* That there is no closed solution, or none that is found, is no failure. */
+static iso_status open_exact(runner *r)
 {
-    iso_backend_run *run = &r->out->run[backend];
+    const iso_status status = open_backend(r, ISO_EXACT);
+    if (status != ISO_BAD_ARGUMENT && status != ISO_NUMERICAL) return status;
+    snprintf(r->out->no_exact, sizeof r->out->no_exact, "%s", iso_context_message(r->ctx));
+    return ISO_OK;
+}
+
+static iso_status take_row(runner *r, int which, size_t i)
+{
+    iso_backend_run *run = &r->out->run[which];
     iso_sample sample;
     double *row;
     const double begin = processor_seconds();
-    iso_status status = iso_orbit_at(r->orbit[backend], iso_scene_time(r->scene, i), &sample);
+    iso_status status = iso_orbit_at(r->orbit[which], iso_scene_time(r->scene, i), &sample);
     run->seconds += processor_seconds() - begin;
-    run->statistics = iso_orbit_statistics(r->orbit[backend]);
+    run->statistics = iso_orbit_statistics(r->orbit[which]);
     if (status == ISO_OK) status = iso_record_append(r->ctx, run->trajectory, &row);
     if (status != ISO_OK) return status;
     for (int c = 0; c < ISO_COLUMN_EFFECTS; c++) row[c] = iso_sample_column(&sample, c);
-    if (i == 0) list_drifts(r, backend, &sample);
-    follow_drifts(r, backend, &sample);
+    if (i == 0) list_drifts(r, which, &sample);
+    follow_drifts(r, which, &sample);
     return ISO_OK;
 }
 
-/* Both backends row by row, so that what there is when it ends early is of both. */
+/* All backends row by row, so that what there is when it ends early is of all. */
 static iso_status take_rows(runner *r, bool (*progress)(double part, void *data), void *data)
 {
     const size_t rows = iso_scene_rows(r->scene);
     for (size_t i = 0; i < rows; i++) {
-        for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
-            const iso_status status = take_row(r, backend, i);
+        for (int which = 0; which < r->out->runs; which++) {
+            const iso_status status = take_row(r, which, i);
             if (status != ISO_OK) return status;
         }
         if (progress && !progress((double)(i + 1) / (double)rows, data)) break;
@@ -126,28 +144,38 @@ static double largest_in_column(const iso_record *r, int column)
     return most;
 }
 
-static iso_status compare_rows(iso_context *ctx, iso_comparison *c)
+/* The differences of run b from run a, and the largest of each column. */
+static iso_status compare_rows(iso_context *ctx, const iso_comparison *c, int run_a, int run_b, iso_record **difference,
+                               double worst[ISO_DIFFERENCES])
 {
-    const iso_record *a = c->run[ISO_BALL].trajectory, *b = c->run[ISO_POINT].trajectory;
+    const iso_record *a = c->run[run_a].trajectory, *b = c->run[run_b].trajectory;
     const iso_clock first = c->clock == ISO_CLOCK_T ? ISO_CLOCK_TAU : ISO_CLOCK_T;
     const iso_clock second = c->clock == ISO_CLOCK_S ? ISO_CLOCK_TAU : ISO_CLOCK_S;
     const char *const names[ISO_DIFFERENCES] = {
         iso_clock_name(c->clock), "omega", "n", "M", "gamma", iso_clock_name(first), iso_clock_name(second)};
     const double scale[2] = {largest_in_column(a, (int)first), largest_in_column(a, (int)second)};
-    iso_status status = iso_record_create(ctx, ISO_DIFFERENCES, names, &c->difference);
+    iso_status status = iso_record_create(ctx, ISO_DIFFERENCES, names, difference);
     for (size_t i = 0; status == ISO_OK && i < iso_record_rows(a) && i < iso_record_rows(b); i++) {
         const double *x = iso_record_const_row(a, i), *y = iso_record_const_row(b, i);
         double *d;
-        status = iso_record_append(ctx, c->difference, &d);
+        status = iso_record_append(ctx, *difference, &d);
         if (status != ISO_OK) break;
         d[0] = x[c->clock];
         for (int v = 0; v < 4; v++)
             d[1 + v] = relative_difference(x + ISO_COLUMN_BALL + 3 * v, y + ISO_COLUMN_BALL + 3 * v);
         d[5] = scale[0] > 0 ? fabs(x[first] - y[first]) / scale[0] : 0;
         d[6] = scale[1] > 0 ? fabs(x[second] - y[second]) / scale[1] : 0;
-        c->worst[0] = d[0];
-        for (int j = 1; j < ISO_DIFFERENCES; j++) c->worst[j] = larger(c->worst[j], d[j]);
+        worst[0] = d[0];
+        for (int j = 1; j < ISO_DIFFERENCES; j++) worst[j] = larger(worst[j], d[j]);
     }
+    return status;
+}
+
+static iso_status compare_runs(iso_context *ctx, iso_comparison *c)
+{
+    iso_status status = compare_rows(ctx, c, ISO_BALL, ISO_POINT, &c->difference, c->worst);
+    for (int b = 0; status == ISO_OK && c->runs == ISO_BACKENDS && b < ISO_INTEGRATED; b++)
+        status = compare_rows(ctx, c, ISO_BY_EXACT, b, &c->from_exact[b], c->worst_from_exact[b]);
     return status;
 }
 
@@ -159,11 +187,12 @@ iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress
     runner r = {.ctx = ctx, .scene = scene, .effects = iso_effects_acting(&scene->effects), .out = c};
     iso_status status = open_backend(&r, ISO_BALL);
     if (status == ISO_OK) status = open_backend(&r, ISO_POINT);
+    if (status == ISO_OK) status = open_exact(&r);
     if (status == ISO_OK) status = take_rows(&r, progress, data);
     for (int b = 0; b < ISO_BACKENDS; b++) iso_orbit_free(r.orbit[b]);
-    const iso_record *rows = c->run[ISO_POINT].trajectory;
+    const iso_record *rows = c->runs > 0 ? c->run[c->runs - 1].trajectory : NULL;
     if (rows && iso_record_rows(rows) > 0 && (status == ISO_OK || status == ISO_NUMERICAL || status == ISO_STOPPED)) {
-        const iso_status rows_status = compare_rows(ctx, c);
+        const iso_status rows_status = compare_runs(ctx, c);
         if (rows_status == ISO_OK) return status;
         status = rows_status;
     }
@@ -177,5 +206,6 @@ void iso_comparison_free(iso_comparison *c)
     if (!c) return;
     for (int b = 0; b < ISO_BACKENDS; b++) iso_record_free(c->run[b].trajectory);
     iso_record_free(c->difference);
+    for (int b = 0; b < ISO_INTEGRATED; b++) iso_record_free(c->from_exact[b]);
     free(c);
 }

@@ -22,6 +22,9 @@ static const double directions[MOVED][3][3] = {
  * error. */
 static const double SHARE = 0.1;
 
+/* Of an orbit by steps that checks one without: some five seconds. */
+enum { MOST_STEPS = 200000 };
+
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
 void iso_error_keep(iso_error_rows *rows, const iso_sample *sample)
@@ -51,8 +54,9 @@ static const iso_sample *row_of(const iso_error_rows *rows, size_t i)
 static bool make_finer(const iso_orbit *orbit, iso_orbit_options *o)
 {
     const iso_method *own = iso_orbit_method(orbit), *extended = iso_method_find("taylor_extended");
+    const bool exact = iso_orbit_exact(orbit) != NULL;
     o->backend = iso_orbit_model(orbit)->system == &iso_system_ball ? ISO_BALL : ISO_POINT;
-    o->max_steps = 20 * (iso_orbit_statistics(orbit).steps + 100);
+    o->max_steps = exact ? MOST_STEPS : 20 * (iso_orbit_statistics(orbit).steps + 100);
     if (iso_method_auto(iso_orbit_model(orbit))->own_equations) {
         o->method = own == extended ? iso_method_find("taylor_quad") : extended;
         o->tolerance = ISO_LEAST_TOLERANCE;
@@ -60,7 +64,7 @@ static bool make_finer(const iso_orbit *orbit, iso_orbit_options *o)
     }
     o->method = own;
     o->tolerance /= 100;
-    return o->tolerance >= ISO_LEAST_TOLERANCE && !own->reference;
+    return o->tolerance >= ISO_LEAST_TOLERANCE && !own->reference && !exact;
 }
 
 /* The start and J, moved by about AWAY, to another valid start. J stays where its neighbours are no body's. */

@@ -45,9 +45,9 @@ typedef struct iso_error {
 } iso_error;
 
 /* The error of `orbit` at the rows kept of it; params, start and options are those it was created with. Errors:
- * ISO_BAD_ARGUMENT where there is nothing finer (taylor_quad, taylor_extended without it, tolerances below 1e-13
- * where series do not serve) or no row; ISO_NUMERICAL when the finer orbit does not get there, or needs more than
- * twenty times the steps; ISO_STOPPED, ISO_NO_MEMORY. */
+ * ISO_BAD_ARGUMENT where there is nothing finer (taylor_quad, taylor_extended without it, tolerances below 1e-13, or
+ * backend exact, where series do not serve) or no row; ISO_NUMERICAL when the finer orbit does not get there, or needs
+ * more than twenty times the steps (for backend exact, which has none: than 200000); ISO_STOPPED, ISO_NO_MEMORY. */
 iso_status iso_error_find(iso_context *ctx, const iso_params *params, const iso_start *start,
                           const iso_orbit_options *options, const iso_orbit *orbit, const iso_error_rows *rows,
                           iso_error *error);

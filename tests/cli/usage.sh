@@ -38,7 +38,7 @@ for bad in x 0 nan 1e400 0x1p-40 '' ' 1e-9' 1e-16 0.2; do refuses 2 "--tol '$bad
 for bad in x nan inf 1e999 '1 2'; do refuses 2 "--t-end '$bad': expected a number" run scene.yaml --t-end "$bad"; done
 for bad in 0 -1 x; do refuses 2 "--step '$bad': expected a positive number" run scene.yaml --step "$bad"; done
 refuses 2 "--method 'rk': expected a method of 'isoroll list methods'" run scene.yaml --method rk
-refuses 2 "--backend 'both': expected ball, point or auto" run scene.yaml --backend both
+refuses 2 "--backend 'both': expected ball, point, exact or auto" run scene.yaml --backend both
 refuses 2 "--as 'auto': expected ball, point or both" run scene.yaml --as auto
 refuses 2 "nothing is called 'bogus'" list bogus
 refuses 5 "cannot open 'a?[31m?b'" run "$(printf 'a\033[31m\nb')" # nothing that moves the cursor
@@ -82,7 +82,7 @@ for library in isoroll SUNDIALS GSL libyaml jansson; do
 done
 run 0 list
 cp out list
-for topic in systems methods surfaces integrals clocks columns; do
+for topic in systems backends methods surfaces integrals clocks columns; do
     run 0 list "$topic"
     silent
     check "list $topic" grep -q "^$topic: " out

@@ -1,0 +1,98 @@
+/* exact_method.c - the closed solution as a method: the state at any time, without steps.
+ *
+ * It stands here and not in the registry: methods do not know of closed solutions, and it is no integrator to be chosen
+ * but a backend. Only a search for events goes along the orbit, in parts in which the state changes by half its size.
+ */
+#include <math.h>
+
+#include "base/finite_impl.h"
+#include "base/vec3_impl.h"
+#include "method/integrator_impl.h"
+#include "orbit/orbit_impl.h"
+
+iso_status iso_orbit_not_closed(iso_context *ctx, iso_status status, const char *about, const char *why,
+                                const char *backend)
+{
+    return iso_context_fail(ctx, status, about,
+                            "%s: closed solutions are for k = 1 and k = -1, for two equal moments of inertia and for "
+                            "motion in a principal plane, without effects but 'level' at k = -1: take backend %s",
+                            why, backend);
+}
+
+static iso_status create(iso_integrator *it)
+{
+    it->data = NULL; /* it takes the state at the start to make one */
+    return ISO_OK;
+}
+
+static void release(iso_integrator *it)
+{
+    iso_exact_free(it->data);
+}
+
+static iso_status start(iso_integrator *it)
+{
+    const iso_model *m = &it->model;
+    bool clocks[ISO_CLOCKS] = {false};
+    iso_exact *exact;
+    clocks[m->clock] = true;
+    for (int i = 0; i < m->carried; i++) clocks[m->carry[i]] = true;
+    release(it);
+    const iso_status status = iso_exact_create(it->ctx, &m->field, it->y0, clocks, &exact);
+    it->data = exact;
+    if (status != ISO_BAD_ARGUMENT) return status;
+    return iso_orbit_not_closed(it->ctx, status, iso_context_field(it->ctx), iso_context_message(it->ctx), "point");
+}
+
+static iso_status at(iso_integrator *it, double t, double y[])
+{
+    const iso_model *m = &it->model;
+    double state[ISO_MAX_STATE], clocks[ISO_CLOCKS];
+    it->statistics.states++;
+    const iso_status status = iso_exact_at(it->ctx, it->data, m->clock, t, state, clocks);
+    if (status != ISO_OK) return status;
+    for (int i = 0; i < m->carried; i++) state[m->moving + i] = clocks[m->carry[i]];
+    if (!all_finite(state, m->dim)) return iso_integrator_stopped(it, "the closed solution is not finite");
+    copy(state, y, m->dim);
+    return ISO_OK;
+}
+
+static iso_status within(iso_integrator *it, double dt, double y[])
+{
+    return at(it, it->left.head + (it->left.tail + dt), y);
+}
+
+/* From t on until the state has changed by half its size, at this rate. */
+static iso_status part_of_change(iso_integrator *it, double t, double rate, double y[], double *h)
+{
+    const double next = t + it->direction * (rate > 0 ? 0.5 / rate : 1);
+    *h = next - t;
+    return at(it, next, y);
+}
+
+/* Short also where the state changes faster at the step's end than at its beginning. */
+static iso_status step(iso_integrator *it, double y[], double *h)
+{
+    const double t = iso_instant_later(it->left, it->h).head, here = iso_integrator_rate(it, y);
+    const iso_status status = part_of_change(it, t, here, y, h);
+    const double there = status == ISO_OK ? iso_integrator_rate(it, y) : 0;
+    return there > 2 * here ? part_of_change(it, t, there, y, h) : status;
+}
+
+const iso_method iso_method_exact = {.name = "exact",
+                                     .family = "isoroll",
+                                     .doc = "the closed solution: no steps, any time at the same cost",
+                                     .projects = true,
+                                     .own_equations = true,
+                                     .system = &iso_system_point,
+                                     .create = create,
+                                     .start = start,
+                                     .step = step,
+                                     .within = within,
+                                     .at = at,
+                                     .free = release};
+
+const iso_exact *iso_orbit_exact(const iso_orbit *o)
+{
+    return o->options.backend == ISO_EXACT ? o->integrator->data : NULL;
+}
