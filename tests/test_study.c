@@ -70,6 +70,12 @@ static void check_scene(const iso_scene *scene, const char *extra)
         laws_note(&differences, c->worst[i], 1e-9, &scene->params, iso_record_name(c->difference, i));
         gsl_test(scene->end != 0 && !(c->worst[i] > 0), "%s differs", iso_record_name(c->difference, i));
     }
+    const bool separates = scene->params.k == 1 || scene->params.k == -1;
+    gsl_test(separates && c->runs != ISO_BACKENDS, "backend exact: %s", c->no_exact);
+    gsl_test((c->runs == ISO_BACKENDS) == (*c->no_exact != '\0'), "there is a closed solution, or a reason");
+    for (int b = 0; c->runs == ISO_BACKENDS && b < ISO_INTEGRATED; b++)
+        for (size_t i = 1; i < ISO_DIFFERENCES; i++)
+            laws_note(&differences, c->worst_from_exact[b][i], 1e-9, &scene->params, "from exact");
     check_listed(c, extra);
     snprintf(title, sizeof title, "compare to t = %g: backends differ", scene->end);
     laws_report(&differences, title);

@@ -1,0 +1,412 @@
+/* The closed solution as a backend: every picture and clock against the orbits by steps, events, units, order, errors. */
+#include <float.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "laws.h"
+#include "orbit/batch.h"
+#include "orbit/orbit.h"
+
+static iso_context *ctx;
+
+static void give_up(const char *what)
+{
+    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
+    exit(gsl_test_summary());
+}
+
+/* Everything shown and carried. */
+static iso_orbit_options all_of(const iso_start *start, iso_picture backend, iso_clock clock)
+{
+    iso_orbit_options o = iso_orbit_defaults(start);
+    o.backend = backend;
+    o.clock = clock;
+    o.tolerance = 1e-14;
+    o.show = ISO_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    return o;
+}
+
+static iso_orbit *create_with(const iso_params *p, const iso_start *start, const iso_orbit_options *o)
+{
+    iso_orbit *orbit;
+    if (iso_orbit_create(ctx, p, start, o, &orbit) != ISO_OK) give_up("an orbit is refused");
+    return orbit;
+}
+
+static iso_orbit *create(const iso_params *p, const iso_start *start, iso_picture backend, iso_clock clock)
+{
+    const iso_orbit_options o = all_of(start, backend, clock);
+    return create_with(p, start, &o);
+}
+
+static iso_sample at(iso_orbit *orbit, double time)
+{
+    iso_sample s;
+    if (iso_orbit_at(orbit, time, &s) != ISO_OK) give_up("an orbit stops");
+    return s;
+}
+
+/* The same bits, but for NaNs, which only must be in the same places. */
+static bool same(const iso_sample *a, const iso_sample *b)
+{
+    for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) {
+        const double x = iso_sample_column(a, c), y = iso_sample_column(b, c);
+        if (!(x == y) && !(isnan(x) && isnan(y))) return false;
+    }
+    return true;
+}
+
+/* --- orbits that have one ---------------------------------------------------------------------------------------- */
+
+enum { PROBLEMS = 8 };
+static const double shapes[PROBLEMS / 2][3] = {{1.4, 2.1, 3.0}, {3, 1.4, 2.1}, {0.5, 1, 0.7}, {1, 1.02, 1.1}};
+
+typedef struct problem {
+    iso_params p;
+    iso_start start;
+} problem;
+
+/* Balls and points, of both k and moments in every kind of order. */
+static problem make_problem(int i, iso_random *random)
+{
+    problem o = {.p = laws_params(i % 2 ? 1 : -1, shapes[i / 2])};
+    const bool ball = i / 2 % 2 == 0;
+    iso_field f = {.p = o.p};
+    o.start.model = ball ? ISO_BALL : ISO_POINT;
+    (ball ? &iso_system_ball : &iso_system_point)->sample(&f, random, o.start.y);
+    o.start.eps = ball ? 0 : f.eps;
+    return o;
+}
+
+/* --- against the orbits by steps --------------------------------------------------------------------------------- */
+
+enum { TIMES = 6 };
+static const double times[TIMES] = {0.3, 4, 20, -0.7, -9, 60};
+
+/* The orbits by steps are made at tolerance 1e-14, and run to 60 own units. */
+static const double ALLOWED = 1e-12;
+
+static void note_difference(laws_worst *worst, const iso_params *p, const iso_sample *a, const iso_sample *b,
+                            const char *what)
+{
+    laws_note(worst, laws_distance(a->ball, b->ball) / laws_norm(b->ball), ALLOWED, p, what);
+    laws_note(worst, laws_distance(a->ball + 3, b->ball + 3), ALLOWED, p, what);
+    laws_note(worst, laws_distance(a->point, b->point) / laws_norm(b->point), ALLOWED, p, what);
+    laws_note(worst, laws_distance(a->point + 3, b->point + 3), ALLOWED, p, what);
+    for (int c = 0; c < ISO_CLOCKS; c++) laws_note(worst, fabs(a->clock[c] / b->clock[c] - 1), ALLOWED, p, what);
+}
+
+/* What one time of the clock is in the ball's own unit of time, about. */
+static double unit_of(const iso_orbit *orbit, iso_clock clock)
+{
+    const iso_units *u = iso_orbit_units(orbit);
+    const double middle = (u->own.J[0] + u->own.J[1] + u->own.J[2]) / 3;
+    return iso_unit(u, iso_clock_dimension(clock)) * iso_clock_rate(&u->own, clock, middle, NULL);
+}
+
+static void check_against_steps(const problem *o, laws_worst *worst)
+{
+    for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++) {
+        iso_orbit *exact = create(&o->p, &o->start, ISO_EXACT, clock);
+        for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
+            iso_orbit *steps = create(&o->p, &o->start, backend, clock);
+            const iso_sample begin = at(steps, 0), begin_exact = at(exact, 0);
+            gsl_test(backend == ISO_POINT && !same(&begin, &begin_exact), "the start is the point's");
+            for (int i = 0; i < TIMES; i++) {
+                const double time = times[i] * unit_of(exact, clock);
+                const iso_sample a = at(exact, time), b = at(steps, time);
+                note_difference(worst, &o->p, &a, &b, iso_picture_name((int)backend));
+            }
+            iso_orbit_free(steps);
+        }
+        iso_orbit_free(exact);
+    }
+}
+
+/* Asked for less, an orbit shows the same numbers, and no others. */
+static void check_shows(const problem *o)
+{
+    iso_orbit *all = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    const iso_sample whole = at(all, 7);
+    for (iso_picture show = ISO_BALL; show <= ISO_BOTH; show++) {
+        iso_orbit_options less = all_of(&o->start, ISO_EXACT, ISO_CLOCK_T);
+        less.show = show;
+        less.carry[ISO_CLOCK_TAU] = false;
+        iso_orbit *orbit = create_with(&o->p, &o->start, &less);
+        iso_sample wanted = whole;
+        wanted.clock[ISO_CLOCK_TAU] = NAN;
+        for (int i = 0; i < ISO_STATE; i++) {
+            if (show == ISO_POINT) wanted.ball[i] = NAN;
+            if (show == ISO_BALL) wanted.point[i] = NAN;
+        }
+        const iso_sample s = at(orbit, 7);
+        gsl_test(!same(&s, &wanted), "what is shown of %s", iso_picture_name((int)show));
+        iso_orbit_free(orbit);
+    }
+    iso_orbit_free(all);
+}
+
+/* --- near and far, in any order ---------------------------------------------------------------------------------- */
+
+/* The integrals far away are those of the start. */
+static void check_far(const problem *o, laws_worst *worst)
+{
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    const iso_sample start = at(orbit, 0), far[2] = {at(orbit, 1e9), at(orbit, -1e12)};
+    for (int s = 0; iso_systems[s]; s++) {
+        const iso_integral *list[ISO_MAX_INTEGRALS];
+        const int count =
+            iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->field, list, ISO_MAX_INTEGRALS);
+        for (int i = 0; i < 2 * count; i++) {
+            const iso_integral *integral = list[i / 2];
+            double size;
+            const double before = iso_orbit_integral(orbit, iso_systems[s], integral, &start, &size);
+            const double after = iso_orbit_integral(orbit, iso_systems[s], integral, &far[i % 2], &size);
+            laws_note(worst, fabs(after - before) / size, 1e-13, &o->p, integral->name);
+        }
+    }
+    gsl_test(iso_orbit_statistics(orbit).states != 2 || iso_orbit_statistics(orbit).steps != 0,
+             "two states, no steps");
+    iso_orbit_free(orbit);
+}
+
+static double third_of_n(const iso_sample *sample, const void *data)
+{
+    (void)data;
+    return sample->ball[5];
+}
+
+static bool next_event(iso_orbit *orbit, int direction, double from, double to, iso_sample *sample)
+{
+    bool found;
+    if (iso_orbit_event(orbit, third_of_n, NULL, direction, from, to, &found, sample) != ISO_OK) give_up("an event");
+    return found;
+}
+
+static void check_order(const problem *o)
+{
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_S), *fresh;
+    const double asked[] = {3, 1e7, -2, 3, 0, -1e5, 1e7, -2, 0, 3};
+    for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
+        fresh = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_S);
+        iso_sample event;
+        if (i % 3 == 1) next_event(orbit, 0, asked[i], asked[i] + copysign(1, asked[i]), &event);
+        const iso_sample a = at(orbit, asked[i]), b = at(fresh, asked[i]);
+        gsl_test(!same(&a, &b), "s = %g whatever was asked before", asked[i]);
+        iso_orbit_free(fresh);
+    }
+    iso_orbit_free(orbit);
+}
+
+static void check_backwards(const problem *o, laws_worst *worst)
+{
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    const iso_sample begin = at(orbit, 0), there = at(orbit, 11);
+    iso_start turn = {.model = ISO_BALL};
+    copy(there.ball, turn.y, ISO_STATE);
+    iso_orbit *back = create(&o->p, &turn, ISO_EXACT, ISO_CLOCK_T);
+    const iso_sample home = at(back, -11);
+    laws_note(worst, laws_distance(home.ball, begin.ball) / laws_norm(begin.ball), ALLOWED, &o->p, "w");
+    laws_note(worst, laws_distance(home.ball + 3, begin.ball + 3), ALLOWED, &o->p, "n");
+    for (int c = ISO_CLOCK_TAU; c < ISO_CLOCKS; c++)
+        laws_note(worst, fabs(home.clock[c] / there.clock[c] + 1), ALLOWED, &o->p, "clock");
+    iso_orbit_free(back);
+    iso_orbit_free(orbit);
+}
+
+/* --- events ------------------------------------------------------------------------------------------------------ */
+
+/* The same zeros of n3 as along the orbit by steps, one after the other. */
+static void check_events(const problem *o, int side, laws_worst *worst)
+{
+    iso_orbit *exact = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    iso_orbit *steps = create(&o->p, &o->start, ISO_POINT, ISO_CLOCK_T);
+    const double end = side * 30 * unit_of(exact, ISO_CLOCK_T);
+    double from = 0;
+    for (int direction = -1; direction <= 1; direction++)
+        for (int i = 0;; i++) {
+            iso_sample a, b;
+            if (i == 0) from = 0;
+            const bool found = next_event(exact, direction, from, end, &a);
+            gsl_test(found != next_event(steps, direction, from, end, &b), "event %d after %g", i, from);
+            if (!found) break;
+            laws_note(worst, fabs(a.clock[0] - b.clock[0]) / fabs(end), ALLOWED, &o->p, "time");
+            laws_note(worst, fabs(a.ball[5]), 1e-14 * 30, &o->p, "n3");
+            const iso_sample again = at(exact, a.clock[0]);
+            gsl_test(!same(&a, &again), "the state at the event is that of its time");
+            from = a.clock[0];
+        }
+    iso_orbit_free(exact);
+    iso_orbit_free(steps);
+}
+
+/* Far away an event is found without the way there. */
+static void check_far_events(const problem *o)
+{
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    const double unit = unit_of(orbit, ISO_CLOCK_T), far[3] = {1e6 * unit, -1e6 * unit, 1e9 * unit};
+    iso_sample s;
+    for (int i = 0; i < 3 && next_event(orbit, 0, 0, 100 * unit, &s); i++) {
+        const double way = copysign(100 * unit, far[i]), close = 64 * DBL_EPSILON * fabs(far[i]);
+        const long before = iso_orbit_statistics(orbit).states;
+        gsl_test(!next_event(orbit, 0, far[i], far[i] + way, &s), "an event behind t = %g", far[i]);
+        gsl_test(iso_orbit_statistics(orbit).states - before > 5000, "found without stepping there: %ld states",
+                 iso_orbit_statistics(orbit).states - before);
+        iso_sample a = at(orbit, s.clock[0] - close), b = at(orbit, s.clock[0] + close);
+        gsl_test(!(a.ball[5] * b.ball[5] < 0), "n3 passes 0 at t = %.17g: %g, %g", s.clock[0], a.ball[5], b.ball[5]);
+        const bool earlier = next_event(orbit, 0, far[i], s.clock[0] - copysign(close, far[i]), &b);
+        gsl_test(earlier, "it is the first");
+    }
+    iso_orbit_free(orbit);
+}
+
+/* --- units ------------------------------------------------------------------------------------------------------- */
+
+/* The same ball in other units of inertia (c) and of time (1/d): tau ~ J^(1 - 1/(2k)), s ~ J^(-2 + 1/(2k)),
+ * M ~ J^(2 - 1/(2k)). */
+static void check_units(double c, double d, laws_worst *worst)
+{
+    static const double J[3] = {1.4, 2.1, 3.0};
+    for (int k = -1; k <= 1; k += 2) {
+        double moments[3];
+        iso_start start = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
+        for (int i = 0; i < 3; i++) moments[i] = c * J[i];
+        const iso_params p = laws_params(k, J), other_p = laws_params(k, moments);
+        iso_orbit *orbit = create(&p, &start, ISO_EXACT, ISO_CLOCK_T);
+        for (int i = 0; i < 3; i++) start.y[i] *= d;
+        iso_orbit *other = create(&other_p, &start, ISO_EXACT, ISO_CLOCK_T);
+        const iso_sample a = at(orbit, 50);
+        const double half = 1.0 / (2 * k), M = d * pow(c, 2 - half);
+        iso_sample scaled = at(other, 50 / d);
+        for (int i = 0; i < 3; i++) scaled.ball[i] /= d, scaled.point[i] /= M;
+        scaled.clock[ISO_CLOCK_T] *= d;
+        scaled.clock[ISO_CLOCK_TAU] *= d / pow(c, 1 - half);
+        scaled.clock[ISO_CLOCK_S] *= d / pow(c, half - 2);
+        note_difference(worst, &p, &scaled, &a, "in other units");
+        iso_orbit_free(orbit);
+        iso_orbit_free(other);
+    }
+}
+
+/* --- errors ------------------------------------------------------------------------------------------------------ */
+
+/* Refused, about that, with these words. */
+static void refused(const iso_params *p, const iso_start *start, const iso_orbit_options *o, const char *about,
+                    const char *words)
+{
+    iso_orbit *orbit;
+    const iso_status status = iso_orbit_create(ctx, p, start, o, &orbit);
+    gsl_test(status != ISO_BAD_ARGUMENT || orbit || strcmp(iso_context_field(ctx), about) != 0 ||
+                 !strstr(iso_context_message(ctx), words),
+             "refused for \"%s\": %s", about, status == ISO_OK ? "done" : iso_context_message(ctx));
+    iso_orbit_free(orbit);
+}
+
+static void check_effects_refused(const iso_params *p, const iso_start *start)
+{
+    const struct {
+        iso_effect_id effect;
+        const char *instead;
+    } effects[] = {{ISO_GRAVITY, "backend ball"},  {ISO_FIELD, "backend point"},
+                   {ISO_TWIST, "backend ball"},    {ISO_ROLLING_RESISTANCE, "backend ball"},
+                   {ISO_ATTITUDE, "backend ball"}, {ISO_REACTIONS, "backend ball"}};
+    for (size_t i = 0; i < sizeof effects / sizeof *effects; i++) {
+        iso_effects e = {.mgb = 0.7, .up = {0, 0.6, 0.8}, .linear = {0, 0, 0.1}, .twist = 10, .resistance = 0.01};
+        iso_orbit_options o = all_of(start, ISO_EXACT, ISO_CLOCK_T);
+        e.quaternion[0] = 1;
+        e.on[effects[i].effect] = true;
+        o.effects = &e;
+        refused(p, start, &o, iso_effect_list[effects[i].effect]->name, effects[i].instead);
+    }
+}
+
+static bool never(void *data)
+{
+    (void)data;
+    return false;
+}
+
+static void check_times(const problem *o)
+{
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    const double wrong[] = {NAN, INFINITY, -INFINITY, 1e30};
+    iso_sample s;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        gsl_test(iso_orbit_at(orbit, wrong[i], &s) != ISO_BAD_ARGUMENT, "t = %g is refused", wrong[i]);
+    iso_context_watch(ctx, never, NULL);
+    gsl_test(iso_orbit_at(orbit, 3, &s) != ISO_STOPPED, "stopped on request");
+    iso_context_watch(ctx, NULL, NULL);
+    gsl_test(iso_orbit_at(orbit, 3, &s) != ISO_OK || iso_orbit_reached(orbit) != 3, "and goes on");
+    iso_orbit_free(orbit);
+}
+
+static void check_errors(const problem *o)
+{
+    static const double J[3] = {1.4, 2.1, 3.0};
+    const iso_params half = laws_params(0.5, J);
+    const iso_start ball = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
+    iso_start neither = ball;
+    neither.model = ISO_EXACT;
+    iso_orbit_options exact = all_of(&ball, ISO_EXACT, ISO_CLOCK_T), other = exact;
+    refused(&half, &ball, &exact, "k", "take backend point");
+    check_effects_refused(&o->p, &ball);
+    other.method = iso_method_find("taylor");
+    refused(&o->p, &ball, &other, "method", "backend exact does not integrate");
+    other = exact, other.show = ISO_EXACT;
+    refused(&o->p, &ball, &other, "backend", "shown as ball, point or both");
+    refused(&o->p, &neither, &exact, "", "starts as a ball or as a point");
+    iso_batch_options batch = iso_batch_defaults();
+    const iso_batch_orbit one = {&o->p, &ball, NULL};
+    batch.backend = ISO_EXACT;
+    iso_sample s;
+    gsl_test(iso_batch_run(ctx, &one, 1, &batch, (double[]){1}, 1, &s, NULL) != ISO_BAD_ARGUMENT ||
+                 strcmp(iso_context_field(ctx), "backend") != 0,
+             "a batch refuses: %s", iso_context_message(ctx));
+}
+
+/* What an orbit says of itself. */
+static void check_described(const problem *o)
+{
+    for (int b = 0; b < 4; b++) {
+        const iso_picture asked = (iso_picture[]){ISO_BALL, ISO_POINT, ISO_EXACT, ISO_AUTO}[b];
+        iso_orbit *orbit = create(&o->p, &o->start, asked, ISO_CLOCK_T);
+        const iso_picture backend = iso_orbit_backend(orbit);
+        gsl_test(backend != (asked == ISO_AUTO ? o->start.model : asked), "backend %s", iso_picture_name((int)asked));
+        gsl_test((iso_orbit_exact(orbit) != NULL) != (asked == ISO_EXACT), "whose closed solution");
+        iso_orbit_free(orbit);
+    }
+}
+
+int main(void)
+{
+    laws_worst steps = {0}, far = {0}, backwards = {0}, events = {0}, units = {0};
+    iso_random *random = iso_random_create(5);
+    ctx = iso_context_create();
+    for (int i = 0; i < PROBLEMS; i++) {
+        const problem o = make_problem(i, random);
+        check_against_steps(&o, &steps);
+        check_shows(&o);
+        check_far(&o, &far);
+        check_order(&o);
+        check_backwards(&o, &backwards);
+        check_events(&o, i % 3 ? 1 : -1, &events);
+        check_far_events(&o);
+        check_times(&o);
+        check_described(&o);
+        if (i == 0) check_errors(&o);
+    }
+    for (int c = -40; c <= 40; c += 20)
+        for (int d = -40; d <= 40; d += 20) check_units(pow(10, c), pow(10, d), &units);
+    laws_report(&steps, "the closed solution against the orbit by steps");
+    laws_report(&far, "integrals at t = 1e9 and -1e12");
+    laws_report(&backwards, "there and back");
+    laws_report(&events, "events against those along the orbit by steps");
+    laws_report(&units, "units of inertia and time from 1e-40 to 1e40");
+    iso_random_free(random);
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}
