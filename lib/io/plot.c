@@ -40,8 +40,8 @@ static const look looks[] = {
     {"t",     "t", "dt (2,3) lw 1.8 lc rgb '#009E73'"},
     {"tau",   "τ", "dt (2,3) lw 1.8 lc rgb '#009E73'"},
     {"s",     "s", "dt (8,3,2,3) lw 1.8 lc rgb '#CC79A7'"},
-    {"ball - exact",  "ball − exact",  "dt 1 lw 1.2 lc rgb 'black'"},
-    {"point - exact", "point − exact", "dt (8,4) lw 1.2 lc rgb 'black'"},
+    {"ball - exact",  "ball−exact",  "dt 1 lw 1.2 lc rgb 'black'"},
+    {"point - exact", "point−exact", "dt (8,4) lw 1.2 lc rgb 'black'"},
     {NULL,    NULL, "dt 4 lw 1.8 lc rgb 'black'"},
 };
 /* clang-format on */
@@ -104,11 +104,11 @@ static void put_axes(FILE *f, const iso_record *r, double top)
     const double room = a == b ? fmax(fabs(a), 1) / 2 : 0;
     fputs(
         "unset label; unset arrow; unset object; set size noratio; set border 3 lc rgb '#606060'; unset title\n"
-        "set lmargin at screen 0.095; set rmargin at screen 0.795\n"
+        "set lmargin at screen 0.095; set rmargin at screen 0.78\n"
         "set tmargin at screen 0.345; set bmargin at screen 0.085\n"
         "set logscale y; set format y '10^{%T}'; set xtics nomirror out scale 0.6; set ytics nomirror out scale 0.6\n"
         "set grid ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'\n"
-        "set key at screen 0.81,0.36 left top Left reverse vertical maxrows 16 samplen 3 spacing 1.2 noenhanced "
+        "set key at screen 0.795,0.36 left top Left reverse vertical maxrows 16 samplen 3 spacing 1.2 noenhanced "
         "title 'largest' left enhanced\n"
         "set ylabel 'relative difference' offset 0.5,0\nset xrange [",
         f);

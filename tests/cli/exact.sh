@@ -87,7 +87,7 @@ compared 4
 if command -v gnuplot >/dev/null; then
     run 0 compare scene.yaml --plot picture.svg
     silent
-    for backend in ball point; do check "picture: $backend - exact" grep -q "$backend − exact" picture.svg; done
+    for backend in ball point; do check "picture: $backend - exact" grep -q "$backend−exact" picture.svg; done
 fi
 
 # --- where there is none
