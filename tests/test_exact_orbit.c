@@ -62,17 +62,29 @@ static bool same(const iso_sample *a, const iso_sample *b)
 
 /* --- orbits that have one ---------------------------------------------------------------------------------------- */
 
-enum { PROBLEMS = 8 };
-static const double shapes[PROBLEMS / 2][3] = {{1.4, 2.1, 3.0}, {3, 1.4, 2.1}, {0.5, 1, 0.7}, {1, 1.02, 1.1}};
+enum { SEPARATED = 8, PROBLEMS = SEPARATED + 3 };
+static const double shapes[SEPARATED / 2][3] = {{1.4, 2.1, 3.0}, {3, 1.4, 2.1}, {0.5, 1, 0.7}, {1, 1.02, 1.1}};
 
 typedef struct problem {
     iso_params p;
     iso_start start;
 } problem;
 
-/* Balls and points, of both k and moments in every kind of order. */
+/* Two equal moments, a principal plane, Neumann's problem off the level H = 0. */
+static problem make_special(int i)
+{
+    static const double equal[3] = {1.4, 2.1, 1.4}, J[3] = {1.4, 2.1, 3.0};
+    const iso_start ball = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
+    const iso_start plane = {.model = ISO_BALL, .y = {0, 0, 1.1, 0.6, 0.8, 0}};
+    const iso_start point = {.model = ISO_POINT, .y = {0.64, 1, -0.48, 0.6, 0, 0.8}, .eps = 2};
+    return (problem[]){
+        {laws_params(0.6, equal), ball}, {laws_params(-0.7, J), plane}, {laws_params(-1, J), point}}[i];
+}
+
+/* Balls and points, of both k and moments in every kind of order; then the special ones. */
 static problem make_problem(int i, iso_random *random)
 {
+    if (i >= SEPARATED) return make_special(i - SEPARATED);
     problem o = {.p = laws_params(i % 2 ? 1 : -1, shapes[i / 2])};
     const bool ball = i / 2 % 2 == 0;
     iso_field f = {.p = o.p};
@@ -208,7 +220,10 @@ static void check_backwards(const problem *o, laws_worst *worst)
     const iso_sample begin = at(orbit, 0), there = at(orbit, 11);
     iso_start turn = {.model = ISO_BALL};
     copy(there.ball, turn.y, ISO_STATE);
-    iso_orbit *back = create(&o->p, &turn, ISO_EXACT, ISO_CLOCK_T);
+    const iso_effects effects = iso_orbit_effects(orbit); /* the level of a point off H = 0 */
+    iso_orbit_options options = all_of(&turn, ISO_EXACT, ISO_CLOCK_T);
+    options.effects = &effects;
+    iso_orbit *back = create_with(&o->p, &turn, &options);
     const iso_sample home = at(back, -11);
     laws_note(worst, laws_distance(home.ball, begin.ball) / laws_norm(begin.ball), ALLOWED, &o->p, "w");
     laws_note(worst, laws_distance(home.ball + 3, begin.ball + 3), ALLOWED, &o->p, "n");

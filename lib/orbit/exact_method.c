@@ -10,15 +10,6 @@
 #include "method/integrator_impl.h"
 #include "orbit/orbit_impl.h"
 
-iso_status iso_orbit_not_closed(iso_context *ctx, iso_status status, const char *about, const char *why,
-                                const char *backend)
-{
-    return iso_context_fail(ctx, status, about,
-                            "%s: closed solutions are for k = 1 and k = -1, for two equal moments of inertia and for "
-                            "motion in a principal plane, without effects but 'level' at k = -1: take backend %s",
-                            why, backend);
-}
-
 static iso_status create(iso_integrator *it)
 {
     it->data = NULL; /* it takes the state at the start to make one */
@@ -41,7 +32,8 @@ static iso_status start(iso_integrator *it)
     const iso_status status = iso_exact_create(it->ctx, &m->field, it->y0, clocks, &exact);
     it->data = exact;
     if (status != ISO_BAD_ARGUMENT) return status;
-    return iso_orbit_not_closed(it->ctx, status, iso_context_field(it->ctx), iso_context_message(it->ctx), "point");
+    return iso_context_fail(it->ctx, status, iso_context_field(it->ctx), "%s: take backend point",
+                            iso_context_message(it->ctx));
 }
 
 static iso_status at(iso_integrator *it, double t, double y[])

@@ -31,10 +31,6 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
 /* The method of backend ISO_EXACT: a model of the point is found by its closed solution. */
 extern const iso_method iso_method_exact;
 
-/* Records `why` there is none, for which orbits there is one, and which backend to take. Gives the status. */
-iso_status iso_orbit_not_closed(iso_context *ctx, iso_status status, const char *about, const char *why,
-                                const char *backend);
-
 /* NaN in every column. */
 void iso_sample_blank(iso_sample *s);
 

@@ -1,6 +1,5 @@
 /* orbit_start.c - where an orbit starts: in the ball's own units, in the model that is integrated; or why it cannot. */
 #include <math.h>
-#include <stdio.h>
 
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
@@ -128,11 +127,12 @@ static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
 {
     const iso_effects acting = iso_effects_acting(effects);
     for (int id = 0; id < ISO_EFFECTS; id++) {
-        char why[64];
         const iso_effect *effect = iso_effect_list[id];
         if (!acting.on[id] || id == ISO_LEVEL) continue;
-        snprintf(why, sizeof why, "there is no closed solution with '%s'", effect->name);
-        return iso_orbit_not_closed(ctx, ISO_BAD_ARGUMENT, effect->name, why, effect->breaks ? "ball" : "point");
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect->name,
+                                "the closed solution is for a ball on which nothing acts but, at k = -1, 'level', not "
+                                "for one with '%s': take backend %s",
+                                effect->name, effect->breaks ? "ball" : "point");
     }
     return ISO_OK;
 }

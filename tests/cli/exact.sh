@@ -100,7 +100,7 @@ initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}
 time: {end: 100, step: 0.1}
 END
 refuses 3 "half.yaml:1:14: " run half.yaml --backend exact
-for words in "k = 0.5" "for k = 1 and k = -1, for two equal moments" "take backend point"; do says "$words"; done
+for words in "k = 0.5" "only where two moments of inertia are equal, or in a principal plane" "take backend point"; do says "$words"; done
 refuses 3 "body.yaml:3:10: " run body.yaml
 refuses 3 "body.yaml:3:10: " explain body.yaml
 run 0 run half.yaml --backend point
