@@ -1,0 +1,35 @@
+/* spectrum.h - the lines of a quasi-periodic signal: frequency analysis (J. Laskar, Physica D 67, 1993, 257).
+ *
+ *     x(t) = sum_l a_l exp(i nu_l t),   found one after the other, the largest first: nu maximises
+ *     |phi(nu)|,   phi(nu) = (1/2T) int_-T^T x(t) exp(-i nu t) chi_p(t) dt,
+ *     chi_p(t) = 2^p (p!)^2/(2p)! (1 + cos(pi t/T))^p,   p = 3,
+ *
+ * found near the largest of a discrete Fourier transform and refined by Newton's method; then the amplitudes of all
+ * lines found so far are fitted anew (they are not orthogonal) and taken out of x. Lines d apart disturb each other
+ * like (1/dT)^(2p+1): frequencies of a signal that has a few dozen beats of each pair are exact nearly to rounding,
+ * where a Fourier transform alone knows them to 1/T.
+ */
+#ifndef ISO_STUDY_SPECTRUM_H
+#define ISO_STUDY_SPECTRUM_H
+
+#include <stddef.h>
+
+#include "../base/context.h"
+
+enum { ISO_MAX_LINES = 24 };
+
+/* a exp(i (frequency (t - t0) + phase)), a = amplitude > 0, t0 the time of the first sample */
+typedef struct iso_line {
+    double frequency; /* radians per unit of time, of either sign, |frequency| <= pi/step */
+    double amplitude, phase;
+} iso_line;
+
+/* Up to `most` <= ISO_MAX_LINES lines of the signal with real parts signal[2 j] and imaginary parts signal[2 j + 1]
+ * at the times j step, j < count; count a power of 2, 64 or more. The largest come first. Ends early, *found < most,
+ * where what is left is rounding (amplitudes below 1e-14 of the largest), or is not a line: the largest of it is
+ * within the resolution 4 pi/(count step) of a line found before.
+ * Errors: ISO_BAD_ARGUMENT (count, step, most), ISO_NUMERICAL (a sample that is not finite), ISO_NO_MEMORY. */
+iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t count, double step, int most,
+                             iso_line line[], int *found);
+
+#endif
