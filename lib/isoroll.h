@@ -51,6 +51,7 @@ extern "C" {
 #include "study/check.h"
 #include "study/compare.h"
 #include "study/error.h"
+#include "study/momentum.h"
 #include "study/spectrum.h"
 
 /* io: scene and trajectory files, plots */
