@@ -53,6 +53,7 @@ extern "C" {
 #include "study/error.h"
 #include "study/momentum.h"
 #include "study/spectrum.h"
+#include "study/frequencies.h"
 
 /* io: scene and trajectory files, plots */
 #include "io/scene_file.h"

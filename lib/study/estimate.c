@@ -1,0 +1,313 @@
+/* estimate.c - the frequencies of a motion from the lines of its n(t), see frequencies.h. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "study/basis_impl.h"
+#include "study/frequencies_impl.h"
+
+/* What the halves cannot tell of, relative. */
+static const double ROUNDING = 1e-14;
+
+typedef struct estimator {
+    iso_context *ctx;
+    const iso_scene *scene;
+    iso_effects effects;
+    bool twin, fixed; /* whether there are other clocks; whether the length was asked for */
+    size_t count;
+    double end[ISO_CLOCKS];
+    iso_frequencies *f;
+} estimator;
+
+/* --- the signals ------------------------------------------------------------------------------------------------ */
+
+static iso_status open_orbit(const estimator *e, iso_clock clock, iso_orbit **orbit)
+{
+    iso_orbit_options o = iso_orbit_defaults(&e->scene->start);
+    o.effects = &e->effects;
+    o.clock = clock;
+    o.show = ISO_BALL;
+    o.backend = e->twin ? ISO_AUTO : ISO_BALL;
+    o.tolerance = fmin(e->scene->tolerance, 1e-13);
+    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = e->twin && clock == ISO_CLOCK_T && c != (int)clock;
+    return iso_orbit_create(e->ctx, &e->scene->params, &e->scene->start, &o, orbit);
+}
+
+/* n at the samples, three numbers each, from pair[]; and the mean of omega. Gives the ends of the other clocks. */
+static iso_status sample(estimator *e, iso_clock clock, double n[], double mean[3])
+{
+    iso_orbit *orbit;
+    iso_sample s;
+    iso_status status = open_orbit(e, clock, &orbit);
+    for (int i = 0; i < 3; i++) mean[i] = 0;
+    for (size_t j = 0; status == ISO_OK && j < e->count; j++) {
+        status = iso_orbit_at(orbit, e->end[clock] * (double)j / (double)e->count, &s);
+        if (status != ISO_OK) break;
+        copy(s.ball + 3, n + 3 * j, 3);
+        add_scaled(mean, 1 / (double)e->count, s.ball);
+    }
+    if (status == ISO_OK && clock == ISO_CLOCK_T) {
+        status = iso_orbit_at(orbit, e->end[clock], &s);
+        for (int c = ISO_CLOCK_TAU; e->twin && c < ISO_CLOCKS; c++) e->end[c] = s.clock[c];
+    }
+    iso_orbit_free(orbit);
+    return status;
+}
+
+static void split(const double n[], size_t count, int axis, series *s)
+{
+    for (size_t j = 0; j < count; j++) {
+        s->pair[2 * j] = n[3 * j + (size_t)(axis + 1) % 3];
+        s->pair[2 * j + 1] = n[3 * j + (size_t)(axis + 2) % 3];
+        s->third[2 * j] = n[3 * j + (size_t)axis];
+        s->third[2 * j + 1] = 0;
+    }
+}
+
+/* The signals of one clock; the ball turns about the axis along which omega lies in the mean. */
+static iso_status make_series(estimator *e, iso_clock clock, series *s)
+{
+    double mean[3], *const n = malloc(7 * e->count * sizeof *n);
+    if (!n) return iso_context_fail(e->ctx, ISO_NO_MEMORY, "", "no memory for the samples");
+    const iso_status status = sample(e, clock, n, mean);
+    *s = (series){.count = e->count, .step = e->end[clock] / (double)e->count};
+    s->pair = malloc(4 * e->count * sizeof *s->pair);
+    s->third = s->pair ? s->pair + 2 * e->count : NULL;
+    int *const axis = &e->f->estimate.axis;
+    if (*axis < 0)
+        for (int i = *axis = 0; i < 3; i++)
+            if (fabs(mean[i]) > fabs(mean[*axis])) *axis = i;
+    if (status == ISO_OK && s->pair) split(n, e->count, *axis, s);
+    free(n);
+    if (status == ISO_OK && !s->pair) return iso_context_fail(e->ctx, ISO_NO_MEMORY, "", "no memory for the samples");
+    return status;
+}
+
+/* --- regular or chaotic ----------------------------------------------------------------------------------------- */
+
+/* The largest relative change of a basic frequency between two neighbouring parts of `count` samples each. */
+static iso_status find_drift(estimator *e, const series *s, const basis *b, size_t count, double drift[2],
+                             double *error)
+{
+    double one[2] = {NAN, NAN}, other[2] = {NAN, NAN};
+    iso_status status = iso_basis_in_part(e->ctx, s, b, 0, count, one);
+    if (status == ISO_OK) status = iso_basis_in_part(e->ctx, s, b, count, count, other);
+    for (int i = 0; i < b->angles; i++) {
+        const double f = b->frequency[i];
+        drift[i] = fabs((one[i] - other[i]) / f);
+        if (error) error[i] = fmax(fmax(fabs(one[i] - f), fabs(other[i] - f)), ROUNDING * fabs(f));
+    }
+    return status;
+}
+
+/* Beats of the two frequencies, by small factors, in half of the orbit: the slowest. */
+static double slowest_beat(const basis *b, double length)
+{
+    double least = INFINITY;
+    for (int m = -3; m <= 3; m++)
+        for (int n = 0; n <= 3; n++)
+            if (b->angles == 2 && (m != 0 || n != 0))
+                least = fmin(least, fabs(m * b->frequency[0] + n * b->frequency[1]));
+    return least * length / 2 / ISO_TWO_PI;
+}
+
+/* The frequencies of a regular motion are found by far the better, the longer the orbit, once it has a dozen beats;
+ * those of a chaotic one wander on. */
+static iso_verdict judge(const iso_estimate *e, const basis *b)
+{
+    static const double SAME = 1e-8, WANDERING = 1e-6, BEATS = 12;
+    if (e->drift <= SAME) return ISO_REGULAR;
+    const bool wanders = e->drift >= WANDERING && e->drift > e->drift_before / 8;
+    return wanders && slowest_beat(b, e->length) > BEATS ? ISO_CHAOTIC : ISO_UNDECIDED;
+}
+
+/* Lines by their combinations of the frequencies as they are told, > 0: angle[0] is frequency[1]. */
+static void name_lines(iso_frequencies *f, const lines *l)
+{
+    iso_estimate *e = &f->estimate;
+    const double one = f->angle[0].frequency[ISO_CLOCK_T], other = f->angle[1].frequency[ISO_CLOCK_T];
+    const double basic[2] = {one, f->angles == 2 ? other : 0};
+    for (int s = 0; s < 2; s++) {
+        e->lines[s] = l->count[s];
+        for (int i = 0; i < l->count[s]; i++) {
+            iso_named_line *named = &e->line[s][i];
+            named->line = l->line[s][i];
+            named->known = f->angles > 0 && iso_basis_combine(named->line.frequency, basic, ISO_NEAR * l->resolution,
+                                                              &named->m, &named->n);
+        }
+    }
+    e->unexplained = f->angles > 0 ? iso_basis_unexplained(l, basic) : 0;
+}
+
+/* --- one clock after the other ---------------------------------------------------------------------------------- */
+
+/* In t: the basis, its drift, all lines. angle[0] swings, angle[1] turns. */
+static iso_status estimate_in_t(estimator *e, const series *s, basis *b)
+{
+    iso_frequencies *f = e->f;
+    iso_estimate *out = &f->estimate;
+    double drift[2], before[2] = {NAN, NAN}, error[2];
+    lines l;
+    iso_status status = iso_basis_lines(e->ctx, s, 0, s->count, ISO_LINES, &l);
+    if (status != ISO_OK) return status;
+    *b = iso_basis_find(&l);
+    f->angles = b->angles;
+    status = find_drift(e, s, b, s->count / 2, drift, error);
+    if (status == ISO_OK) status = find_drift(e, s, b, s->count / 8, before, NULL);
+    out->drift = out->drift_before = 0;
+    for (int i = 0; i < b->angles; i++) {
+        iso_angle *a = &f->angle[b->angles - 1 - i];
+        a->frequency[ISO_CLOCK_T] = fabs(b->frequency[i]);
+        a->error[ISO_CLOCK_T] = error[i];
+        a->drift = drift[i];
+        out->drift = fmax(out->drift, isnan(drift[i]) ? INFINITY : drift[i]);
+        out->drift_before = fmax(out->drift_before, before[i]);
+    }
+    out->length = e->end[ISO_CLOCK_T];
+    out->samples = s->count;
+    out->turns = b->angles > 0 ? fabs(b->frequency[0]) * out->length / ISO_TWO_PI : 0;
+    out->verdict = judge(out, b);
+    name_lines(f, &l);
+    return status;
+}
+
+/* In another clock: the same lines, with frequencies about in the ratio of the clocks. */
+static iso_status estimate_in(estimator *e, iso_clock clock, const basis *in_t)
+{
+    const double ratio = e->end[ISO_CLOCK_T] / e->end[clock];
+    series s = {.pair = NULL};
+    lines l;
+    basis b = *in_t;
+    double drift[2], error[2] = {NAN, NAN};
+    for (int i = 0; i < b.angles; i++) b.frequency[i] *= ratio;
+    iso_status status = make_series(e, clock, &s);
+    if (status == ISO_OK) status = iso_basis_lines(e->ctx, &s, 0, s.count, ISO_PART_LINES, &l);
+    for (int i = 0; status == ISO_OK && i < b.angles; i++)
+        b.frequency[i] = iso_basis_nearest(&l, b.of_pair[i], b.frequency[i]);
+    if (status == ISO_OK) status = find_drift(e, &s, &b, s.count / 2, drift, error);
+    for (int i = 0; status == ISO_OK && i < b.angles; i++) {
+        iso_angle *a = &e->f->angle[b.angles - 1 - i];
+        const bool same = fabs(b.frequency[i] - in_t->frequency[i] * ratio) < 4 * l.resolution;
+        a->frequency[clock] = same ? fabs(b.frequency[i]) : NAN;
+        a->error[clock] = same ? error[i] : NAN;
+    }
+    free(s.pair);
+    return status;
+}
+
+static void say(iso_frequencies *f)
+{
+    static const char *const motion[] = {
+        [ISO_REGULAR] = "regular, as far as this orbit tells",
+        [ISO_CHAOTIC] = "chaotic",
+        [ISO_UNDECIDED] = "not decided: a longer orbit would tell",
+    };
+    const int axis = f->estimate.axis + 1;
+    if (f->angles == 2)
+        snprintf(f->angle[0].what, sizeof f->angle[0].what, "strongest line of n%d that is no multiple", axis);
+    if (f->angles > 0)
+        snprintf(f->angle[f->angles - 1].what, sizeof f->angle[0].what, "strongest line of n%d + i n%d", axis % 3 + 1,
+                 (axis + 1) % 3 + 1);
+    snprintf(f->motion, sizeof f->motion, "%s%s", motion[f->estimate.verdict],
+             f->estimate.verdict == ISO_REGULAR && f->estimate.unexplained > 1e-3 ? "; more than two frequencies"
+                                                                                  : "");
+}
+
+/* A motion that is not soon found regular is followed longer, unless its length was asked for. */
+static iso_status estimate(estimator *e)
+{
+    enum { LEVELS = 3, MOST = 1 << 20 };
+    basis b;
+    iso_status status = ISO_OK;
+    for (int level = 0; status == ISO_OK && level < (e->fixed ? 1 : LEVELS); level++) {
+        series s = {.pair = NULL};
+        if (level > 0 && e->count > MOST / 4) break;
+        if (level > 0) e->end[ISO_CLOCK_T] *= 4, e->count *= level == 1 || fabs(e->scene->params.k) < 0.5 ? 4 : 2;
+        status = make_series(e, ISO_CLOCK_T, &s);
+        if (status == ISO_OK) status = estimate_in_t(e, &s, &b);
+        free(s.pair);
+        const bool wild = level > 0 && e->f->estimate.verdict == ISO_CHAOTIC && e->f->estimate.drift > 1e-4;
+        if (e->f->estimate.verdict == ISO_REGULAR || wild) break;
+    }
+    const bool others = e->twin && e->f->estimate.verdict == ISO_REGULAR;
+    for (iso_clock clock = ISO_CLOCK_TAU; status == ISO_OK && others && clock < ISO_CLOCKS; clock++)
+        status = estimate_in(e, clock, &b);
+    if (status != ISO_OK) return status;
+    say(e->f);
+    iso_frequencies_finish(e->f);
+    return ISO_OK;
+}
+
+/* --- what there is to estimate ---------------------------------------------------------------------------------- */
+
+/* Errors: ISO_NOT_MAPPED where n(t) is not quasi-periodic. */
+static iso_status check_effects(iso_context *ctx, const iso_orbit *orbit)
+{
+    const iso_field *field = &iso_orbit_model(orbit)->field;
+    const iso_effects *e = &field->effects;
+    const iso_effect_id taking = e->on[ISO_ROLLING_RESISTANCE]      ? ISO_ROLLING_RESISTANCE
+                                 : e->on[ISO_TWIST] && e->twist > 0 ? ISO_TWIST
+                                                                    : ISO_EFFECTS;
+    if (taking != ISO_EFFECTS)
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, iso_effect_list[taking]->name,
+                                "'%s' takes energy from the ball: its motion has no frequencies",
+                                iso_effect_list[taking]->name);
+    if (e->on[ISO_GRAVITY] && field->p.k == 1)
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, "gravity",
+                                "on a tilted plane the ball rolls away ever faster: its motion has no frequencies");
+    return ISO_OK;
+}
+
+/* n turns at the rate |k omega|; but where |k| is small omega itself turns faster, at about its own size. */
+static iso_status choose_length(estimator *e, double speed, const iso_frequencies_options *o)
+{
+    const double k = fabs(e->scene->params.k), turn = ISO_TWO_PI / (k * speed),
+                 fast = fmax(k, 1) * speed / ISO_TWO_PI;
+    const double turns = isnan(o->turns) ? 1000 * fmin(fmax(4 * k, 0.05), 1) : o->turns;
+    const double length = e->end[ISO_CLOCK_T] = isnan(o->end) ? turns * turn : o->end;
+    const double samples = isnan(o->samples) ? fmax(32 * length / turn, 12 * length * fast) : o->samples;
+    e->count = 512;
+    while (e->count < (1u << 22) && (double)e->count < samples) e->count *= 2;
+    if ((double)e->count >= 8 * length * fast) return ISO_OK;
+    return iso_context_fail(
+        e->ctx, ISO_BAD_ARGUMENT, "samples",
+        "%zu samples of %g turns of the ball, fewer than 8 each: take fewer turns, or more samples", e->count,
+        length * fast);
+}
+
+/* Checks the scene, and chooses the length of the orbit. */
+static iso_status prepare(estimator *e, const iso_frequencies_options *o)
+{
+    iso_orbit *orbit;
+    iso_sample start;
+    iso_status status = iso_frequencies_open(e->ctx, e->scene, &e->effects, &orbit, &start);
+    if (status == ISO_OK) status = check_effects(e->ctx, orbit);
+    if (status == ISO_OK) {
+        const double moving = norm(start.ball), falling = iso_orbit_units(orbit)->w;
+        const bool pulled =
+            e->effects.on[ISO_GRAVITY] || e->effects.on[ISO_FIELD] || iso_orbit_effects(orbit).on[ISO_LEVEL];
+        const double speed = pulled ? fmax(moving, falling) : moving;
+        e->twin = iso_orbit_has_twin(orbit);
+        iso_frequencies_place(orbit, &start, e->f);
+        status = speed > 0 ? choose_length(e, speed, o)
+                           : iso_context_fail(e->ctx, ISO_NOT_MAPPED, "angular_velocity", "the ball is at rest");
+    }
+    iso_orbit_free(orbit);
+    return status;
+}
+
+iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
+                                    iso_frequencies *f)
+{
+    iso_status status = iso_frequencies_check(ctx, options);
+    if (status != ISO_OK) return status;
+    const bool fixed = !isnan(options->turns) || !isnan(options->end) || !isnan(options->samples);
+    estimator e = {
+        .ctx = ctx, .scene = scene, .fixed = fixed, .effects = iso_effects_acting(&scene->effects), .f = f};
+    iso_frequencies_blank(f);
+    f->estimated = true;
+    status = prepare(&e, options);
+    return status == ISO_OK ? estimate(&e) : status;
+}

@@ -1,0 +1,112 @@
+/* frequencies.h - the frequencies of a motion: exact ones where there is a closed solution, else an estimate.
+ *
+ *     iso_frequencies f;
+ *     iso_frequencies_options o = iso_frequencies_defaults();
+ *     status = iso_frequencies_find(ctx, &scene, &o, &f);      f.angle[0].frequency[ISO_CLOCK_T], f.rotation
+ *
+ * A motion on a torus has two angles that grow uniformly in each of the clocks t, tau and s. The closed solution
+ * (exact/exact.h) gives them with their actions. Elsewhere n(t) is computed over many turns and its lines are found
+ * (spectrum.h): the strongest line of the pair of components that turns about an axis, and the strongest of the third
+ * one which is no multiple of it. A basis of the frequencies is only determined up to integer combinations; where the
+ * problem separates and the motion is not extreme, this is the basis of the closed solution. Both halves of the orbit
+ * are analysed as well: where their frequencies differ, and do so hardly less for longer orbits, the motion is
+ * chaotic.
+ */
+#ifndef ISO_STUDY_FREQUENCIES_H
+#define ISO_STUDY_FREQUENCIES_H
+
+#include "../exact/exact.h"
+#include "../orbit/orbit.h"
+#include "momentum.h"
+#include "spectrum.h"
+
+typedef struct iso_frequencies_options {
+    double turns;   /* of n in the estimate, about; NaN: 1000                                            */
+    double end;     /* length of the orbit in t, > 0; NaN: by turns                                      */
+    double samples; /* of the orbit, rounded up to a power of two, 512 to 2^22; NaN: 32 for each turn    */
+} iso_frequencies_options;
+
+/* All NaN: 1000 turns (fewer where |k| < 1/4), up to 16 times as many while the motion is not found regular. */
+iso_frequencies_options iso_frequencies_defaults(void);
+
+/* One of the two angles. Everything in the caller's units; NaN: not known. */
+typedef struct iso_angle {
+    char what[96];                /* in words: what turns or swings                                     */
+    double frequency[ISO_CLOCKS]; /* > 0, radians per unit of the clock                                 */
+    double period[ISO_CLOCKS];    /* 2 pi/frequency                                                     */
+    double error[ISO_CLOCKS];     /* of the frequency: estimates only                                   */
+    double drift;                 /* of the frequency in t between the halves, relative: estimates only */
+    double action;                /* closed solution only, see iso_exact_torus                          */
+} iso_angle;
+
+/* p angle[0].frequency is nearly q angle[1].frequency */
+typedef struct iso_resonance {
+    int p, q;
+    double gap;              /* relative: |p f0 - q f1|/(p f0)                                              */
+    double beat[ISO_CLOCKS]; /* the time in which p angle[0] - q angle[1] turns once; infinite: never       */
+    bool met;                /* the gap is rounding (an estimate: within its error)                         */
+} iso_resonance;
+
+typedef enum iso_verdict { ISO_REGULAR, ISO_CHAOTIC, ISO_UNDECIDED } iso_verdict;
+
+/* A line of n(t), nu = m angle[0].frequency + n angle[1].frequency where `known`. */
+typedef struct iso_named_line {
+    iso_line line;
+    bool known;
+    int m, n;
+} iso_named_line;
+
+/* How the frequencies were estimated. */
+typedef struct iso_estimate {
+    double length, turns; /* of the orbit, in t, and how often n turned, by its strongest line  */
+    size_t samples;
+    int axis;             /* 0 to 2: about which n turns                                          */
+    int lines[2];         /* of n_j + i n_l, (axis, j, l) cyclic, and of n_axis, the largest first */
+    iso_named_line line[2][ISO_MAX_LINES];
+    double unexplained;   /* part of the lines' amplitudes that is no combination of the two      */
+    double drift, drift_before; /* the larger of the angles', and what it was for the first quarter */
+    iso_verdict verdict;
+} iso_estimate;
+
+enum { ISO_MAX_RESONANCES = 8, ISO_SEPARATRICES = 2 };
+
+/* Where a motion changes its kind, at a root that meets b2 (and b3). */
+typedef struct iso_separatrix {
+    char what[96];
+    double distance; /* (c - its c)/|the larger of both|; 0: on it. > 0: the root is on the near side of b: u turns
+                        back before b2, v goes through b3 */
+} iso_separatrix;
+
+typedef struct iso_frequencies {
+    bool estimated;
+    char why[256];       /* estimated: why there is no closed solution                                  */
+    iso_exact_kind kind; /* of the closed solution                                                      */
+    char motion[160];    /* in words                                                                    */
+    double h, eps;                /* energy, coupling (NaN without a twin) ...                           */
+    double H;                     /* ... and level of the point                                          */
+    const iso_integral *integral; /* of the ball, beyond h; NULL: none is known                          */
+    double F;                     /* its value                                                           */
+    double c;                     /* constant of the separation; NaN: not separated                      */
+    int separatrices;
+    iso_separatrix separatrix[ISO_SEPARATRICES];
+    int angles; /* 0, 1 or 2                                                                            */
+    iso_angle angle[2];
+    double rotation; /* angle[0].frequency/angle[1].frequency, the same in every clock; chaos: NaN        */
+    int resonances;  /* best approximations of `rotation` by fractions q/p with p, q <= 100             */
+    iso_resonance resonance[ISO_MAX_RESONANCES];
+    double closed[ISO_CLOCKS]; /* the period of a closed orbit: one angle, or a resonance that is met; NaN: it is
+                                  open, or only estimated                                                 */
+    iso_estimate estimate;
+} iso_frequencies;
+
+/* Errors: ISO_NOT_MAPPED about the effect by which the motion is not quasi-periodic (it takes energy, or the ball
+ * rolls away), and for a ball at rest; ISO_BAD_ARGUMENT about the options (of an estimate: less
+ * than 8 samples a turn); as iso_orbit_create and iso_orbit_at. */
+iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
+                                iso_frequencies *frequencies);
+
+/* The estimate alone, whatever solution there is. */
+iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
+                                    iso_frequencies *frequencies);
+
+#endif
