@@ -33,4 +33,23 @@ iso_status iso_plot_check_format(iso_context *ctx, const char *path);
  * ISO_FILE_TROUBLE (no gnuplot, or what it said; the file cannot be written), ISO_NO_MEMORY. */
 iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot);
 
+/* A map of kinds of motion over the energy h and a second integral F. */
+enum { ISO_PLOT_PARTS = 4, ISO_PLOT_LINES = 4 };
+typedef struct iso_plot_map {
+    const char *title, *F;             /* F: as gnuplot writes it, "F_{shell}"                                    */
+    int parts, lines;                  /* at most ISO_PLOT_PARTS, ISO_PLOT_LINES                                  */
+    const char *part[ISO_PLOT_PARTS], *line[ISO_PLOT_LINES]; /* their names                                       */
+    const iso_record *bounds;          /* columns h > 0, low and high F of each part, F of each line; NaN: none */
+    double at[2];                      /* (h, F) of an orbit, h > 0                                               */
+} iso_plot_map;
+
+/* On the left F over h, on the right F/h over h, where thin parts can be told apart.
+ * Errors: ISO_BAD_ARGUMENT (name, columns, no rows, nothing in them), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_map *map);
+
+/* The lines of two signals, the pair of components across `axis` (0 to 2) and the one along it: columns frequency,
+ * amplitude > 0, signal (0, 1), and m and n of the combination that a line is (NaN: of none).
+ * Errors: as iso_plot_momentum. */
+iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *lines);
+
 #endif
