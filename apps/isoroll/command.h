@@ -29,6 +29,7 @@ typedef struct options {
     double energy;         /* NAN: not given                                                   */
     double mass, radius;   /* --mass, --radius                                                 */
     double rows;           /* --rows                                                           */
+    double turns, samples; /* NAN: not given                                                   */
     bool json, level, verbose, help;
 } options;
 
@@ -42,7 +43,7 @@ typedef struct command {
 } command;
 
 extern const command command_run, command_convert, command_compare, command_check, command_analogue, command_explain,
-    command_list;
+    command_frequencies, command_list;
 
 /* Reads the options of `command`. False: wrong ones, a message has been given. */
 bool options_read(const command *c, int argc, char **argv, options *o);

@@ -14,7 +14,7 @@
 #include "command.h"
 
 static const command *const commands[] = {&command_run,      &command_convert, &command_compare, &command_check,
-                                          &command_analogue, &command_explain, &command_list};
+                                          &command_analogue, &command_frequencies, &command_explain, &command_list};
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
 static volatile sig_atomic_t stop_asked;
@@ -81,7 +81,7 @@ static void print_help(FILE *to)
           "usage: isoroll COMMAND [options] [SCENE or FILE]      - is standard input or output\n\n",
           to);
     for (int i = 0; i < COMMANDS; i++)
-        fprintf(to, "  %-8s %-9s %s\n", commands[i]->name, commands[i]->argument, commands[i]->doc);
+        fprintf(to, "  %-11s %-9s %s\n", commands[i]->name, commands[i]->argument, commands[i]->doc);
     fputs("\n  isoroll COMMAND --help     the options of a command\n"
           "  isoroll --version          of isoroll and its libraries\n\n"
           "exit status: 0 done; 1 some rows failed, or interrupted; 2 usage; 3 bad input; 4 numerical failure; "

@@ -101,6 +101,10 @@ static const struct row {
     {"step", "DT", "a positive number", "between rows, in place of the scene's", set_positive, AT(step)},
     {"times", "FILE", "a file", "output times from a file, in any order; # begins a comment", set_text, AT(times)},
     {"rows", "N", "a whole number from 1 on", "rows of the table that are printed (default 6)", set_count, AT(rows)},
+    {"turns", "N", "a positive number", "length of the orbit of an estimate, in turns (default 1000, more if needed)",
+     set_positive, AT(turns)},
+    {"samples", "N", "a whole number from 1 on", "of that orbit, made a power of 2 (default 32 each turn)", set_count,
+     AT(samples)},
     {"plot", "FILE", "a file", "draw a picture: .svg, .png or .pdf", set_text, AT(plot)},
     {"json", NULL, NULL, "print everything as JSON", set_flag, AT(json)},
     {"k", "K", "a number", "geometry number (where a file does not say)", set_number, AT(k)},
@@ -200,7 +204,9 @@ bool options_read(const command *c, int argc, char **argv, options *o)
                    .energy = NAN,
                    .mass = 1,
                    .radius = 1,
-                   .rows = 6};
+                   .rows = 6,
+                   .turns = NAN,
+                   .samples = NAN};
     opterr = 0;
     const bool has_output = strstr(c->options, " output ") != NULL;
     while ((found = getopt_long(argc, argv, has_output ? ":ho:" : ":h", known, NULL)) != -1) {

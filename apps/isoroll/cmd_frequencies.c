@@ -1,0 +1,305 @@
+/* isoroll frequencies - how fast a motion turns and swings: exactly where it can be, else by an estimate. */
+#include <jansson.h>
+#include <math.h>
+#include <string.h>
+
+#include "command.h"
+
+static const char *const verdicts[] = {
+    [ISO_REGULAR] = "regular", [ISO_CHAOTIC] = "chaotic", [ISO_UNDECIDED] = "not decided"};
+static const char *const kinds[] = {[ISO_EXACT_SEPARATED] = "separated",
+                                    [ISO_EXACT_SYMMETRIC] = "symmetric",
+                                    [ISO_EXACT_PLANE] = "plane",
+                                    [ISO_EXACT_SEPARATRIX] = "separatrix",
+                                    [ISO_EXACT_KINDS] = "unknown"};
+
+/* --- the table -------------------------------------------------------------------------------------------------- */
+
+static void print_head(const iso_scene *scene, const iso_frequencies *f)
+{
+    const double *J = scene->params.J;
+    printf("k = %.15g, J = %.15g %.15g %.15g\nh = %.15g", scene->params.k, J[0], J[1], J[2], f->h);
+    if (!isnan(f->eps)) printf(", eps = %.15g", f->eps);
+    if (f->integral) printf(", %s = %.15g", f->integral->name, f->F);
+    printf("\n\n");
+    if (!f->estimated) {
+        printf("closed solution: %s\n", f->motion);
+        if (!isnan(f->c)) printf("  separated, c = %.15g\n", f->c);
+        return;
+    }
+    printf("ESTIMATED from an orbit: %s\n  no closed solution: %s\n", f->motion, f->why);
+    printf(
+        "  %.6g turns, to t = %.10g, %zu samples; halves of it differ in a frequency by %.1e (in its first quarter "
+        "by %.1e)\n",
+        f->estimate.turns, f->estimate.length, f->estimate.samples, f->estimate.drift, f->estimate.drift_before);
+    if (f->estimate.verdict == ISO_CHAOTIC)
+        printf("  what follows wanders: it is of this orbit, not of the motion\n");
+    if (f->estimate.unexplained > 1e-4)
+        printf("  %.2g of the amplitudes are no combinations of two frequencies\n", f->estimate.unexplained);
+}
+
+static void print_separatrices(const iso_frequencies *f)
+{
+    for (int i = 0; i < f->separatrices; i++)
+        printf("  %-46s %22.15g\n", f->separatrix[i].what, f->separatrix[i].distance);
+}
+
+/* In each clock; - where it is not known. */
+static void print_clocks(const char *what, const double x[ISO_CLOCKS])
+{
+    printf("  %-22s", what);
+    for (int c = 0; c < ISO_CLOCKS; c++)
+        if (isnan(x[c]))
+            printf(" %22s", "-");
+        else
+            printf(" %22.15g", x[c]);
+    printf("\n");
+}
+
+static void print_angles(const iso_frequencies *f)
+{
+    printf("\n  %-22s %22s %22s %22s\n", "per unit of the clock", "t", "tau", "s");
+    for (int i = 0; i < f->angles; i++) {
+        const iso_angle *a = &f->angle[i];
+        printf("angle %d: %s\n", i + 1, a->what);
+        print_clocks("frequency", a->frequency);
+        if (f->estimated) print_clocks("  its error, about", a->error);
+        print_clocks("period", a->period);
+        if (!isnan(a->action)) printf("  %-22s %22.15g\n", "action", a->action);
+    }
+}
+
+static void print_resonances(const iso_frequencies *f)
+{
+    if (!isnan(f->rotation))
+        printf("\nrotation number, frequency 1/frequency 2: %.15g\nnear resonances p:q, p frequency 1 = q frequency "
+               "2; the time "
+               "t in which p angle 1 - q angle 2 turns once\n",
+               f->rotation);
+    for (int i = 0; i < f->resonances; i++) {
+        const iso_resonance *r = &f->resonance[i];
+        printf("  %3d:%-3d  off by %.1e, ", r->p, r->q, r->gap);
+        if (r->met)
+            printf(f->estimated ? "which the estimate cannot tell from 0\n" : "resonant\n");
+        else
+            printf("t = %.6g\n", r->beat[ISO_CLOCK_T]);
+    }
+    if (!isnan(f->closed[ISO_CLOCK_T])) {
+        printf("\nthe orbit is closed\n");
+        print_clocks("period", f->closed);
+    }
+}
+
+static void print_table(const iso_scene *scene, const iso_frequencies *f)
+{
+    print_head(scene, f);
+    if (f->separatrices > 0) printf("\ndistance from the separatrix of\n");
+    print_separatrices(f);
+    if (f->angles > 0) print_angles(f);
+    print_resonances(f);
+}
+
+/* --- JSON ------------------------------------------------------------------------------------------------------- */
+
+/* What is not known or infinite is null. */
+static json_t *number(double x)
+{
+    return isfinite(x) ? json_real(x) : json_null();
+}
+
+static json_t *clocks_of(const double x[ISO_CLOCKS])
+{
+    return json_pack("{s:o, s:o, s:o}", "t", number(x[0]), "tau", number(x[1]), "s", number(x[2]));
+}
+
+static json_t *angles_of(const iso_frequencies *f)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < f->angles; i++) {
+        const iso_angle *a = &f->angle[i];
+        json_array_append_new(list,
+                              json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "what", a->what, "frequency",
+                                        clocks_of(a->frequency), "period", clocks_of(a->period), "error",
+                                        clocks_of(a->error), "drift", number(a->drift), "action", number(a->action)));
+    }
+    return list;
+}
+
+static json_t *separatrices_of(const iso_frequencies *f)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < f->separatrices; i++)
+        json_array_append_new(list, json_pack("{s:s, s:o}", "of", f->separatrix[i].what, "distance",
+                                              number(f->separatrix[i].distance)));
+    return list;
+}
+
+static json_t *resonances_of(const iso_frequencies *f)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < f->resonances; i++) {
+        const iso_resonance *r = &f->resonance[i];
+        json_array_append_new(list, json_pack("{s:i, s:i, s:o, s:o, s:b}", "p", r->p, "q", r->q, "gap",
+                                              number(r->gap), "beat", clocks_of(r->beat), "met", (int)r->met));
+    }
+    return list;
+}
+
+static json_t *lines_of(const iso_estimate *e, int signal)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < e->lines[signal]; i++) {
+        const iso_named_line *l = &e->line[signal][i];
+        json_array_append_new(list,
+                              json_pack("{s:o, s:o, s:o, s:o}", "frequency", number(l->line.frequency), "amplitude",
+                                        number(l->line.amplitude), "m", l->known ? json_integer(l->m) : json_null(),
+                                        "n", l->known ? json_integer(l->n) : json_null()));
+    }
+    return list;
+}
+
+static json_t *estimate_of(const iso_frequencies *f)
+{
+    const iso_estimate *e = &f->estimate;
+    if (!f->estimated) return json_null();
+    return json_pack("{s:s, s:s, s:o, s:o, s:I, s:i, s:o, s:o, s:o, s:o, s:o}", "why", f->why, "verdict",
+                     verdicts[e->verdict], "length", number(e->length), "turns", number(e->turns), "samples",
+                     (json_int_t)e->samples, "axis", e->axis + 1, "drift", number(e->drift), "drift_before",
+                     number(e->drift_before), "unexplained", number(e->unexplained), "lines_turning", lines_of(e, 0),
+                     "lines_along", lines_of(e, 1));
+}
+
+static json_t *integral_of(const iso_frequencies *f)
+{
+    return f->integral ? json_pack("{s:s, s:o}", "name", f->integral->name, "value", number(f->F)) : json_null();
+}
+
+/* False: no memory. */
+static bool print_json(const iso_scene *scene, const iso_frequencies *f)
+{
+    const iso_params *p = &scene->params;
+    json_t *o = json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
+                          "isoroll", ISO_VERSION, "k", number(p->k), "J", number(p->J[0]), number(p->J[1]),
+                          number(p->J[2]), "h", number(f->h), "eps", number(f->eps), "solution",
+                          f->estimated ? "estimated" : "closed", "kind", kinds[f->kind], "motion", f->motion,
+                          "integral", integral_of(f), "c", number(f->c), "angles", angles_of(f), "rotation_number",
+                          number(f->rotation), "resonances", resonances_of(f), "separatrices", separatrices_of(f),
+                          "closed_orbit", clocks_of(f->closed), "estimate", estimate_of(f));
+    if (!o) return complain("out of memory"), false;
+    json_dumpf(o, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    printf("\n");
+    json_decref(o);
+    return true;
+}
+
+/* --- the picture ------------------------------------------------------------------------------------------------ */
+
+/* The image of the momentum map. */
+static iso_status draw_map(iso_context *ctx, const options *o, const iso_momentum *m, const char *title,
+                           const iso_frequencies *f)
+{
+    char part[ISO_MOMENTUM_PARTS][ISO_MOMENTUM_WORDS], line[ISO_MOMENTUM_LINES][ISO_MOMENTUM_WORDS];
+    iso_plot_map plot = {.title = title, .F = m->k == 1 ? "F_{plane}" : "F_{shell}", .at = {f->h, f->F}};
+    iso_record *bounds;
+    iso_status status = iso_momentum_bounds(ctx, m, f->h, &bounds);
+    if (status != ISO_OK) return status;
+    plot.bounds = bounds;
+    plot.parts = ISO_MOMENTUM_PARTS;
+    plot.lines = ISO_MOMENTUM_LINES;
+    for (int i = 0; i < plot.parts; i++) {
+        iso_momentum_name_part(m, (iso_momentum_part)i, part[i]);
+        plot.part[i] = part[i];
+    }
+    for (int i = 0; i < plot.lines; i++) {
+        iso_momentum_name_line(m, i, line[i]);
+        plot.line[i] = line[i];
+    }
+    status = iso_plot_momentum(ctx, o->plot, &plot);
+    iso_record_free(bounds);
+    return status;
+}
+
+/* The lines of n(t), which a closed solution has not been asked for. */
+static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene *scene, const char *title,
+                             const iso_frequencies *found)
+{
+    static const char *const names[] = {"frequency", "amplitude", "signal", "m", "n"};
+    const iso_frequencies_options how = {.turns = o->turns, .end = o->end, .samples = o->samples};
+    iso_frequencies f = *found;
+    iso_record *r;
+    iso_status status = f.estimated ? ISO_OK : iso_frequencies_estimate(ctx, scene, &how, &f);
+    if (status == ISO_OK) status = iso_record_create(ctx, 5, names, &r);
+    if (status != ISO_OK) return status;
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; status == ISO_OK && i < f.estimate.lines[s]; i++) {
+            const iso_named_line *l = &f.estimate.line[s][i];
+            double *row;
+            status = iso_record_append(ctx, r, &row);
+            if (status != ISO_OK) break;
+            const double m = l->m, n = l->n;
+            const double values[] = {l->line.frequency, l->line.amplitude, s, l->known ? m : (double)NAN,
+                                     l->known ? n : (double)NAN};
+            memcpy(row, values, sizeof values);
+        }
+    if (status == ISO_OK) status = iso_plot_lines(ctx, o->plot, title, f.estimate.axis, r);
+    iso_record_free(r);
+    return status;
+}
+
+static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_frequencies *f)
+{
+    const double *J = scene->params.J;
+    char title[128];
+    iso_momentum m;
+    snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g", scene->params.k, J[0], J[1], J[2]);
+    bool mapped =
+        f->integral && f->h > 0 && iso_momentum_make(&scene->params, f->H, &m) && strcmp(f->integral->name, m.F) == 0;
+    double low, high; /* equal moments leave no area */
+    mapped = mapped && iso_momentum_interval(&m, f->h, iso_momentum_find(&m, f->h, f->F), &low, &high);
+    return mapped ? draw_map(ctx, o, &m, title, f) : draw_lines(ctx, o, scene, title, f);
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
+static bool go_on(void *data)
+{
+    (void)data;
+    return !interrupted();
+}
+
+static int run(iso_context *ctx, const options *o)
+{
+    iso_scene scene = {.places = 0};
+    iso_frequencies f;
+    const iso_frequencies_options how = {.turns = o->turns, .end = o->end, .samples = o->samples};
+    if (o->end <= 0) return complain("frequencies: --t-end '%.10g': expected a positive number", o->end), EXIT_USAGE;
+    iso_status status = iso_scene_read(ctx, o->file, &scene);
+    if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
+    stop_gently();
+    iso_context_watch(ctx, go_on, NULL);
+    if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &how, &f);
+    int result = finish_scene(ctx, o, &scene, status);
+    if (status == ISO_OK) {
+        if (!o->json)
+            print_table(&scene, &f);
+        else if (!print_json(&scene, &f))
+            result = EXIT_NUMERICAL;
+        if (o->plot && result == EXIT_DONE) result = finish(ctx, draw(ctx, o, &scene, &f));
+    }
+    iso_context_watch(ctx, NULL, NULL);
+    return result;
+}
+
+const command command_frequencies = {
+    .name = "frequencies",
+    .argument = "SCENE",
+    .doc = "actions, frequencies, rotation number, near resonances; estimated where there is no closed solution",
+    .options = " turns t-end samples plot json ",
+    .more = "Where there is a closed solution (k = 1, -1, equal moments, principal planes) the numbers are its own. "
+            "Elsewhere "
+            "they are estimated from\nan orbit in the ball's time t, of --turns, or to --t-end, by Laskar's "
+            "frequency analysis. "
+            "--plot draws the image of the momentum map\n(h, F) with the orbit in it; where there is none, the lines "
+            "of n(t).",
+    .run = run,
+};

@@ -1,0 +1,90 @@
+#!/bin/sh
+# frequencies.sh ISOROLL - `isoroll frequencies` on every example: closed or estimated, table, JSON, pictures, no.
+. "$(dirname "$0")/lib.sh"
+closed=0 estimated=0
+
+# is_json: braces and brackets of `out` close
+is_json() {
+    tr -cd '{}[]' <out | awk '{ n = gsub(/{/, "") - gsub(/}/, ""); m = gsub(/\[/, "") - gsub(/]/, ""); exit n || m }'
+}
+
+# value KEY: the first number of that name in the JSON in `out`
+value() {
+    sed -n "s/^ *\"$1\": \([-0-9.e+]*\),*$/\1/p" out | head -n 1
+}
+
+for file in "$source"/examples/*/scene.yaml; do
+    [ -f "$file" ] || continue
+    name=${file#"$source/"}
+    if grep -q -E '^ *(rolling_resistance|twist):' "$file"; then
+        refuses 3 "takes energy from the ball" frequencies "$file"
+        continue
+    fi
+    run 0 frequencies "$file"
+    silent
+    check "$name: two angles, t, tau and s" test "$(grep -c '^  frequency  *[0-9.e+-]* ' out)" -eq 2
+    run 0 frequencies "$file" --json
+    silent
+    check "$name: JSON" is_json
+    case $(grep '"solution"' out) in
+    *closed*) closed=$((closed + 1)) ;;
+    *) estimated=$((estimated + 1)) ;;
+    esac
+done
+check "closed solutions among the examples" test "$closed" -ge 4
+check "estimates among the examples" test "$estimated" -ge 3
+
+# --- a rotation: exact periods
+scene -1 "1, 2, 3" "0, 0, 2" "0.6, 0.8, 0" 10 0.5 >plane.yaml
+run 0 frequencies plane.yaml
+check "a rotation: its period pi" grep -q '^  period  *3.14159265358979 ' out
+check "it is closed" grep -q '^the orbit is closed' out
+
+# --- an estimate says so, and agrees with the closed solution
+scene 0.7 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >estimate.yaml
+run 0 frequencies estimate.yaml
+check "ESTIMATED" grep -q '^ESTIMATED from an orbit: regular' out
+check "why" grep -q 'no closed solution: k = 0' out
+run 0 frequencies estimate.yaml --json --t-end 1000 --samples 5000
+check "samples are a power of two" test "$(value samples)" -eq 8192
+check "--t-end" test "$(value length)" = 1000.0
+"$isoroll" frequencies - <estimate.yaml >out
+check "a scene from standard input" test $? -eq 0
+
+# --- refusals
+for wrong in "--turns 0" "--turns x" "--samples 2.5"; do
+    # shellcheck disable=SC2086 # an option and its value
+    refuses 2 "expected" frequencies estimate.yaml $wrong
+done
+refuses 2 "expected a positive number" frequencies estimate.yaml --t-end -1
+refuses 2 ".svg, .png or .pdf" frequencies estimate.yaml --plot a.gif
+refuses 3 "rest" frequencies - <<END
+reduced: {k: 0.5, J: [1, 2, 3]}
+initial: {normal: [0, 0.6, 0.8], angular_velocity: [0, 0, 0]}
+time: {end: 1}
+END
+cat >plane_gravity.yaml <<END
+reduced: {k: 1, J: [1, 2, 3]}
+initial: {normal: [0, 0.6, 0.8], angular_velocity: [1, 0, 0]}
+time: {end: 1}
+effects: {gravity: {mgb: 0.3, up: [0, 0, 1]}}
+END
+refuses 3 "plane_gravity.yaml:4:" frequencies plane_gravity.yaml
+
+# --- pictures: maps for k = -1 and 1, lines for others
+if command -v gnuplot >/dev/null; then
+    run 0 frequencies "$source/examples/02_neumann_shell/scene.yaml" --plot map.svg
+    silent
+    check "a map" grep -q 'rotation about axis 2, separatrix' map.svg
+    run 0 frequencies "$source/examples/12_neumann_off_level/scene.yaml" --plot map.pdf
+    check "a map off the level H = 0" test "$(head -c 5 map.pdf)" = %PDF-
+    run 0 frequencies "$source/examples/06_braden_reduced/scene.yaml" --plot map.png
+    check "a map of k = 1" test -s map.png
+    run 0 frequencies estimate.yaml --turns 200 --plot lines.svg
+    silent
+    check "lines" grep -q 'amplitude' lines.svg
+    run 5 frequencies estimate.yaml --turns 50 --plot absent/a.svg
+else
+    echo "gnuplot is not installed: no pictures"
+fi
+finish
