@@ -21,7 +21,7 @@ static iso_status check(iso_context *ctx, const iso_field *f, const double point
             return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[e]->name,
                                     "the closed solution is for a free motion, not one with '%s'",
                                     iso_effect_list[e]->name);
-    if (!(f->eps > 0 && isfinite(f->eps)))
+    if (!(f->eps > 0 && isnormal(f->eps)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "the closed solution needs eps > 0, not %g", f->eps);
     for (int i = 0; forms[i]; i++)
         if (forms[i]->serves(f, point)) return *form = forms[i], ISO_OK;

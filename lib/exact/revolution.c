@@ -1,27 +1,18 @@
 /* revolution.c - the form of one angle: two equal moments of inertia, and motion in a principal plane, for every k.
  *
- * With x the component of gamma along the axis (of moment J_a; J_e across it), y = x^2 and q = J_e + (J_a - J_e) y,
+ * The component x of gamma along the axis swings as latitude_impl.h says, as an elliptic function of an angle xi; the
+ * rest is a quadrature, as d phi/ds = M_x/(1 - x^2). What lies across the axis is an elementary factor, which turns
+ * past the pole as fast as need be, times a smooth one:
  *
- *     M^2 = m(y) = 2 (H + eps q^(-1/k)),     (dx/ds)^2 = P(y) = (1 - y) m(y) - M_x^2,     d phi/ds = M_x/(1 - y)
- *
- * with M_x, the part of M along the axis, constant. x swings as an elliptic function of an angle xi,
- *
- *     equator:  x = sqrt(a) cn,  between -sqrt(a) and sqrt(a)             P = (a - y)(y - b) Q,  b <= 0
- *     side:     x = +-sqrt(a) dn,  between sqrt(b) and sqrt(a)            P = (a - y)(y - b) Q,  b >= 0
- *
- * (cn = cos where P has no root b near by), and the rest is a quadrature: with f[y,a,b] divided differences,
- * P[y,a] = (1 - y) m[y,a] - m(a) and Q = m[a,b] - (1 - y) m[y,a,b], sums without cancellation. The component across
- * the axis is an elementary factor, which turns through the pole as fast as need be, times a smooth one:
- *
- *     gamma_1 + i gamma_2 = (sqrt(1 - a) cn + i sqrt(1 - b') sn) exp(i psi),    b' = {0, b}
+ *     gamma_1 + i gamma_2 = (sqrt(1 - a) cn + i sqrt(1 - b') sn) exp(i psi),    b' = max(b, 0)
  *
  * A principal plane is the same with M_x = 0: J_a and J_e are the moments of the two axes in it.
  */
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "exact/form_impl.h"
+#include "exact/latitude_impl.h"
 #include "exact/series_impl.h"
 
 enum { LEAST_SAMPLES = 16, MOST_SAMPLES = 1 << 15, PSI = ISO_CLOCKS, SERIES };
@@ -34,189 +25,30 @@ typedef struct growing {
 } growing;
 
 typedef struct revolution {
-    int axis[3];                     /* the caller's axes, right-handed; the first is x's                    */
-    bool plane, side, has_b;         /* a principal plane; x keeps its sign; P has a root b near y           */
-    real Je, Ja, eps, H, power, det; /* power = -1/k, det = det J/k^2                                         */
-    real x0, dx0, y0, Mx;            /* at the start, and M_x for good                                        */
-    real a, b, a_b, rest_a, rest_b;  /* roots of P about y; a - b, 1 - a, 1 - b'                              */
-    real floor, distance, force;     /* b' = max(b, 0); P(0)/m(0); mean of M^2 ds/dxi                         */
+    int axis[3]; /* the caller's axes, right-handed; the first is x's                             */
+    bool plane;  /* a principal plane                                                             */
+    latitude x;
+    real det, force; /* det J/k^2; mean of M^2 ds/dxi                                                 */
     elliptic f;
-    real start; /* xi at time 0 is `start`, plus half its period of sn where half = -1     */
+    real start; /* xi at time 0, plus half a period of sn where half is -1                       */
     int half;
-    double turned[2], sense; /* exp(i longitude) of the smooth factor at time 0; of growing longitude */
-    growing of[SERIES];      /* the clocks, and psi (in the sense of growing longitude)               */
+    double turned[2], sense; /* exp(i longitude) of the smooth factor at time 0; of growing longitude         */
+    growing of[SERIES];      /* the clocks, and psi (in the sense of growing longitude)                       */
 } revolution;
 
-/* --- divided differences of m(y) = 2 (H + eps q^power) ----------------------------------------------------------- */
-
-static real q_at(const revolution *r, real y)
-{
-    return r->Je + (r->Ja - r->Je) * y;
-}
-
-static real m_at(const revolution *r, real y)
-{
-    return 2 * (r->H + r->eps * powl(q_at(r, y), r->power));
-}
-
-/* m[y,z] */
-static real slope(const revolution *r, real y, real z)
-{
-    const real q = q_at(r, y), x = (r->Ja - r->Je) * (z - y) / q;
-    const real part = x == 0 ? r->power : expm1l(r->power * log1pl(x)) / x;
-    return 2 * r->eps * (r->Ja - r->Je) * powl(q, r->power - 1) * part;
-}
-
-/* m[x,y,z]: where the three are close, sum_n binomial(power, n+2) h_n(t) in the complete symmetric polynomials h_n of
- * their distances t from the middle; else from the two that are farthest apart. */
-static real bend(const revolution *r, real x, real y, real z)
-{
-    const real low = fminl(x, fminl(y, z)), high = fmaxl(x, fmaxl(y, z)), other = x + y + z - low - high;
-    const real q = q_at(r, (low + high) / 2), scale = (r->Ja - r->Je) / q, half = (high - low) / 2;
-    if (fabsl(scale) * half * fmaxl(1, fabsl(r->power)) > 0.1L)
-        return (slope(r, other, high) - slope(r, other, low)) / (high - low);
-    const real t[3] = {scale * half, -scale * half, scale * (other - (low + high) / 2)};
-    real p[3] = {1, 1, 1}, binomial = r->power * (r->power - 1) / 2, sum = 0; /* p[i]: h_n of the first i + 1 */
-    for (int n = 0; n < 40; n++) {
-        sum += binomial * p[2];
-        binomial *= (r->power - n - 2) / (n + 3);
-        p[0] *= t[0];
-        p[1] = p[0] + t[1] * p[1];
-        p[2] = p[1] + t[2] * p[2];
-    }
-    return 2 * r->eps * scale * scale * powl(q, r->power) * sum;
-}
-
-/* P[y,z], and P(y) as it differs from the start's */
-static real P_slope(const revolution *r, real y, real z)
-{
-    return (1 - y) * slope(r, y, z) - m_at(r, z);
-}
-
-static real P_at(const revolution *r, real y)
-{
-    return y == 1 ? -r->Mx * r->Mx : r->dx0 * r->dx0 + (y - r->y0) * P_slope(r, y, r->y0);
-}
-
-/* --- the range of y ----------------------------------------------------------------------------------------------- */
-
-typedef real function(const revolution *r, real y);
-
-static real P_rate(const revolution *r, real y)
-{
-    return P_slope(r, y, y);
-}
-
-/* The zero between low and high, where f has different signs or is zero at one of them. */
-static real bisect(const revolution *r, function *f, real low, real high)
-{
-    const bool rising = f(r, high) > 0;
-    for (int i = 0; i < 200; i++) {
-        const real middle = (low + high) / 2;
-        if (middle == low || middle == high) break;
-        *((f(r, middle) > 0) == rising ? &high : &low) = middle;
-    }
-    return (low + high) / 2;
-}
-
-/* A zero of P, by bisection and, as long as it gets better, Newton's method. */
-static real root_of_P(const revolution *r, real low, real high)
-{
-    real y = bisect(r, P_at, low, high);
-    for (int i = 0; i < 4; i++) {
-        const real next = y - P_at(r, y) / P_rate(r, y);
-        if (!(next >= low && next <= high && fabsl(P_at(r, next)) < fabsl(P_at(r, y)))) break;
-        y = next;
-    }
-    return y;
-}
-
-/* Places between which P is monotonic, by Rolle: P'' = 0 at one y at most. The last is 1, the first negative. */
-static int monotonic_parts(const revolution *r, real place[5])
-{
-    const real d = r->Ja - r->Je, p = r->power, low = d > 0 ? fmaxl(-1, -r->Je / (2 * d)) : -1;
-    const real turn = ((p - 1) * d - 2 * r->Je) / (d * (p + 1));
-    real part[3] = {low, turn > low && turn < 1 ? turn : 1, 1};
-    int count = 0;
-    place[count++] = low;
-    for (int i = 0; i < 2; i++)
-        if (part[i] < part[i + 1] && (P_rate(r, part[i]) > 0) != (P_rate(r, part[i + 1]) > 0))
-            place[count++] = bisect(r, P_rate, part[i], part[i + 1]);
-    place[count++] = 1;
-    return count;
-}
-
-/* 1 - y at a root of P, where P = (1 - y) m - M_x^2: near the pole the difference has no digits. */
-static real rest_of(const revolution *r, real y)
-{
-    const real m = m_at(r, y), rest = r->Mx * r->Mx / m;
-    return m > 0 && fabsl(rest - (1 - y)) < 1e-14L ? rest : 1 - y;
-}
-
-/* How far y0 is from a root of P: P(y0) = (y0 - root) P[root,y0], of which one factor may have no digits. */
-static real distance_to(const revolution *r, real root)
-{
-    const real direct = fabsl(root - r->y0), steep = fabsl(P_slope(r, root, r->y0));
-    return direct * m_at(r, r->y0) >= steep ? direct : r->dx0 * r->dx0 / steep;
-}
-
-/* a and b: from y0 to where P falls to zero. */
-static void find_range(revolution *r)
-{
-    real place[5], from = r->y0;
-    const int count = monotonic_parts(r, place);
-    for (int i = 0; i < count; i++) {
-        if (place[i] <= r->y0) continue;
-        r->a = place[i];
-        if (P_at(r, place[i]) > 0) {
-            from = place[i];
-            continue;
-        }
-        r->a = place[i] == 1 && r->Mx == 0 && P_at(r, from) > 0 ? 1 : root_of_P(r, from, place[i]);
-        break;
-    }
-    if (r->y0 >= 1) r->a = 1;
-    from = r->y0;
-    for (int i = count - 1; i >= 0 && !r->has_b; i--) {
-        if (place[i] >= r->y0) continue;
-        r->has_b = P_at(r, place[i]) <= 0;
-        if (r->has_b) r->b = root_of_P(r, place[i], from);
-        from = place[i];
-    }
-    r->rest_a = rest_of(r, r->a);
-    r->side = r->has_b && r->b > 0;
-    r->floor = r->side ? r->b : 0;
-    r->rest_b = r->side ? rest_of(r, r->b) : 1;
-    r->a_b = r->side ? distance_to(r, r->a) + distance_to(r, r->b) : r->a - r->b;
-    r->distance = P_at(r, 0) / m_at(r, 0);
-}
-
-/* --- along the way ------------------------------------------------------------------------------------------------- */
-
-/* dpsi/dx and dx/ds of the elliptic x at y, where dn is given */
-static real rate_at(const revolution *r, real y, real to_a, real dn, real *psi)
-{
-    const real rest = r->rest_a + to_a, reach = !r->has_b ? 1 : r->side ? r->a : r->a - r->b;
-    const real curved = r->has_b ? bend(r, y, r->a, r->b) : 0;
-    const real Q = r->has_b ? slope(r, r->a, r->b) - rest * curved : m_at(r, r->a) - rest * slope(r, y, r->a);
-    const real rate = sqrtl(reach * Q), S = sqrtl(r->rest_a * r->rest_b);
-    const real more = r->side ? r->rest_b * (slope(r, r->a, r->b) + y * curved) : slope(r, y, r->a);
-    const real sum = fabsl(r->Mx) / rate + S * dn;
-    *psi = sum > 0 ? r->rest_a * more / (reach * Q) / sum : 0;
-    return rate;
-}
+/* --- the series ------------------------------------------------------------------------------------------------------- */
 
 /* d/dxi of the clocks and of psi at xi; y is even about 0 and pi */
 static void rates_at(const revolution *r, real xi, real rate[SERIES])
 {
     real sn, cn, dn;
     iso_elliptic_at(&r->f, xi, &sn, &cn, &dn);
-    const real to_a = (r->side ? r->a_b : r->a) * sn * sn, y = r->side ? r->a * dn * dn : r->a * cn * cn;
-    const real q = q_at(r, y), ds = r->f.K / ISO_PI / rate_at(r, y, to_a, dn, &rate[PSI]);
+    const real to_a = (r->x.side ? r->x.a_b : r->x.a) * sn * sn, y = r->x.side ? r->x.a * dn * dn : r->x.a * cn * cn;
+    const real q = iso_latitude_q(&r->x, y), ds = r->f.K / ISO_PI / iso_latitude_rate(&r->x, y, to_a, dn, &rate[PSI]);
     rate[PSI] *= r->f.K / ISO_PI;
     rate[ISO_CLOCK_S] = ds;
-    rate[ISO_CLOCK_TAU] = r->det * powl(q, r->power) * ds;
-    rate[ISO_CLOCK_T] = r->det * powl(q, r->power / 2 - 1) * ds;
+    rate[ISO_CLOCK_TAU] = r->det * powl(q, r->x.power) * ds;
+    rate[ISO_CLOCK_T] = r->det * powl(q, r->x.power / 2 - 1) * ds;
 }
 
 static double largest_of(const double a[], int from, int to)
@@ -261,7 +93,8 @@ static bool make_series(revolution *r, int N, double *samples, double work[])
         const real weight = (j % N == 0 ? 0.5L : 1) / N;
         rates_at(r, ISO_PI * j / N, rate);
         iso_elliptic_at(&r->f, ISO_PI * j / N, &sn, &cn, &dn);
-        r->force += weight * rate[ISO_CLOCK_S] * m_at(r, r->side ? r->a * dn * dn : r->a * cn * cn);
+        r->force +=
+            weight * rate[ISO_CLOCK_S] * iso_latitude_m(&r->x, r->x.side ? r->x.a * dn * dn : r->x.a * cn * cn);
         for (int i = 0; i < SERIES; i++) {
             samples[i * (N + 1) + j] = (double)rate[i];
             r->of[i].mean += weight * rate[i];
@@ -318,13 +151,13 @@ static void swing_at(const revolution *r, double xi, int half, double W, double 
     real sn_l, cn_l, dn_l;
     iso_elliptic_at(&r->f, xi, &sn_l, &cn_l, &dn_l);
     const double sn = half * (double)sn_l, cn = half * (double)cn_l, dn = (double)dn_l;
-    const double root_a = sqrt((double)r->a), up = r->x0 < 0 ? -1 : 1;
-    *x = r->side ? up * root_a * dn : root_a * cn;
-    *dx = r->side ? -up * (double)r->a_b / root_a * sn * cn * W : -root_a * sn * dn * W;
-    h[0] = sqrt((double)r->rest_a) * cn;
-    h[1] = r->sense * sqrt((double)r->rest_b) * sn;
+    const double root_a = sqrt((double)r->x.a), up = r->x.x0 < 0 ? -1 : 1;
+    *x = r->x.side ? up * root_a * dn : root_a * cn;
+    *dx = r->x.side ? -up * (double)r->x.a_b / root_a * sn * cn * W : -root_a * sn * dn * W;
+    h[0] = sqrt((double)r->x.rest_a) * cn;
+    h[1] = r->sense * sqrt((double)r->x.rest_b) * sn;
     dh[0] = 0; /* at the pole, the only place that asks, sn = 0 */
-    dh[1] = r->sense * sqrt((double)r->rest_b) * cn * dn * W;
+    dh[1] = r->sense * sqrt((double)r->x.rest_b) * cn * dn * W;
 }
 
 static void turn(const double by[2], double h[2])
@@ -346,7 +179,7 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
     swing_at(r, xi, turns % 2 == 0 ? r->half : -r->half, (double)(r->f.K / ISO_PI / s_rate), &x, &dx, h, dh);
     turn(by, h), turn(r->turned, h);
     turn(by, dh), turn(r->turned, dh);
-    const double rest = h[0] * h[0] + h[1] * h[1], u = -x * dx, w = -(double)r->Mx;
+    const double rest = h[0] * h[0] + h[1] * h[1], u = -x * dx, w = -(double)r->x.Mx;
     if (rest > 0) {
         dh[0] = (u * h[0] - w * h[1]) / rest;
         dh[1] = (w * h[0] + u * h[1]) / rest;
@@ -354,7 +187,7 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
     const double g[3] = {x, h[0], h[1]}, d[3] = {dx, dh[0], dh[1]};
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
-        point[r->axis[i]] = i == 0 ? (double)r->Mx : d[j] * g[l] - d[l] * g[j];
+        point[r->axis[i]] = i == 0 ? (double)r->x.Mx : d[j] * g[l] - d[l] * g[j];
         point[3 + r->axis[i]] = g[i];
     }
 }
@@ -389,27 +222,27 @@ static void take_state(revolution *r, const iso_field *f, const double point[ISO
     real M[3], length = 0, along = 0, M2 = 0;
     r->plane = plane >= 0;
     for (int i = 0; i < 3; i++) r->axis[i] = (first + i) % 3;
-    r->Ja = f->p.J[first], r->Je = f->p.J[(first + 1) % 3];
-    r->eps = f->eps, r->H = f->energy, r->power = -1 / (real)f->p.k;
+    r->x.Ja = f->p.J[first], r->x.Je = f->p.J[(first + 1) % 3];
+    r->x.eps = f->eps, r->x.H = f->energy, r->x.power = -1 / (real)f->p.k;
     r->det = (real)f->p.J[0] * f->p.J[1] * f->p.J[2] / ((real)f->p.k * f->p.k);
     for (int i = 0; i < 3; i++) g[i] = point[3 + r->axis[i]], M[i] = point[r->axis[i]], length += g[i] * g[i];
     for (int i = 0; i < 3; i++) g[i] /= sqrtl(length), along += M[i] * g[i];
     for (int i = 0; i < 3; i++) M[i] -= along * g[i], M2 += M[i] * M[i];
-    const real scale = M2 > 0 ? sqrtl(fmaxl(m_at(r, g[0] * g[0]), 0) / M2) : 0;
+    const real scale = M2 > 0 ? sqrtl(fmaxl(iso_latitude_m(&r->x, g[0] * g[0]), 0) / M2) : 0;
     for (int i = 0; i < 3; i++) M[i] *= scale;
     for (int i = 0; i < 3; i++) d[i] = g[(i + 1) % 3] * M[(i + 2) % 3] - g[(i + 2) % 3] * M[(i + 1) % 3];
-    r->x0 = g[0], r->y0 = g[0] * g[0], r->dx0 = d[0];
-    r->Mx = r->plane ? 0 : M[0];
-    r->sense = r->Mx > 0 ? -1 : 1;
+    r->x.x0 = g[0], r->x.y0 = g[0] * g[0], r->x.dx0 = d[0];
+    r->x.Mx = r->plane ? 0 : M[0];
+    r->sense = r->x.Mx > 0 ? -1 : 1;
 }
 
 /* xi at the start: P = (a - y)(y - b) Q gives what sn^2 takes of y0 */
 static void find_start(revolution *r)
 {
-    const int up = r->x0 < 0 ? -1 : 1, rising = r->dx0 < 0 ? -1 : 1;
-    const real from_a = sqrtl(distance_to(r, r->a));
-    const real sn = r->side ? from_a : -rising * from_a;
-    const real cn = r->side ? -up * rising * sqrtl(distance_to(r, r->b)) : r->x0;
+    const int up = r->x.x0 < 0 ? -1 : 1, rising = r->x.dx0 < 0 ? -1 : 1;
+    const real from_a = sqrtl(iso_latitude_distance(&r->x, r->x.a));
+    const real sn = r->x.side ? from_a : -rising * from_a;
+    const real cn = r->x.side ? -up * rising * sqrtl(iso_latitude_distance(&r->x, r->x.b)) : r->x.x0;
     r->half = cn < 0 ? -1 : 1; /* so that a small sn keeps its digits */
     r->start = sn == 0 ? 0 : iso_elliptic_inverse(&r->f, r->half * sn, r->half * cn);
 }
@@ -441,9 +274,9 @@ static iso_status make(const iso_field *f, const double point[ISO_STATE], const 
     revolution *r = *data = calloc(1, sizeof *r);
     if (!r) return ISO_NO_MEMORY;
     take_state(r, f, point, g, d);
-    find_range(r);
+    iso_latitude_range(&r->x);
     const real least = 1e-40L;
-    iso_elliptic_set(&r->f, !r->has_b ? 1 : fmaxl(r->side ? r->b / r->a : r->b / (r->b - r->a), least));
+    iso_elliptic_set(&r->f, !r->x.has_b ? 1 : fmaxl(r->x.side ? r->x.b / r->x.a : r->x.b / (r->x.b - r->x.a), least));
     find_start(r);
     const iso_status status = find_series(r);
     if (status == ISO_OK) find_longitude(r, g, d);
@@ -482,11 +315,11 @@ static real mean_rate(const void *data, iso_clock clock)
 static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *to)
 {
     const revolution *r = data;
-    const real swing = r->side && !r->plane ? 1 : 0.5L, turning = 0.5L + r->of[PSI].mean; /* radians per xi */
+    const real swing = r->x.side && !r->plane ? 1 : 0.5L, turning = 0.5L + r->of[PSI].mean; /* radians per xi */
     to->kind = r->plane ? ISO_EXACT_PLANE : ISO_EXACT_SYMMETRIC;
     to->angles = r->plane ? 1 : 2;
-    to->action[0] = (double)((r->force - fabsl(r->Mx) * turning) / swing);
-    if (!r->plane) to->action[1] = (double)r->Mx, to->distance = (double)r->distance;
+    to->action[0] = (double)((r->force - fabsl(r->x.Mx) * turning) / swing);
+    if (!r->plane) to->action[1] = (double)r->x.Mx, to->distance = (double)r->x.distance;
     for (int c = 0; c < ISO_CLOCKS; c++) {
         if (!clocks[c]) continue;
         to->frequency[c][0] = (double)(swing / r->of[c].mean);

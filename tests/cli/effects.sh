@@ -228,7 +228,7 @@ for k in 1 -1 0.5 -0.4 3; do
         echo "effects: {$effects}" >>scene.yaml
         case $effects in *attitude*) ;; *) round_trip "k = $k, $effects" $k ball ;; esac
         run 0 compare scene.yaml
-        at_most "k = $k, $effects: compare" "$(sed -n 's/.* M \([0-9.e+-]*\), gamma.*/\1/p' out)" 1e-10
+        at_most "k = $k, $effects: compare" "$(sed -n 's/.* M \([0-9.e+-]*\), gamma.*/\1/p' out | sort -g | tail -1)" 1e-10
     done
     for effects in "$field" "$level" "level: {}" "$field, level: {c: -0.7}"; do
         cat >scene.yaml <<END
