@@ -8,10 +8,17 @@
 
 static const iso_form *const forms[] = {&iso_form_revolution, &iso_form_separated, NULL};
 
+/* The end of an orbit on a separatrix: from these clocks on it is the rotation. */
+typedef struct homoclinic_end {
+    iso_exact *rotation; /* NULL: not on a separatrix */
+    real clock[ISO_CLOCKS];
+} homoclinic_end;
+
 struct iso_exact {
     const iso_form *form;
     void *data;
     bool has[ISO_CLOCKS];
+    homoclinic_end past, future;
 };
 
 static iso_status check(iso_context *ctx, const iso_field *f, const double point[ISO_STATE], const iso_form **form)
@@ -34,6 +41,70 @@ static iso_status check(iso_context *ctx, const iso_field *f, const double point
                             f->p.k);
 }
 
+static void find(const iso_exact *x, iso_clock clock, real time, form_place *p)
+{
+    const bool later = x->future.rotation && time > x->future.clock[clock];
+    const bool earlier = x->past.rotation && time < x->past.clock[clock];
+    const homoclinic_end *end = later ? &x->future : &x->past;
+    if (!later && !earlier) {
+        x->form->find(x->data, clock, time, p);
+        return;
+    }
+    p->along = NAN;
+    find(end->rotation, clock, time - end->clock[clock], p);
+    for (int c = 0; c < ISO_CLOCKS; c++) p->clock[c] += end->clock[c];
+    p->along = NAN;
+}
+
+/* --- on a separatrix ---------------------------------------------------------------------------------------------- */
+
+enum { STEPS_A_TURN = 32, MOST_TURNS = 20000 };
+
+/* Away from time 0 until gamma has been in the plane of the unstable rotation for a turn, to rounding; there begins the
+ * rotation. */
+static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact *x, int axis, int direction,
+                           homoclinic_end *end)
+{
+    const int clock = x->has[ISO_CLOCK_T] ? ISO_CLOCK_T : x->has[ISO_CLOCK_S] ? ISO_CLOCK_S : ISO_CLOCK_TAU;
+    form_place p = {.along = NAN};
+    real time = 0;
+    int near = 0;
+    for (int i = 0; i < STEPS_A_TURN * MOST_TURNS && near < STEPS_A_TURN; i++) {
+        p.along = NAN;
+        x->form->find(x->data, (iso_clock)clock, time, &p);
+        const double *M = p.point, *g = p.point + 3, speed = hypot(hypot(M[0], M[1]), M[2]);
+        const double q = f->p.J[0] * g[0] * g[0] + f->p.J[1] * g[1] * g[1] + f->p.J[2] * g[2] * g[2];
+        near = fabs(g[axis]) < 1e-16 ? near + 1 : 0;
+        time += direction * iso_clock_rate(&f->p, (iso_clock)clock, q, NULL) /
+                iso_clock_rate(&f->p, ISO_CLOCK_S, q, NULL) * 2 * ISO_PI / STEPS_A_TURN / speed;
+    }
+    if (near < STEPS_A_TURN)
+        return iso_context_fail(ctx, ISO_NUMERICAL, "",
+                                "the orbit lies on a separatrix that it follows for too long");
+    for (int i = 0; i < 3; i++) {
+        end->clock[i] = p.clock[i];
+        if (i == axis) p.point[3 + i] = 0;
+        if (i != axis) p.point[i] = 0;
+    }
+    return iso_exact_create(ctx, f, p.point, x->has, &end->rotation);
+}
+
+/* --- the front ---------------------------------------------------------------------------------------------------- */
+
+static iso_status make(iso_context *ctx, const iso_field *field, const double point[ISO_STATE], iso_exact *x)
+{
+    iso_status status = x->form->make(field, point, x->has, &x->data);
+    if (status == ISO_NO_MEMORY) return iso_context_fail(ctx, status, "", "no memory for a closed solution");
+    if (status != ISO_OK)
+        return iso_context_fail(ctx, status, "",
+                                "the closed solution would need too many terms: a body too extreme, "
+                                "or an orbit too close to a separatrix");
+    const int axis = x->form->unstable(x->data);
+    if (axis < 0) return status;
+    status = find_end(ctx, field, x, axis, -1, &x->past);
+    return status == ISO_OK ? find_end(ctx, field, x, axis, 1, &x->future) : status;
+}
+
 iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const double point[ISO_STATE],
                             const bool clocks[ISO_CLOCKS], iso_exact **exact)
 {
@@ -45,18 +116,17 @@ iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const doub
     if (!x) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a closed solution");
     x->form = form;
     for (int c = 0; c < ISO_CLOCKS; c++) x->has[c] = clocks[c];
-    status = form->make(field, point, clocks, &x->data);
-    if (status == ISO_OK) return *exact = x, ISO_OK;
-    iso_exact_free(x);
-    if (status == ISO_NO_MEMORY) return iso_context_fail(ctx, status, "", "no memory for a closed solution");
-    return iso_context_fail(ctx, status, "",
-                            "the closed solution would need too many terms: a body too extreme, or "
-                            "an orbit too close to a separatrix");
+    status = make(ctx, field, point, x);
+    if (status != ISO_OK) return iso_exact_free(x), status;
+    *exact = x;
+    return ISO_OK;
 }
 
 void iso_exact_free(iso_exact *x)
 {
     if (!x) return;
+    iso_exact_free(x->past.rotation);
+    iso_exact_free(x->future.rotation);
     x->form->free(x->data);
     free(x);
 }
@@ -81,7 +151,7 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
     form_place p = {.along = NAN};
     const iso_status status = check_time(ctx, x, clock, time);
     if (status != ISO_OK) return status;
-    x->form->find(x->data, clock, time, &p);
+    find(x, clock, time, &p);
     hand_over(&p, point, clocks);
     return ISO_OK;
 }
@@ -113,11 +183,12 @@ iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock,
         const double time = start + (double)i * step;
         const real even = time / x->form->rate(x->data, clock);
         form_place p = {.along = known == TRAIL ? even + extrapolate(trail, TRAIL) : NAN};
-        x->form->find(x->data, clock, time, &p);
+        find(x, clock, time, &p);
         hand_over(&p, points + ISO_STATE * i, clocks ? clocks + ISO_CLOCKS * i : NULL);
         for (int j = 1; j < known; j++) trail[j - (known == TRAIL)] = trail[j];
         known += known < TRAIL;
         trail[known - 1] = p.along - even;
+        if (isnan(p.along)) known = 0;
     }
     return ISO_OK;
 }
@@ -127,5 +198,11 @@ iso_exact_torus iso_exact_describe(const iso_exact *x)
     iso_exact_torus torus = {.action = {NAN, NAN}, .c = NAN, .distance = NAN};
     for (int c = 0; c < ISO_CLOCKS; c++) torus.frequency[c][0] = torus.frequency[c][1] = NAN;
     x->form->describe(x->data, x->has, &torus);
+    if (!x->past.rotation) return torus;
+    torus.kind = ISO_EXACT_SEPARATRIX;
+    torus.angles = 0;
+    torus.distance = 0;
+    torus.action[0] = torus.action[1] = NAN;
+    for (int c = 0; c < ISO_CLOCKS; c++) torus.frequency[c][0] = torus.frequency[c][1] = NAN;
     return torus;
 }

@@ -24,6 +24,10 @@ typedef struct iso_form {
 
     /* The mean rate at which a clock grows with p->along. */
     real (*rate)(const void *data, iso_clock clock);
+
+    /* On a separatrix: the axis of the rotation that the orbit leaves and comes back to; else -1. The form is good until
+     * it has come back, and wrong from there. */
+    int (*unstable)(const void *data);
     void (*describe)(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *torus);
 } iso_form;
 

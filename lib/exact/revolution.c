@@ -275,8 +275,8 @@ static iso_status make(const iso_field *f, const double point[ISO_STATE], const 
     if (!r) return ISO_NO_MEMORY;
     take_state(r, f, point, g, d);
     iso_latitude_range(&r->x);
-    const real least = 1e-40L;
-    iso_elliptic_set(&r->f, !r->x.has_b ? 1 : fmaxl(r->x.side ? r->x.b / r->x.a : r->x.b / (r->x.b - r->x.a), least));
+    const latitude *x = &r->x;
+    iso_elliptic_set(&r->f, !x->has_b ? 1 : x->side ? x->b / x->a : x->b / (x->b - x->a));
     find_start(r);
     const iso_status status = find_series(r);
     if (status == ISO_OK) find_longitude(r, g, d);
@@ -307,6 +307,12 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     state_at(r, p->along, p->point);
 }
 
+static int unstable(const void *data)
+{
+    const revolution *r = data;
+    return r->x.homoclinic ? r->axis[0] : -1;
+}
+
 static real mean_rate(const void *data, iso_clock clock)
 {
     return ((const revolution *)data)->of[clock].mean;
@@ -333,5 +339,10 @@ static void release(void *data)
     free(data);
 }
 
-const iso_form iso_form_revolution = {
-    .serves = serves, .make = make, .free = release, .find = find, .rate = mean_rate, .describe = describe};
+const iso_form iso_form_revolution = {.serves = serves,
+                                      .make = make,
+                                      .free = release,
+                                      .find = find,
+                                      .rate = mean_rate,
+                                      .unstable = unstable,
+                                      .describe = describe};

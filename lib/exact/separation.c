@@ -1,5 +1,6 @@
 #include "exact/separation_impl.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -21,12 +22,18 @@ static void split(real sum, real product, real difference, real *x, real *y)
 
 /* --- along the motion ------------------------------------------------------------------------------------------- */
 
+/* d clock/ds */
+static real clock_rate(const separation *s, iso_clock clock, real q)
+{
+    if (clock == ISO_CLOCK_S) return 1;
+    if (clock == ISO_CLOCK_TAU) return s->det * (s->k == -1 ? q : 1 / q);
+    return s->det / (s->k == -1 ? sqrtl(q) : q * sqrtl(q));
+}
+
 real iso_separation_rate(const separation *s, iso_clock clock, real u, real v)
 {
-    const real *b = s->b, det = s->det, q = s->k == -1 ? b[0] + b[1] + b[2] - u - v : u * v / (b[0] * b[1] * b[2]);
-    if (clock == ISO_CLOCK_S) return v - u;
-    if (clock == ISO_CLOCK_TAU) return det * (v - u) * (s->k == -1 ? q : 1 / q);
-    return det * (v - u) / (s->k == -1 ? sqrtl(q) : q * sqrtl(q));
+    const real *b = s->b;
+    return (v - u) * clock_rate(s, clock, s->k == -1 ? b[0] + b[1] + b[2] - u - v : u * v / (b[0] * b[1] * b[2]));
 }
 
 /* p_z dz = z'^2/(4 A) dsigma = 2 (R + c) dsigma */
@@ -55,6 +62,7 @@ static void sort_axes(separation *s, const double J[3])
             }
     for (int i = 0; i < 3; i++) s->b[i] = s->k == -1 ? (real)J[s->axis[i]] : 1 / (real)J[s->axis[i]];
     const real *const b = s->b;
+    s->handed = (s->axis[1] - s->axis[0] + 3) % 3 == 1 ? 1 : -1;
     for (int i = 0; i < 3; i++) s->norm[i] = (double)sqrtl(fabsl((b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3])));
 }
 
@@ -109,6 +117,7 @@ static real excess(const separation *s, const moment *m, int j, real *size)
 /* v - u, and al, be. At k = -1 these are the eigenvalues of b + (M^2/2 eps) l l^T across gamma, u and v those of b. */
 static void find_roots(separation *s, moment *m)
 {
+    s->unstable = -1;
     const real *b = s->b;
     real unit[3], l[3], size;
     tangents(m, unit, l);
@@ -123,7 +132,9 @@ static void find_roots(separation *s, moment *m)
         s->c -= s->eps * b[0] * b[1] * b[2] * form(s, -1, m->gamma, m->gamma);
     for (int j = 0; j < 3; j++) {
         const real kappa = excess(s, m, j, &size);
-        if (j == 1) s->distance = size > 0 ? kappa / size : 0;
+        const bool zero = fabsl(kappa) <= 8 * LDBL_EPSILON * size;
+        if (j == 1) s->distance = kappa / (s->eps * (s->k == -1 ? b[1] * (b[0] + b[2]) : b[0] * b[2]));
+        if (j == 1 && zero) s->unstable = s->axis[1];
         if (s->k == 1) {
             s->to_al[j] = kappa * b[j] / s->c;
             s->to_be[j] = INFINITY;
@@ -132,14 +143,55 @@ static void find_roots(separation *s, moment *m)
         /* (b_j - al)(be - b_j) = kappa/eps */
         const real difference = 2 * b[j] - sum - P;
         split(s->width, kappa / s->eps, difference, &s->to_al[j], &s->to_be[j]);
+        if (j == 2 && zero && difference > 0) s->unstable = s->axis[2];
     }
 }
+
+/* --- next to an umbilic ----------------------------------------------------------------------------------------- */
+
+/* gamma' = gamma x M and M' = gamma x dV/dgamma in the sorted axes */
+static void rates(const separation *s, const real y[6], real dy[6])
+{
+    const real *g = y + 3, *M = y, q = form(s, -s->k, g, g);
+    const real pull = s->k == -1 ? -2 * s->eps : 2 * s->eps / (q * q);
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, l = (i + 2) % 3;
+        const real bj = s->k == -1 ? s->b[j] : 1 / s->b[j], bl = s->k == -1 ? s->b[l] : 1 / s->b[l];
+        dy[3 + i] = s->handed * (g[j] * M[l] - g[l] * M[j]);
+        dy[i] = s->handed * pull * g[j] * g[l] * (bl - bj);
+    }
+}
+
+/* Where u and v are nearly one, al and the rates have lost their digits: a tenth of a radian further they have them. By
+ * Runge and Kutta's method in steps that leave no error, once for an orbit. */
+static void carry_on(separation *s, moment *m)
+{
+    enum { STEPS = 4000 };
+    static const real part[4] = {0, 0.5L, 0.5L, 1}, weight[4] = {1 / 6.0L, 1 / 3.0L, 1 / 3.0L, 1 / 6.0L};
+    real y[6], k[6] = {0};
+    for (int i = 0; i < 3; i++) y[i] = m->M[i], y[3 + i] = m->gamma[i];
+    const real h = 0.1L / sqrtl(form(s, 0, m->M, m->M)) / STEPS;
+    for (int n = 0; n < STEPS; n++) {
+        real sum[6] = {0};
+        for (int stage = 0; stage < 4; stage++) {
+            real z[6];
+            for (int i = 0; i < 6; i++) z[i] = y[i] + part[stage] * h * k[i];
+            rates(s, z, k);
+            const real q = form(s, -s->k, z + 3, z + 3);
+            for (int i = 0; i < 6; i++) sum[i] += weight[stage] * k[i];
+            for (int c = 0; c < ISO_CLOCKS; c++) s->before[c] += weight[stage] * h * clock_rate(s, (iso_clock)c, q);
+        }
+        for (int i = 0; i < 6; i++) y[i] += h * sum[i];
+    }
+    for (int i = 0; i < 3; i++) m->M[i] = y[i], m->gamma[i] = y[3 + i];
+}
+
+/* --- from a state: the oscillations ----------------------------------------------------------------------------- */
 
 /* u and v: (u - b1)(v - b1) = gamma1^2 (b2-b1)(b3-b1), and so on; their rates along e_z,i ~ -gamma_i/(b_i - z). */
 static void find_coordinates(const separation *s, moment *m)
 {
     const real *b = s->b, *g = m->gamma, *M = m->M, gap = m->gap;
-    const int *a = s->axis, handed = (a[1] - a[0] + 3) % 3 == 1 ? 1 : -1; /* of the sorted axes */
     real n[3], *to_u = m->from[U], *to_v = m->from[V];
     for (int i = 0; i < 3; i++) n[i] = fabsl((b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3]));
     const real sum = b[0] + b[1] + b[2] - form(s, 1, g, g);
@@ -150,13 +202,11 @@ static void find_coordinates(const separation *s, moment *m)
     m->rate[U] = m->rate[V] = 0;
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3, side = g[i] < 0 ? -1 : 1;
-        const real velocity = handed * (g[j] * M[l] - g[l] * M[j]), scale = side / sqrtl(gap * n[i]);
+        const real velocity = s->handed * (g[j] * M[l] - g[l] * M[j]), scale = side / sqrtl(gap * n[i]);
         m->rate[U] += velocity * scale * (i == 0 ? 1 : -1) * sqrtl(to_v[i] * to_u[j] * to_u[l]);
         m->rate[V] += velocity * scale * (i == 2 ? -1 : 1) * sqrtl(to_u[i] * to_v[j] * to_v[l]);
     }
 }
-
-/* --- from a state: the oscillations ----------------------------------------------------------------------------- */
 
 /* Root j less root i */
 static real between(const separation *s, int i, int j)
@@ -270,6 +320,9 @@ void iso_separation_release(separation *s)
     for (int i = 0; i < 2; i++) iso_oscillation_release(&s->coordinate[i]);
 }
 
+/* What an orbit on a separatrix is taken off it, of the moments: nothing to be seen before it has come back. */
+static const real OFF_SEPARATRIX = 1e-38L;
+
 bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE])
 {
     moment m;
@@ -280,11 +333,19 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
     sort_axes(s, field->p.J);
     take_state(s, field->energy, point, &m);
     find_roots(s, &m);
+    if (m.gap < 1e-3L * (s->b[2] - s->b[0])) {
+        const int unstable = s->unstable;
+        carry_on(s, &m);
+        find_roots(s, &m);
+        s->unstable = unstable;
+    }
+    if (s->unstable == s->axis[1]) s->to_al[1] = OFF_SEPARATRIX * (s->b[2] - s->b[0]);
+    if (s->unstable == s->axis[2]) s->to_be[2] = OFF_SEPARATRIX * (s->b[2] - s->b[0]);
     s->librates_low = s->to_al[1] > 0;
     s->below_b3 = s->to_be[2] < 0;
     const int a = s->below_b3 ? BE : 2, e = s->below_b3 ? 2 : BE;
     const int b = s->librates_low ? 1 : AL, c = s->librates_low ? AL : 1;
-    if (s->to_al[1] == 0 || s->to_be[2] == 0 || m.gap == 0) return false;
+    if (!(m.gap > 0)) return false;
     find_coordinates(s, &m);
     const real m1_u = make_lower(s, a, b, c, 0, e), m1_v = make_upper(s, a, b, c, 0, e);
     s->gap = (double)between(s, c, b);

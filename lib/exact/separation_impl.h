@@ -27,7 +27,9 @@ enum { SEPARATION_ROOTS = 5 }; /* b1, b2, b3, al, be */
 typedef enum root_role { ROOT_SN, ROOT_CN, ROOT_DN, ROOT_BASE, ROOT_REST, ROOT_NONE } root_role;
 
 typedef struct separation {
-    int k, axis[3];                    /* axis[i]: the caller's axis with b[i]                                 */
+    int k, axis[3], handed;            /* axis[i]: the caller's axis with b[i]; 1: axes are right-handed       */
+    int unstable;                      /* on a separatrix: the caller's axis of its rotation; else -1          */
+    real before[ISO_CLOCKS];           /* clocks at sigma = 0                                                  */
     real b[3], eps, c, distance, det;
     real to_al[3], to_be[3], width;    /* b_j - al; be - b_j; be - al (k = 1: infinite)                        */
     bool librates_low, below_b3;       /* al < b2: u turns at al, else v does; be < b3: v turns there, not at b3 */

@@ -245,8 +245,13 @@ static iso_status make(const iso_field *field, const double point[ISO_STATE], co
     }
     set_angles(x, 0, ALL, &a);
     for (int c = 0; c < ISO_CLOCKS && status == ISO_OK; c++)
-        if (clocks[c]) x->clock[c].zero = (double)clock_at(&x->clock[c], ALL, &a);
+        if (clocks[c]) x->clock[c].zero = (double)(clock_at(&x->clock[c], ALL, &a) - x->s.before[c]);
     return status;
+}
+
+static int unstable(const void *data)
+{
+    return ((const torus *)data)->s.unstable;
 }
 
 static real mean_rate(const void *data, iso_clock clock)
@@ -272,4 +277,4 @@ static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_
 }
 
 const iso_form iso_form_separated = {
-    .serves = serves, .make = make, .free = release, .find = find, .rate = mean_rate, .describe = describe};
+    .serves = serves, .make = make, .free = release, .find = find, .rate = mean_rate, .unstable = unstable, .describe = describe};
