@@ -6,9 +6,17 @@
 #ifndef ISO_EXACT_ELLIPTIC_IMPL_H
 #define ISO_EXACT_ELLIPTIC_IMPL_H
 
+#include <math.h>
+
 typedef long double real;
 
 #define ISO_PI 3.141592653589793238462643383279502884L
+
+/* x less the nearest multiple of `period`: as exact as x is. */
+static inline real less_turns(real x, real period)
+{
+    return x - period * rintl(x / period);
+}
 
 enum { MOST_MEANS = 20 };
 

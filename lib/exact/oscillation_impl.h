@@ -22,7 +22,7 @@
 
 #include "exact/elliptic_impl.h"
 
-enum { MOST_XI_MODES = 512, MOST_MODES = 1 << 13 }; /* powers of 2: of functions of xi, and of theta */
+enum { MOST_XI_MODES = 512, MOST_MODES = 1 << 15 }; /* powers of 2: of functions of xi, and of theta */
 
 typedef struct oscillation {
     real origin, span, left, to_cn, to_dn, to_base;

@@ -28,7 +28,7 @@ typedef struct torus {
 /* What of a coefficient is above the rounding of its transform, and a difference of frequencies above theirs. */
 static const double LEAST = 4e-17, RESONANT = 1e-15;
 
-enum { MOST_TERMS = 1 << 22 };
+enum { MOST_TERMS = 1 << 23 };
 
 /* d_mn into the two tables of the integral: sin(m theta_u +- n theta_v)/(m omega_u +- n omega_v), each with d_mn/2.
  * Where the frequencies are in the ratio n : m, m theta_u - n theta_v stays what it is. */
@@ -108,7 +108,7 @@ static void set_angles(const torus *x, real sigma, int most, angles *a)
     a->sigma = sigma;
     for (int i = 0; i < 2; i++) {
         const oscillation *o = &x->s.coordinate[i];
-        a->theta[i] = remainderl(o->start + o->omega * sigma, 4 * ISO_PI);
+        a->theta[i] = less_turns(o->start + o->omega * sigma, 4 * ISO_PI);
         const double s = sin((double)a->theta[i]), c = cos((double)a->theta[i]);
         double *sine = a->sine[i], *cosine = a->cosine[i];
         sine[0] = 0, cosine[0] = 1;
@@ -150,61 +150,100 @@ static double coordinate_at(const oscillation *o, real theta)
     return o->z[0] + p * twice / 2 - p1;
 }
 
-static double rate_at(const torus *x, iso_clock clock, const real theta[2])
+static real rate_at(const torus *x, iso_clock clock, const real theta[2])
 {
     const oscillation *o = x->s.coordinate;
-    return (double)iso_separation_rate(&x->s, clock, coordinate_at(&o[0], theta[0]), coordinate_at(&o[1], theta[1]));
+    return iso_separation_rate(&x->s, clock, coordinate_at(&o[0], theta[0]), coordinate_at(&o[1], theta[1]));
 }
 
 enum { FEW = 6, ALL = MOST_MODES + 1 };
 
-/* Newton's method between bounds, as clocks only go forwards, on the first terms or on all, until the next step would
- * leave less than rounding, for which the rate at both its ends counts. Gives that last step. */
-static real approach(const torus *x, iso_clock clock, real time, int most, double enough, angles *a)
+static void turn(const torus *x, const angles *a, real step, real theta[2])
+{
+    for (int i = 0; i < 2; i++)
+        theta[i] = less_turns(a->theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
+}
+
+/* The last step to a place: the angles at its beginning, middle and end. */
+typedef struct last_step {
+    real length, theta[3][2];
+} last_step;
+
+static void set_step(const torus *x, const angles *a, real length, last_step *l)
+{
+    l->length = length;
+    turn(x, a, 0, l->theta[0]);
+    turn(x, a, length / 2, l->theta[1]);
+    turn(x, a, length, l->theta[2]);
+}
+
+/* What a clock goes by over a step, by Simpson's rule, over its length; and how far this can be wrong: in a smooth rate
+ * by the fourth power of how much it changes. */
+static real simpson(const torus *x, iso_clock clock, const last_step *l, real *error)
+{
+    real rate[3];
+    for (int i = 0; i < 3; i++) rate[i] = rate_at(x, clock, l->theta[i]);
+    const real slope = (rate[2] - rate[0]) / rate[1], curve = (rate[0] - 2 * rate[1] + rate[2]) / rate[1];
+    *error = slope * slope * slope * slope + curve * curve;
+    return (rate[0] + 4 * rate[1] + rate[2]) / 6;
+}
+
+/* Where the first terms of a clock show the time, about: Newton's method, a few steps. */
+static real near(const torus *x, iso_clock clock, real time)
 {
     const torus_clock *c = &x->clock[clock];
     const real about = (time + c->zero) / c->mean, around = c->range / c->mean;
-    real low = about - around, high = about + around;
-    for (int i = 0;; i++) {
-        set_angles(x, a->sigma, most, a);
-        const real miss = clock_at(c, most, a) - time;
-        *(miss > 0 ? &high : &low) = a->sigma;
-        const real rate = rate_at(x, clock, a->theta), step = -miss / rate;
-        if (fabsl(step) <= enough * around + 4 * LDBL_EPSILON * fabsl(a->sigma) || i == 100) return step;
-        const real next = a->sigma + step;
-        a->sigma = next >= low && next <= high ? next : (low + high) / 2;
+    angles a;
+    a.sigma = about;
+    for (int i = 0; i < 6; i++) {
+        set_angles(x, a.sigma, FEW, &a);
+        const real step = (time - clock_at(c, FEW, &a)) / rate_at(x, clock, a.theta);
+        if (!(fabsl(a.sigma + step - about) <= around)) break;
+        a.sigma += step;
+        if (fabsl(step) <= 1e-3L * around) break;
     }
+    return a.sigma;
 }
 
-static void turn(const torus *x, const angles *a, real step, real theta[2])
+/* Newton's method between bounds, as clocks only go forwards, from a->sigma on to the place where Simpson's rule over
+ * the last step leaves nothing. That step is not taken. */
+static void approach(const torus *x, iso_clock clock, real time, angles *a, last_step *last)
 {
-    for (int i = 0; i < 2; i++) theta[i] = remainderl(a->theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
+    const torus_clock *c = &x->clock[clock];
+    const real about = (time + c->zero) / c->mean, around = c->range / c->mean;
+    real low = about - around, high = about + around, error;
+    for (int i = 0;; i++) {
+        set_angles(x, a->sigma, ALL, a);
+        const real miss = clock_at(c, ALL, a) - time, next = a->sigma - miss / rate_at(x, clock, a->theta);
+        *(miss > 0 ? &high : &low) = a->sigma;
+        const bool inside = next >= low && next <= high;
+        if ((inside && fabsl(next - a->sigma) <= 1e-5L * around) || i == 100) {
+            set_step(x, a, next - a->sigma, last);
+            set_step(x, a, -miss / simpson(x, clock, last, &error), last);
+            const real rate = simpson(x, clock, last, &error);
+            if (error * fabsl(last->length) <= 1e-17L * around || i == 100) {
+                set_step(x, a, -miss / rate, last);
+                return;
+            }
+        }
+        a->sigma = inside ? next : (low + high) / 2;
+    }
 }
 
 static void find(const void *data, iso_clock clock, real time, form_place *p)
 {
     const torus *x = data;
-    const torus_clock *c = &x->clock[clock];
-    real theta[2];
+    last_step last;
     angles a;
-    a.sigma = p->along;
-    if (isnan(a.sigma)) {
-        a.sigma = (time + c->zero) / c->mean;
-        a.sigma += approach(x, clock, time, FEW, 1e-3, &a);
-    }
-    real step = approach(x, clock, time, ALL, 1e-6, &a);
-    turn(x, &a, step, theta);
-    const double before = rate_at(x, clock, a.theta);
-    step *= 2 * before / (before + rate_at(x, clock, theta));
-    turn(x, &a, step, theta);
-    p->along = a.sigma + step;
-    for (iso_clock k = 0; k < ISO_CLOCKS; k++) {
-        p->clock[k] = k == clock ? time : NAN;
-        if (k == clock || x->clock[k].rows == 0) continue;
-        const double rate = (rate_at(x, k, a.theta) + rate_at(x, k, theta)) / 2;
-        p->clock[k] = clock_at(&x->clock[k], ALL, &a) + step * rate;
-    }
-    iso_separation_state(&x->s, theta, p->point);
+    a.sigma = isnan(p->along) ? near(x, clock, time) : p->along;
+    approach(x, clock, time, &a, &last);
+    p->along = a.sigma + last.length;
+    bool others = false;
+    for (int k = 0; k < ISO_CLOCKS; k++) others = others || (k != (int)clock && x->clock[k].rows > 0);
+    if (others) set_angles(x, p->along, ALL, &a);
+    for (int k = 0; k < ISO_CLOCKS; k++)
+        p->clock[k] = k == (int)clock ? time : x->clock[k].rows > 0 ? clock_at(&x->clock[k], ALL, &a) : NAN;
+    iso_separation_state(&x->s, last.theta[2], p->point);
 }
 
 /* --- the form --------------------------------------------------------------------------------------------------- */
