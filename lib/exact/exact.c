@@ -159,6 +159,7 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
 /* --- grids ------------------------------------------------------------------------------------------------------ */
 
 enum { TRAIL = 8 };
+static const double POOR = 1e-3; /* of a guess, in radians or so */
 
 /* The next value after `count` even steps, by their differences. */
 static real extrapolate(const real value[], int count)
@@ -182,13 +183,14 @@ iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock,
     for (size_t i = 0; i < count; i++) {
         const double time = start + (double)i * step;
         const real even = time / x->form->rate(x->data, clock);
-        form_place p = {.along = known == TRAIL ? even + extrapolate(trail, TRAIL) : NAN};
+        const real guess = known == TRAIL ? even + extrapolate(trail, TRAIL) : NAN;
+        form_place p = {.along = guess};
         find(x, clock, time, &p);
         hand_over(&p, points + ISO_STATE * i, clocks ? clocks + ISO_CLOCKS * i : NULL);
+        if (isnan(p.along) || fabsl(guess - p.along) > POOR) known = 0; /* an end; or steps too long */
         for (int j = 1; j < known; j++) trail[j - (known == TRAIL)] = trail[j];
         known += known < TRAIL;
         trail[known - 1] = p.along - even;
-        if (isnan(p.along)) known = 0;
     }
     return ISO_OK;
 }

@@ -41,12 +41,30 @@ real iso_oscillation_theta(const oscillation *o, real xi)
 }
 
 /* A step of Newton's method from the first terms. */
-real iso_oscillation_xi(const oscillation *o, real theta)
+static real xi_at(const oscillation *o, real theta)
 {
     real slope;
     const real xi = theta + sine_series(o->gamma, o->terms, (double)theta);
     const real miss = xi + sine_series_l(o->beta, o->modes, xi, &slope) - theta;
     return xi - miss / (1 + slope);
+}
+
+void iso_oscillation_at(const oscillation *o, real theta, double *sn, double *cn, double *dn)
+{
+    if (o->parts > 0) {
+        double cosine[MOST_PARTS + ABREAST], sine[MOST_PARTS + ABREAST];
+        set_multiples((double)theta / 2, (double)theta, o->parts, cosine, sine);
+        *sn = *cn = 0;
+        for (int n = 0; n < o->parts; n++) {
+            *sn += o->sn_part[n] * sine[n];
+            *cn += o->cn_part[n] * cosine[n];
+        }
+        *dn = sqrt((double)o->f.m1 + (double)(1 - o->f.m1) * *cn * *cn);
+        return;
+    }
+    real s, c, d;
+    iso_elliptic_at(&o->f, xi_at(o, theta), &s, &c, &d);
+    *sn = (double)s, *cn = (double)c, *dn = (double)d;
 }
 
 /* --- an oscillation --------------------------------------------------------------------------------------------- */
@@ -136,6 +154,34 @@ static bool find_xi(oscillation *o, int N)
     return enough;
 }
 
+/* sn and cn as series in theta, where few terms do and neither becomes small against rounding but at its zeros. */
+static void find_parts(oscillation *o)
+{
+    enum { MOST_SAMPLES = 256 };
+    double sine[4 * MOST_SAMPLES], sn[MOST_SAMPLES + 1], cn[MOST_SAMPLES + 1];
+    const int N = 2 * o->samples;
+    o->parts = 0;
+    if (o->f.m1 < 1e-3L || N > MOST_SAMPLES) return;
+    for (int i = 0; i < 4 * N; i++) sine[i] = sin((double)ISO_PI * i / (2 * N));
+    for (int j = 0; j <= N; j++) {
+        real s, c, d;
+        iso_elliptic_at(&o->f, xi_at(o, ISO_PI * j / N), &s, &c, &d);
+        sn[j] = (double)s, cn[j] = (double)c;
+    }
+    for (int n = 0; n < MOST_PARTS && n < N; n++) {
+        o->sn_part[n] = sn[N] * sine[(2 * n + 1) * N % (4 * N)] / N;
+        o->cn_part[n] = cn[0] / N;
+        for (int j = 1; j < N; j++) {
+            const int at = (2 * n + 1) * j % (4 * N);
+            o->sn_part[n] += 2 * sn[j] * sine[at] / N;
+            o->cn_part[n] += 2 * cn[j] * sine[(at + N) % (4 * N)] / N;
+        }
+        if (fabs(o->sn_part[n]) + fabs(o->cn_part[n]) > 6e-17) continue;
+        o->parts = n;
+        return;
+    }
+}
+
 void iso_oscillation_release(oscillation *o)
 {
     free(o->at);
@@ -155,7 +201,9 @@ bool iso_oscillation_solve(oscillation *o, real m1)
         o->gamma = malloc(size * sizeof *o->gamma);
         o->z = malloc(3 * size * sizeof *o->z);
         if (!o->at || !o->gamma || !o->z) return false;
-        if (find_xi(o, N)) return true;
+        if (!find_xi(o, N)) continue;
+        find_parts(o);
+        return true;
     }
     return false;
 }

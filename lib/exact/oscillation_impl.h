@@ -23,6 +23,7 @@
 #include "exact/elliptic_impl.h"
 
 enum { MOST_XI_MODES = 512, MOST_MODES = 1 << 15 }; /* powers of 2: of functions of xi, and of theta */
+enum { MOST_PARTS = 64 };
 
 typedef struct oscillation {
     real origin, span, left, to_cn, to_dn, to_base;
@@ -34,6 +35,8 @@ typedef struct oscillation {
     int modes, samples, terms; /* of beta; intervals of [0, pi] that resolve functions of theta; of gamma, z */
     real beta[MOST_XI_MODES + 1], *at; /* at: z where theta = pi j/samples                                 */
     double *gamma, *z;
+    int parts; /* of sn = sum sn_part[n] sin (n + 1/2) theta and cn likewise, in double precision; 0: not made */
+    double sn_part[MOST_PARTS], cn_part[MOST_PARTS];
 } oscillation;
 
 /* Finds the series; all above `f` is given, and 1 - m. False: too many terms would be needed, or no memory. */
@@ -41,6 +44,8 @@ bool iso_oscillation_solve(oscillation *o, real m1);
 void iso_oscillation_release(oscillation *o);
 
 real iso_oscillation_theta(const oscillation *o, real xi);
-real iso_oscillation_xi(const oscillation *o, real theta);
+
+/* sn, cn and dn at theta, to the rounding of doubles; where they become small next to a separatrix, relatively. */
+void iso_oscillation_at(const oscillation *o, real theta, double *sn, double *cn, double *dn);
 
 #endif

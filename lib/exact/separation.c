@@ -363,9 +363,8 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
 static double roots_at(const separation *s, int which, real theta, double root[SEPARATION_ROOTS])
 {
     const oscillation *o = &s->coordinate[which];
-    real sn_l, cn_l, dn_l;
-    iso_elliptic_at(&o->f, iso_oscillation_xi(o, theta), &sn_l, &cn_l, &dn_l);
-    const double sn = (double)sn_l, cn = (double)cn_l, dn = (double)dn_l;
+    double sn, cn, dn;
+    iso_oscillation_at(o, theta, &sn, &cn, &dn);
     const double B2 = cn * cn + (double)o->left * sn * sn, over_B = 1 / sqrt(B2);
     const double moved = (double)o->span * sn * sn / B2, to_cn = (double)o->to_cn * cn * cn / B2;
     const double part[4] = {sn * over_B, cn * over_B, dn * over_B, over_B};

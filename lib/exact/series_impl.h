@@ -10,6 +10,25 @@
  * `work` has room for 2 N numbers. */
 void iso_cosine_series(double x[], int N, int stride, double work[]);
 
+enum { ABREAST = 4 }; /* steps of a recurrence that do not wait for each other */
+
+/* cos (first + n step) and sin (first + n step) for n < last, and up to ABREAST more. */
+static inline void set_multiples(double first, double step, int last, double cosine[], double sine[])
+{
+    const double c = cos(step), s = sin(step);
+    cosine[0] = cos(first), sine[0] = sin(first);
+    for (int n = 1; n < ABREAST; n++) {
+        cosine[n] = cosine[n - 1] * c - sine[n - 1] * s;
+        sine[n] = sine[n - 1] * c + cosine[n - 1] * s;
+    }
+    const double c2 = c * c - s * s, s2 = 2 * s * c, cs = c2 * c2 - s2 * s2, ss = 2 * s2 * c2;
+    for (int n = ABREAST; n < last; n += ABREAST)
+        for (int i = 0; i < ABREAST; i++) {
+            cosine[n + i] = cosine[n + i - ABREAST] * cs - sine[n + i - ABREAST] * ss;
+            sine[n + i] = sine[n + i - ABREAST] * cs + cosine[n + i - ABREAST] * ss;
+        }
+}
+
 /* sum_n b_n sin n x, n = 1 ... modes, by Clenshaw's rule; at b[n]. */
 static inline double sine_series(const double b[], int modes, double x)
 {

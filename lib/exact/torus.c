@@ -10,10 +10,10 @@
 /* A clock on the torus: d clock/d sigma = mean + sum_mn d_mn cos m theta_u cos n theta_v, integrated term by term:
  *     clock = mean sigma + sum_mn [ at_sine[m][n] sin m theta_u cos n theta_v
  *                                   + at_cosine[m][n] cos m theta_u sin n theta_v ]
- * less its value at sigma = 0. Row m has length[m] terms, one row after the other. */
+ * less its value at sigma = 0. Rows are kept ABREAST, in blocks of equal length[block]. */
 typedef struct torus_clock {
     real mean;
-    int rows, columns, *length; /* the longest row has `columns` */
+    int blocks, columns, *length; /* the longest row has `columns` */
     double *at_sine, *at_cosine, zero, range;
 } torus_clock;
 
@@ -49,22 +49,22 @@ static bool integrate(const separation *s, torus_clock *c, const double d[], int
 {
     const double least = LEAST * (double)c->mean;
     size_t terms = 0, to = 0;
-    c->length = calloc((size_t)M + 1, sizeof *c->length);
+    c->length = calloc((size_t)M / ABREAST + 1, sizeof *c->length);
     if (!c->length) return false;
     for (int m = 0; m <= M; m++) {
-        for (int n = 0; n <= N; n++)
-            if (m + n > 0 && fabs(d[(size_t)m * (size_t)(N + 1) + (size_t)n]) >= least) c->length[m] = n + 1;
-        terms += (size_t)c->length[m];
-        if (c->length[m] > 0) c->rows = m + 1;
-        if (c->length[m] > c->columns) c->columns = c->length[m];
+        int *const length = &c->length[m / ABREAST];
+        for (int n = *length; n <= N; n++)
+            if (m + n > 0 && fabs(d[(size_t)m * (size_t)(N + 1) + (size_t)n]) >= least) *length = n + 1;
+        if (*length > 0) c->blocks = m / ABREAST + 1;
+        if (*length > c->columns) c->columns = *length;
     }
-    c->at_sine = malloc((terms + 1) * sizeof *c->at_sine);
-    c->at_cosine = malloc((terms + 1) * sizeof *c->at_cosine);
+    for (int i = 0; i < c->blocks; i++) terms += ABREAST * (size_t)c->length[i];
+    c->at_sine = calloc(terms + 1, sizeof *c->at_sine);
+    c->at_cosine = calloc(terms + 1, sizeof *c->at_cosine);
     if (!c->at_sine || !c->at_cosine) return false;
-    for (int m = 0; m < c->rows; m++)
-        for (int n = 0; n < c->length[m]; n++, to++) {
-            const double term = m + n > 0 ? d[(size_t)m * (size_t)(N + 1) + (size_t)n] : 0;
-            c->at_sine[to] = c->at_cosine[to] = 0;
+    for (int m = 0; m < c->blocks * ABREAST; m++)
+        for (int n = 0; n < c->length[m / ABREAST]; n++, to++) {
+            const double term = m + n > 0 && m <= M ? d[(size_t)m * (size_t)(N + 1) + (size_t)n] : 0;
             if (fabs(term) >= least) integrate_term(s, c, m, n, term, to);
         }
     return true;
@@ -97,43 +97,37 @@ static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *
 /* --- angles and clocks at sigma --------------------------------------------------------------------------------- */
 
 typedef struct angles {
-    real sigma;
-    real theta[2]; /* of u and v, within a turn and back */
-    double sine[2][MOST_MODES + 1], cosine[2][MOST_MODES + 1];
+    real sigma, theta[2]; /* of u and v, within a turn and back */
+    double sine[2][MOST_MODES + 1 + ABREAST], cosine[2][MOST_MODES + 1 + ABREAST];
 } angles;
 
-/* With multiples of them below `most`. */
+/* With multiples of them below `most`, as far as they are needed. */
 static void set_angles(const torus *x, real sigma, int most, angles *a)
 {
     a->sigma = sigma;
     for (int i = 0; i < 2; i++) {
         const oscillation *o = &x->s.coordinate[i];
-        a->theta[i] = less_turns(o->start + o->omega * sigma, 4 * ISO_PI);
-        const double s = sin((double)a->theta[i]), c = cos((double)a->theta[i]);
-        double *sine = a->sine[i], *cosine = a->cosine[i];
-        sine[0] = 0, cosine[0] = 1;
         const int last = i == 0 ? x->rows : x->columns;
-        for (int n = 1; n < last && n < most; n++) {
-            cosine[n] = cosine[n - 1] * c - sine[n - 1] * s;
-            sine[n] = sine[n - 1] * c + cosine[n - 1] * s;
-        }
+        a->theta[i] = less_turns(o->start + o->omega * sigma, 4 * ISO_PI);
+        set_multiples(0, (double)a->theta[i], last < most ? last : most, a->cosine[i], a->sine[i]);
     }
 }
 
-/* The terms m, n < most: sums over m first, which can be taken side by side. */
-static real clock_at(const torus_clock *c, int most, const angles *a)
+/* The first `blocks` of rows, n < most: sums over m first, which can be taken side by side. */
+static real clock_at(const torus_clock *c, int blocks, int most, const angles *a)
 {
     double of_sine[MOST_MODES + 1], of_cosine[MOST_MODES + 1], sum = 0;
     const double *p = c->at_sine, *q = c->at_cosine;
     const int columns = c->columns < most ? c->columns : most;
     for (int n = 0; n < columns; n++) of_sine[n] = of_cosine[n] = 0;
-    for (int m = 0; m < c->rows && m < most; p += c->length[m], q += c->length[m], m++) {
-        const double sine = a->sine[0][m], cosine = a->cosine[0][m];
-        const int length = c->length[m] < most ? c->length[m] : most;
+    for (int block = 0; block < c->blocks && block < blocks; block++) {
+        const double *const s = a->sine[0] + block * ABREAST, *const t = a->cosine[0] + block * ABREAST;
+        const int row = c->length[block], length = row < most ? row : most;
         for (int n = 0; n < length; n++) {
-            of_sine[n] += p[n] * sine;
-            of_cosine[n] += q[n] * cosine;
+            of_sine[n] += (p[n] * s[0] + p[n + row] * s[1]) + (p[n + 2 * row] * s[2] + p[n + 3 * row] * s[3]);
+            of_cosine[n] += (q[n] * t[0] + q[n + row] * t[1]) + (q[n + 2 * row] * t[2] + q[n + 3 * row] * t[3]);
         }
+        p += ABREAST * row, q += ABREAST * row;
     }
     for (int n = 0; n < columns; n++) sum += of_sine[n] * a->cosine[1][n] + of_cosine[n] * a->sine[1][n];
     return c->mean * a->sigma + (sum - c->zero);
@@ -156,12 +150,11 @@ static real rate_at(const torus *x, iso_clock clock, const real theta[2])
     return iso_separation_rate(&x->s, clock, coordinate_at(&o[0], theta[0]), coordinate_at(&o[1], theta[1]));
 }
 
-enum { FEW = 6, ALL = MOST_MODES + 1 };
+enum { FEW = 2 * ABREAST, ALL = MOST_MODES + 1 };
 
 static void turn(const torus *x, const angles *a, real step, real theta[2])
 {
-    for (int i = 0; i < 2; i++)
-        theta[i] = less_turns(a->theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
+    for (int i = 0; i < 2; i++) theta[i] = less_turns(a->theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
 }
 
 /* The last step to a place: the angles at its beginning, middle and end. */
@@ -188,6 +181,16 @@ static real simpson(const torus *x, iso_clock clock, const last_step *l, real *e
     return (rate[0] + 4 * rate[1] + rate[2]) / 6;
 }
 
+/* The rate where the multiples of the angles are known, from the terms of z below `most`. */
+static real rate_there(const torus *x, iso_clock clock, int most, const angles *a)
+{
+    double z[2] = {0, 0};
+    for (int i = 0; i < 2; i++)
+        for (int n = 0; n <= x->s.coordinate[i].terms && n < most; n++)
+            z[i] += x->s.coordinate[i].z[n] * a->cosine[i][n];
+    return iso_separation_rate(&x->s, clock, z[0], z[1]);
+}
+
 /* Where the first terms of a clock show the time, about: Newton's method, a few steps. */
 static real near(const torus *x, iso_clock clock, real time)
 {
@@ -197,7 +200,7 @@ static real near(const torus *x, iso_clock clock, real time)
     a.sigma = about;
     for (int i = 0; i < 6; i++) {
         set_angles(x, a.sigma, FEW, &a);
-        const real step = (time - clock_at(c, FEW, &a)) / rate_at(x, clock, a.theta);
+        const real step = (time - clock_at(c, FEW / ABREAST, FEW, &a)) / rate_there(x, clock, FEW, &a);
         if (!(fabsl(a.sigma + step - about) <= around)) break;
         a.sigma += step;
         if (fabsl(step) <= 1e-3L * around) break;
@@ -214,10 +217,15 @@ static void approach(const torus *x, iso_clock clock, real time, angles *a, last
     real low = about - around, high = about + around, error;
     for (int i = 0;; i++) {
         set_angles(x, a->sigma, ALL, a);
-        const real miss = clock_at(c, ALL, a) - time, next = a->sigma - miss / rate_at(x, clock, a->theta);
+        const real miss = clock_at(c, ALL, ALL, a) - time, next = a->sigma - miss / rate_there(x, clock, ALL, a);
         *(miss > 0 ? &high : &low) = a->sigma;
         const bool inside = next >= low && next <= high;
-        if ((inside && fabsl(next - a->sigma) <= 1e-5L * around) || i == 100) {
+        const real step = fabsl(next - a->sigma);
+        if (inside && step <= 1e-9L * around) {
+            set_step(x, a, next - a->sigma, last);
+            return;
+        }
+        if ((inside && step <= 1e-5L * around) || i == 100) {
             set_step(x, a, next - a->sigma, last);
             set_step(x, a, -miss / simpson(x, clock, last, &error), last);
             const real rate = simpson(x, clock, last, &error);
@@ -239,10 +247,10 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     approach(x, clock, time, &a, &last);
     p->along = a.sigma + last.length;
     bool others = false;
-    for (int k = 0; k < ISO_CLOCKS; k++) others = others || (k != (int)clock && x->clock[k].rows > 0);
+    for (int k = 0; k < ISO_CLOCKS; k++) others = others || (k != (int)clock && x->clock[k].blocks > 0);
     if (others) set_angles(x, p->along, ALL, &a);
     for (int k = 0; k < ISO_CLOCKS; k++)
-        p->clock[k] = k == (int)clock ? time : x->clock[k].rows > 0 ? clock_at(&x->clock[k], ALL, &a) : NAN;
+        p->clock[k] = k == (int)clock ? time : x->clock[k].blocks > 0 ? clock_at(&x->clock[k], ALL, ALL, &a) : NAN;
     iso_separation_state(&x->s, last.theta[2], p->point);
 }
 
@@ -279,12 +287,14 @@ static iso_status make(const iso_field *field, const double point[ISO_STATE], co
         torus_clock *const clock = &x->clock[c];
         if (!clocks[c]) continue;
         status = make_clock(&x->s, c, clock);
-        if (clock->rows > x->rows) x->rows = clock->rows;
+        if (clock->blocks * ABREAST > x->rows) x->rows = clock->blocks * ABREAST;
         if (clock->columns > x->columns) x->columns = clock->columns;
     }
+    if (x->s.coordinate[0].terms >= x->rows) x->rows = x->s.coordinate[0].terms + 1;
+    if (x->s.coordinate[1].terms >= x->columns) x->columns = x->s.coordinate[1].terms + 1;
     set_angles(x, 0, ALL, &a);
     for (int c = 0; c < ISO_CLOCKS && status == ISO_OK; c++)
-        if (clocks[c]) x->clock[c].zero = (double)(clock_at(&x->clock[c], ALL, &a) - x->s.before[c]);
+        if (clocks[c]) x->clock[c].zero = (double)(clock_at(&x->clock[c], ALL, ALL, &a) - x->s.before[c]);
     return status;
 }
 
@@ -315,5 +325,10 @@ static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_
     }
 }
 
-const iso_form iso_form_separated = {
-    .serves = serves, .make = make, .free = release, .find = find, .rate = mean_rate, .unstable = unstable, .describe = describe};
+const iso_form iso_form_separated = {.serves = serves,
+                                     .make = make,
+                                     .free = release,
+                                     .find = find,
+                                     .rate = mean_rate,
+                                     .unstable = unstable,
+                                     .describe = describe};
