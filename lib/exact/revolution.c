@@ -137,7 +137,7 @@ static real growing_at(const revolution *r, int i, real along, real *slope)
 {
     const growing *f = &r->of[i];
     double part;
-    const double series = series_at(f, (double)less_turns(r->start + along, 2 * ISO_PI), &part);
+    const double series = series_at(f, (double)remainderl(r->start + along, 2 * ISO_PI), &part);
     *slope = f->mean + part;
     return f->mean * along + (series - f->zero);
 }
@@ -173,7 +173,7 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
     real s_rate, unused;
     double x, dx, h[2], dh[2];
     growing_at(r, ISO_CLOCK_S, along, &s_rate);
-    const double psi = r->sense * (double)less_turns(growing_at(r, PSI, along, &unused), 2 * ISO_PI);
+    const double psi = r->sense * (double)remainderl(growing_at(r, PSI, along, &unused), 2 * ISO_PI);
     int turns;
     const double xi = (double)remquol(r->start + along, 2 * ISO_PI, &turns), by[2] = {cos(psi), sin(psi)};
     swing_at(r, xi, turns % 2 == 0 ? r->half : -r->half, (double)(r->f.K / ISO_PI / s_rate), &x, &dx, h, dh);
@@ -293,7 +293,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     real low = about - around, high = about + around, slope;
     if (isnan(p->along)) p->along = about;
     for (int i = 0; i < 100; i++) {
-        const real miss = growing_at(r, clock, p->along, &slope) - time;
+        const real miss = growing_at(r, (int)clock, p->along, &slope) - time;
         *(miss > 0 ? &high : &low) = p->along;
         const real next = p->along - miss / slope;
         if (fabsl(next - p->along) <= 1e-9L) {
