@@ -72,6 +72,7 @@ static void explain_exact(iso_context *ctx, const iso_scene *scene, const int co
         [ISO_EXACT_SYMMETRIC] = "two equal moments: a swing along the axis, a turning about it",
         [ISO_EXACT_PLANE] = "a motion in a principal plane",
         [ISO_EXACT_SEPARATRIX] = "on the separatrix, to the unstable rotation",
+        [ISO_EXACT_REST] = "the point rests",
     };
     iso_effects effects;
     iso_orbit *orbit;

@@ -11,6 +11,7 @@ static const char *const kinds[] = {[ISO_EXACT_SEPARATED] = "separated",
                                     [ISO_EXACT_SYMMETRIC] = "symmetric",
                                     [ISO_EXACT_PLANE] = "plane",
                                     [ISO_EXACT_SEPARATRIX] = "separatrix",
+                                    [ISO_EXACT_REST] = "rest",
                                     [ISO_EXACT_KINDS] = "unknown"};
 
 /* --- the table -------------------------------------------------------------------------------------------------- */

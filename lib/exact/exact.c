@@ -6,7 +6,7 @@
 #include "exact/form_impl.h"
 #include "model/effect.h"
 
-static const iso_form *const forms[] = {&iso_form_revolution, &iso_form_separated, NULL};
+static const iso_form *const forms[] = {&iso_form_rest, &iso_form_revolution, &iso_form_separated, NULL};
 
 /* The end of an orbit on a separatrix: from these clocks on it is the rotation. */
 typedef struct homoclinic_end {

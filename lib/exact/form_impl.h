@@ -31,6 +31,6 @@ typedef struct iso_form {
     void (*describe)(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *torus);
 } iso_form;
 
-extern const iso_form iso_form_revolution, iso_form_separated;
+extern const iso_form iso_form_rest, iso_form_revolution, iso_form_separated;
 
 #endif

@@ -205,6 +205,7 @@ static void say(const iso_orbit *orbit, const iso_sample *start, const iso_exact
     case ISO_EXACT_SEPARATRIX:
         snprintf(f->motion, sizeof f->motion, "leaves an unstable rotation and comes back to it, once");
         break;
+    case ISO_EXACT_REST: snprintf(f->motion, sizeof f->motion, "rests"); break;
     case ISO_EXACT_KINDS: break;
     }
 }
