@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/finite_impl.h"
 #include "exact/form_impl.h"
 #include "model/effect.h"
 
@@ -192,6 +193,35 @@ iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock,
         known += known < TRAIL;
         trail[known - 1] = p.along - even;
     }
+    return ISO_OK;
+}
+
+/* --- angles ------------------------------------------------------------------------------------------------------- */
+
+static iso_status check_angles(iso_context *ctx, const iso_exact *x)
+{
+    if (x->form->angles && !x->past.rotation) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a point at rest and an orbit on a separatrix have no angles");
+}
+
+iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double point[ISO_STATE], double angle[2])
+{
+    const iso_status status = check_angles(ctx, x);
+    if (status != ISO_OK) return status;
+    if (!all_finite(point, ISO_STATE) || !x->form->angles(x->data, point, angle))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "this state is not on the torus of this motion");
+    for (int i = 0; i < 2; i++) angle[i] -= 2 * (double)ISO_PI * floor(angle[i] / (2 * (double)ISO_PI));
+    return ISO_OK;
+}
+
+iso_status iso_exact_point(iso_context *ctx, const iso_exact *x, const double angle[2], double point[ISO_STATE])
+{
+    const iso_status status = check_angles(ctx, x);
+    if (status != ISO_OK) return status;
+    const iso_exact_torus torus = iso_exact_describe(x);
+    if (!all_finite(angle, torus.angles))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "an angle is not finite");
+    x->form->point(x->data, angle, point);
     return ISO_OK;
 }
 

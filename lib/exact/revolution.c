@@ -215,16 +215,10 @@ static bool serves(const iso_field *f, const double point[ISO_STATE])
     return across_plane(point) >= 0 || symmetry_axis(f->p.J) >= 0;
 }
 
-/* gamma, gamma' = gamma x M on |gamma| = 1, (M,gamma) = 0 and the level H; sets what the body and the start give. */
-static void take_state(revolution *r, const iso_field *f, const double point[ISO_STATE], real g[3], real d[3])
+/* gamma, gamma' = gamma x M on |gamma| = 1, (M,gamma) = 0 and the level H; gives M_x. */
+static real take_state(revolution *r, const double point[ISO_STATE], real g[3], real d[3])
 {
-    const int plane = across_plane(point), first = plane >= 0 ? (plane + 1) % 3 : symmetry_axis(f->p.J);
     real M[3], length = 0, along = 0, M2 = 0;
-    r->plane = plane >= 0;
-    for (int i = 0; i < 3; i++) r->axis[i] = (first + i) % 3;
-    r->x.Ja = f->p.J[first], r->x.Je = f->p.J[(first + 1) % 3];
-    r->x.eps = f->eps, r->x.H = f->energy, r->x.power = -1 / (real)f->p.k;
-    r->det = (real)f->p.J[0] * f->p.J[1] * f->p.J[2] / ((real)f->p.k * f->p.k);
     for (int i = 0; i < 3; i++) g[i] = point[3 + r->axis[i]], M[i] = point[r->axis[i]], length += g[i] * g[i];
     for (int i = 0; i < 3; i++) g[i] /= sqrtl(length), along += M[i] * g[i];
     for (int i = 0; i < 3; i++) M[i] -= along * g[i], M2 += M[i] * M[i];
@@ -232,8 +226,17 @@ static void take_state(revolution *r, const iso_field *f, const double point[ISO
     for (int i = 0; i < 3; i++) M[i] *= scale;
     for (int i = 0; i < 3; i++) d[i] = g[(i + 1) % 3] * M[(i + 2) % 3] - g[(i + 2) % 3] * M[(i + 1) % 3];
     r->x.x0 = g[0], r->x.y0 = g[0] * g[0], r->x.dx0 = d[0];
-    r->x.Mx = r->plane ? 0 : M[0];
-    r->sense = r->x.Mx > 0 ? -1 : 1;
+    return r->plane ? 0 : M[0];
+}
+
+static void take_body(revolution *r, const iso_field *f, const double point[ISO_STATE])
+{
+    const int plane = across_plane(point), first = plane >= 0 ? (plane + 1) % 3 : symmetry_axis(f->p.J);
+    r->plane = plane >= 0;
+    for (int i = 0; i < 3; i++) r->axis[i] = (first + i) % 3;
+    r->x.Ja = f->p.J[first], r->x.Je = f->p.J[(first + 1) % 3];
+    r->x.eps = f->eps, r->x.H = f->energy, r->x.power = -1 / (real)f->p.k;
+    r->det = (real)f->p.J[0] * f->p.J[1] * f->p.J[2] / ((real)f->p.k * f->p.k);
 }
 
 /* xi at the start: P = (a - y)(y - b) Q gives what sn^2 takes of y0 */
@@ -273,7 +276,9 @@ static iso_status make(const iso_field *f, const double point[ISO_STATE], const 
     real g[3], d[3];
     revolution *r = *data = calloc(1, sizeof *r);
     if (!r) return ISO_NO_MEMORY;
-    take_state(r, f, point, g, d);
+    take_body(r, f, point);
+    r->x.Mx = take_state(r, point, g, d);
+    r->sense = r->x.Mx > 0 ? -1 : 1;
     iso_latitude_range(&r->x);
     const latitude *x = &r->x;
     iso_elliptic_set(&r->f, !x->has_b ? 1 : x->side ? x->b / x->a : x->b / (x->b - x->a));
@@ -318,10 +323,56 @@ static real mean_rate(const void *data, iso_clock clock)
     return ((const revolution *)data)->of[clock].mean;
 }
 
+/* How much both angles grow by with xi. */
+static real swing_of(const revolution *r)
+{
+    return r->x.side && !r->plane ? 1 : 0.5L;
+}
+
+static real turning_of(const revolution *r)
+{
+    return 0.5L + r->of[PSI].mean;
+}
+
+/* The first grows evenly with s; the second too, and turns the state about the axis. */
+static bool angles_of(const void *data, const double point[ISO_STATE], double angle[2])
+{
+    const revolution *r = data;
+    revolution other = *r;
+    real g[3], d[3], unused;
+    double own[ISO_STATE];
+    const real Mx = take_state(&other, point, g, d);
+    find_start(&other);
+    const real along = other.start - r->start + (other.half == r->half ? 0 : 2 * ISO_PI);
+    const real s = growing_at(r, ISO_CLOCK_S, along, &unused) / r->of[ISO_CLOCK_S].mean;
+    state_at(r, along, own);
+    const double *const y = own + 3;
+    const double by = atan2((double)g[2], (double)g[1]) - atan2(y[r->axis[2]], y[r->axis[1]]);
+    angle[0] = (double)(swing_of(r) * s);
+    angle[1] = r->plane ? NAN : (double)(turning_of(r) * s) + r->sense * by;
+    return (Mx > 0) == (r->x.Mx > 0) && (!r->x.side || (other.x.x0 > 0) == (r->x.x0 > 0));
+}
+
+static void point_of(const void *data, const double angle[2], double point[ISO_STATE])
+{
+    const revolution *r = data;
+    const real s = angle[0] / swing_of(r);
+    const double by = r->plane ? 0 : r->sense * (double)(angle[1] - turning_of(r) * s),
+                 turned[2] = {cos(by), sin(by)};
+    form_place p = {.along = NAN};
+    find(r, ISO_CLOCK_S, s * r->of[ISO_CLOCK_S].mean, &p);
+    for (int i = 0; i < ISO_STATE; i++) point[i] = p.point[i];
+    for (int i = 0; i < ISO_STATE; i += 3) {
+        double across[2] = {p.point[i + r->axis[1]], p.point[i + r->axis[2]]};
+        turn(turned, across);
+        point[i + r->axis[1]] = across[0], point[i + r->axis[2]] = across[1];
+    }
+}
+
 static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *to)
 {
     const revolution *r = data;
-    const real swing = r->x.side && !r->plane ? 1 : 0.5L, turning = 0.5L + r->of[PSI].mean; /* radians per xi */
+    const real swing = swing_of(r), turning = turning_of(r);
     to->kind = r->plane ? ISO_EXACT_PLANE : ISO_EXACT_SYMMETRIC;
     to->angles = r->plane ? 1 : 2;
     to->action[0] = (double)((r->force - fabsl(r->x.Mx) * turning) / swing);
@@ -345,4 +396,6 @@ const iso_form iso_form_revolution = {.serves = serves,
                                       .find = find,
                                       .rate = mean_rate,
                                       .unstable = unstable,
+                                      .angles = angles_of,
+                                      .point = point_of,
                                       .describe = describe};

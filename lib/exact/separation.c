@@ -76,7 +76,7 @@ static real form(const separation *s, int power, const real x[3], const real y[3
 
 /* gamma and M in long double, on |gamma| = 1, (M,gamma) = 0 and H = energy, sorted; M's components keep the caller's
  * sense */
-static void take_state(const separation *s, double energy, const double point[ISO_STATE], moment *m)
+static void take_state(const separation *s, real energy, const double point[ISO_STATE], moment *m)
 {
     real *gamma = m->gamma, *M = m->M;
     for (int i = 0; i < 3; i++) M[i] = point[s->axis[i]], gamma[i] = point[3 + s->axis[i]];
@@ -103,6 +103,17 @@ static void tangents(const moment *at, real m[3], real l[3])
     for (int i = 0; i < 3; i++) l[i] = m[(i + 1) % 3] * g[(i + 2) % 3] - m[(i + 2) % 3] * g[(i + 1) % 3];
 }
 
+/* u + v, and v - u = |X + iY| without cancellation */
+static real find_gap(const separation *s, moment *m, real *X, real *Y)
+{
+    real unit[3], l[3];
+    tangents(m, unit, l);
+    *X = form(s, 1, l, l) - form(s, 1, unit, unit);
+    *Y = 2 * form(s, 1, unit, l);
+    m->gap = hypotl(*X, *Y);
+    return form(s, 1, l, l) + form(s, 1, unit, unit);
+}
+
 /* R(b_j) + c, and the size of its terms */
 static real excess(const separation *s, const moment *m, int j, real *size)
 {
@@ -119,11 +130,8 @@ static void find_roots(separation *s, moment *m)
 {
     s->unstable = -1;
     const real *b = s->b;
-    real unit[3], l[3], size;
-    tangents(m, unit, l);
-    const real sum = form(s, 1, l, l) + form(s, 1, unit, unit), P = form(s, 0, m->M, m->M) / (2 * s->eps);
-    const real X = form(s, 1, l, l) - form(s, 1, unit, unit), Y = 2 * form(s, 1, unit, l);
-    const real gap = m->gap = hypotl(X, Y);
+    real size, X, Y;
+    const real sum = find_gap(s, m, &X, &Y), P = form(s, 0, m->M, m->M) / (2 * s->eps), gap = m->gap;
     s->width = s->k == 1 ? INFINITY : gap > 0 ? hypotl(gap + P * X / gap, P * Y / gap) : P;
     s->c = form(s, 1, m->M, m->M) / -2;
     if (s->k == 1)
@@ -297,7 +305,7 @@ static real angle(const oscillation *o, real to_sn, real to_cn, int sn, int cn)
 }
 
 /* gamma1 ~ sn_u always; gamma2 ~ dn_u cn_v or cn_u dn_v; gamma3 ~ sn_v, unless it keeps its side. */
-static void find_angles(separation *s, const moment *m)
+static void find_angles(const separation *s, const moment *m, real theta[2], double sign[3])
 {
     int side[3], rising[2];
     real al_u, v_al, be_v;
@@ -306,13 +314,13 @@ static void find_angles(separation *s, const moment *m)
     find_distances(s, m, &al_u, &v_al, &be_v);
     const int cn_u = side[0] * rising[U], cn_if_low = s->below_b3 ? side[1] : -side[2] * rising[V];
     const int cn_v = s->librates_low ? cn_if_low : s->below_b3 ? -rising[V] : cn_if_low;
-    oscillation *u = &s->coordinate[U], *v = &s->coordinate[V];
-    u->start = angle(u, m->from[U][0], s->librates_low ? al_u : m->from[U][1], side[0], cn_u);
-    v->start =
+    const oscillation *u = &s->coordinate[U], *v = &s->coordinate[V];
+    theta[U] = angle(u, m->from[U][0], s->librates_low ? al_u : m->from[U][1], side[0], cn_u);
+    theta[V] =
         angle(v, s->below_b3 ? be_v : m->from[V][2], s->librates_low ? m->from[V][1] : v_al, -cn_v * rising[V], cn_v);
-    s->sign[0] = 1;
-    s->sign[1] = side[1] * (s->librates_low ? cn_v : cn_u);
-    s->sign[2] = s->below_b3 ? side[2] : 1;
+    sign[0] = 1;
+    sign[1] = side[1] * (s->librates_low ? cn_v : cn_u);
+    sign[2] = s->below_b3 ? side[2] : 1;
 }
 
 void iso_separation_release(separation *s)
@@ -331,7 +339,8 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
     s->eps = field->eps;
     s->det = (real)field->p.J[0] * field->p.J[1] * field->p.J[2];
     sort_axes(s, field->p.J);
-    take_state(s, field->energy, point, &m);
+    s->energy = field->energy;
+    take_state(s, s->energy, point, &m);
     find_roots(s, &m);
     if (m.gap < 1e-3L * (s->b[2] - s->b[0])) {
         const int unstable = s->unstable;
@@ -352,8 +361,23 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
     if (!iso_oscillation_solve(&s->coordinate[U], fminl(m1_u, 1)) ||
         !iso_oscillation_solve(&s->coordinate[V], fminl(m1_v, 1)))
         return false;
-    find_angles(s, &m);
+    real theta[2];
+    find_angles(s, &m, theta, s->sign);
+    for (int i = 0; i < 2; i++) s->coordinate[i].start = theta[i];
     return true;
+}
+
+bool iso_separation_angles(const separation *s, const double point[ISO_STATE], real theta[2])
+{
+    moment m;
+    real X, Y;
+    double sign[3];
+    take_state(s, s->energy, point, &m);
+    find_gap(s, &m, &X, &Y);
+    if (!(m.gap > 0)) return false;
+    find_coordinates(s, &m);
+    find_angles(s, &m, theta, sign);
+    return sign[1] == s->sign[1] && sign[2] == s->sign[2];
 }
 
 /* --- to a state ------------------------------------------------------------------------------------------------- */

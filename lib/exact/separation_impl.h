@@ -30,7 +30,7 @@ typedef struct separation {
     int k, axis[3], handed;            /* axis[i]: the caller's axis with b[i]; 1: axes are right-handed       */
     int unstable;                      /* on a separatrix: the caller's axis of its rotation; else -1          */
     real before[ISO_CLOCKS];           /* clocks at sigma = 0                                                  */
-    real b[3], eps, c, distance, det;
+    real b[3], eps, energy, c, distance, det;
     real to_al[3], to_be[3], width;    /* b_j - al; be - b_j; be - al (k = 1: infinite)                        */
     bool librates_low, below_b3;       /* al < b2: u turns at al, else v does; be < b3: v turns there, not at b3 */
     oscillation coordinate[2];         /* u, v                                                                 */
@@ -42,6 +42,9 @@ typedef struct separation {
 /* From (M, gamma); released whatever comes of it. False: too many terms would be needed. */
 bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE]);
 void iso_separation_release(separation *s);
+
+/* The angles of u and v at a state of the same torus; false: of one turning the other way, or at an umbilic. */
+bool iso_separation_angles(const separation *s, const double point[ISO_STATE], real theta[2]);
 
 /* (M, gamma) at the angles of u and v. */
 void iso_separation_state(const separation *s, const real theta[2], double point[ISO_STATE]);

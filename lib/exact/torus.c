@@ -308,6 +308,30 @@ static real mean_rate(const void *data, iso_clock clock)
     return ((const torus *)data)->clock[clock].mean;
 }
 
+/* After how many swings of a coordinate the state returns: one of v where gamma3 keeps its side and gamma2 does not swing
+ * with it, else two. */
+static int swings_of(const separation *s, int coordinate)
+{
+    return coordinate == 1 && s->below_b3 && !s->librates_low ? 1 : 2;
+}
+
+static bool angles_of(const void *data, const double point[ISO_STATE], double angle[2])
+{
+    const separation *s = &((const torus *)data)->s;
+    real theta[2];
+    const bool found = iso_separation_angles(s, point, theta);
+    for (int i = 0; i < 2; i++) angle[i] = (double)theta[i] / swings_of(s, i);
+    return found;
+}
+
+static void point_of(const void *data, const double angle[2], double point[ISO_STATE])
+{
+    const separation *s = &((const torus *)data)->s;
+    real theta[2];
+    for (int i = 0; i < 2; i++) theta[i] = remainderl((real)angle[i] * swings_of(s, i), 4 * ISO_PI);
+    iso_separation_state(s, theta, point);
+}
+
 static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_torus *to)
 {
     const torus *x = data;
@@ -317,8 +341,7 @@ static void describe(const void *data, const bool clocks[ISO_CLOCKS], iso_exact_
     to->distance = (double)x->s.distance;
     for (int i = 0; i < 2; i++) {
         const oscillation *o = &x->s.coordinate[i];
-        /* the state returns after one swing of v where gamma3 keeps its side and gamma2 does not swing with it, */
-        const int swings = i == 1 && x->s.below_b3 && !x->s.librates_low ? 1 : 2; /* else after two */
+        const int swings = swings_of(&x->s, i);
         to->action[i] = (double)(iso_separation_action(&x->s, o) * swings);
         for (int c = 0; c < ISO_CLOCKS; c++)
             to->frequency[c][i] = clocks[c] ? (double)(o->omega / x->clock[c].mean / swings) : NAN;
@@ -331,4 +354,6 @@ const iso_form iso_form_separated = {.serves = serves,
                                      .find = find,
                                      .rate = mean_rate,
                                      .unstable = unstable,
+                                     .angles = angles_of,
+                                     .point = point_of,
                                      .describe = describe};
