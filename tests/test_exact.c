@@ -117,6 +117,45 @@ static void check_angles(void)
     iso_random_free(random);
 }
 
+/* From an umbilic of J = (1, 2, 3): always on the separatrix, away from a rotation about axis 2 and back to it. There is
+ * no linear growth of errors to compare by: the stepped orbit itself loses the separatrix. */
+static void check_homoclinic(void)
+{
+    static const double J[3] = {1, 2, 3}, times[] = {0, 0.3, -2, 5, -9, 14};
+    const double r = sqrt(0.5);
+    double worst = 0, away = 0, energy = 0;
+    int kinds = 0;
+    for (int i = 0; i < 2; i++) {
+        const double angle = 0.4 + 2 * i, speed = sqrt(2 * 2.0);
+        orbit o = {.ctx = ctx, .model.system = &iso_system_point, .model.field.p = laws_params(-1, J)};
+        o.model.field.eps = 1;
+        const double y0[ISO_STATE] = {r * speed * cos(angle), speed * sin(angle), -r * speed * cos(angle), r, 0, r};
+        copy(y0, o.y0, ISO_STATE);
+        orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
+        iso_exact *exact;
+        if (iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_OK) continue;
+        kinds += iso_exact_describe(exact).kind == ISO_EXACT_SEPARATRIX;
+        iso_integrator *it =
+            orbit_start(&o, iso_method_find("taylor_extended"), &(iso_method_options){.tolerance = 1e-15});
+        double expected[ISO_MAX_STATE], y[ISO_STATE], clocks[ISO_CLOCKS], size;
+        for (int j = 0; j < 6; j++) {
+            iso_exact_at(ctx, exact, ISO_CLOCK_T, times[j], y, clocks);
+            if (iso_integrator_at(it, times[j], expected) != ISO_OK) expected[0] = NAN;
+            worst = fmax(worst, orbit_error(&o, y, expected));
+        }
+        for (int j = 0; j < 4; j++) {
+            iso_exact_at(ctx, exact, ISO_CLOCK_T, (j % 2 ? -1 : 1) * pow(10, 3 + 3 * j), y, clocks);
+            away = fmax(away, fmax(fabs(y[4]), fmax(fabs(y[0]), fabs(y[2]))));
+            energy = fmax(energy, fabs(iso_system_point.integrals[0].value(&o.model.field, y, &size)) / size);
+        }
+        iso_integrator_free(it);
+        iso_exact_free(exact);
+    }
+    gsl_test(kinds != 2, "%d of 2 orbits from an umbilic are on the separatrix", kinds);
+    gsl_test(!(worst < 3e-13), "they are what steps say: %.1e", worst);
+    gsl_test(!(away == 0 && energy < 1e-14), "and end as a rotation: off it by %.1e, energy %.1e", away, energy);
+}
+
 static void check_refusals(void)
 {
     iso_exact *exact;
@@ -152,6 +191,7 @@ int main(void)
     gsl_test(refused > ORBITS / 40, "%d refused, too close to the separatrix", refused);
     check_reference();
     check_angles();
+    check_homoclinic();
     check_refusals();
     iso_random_free(random);
     iso_context_free(ctx);
