@@ -14,6 +14,7 @@
 typedef struct torus_clock {
     real mean;
     int blocks, columns, *length; /* the longest row has `columns` */
+    int few;                      /* terms m, n < few are the clock but for LITTLE of its range */
     double *at_sine, *at_cosine, zero, range;
 } torus_clock;
 
@@ -26,7 +27,7 @@ typedef struct torus {
 /* --- set-up ----------------------------------------------------------------------------------------------------- */
 
 /* What of a coefficient is above the rounding of its transform, and a difference of frequencies above theirs. */
-static const double LEAST = 4e-17, RESONANT = 1e-15;
+static const double LEAST = 4e-17, RESONANT = 1e-15, LITTLE = 1e-6;
 
 enum { MOST_TERMS = 1 << 23 };
 
@@ -42,6 +43,16 @@ static void integrate_term(const separation *s, torus_clock *c, int m, int n, do
     c->at_sine[to] = of_sum + of_gap;
     c->at_cosine[to] = of_sum - of_gap;
     c->range += fabs(of_sum) + fabs(of_gap);
+}
+
+static void find_few(torus_clock *c)
+{
+    size_t at = 0;
+    c->few = ABREAST;
+    for (int m = 0; m < c->blocks * ABREAST; m++)
+        for (int n = 0; n < c->length[m / ABREAST]; n++, at++)
+            while (fabs(c->at_sine[at]) + fabs(c->at_cosine[at]) > LITTLE * c->range && (m >= c->few || n >= c->few))
+                c->few += ABREAST;
 }
 
 /* d[m][n], m <= M, n <= N */
@@ -67,6 +78,7 @@ static bool integrate(const separation *s, torus_clock *c, const double d[], int
             const double term = m + n > 0 && m <= M ? d[(size_t)m * (size_t)(N + 1) + (size_t)n] : 0;
             if (fabs(term) >= least) integrate_term(s, c, m, n, term, to);
         }
+    find_few(c);
     return true;
 }
 
@@ -133,125 +145,109 @@ static real clock_at(const torus_clock *c, int blocks, int most, const angles *a
     return c->mean * a->sigma + (sum - c->zero);
 }
 
-static double coordinate_at(const oscillation *o, real theta)
+enum { ALL = MOST_MODES + 1 };
+
+/* u and v about a place: values and two derivatives in sigma. */
+typedef struct local {
+    real z[2], rate[2], bend[2];
+} local;
+
+static void look_around(const torus *x, int most, const angles *a, local *l)
 {
-    const double twice = 2 * cos((double)theta);
-    double p = 0, p1 = 0;
-    for (int n = o->terms; n >= 1; n--) {
-        const double r = o->z[n] + twice * p - p1;
-        p1 = p, p = r;
+    for (int i = 0; i < 2; i++) {
+        const oscillation *o = &x->s.coordinate[i];
+        double z = o->z[0], rate = 0, bend = 0;
+        for (int n = 1; n <= o->terms && n < most; n++) {
+            const double term = o->z[n] * a->cosine[i][n];
+            z += term;
+            rate -= n * o->z[n] * a->sine[i][n];
+            bend -= (double)n * n * term;
+        }
+        l->z[i] = z, l->rate[i] = rate * o->omega, l->bend[i] = bend * o->omega * o->omega;
     }
-    return o->z[0] + p * twice / 2 - p1;
 }
 
-static real rate_at(const torus *x, iso_clock clock, const real theta[2])
+static real rate_at(const torus *x, iso_clock clock, const local *l, real step)
 {
-    const oscillation *o = x->s.coordinate;
-    return iso_separation_rate(&x->s, clock, coordinate_at(&o[0], theta[0]), coordinate_at(&o[1], theta[1]));
-}
-
-enum { FEW = 2 * ABREAST, ALL = MOST_MODES + 1 };
-
-static void turn(const torus *x, const angles *a, real step, real theta[2])
-{
-    for (int i = 0; i < 2; i++) theta[i] = less_turns(a->theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
-}
-
-/* The last step to a place: the angles at its beginning, middle and end. */
-typedef struct last_step {
-    real length, theta[3][2];
-} last_step;
-
-static void set_step(const torus *x, const angles *a, real length, last_step *l)
-{
-    l->length = length;
-    turn(x, a, 0, l->theta[0]);
-    turn(x, a, length / 2, l->theta[1]);
-    turn(x, a, length, l->theta[2]);
-}
-
-/* What a clock goes by over a step, by Simpson's rule, over its length; and how far this can be wrong: in a smooth rate
- * by the fourth power of how much it changes. */
-static real simpson(const torus *x, iso_clock clock, const last_step *l, real *error)
-{
-    real rate[3];
-    for (int i = 0; i < 3; i++) rate[i] = rate_at(x, clock, l->theta[i]);
-    const real slope = (rate[2] - rate[0]) / rate[1], curve = (rate[0] - 2 * rate[1] + rate[2]) / rate[1];
-    *error = slope * slope * slope * slope + curve * curve;
-    return (rate[0] + 4 * rate[1] + rate[2]) / 6;
-}
-
-/* The rate where the multiples of the angles are known, from the terms of z below `most`. */
-static real rate_there(const torus *x, iso_clock clock, int most, const angles *a)
-{
-    double z[2] = {0, 0};
-    for (int i = 0; i < 2; i++)
-        for (int n = 0; n <= x->s.coordinate[i].terms && n < most; n++)
-            z[i] += x->s.coordinate[i].z[n] * a->cosine[i][n];
+    real z[2];
+    for (int i = 0; i < 2; i++) z[i] = l->z[i] + step * (l->rate[i] + step / 2 * l->bend[i]);
     return iso_separation_rate(&x->s, clock, z[0], z[1]);
 }
 
-/* Where the first terms of a clock show the time, about: Newton's method, a few steps. */
+/* What a clock goes by over a short step, by Simpson's rule, over its length; and how far this can be wrong: in a smooth
+ * rate by the fourth power of how much it changes. */
+static real simpson(const torus *x, iso_clock clock, const local *l, real step, real *error)
+{
+    const real first = rate_at(x, clock, l, 0), middle = rate_at(x, clock, l, step / 2),
+               last = rate_at(x, clock, l, step);
+    const real slope = (last - first) / middle, curve = (first - 2 * middle + last) / middle;
+    *error = slope * slope * slope * slope + curve * curve;
+    return (first + 4 * middle + last) / 6;
+}
+
+/* Where the first terms of a clock show the time: Newton's method, a few steps. */
 static real near(const torus *x, iso_clock clock, real time)
 {
     const torus_clock *c = &x->clock[clock];
     const real about = (time + c->zero) / c->mean, around = c->range / c->mean;
+    real sigma = about;
     angles a;
-    a.sigma = about;
-    for (int i = 0; i < 6; i++) {
-        set_angles(x, a.sigma, FEW, &a);
-        const real step = (time - clock_at(c, FEW / ABREAST, FEW, &a)) / rate_there(x, clock, FEW, &a);
-        if (!(fabsl(a.sigma + step - about) <= around)) break;
-        a.sigma += step;
-        if (fabsl(step) <= 1e-3L * around) break;
+    local l;
+    for (int i = 0; i < 8; i++) {
+        set_angles(x, sigma, c->few, &a);
+        look_around(x, c->few, &a, &l);
+        const real step = (time - clock_at(c, c->few / ABREAST, c->few, &a)) / rate_at(x, clock, &l, 0);
+        if (!(fabsl(sigma + step - about) <= around)) break;
+        sigma += step;
+        if (fabsl(step) <= 1e-4L * around) break;
     }
-    return a.sigma;
+    return sigma;
 }
 
 /* Newton's method between bounds, as clocks only go forwards, from a->sigma on to the place where Simpson's rule over
- * the last step leaves nothing. That step is not taken. */
-static void approach(const torus *x, iso_clock clock, real time, angles *a, last_step *last)
+ * the last step, which is not taken but given, leaves nothing. */
+static real approach(const torus *x, iso_clock clock, real time, angles *a)
 {
     const torus_clock *c = &x->clock[clock];
     const real about = (time + c->zero) / c->mean, around = c->range / c->mean;
     real low = about - around, high = about + around, error;
+    local l;
     for (int i = 0;; i++) {
         set_angles(x, a->sigma, ALL, a);
-        const real miss = clock_at(c, ALL, ALL, a) - time, next = a->sigma - miss / rate_there(x, clock, ALL, a);
+        look_around(x, ALL, a, &l);
+        const real miss = clock_at(c, ALL, ALL, a) - time;
+        const real step = -miss / rate_at(x, clock, &l, 0);
         *(miss > 0 ? &high : &low) = a->sigma;
-        const bool inside = next >= low && next <= high;
-        const real step = fabsl(next - a->sigma);
-        if (inside && step <= 1e-9L * around) {
-            set_step(x, a, next - a->sigma, last);
-            return;
+        const bool inside = a->sigma + step >= low && a->sigma + step <= high;
+        if (!inside && i < 100) {
+            a->sigma = (low + high) / 2;
+            continue;
         }
-        if ((inside && step <= 1e-5L * around) || i == 100) {
-            set_step(x, a, next - a->sigma, last);
-            set_step(x, a, -miss / simpson(x, clock, last, &error), last);
-            const real rate = simpson(x, clock, last, &error);
-            if (error * fabsl(last->length) <= 1e-17L * around || i == 100) {
-                set_step(x, a, -miss / rate, last);
-                return;
-            }
+        if (fabsl(step) <= 1e-3L * around || i == 100) {
+            const real better = -miss / simpson(x, clock, &l, step, &error);
+            const real best = -miss / simpson(x, clock, &l, better, &error);
+            if (error * fabsl(best) <= 1e-17L * around) return best;
+            if (i == 100) return step;
         }
-        a->sigma = inside ? next : (low + high) / 2;
+        a->sigma += step;
     }
 }
 
 static void find(const void *data, iso_clock clock, real time, form_place *p)
 {
     const torus *x = data;
-    last_step last;
+    bool others = false;
+    real theta[2];
     angles a;
     a.sigma = isnan(p->along) ? near(x, clock, time) : p->along;
-    approach(x, clock, time, &a, &last);
-    p->along = a.sigma + last.length;
-    bool others = false;
+    const real step = approach(x, clock, time, &a);
+    for (int i = 0; i < 2; i++) theta[i] = less_turns(a.theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
+    p->along = a.sigma + step;
     for (int k = 0; k < ISO_CLOCKS; k++) others = others || (k != (int)clock && x->clock[k].blocks > 0);
     if (others) set_angles(x, p->along, ALL, &a);
     for (int k = 0; k < ISO_CLOCKS; k++)
         p->clock[k] = k == (int)clock ? time : x->clock[k].blocks > 0 ? clock_at(&x->clock[k], ALL, ALL, &a) : NAN;
-    iso_separation_state(&x->s, last.theta[2], p->point);
+    iso_separation_state(&x->s, theta, p->point);
 }
 
 /* --- the form --------------------------------------------------------------------------------------------------- */
