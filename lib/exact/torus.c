@@ -223,7 +223,7 @@ static real approach(const torus *x, iso_clock clock, real time, angles *a)
             a->sigma = (low + high) / 2;
             continue;
         }
-        if (fabsl(step) <= 1e-3L * around || i == 100) {
+        if (fabsl(step) <= 1e-5L * around || i == 100) {
             const real better = -miss / simpson(x, clock, &l, step, &error);
             const real best = -miss / simpson(x, clock, &l, better, &error);
             if (error * fabsl(best) <= 1e-17L * around) return best;
