@@ -140,10 +140,10 @@ static iso_status check_time(iso_context *ctx, const iso_exact *x, iso_clock clo
     return isfinite(time) ? ISO_OK : iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a time is not finite");
 }
 
-static void hand_over(const form_place *p, double point[ISO_STATE], double clocks[ISO_CLOCKS])
+static void hand_over(const iso_exact *x, const form_place *p, double point[ISO_STATE], double clocks[ISO_CLOCKS])
 {
     for (int i = 0; i < ISO_STATE; i++) point[i] = p->point[i];
-    for (int c = 0; clocks && c < ISO_CLOCKS; c++) clocks[c] = (double)p->clock[c];
+    for (int c = 0; clocks && c < ISO_CLOCKS; c++) clocks[c] = x->has[c] ? (double)p->clock[c] : NAN;
 }
 
 iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, double time, double point[ISO_STATE],
@@ -153,7 +153,7 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
     const iso_status status = check_time(ctx, x, clock, time);
     if (status != ISO_OK) return status;
     find(x, clock, time, &p);
-    hand_over(&p, point, clocks);
+    hand_over(x, &p, point, clocks);
     return ISO_OK;
 }
 
@@ -187,7 +187,7 @@ iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock,
         const real guess = known == TRAIL ? even + extrapolate(trail, TRAIL) : NAN;
         form_place p = {.along = guess};
         find(x, clock, time, &p);
-        hand_over(&p, points + ISO_STATE * i, clocks ? clocks + ISO_CLOCKS * i : NULL);
+        hand_over(x, &p, points + ISO_STATE * i, clocks ? clocks + ISO_CLOCKS * i : NULL);
         if (isnan(p.along) || fabsl(guess - p.along) > POOR) known = 0; /* an end; or steps too long */
         for (int j = 1; j < known; j++) trail[j - (known == TRAIL)] = trail[j];
         known += known < TRAIL;

@@ -78,7 +78,7 @@ static real z_at(const oscillation *o, real xi, real *rate)
     const real z = o->origin + o->upwards * moved, near = o->to_cn * cn * cn / B2;
     real square = 2 * o->C;
     for (int i = 0; i < o->rests; i++) square *= o->far[i] + near;
-    for (int i = 0; i > o->power; i--) square /= z;
+    for (int i = 0; i > o->power; i--) square /= o->zero + z;
     *rate = sqrtl(square);
     return z;
 }
@@ -149,7 +149,7 @@ static bool find_xi(oscillation *o, int N)
     for (int n = 0; n <= N; n++) {
         o->z[n] = z[n];
         if (n > 0) o->gamma[n] = slope[n] / n;
-        if (n > 0 && (fabs(o->gamma[n]) > FIRST || fabs(o->z[n]) > FIRST * fabs(o->z[0]))) o->terms = n;
+        if (n > 0 && (fabs(o->gamma[n]) > FIRST || fabs(o->z[n]) > FIRST * (double)o->span)) o->terms = n;
     }
     return enough;
 }

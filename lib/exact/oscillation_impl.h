@@ -26,7 +26,7 @@ enum { MOST_XI_MODES = 512, MOST_MODES = 1 << 15 }; /* powers of 2: of functions
 enum { MOST_PARTS = 64 };
 
 typedef struct oscillation {
-    real origin, span, left, to_cn, to_dn, to_base;
+    real zero, origin, span, left, to_cn, to_dn, to_base; /* z is counted from `zero` */
     int upwards, power; /* 1: z grows from origin, -1: it falls; of z in dx/dsigma */
     real C, far[2];
     int rests;

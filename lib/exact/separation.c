@@ -32,8 +32,9 @@ static real clock_rate(const separation *s, iso_clock clock, real q)
 
 real iso_separation_rate(const separation *s, iso_clock clock, real u, real v)
 {
-    const real *b = s->b;
-    return (v - u) * clock_rate(s, clock, s->k == -1 ? b[0] + b[1] + b[2] - u - v : u * v / (b[0] * b[1] * b[2]));
+    const real *b = s->b, far = s->off[0] + s->off[2] - u - v;
+    const real q = s->k == -1 ? b[1] + far : (b[1] + u) * (b[1] + v) / (b[0] * b[1] * b[2]);
+    return (v - u) * clock_rate(s, clock, q);
 }
 
 /* p_z dz = z'^2/(4 A) dsigma = 2 (R + c) dsigma */
@@ -41,8 +42,8 @@ real iso_separation_action(const separation *s, const oscillation *o)
 {
     real mean = 0;
     for (int j = 0; j <= o->samples; j++) {
-        const real z = o->at[j], from_al = z - s->b[1] + s->to_al[1];
-        const real excess = s->k == -1 ? s->eps * from_al * (s->to_be[1] + s->b[1] - z) : s->c * from_al / z;
+        const real z = o->at[j], from_al = z + s->to_al[1];
+        const real excess = s->k == -1 ? s->eps * from_al * (s->to_be[1] - z) : s->c * from_al / (s->b[1] + z);
         mean += 2 * fabsl(excess) * (j % o->samples == 0 ? 0.5L : 1) / o->samples;
     }
     return mean / o->omega;
@@ -60,17 +61,27 @@ static void sort_axes(separation *s, const double J[3])
                 s->axis[i] = s->axis[i + 1];
                 s->axis[i + 1] = other;
             }
-    for (int i = 0; i < 3; i++) s->b[i] = s->k == -1 ? (real)J[s->axis[i]] : 1 / (real)J[s->axis[i]];
-    const real *const b = s->b;
+    const real middle = J[s->axis[1]];
+    for (int i = 0; i < 3; i++) {
+        const real Ji = J[s->axis[i]];
+        s->b[i] = s->k == -1 ? Ji : 1 / Ji;
+        s->off[i] = s->k == -1 ? Ji - middle : (middle - Ji) / (middle * Ji);
+    }
+    const real *const b = s->off;
     s->handed = (s->axis[1] - s->axis[0] + 3) % 3 == 1 ? 1 : -1;
     for (int i = 0; i < 3; i++) s->norm[i] = (double)sqrtl(fabsl((b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3])));
 }
 
-/* sum_i b_i^power x_i y_i */
+/* sum_i b_i^power x_i y_i; PAST_B2: sum_i (b_i - b2) x_i y_i */
+enum { PAST_B2 = 2 };
+
 static real form(const separation *s, int power, const real x[3], const real y[3])
 {
     real sum = 0;
-    for (int i = 0; i < 3; i++) sum += (power > 0 ? s->b[i] : power < 0 ? 1 / s->b[i] : 1) * x[i] * y[i];
+    for (int i = 0; i < 3; i++) {
+        const real b = s->b[i];
+        sum += (power == PAST_B2 ? s->off[i] : power > 0 ? b : power < 0 ? 1 / b : 1) * x[i] * y[i];
+    }
     return sum;
 }
 
@@ -103,15 +114,15 @@ static void tangents(const moment *at, real m[3], real l[3])
     for (int i = 0; i < 3; i++) l[i] = m[(i + 1) % 3] * g[(i + 2) % 3] - m[(i + 2) % 3] * g[(i + 1) % 3];
 }
 
-/* u + v, and v - u = |X + iY| without cancellation */
+/* u + v - 2 b2, and v - u = |X + iY| without cancellation */
 static real find_gap(const separation *s, moment *m, real *X, real *Y)
 {
     real unit[3], l[3];
     tangents(m, unit, l);
-    *X = form(s, 1, l, l) - form(s, 1, unit, unit);
-    *Y = 2 * form(s, 1, unit, l);
+    *X = form(s, PAST_B2, l, l) - form(s, PAST_B2, unit, unit);
+    *Y = 2 * form(s, PAST_B2, unit, l);
     m->gap = hypotl(*X, *Y);
-    return form(s, 1, l, l) + form(s, 1, unit, unit);
+    return form(s, PAST_B2, l, l) + form(s, PAST_B2, unit, unit);
 }
 
 /* R(b_j) + c, and the size of its terms */
@@ -119,8 +130,9 @@ static real excess(const separation *s, const moment *m, int j, real *size)
 {
     const real *b = s->b, E = s->k == -1 ? s->eps : s->eps / (form(s, -1, m->gamma, m->gamma) * b[j]);
     const int k = (j + 1) % 3, l = (j + 2) % 3;
-    const real g = E * (b[j] - b[k]) * (b[j] - b[l]) * m->gamma[j] * m->gamma[j];
-    const real x = (b[j] - b[k]) * m->M[k] * m->M[k] / 2, y = (b[j] - b[l]) * m->M[l] * m->M[l] / 2;
+    const real past_k = s->off[j] - s->off[k], past_l = s->off[j] - s->off[l];
+    const real g = E * past_k * past_l * m->gamma[j] * m->gamma[j];
+    const real x = past_k * m->M[k] * m->M[k] / 2, y = past_l * m->M[l] * m->M[l] / 2;
     *size = fabsl(g) + fabsl(x) + fabsl(y);
     return x + y - g;
 }
@@ -135,7 +147,7 @@ static void find_roots(separation *s, moment *m)
     s->width = s->k == 1 ? INFINITY : gap > 0 ? hypotl(gap + P * X / gap, P * Y / gap) : P;
     s->c = form(s, 1, m->M, m->M) / -2;
     if (s->k == 1)
-        s->c += s->eps * sum / form(s, -1, m->gamma, m->gamma);
+        s->c += s->eps * (2 * b[1] + sum) / form(s, -1, m->gamma, m->gamma);
     else
         s->c -= s->eps * b[0] * b[1] * b[2] * form(s, -1, m->gamma, m->gamma);
     for (int j = 0; j < 3; j++) {
@@ -149,7 +161,7 @@ static void find_roots(separation *s, moment *m)
             continue;
         }
         /* (b_j - al)(be - b_j) = kappa/eps */
-        const real difference = 2 * b[j] - sum - P;
+        const real difference = 2 * s->off[j] - sum - P;
         split(s->width, kappa / s->eps, difference, &s->to_al[j], &s->to_be[j]);
         if (j == 2 && zero && difference > 0) s->unstable = s->axis[2];
     }
@@ -164,9 +176,9 @@ static void rates(const separation *s, const real y[6], real dy[6])
     const real pull = s->k == -1 ? -2 * s->eps : 2 * s->eps / (q * q);
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
-        const real bj = s->k == -1 ? s->b[j] : 1 / s->b[j], bl = s->k == -1 ? s->b[l] : 1 / s->b[l];
+        const real steep = (s->off[l] - s->off[j]) * (s->k == -1 ? 1 : -1 / (s->b[j] * s->b[l])); /* J_l - J_j */
         dy[3 + i] = s->handed * (g[j] * M[l] - g[l] * M[j]);
-        dy[i] = s->handed * pull * g[j] * g[l] * (bl - bj);
+        dy[i] = s->handed * pull * g[j] * g[l] * steep;
     }
 }
 
@@ -199,14 +211,14 @@ static void carry_on(separation *s, moment *m)
 /* u and v: (u - b1)(v - b1) = gamma1^2 (b2-b1)(b3-b1), and so on; their rates along e_z,i ~ -gamma_i/(b_i - z). */
 static void find_coordinates(const separation *s, moment *m)
 {
-    const real *b = s->b, *g = m->gamma, *M = m->M, gap = m->gap;
+    const real *b = s->off, *g = m->gamma, *M = m->M, gap = m->gap;
     real n[3], *to_u = m->from[U], *to_v = m->from[V];
     for (int i = 0; i < 3; i++) n[i] = fabsl((b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3]));
-    const real sum = b[0] + b[1] + b[2] - form(s, 1, g, g);
+    const real sum = b[0] + b[2] - form(s, PAST_B2, g, g);
     m->z[U] = (sum - gap) / 2, m->z[V] = (sum + gap) / 2;
     to_v[0] = m->z[V] - b[0], to_u[0] = g[0] * g[0] * n[0] / to_v[0];
     to_u[2] = b[2] - m->z[U], to_v[2] = g[2] * g[2] * n[2] / to_u[2];
-    split(gap, g[1] * g[1] * n[1], 2 * b[1] - sum, &to_u[1], &to_v[1]);
+    split(gap, g[1] * g[1] * n[1], -sum, &to_u[1], &to_v[1]);
     m->rate[U] = m->rate[V] = 0;
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3, side = g[i] < 0 ? -1 : 1;
@@ -219,7 +231,7 @@ static void find_coordinates(const separation *s, moment *m)
 /* Root j less root i */
 static real between(const separation *s, int i, int j)
 {
-    if (i < 3 && j < 3) return s->b[j] - s->b[i];
+    if (i < 3 && j < 3) return s->off[j] - s->off[i];
     if (i < 3) return j == AL ? -s->to_al[i] : s->to_be[i];
     return j < 3 ? -between(s, j, i) : j == i ? 0 : j == BE ? s->width : -s->width;
 }
@@ -248,7 +260,8 @@ static real make_lower(separation *s, int a, int b, int c, int d, int e)
 {
     oscillation *o = &s->coordinate[U];
     const real bd = between(s, d, b), cd = between(s, d, c), low = s->b[d], high = low + cd;
-    *o = (oscillation){.origin = low, .upwards = 1, .to_cn = cd, .to_dn = bd, .far = {between(s, c, a)}};
+    *o = (oscillation){
+        .zero = s->b[1], .origin = s->off[d], .upwards = 1, .to_cn = cd, .to_dn = bd, .far = {between(s, c, a)}};
     o->left = s->k == 1 ? low / high : 1;
     o->span = cd * o->left;
     o->C = s->k == 1 ? s->c * bd * high : s->eps * bd;
@@ -265,7 +278,8 @@ static real make_upper(separation *s, int a, int b, int c, int d, int e)
 {
     oscillation *o = &s->coordinate[V];
     const real ab = between(s, b, a), ac = between(s, c, a);
-    *o = (oscillation){.origin = a == BE ? s->b[2] + s->to_be[2] : s->b[a], .upwards = -1, .to_cn = ab, .to_dn = ac};
+    *o = (oscillation){
+        .zero = s->b[1], .origin = a == BE ? s->to_be[1] : s->off[a], .upwards = -1, .to_cn = ab, .to_dn = ac};
     const real ea = s->k == 1 ? 1 : between(s, a, e), eb = s->k == 1 ? 1 : between(s, b, e);
     o->left = ea / eb;
     o->span = ab * o->left;
@@ -284,8 +298,8 @@ static void find_distances(const separation *s, const moment *m, real *al_u, rea
     const real power_u = m->rate[U] * m->rate[U] * m->gap / 2, power_v = m->rate[V] * m->rate[V] * m->gap / 2;
     *be_v = INFINITY;
     if (s->k == 1) {
-        *al_u = m->z[U] * power_u / s->c;
-        *v_al = m->z[V] * power_v / s->c;
+        *al_u = (s->b[1] + m->z[U]) * power_u / s->c;
+        *v_al = (s->b[1] + m->z[V]) * power_v / s->c;
         return;
     }
     *al_u = power_u / s->eps / (s->to_be[1] + m->from[U][1]);
@@ -342,14 +356,14 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
     s->energy = field->energy;
     take_state(s, s->energy, point, &m);
     find_roots(s, &m);
-    if (m.gap < 1e-3L * (s->b[2] - s->b[0])) {
+    if (m.gap < 1e-3L * (s->off[2] - s->off[0])) {
         const int unstable = s->unstable;
         carry_on(s, &m);
         find_roots(s, &m);
         s->unstable = unstable;
     }
-    if (s->unstable == s->axis[1]) s->to_al[1] = OFF_SEPARATRIX * (s->b[2] - s->b[0]);
-    if (s->unstable == s->axis[2]) s->to_be[2] = OFF_SEPARATRIX * (s->b[2] - s->b[0]);
+    if (s->unstable == s->axis[1]) s->to_al[1] = OFF_SEPARATRIX * (s->off[2] - s->off[0]);
+    if (s->unstable == s->axis[2]) s->to_be[2] = OFF_SEPARATRIX * (s->off[2] - s->off[0]);
     s->librates_low = s->to_al[1] > 0;
     s->below_b3 = s->to_be[2] < 0;
     const int a = s->below_b3 ? BE : 2, e = s->below_b3 ? 2 : BE;
@@ -394,7 +408,7 @@ static double roots_at(const separation *s, int which, real theta, double root[S
     const double part[4] = {sn * over_B, cn * over_B, dn * over_B, over_B};
     for (int i = 0; i < SEPARATION_ROOTS; i++) {
         const root_role role = s->role[which][i];
-        root[i] = role == ROOT_NONE   ? 1 / sqrt((double)o->origin + o->upwards * moved)
+        root[i] = role == ROOT_NONE   ? 1 / sqrt((double)(o->zero + o->origin) + o->upwards * moved)
                   : role == ROOT_REST ? sqrt(s->size[which][i] + to_cn)
                                       : s->size[which][i] * part[role];
     }

@@ -30,7 +30,8 @@ typedef struct separation {
     int k, axis[3], handed;            /* axis[i]: the caller's axis with b[i]; 1: axes are right-handed       */
     int unstable;                      /* on a separatrix: the caller's axis of its rotation; else -1          */
     real before[ISO_CLOCKS];           /* clocks at sigma = 0                                                  */
-    real b[3], eps, energy, c, distance, det;
+    real b[3], off[3];                 /* b_i, and b_i - b2: u and v are counted from b2                       */
+    real eps, energy, c, distance, det;
     real to_al[3], to_be[3], width;    /* b_j - al; be - b_j; be - al (k = 1: infinite)                        */
     bool librates_low, below_b3;       /* al < b2: u turns at al, else v does; be < b3: v turns there, not at b3 */
     oscillation coordinate[2];         /* u, v                                                                 */
@@ -49,7 +50,7 @@ bool iso_separation_angles(const separation *s, const double point[ISO_STATE], r
 /* (M, gamma) at the angles of u and v. */
 void iso_separation_state(const separation *s, const real theta[2], double point[ISO_STATE]);
 
-/* d clock/dsigma: ds = (v - u) dsigma, d tau = (det J/k^2) q^(-1/k) ds, dt = (det J/k^2) q^(-1 - 1/(2k)) ds. */
+/* d clock/dsigma, u and v counted from b2: ds = (v - u) dsigma, d tau = (det J/k^2) q^(-1/k) ds, dt = (det J/k^2) q^(-1 - 1/(2k)) ds. */
 real iso_separation_rate(const separation *s, iso_clock clock, real u, real v);
 
 /* (1/2 pi) times the integral of |p_z dz| over one swing of z */

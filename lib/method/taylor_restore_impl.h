@@ -175,7 +175,12 @@ static void set_out(form *T, int lane, const iso_model *m, const double y[])
     set_numbers(T, lane, m);
     load(T, lane, y);
     if (!T->second_of) return;
-    const second_integral F = second_of(T, &T->now);
+    state start = T->now; /* F of what the constraints make of the start, or F and they would not fit together */
+    const int wanted = T->second_of;
+    T->second_of = 0;
+    restore(T, &start);
+    T->second_of = wanted;
+    const second_integral F = second_of(T, &start);
     const real second = defect_of(F.a, F.b, F.count, zero) / F.divisor;
     LANE(T->second, lane) = LANE(second, lane);
 }
