@@ -1,7 +1,9 @@
 #include "exact/exact.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/finite_impl.h"
 #include "exact/form_impl.h"
@@ -22,17 +24,49 @@ struct iso_exact {
     homoclinic_end past, future;
 };
 
-static iso_status check(iso_context *ctx, const iso_field *f, const double point[ISO_STATE], const iso_form **form)
+/* Errors: numbers that are none, or that no motion has. */
+static iso_status check_numbers(iso_context *ctx, const iso_field *f, const double point[ISO_STATE])
+{
+    const double *g = point + 3, square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+    if (!all_finite(point, ISO_STATE) || !(square > 0))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the start is not finite, or gamma is zero");
+    if (!(f->eps > 0 && isnormal(f->eps)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "the closed solution needs eps > 0, not %g", f->eps);
+    const double q = (f->p.J[0] * g[0] * g[0] + f->p.J[1] * g[1] * g[1] + f->p.J[2] * g[2] * g[2]) / square;
+    const double fall = f->eps * pow(q, -1 / f->p.k);
+    if (isfinite(f->energy) && isfinite(fall) && f->energy + fall >= -1e-9 * fall) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[ISO_LEVEL]->name,
+                            "the level H = %g is out of reach of this start", f->energy);
+}
+
+static iso_status check(iso_context *ctx, const iso_field *f, const double point[ISO_STATE])
 {
     for (int e = 0; e < ISO_EFFECTS; e++)
         if (f->effects.on[e] && e != ISO_CLOCK && e != ISO_LEVEL)
             return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[e]->name,
                                     "the closed solution is for a free motion, not one with '%s'",
                                     iso_effect_list[e]->name);
-    if (!(f->eps > 0 && isnormal(f->eps)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "the closed solution needs eps > 0, not %g", f->eps);
+    return check_numbers(ctx, f, point);
+}
+
+static const iso_form *form_for(const iso_field *f, const double point[ISO_STATE])
+{
     for (int i = 0; forms[i]; i++)
-        if (forms[i]->serves(f, point)) return *form = forms[i], ISO_OK;
+        if (forms[i]->serves(f, point)) return forms[i];
+    return NULL;
+}
+
+/* The form for a start; where there is none but in a principal plane, one that is in it but for rounding is put there. */
+static iso_status find_form(iso_context *ctx, const iso_field *f, double point[ISO_STATE], const iso_form **form)
+{
+    double snapped[ISO_STATE], size[2];
+    *form = form_for(f, point);
+    if (*form) return ISO_OK;
+    for (int i = 0; i < 2; i++)
+        size[i] = fmax(fmax(fabs(point[3 * i]), fabs(point[3 * i + 1])), fabs(point[3 * i + 2]));
+    for (int i = 0; i < ISO_STATE; i++) snapped[i] = fabs(point[i]) <= 4 * DBL_EPSILON * size[i / 3] ? 0 : point[i];
+    *form = form_for(f, snapped);
+    if (*form) return memcpy(point, snapped, sizeof snapped), ISO_OK;
     if (f->p.k == 1)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[ISO_LEVEL]->name,
                                 "k = 1 has a closed solution on the level H = 0 alone");
@@ -110,14 +144,17 @@ iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const doub
                             const bool clocks[ISO_CLOCKS], iso_exact **exact)
 {
     const iso_form *form = NULL;
+    double start[ISO_STATE];
     *exact = NULL;
-    iso_status status = check(ctx, field, point, &form);
+    memcpy(start, point, sizeof start);
+    iso_status status = check(ctx, field, start);
+    if (status == ISO_OK) status = find_form(ctx, field, start, &form);
     if (status != ISO_OK) return status;
     iso_exact *x = calloc(1, sizeof *x);
     if (!x) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a closed solution");
     x->form = form;
     for (int c = 0; c < ISO_CLOCKS; c++) x->has[c] = clocks[c];
-    status = make(ctx, field, point, x);
+    status = make(ctx, field, start, x);
     if (status != ISO_OK) return iso_exact_free(x), status;
     *exact = x;
     return ISO_OK;

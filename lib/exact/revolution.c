@@ -187,8 +187,8 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
     const double g[3] = {x, h[0], h[1]}, d[3] = {dx, dh[0], dh[1]};
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
-        point[r->axis[i]] = i == 0 ? (double)r->x.Mx : d[j] * g[l] - d[l] * g[j];
-        point[3 + r->axis[i]] = g[i];
+        point[r->axis[i]] = i == 0 ? (double)r->x.Mx : r->plane && i == 1 ? 0 : d[j] * g[l] - d[l] * g[j];
+        point[3 + r->axis[i]] = r->plane && i == 2 ? 0 : g[i];
     }
 }
 
