@@ -33,10 +33,12 @@ static iso_status check_numbers(iso_context *ctx, const iso_field *f, const doub
     if (!(f->eps > 0 && isnormal(f->eps)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "the closed solution needs eps > 0, not %g", f->eps);
     const double q = (f->p.J[0] * g[0] * g[0] + f->p.J[1] * g[1] * g[1] + f->p.J[2] * g[2] * g[2]) / square;
-    const double fall = f->eps * pow(q, -1 / f->p.k);
-    if (isfinite(f->energy) && isfinite(fall) && f->energy + fall >= -1e-9 * fall) return ISO_OK;
+    const double fall = f->eps * pow(q, -1 / f->p.k),
+                 M2 = point[0] * point[0] + point[1] * point[1] + point[2] * point[2];
+    const bool on_level = f->energy == 0 ? M2 > 0 : fabs(M2 / 2 - fall - f->energy) <= 1e-6 * (M2 / 2 + fall);
+    if (isfinite(fall) && on_level) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[ISO_LEVEL]->name,
-                            "the level H = %g is out of reach of this start", f->energy);
+                            "this start is not on the level H = %g", f->energy);
 }
 
 static iso_status check(iso_context *ctx, const iso_field *f, const double point[ISO_STATE])
@@ -126,6 +128,23 @@ static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact
 
 /* --- the front ---------------------------------------------------------------------------------------------------- */
 
+/* Whether a solution is where it should be at time 0, and anywhere a little later. */
+static bool begins(const iso_exact *x, const double point[ISO_STATE])
+{
+    const double *g = point + 3, length = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    for (int c = 0; c < ISO_CLOCKS; c++) {
+        form_place p = {.along = NAN};
+        if (!x->has[c]) continue;
+        x->form->find(x->data, (iso_clock)c, x->form->rate(x->data, (iso_clock)c), &p);
+        if (!all_finite(p.point, ISO_STATE)) return false;
+        p.along = NAN;
+        x->form->find(x->data, (iso_clock)c, 0, &p);
+        for (int i = 0; i < 3; i++)
+            if (!(fabs(p.point[3 + i] - g[i] / length) < 1e-9)) return false;
+    }
+    return true;
+}
+
 static iso_status make(iso_context *ctx, const iso_field *field, const double point[ISO_STATE], iso_exact *x)
 {
     iso_status status = x->form->make(field, point, x->has, &x->data);
@@ -134,6 +153,10 @@ static iso_status make(iso_context *ctx, const iso_field *field, const double po
         return iso_context_fail(ctx, status, "",
                                 "the closed solution would need too many terms: a body too extreme, "
                                 "or an orbit too close to a separatrix");
+    if (!begins(x, point))
+        return iso_context_fail(ctx, ISO_NUMERICAL, "",
+                                "the closed solution has too few digits: a body too extreme, or "
+                                "an orbit that comes to rest");
     const int axis = x->form->unstable(x->data);
     if (axis < 0) return status;
     status = find_end(ctx, field, x, axis, -1, &x->past);

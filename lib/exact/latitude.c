@@ -13,17 +13,19 @@ real iso_latitude_q(const latitude *r, real y)
     return r->Je + (r->Ja - r->Je) * y;
 }
 
-real iso_latitude_m(const latitude *r, real y)
-{
-    return 2 * (r->H + r->eps * powl(iso_latitude_q(r, y), r->power));
-}
-
 /* m[y,z] */
 static real slope(const latitude *r, real y, real z)
 {
     const real q = iso_latitude_q(r, y), x = (r->Ja - r->Je) * (z - y) / q;
     const real part = x == 0 ? r->power : expm1l(r->power * log1pl(x)) / x;
     return 2 * r->eps * (r->Ja - r->Je) * powl(q, r->power - 1) * part;
+}
+
+/* Off the level H = 0 as it differs from the start's, which may be small. */
+real iso_latitude_m(const latitude *r, real y)
+{
+    if (r->H == 0) return 2 * r->eps * powl(iso_latitude_q(r, y), r->power);
+    return r->M2 + (y - r->y0) * slope(r, y, r->y0);
 }
 
 /* m[x,y,z]: where the three are close, sum_n binomial(power, n+2) h_n(t) in the complete symmetric polynomials h_n of

@@ -21,7 +21,7 @@
 
 typedef struct latitude {
     real Je, Ja, eps, H, power;     /* power = -1/k                                  */
-    real x0, dx0, y0, Mx;           /* at the start, and M_x for good                */
+    real x0, dx0, y0, M2, Mx;       /* at the start, M^2 with it; M_x for good       */
     bool side, has_b, homoclinic;   /* x keeps its sign; b is near; b is 0           */
     real a, b, a_b, rest_a, rest_b; /* a - b, 1 - a; 1 - b on one side, 1 on both    */
     real distance;                  /* P(0)/m(0): 0 on the separatrix of the equator */

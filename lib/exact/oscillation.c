@@ -190,20 +190,30 @@ void iso_oscillation_release(oscillation *o)
     o->at = NULL, o->gamma = NULL, o->z = NULL;
 }
 
+/* Whether N samples are enough. No memory: there are no samples. */
+static bool solve_with(oscillation *o, int N)
+{
+    const size_t size = (size_t)N + 1;
+    iso_oscillation_release(o);
+    o->at = malloc(size * sizeof *o->at);
+    o->gamma = malloc(size * sizeof *o->gamma);
+    o->z = malloc(3 * size * sizeof *o->z);
+    if (!o->at || !o->gamma || !o->z) iso_oscillation_release(o);
+    return o->at && find_xi(o, N);
+}
+
+bool iso_oscillation_refine(oscillation *o)
+{
+    return o->samples < MOST_MODES && solve_with(o, 2 * o->samples);
+}
+
 bool iso_oscillation_solve(oscillation *o, real m1)
 {
     iso_elliptic_set(&o->f, m1);
     if (!find_theta(o)) return false;
     for (int N = o->samples; N <= MOST_MODES; N *= 2) {
-        const size_t size = (size_t)N + 1;
-        iso_oscillation_release(o);
-        o->at = malloc(size * sizeof *o->at);
-        o->gamma = malloc(size * sizeof *o->gamma);
-        o->z = malloc(3 * size * sizeof *o->z);
-        if (!o->at || !o->gamma || !o->z) return false;
-        if (!find_xi(o, N)) continue;
-        find_parts(o);
-        return true;
+        if (solve_with(o, N)) return find_parts(o), true;
+        if (!o->at) return false;
     }
     return false;
 }

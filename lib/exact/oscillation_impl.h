@@ -43,6 +43,9 @@ typedef struct oscillation {
 bool iso_oscillation_solve(oscillation *o, real m1);
 void iso_oscillation_release(oscillation *o);
 
+/* Twice the samples, for functions of z that are sharper than z. */
+bool iso_oscillation_refine(oscillation *o);
+
 real iso_oscillation_theta(const oscillation *o, real xi);
 
 /* sn, cn and dn at theta, to the rounding of doubles; where they become small next to a separatrix, relatively. */

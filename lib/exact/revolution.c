@@ -15,7 +15,10 @@
 #include "exact/latitude_impl.h"
 #include "exact/series_impl.h"
 
-enum { LEAST_SAMPLES = 16, MOST_SAMPLES = 1 << 15, PSI = ISO_CLOCKS, SERIES };
+/* Rates that differ by more than exp(MOST_SHARP) leave no digits where they are small. */
+static const real MOST_SHARP = 23;
+
+enum { LEAST_SAMPLES = 32, MOST_SAMPLES = 1 << 15, PSI = ISO_CLOCKS, SERIES };
 
 /* A function of xi: mean (xi - start) + sum_n b_n sin n xi - zero, 0 at the start. */
 typedef struct growing {
@@ -26,7 +29,8 @@ typedef struct growing {
 
 typedef struct revolution {
     int axis[3]; /* the caller's axes, right-handed; the first is x's                             */
-    bool plane;  /* a principal plane                                                             */
+    bool plane;  /* a principal plane ...                                                          */
+    int across;  /* ... and the axis that stands on it                                             */
     latitude x;
     real det, force; /* det J/k^2; mean of M^2 ds/dxi                                                 */
     elliptic f;
@@ -51,10 +55,12 @@ static void rates_at(const revolution *r, real xi, real rate[SERIES])
     rate[ISO_CLOCK_T] = r->det * powl(q, r->x.power / 2 - 1) * ds;
 }
 
+/* NaN where one is */
 static double largest_of(const double a[], int from, int to)
 {
     double most = 0;
-    for (int n = from; n <= to; n++) most = fmax(most, fabs(a[n]));
+    for (int n = from; n <= to; n++)
+        if (!(fabs(a[n]) <= most)) most = fabs(a[n]);
     return most;
 }
 
@@ -63,7 +69,7 @@ static bool integrate(growing *f, double a[], int N, double work[])
 {
     iso_cosine_series(a, N, 1, work);
     const double most = largest_of(a, 0, N);
-    if (!(largest_of(a, N - N / 16, N) <= 1e-15 * most)) return false;
+    if (!isfinite(most) || !(largest_of(a, N - N / 16, N) <= 1e-15 * most)) return false;
     f->modes = 0;
     for (int n = 1; n <= N; n++)
         if (fabs(a[n]) > 2e-17 * most) f->modes = n;
@@ -105,9 +111,14 @@ static bool make_series(revolution *r, int N, double *samples, double work[])
     return enough;
 }
 
+/* A power q^p has the width 1/sqrt(p) between its values on the axis and across it. */
 static iso_status find_series(revolution *r)
 {
-    for (int N = LEAST_SAMPLES; N <= MOST_SAMPLES; N *= 2) {
+    const real p = r->x.power, sharp = fmaxl(fabsl(p), fabsl(p / 2 - 1)) * fabsl(logl(r->x.Ja / r->x.Je));
+    int least = LEAST_SAMPLES;
+    while (least < 32 * sqrtl(1 + sharp) && least < MOST_SAMPLES) least *= 2;
+    if (sharp > MOST_SHARP) return ISO_NUMERICAL;
+    for (int N = least; N <= MOST_SAMPLES; N *= 2) {
         double *samples = malloc(SERIES * ((size_t)N + 1) * sizeof *samples),
                *work = malloc(2 * (size_t)N * sizeof *work);
         const bool room = samples && work, done = room && make_series(r, N, samples, work);
@@ -187,8 +198,9 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
     const double g[3] = {x, h[0], h[1]}, d[3] = {dx, dh[0], dh[1]};
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
-        point[r->axis[i]] = i == 0 ? (double)r->x.Mx : r->plane && i == 1 ? 0 : d[j] * g[l] - d[l] * g[j];
-        point[3 + r->axis[i]] = r->plane && i == 2 ? 0 : g[i];
+        const bool out = r->plane && r->axis[i] == r->across, in = r->plane && !out;
+        point[r->axis[i]] = i == 0 ? (double)r->x.Mx : in ? 0 : d[j] * g[l] - d[l] * g[j];
+        point[3 + r->axis[i]] = out ? 0 : g[i];
     }
 }
 
@@ -215,26 +227,34 @@ static bool serves(const iso_field *f, const double point[ISO_STATE])
     return across_plane(point) >= 0 || symmetry_axis(f->p.J) >= 0;
 }
 
-/* gamma, gamma' = gamma x M on |gamma| = 1, (M,gamma) = 0 and the level H; gives M_x. */
+/* gamma, gamma' = gamma x M on |gamma| = 1, (M,gamma) = 0 and the level H = 0; gives M_x. */
 static real take_state(revolution *r, const double point[ISO_STATE], real g[3], real d[3])
 {
     real M[3], length = 0, along = 0, M2 = 0;
     for (int i = 0; i < 3; i++) g[i] = point[3 + r->axis[i]], M[i] = point[r->axis[i]], length += g[i] * g[i];
     for (int i = 0; i < 3; i++) g[i] /= sqrtl(length), along += M[i] * g[i];
     for (int i = 0; i < 3; i++) M[i] -= along * g[i], M2 += M[i] * M[i];
-    const real scale = M2 > 0 ? sqrtl(fmaxl(iso_latitude_m(&r->x, g[0] * g[0]), 0) / M2) : 0;
-    for (int i = 0; i < 3; i++) M[i] *= scale;
+    r->x.y0 = g[0] * g[0];
+    if (r->x.H == 0) { /* the level is restored; another is what M says */
+        const real scale = sqrtl(iso_latitude_m(&r->x, r->x.y0) / M2);
+        for (int i = 0; i < 3; i++) M[i] *= scale;
+    }
+    r->x.M2 = M2;
     for (int i = 0; i < 3; i++) d[i] = g[(i + 1) % 3] * M[(i + 2) % 3] - g[(i + 2) % 3] * M[(i + 1) % 3];
-    r->x.x0 = g[0], r->x.y0 = g[0] * g[0], r->x.dx0 = d[0];
+    r->x.x0 = g[0], r->x.dx0 = d[0];
     return r->plane ? 0 : M[0];
 }
 
 static void take_body(revolution *r, const iso_field *f, const double point[ISO_STATE])
 {
-    const int plane = across_plane(point), first = plane >= 0 ? (plane + 1) % 3 : symmetry_axis(f->p.J);
+    const int plane = across_plane(point), next = (plane + 1) % 3, last = (plane + 2) % 3;
+    const int nearer =
+        fabs(point[3 + next]) < fabs(point[3 + last]) ? next : last; /* to the equator: y has digits there */
+    const int first = plane >= 0 ? nearer : symmetry_axis(f->p.J);
     r->plane = plane >= 0;
+    r->across = plane;
     for (int i = 0; i < 3; i++) r->axis[i] = (first + i) % 3;
-    r->x.Ja = f->p.J[first], r->x.Je = f->p.J[(first + 1) % 3];
+    r->x.Ja = f->p.J[first], r->x.Je = f->p.J[plane < 0 ? (first + 1) % 3 : first == next ? last : next];
     r->x.eps = f->eps, r->x.H = f->energy, r->x.power = -1 / (real)f->p.k;
     r->det = (real)f->p.J[0] * f->p.J[1] * f->p.J[2] / ((real)f->p.k * f->p.k);
 }
@@ -305,7 +325,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
             p->along = next;
             break;
         }
-        p->along = next >= low && next <= high ? next : (low + high) / 2;
+        p->along = next > low && next < high && i % 8 != 7 ? next : (low + high) / 2;
     }
     for (iso_clock k = 0; k < ISO_CLOCKS; k++)
         p->clock[k] = k == clock ? time : growing_at(r, (int)k, p->along, &slope);

@@ -85,7 +85,7 @@ static real form(const separation *s, int power, const real x[3], const real y[3
     return sum;
 }
 
-/* gamma and M in long double, on |gamma| = 1, (M,gamma) = 0 and H = energy, sorted; M's components keep the caller's
+/* gamma and M in long double, on |gamma| = 1, (M,gamma) = 0 and, if that is the level, H = 0, sorted; M's components keep the caller's
  * sense */
 static void take_state(const separation *s, real energy, const double point[ISO_STATE], moment *m)
 {
@@ -95,9 +95,10 @@ static void take_state(const separation *s, real energy, const double point[ISO_
     for (int i = 0; i < 3; i++) gamma[i] /= length;
     const real along = form(s, 0, M, gamma);
     for (int i = 0; i < 3; i++) M[i] -= along * gamma[i];
+    if (energy != 0) return; /* is what M says: it may be small beside the potential */
     const real fall = s->k == -1 ? form(s, 1, gamma, gamma) : 1 / form(s, -1, gamma, gamma);
-    const real now = form(s, 0, M, M), wanted = fmaxl(2 * (s->eps * fall + energy), 0);
-    for (int i = 0; i < 3; i++) M[i] *= now > 0 ? sqrtl(wanted / now) : 0;
+    const real scale = sqrtl(2 * s->eps * fall / form(s, 0, M, M));
+    for (int i = 0; i < 3; i++) M[i] *= scale;
 }
 
 /* Unit vectors m along M (any tangent one where M = 0) and l = m x gamma. */
@@ -182,15 +183,18 @@ static void rates(const separation *s, const real y[6], real dy[6])
     }
 }
 
-/* Where u and v are nearly one, al and the rates have lost their digits: a tenth of a radian further they have them. By
+/* Where u and v are nearly one, al and the rates have lost their digits: some tenths of a radian further they have them. By
  * Runge and Kutta's method in steps that leave no error, once for an orbit. */
 static void carry_on(separation *s, moment *m)
 {
     enum { STEPS = 4000 };
     static const real part[4] = {0, 0.5L, 0.5L, 1}, weight[4] = {1 / 6.0L, 1 / 3.0L, 1 / 3.0L, 1 / 6.0L};
     real y[6], k[6] = {0};
+    real force[6], speed = sqrtl(form(s, 0, m->M, m->M));
     for (int i = 0; i < 3; i++) y[i] = m->M[i], y[3 + i] = m->gamma[i];
-    const real h = 0.1L / sqrtl(form(s, 0, m->M, m->M)) / STEPS;
+    rates(s, y, force);
+    speed += sqrtl(sqrtl(form(s, 0, force, force))); /* from rest it is the force that moves it */
+    const real h = 0.2L / speed / STEPS;
     for (int n = 0; n < STEPS; n++) {
         real sum[6] = {0};
         for (int stage = 0; stage < 4; stage++) {

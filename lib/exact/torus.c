@@ -60,7 +60,7 @@ static bool integrate(const separation *s, torus_clock *c, const double d[], int
 {
     const double least = LEAST * (double)c->mean;
     size_t terms = 0, to = 0;
-    c->length = calloc((size_t)M / ABREAST + 1, sizeof *c->length);
+    c->length = calloc((size_t)(unsigned)M / ABREAST + 1, sizeof *c->length);
     if (!c->length) return false;
     for (int m = 0; m <= M; m++) {
         int *const length = &c->length[m / ABREAST];
@@ -82,7 +82,20 @@ static bool integrate(const separation *s, torus_clock *c, const double d[], int
     return true;
 }
 
-static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *c)
+/* Whether the last terms of d[m][n] in m, and in n, are the rounding of a rate that gets as large as `most`. */
+static void see_tails(const double d[], int M, int N, double most, bool enough[2])
+{
+    enough[0] = enough[1] = true;
+    for (int m = 0; m <= M; m++)
+        for (int n = 0; n <= N; n++) {
+            if (fabs(d[m * (N + 1) + n]) <= 1e-15 * most) continue;
+            if (m > M - M / 8) enough[0] = false;
+            if (n > N - N / 8) enough[1] = false;
+        }
+}
+
+/* From the samples of u and v; enough: whether there are. */
+static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *c, bool enough[2])
 {
     const oscillation *u = &s->coordinate[0], *v = &s->coordinate[1];
     const int M = u->samples, N = v->samples, columns = N + 1;
@@ -90,20 +103,34 @@ static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *
     if (size > MOST_TERMS) return ISO_NUMERICAL;
     double *d = malloc(size * sizeof *d), *work = malloc(2 * (size_t)(M > N ? M : N) * sizeof *work);
     bool room = d && work;
-    real mean = 0;
+    real mean = 0, most = 0;
     for (int j = 0; room && j <= M; j++)
         for (int l = 0; l <= N; l++) {
             const real r = iso_separation_rate(s, clock, u->at[j], v->at[l]);
             mean += r * (j % M == 0 ? 0.5L : 1) * (l % N == 0 ? 0.5L : 1);
+            most = fmaxl(most, r);
             d[j * columns + l] = (double)r;
         }
     c->mean = mean / M / N;
     for (int j = 0; room && j <= M; j++) iso_cosine_series(d + j * columns, N, 1, work);
     for (int l = 0; room && l <= N; l++) iso_cosine_series(d + l, M, columns, work);
-    room = room && integrate(s, c, d, M, N);
+    if (room) see_tails(d, M, N, (double)most, enough);
+    if (room && enough[0] && enough[1]) room = integrate(s, c, d, M, N);
     free(d);
     free(work);
     return room ? ISO_OK : ISO_NO_MEMORY;
+}
+
+/* With more samples where a clock is sharper than u and v. */
+static iso_status resolve_clock(separation *s, iso_clock clock, torus_clock *c)
+{
+    for (;;) {
+        bool enough[2];
+        const iso_status status = make_clock(s, clock, c, enough);
+        if (status != ISO_OK || (enough[0] && enough[1])) return status;
+        for (int i = 0; i < 2; i++)
+            if (!enough[i] && !iso_oscillation_refine(&s->coordinate[i])) return ISO_NUMERICAL;
+    }
 }
 
 /* --- angles and clocks at sigma --------------------------------------------------------------------------------- */
@@ -218,8 +245,8 @@ static real approach(const torus *x, iso_clock clock, real time, angles *a)
         const real miss = clock_at(c, ALL, ALL, a) - time;
         const real step = -miss / rate_at(x, clock, &l, 0);
         *(miss > 0 ? &high : &low) = a->sigma;
-        const bool inside = a->sigma + step >= low && a->sigma + step <= high;
-        if (!inside && i < 100) {
+        const bool inside = a->sigma + step > low && a->sigma + step < high;
+        if (i < 100 && (!inside || i % 8 == 7)) {
             a->sigma = (low + high) / 2;
             continue;
         }
@@ -282,7 +309,7 @@ static iso_status make(const iso_field *field, const double point[ISO_STATE], co
     for (iso_clock c = 0; c < ISO_CLOCKS && status == ISO_OK; c++) {
         torus_clock *const clock = &x->clock[c];
         if (!clocks[c]) continue;
-        status = make_clock(&x->s, c, clock);
+        status = resolve_clock(&x->s, c, clock);
         if (clock->blocks * ABREAST > x->rows) x->rows = clock->blocks * ABREAST;
         if (clock->columns > x->columns) x->columns = clock->columns;
     }

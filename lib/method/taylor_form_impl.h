@@ -16,7 +16,7 @@ typedef struct form {
     iso_model shape;
     iso_clock own;
     bool is_point, in_t, is_neumann, rolls, unprojected;
-    enum { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
+    enum second_integral_of { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
     double tolerance;                      /* of the last terms, in units of the state */
     real second;                           /* the second integral at the start */
     quadrature rule;

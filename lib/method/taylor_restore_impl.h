@@ -176,8 +176,8 @@ static void set_out(form *T, int lane, const iso_model *m, const double y[])
     load(T, lane, y);
     if (!T->second_of) return;
     state start = T->now; /* F of what the constraints make of the start, or F and they would not fit together */
-    const int wanted = T->second_of;
-    T->second_of = 0;
+    const enum second_integral_of wanted = T->second_of;
+    T->second_of = NONE;
     restore(T, &start);
     T->second_of = wanted;
     const second_integral F = second_of(T, &start);
