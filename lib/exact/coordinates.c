@@ -27,7 +27,7 @@ void iso_separation_point(const iso_params *p, const iso_conical *c, double poin
 
 /* --- the constant of separation --------------------------------------------------------------------------------- */
 
-/* f, and what it depends on */
+/* R, and what it depends on */
 typedef struct potential {
     bool neumann, separates;
     double b[3], eps, H;
@@ -40,7 +40,7 @@ static potential potential_of(const iso_field *field, const double b[3])
     return (potential){k == -1, separates, {b[0], b[1], b[2]}, field->eps, field->energy};
 }
 
-/* (f(x) - f(y))/(x - y) */
+/* (R(x) - R(y))/(x - y) */
 static double slope(const potential *f, double x, double y)
 {
     const double *b = f->b;
@@ -53,7 +53,7 @@ static double value(const potential *f, double z)
     return f->neumann ? z * slope(f, z, 0) : -f->eps * (b[0] / z) * b[1] * b[2];
 }
 
-/* f(b_j) + c is f(b_j) - f(u) - speed1^2 (v - u)/2 and f(b_j) - f(v) + speed2^2 (v - u)/2; c is then taken from the
+/* R(b_j) + c is R(b_j) - R(u) - speed1^2 (v - u)/2 and R(b_j) - R(v) + speed2^2 (v - u)/2; c is then taken from the
  * b_j where no terms cancel. */
 double iso_separation_constant(const iso_field *field, const iso_conical *at, double excess[3])
 {
@@ -79,7 +79,7 @@ double iso_separation_constant(const iso_field *field, const iso_conical *at, do
 
 /* --- where the motion changes ----------------------------------------------------------------------------------- */
 
-/* The largest f on [b2, b3], which is concave: at an end, or where its slope is 0. */
+/* The largest R on [b2, b3], which is concave: at an end, or where its slope is 0. */
 static double summit(const potential *f)
 {
     const double *b = f->b;
@@ -99,7 +99,7 @@ static int insert(iso_bifurcation list[], int count, iso_bifurcation one)
     return count + 1;
 }
 
-/* Motion needs f(u) <= -c <= f(v) for some u and v: -c is between f(b1) and the summit. */
+/* Motion needs R(u) <= -c <= R(v) for some u and v: -c is between R(b1) and the summit. */
 int iso_bifurcations(const iso_field *field, iso_bifurcation list[ISO_MOST_BIFURCATIONS])
 {
     iso_conical at;
@@ -109,7 +109,7 @@ int iso_bifurcations(const iso_field *field, iso_bifurcation list[ISO_MOST_BIFUR
     const double top = summit(&f), z[ISO_MOST_BIFURCATIONS] = {f.b[0], f.b[1], f.b[2], top};
     int count = 0;
     for (int j = 0; j < ISO_MOST_BIFURCATIONS; j++) {
-        if (j == 2 && slope(&f, f.b[0], f.b[2]) <= 0) continue; /* f(b3) is not between them */
+        if (j == 2 && slope(&f, f.b[0], f.b[2]) <= 0) continue; /* R(b3) is not between them */
         const bool end = z[j] == f.b[0] || z[j] == top;
         count = insert(list, count, (iso_bifurcation){-value(&f, z[j]), z[j], j < 3 ? at.axis[j] : -1, !end});
     }

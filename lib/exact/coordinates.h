@@ -26,12 +26,12 @@
 void iso_separation_coordinates(const iso_params *p, const double point[ISO_STATE], iso_conical *c);
 void iso_separation_point(const iso_params *p, const iso_conical *c, double point[ISO_STATE]);
 
-/* The constant of 2 A(z) p_z^2 = f(z) + c, z = u and v of a point on the level H = field->energy with coupling eps:
+/* The constant of 2 A(z) p_z^2 = R(z) + c, z = u and v of a point on the level H = field->energy with coupling eps:
  *
- *     k = -1:  f(z) = eps z (b1 + b2 + b3 - z) + H z,        k = 1, H = 0:  f(z) = -eps b1 b2 b3/z.
+ *     k = -1:  R(z) = eps z (b1 + b2 + b3 - z) + H z,        k = 1, H = 0:  R(z) = -eps b1 b2 b3/z.
  *
- * `excess` (may be NULL) are the three f(b_j) + c, what c is above its values of bifurcation, without the
- * cancellation of that sum: excess[0] <= 0, and f + c has a root between b1 and b2 where excess[1] > 0 (u librates
+ * `excess` (may be NULL) are the three R(b_j) + c, what c is above its values of bifurcation, without the
+ * cancellation of that sum: excess[0] <= 0, and R + c has a root between b1 and b2 where excess[1] > 0 (u librates
  * below it), between b2 and b3 where excess[1] < 0 (v librates above it); excess[1] = 0 is the separatrix. NaN, c as
  * well, for other k and levels. */
 double iso_separation_constant(const iso_field *field, const iso_conical *at, double excess[3]);
@@ -39,7 +39,7 @@ double iso_separation_constant(const iso_field *field, const iso_conical *at, do
 /* A value of c at which the motion changes its kind. */
 typedef struct iso_bifurcation {
     double c;
-    double z;        /* the root of f + c, simple at a moment or double between two                             */
+    double z;        /* the root of R + c, simple at a moment or double between two                             */
     int axis;        /* z is the moment of this axis: orbits in the plane gamma_axis = 0; -1 at a double root   */
     bool separatrix; /* those orbits are unstable, c may be on both sides; else c ends there                   */
 } iso_bifurcation;

@@ -2,7 +2,7 @@
  *
  *     iso_exact *exact;
  *     iso_exact_create(ctx, &field, point, all_clocks, &exact);    field: k, J, eps and the level H
- *     iso_exact_at(ctx, exact, ISO_CLOCK_T, 1e6, y, clocks);         the point a million units of the ball's time later
+ *     iso_exact_at(ctx, exact, ISO_CLOCK_T, 1e6, y, clocks);       the point a million units of the ball's time later
  *     iso_exact_free(exact);
  *
  * It exists where there are as many integrals as it takes:
@@ -10,8 +10,8 @@
  *   oscillations with a clock sigma of their own (theory: section 5 of the paper);
  * - two equal moments of inertia, every k: gamma along the axis swings, the angle about the axis follows;
  * - a start in a principal plane, every k: gamma never leaves it.
- * The last two hold on every level. An orbit on a separatrix is followed from the unstable rotation that it leaves to the
- * one that it comes to; beyond, where it is the rotation to all digits, it is the rotation.
+ * The last two hold on every level. An orbit on a separatrix is followed from the unstable rotation that it leaves to
+ * the one that it comes to; beyond, where it is the rotation to all digits, it is the rotation.
  *
  * Each oscillation is brought to an angle by elliptic functions and Fourier series; the clocks are linear terms and
  * Fourier series of the angles. What is asked at a time is found by Newton's method. Numbers that grow with time are
@@ -63,14 +63,14 @@ typedef enum iso_exact_kind {
 typedef struct iso_exact_torus {
     iso_exact_kind kind;
     int angles;                      /* 2, 1 or 0                                                              */
-    double frequency[ISO_CLOCKS][2]; /* radians in each clock (NaN: not made). The state returns where
+    double frequency[ISO_CLOCKS][2]; /* mean, radians in each clock (NaN: not made). The state returns where
                                         both angles have grown by multiples of 2 pi                            */
     double action[2];                /* (1/2 pi) times the integral of (momentum) d(coordinate) round the loop
                                         of each angle, >= 0; about an axis: M along it, with its sign          */
-    double c;                        /* separated: the constant of 2 A(z) p_z^2 = R(z) + H z + c               */
+    double c;                        /* separated: the constant of 2 A(z) p_z^2 = R(z) + c (coordinates.h)     */
     double distance;                 /* 0 on the separatrix of the rotation about the middle axis, or in the
-                                        equator: (R(b2) + c)/R(b2), > 0 where the lower coordinate librates;
-                                        or (dx/ds)^2/M^2 at the equator, > 0 where it is crossed               */
+                                        equator: (R(b2) + c)/|R(b2) - H b2|, > 0 where the lower coordinate
+                                        librates; or (dx/ds)^2/M^2 at the equator, > 0 where it is crossed     */
 } iso_exact_torus;
 
 iso_exact_torus iso_exact_describe(const iso_exact *exact);

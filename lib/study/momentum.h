@@ -4,9 +4,9 @@
  *     k = -1, no effects but a `level`:   F = F_shell = -2 c/det J,   c = -eps al (S - al), S = b1 + b2 + b3 + H/eps
  *
  * with b = 1/J (k = 1) or J (k = -1), ascending, eps = h det J/k^2, and al <= be (k = -1: al + be = S) the roots of
- * R(z) + H z + c between which the coordinates b1 <= u <= b2 <= v <= b3 move (lib/exact). A root that meets b_i is a
- * rotation about the axis of b_i: for H = 0 the rays F/h = 2 J_i (k = 1) and F/h = 2 J_i (J_j + J_l) (k = -1). The
- * two roots meet at F/h = (J1 + J2 + J3)^2/2, where k = -1 and b3 > b1 + b2.
+ * R(z) + c (exact/coordinates.h) between which the coordinates b1 <= u <= b2 <= v <= b3 move. A root that meets b_i
+ * is a rotation about the axis of b_i: for H = 0 the rays F/h = 2 J_i (k = 1) and F/h = 2 J_i (J_j + J_l) (k = -1).
+ * The two roots meet at F/h = (J1 + J2 + J3)^2/2, where k = -1 and b3 > b1 + b2.
  */
 #ifndef ISO_STUDY_MOMENTUM_H
 #define ISO_STUDY_MOMENTUM_H
