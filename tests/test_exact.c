@@ -173,6 +173,28 @@ static void check_refusals(void)
              "with a field: %s", iso_context_message(ctx));
 }
 
+/* Clocks that were not asked for are NaN in every form. */
+static void check_clocks(void)
+{
+    static const bool only_s[ISO_CLOCKS] = {[ISO_CLOCK_S] = true};
+    static const double bodies[][3] = {{1.4, 2.1, 3}, {2, 2, 3}, {2, 2.0000000000000004, 2.000000000000001}};
+    for (int i = 0; i < 3; i++) {
+        iso_exact *exact;
+        double y[ISO_STATE], clocks[ISO_CLOCKS], all[ISO_CLOCKS];
+        orbit o = orbit_sample(ctx, &iso_system_point, -1, bodies[i], 1);
+        double *const at[2] = {clocks, all};
+        for (int every = 0; every < 2; every++) {
+            if (iso_exact_create(ctx, &o.model.field, o.y0, every ? all_clocks : only_s, &exact) != ISO_OK) return;
+            iso_exact_at(ctx, exact, ISO_CLOCK_S, 3, y, at[every]);
+            iso_exact_free(exact);
+        }
+        gsl_test(!(clocks[ISO_CLOCK_S] == 3 && isnan(clocks[ISO_CLOCK_T]) && isnan(clocks[ISO_CLOCK_TAU])),
+                 "J = %g %g %g: a clock that was not asked for is NaN", bodies[i][0], bodies[i][1], bodies[i][2]);
+        gsl_test(!(all[ISO_CLOCK_S] == 3 && all[ISO_CLOCK_T] > 0 && all[ISO_CLOCK_TAU] > 0),
+                 "and the others are not");
+    }
+}
+
 int main(void)
 {
     enum { ORBITS = 120 };
@@ -193,6 +215,7 @@ int main(void)
     check_angles();
     check_homoclinic();
     check_refusals();
+    check_clocks();
     iso_random_free(random);
     iso_context_free(ctx);
     exit(gsl_test_summary());

@@ -31,7 +31,7 @@ static iso_status check_numbers(iso_context *ctx, const iso_field *f, const doub
     if (!all_finite(point, ISO_STATE) || !(square > 0))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the start is not finite, or gamma is zero");
     if (!(f->eps > 0 && isnormal(f->eps)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "the closed solution needs eps > 0, not %g", f->eps);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "the closed solution needs a coupling eps > 0");
     const double q = (f->p.J[0] * g[0] * g[0] + f->p.J[1] * g[1] * g[1] + f->p.J[2] * g[2] * g[2]) / square;
     const double fall = f->eps * pow(q, -1 / f->p.k),
                  M2 = point[0] * point[0] + point[1] * point[1] + point[2] * point[2];
@@ -73,7 +73,7 @@ static iso_status find_form(iso_context *ctx, const iso_field *f, double point[I
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[ISO_LEVEL]->name,
                                 "k = 1 has a closed solution on the level H = 0 alone");
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k",
-                            "k = %.17g has a closed solution only where two moments of inertia are equal, or in a "
+                            "k = %.15g has a closed solution only where two moments of inertia are equal, or in a "
                             "principal plane; k = 1 and k = -1 have one everywhere",
                             f->p.k);
 }

@@ -19,14 +19,14 @@ typedef struct iso_form {
                        void **data);
     void (*free)(void *data);
 
-    /* Where `clock` shows `time`; p->along is not NaN: a good guess of it. Clocks that were not made: NaN. */
+    /* Where `clock`, one of those made, shows `time`; p->along is not NaN: a good guess of it. */
     void (*find)(const void *data, iso_clock clock, real time, form_place *p);
 
     /* The mean rate at which a clock grows with p->along. */
     real (*rate)(const void *data, iso_clock clock);
 
-    /* On a separatrix: the axis of the rotation that the orbit leaves and comes back to; else -1. The form is good until
-     * it has come back, and wrong from there. */
+    /* On a separatrix: the axis of the rotation that the orbit leaves and comes back to; else -1. The form is good
+     * until it has come back, and wrong from there. */
     int (*unstable)(const void *data);
 
     /* The angles of a state on the torus, and back; NULL where there are none. */

@@ -130,8 +130,8 @@ static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
         const iso_effect *effect = iso_effect_list[id];
         if (!acting.on[id] || id == ISO_LEVEL) continue;
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect->name,
-                                "the closed solution is for a ball on which nothing acts but, at k = -1, 'level', not "
-                                "for one with '%s': take backend %s",
+                                "the closed solution is for a ball on which nothing acts but 'level', not for one with "
+                                "'%s': take backend %s",
                                 effect->name, effect->breaks ? "ball" : "point");
     }
     return ISO_OK;
