@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/vec3_impl.h"
@@ -160,9 +159,8 @@ static void say_separated(const iso_momentum *m, const double J[3], iso_momentum
 
 static void say_symmetric(const double J[3], iso_frequencies *f)
 {
-    int axis = 2;
-    for (int i = 0; i < 3; i++)
-        if (fabs(J[(i + 1) % 3] - J[(i + 2) % 3]) < fabs(J[(axis + 1) % 3] - J[(axis + 2) % 3])) axis = i;
+    int axis = 0; /* the first, as in lib/exact, where all three are equal */
+    while (axis < 2 && J[(axis + 1) % 3] != J[(axis + 2) % 3]) axis++;
     snprintf(f->motion, sizeof f->motion, "turns about the axis of symmetry %d and swings along it", axis + 1);
     snprintf(f->angle[0].what, sizeof f->angle[0].what, "swings along the axis");
     snprintf(f->angle[1].what, sizeof f->angle[1].what, "turns about axis %d", axis + 1);
