@@ -1,5 +1,4 @@
 /* torus.c - the separated form: both oscillations side by side, and the clocks on their torus. */
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
