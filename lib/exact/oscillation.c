@@ -44,7 +44,7 @@ real iso_oscillation_theta(const oscillation *o, real xi)
 static real xi_at(const oscillation *o, real theta)
 {
     real slope;
-    const real xi = theta + sine_series(o->gamma, o->terms, (double)theta);
+    const real xi = theta + sine_series(o->gamma, o->terms, (double)theta, NULL);
     const real miss = xi + sine_series_l(o->beta, o->modes, xi, &slope) - theta;
     return xi - miss / (1 + slope);
 }

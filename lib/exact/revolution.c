@@ -130,25 +130,12 @@ static iso_status find_series(revolution *r)
     return ISO_NUMERICAL;
 }
 
-/* sum_n b_n sin n xi and its slope, by Clenshaw's rule for both parts of exp(i n xi) */
-static double series_at(const growing *f, double xi, double *slope)
-{
-    const double s = sin(xi), c = cos(xi), twice = 2 * c;
-    double p = 0, p1 = 0, q = 0, q1 = 0;
-    for (int n = f->modes; n >= 1; n--) {
-        const double v = f->b[n] + twice * p - p1, w = n * f->b[n] + twice * q - q1;
-        p1 = p, p = v;
-        q1 = q, q = w;
-    }
-    *slope = q * c - q1;
-    return p * s;
-}
-
+/* r->of[i] and its slope. */
 static real growing_at(const revolution *r, int i, real along, real *slope)
 {
     const growing *f = &r->of[i];
     double part;
-    const double series = series_at(f, (double)remainderl(r->start + along, 2 * ISO_PI), &part);
+    const double series = sine_series(f->b, f->modes, (double)remainderl(r->start + along, 2 * ISO_PI), &part);
     *slope = f->mean + part;
     return f->mean * along + (series - f->zero);
 }

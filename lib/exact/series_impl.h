@@ -1,13 +1,14 @@
-/* series_impl.h - even functions of an angle as cosine series. */
+/* series_impl.h - even functions of an angle as cosine series, and sums of series. */
 #ifndef ISO_EXACT_SERIES_IMPL_H
 #define ISO_EXACT_SERIES_IMPL_H
 
 #include <math.h>
+#include <stddef.h>
 
 #include "exact/elliptic_impl.h"
 
-/* From f(pi j/N), j = 0 ... N, to the a_n of f(x) = sum_n a_n cos n x, n = 0 ... N, N a power of 2; f[j] at x[j stride].
- * `work` has room for 2 N numbers. */
+/* From f(pi j/N), j = 0 ... N, to the a_n of f(x) = sum_n a_n cos n x, n = 0 ... N, N a power of 2; both at
+ * x[j stride]. `work` has room for 2 N numbers. */
 void iso_cosine_series(double x[], int N, int stride, double work[]);
 
 enum { ABREAST = 4 }; /* steps of a recurrence that do not wait for each other */
@@ -29,15 +30,20 @@ static inline void set_multiples(double first, double step, int last, double cos
         }
 }
 
-/* sum_n b_n sin n x, n = 1 ... modes, by Clenshaw's rule; at b[n]. */
-static inline double sine_series(const double b[], int modes, double x)
+/* sum_n b_n sin n x, n = 1 ... modes, and its slope (may be NULL), by Clenshaw's rule for both parts of exp(i n x); at
+ * b[n]. */
+static inline double sine_series(const double b[], int modes, double x, double *slope)
 {
-    const double twice = 2 * cos(x);
-    double p = 0, p1 = 0;
+    const double c = cos(x), twice = 2 * c;
+    double p = 0, p1 = 0, q = 0, q1 = 0;
     for (int n = modes; n >= 1; n--) {
-        const double r = b[n] + twice * p - p1;
-        p1 = p, p = r;
+        const double v = b[n] + twice * p - p1;
+        p1 = p, p = v;
+        if (!slope) continue;
+        const double w = n * b[n] + twice * q - q1;
+        q1 = q, q = w;
     }
+    if (slope) *slope = q * c - q1;
     return p * sin(x);
 }
 
