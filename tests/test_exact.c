@@ -163,6 +163,34 @@ static void check_homoclinic(void)
     gsl_test(!(away == 0 && energy < 1e-14), "and end as a rotation: off it by %.1e, energy %.1e", away, energy);
 }
 
+/* Small oscillations of Neumann's point about its stable equilibrium, which M and gamma tell of and H does not. */
+static void check_small_oscillations(void)
+{
+    static const double J[3] = {1, 1.5, 2};
+    double worst = 0;
+    for (double size = 1e-5; size > 1e-13; size /= 10) {
+        orbit o = {.ctx = ctx, .model.system = &iso_system_point, .model.field.p = laws_params(-1, J)};
+        const double y0[ISO_STATE] = {size, -size, 0, size, size, sqrt(1 - 2 * size * size)};
+        copy(y0, o.y0, ISO_STATE);
+        o.model.field.eps = 0.5;
+        o.model.field.energy = size * size - 0.5 * (2 - 1.5 * size * size);
+        orbit_clocks(&o, ISO_CLOCK_S, false, false, false);
+        iso_exact *exact;
+        double expected[ISO_MAX_STATE], y[ISO_STATE], clocks[ISO_CLOCKS] = {NAN};
+        if (iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_OK) worst = INFINITY;
+        iso_exact_at(ctx, exact, ISO_CLOCK_S, 10, y, clocks);
+        iso_integrator *it =
+            orbit_start(&o, iso_method_find("taylor_extended"), &(iso_method_options){.tolerance = 1e-15});
+        if (iso_integrator_at(it, 10, expected) != ISO_OK) expected[0] = NAN;
+        for (int i = 0; i < 5; i++)
+            if (i != 2) worst = fmax(worst, fabs(y[i] - expected[i]) / size);
+        if (isnan(clocks[ISO_CLOCK_T]) || isnan(clocks[ISO_CLOCK_TAU])) worst = INFINITY;
+        iso_integrator_free(it);
+        iso_exact_free(exact);
+    }
+    gsl_test(!(worst < 1e-13), "small oscillations of 1e-5 ... 1e-12, to their own size: %.1e", worst);
+}
+
 static void check_refusals(void)
 {
     iso_exact *exact;
@@ -237,6 +265,7 @@ int main(void)
     check_homoclinic();
     check_refusals();
     check_clocks();
+    check_small_oscillations();
     check_nearly_round();
     iso_random_free(random);
     iso_context_free(ctx);

@@ -269,10 +269,10 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     const real step = approach(x, clock, time, &a);
     for (int i = 0; i < 2; i++) theta[i] = less_turns(a.theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
     p->along = a.sigma + step;
-    for (int k = 0; k < ISO_CLOCKS; k++) others = others || (k != (int)clock && x->clock[k].blocks > 0);
+    for (int k = 0; k < ISO_CLOCKS; k++) others = others || (k != (int)clock && x->clock[k].mean > 0);
     if (others) set_angles(x, p->along, ALL, &a);
     for (int k = 0; k < ISO_CLOCKS; k++)
-        p->clock[k] = k == (int)clock ? time : x->clock[k].blocks > 0 ? clock_at(&x->clock[k], ALL, ALL, &a) : NAN;
+        p->clock[k] = k == (int)clock ? time : x->clock[k].mean > 0 ? clock_at(&x->clock[k], ALL, ALL, &a) : NAN;
     iso_separation_state(&x->s, theta, p->point);
 }
 
