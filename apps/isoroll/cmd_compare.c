@@ -202,8 +202,8 @@ static bool print_json(const iso_scene *scene, const iso_comparison *c)
         json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:{s:o, s:o}}", "isoroll", ISO_VERSION,
                   "k", number(p->k), "J", number(p->J[0]), number(p->J[1]), number(p->J[2]), "h", number(c->h), "eps",
                   number(c->eps), "effects", effects_of(&c->effects), "tolerance", number(scene->tolerance), "clock",
-                  iso_clock_name(c->clock), "worst_difference", worst_of(c, c->worst), "difference", columns_of(c->difference),
-                  "backends", "ball", backend_of(&c->run[ISO_BALL]), "point", backend_of(&c->run[ISO_POINT]));
+                  iso_clock_name(c->clock), "worst_difference", worst_of(c, c->worst), "difference",
+                  columns_of(c->difference), "backends", "ball", backend_of(&c->run[ISO_BALL]), "point", backend_of(&c->run[ISO_POINT]));
     if (!o) return complain("out of memory"), false;
     add_exact(o, c);
     json_dumpf(o, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
@@ -301,6 +301,7 @@ const command command_compare = {
     .argument = "SCENE",
     .doc = "the same orbit by every backend, side by side: states, clocks, integrals",
     .options = " method tol t-end step rows plot json ",
-    .more = "The backends are ball, point and, where there is a closed solution, exact. Differences are relative to the size of the vector (clocks: to the largest value).",
+    .more = "The backends are ball, point and, where there is a closed solution, exact. Differences are relative to the "
+            "size of the vector\n(clocks: to the largest value).",
     .run = run,
 };

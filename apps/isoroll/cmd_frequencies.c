@@ -74,8 +74,7 @@ static void print_resonances(const iso_frequencies *f)
 {
     if (!isnan(f->rotation))
         printf("\nrotation number, frequency 1/frequency 2: %.15g\nnear resonances p:q, p frequency 1 = q frequency "
-               "2; the time "
-               "t in which p angle 1 - q angle 2 turns once\n",
+               "2; the time t in which p angle 1 - q angle 2 turns once\n",
                f->rotation);
     for (int i = 0; i < f->resonances; i++) {
         const iso_resonance *r = &f->resonance[i];
@@ -94,7 +93,7 @@ static void print_resonances(const iso_frequencies *f)
 static void print_table(const iso_scene *scene, const iso_frequencies *f)
 {
     print_head(scene, f);
-    if (f->separatrices > 0) printf("\ndistance from the separatrix of\n");
+    if (f->separatrices > 0) printf("\nrelative distance from the separatrix of\n");
     print_separatrices(f);
     if (f->angles > 0) print_angles(f);
     print_resonances(f);
@@ -296,11 +295,10 @@ const command command_frequencies = {
     .argument = "SCENE",
     .doc = "actions, frequencies, rotation number, near resonances; estimated where there is no closed solution",
     .options = " turns t-end samples plot json ",
-    .more = "Where there is a closed solution (k = 1, -1, equal moments, principal planes) the numbers are its own. "
-            "Elsewhere "
-            "they are estimated from\nan orbit in the ball's time t, of --turns, or to --t-end, by Laskar's "
-            "frequency analysis. "
-            "--plot draws the image of the momentum map\n(h, F) with the orbit in it; where there is none, the lines "
-            "of n(t).",
+    .more =
+        "Where there is a closed solution (k = 1, -1, equal moments, principal planes) the numbers are its own.\n"
+        "Elsewhere they are estimated from an orbit in the ball's time t, of --turns, or to --t-end (not the scene's),\n"
+        "by Laskar's frequency analysis. --plot draws the image of the momentum map (h, F) with the orbit in it;\n"
+        "where there is none, the lines of n(t).",
     .run = run,
 };

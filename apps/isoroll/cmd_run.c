@@ -118,7 +118,8 @@ static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_o
     iso_status status = iso_record_create(ctx, (size_t)count, names, header);
     if (status == ISO_OK)
         status = iso_record_describe(ctx, *header, iso_picture_name((int)as), &scene->params, orbit);
-    if (status == ISO_OK) status = iso_record_set(ctx, *header, "backend", iso_picture_name((int)iso_orbit_backend(orbit)));
+    if (status == ISO_OK)
+        status = iso_record_set(ctx, *header, "backend", iso_picture_name((int)iso_orbit_backend(orbit)));
     if (status == ISO_OK) status = iso_record_set(ctx, *header, "method", iso_orbit_method(orbit)->name);
     if (status == ISO_OK && !iso_orbit_exact(orbit))
         status = iso_record_set_numbers(ctx, *header, "tolerance", 1, &scene->tolerance);
@@ -228,8 +229,8 @@ static void tell(const iso_orbit *orbit, size_t rows)
     }
     complain("%zu rows; backend %s, method %s: %ld steps, %ld rejected, %ld right-hand sides, %ld Jacobians; largest "
              "correction by projection %.2g",
-             rows, iso_picture_name((int)iso_orbit_backend(orbit)), iso_orbit_method(orbit)->name, s.steps, s.rejected, s.rhs,
-             s.jacobians, s.correction);
+             rows, iso_picture_name((int)iso_orbit_backend(orbit)), iso_orbit_method(orbit)->name, s.steps, s.rejected,
+             s.rhs, s.jacobians, s.correction);
 }
 
 static bool not_interrupted(void *data)
@@ -356,8 +357,8 @@ const command command_run = {
     .more =
         "The times of --t-end, --step and --times are those of the clock of the scene's model: t of a ball, s of a "
         "point.\nBackend exact is the closed solution, where there is one ('isoroll explain' says): every time costs "
-        "the same, near or far;\nit takes no method and no tolerance.\nRows do not depend on which other times are asked. Interrupted (Ctrl-C), the rows so far are "
-        "kept.\n--verbose computes the orbit once more, finer, and tells the largest error of the rows: it covers "
+        "the same, near or far;\nit takes no method and no tolerance.\nRows do not depend on which other times are asked. Interrupted "
+        "(Ctrl-C), the rows so far are kept.\n--verbose computes the orbit once more, finer, and tells the largest error of the rows: it covers "
         "the method's error and\nthe rounding of the start, not numbers of k, effects and times that are no doubles.",
     .run = run,
 };

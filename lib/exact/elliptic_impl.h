@@ -1,5 +1,5 @@
-/* elliptic_impl.h - Jacobi's elliptic functions of parameter m = 1 - m1. m1 itself is carried, which 1 - m would lose,
- * and small values of any function keep their digits.
+/* elliptic_impl.h - Jacobi's elliptic functions of parameter m = 1 - m1. m1 itself is carried, which 1 - m would
+ * lose, and small values of any function keep their digits.
  *
  * Angles are xi = pi x/K: sn and cn have period 4 pi, dn has 2 pi.
  */

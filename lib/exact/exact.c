@@ -93,12 +93,12 @@ static void find(const iso_exact *x, iso_clock clock, real time, form_place *p)
     p->along = NAN;
 }
 
-/* --- on a separatrix ---------------------------------------------------------------------------------------------- */
+/* --- on a separatrix -------------------------------------------------------------------------------------------- */
 
 enum { STEPS_A_TURN = 32, MOST_TURNS = 20000 };
 
-/* Away from time 0 until gamma has been in the plane of the unstable rotation for a turn, to rounding; there begins the
- * rotation. */
+/* Away from time 0 until gamma has been in the plane of the unstable rotation for a turn, to rounding; there begins
+ * the rotation. */
 static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact *x, int axis, int direction,
                            homoclinic_end *end)
 {
@@ -126,7 +126,7 @@ static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact
     return iso_exact_create(ctx, f, p.point, x->has, &end->rotation);
 }
 
-/* --- the front ---------------------------------------------------------------------------------------------------- */
+/* --- the front -------------------------------------------------------------------------------------------------- */
 
 /* Whether a solution is where it should be at time 0, and anywhere a little later. */
 static bool begins(const iso_exact *x, const double point[ISO_STATE])
@@ -256,7 +256,7 @@ iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock,
     return ISO_OK;
 }
 
-/* --- angles ------------------------------------------------------------------------------------------------------- */
+/* --- angles ----------------------------------------------------------------------------------------------------- */
 
 static iso_status check_angles(iso_context *ctx, const iso_exact *x)
 {

@@ -6,7 +6,7 @@
 /* What an orbit on the separatrix is taken off it: nothing to be seen before it has come back. */
 static const real OFF_SEPARATRIX = 1e-38L;
 
-/* --- divided differences of m(y) = 2 (H + eps q^power) ----------------------------------------------------------- */
+/* --- divided differences of m(y) = 2 (H + eps q^power) ---------------------------------------------------------- */
 
 real iso_latitude_q(const latitude *r, real y)
 {
@@ -59,7 +59,7 @@ static real P_at(const latitude *r, real y)
     return y == 1 ? -r->Mx * r->Mx : r->dx0 * r->dx0 + (y - r->y0) * P_slope(r, y, r->y0);
 }
 
-/* --- the range of y ----------------------------------------------------------------------------------------------- */
+/* --- the range of y --------------------------------------------------------------------------------------------- */
 
 typedef real function(const latitude *r, real y);
 
@@ -154,7 +154,7 @@ void iso_latitude_range(latitude *r)
     r->distance = P0 / iso_latitude_m(r, 0);
 }
 
-/* --- along the way ------------------------------------------------------------------------------------------------- */
+/* --- along the way ---------------------------------------------------------------------------------------------- */
 
 real iso_latitude_rate(const latitude *r, real y, real to_a, real dn, real *psi)
 {

@@ -36,8 +36,8 @@ real iso_latitude_m(const latitude *r, real y);
 /* |y0 - root| for a root of P */
 real iso_latitude_distance(const latitude *r, real root);
 
-/* dx/ds of the argument x of the elliptic functions at y = a - to_a, where dn is given; and what the longitude grows by
- * with x beyond the elementary S dn/(1 - y), S = sqrt((1 - a)(1 - b)): (M_x/(dx/ds) - S dn)/(1 - y). */
+/* dx/ds of the argument x of the elliptic functions at y = a - to_a, where dn is given; and what the longitude grows
+ * by with x beyond the elementary S dn/(1 - y), S = sqrt((1 - a)(1 - b)): (M_x/(dx/ds) - S dn)/(1 - y). */
 real iso_latitude_rate(const latitude *r, real y, real to_a, real dn, real *psi);
 
 #endif

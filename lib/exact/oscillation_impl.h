@@ -1,8 +1,8 @@
 /* oscillation_impl.h - one sphero-conical coordinate in the clock sigma, by an angle that grows evenly.
  *
  * (dz/dsigma)^2 is a product of distances to branch points, at most six with 0 and infinity. Two bound the motion: z
- * starts at one, where sn = 0, and turns at the other, where cn = 0. The next one on either side, dn's and the base, may
- * come close to them; elliptic functions take in all four:
+ * starts at one, where sn = 0, and turns at the other, where cn = 0. The next one on either side, dn's and the base,
+ * may come close to them; elliptic functions take in all four:
  *
  *     |z - root of sn| = span sn^2/B^2     |z - root of cn| = to_cn cn^2/B^2     B^2 = cn^2 + left sn^2
  *     |z - root of dn| = to_dn dn^2/B^2    |z - base|       = to_base/B^2        (B = 1: the base is infinite)
@@ -26,7 +26,7 @@ enum { MOST_XI_MODES = 512, MOST_MODES = 1 << 15 }; /* powers of 2: of functions
 enum { MOST_PARTS = 64 };
 
 typedef struct oscillation {
-    real zero, origin, span, left, to_cn, to_dn, to_base; /* z is counted from `zero` */
+    real zero, origin, span, left, to_cn, to_dn, to_base; /* z, `at` too, is counted from `zero` */
     int upwards, power; /* 1: z grows from origin, -1: it falls; of z in dx/dsigma */
     real C, far[2];
     int rests;

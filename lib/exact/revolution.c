@@ -40,7 +40,7 @@ typedef struct revolution {
     growing of[SERIES];      /* the clocks, and psi (in the sense of growing longitude)                       */
 } revolution;
 
-/* --- the series ------------------------------------------------------------------------------------------------------- */
+/* --- the series ------------------------------------------------------------------------------------------------- */
 
 /* d/dxi of the clocks and of psi at xi; y is even about 0 and pi */
 static void rates_at(const revolution *r, real xi, real rate[SERIES])
@@ -140,7 +140,7 @@ static real growing_at(const revolution *r, int i, real along, real *slope)
     return f->mean * along + (series - f->zero);
 }
 
-/* --- the state ------------------------------------------------------------------------------------------------------ */
+/* --- the state -------------------------------------------------------------------------------------------------- */
 
 /* x, dx/ds and the elementary factor of gamma_1 + i gamma_2 at xi, or (half = -1) half a period of sn later */
 static void swing_at(const revolution *r, double xi, int half, double W, double *x, double *dx, double h[2],
@@ -191,7 +191,7 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
     }
 }
 
-/* --- from a state ---------------------------------------------------------------------------------------------------- */
+/* --- from a state ----------------------------------------------------------------------------------------------- */
 
 /* The axis across a principal plane in which the point is and stays; -1: none. */
 static int across_plane(const double point[ISO_STATE])
@@ -295,7 +295,7 @@ static iso_status make(const iso_field *f, const double point[ISO_STATE], const 
     return status;
 }
 
-/* --- the form ---------------------------------------------------------------------------------------------------------- */
+/* --- the form --------------------------------------------------------------------------------------------------- */
 
 static void find(const void *data, iso_clock clock, real time, form_place *p)
 {

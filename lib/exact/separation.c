@@ -85,8 +85,8 @@ static real form(const separation *s, int power, const real x[3], const real y[3
     return sum;
 }
 
-/* gamma and M in long double, on |gamma| = 1, (M,gamma) = 0 and, if that is the level, H = 0, sorted; M's components keep the caller's
- * sense */
+/* gamma and M in long double, on |gamma| = 1, (M,gamma) = 0 and, if that is the level, H = 0, sorted; M's components
+ * keep the caller's sense */
 static void take_state(const separation *s, real energy, const double point[ISO_STATE], moment *m)
 {
     real *gamma = m->gamma, *M = m->M;
@@ -138,7 +138,7 @@ static real excess(const separation *s, const moment *m, int j, real *size)
     return x + y - g;
 }
 
-/* v - u, and al, be. At k = -1 these are the eigenvalues of b + (M^2/2 eps) l l^T across gamma, u and v those of b. */
+/* v - u, and al, be: at k = -1 the eigenvalues of b + (M^2/2 eps) l l^T across gamma, as u and v are those of b. */
 static void find_roots(separation *s, moment *m)
 {
     s->unstable = -1;
@@ -183,8 +183,8 @@ static void rates(const separation *s, const real y[6], real dy[6])
     }
 }
 
-/* Where u and v are nearly one, al and the rates have lost their digits: some tenths of a radian further they have them. By
- * Runge and Kutta's method in steps that leave no error, once for an orbit. */
+/* Where u and v are nearly one, al and the rates have lost their digits: some tenths of a radian further they have them.
+ * By Runge and Kutta's method in steps that leave no error, once for an orbit. */
 static void carry_on(separation *s, moment *m)
 {
     enum { STEPS = 4000 };
@@ -258,7 +258,7 @@ static void give_roles(separation *s, int which, int sn, int cn, int dn, int bas
 
 enum { OUTSIDE = -1 }; /* 0 or infinity */
 
-/* Among roots b > c > d, z in [d, c], and infinity (k = -1) or 0 (k = 1):
+/* Among roots b > c > d, u in [d, c], and infinity (k = -1) or 0 (k = 1):
  *     sn^2 = (u-d)/(c-d) times {1 | c/u},    1-m = (b-c)/(b-d) times {1 | d/c} */
 static real make_lower(separation *s, int a, int b, int c, int d, int e)
 {
@@ -400,8 +400,8 @@ bool iso_separation_angles(const separation *s, const double point[ISO_STATE], r
 
 /* --- to a state ------------------------------------------------------------------------------------------------- */
 
-/* Square roots of the distances from a coordinate to all roots, with the signs that make them smooth (ROOT_NONE: 1 over
- * that of z), and the distance to its root of cn. */
+/* Square roots of the distances from a coordinate to all roots, with the signs that make them smooth (ROOT_NONE: 1
+ * over that of z), and the distance to its root of cn. */
 static double roots_at(const separation *s, int which, real theta, double root[SEPARATION_ROOTS])
 {
     const oscillation *o = &s->coordinate[which];

@@ -12,8 +12,8 @@
  *
  *     R(b_j) + c = (1/2) sum_i (b_j - b_i) M_i^2 - E_j (b_j - b_k)(b_j - b_l) gamma_j^2,   E_j = {eps | eps/(q b_j)}
  *
- * and from there on distances between roots are carried, never their differences taken. Two separatrices: al = b2, and
- * at k = -1 be = b3.
+ * and from there on distances between roots are carried, never their differences taken. Two separatrices: al = b2,
+ * and at k = -1 be = b3.
  */
 #ifndef ISO_EXACT_SEPARATION_IMPL_H
 #define ISO_EXACT_SEPARATION_IMPL_H
@@ -50,7 +50,8 @@ bool iso_separation_angles(const separation *s, const double point[ISO_STATE], r
 /* (M, gamma) at the angles of u and v. */
 void iso_separation_state(const separation *s, const real theta[2], double point[ISO_STATE]);
 
-/* d clock/dsigma, u and v counted from b2: ds = (v - u) dsigma, d tau = (det J/k^2) q^(-1/k) ds, dt = (det J/k^2) q^(-1 - 1/(2k)) ds. */
+/* d clock/dsigma, u and v counted from b2: ds = (v - u) dsigma, d tau = (det J/k^2) q^(-1/k) ds,
+ * dt = (det J/k^2) q^(-1 - 1/(2k)) ds. */
 real iso_separation_rate(const separation *s, iso_clock clock, real u, real v);
 
 /* (1/2 pi) times the integral of |p_z dz| over one swing of z */

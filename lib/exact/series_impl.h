@@ -30,8 +30,8 @@ static inline void set_multiples(double first, double step, int last, double cos
         }
 }
 
-/* sum_n b_n sin n x, n = 1 ... modes, and its slope (may be NULL), by Clenshaw's rule for both parts of exp(i n x); at
- * b[n]. */
+/* sum_n b_n sin n x, n = 1 ... modes, and its slope (may be NULL), by Clenshaw's rule for both parts of exp(i n x);
+ * at b[n]. */
 static inline double sine_series(const double b[], int modes, double x, double *slope)
 {
     const double c = cos(x), twice = 2 * c;

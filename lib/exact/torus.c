@@ -200,8 +200,8 @@ static real rate_at(const torus *x, iso_clock clock, const local *l, real step)
     return iso_separation_rate(&x->s, clock, z[0], z[1]);
 }
 
-/* What a clock goes by over a short step, by Simpson's rule, over its length; and how far this can be wrong: in a smooth
- * rate by the fourth power of how much it changes. */
+/* What a clock goes by over a short step, by Simpson's rule, over its length; and how far this can be wrong: in a
+ * smooth rate by the fourth power of how much it changes. */
 static real simpson(const torus *x, iso_clock clock, const local *l, real step, real *error)
 {
     const real first = rate_at(x, clock, l, 0), middle = rate_at(x, clock, l, step / 2),
@@ -330,8 +330,8 @@ static real mean_rate(const void *data, iso_clock clock)
     return ((const torus *)data)->clock[clock].mean;
 }
 
-/* After how many swings of a coordinate the state returns: one of v where gamma3 keeps its side and gamma2 does not swing
- * with it, else two. */
+/* After how many swings of a coordinate the state returns: one of v where gamma3 keeps its side and gamma2 does not
+ * swing with it, else two. */
 static int swings_of(const separation *s, int coordinate)
 {
     return coordinate == 1 && s->below_b3 && !s->librates_low ? 1 : 2;

@@ -1,7 +1,7 @@
 /* exact_method.c - the closed solution as a method: the state at any time, without steps.
  *
- * It stands here and not in the registry: methods do not know of closed solutions, and it is no integrator to be chosen
- * but a backend. Only a search for events goes along the orbit, in parts in which the state changes by half its size.
+ * It stands here and not in the registry: methods do not know of closed solutions, and it is no integrator to be
+ * chosen but a backend. Only a search for events goes along the orbit, in parts in which the state changes by half its size.
  */
 #include <math.h>
 

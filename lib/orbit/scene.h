@@ -68,7 +68,8 @@ typedef struct iso_scene {
 } iso_scene;
 
 /* Puts "name:line:column: " before the context's message where the failure is about a key that the scene was read
- * with, or one that follows from it (k from `surface`); what is then a mistake in the file is ISO_BAD_INPUT, no longer ISO_BAD_ARGUMENT. Gives the status. */
+ * with, or one that follows from it (k from `surface`); what is then a mistake in the file is ISO_BAD_INPUT, no longer
+ * ISO_BAD_ARGUMENT. Gives the status. */
 iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
 
 /* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_AUTO (the model of the start). */
