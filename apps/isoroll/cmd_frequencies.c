@@ -297,8 +297,9 @@ const command command_frequencies = {
     .options = " turns t-end samples plot json ",
     .more =
         "Where there is a closed solution (k = 1, -1, equal moments, principal planes) the numbers are its own.\n"
-        "Elsewhere they are estimated from an orbit in the ball's time t, of --turns, or to --t-end (not the scene's),\n"
-        "by Laskar's frequency analysis. --plot draws the image of the momentum map (h, F) with the orbit in it;\n"
+        "Elsewhere they are estimated from an orbit in the ball's time t, of --turns, or to --t-end (not the "
+        "scene's),\nby Laskar's frequency analysis. --plot draws the image of the momentum map (h, F) with the "
+        "orbit in it;\n"
         "where there is none, the lines of n(t).",
     .run = run,
 };

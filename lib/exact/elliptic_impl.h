@@ -12,6 +12,9 @@ typedef long double real;
 
 #define ISO_PI 3.141592653589793238462643383279502884L
 
+/* What an orbit on a separatrix is taken off it, relatively: nothing to be seen before it has come back. */
+#define ISO_OFF_SEPARATRIX 1e-38L
+
 /* x less the nearest multiple of `period`: as exact as x is. */
 static inline real less_turns(real x, real period)
 {

@@ -45,8 +45,8 @@ iso_status iso_exact_grid(iso_context *ctx, const iso_exact *exact, iso_clock cl
 
 /* The angles, in [0, 2 pi), of a state on the orbit's torus, and the state at given angles; NaN: a second angle of a
  * motion that has one. They grow evenly with sigma for a separated motion, else with s, from a place that is the
- * form's choice. Errors: ISO_BAD_ARGUMENT: a motion without angles; a state that turns the other way; numbers that are
- * not finite. */
+ * form's choice. Errors: ISO_BAD_ARGUMENT: a motion without angles; a state that turns the other way; numbers that
+ * are not finite. */
 iso_status iso_exact_angles(iso_context *ctx, const iso_exact *exact, const double point[ISO_STATE], double angle[2]);
 iso_status iso_exact_point(iso_context *ctx, const iso_exact *exact, const double angle[2], double point[ISO_STATE]);
 

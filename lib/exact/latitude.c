@@ -3,9 +3,6 @@
 #include <float.h>
 #include <math.h>
 
-/* What an orbit on the separatrix is taken off it: nothing to be seen before it has come back. */
-static const real OFF_SEPARATRIX = 1e-38L;
-
 /* --- divided differences of m(y) = 2 (H + eps q^power) ---------------------------------------------------------- */
 
 real iso_latitude_q(const latitude *r, real y)
@@ -147,7 +144,7 @@ void iso_latitude_range(latitude *r)
     r->rest_a = rest_of(r, r->a);
     const real P0 = P_at(r, 0), terms = r->dx0 * r->dx0 + r->y0 * fabsl(P_slope(r, 0, r->y0));
     r->homoclinic = terms > 0 && r->has_b && fabsl(P0) <= 8 * LDBL_EPSILON * terms;
-    if (r->homoclinic) r->b = -OFF_SEPARATRIX * r->a;
+    if (r->homoclinic) r->b = -ISO_OFF_SEPARATRIX * r->a;
     r->side = r->has_b && r->b > 0;
     r->rest_b = r->side ? rest_of(r, r->b) : 1;
     r->a_b = r->side ? iso_latitude_distance(r, r->a) + iso_latitude_distance(r, r->b) : r->a - r->b;

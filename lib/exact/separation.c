@@ -346,9 +346,6 @@ void iso_separation_release(separation *s)
     for (int i = 0; i < 2; i++) iso_oscillation_release(&s->coordinate[i]);
 }
 
-/* What an orbit on a separatrix is taken off it, of the moments: nothing to be seen before it has come back. */
-static const real OFF_SEPARATRIX = 1e-38L;
-
 bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE])
 {
     moment m;
@@ -366,8 +363,8 @@ bool iso_separation_make(separation *s, const iso_field *field, const double poi
         find_roots(s, &m);
         s->unstable = unstable;
     }
-    if (s->unstable == s->axis[1]) s->to_al[1] = OFF_SEPARATRIX * (s->off[2] - s->off[0]);
-    if (s->unstable == s->axis[2]) s->to_be[2] = OFF_SEPARATRIX * (s->off[2] - s->off[0]);
+    if (s->unstable == s->axis[1]) s->to_al[1] = ISO_OFF_SEPARATRIX * (s->off[2] - s->off[0]);
+    if (s->unstable == s->axis[2]) s->to_be[2] = ISO_OFF_SEPARATRIX * (s->off[2] - s->off[0]);
     s->librates_low = s->to_al[1] > 0;
     s->below_b3 = s->to_be[2] < 0;
     const int a = s->below_b3 ? BE : 2, e = s->below_b3 ? 2 : BE;
