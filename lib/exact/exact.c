@@ -200,6 +200,12 @@ static iso_status check_time(iso_context *ctx, const iso_exact *x, iso_clock clo
     return isfinite(time) ? ISO_OK : iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a time is not finite");
 }
 
+static iso_status check_point(iso_context *ctx, const form_place *p)
+{
+    if (all_finite(p->point, ISO_STATE)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_NUMERICAL, "", "the closed solution is not finite, or has no memory");
+}
+
 static void hand_over(const iso_exact *x, const form_place *p, double point[ISO_STATE], double clocks[ISO_CLOCKS])
 {
     for (int i = 0; i < ISO_STATE; i++) point[i] = p->point[i];
@@ -214,7 +220,7 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
     if (status != ISO_OK) return status;
     find(x, clock, time, &p);
     hand_over(x, &p, point, clocks);
-    return ISO_OK;
+    return check_point(ctx, &p);
 }
 
 /* --- grids ------------------------------------------------------------------------------------------------------ */
@@ -248,6 +254,8 @@ iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock,
         form_place p = {.along = guess};
         find(x, clock, time, &p);
         hand_over(x, &p, points + ISO_STATE * i, clocks ? clocks + ISO_CLOCKS * i : NULL);
+        status = check_point(ctx, &p);
+        if (status != ISO_OK) return status;
         if (isnan(p.along) || fabsl(guess - p.along) > POOR) known = 0; /* an end; or steps too long */
         for (int j = 1; j < known; j++) trail[j - (known == TRAIL)] = trail[j];
         known += known < TRAIL;

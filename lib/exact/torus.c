@@ -134,10 +134,36 @@ static iso_status resolve_clock(separation *s, iso_clock clock, torus_clock *c)
 
 /* --- angles and clocks at sigma --------------------------------------------------------------------------------- */
 
+enum { SMALL = 2048 };
+
 typedef struct angles {
-    real sigma, theta[2]; /* of u and v, within a turn and back */
-    double sine[2][MOST_MODES + 1 + ABREAST], cosine[2][MOST_MODES + 1 + ABREAST];
+    real sigma, theta[2];        /* of u and v, within a turn and back */
+    double *sine[2], *cosine[2]; /* of their multiples                 */
+    double *of_sine, *of_cosine; /* sums over those of theta_u         */
+    double *heap, small[SMALL];
 } angles;
+
+/* Room for what a clock may need: seldom more than `small`. False: no memory. */
+static bool open_angles(const torus *x, angles *a)
+{
+    const size_t rows = (size_t)x->rows + 2 * ABREAST, columns = (size_t)x->columns + 2 * ABREAST;
+    const size_t size = 2 * rows + 4 * columns;
+    a->heap = size > SMALL ? malloc(size * sizeof *a->heap) : NULL;
+    double *const at = size > SMALL ? a->heap : a->small;
+    if (!at) return false;
+    a->sine[0] = at;
+    a->cosine[0] = at + rows;
+    a->sine[1] = at + 2 * rows;
+    a->cosine[1] = a->sine[1] + columns;
+    a->of_sine = a->cosine[1] + columns;
+    a->of_cosine = a->of_sine + columns;
+    return true;
+}
+
+static void close_angles(angles *a)
+{
+    free(a->heap);
+}
 
 /* With multiples of them below `most`, as far as they are needed. */
 static void set_angles(const torus *x, real sigma, int most, angles *a)
@@ -154,7 +180,7 @@ static void set_angles(const torus *x, real sigma, int most, angles *a)
 /* The first `blocks` of rows, n < most: sums over m first, which can be taken side by side. */
 static real clock_at(const torus_clock *c, int blocks, int most, const angles *a)
 {
-    double of_sine[MOST_MODES + 1], of_cosine[MOST_MODES + 1], sum = 0;
+    double *const of_sine = a->of_sine, *const of_cosine = a->of_cosine, sum = 0;
     const double *p = c->at_sine, *q = c->at_cosine;
     const int columns = c->columns < most ? c->columns : most;
     for (int n = 0; n < columns; n++) of_sine[n] = of_cosine[n] = 0;
@@ -212,17 +238,16 @@ static real simpson(const torus *x, iso_clock clock, const local *l, real step, 
 }
 
 /* Where the first terms of a clock show the time: Newton's method, a few steps. */
-static real near(const torus *x, iso_clock clock, real time)
+static real near(const torus *x, iso_clock clock, real time, angles *a)
 {
     const torus_clock *c = &x->clock[clock];
     const real about = (time + c->zero) / c->mean, around = c->range / c->mean;
     real sigma = about;
-    angles a;
     local l;
     for (int i = 0; i < 8; i++) {
-        set_angles(x, sigma, c->few, &a);
-        look_around(x, c->few, &a, &l);
-        const real step = (time - clock_at(c, c->few / ABREAST, c->few, &a)) / rate_at(x, clock, &l, 0);
+        set_angles(x, sigma, c->few, a);
+        look_around(x, c->few, a, &l);
+        const real step = (time - clock_at(c, c->few / ABREAST, c->few, a)) / rate_at(x, clock, &l, 0);
         if (!(fabsl(sigma + step - about) <= around)) break;
         sigma += step;
         if (fabsl(step) <= 1e-4L * around) break;
@@ -265,7 +290,11 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     bool others = false;
     real theta[2];
     angles a;
-    a.sigma = isnan(p->along) ? near(x, clock, time) : p->along;
+    if (!open_angles(x, &a)) {
+        p->point[0] = NAN;
+        return;
+    }
+    a.sigma = isnan(p->along) ? near(x, clock, time, &a) : p->along;
     const real step = approach(x, clock, time, &a);
     for (int i = 0; i < 2; i++) theta[i] = less_turns(a.theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
     p->along = a.sigma + step;
@@ -274,6 +303,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     for (int k = 0; k < ISO_CLOCKS; k++)
         p->clock[k] = k == (int)clock ? time : x->clock[k].mean > 0 ? clock_at(&x->clock[k], ALL, ALL, &a) : NAN;
     iso_separation_state(&x->s, theta, p->point);
+    close_angles(&a);
 }
 
 /* --- the form --------------------------------------------------------------------------------------------------- */
@@ -314,9 +344,11 @@ static iso_status make(const iso_field *field, const double point[ISO_STATE], co
     }
     if (x->s.coordinate[0].terms >= x->rows) x->rows = x->s.coordinate[0].terms + 1;
     if (x->s.coordinate[1].terms >= x->columns) x->columns = x->s.coordinate[1].terms + 1;
+    if (status != ISO_OK || !open_angles(x, &a)) return status != ISO_OK ? status : ISO_NO_MEMORY;
     set_angles(x, 0, ALL, &a);
-    for (int c = 0; c < ISO_CLOCKS && status == ISO_OK; c++)
+    for (int c = 0; c < ISO_CLOCKS; c++)
         if (clocks[c]) x->clock[c].zero = (double)(clock_at(&x->clock[c], ALL, ALL, &a) - x->s.before[c]);
+    close_angles(&a);
     return status;
 }
 
