@@ -90,15 +90,17 @@ static void put_panel(FILE *f, const iso_plot_map *map, bool over_h, bool key)
     fputs("$orbit << EOD\n", f);
     iso_plot_pair(f, map->at[0], over_h ? map->at[1] / map->at[0] : map->at[1]);
     fputs("EOD\n", f);
-    for (int i = 0; i < map->parts; i++, comma = ", ") {
+    for (int i = 0; i < map->parts; i++) {
         if (!part[i]) continue;
         fprintf(f, "%s$part%d u 1:2:3 with filledcurves fs solid 1 noborder lc rgb %s %s ", comma, i, fills[i],
                 key ? "title" : "notitle");
+        comma = ", ";
         if (key) iso_gnuplot_text(f, map->part[i], 60);
     }
-    for (int i = 0; i < map->lines; i++, comma = ", ") {
+    for (int i = 0; i < map->lines; i++) {
         if (!line[i]) continue;
         fprintf(f, "%s$line%d with lines %s %s ", comma, i, strokes[i], key ? "title" : "notitle");
+        comma = ", ";
         if (key) iso_gnuplot_text(f, map->line[i], 60);
     }
     fprintf(f, "%s$orbit with points " ORBIT " %s\n", comma, key ? "title 'this orbit'" : "notitle");

@@ -85,6 +85,11 @@ if command -v gnuplot >/dev/null; then
     check "a map off the level H = 0" test "$(head -c 5 map.pdf)" = %PDF-
     run 0 frequencies "$source/examples/06_braden_reduced/scene.yaml" --plot map.png
     check "a map of k = 1" test -s map.png
+    for symmetric in "-1 1,1,2" "-1 1,1,1.000000000000001" "1 1,2,2"; do # the first part is empty
+        scene "${symmetric% *}" "${symmetric#* }" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >symmetric.yaml
+        run 0 frequencies symmetric.yaml --plot symmetric.svg
+        check "a map for $symmetric" grep -q 'this orbit' symmetric.svg
+    done
     run 0 frequencies estimate.yaml --turns 200 --plot lines.svg
     silent
     check "lines" grep -q 'amplitude' lines.svg
