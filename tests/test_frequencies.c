@@ -24,6 +24,30 @@ static void must(iso_status status, const char *what)
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
 
+static bool goes_on(void *data)
+{
+    int *const left = data;
+    return --*left >= 0;
+}
+
+/* It asks before each line that it looks for, and before each that it refines, and once it is told no asks no more. */
+static void check_stop(const double x[], size_t count, double step)
+{
+    iso_line found[ISO_MAX_LINES];
+    int lines, asked = 1000;
+    iso_context_watch(ctx, goes_on, &asked);
+    must(iso_spectrum_find(ctx, x, count, step, ISO_MAX_LINES, found, &lines), "a spectrum that may be stopped");
+    asked = 1000 - asked;
+    gsl_test(asked < 2 * lines, "asked %d times whether to go on, for %d lines", asked, lines);
+    for (int calls = 0; calls < asked; calls++) {
+        int left = calls;
+        iso_context_watch(ctx, goes_on, &left);
+        const iso_status status = iso_spectrum_find(ctx, x, count, step, ISO_MAX_LINES, found, &lines);
+        gsl_test(status != ISO_STOPPED || lines != 0 || left != -1, "stopped when asked %d times", calls + 1);
+    }
+    iso_context_watch(ctx, NULL, NULL);
+}
+
 /* Six lines of amplitudes 1 to 1e-5, two of them five resolutions apart, at frequencies that are no bins. */
 static void check_lines(void)
 {
@@ -52,6 +76,7 @@ static void check_lines(void)
     gsl_test(!(worst_part < 1e-12), "amplitudes and phases: %.1e", worst_part);
     gsl_test(iso_spectrum_find(ctx, x, 1000, step, 5, found, &count) != ISO_BAD_ARGUMENT, "1000 samples: %s",
              iso_context_message(ctx));
+    check_stop(x, COUNT, step);
     x[17] = NAN;
     gsl_test(iso_spectrum_find(ctx, x, COUNT, step, 5, found, &count) != ISO_NUMERICAL || count != 0, "NaN: %s",
              iso_context_message(ctx));

@@ -104,7 +104,7 @@ iso_status iso_basis_in_part(iso_context *ctx, const series *s, const basis *who
 {
     lines l;
     const iso_status status = iso_basis_lines(ctx, s, first, count, ISO_PART_LINES, &l);
-    for (int i = 0; i < whole->angles; i++)
+    for (int i = 0; status == ISO_OK && i < whole->angles; i++)
         frequency[i] = iso_basis_nearest(&l, whole->of_pair[i], whole->frequency[i]);
     return status;
 }

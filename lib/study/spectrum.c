@@ -19,6 +19,8 @@ enum {
 
 /* Times are y = t/T in (-1, 1), counted from the middle; a frequency s = nu T. */
 typedef struct analysis {
+    const iso_context *ctx;
+    bool stopped;
     size_t count;
     const double *signal;
     double *window, *rest, *work; /* chi(y_j); what is left of the signal; for the transform */
@@ -175,6 +177,13 @@ static void fit(analysis *z)
     }
 }
 
+/* False from when on a stop was asked for: the passes over many samples take long. */
+static bool goes_on(analysis *z)
+{
+    z->stopped = z->stopped || !iso_context_goes_on(z->ctx);
+    return !z->stopped;
+}
+
 /* Whether the largest of the rest is a new line, which is then taken out. */
 static bool take_line(analysis *z)
 {
@@ -194,7 +203,7 @@ static bool take_line(analysis *z)
 /* Each line once more without the others, which pulled at it when it was found. */
 static void sweep(analysis *z)
 {
-    for (int l = 0; l < z->lines; l++) {
+    for (int l = 0; l < z->lines && goes_on(z); l++) {
         add_line(z, z->rest, z->s[l], z->a[l]);
         z->s[l] = refine(z, z->rest, z->s[l]);
         add_line(z, z->rest, z->s[l], -z->a[l]);
@@ -231,7 +240,7 @@ static void find(analysis *z, int most)
 {
     make_window(z);
     memcpy(z->rest, z->signal, 2 * z->count * sizeof *z->signal);
-    while (z->lines < most && take_line(z)) continue;
+    while (z->lines < most && goes_on(z) && take_line(z)) continue;
     for (int i = 0; i < SWEEPS && z->lines > 0; i++) sweep(z);
 }
 
@@ -245,7 +254,7 @@ iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t cou
             "a spectrum is of a power of two samples, 64 or more, has steps > 0 and 1 to %d lines", ISO_MAX_LINES);
     for (size_t j = 0; j < 2 * count; j++)
         if (!isfinite(signal[j])) return iso_context_fail(ctx, ISO_NUMERICAL, "", "a sample is not finite");
-    analysis z = {.count = count, .signal = signal, .window = malloc(5 * count * sizeof *z.window)};
+    analysis z = {.ctx = ctx, .count = count, .signal = signal, .window = malloc(5 * count * sizeof *z.window)};
     z.table = gsl_fft_complex_wavetable_alloc(count);
     z.space = gsl_fft_complex_workspace_alloc(count);
     const bool memory = z.window && z.table && z.space;
@@ -254,10 +263,11 @@ iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t cou
         z.work = z.window + 3 * count;
         find(&z, most);
         tell(&z, step, line);
-        *found = z.lines;
+        *found = z.stopped ? 0 : z.lines;
     }
     gsl_fft_complex_workspace_free(z.space);
     gsl_fft_complex_wavetable_free(z.table);
     free(z.window);
-    return memory ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a spectrum");
+    if (!memory) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a spectrum");
+    return z.stopped ? iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request") : ISO_OK;
 }

@@ -28,7 +28,7 @@ typedef struct iso_line {
  * at the times j step, j < count; count a power of 2, 64 or more. The largest come first. Ends early, *found < most,
  * where what is left is rounding (amplitudes below 1e-14 of the largest), or is not a line: the largest of it is
  * within the resolution 4 pi/(count step) of a line found before.
- * Errors: ISO_BAD_ARGUMENT (count, step, most), ISO_NUMERICAL (a sample that is not finite), ISO_NO_MEMORY. */
+ * Errors: ISO_BAD_ARGUMENT (count, step, most), ISO_NUMERICAL (a sample that is not finite), ISO_NO_MEMORY, ISO_STOPPED. */
 iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t count, double step, int most,
                              iso_line line[], int *found);
 
