@@ -337,6 +337,10 @@ static void check_refusals(void)
     scene = scene_from(0.5, J, w, (double[]){0.3, 0.6, 0.7});
     o.samples = 2000;
     refuses(&scene, &o, ISO_BAD_ARGUMENT, "samples");
+    o = (iso_frequencies_options){.turns = 19.9, .end = NAN, .samples = NAN};
+    refuses(&scene, &o, ISO_BAD_ARGUMENT, "turns");
+    o = (iso_frequencies_options){.turns = 1000, .end = 1, .samples = NAN};
+    refuses(&scene, &o, ISO_BAD_ARGUMENT, "end");
 }
 
 /* --- the image of the momentum map ------------------------------------------------------------------------------ */

@@ -10,6 +10,8 @@
 /* What the halves cannot tell of, relative. */
 static const double ROUNDING = 1e-14;
 
+static const double LEAST_TURNS = 20;
+
 typedef struct estimator {
     iso_context *ctx;
     const iso_scene *scene;
@@ -101,10 +103,10 @@ static iso_status find_drift(estimator *e, const series *s, const basis *b, size
     return status;
 }
 
-/* Beats of the two frequencies, by small factors, in half of the orbit: the slowest. */
+/* Beats of the frequencies, by small factors, in half of the orbit: the slowest. */
 static double slowest_beat(const basis *b, double length)
 {
-    double least = INFINITY;
+    double least = b->angles == 1 ? fabs(b->frequency[0]) : INFINITY;
     for (int m = -3; m <= 3; m++)
         for (int n = 0; n <= 3; n++)
             if (b->angles == 2 && (m != 0 || n != 0))
@@ -117,6 +119,7 @@ static double slowest_beat(const basis *b, double length)
 static iso_verdict judge(const iso_estimate *e, const basis *b)
 {
     static const double SAME = 1e-8, WANDERING = 1e-6, BEATS = 12;
+    if (b->angles == 0) return ISO_UNDECIDED;
     if (e->drift <= SAME) return ISO_REGULAR;
     const bool wanders = e->drift >= WANDERING && e->drift > e->drift_before / 8;
     return wanders && slowest_beat(b, e->length) > BEATS ? ISO_CHAOTIC : ISO_UNDECIDED;
@@ -266,6 +269,10 @@ static iso_status choose_length(estimator *e, double speed, const iso_frequencie
                  fast = fmax(k, 1) * speed / ISO_TWO_PI;
     const double turns = isnan(o->turns) ? 1000 * fmin(fmax(4 * k, 0.05), 1) : o->turns;
     const double length = e->end[ISO_CLOCK_T] = isnan(o->end) ? turns * turn : o->end;
+    if (!(length >= LEAST_TURNS * turn * (1 - ROUNDING)))
+        return iso_context_fail(e->ctx, ISO_BAD_ARGUMENT, isnan(o->end) ? "turns" : "end",
+                                "an orbit to t = %g is %g turns: frequencies are estimated from %g or more", length,
+                                length / turn, LEAST_TURNS);
     const double samples = isnan(o->samples) ? fmax(32 * length / turn, 12 * length * fast) : o->samples;
     e->count = 512;
     while (e->count < (1u << 22) && (double)e->count < samples) e->count *= 2;

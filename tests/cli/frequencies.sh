@@ -50,6 +50,8 @@ scene 0.7 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >estimate
 run 0 frequencies estimate.yaml
 check "ESTIMATED" grep -q '^ESTIMATED from an orbit: regular' out
 check "why" grep -q 'no closed solution: k = 0' out
+run 0 frequencies estimate.yaml --turns 20
+check "20 turns do not decide" grep -q '^ESTIMATED from an orbit: not decided' out
 run 0 frequencies estimate.yaml --json --t-end 1000 --samples 5000
 check "samples are a power of two" test "$(value samples)" -eq 8192
 check "--t-end" test "$(value length)" = 1000.0
@@ -62,6 +64,10 @@ for wrong in "--turns 0" "--turns x" "--samples 2.5"; do
     refuses 2 "expected" frequencies estimate.yaml $wrong
 done
 refuses 2 "expected a positive number" frequencies estimate.yaml --t-end -1
+for short in "--turns 1e-300" "--turns 19.9" "--t-end 1e-300" "--t-end 184"; do
+    # shellcheck disable=SC2086 # an option and its value
+    refuses 2 "turns: frequencies are estimated from 20 or more" frequencies estimate.yaml $short
+done
 refuses 2 ".svg, .png or .pdf" frequencies estimate.yaml --plot a.gif
 refuses 3 "rest" frequencies - <<END
 reduced: {k: 0.5, J: [1, 2, 3]}
