@@ -236,6 +236,24 @@ static void check_chaotic(void)
              "k = 0.3, next to an unstable rotation: %s, drift %.1e", f.motion, f.estimate.drift);
 }
 
+/* Where k = -1, next to the separatrix, the frequencies of a short orbit wander as well; but that is no chaos. */
+static void check_integrable(void)
+{
+    enum { STARTS = 6 };
+    static iso_frequencies f;
+    const iso_frequencies_options o = {.turns = 100, .end = NAN, .samples = NAN};
+    int unsettled = 0;
+    for (int i = 1; i <= STARTS; i++) {
+        const iso_scene scene =
+            scene_from(-1, (double[]){1, 2, 6}, (double[]){1e-7 * i, 1, 0}, (double[]){0.6, 0, 0.8});
+        must(iso_frequencies_estimate(ctx, &scene, &o, &f), "an estimate");
+        gsl_test(f.estimate.verdict != ISO_REGULAR && f.estimate.verdict != ISO_INTEGRABLE, "k = -1: %s, drift %.1e",
+                 f.motion, f.estimate.drift);
+        unsettled += f.estimate.verdict == ISO_INTEGRABLE;
+    }
+    gsl_test(unsettled == 0, "%d of %d not settled", unsettled, STARTS);
+}
+
 /* Turns about an axis: one frequency, |k w| in t, for every k. */
 static void check_rotation(void)
 {
@@ -375,6 +393,7 @@ int main(void)
     check_momentum();
     check_regular();
     check_chaotic();
+    check_integrable();
     check_rotation();
     check_refusals();
     check_closed();

@@ -5,8 +5,10 @@
 
 #include "command.h"
 
-static const char *const verdicts[] = {
-    [ISO_REGULAR] = "regular", [ISO_CHAOTIC] = "chaotic", [ISO_UNDECIDED] = "not decided"};
+static const char *const verdicts[] = {[ISO_REGULAR] = "regular",
+                                       [ISO_CHAOTIC] = "chaotic",
+                                       [ISO_UNDECIDED] = "not decided",
+                                       [ISO_INTEGRABLE] = "integrable"};
 static const char *const kinds[] = {[ISO_EXACT_SEPARATED] = "separated",
                                     [ISO_EXACT_SYMMETRIC] = "symmetric",
                                     [ISO_EXACT_PLANE] = "plane",
@@ -28,7 +30,8 @@ static void print_head(const iso_scene *scene, const iso_frequencies *f)
         if (!isnan(f->c)) printf("  separated, c = %.15g\n", f->c);
         return;
     }
-    printf("ESTIMATED from an orbit: %s\n  no closed solution: %s\n", f->motion, f->why);
+    printf("ESTIMATED from an orbit: %s\n  %s: %s\n", f->motion,
+           f->unresolved ? "the closed solution was not resolved" : "no closed solution", f->why);
     printf(
         "  %.6g turns, to t = %.10g, %zu samples; halves of it differ in a frequency by %.1e (in its first quarter "
         "by %.1e)\n",

@@ -115,12 +115,13 @@ static double slowest_beat(const basis *b, double length)
 }
 
 /* The frequencies of a regular motion are found by far the better, the longer the orbit, once it has a dozen beats;
- * those of a chaotic one wander on. */
-static iso_verdict judge(const iso_estimate *e, const basis *b)
+ * those of a chaotic one wander on. An integrable problem has none of those. */
+static iso_verdict judge(const iso_estimate *e, const basis *b, bool integrable)
 {
     static const double SAME = 1e-8, WANDERING = 1e-6, BEATS = 12;
+    if (b->angles > 0 && e->drift <= SAME) return ISO_REGULAR;
+    if (integrable) return ISO_INTEGRABLE;
     if (b->angles == 0) return ISO_UNDECIDED;
-    if (e->drift <= SAME) return ISO_REGULAR;
     const bool wanders = e->drift >= WANDERING && e->drift > e->drift_before / 8;
     return wanders && slowest_beat(b, e->length) > BEATS ? ISO_CHAOTIC : ISO_UNDECIDED;
 }
@@ -170,7 +171,7 @@ static iso_status estimate_in_t(estimator *e, const series *s, basis *b)
     out->length = e->end[ISO_CLOCK_T];
     out->samples = s->count;
     out->turns = b->angles > 0 ? fabs(b->frequency[0]) * out->length / ISO_TWO_PI : 0;
-    out->verdict = judge(out, b);
+    out->verdict = judge(out, b, f->integral != NULL);
     name_lines(f, &l);
     return status;
 }
@@ -205,6 +206,7 @@ static void say(iso_frequencies *f)
         [ISO_REGULAR] = "regular, as far as this orbit tells",
         [ISO_CHAOTIC] = "chaotic",
         [ISO_UNDECIDED] = "not decided: a longer orbit would tell",
+        [ISO_INTEGRABLE] = "its frequencies are not settled on this orbit",
     };
     const int axis = f->estimate.axis + 1;
     if (f->angles == 2)
@@ -212,7 +214,7 @@ static void say(iso_frequencies *f)
     if (f->angles > 0)
         snprintf(f->angle[f->angles - 1].what, sizeof f->angle[0].what, "strongest line of n%d + i n%d", axis % 3 + 1,
                  (axis + 1) % 3 + 1);
-    snprintf(f->motion, sizeof f->motion, "%s%s", motion[f->estimate.verdict],
+    snprintf(f->motion, sizeof f->motion, "%s%s%s", f->integral ? "integrable; " : "", motion[f->estimate.verdict],
              f->estimate.verdict == ISO_REGULAR && f->estimate.unexplained > 1e-3 ? "; more than two frequencies"
                                                                                   : "");
 }

@@ -269,7 +269,8 @@ static iso_status find_exact(iso_context *ctx, const iso_scene *scene, iso_frequ
     if (status == ISO_OK && !iso_effects_breaking(&effects)) {
         status = solve(ctx, orbit, &start, point, &exact);
         if (status != ISO_OK) {
-            f->estimated = status == ISO_BAD_ARGUMENT || status == ISO_NUMERICAL;
+            f->unresolved = status == ISO_NUMERICAL;
+            f->estimated = f->unresolved || status == ISO_BAD_ARGUMENT;
             snprintf(f->why, sizeof f->why, "%s", iso_context_message(ctx));
         }
     } else if (status == ISO_OK) {
@@ -295,9 +296,11 @@ iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const 
     iso_status status = iso_frequencies_check(ctx, options);
     if (status == ISO_OK) status = find_exact(ctx, scene, f);
     if (status != ISO_OK || !f->estimated) return status;
+    const bool unresolved = f->unresolved;
     char why[sizeof f->why];
     memcpy(why, f->why, sizeof why);
     status = iso_frequencies_estimate(ctx, scene, options, f);
     memcpy(f->why, why, sizeof why);
+    f->unresolved = unresolved;
     return status;
 }

@@ -47,7 +47,8 @@ typedef struct iso_resonance {
     bool met;                /* the gap is rounding (an estimate: within its error)                         */
 } iso_resonance;
 
-typedef enum iso_verdict { ISO_REGULAR, ISO_CHAOTIC, ISO_UNDECIDED } iso_verdict;
+/* ISO_INTEGRABLE: regular because a further integral makes it so, though the estimated frequencies are not settled. */
+typedef enum iso_verdict { ISO_REGULAR, ISO_CHAOTIC, ISO_UNDECIDED, ISO_INTEGRABLE } iso_verdict;
 
 /* A line of n(t), nu = m angle[0].frequency + n angle[1].frequency where `known`. */
 typedef struct iso_named_line {
@@ -79,12 +80,13 @@ typedef struct iso_separatrix {
 
 typedef struct iso_frequencies {
     bool estimated;
-    char why[256];       /* estimated: why there is no closed solution                                  */
+    bool unresolved;     /* estimated although there is a closed solution: it takes too many terms      */
+    char why[256];       /* estimated: why                                                              */
     iso_exact_kind kind; /* of the closed solution                                                      */
     char motion[160];    /* in words                                                                    */
     double h, eps;                /* energy, coupling (NaN without a twin) ...                           */
     double H;                     /* ... and level of the point                                          */
-    const iso_integral *integral; /* of the ball, beyond h; NULL: none is known                          */
+    const iso_integral *integral; /* of the ball, beyond h: it is integrable; NULL: none is known        */
     double F;                     /* its value                                                           */
     double c;                     /* constant of the separation; NaN: not separated                      */
     int separatrices;

@@ -58,6 +58,18 @@ check "--t-end" test "$(value length)" = 1000.0
 "$isoroll" frequencies - <estimate.yaml >out
 check "a scene from standard input" test $? -eq 0
 
+# --- an integrable motion is never called chaotic, whether its closed solution is found or not
+cat >extreme.yaml <<END
+point: {k: 1, J: [1e-12, 1, 1.1]}
+initial: {gamma: [0.28, 0.96, 0], M: [0.96, -0.28, 0.1]}
+time: {end: 1}
+END
+run 0 frequencies extreme.yaml --turns 100
+if grep -q '^ESTIMATED' out; then
+    check "integrable" grep -q '^ESTIMATED from an orbit: integrable; ' out
+    check "not resolved" grep -q '^  the closed solution was not resolved: ' out
+fi
+
 # --- refusals
 for wrong in "--turns 0" "--turns x" "--samples 2.5"; do
     # shellcheck disable=SC2086 # an option and its value
