@@ -58,7 +58,8 @@ static const iso_form *form_for(const iso_field *f, const double point[ISO_STATE
     return NULL;
 }
 
-/* The form for a start; where there is none but in a principal plane, one that is in it but for rounding is put there. */
+/* The form for a start; where there is none but in a principal plane, one that is in it but for rounding is put
+ * there. */
 static iso_status find_form(iso_context *ctx, const iso_field *f, double point[ISO_STATE], const iso_form **form)
 {
     double snapped[ISO_STATE], size[2];

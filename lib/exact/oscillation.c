@@ -190,7 +190,7 @@ void iso_oscillation_release(oscillation *o)
     o->at = NULL, o->gamma = NULL, o->z = NULL;
 }
 
-/* Whether N samples are enough. No memory: there are no samples. */
+/* Whether N samples are enough. */
 static bool solve_with(oscillation *o, int N)
 {
     const size_t size = (size_t)N + 1;
@@ -198,8 +198,8 @@ static bool solve_with(oscillation *o, int N)
     o->at = malloc(size * sizeof *o->at);
     o->gamma = malloc(size * sizeof *o->gamma);
     o->z = malloc(3 * size * sizeof *o->z);
-    if (!o->at || !o->gamma || !o->z) iso_oscillation_release(o);
-    return o->at && find_xi(o, N);
+    o->no_memory = !o->at || !o->gamma || !o->z;
+    return !o->no_memory && find_xi(o, N);
 }
 
 bool iso_oscillation_refine(oscillation *o)
@@ -213,7 +213,7 @@ bool iso_oscillation_solve(oscillation *o, real m1)
     if (!find_theta(o)) return false;
     for (int N = o->samples; N <= MOST_MODES; N *= 2) {
         if (solve_with(o, N)) return find_parts(o), true;
-        if (!o->at) return false;
+        if (o->no_memory) return false;
     }
     return false;
 }

@@ -35,6 +35,7 @@ typedef struct oscillation {
     int modes, samples, terms; /* of beta; intervals of [0, pi] that resolve functions of theta; of gamma, z */
     real beta[MOST_XI_MODES + 1], *at; /* at: z where theta = pi j/samples                                 */
     double *gamma, *z;
+    bool no_memory; /* for samples: why a solution failed */
     int parts; /* of sn = sum sn_part[n] sin (n + 1/2) theta and cn likewise, in double precision; 0: not made */
     double sn_part[MOST_PARTS], cn_part[MOST_PARTS];
 } oscillation;

@@ -183,8 +183,7 @@ static void rates(const separation *s, const real y[6], real dy[6])
     }
 }
 
-/* Where u and v are nearly one, al and the rates have lost their digits: some tenths of a radian further they have them.
- * By Runge and Kutta's method in steps that leave no error, once for an orbit. */
+/* Where u and v are nearly one, al and the rates have lost their digits: a little further on they have them. By Runge and Kutta's method in steps that leave no error, once for an orbit. */
 static void carry_on(separation *s, moment *m)
 {
     enum { STEPS = 4000 };

@@ -120,6 +120,11 @@ static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *
     return room ? ISO_OK : ISO_NO_MEMORY;
 }
 
+static iso_status why_not(const separation *s)
+{
+    return s->coordinate[0].no_memory || s->coordinate[1].no_memory ? ISO_NO_MEMORY : ISO_NUMERICAL;
+}
+
 /* With more samples where a clock is sharper than u and v. */
 static iso_status resolve_clock(separation *s, iso_clock clock, torus_clock *c)
 {
@@ -128,7 +133,7 @@ static iso_status resolve_clock(separation *s, iso_clock clock, torus_clock *c)
         const iso_status status = make_clock(s, clock, c, enough);
         if (status != ISO_OK || (enough[0] && enough[1])) return status;
         for (int i = 0; i < 2; i++)
-            if (!enough[i] && !iso_oscillation_refine(&s->coordinate[i])) return ISO_NUMERICAL;
+            if (!enough[i] && !iso_oscillation_refine(&s->coordinate[i])) return why_not(s);
     }
 }
 
@@ -334,7 +339,7 @@ static iso_status make(const iso_field *field, const double point[ISO_STATE], co
     iso_status status = ISO_OK;
     angles a;
     if (!x) return ISO_NO_MEMORY;
-    if (!iso_separation_make(&x->s, field, point)) return ISO_NUMERICAL;
+    if (!iso_separation_make(&x->s, field, point)) return why_not(&x->s);
     for (iso_clock c = 0; c < ISO_CLOCKS && status == ISO_OK; c++) {
         torus_clock *const clock = &x->clock[c];
         if (!clocks[c]) continue;
