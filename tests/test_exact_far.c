@@ -10,8 +10,8 @@ static iso_context *ctx;
 /* --- against steps ---------------------------------------------------------------------------------------------- */
 
 /* What a start given in doubles allows is a rounding error of its frequencies times the way, of the axis' orbit here
- * 1e-15 times its condition, 8e4 at 5e4. Long double without
- * restoring the second integral (test_exact_near.c) and, for much longer, doubles with it. */
+ * 1e-15 times its condition, 8e4 at 5e4. Long double without restoring the second integral (test_exact_near.c) and, for
+ * much longer, doubles with it. */
 static void check_steps(const char *method, bool restored, int count, double units, double allowed)
 {
     static const exact_family list[3] = {EXACT_LEVEL, EXACT_ANY, EXACT_AXIS};
@@ -113,7 +113,7 @@ static void note_restart(const orbit *o, const iso_exact *exact, double t1, laws
         if (iso_exact_at(ctx, exact, ISO_CLOCK_T, t1 + t2[i], y, c) != ISO_OK) y[0] = NAN;
         if (iso_exact_at(ctx, again, ISO_CLOCK_T, t2[i], z, c2) != ISO_OK) z[0] = NAN;
         orbit state = *o;
-        state.model.dim = ISO_STATE;
+        state.model.dim = ISO_STATE, state.model.carried = 0;
         const double allowed = 5e-14 * (1 + fabs(t2[i]) / o->unit) + (double)(16 * LDBL_EPSILON * fabs(t1) / o->unit);
         laws_note(states, orbit_error(&state, y, z), allowed, p, "");
         for (int j = 0; j < ISO_CLOCKS; j++)
