@@ -54,6 +54,7 @@ extern "C" {
 #include "study/momentum.h"
 #include "study/spectrum.h"
 #include "study/frequencies.h"
+#include "study/cost.h"
 
 /* io: scene and trajectory files, plots */
 #include "io/scene_file.h"

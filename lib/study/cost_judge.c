@@ -1,0 +1,93 @@
+/* cost_judge.c - what measured cells say: which are worth their time, and how error, time and steps go together. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "study/cost_impl.h"
+
+/* Faster by less is the same time; an error beyond LOST is no answer. */
+static const double FASTER = 1.05, LOST = 0.1, AT_FLOOR = 2;
+
+/* A fit wants points this far apart, in decades. */
+static const double APART = 0.3;
+
+static bool measured(const iso_cost_cell *cell)
+{
+    return cell->status == ISO_OK && cell->repeats > 0;
+}
+
+/* An error below the reference's uncertainty is not known to be smaller than that. */
+static double known_error(const iso_cost *cost, const iso_cost_cell *cell)
+{
+    return cell->below ? fmax(cell->error, cost->uncertainty) : cell->error;
+}
+
+const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want)
+{
+    const iso_cost_cell *best = NULL;
+    for (int i = 0; i < cost->cells; i++) {
+        const iso_cost_cell *cell = &cost->cell[i];
+        if (measured(cell) && known_error(cost, cell) <= want && (!best || cell->total < best->total)) best = cell;
+    }
+    return best;
+}
+
+static bool is_pareto(const iso_cost *cost, const iso_cost_cell *cell)
+{
+    if (!measured(cell) || !(cell->error < LOST)) return false;
+    for (int i = 0; i < cost->cells; i++) {
+        const iso_cost_cell *other = &cost->cell[i];
+        if (measured(other) && known_error(cost, other) <= known_error(cost, cell) &&
+            FASTER * other->total < cell->total)
+            return false;
+    }
+    return true;
+}
+
+/* --- lines ------------------------------------------------------------------------------------------------------- */
+
+static void find_floor(const iso_cost_cell cell[], iso_cost_line *line)
+{
+    int last = -1;
+    for (int i = 0; i < line->count; i++) {
+        if (!measured(&cell[i])) continue;
+        last = i;
+        if (!(cell[i].error >= line->least)) line->least = cell[i].error;
+    }
+    for (int i = 0; i < last; i++) { /* what only the last reaches may go on */
+        if (!measured(&cell[i]) || cell[i].error > AT_FLOOR * line->least || cell[i].below) continue;
+        line->stops_at = cell[i].tolerance;
+        return;
+    }
+}
+
+/* Cells that still gain. */
+static bool gains(const iso_cost_cell *cell, const iso_cost_line *line)
+{
+    const bool above = isnan(line->stops_at) || cell->error > AT_FLOOR * line->least;
+    return measured(cell) && !cell->below && cell->error < LOST && cell->error > 0 && above;
+}
+
+static void fit(const iso_cost_cell cell[], iso_cost_line *line)
+{
+    double error[64], time[64], steps[64];
+    int count = 0;
+    for (int i = 0; i < line->count && count < 64; i++) {
+        if (!gains(&cell[i], line)) continue;
+        error[count] = log10(cell[i].error);
+        time[count] = log10(cell[i].median);
+        steps[count++] = log10((double)cell[i].statistics.steps);
+    }
+    line->digit = pow(10, -cost_slope(count, error, time, APART));
+    const double order = -1 / cost_slope(count, error, steps, APART);
+    line->order = isfinite(order) ? order : NAN;
+}
+
+void cost_judge(iso_cost *cost)
+{
+    for (int l = 0; l < cost->lines; l++) {
+        iso_cost_line *line = &cost->line[l];
+        find_floor(&cost->cell[line->first], line);
+        fit(&cost->cell[line->first], line);
+    }
+    for (int i = 0; i < cost->cells; i++) cost->cell[i].pareto = is_pareto(cost, &cost->cell[i]);
+}

@@ -1,0 +1,91 @@
+/* cost_time.c - times on a machine that does other things as well. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/vec3_impl.h"
+#include "study/cost_impl.h"
+
+/* Orbits that are timed together when they are short, so that the clock's own time does not show: for about SHORT. */
+enum { TOGETHER = 16 };
+static const double SHORT = 1e-4;
+
+static iso_status run_some(cost_problem *p, const iso_cost_cell *cell, double end, int count, double *setup,
+                           double *stepping, iso_statistics *statistics)
+{
+    iso_orbit *orbit[TOGETHER] = {NULL};
+    iso_sample sample;
+    iso_status status = ISO_OK;
+    const double begin = processor_seconds();
+    for (int i = 0; status == ISO_OK && i < count; i++)
+        status = cost_orbit_open(p, cell->backend, cell->method, cell->tolerance, false, &orbit[i]);
+    const double between = processor_seconds();
+    for (int i = 0; status == ISO_OK && i < count; i++) status = iso_orbit_at(orbit[i], end, &sample);
+    *stepping = (processor_seconds() - between) / count;
+    *setup = (between - begin) / count;
+    if (status == ISO_OK) *statistics = iso_orbit_statistics(orbit[0]);
+    for (int i = 0; i < count; i++) iso_orbit_free(orbit[i]);
+    return status;
+}
+
+iso_status cost_time(cost_problem *p, const iso_cost_cell *cell, double end, double about, double *setup,
+                     double *stepping, iso_statistics *statistics)
+{
+    const int count = about < SHORT / TOGETHER ? TOGETHER : about < SHORT ? (int)ceil(SHORT / about) : 1;
+    if (about < 10 * SHORT) { /* what was there before is out of the caches */
+        const iso_status status = run_some(p, cell, end, 1, setup, stepping, statistics);
+        if (status != ISO_OK) return status;
+    }
+    return run_some(p, cell, end, count, setup, stepping, statistics);
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median_of(int count, double x[])
+{
+    qsort(x, (size_t)count, sizeof *x, ascending);
+    return (x[(count - 1) / 2] + x[count / 2]) / 2;
+}
+
+/* The median lies between the numbers about sqrt(n)/2 places before and after the middle, two times in three. */
+bool cost_times_settled(const cost_times *times)
+{
+    double x[COST_REPEATS];
+    const int n = times->count, reach = (int)ceil(sqrt(n) / 2);
+    if (n < 5) return false;
+    if (n == COST_REPEATS) return true;
+    copy(times->stepping, x, n);
+    const double median = median_of(n, x);
+    return x[n / 2 + reach] - x[(n - 1) / 2 - reach] < 0.1 * median && x[1] - x[0] < 0.05 * x[0];
+}
+
+void cost_times_tell(const cost_times *times, iso_cost_cell *cell)
+{
+    double x[COST_REPEATS], setup[COST_REPEATS];
+    const int n = times->count;
+    cell->repeats = n;
+    if (n == 0) return;
+    copy(times->stepping, x, n);
+    copy(times->setup, setup, n);
+    cell->median = median_of(n, x);
+    cell->fastest = x[0];
+    cell->slowest = x[n - 1];
+    cell->setup = median_of(n, setup);
+    cell->total = cell->setup + cell->median;
+}
+
+double cost_slope(int count, const double x[], const double y[], double apart)
+{
+    const size_t most = (size_t)count * (size_t)count / 2 + 1;
+    double *slope = malloc(most * sizeof *slope), median = NAN;
+    int found = 0;
+    for (int i = 0; slope && i < count; i++)
+        for (int j = 0; j < i; j++)
+            if (fabs(x[i] - x[j]) >= apart) slope[found++] = (y[i] - y[j]) / (x[i] - x[j]);
+    if (found > 0) median = median_of(found, slope);
+    free(slope);
+    return median;
+}
