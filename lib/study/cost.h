@@ -58,7 +58,7 @@ typedef struct iso_cost_line {
     const iso_method *method;
     int first, count;        /* its cells                                                                    */
     double digit;            /* factor in time for one more digit, fitted where it still gains; NaN: too few */
-    double order;            /* error ~ (steps)^-order, fitted likewise; NaN                                 */
+    double order;            /* error ~ (steps)^-order, fitted likewise; NaN: the method's own order varies, or too few */
     double least;            /* smallest error reached; NaN: none ...                                        */
     double stops_at;         /* ... and at which tolerance it stops gaining; NaN: it gains to the last       */
 } iso_cost_line;
@@ -88,7 +88,8 @@ enum { ISO_COST_HORIZONS = 24 };
 /* How error and time grow with the length of an orbit, for one cell: over end, 2 end, 4 end, ... . */
 typedef struct iso_cost_growth {
     int count;                /* horizons reached                                                            */
-    double end[ISO_COST_HORIZONS], error[ISO_COST_HORIZONS], seconds[ISO_COST_HORIZONS], uncertainty[ISO_COST_HORIZONS];
+    double end[ISO_COST_HORIZONS], error[ISO_COST_HORIZONS], seconds[ISO_COST_HORIZONS]; /* median, of stepping */
+    double uncertainty[ISO_COST_HORIZONS]; /* of the closed solution's error, which has no other measure: NaN */
     double power, time_power; /* error ~ end^power and seconds ~ end^time_power, fitted; NaN: too few        */
     bool chaotic;             /* the error grows exponentially rather than by a power ...                    */
     double lyapunov_time;     /* ... e-fold in this time, in the scene's unit; NaN                           */

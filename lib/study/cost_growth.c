@@ -1,10 +1,220 @@
 /* cost_growth.c - how error and time grow with the length of an orbit. */
-#include "study/cost.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/vec3_impl.h"
+#include "study/cost_impl.h"
+
+/* Output times in each doubling, and all of them. */
+enum { TIMES = 20, MOST_TIMES = TIMES * ISO_COST_HORIZONS, REPEATS = 7, LEAST_REPEATS = 3 };
+
+/* What all may take, and of it the references and the cell's errors; a horizon is timed again when it is shorter than
+ * MOMENT. */
+static const double SECONDS = 40, REFERENCES = 20, ERRORS = 10, MOMENT = 0.1;
+
+/* Errors of which the growth can be told: above so many uncertainties, and not LOST. */
+static const double UNCERTAINTIES = 3, LOST = 0.1;
+
+typedef struct grower {
+    cost_problem p;
+    iso_cost_cell cell;
+    cost_reference reference;
+    cost_track track;
+    double time[MOST_TIMES], error[MOST_TIMES], uncertainty[MOST_TIMES];
+    iso_cost_growth *out;
+} grower;
+
+/* --- how far ----------------------------------------------------------------------------------------------------- */
+
+/* The time that the scene's own end takes. */
+static iso_status probe(grower *g, iso_picture backend, const iso_method *method, double tolerance, double *seconds)
+{
+    cost_track track;
+    iso_status status = cost_track_make(&g->p, TIMES, g->time, &track);
+    if (status == ISO_OK) status = cost_walk(&g->p, backend, method, tolerance, true, ERRORS, &track);
+    *seconds = track.seconds;
+    cost_track_free(&track);
+    return status;
+}
+
+/* Time is proportional to length, but for the closed solution; a cell is run about eight times, references twice. */
+static iso_status choose_horizons(grower *g, int *horizons)
+{
+    double own, series;
+    const iso_cost_cell *c = &g->cell;
+    const iso_status status = probe(g, c->backend, c->method, c->tolerance, &own);
+    if (status != ISO_OK)
+        return cost_is_stopped(&g->p)
+                   ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request")
+                   : iso_context_fail(g->p.user, ISO_NUMERICAL, "", "the cell does not get to %g: %s", g->p.end,
+                                      iso_context_message(g->p.ctx));
+    if (probe(g, g->p.scene->start.model, iso_method_find("taylor_extended"), 1e-15, &series) != ISO_OK) series = 0;
+    const double unit = (c->method ? 8 * own : 0) + 2.5 * series, most = 1 + floor(log2(fmax(1, SECONDS / unit)));
+    if (most >= *horizons) return ISO_OK;
+    *horizons = (int)most;
+    snprintf(g->out->why, sizeof g->out->why, "longer ones would take more than %g s", SECONDS);
+    return ISO_OK;
+}
+
+static void fill_times(grower *g, int horizons)
+{
+    for (int h = 0; h < horizons; h++)
+        for (int i = 0; i < TIMES; i++) {
+            const double share = (i + 1.0) / TIMES, half = ldexp(g->p.end, h - 1);
+            g->time[TIMES * h + i] = h == 0 ? g->p.end * share : half * (1 + share);
+        }
+}
+
+/* --- errors and times -------------------------------------------------------------------------------------------- */
+
+/* The largest up to each time, of the cell and of the reference; the closed solution's error has no other measure. */
+static void take_errors(grower *g)
+{
+    const cost_reference *r = &g->reference;
+    const cost_track *against = g->cell.backend == ISO_EXACT ? &r->second : &r->first;
+    double error = 0, uncertainty = 0;
+    for (int i = 0; i < g->track.reached; i++) {
+        g->error[i] = error = fmax(error, cost_distance_at(&g->track, against, i));
+        uncertainty = r->doubted ? fmax(uncertainty, cost_distance_at(&r->first, &r->second, i)) : INFINITY;
+        g->uncertainty[i] = g->cell.backend == ISO_EXACT ? NAN : uncertainty;
+    }
+}
+
+static iso_status find_errors(grower *g, int horizons)
+{
+    const iso_cost_cell *c = &g->cell;
+    iso_status status = cost_reference_find(&g->p, TIMES * horizons, g->time, REFERENCES, true, &g->reference);
+    const int reached = status == ISO_OK ? g->reference.first.reached / TIMES : 0;
+    if (status == ISO_OK && reached == 0)
+        return iso_context_fail(g->p.user, ISO_NUMERICAL, "", "no reference gets to %g", g->p.end);
+    if (status == ISO_OK) status = cost_track_make(&g->p, TIMES * reached, g->time, &g->track);
+    if (status != ISO_OK) return status;
+    if (reached < horizons) snprintf(g->out->why, sizeof g->out->why, "no reference gets farther");
+    status = cost_walk(&g->p, c->backend, c->method, c->tolerance, false, ERRORS, &g->track);
+    if (cost_is_stopped(&g->p)) return iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request");
+    if (status != ISO_OK)
+        snprintf(g->out->why, sizeof g->out->why, "%.159s",
+                 status == ISO_STOPPED ? "it would take too long" : iso_context_message(g->p.ctx));
+    take_errors(g);
+    return ISO_OK;
+}
+
+static bool time_horizon(grower *g, double end, cost_times *times)
+{
+    double about = 0, sum = 0;
+    iso_statistics unused;
+    for (int i = 0; i < REPEATS && (i < LEAST_REPEATS || sum < MOMENT) && !cost_is_stopped(&g->p); i++) {
+        if (cost_time(&g->p, &g->cell, end, about, &times->setup[i], &times->stepping[i], &unused) != ISO_OK)
+            return false;
+        about = times->stepping[i];
+        sum += about;
+        times->count++;
+    }
+    return times->count > 0;
+}
+
+static void take_horizons(grower *g)
+{
+    iso_cost_growth *out = g->out;
+    for (int h = 0; h < g->track.reached / TIMES; h++) {
+        const int last = TIMES * (h + 1) - 1;
+        cost_times times = {0};
+        iso_cost_cell timed = g->cell;
+        if (!time_horizon(g, g->time[last], &times)) return;
+        cost_times_tell(&times, &timed);
+        out->end[h] = g->time[last];
+        out->error[h] = g->error[last];
+        out->uncertainty[h] = g->uncertainty[last];
+        out->seconds[h] = timed.median;
+        out->count = h + 1;
+    }
+}
+
+/* --- fits -------------------------------------------------------------------------------------------------------- */
+
+/* y = a + slope x by least squares; gives the mean square of what is left. */
+static double fit(int count, const double x[], const double y[], double *slope)
+{
+    double mx = 0, my = 0, xx = 0, xy = 0, yy = 0;
+    for (int i = 0; i < count; i++) mx += x[i] / count, my += y[i] / count;
+    for (int i = 0; i < count; i++) {
+        xx += (x[i] - mx) * (x[i] - mx);
+        xy += (x[i] - mx) * (y[i] - my);
+        yy += (y[i] - my) * (y[i] - my);
+    }
+    *slope = xx > 0 ? xy / xx : NAN;
+    return count > 0 ? (yy - *slope * xy) / count : NAN;
+}
+
+/* A power of more than STEEP that an exponential fits better is chaos: errors of regular orbits grow like t or t^2. */
+static const double STEEP = 3;
+
+static void fit_errors(const grower *g)
+{
+    double t[MOST_TIMES], log_t[MOST_TIMES], e[MOST_TIMES], rate;
+    iso_cost_growth *out = g->out;
+    int count = 0;
+    for (int i = 0; i < TIMES * out->count; i++) {
+        if (g->error[i] < UNCERTAINTIES * g->uncertainty[i] || !(g->error[i] > 0 && g->error[i] < LOST)) continue;
+        t[count] = fabs(g->time[i]);
+        log_t[count] = log(t[count]);
+        e[count++] = log(g->error[i]);
+    }
+    out->power = out->lyapunov_time = NAN;
+    if (count < TIMES / 2) return;
+    const double by_power = fit(count, log_t, e, &out->power), exponential = fit(count, t, e, &rate);
+    out->chaotic = out->power > STEEP && exponential < by_power;
+    if (out->chaotic) out->lyapunov_time = 1 / rate;
+}
+
+static void fit_seconds(iso_cost_growth *out)
+{
+    double t[ISO_COST_HORIZONS], s[ISO_COST_HORIZONS];
+    for (int h = 0; h < out->count; h++) {
+        t[h] = log(fabs(out->end[h]));
+        s[h] = log(out->seconds[h]);
+    }
+    out->time_power = NAN;
+    if (out->count > 1) fit(out->count, t, s, &out->time_power);
+}
+
+/* --- all of it --------------------------------------------------------------------------------------------------- */
+
+static iso_status grow(grower *g, int horizons)
+{
+    fill_times(g, horizons);
+    iso_status status = choose_horizons(g, &horizons);
+    if (status == ISO_OK) status = find_errors(g, horizons);
+    if (status != ISO_OK) return status;
+    snprintf(g->out->reference, sizeof g->out->reference, "%s", g->reference.what);
+    snprintf(g->out->second, sizeof g->out->second, "%s", g->reference.second_what);
+    take_horizons(g);
+    fit_errors(g);
+    fit_seconds(g->out);
+    return cost_is_stopped(&g->p) ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request") : ISO_OK;
+}
 
 iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cost_cell *cell, int horizons,
                          iso_cost_growth *growth)
 {
-    (void)scene, (void)cell, (void)horizons;
-    *growth = (iso_cost_growth){0};
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "horizons", "not made yet");
+    iso_cost_options o = iso_cost_defaults();
+    *growth = (iso_cost_growth){.power = NAN, .time_power = NAN, .lyapunov_time = NAN};
+    if (horizons < 1 || horizons > ISO_COST_HORIZONS)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "horizons", "horizons = %d is not in [1, %d]", horizons,
+                                ISO_COST_HORIZONS);
+    grower *g = calloc(1, sizeof *g);
+    if (!g) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the horizons");
+    g->cell = *cell;
+    g->out = growth;
+    o.backend = cell->backend;
+    o.method = cell->method;
+    if (cell->method) o.tolerance = cell->tolerance;
+    iso_status status = cost_problem_open(&g->p, ctx, scene, &o);
+    if (status == ISO_OK) status = grow(g, horizons);
+    cost_reference_free(&g->reference);
+    cost_track_free(&g->track);
+    cost_problem_close(&g->p);
+    free(g);
+    return status;
 }

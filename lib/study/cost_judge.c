@@ -79,7 +79,7 @@ static void fit(const iso_cost_cell cell[], iso_cost_line *line)
     }
     line->digit = pow(10, -cost_slope(count, error, time, APART));
     const double order = -1 / cost_slope(count, error, steps, APART);
-    line->order = isfinite(order) ? order : NAN;
+    line->order = isfinite(order) && line->method && line->method->order > 0 ? order : NAN;
 }
 
 void cost_judge(iso_cost *cost)

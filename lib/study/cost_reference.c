@@ -81,20 +81,19 @@ static bool find_by_others(cost_problem *p, double seconds, cost_reference *r)
     static const char *const names[] = {"rk8pd", "fehlberg78", "bsimp", "bdf"};
     static const double tolerances[] = {1e-13, 1e-14, 1e-15};
     source best = {ISO_BALL, NULL, 0}, now = best;
-    double least = INFINITY, took = 0;
+    double least = INFINITY;
     for (int i = 0; i < 12 && !cost_is_stopped(p); i++) {
         now.method = iso_method_find(names[i / 3]);
         now.tolerance = tolerances[i % 3];
         follow(p, &now, seconds, &r->second);
         const double off = cost_distance(&r->first, &r->second);
         if (r->second.reached >= r->first.reached && off > 0 && off < least)
-            best = now, least = off, took = r->second.seconds;
+            best = now, least = off;
         else if (r->second.reached < r->first.reached)
             i += 2 - i % 3; /* the tighter ones do not get there either */
     }
-    if (!best.method) return false;
-    describe(&best, took, r->second_what);
-    r->uncertainty = least;
+    if (!best.method || follow(p, &best, 2 * seconds, &r->second) != ISO_OK) return false; /* others are there now */
+    describe(&best, r->second.seconds, r->second_what);
     return true;
 }
 
@@ -109,8 +108,8 @@ iso_status cost_reference_find(cost_problem *p, int times, const double time[], 
     if (status != ISO_OK) return status;
     snprintf(r->second_what, sizeof r->second_what, "none");
     r->doubted = find_by_series(p, &from, seconds / 3, r);
-    if (r->doubted) r->uncertainty = cost_distance(&r->first, &r->second);
     if (!r->doubted) r->doubted = find_by_others(p, seconds / 24, r);
+    if (r->doubted) r->uncertainty = cost_distance(&r->first, &r->second);
     if (cost_is_stopped(p)) return iso_context_fail(p->user, ISO_STOPPED, "", "stopped on request");
     return ISO_OK;
 }
