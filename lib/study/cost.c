@@ -45,7 +45,7 @@ static void tell(measurer *m, const char *what)
     if (m->options->progress) m->options->progress(m->share, what, m->options->data);
 }
 
-/* --- which cells ------------------------------------------------------------------------------------------------- */
+/* --- which cells ------------------------------------------------------------------------------------------------ */
 
 static iso_cost_line *add_line(measurer *m, iso_picture backend, const iso_method *method, int count)
 {
@@ -112,7 +112,7 @@ static iso_status choose_cells(measurer *m)
     return ISO_OK;
 }
 
-/* --- errors ------------------------------------------------------------------------------------------------------ */
+/* --- errors ----------------------------------------------------------------------------------------------------- */
 
 /* The closed solution does not judge itself. */
 static void take_errors(measurer *m, const cost_track *track, iso_cost_cell *cell)
@@ -193,7 +193,7 @@ static void check_cells(measurer *m, double about[])
         }
 }
 
-/* --- times ------------------------------------------------------------------------------------------------------- */
+/* --- times ------------------------------------------------------------------------------------------------------ */
 
 static void time_cell(measurer *m, iso_cost_cell *cell, cost_times *times, double about)
 {
@@ -223,7 +223,7 @@ static void time_cells(measurer *m, const double about[])
     }
 }
 
-/* --- all of it --------------------------------------------------------------------------------------------------- */
+/* --- all of it -------------------------------------------------------------------------------------------------- */
 
 /* The normal's speed is |k omega x n|. */
 static double count_turns(const measurer *m)

@@ -25,7 +25,7 @@ typedef struct grower {
     iso_cost_growth *out;
 } grower;
 
-/* --- how far ----------------------------------------------------------------------------------------------------- */
+/* --- how far ---------------------------------------------------------------------------------------------------- */
 
 /* The time that the scene's own end takes. */
 static iso_status probe(grower *g, iso_picture backend, const iso_method *method, double tolerance, double *seconds)
@@ -66,7 +66,7 @@ static void fill_times(grower *g, int horizons)
         }
 }
 
-/* --- errors and times -------------------------------------------------------------------------------------------- */
+/* --- errors and times ------------------------------------------------------------------------------------------- */
 
 /* The largest up to each time, of the cell and of the reference; the closed solution's error has no other measure. */
 static void take_errors(grower *g)
@@ -131,7 +131,7 @@ static void take_horizons(grower *g)
     }
 }
 
-/* --- fits -------------------------------------------------------------------------------------------------------- */
+/* --- fits ------------------------------------------------------------------------------------------------------- */
 
 /* y = a + slope x by least squares; gives the mean square of what is left. */
 static double fit(int count, const double x[], const double y[], double *slope)
@@ -179,7 +179,7 @@ static void fit_seconds(iso_cost_growth *out)
     if (out->count > 1) fit(out->count, t, s, &out->time_power);
 }
 
-/* --- all of it --------------------------------------------------------------------------------------------------- */
+/* --- all of it -------------------------------------------------------------------------------------------------- */
 
 static iso_status grow(grower *g, int horizons)
 {

@@ -43,7 +43,7 @@ static bool is_pareto(const iso_cost *cost, const iso_cost_cell *cell)
     return true;
 }
 
-/* --- lines ------------------------------------------------------------------------------------------------------- */
+/* --- lines ------------------------------------------------------------------------------------------------------ */
 
 static void find_floor(const iso_cost_cell cell[], iso_cost_line *line)
 {

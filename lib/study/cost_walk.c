@@ -89,7 +89,7 @@ iso_status cost_orbit_open(cost_problem *p, iso_picture backend, const iso_metho
     return iso_orbit_create(p->ctx, &p->scene->params, &p->scene->start, &o, orbit);
 }
 
-/* --- tracks ------------------------------------------------------------------------------------------------------ */
+/* --- tracks ----------------------------------------------------------------------------------------------------- */
 
 iso_status cost_track_make(cost_problem *p, int times, const double time[], cost_track *track)
 {
@@ -172,17 +172,19 @@ iso_status cost_walk(cost_problem *p, iso_picture backend, const iso_method *met
 {
     iso_orbit *orbit;
     track->reached = 0;
+    track->seconds = 0;
     cost_allow(p, 1.5 * seconds);
     iso_status status = cost_orbit_open(p, backend, method, tolerance, carry, &orbit);
-    if (status != ISO_OK) return status;
-    status = walk(p, orbit, seconds, track);
-    track->statistics = iso_orbit_statistics(orbit);
-    iso_orbit_free(orbit);
+    if (status == ISO_OK) {
+        status = walk(p, orbit, seconds, track);
+        track->statistics = iso_orbit_statistics(orbit);
+        iso_orbit_free(orbit);
+    }
     cost_allow(p, INFINITY);
     return status;
 }
 
-/* --- distances --------------------------------------------------------------------------------------------------- */
+/* --- distances -------------------------------------------------------------------------------------------------- */
 
 double cost_distance_at(const cost_track *a, const cost_track *b, int i)
 {
