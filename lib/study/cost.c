@@ -76,7 +76,7 @@ static bool serves(measurer *m, iso_picture backend, const iso_method *method)
     iso_orbit *orbit;
     const iso_system *system = backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
     if (method && method->system && method->system != system) return false;
-    const iso_status status = cost_orbit_open(&m->p, backend, method, 1e-6, false, &orbit);
+    const iso_status status = iso_cost_orbit_open(&m->p, backend, method, 1e-6, false, &orbit);
     iso_orbit_free(orbit);
     return status == ISO_OK;
 }
@@ -119,7 +119,7 @@ static void take_errors(measurer *m, const cost_track *track, iso_cost_cell *cel
 {
     const cost_reference *r = &m->reference;
     const cost_track *against = cell->backend == ISO_EXACT ? &r->second : &r->first;
-    cell->error = cost_distance(track, against);
+    cell->error = iso_cost_distance(track, against);
     cell->energy_drift = track->energy_drift;
     cell->constraint_drift = track->constraint_drift;
     cell->statistics = track->statistics;
@@ -139,27 +139,28 @@ static void not_in_time(iso_cost_cell *cell, double seconds)
     snprintf(cell->why, sizeof cell->why, "it would take more than %.2g s, its share of the time", seconds);
 }
 
-/* The error of one cell, in a run that may take so many seconds, and of its clock in another; the seconds of the first,
- * kept as about what it takes. */
+/* The error of one cell, in a run that may take so many seconds, and of its clock in another; *about: what the first
+ * took. */
 static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double *about)
 {
     cost_track track;
-    if (cost_track_make(&m->p, m->reference.first.times, m->time, &track) != ISO_OK) return;
-    const iso_status status = cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, false, seconds, &track);
+    if (iso_cost_track_make(&m->p, m->reference.first.times, m->time, &track) != ISO_OK) return;
+    const iso_status status =
+        iso_cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, false, seconds, &track);
     *about = track.seconds;
     if (status == ISO_OK) {
         cell->status = ISO_OK;
         cell->why[0] = 0;
         take_errors(m, &track, cell);
-        if (cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, true, 2 * seconds, &track) == ISO_OK)
-            cell->clock_error =
-                cost_clock_distance(&track, cell->backend == ISO_EXACT ? &m->reference.second : &m->reference.first);
+        if (iso_cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, true, 2 * seconds, &track) == ISO_OK)
+            cell->clock_error = iso_cost_clock_distance(&track, cell->backend == ISO_EXACT ? &m->reference.second
+                                                                                           : &m->reference.first);
     } else if (status != ISO_STOPPED) {
         fail(cell, status, iso_context_message(m->p.ctx));
-    } else if (!cost_is_stopped(&m->p)) {
+    } else if (!iso_cost_is_stopped(&m->p)) {
         not_in_time(cell, seconds);
     }
-    cost_track_free(&track);
+    iso_cost_track_free(&track);
 }
 
 /* The tighter tolerances of a line that takes too long. */
@@ -179,14 +180,14 @@ static void check_cells(measurer *m, double about[])
     bool alive[MOST_LINES];
     for (int l = 0; l < m->out->lines; l++) alive[l] = true;
     for (int i = 0; i < m->tolerances || i == 0; i++)
-        for (int l = 0; l < m->out->lines && !cost_is_stopped(&m->p); l++) {
+        for (int l = 0; l < m->out->lines && !iso_cost_is_stopped(&m->p); l++) {
             const iso_cost_line *line = &m->out->line[l];
             if (i >= line->count || !alive[l]) continue;
             const double rest = fmax(m->seconds - elapsed(m), 0.01 * m->seconds);
             iso_cost_cell *cell = &m->out->cell[line->first + i];
             check_cell(m, cell, GENEROUS * rest / (RUNS * left--), &about[line->first + i]);
             tell(m, cell->method ? cell->method->name : "exact");
-            if (cell->status != ISO_STOPPED || cost_is_stopped(&m->p)) continue;
+            if (cell->status != ISO_STOPPED || iso_cost_is_stopped(&m->p)) continue;
             alive[l] = false;
             give_up(m, line, i + 1);
             left -= line->count - i - 1;
@@ -198,8 +199,8 @@ static void check_cells(measurer *m, double about[])
 static void time_cell(measurer *m, iso_cost_cell *cell, cost_times *times, double about)
 {
     const int n = times->count;
-    const iso_status status = cost_time(&m->p, cell, m->p.end, n > 0 ? times->stepping[n - 1] : about,
-                                        &times->setup[n], &times->stepping[n], &cell->statistics);
+    const iso_status status = iso_cost_time(&m->p, cell, m->p.end, n > 0 ? times->stepping[n - 1] : about,
+                                            &times->setup[n], &times->stepping[n], &cell->statistics);
     if (status == ISO_OK)
         times->count++;
     else if (!m->p.watch.stopped)
@@ -214,8 +215,8 @@ static void time_cells(measurer *m, const double about[])
         open = 0;
         for (int i = 0; i < m->out->cells; i++) {
             iso_cost_cell *cell = &m->out->cell[i];
-            if (cost_is_stopped(&m->p) || (round >= LEAST_REPEATS && elapsed(m) > m->seconds)) return;
-            if (cell->status != ISO_OK || cost_times_settled(&m->times[i])) continue;
+            if (iso_cost_is_stopped(&m->p) || (round >= LEAST_REPEATS && elapsed(m) > m->seconds)) return;
+            if (cell->status != ISO_OK || iso_cost_times_settled(&m->times[i])) continue;
             time_cell(m, cell, &m->times[i], about[i]);
             open++;
             tell(m, "times");
@@ -247,7 +248,7 @@ static iso_status find_reference(measurer *m)
     for (int i = 0; i < times; i++) m->time[i] = i + 1 == times ? m->p.end : m->p.end * ((i + 1.0) / times);
     tell(m, "reference");
     const iso_status status =
-        cost_reference_find(&m->p, times, m->time, REFERENCES * m->seconds, false, &m->reference);
+        iso_cost_reference_find(&m->p, times, m->time, REFERENCES * m->seconds, false, &m->reference);
     if (status != ISO_OK) return status;
     snprintf(m->out->reference, sizeof m->out->reference, "%s", m->reference.what);
     snprintf(m->out->second, sizeof m->out->second, "%s", m->reference.second_what);
@@ -267,9 +268,9 @@ static iso_status measure(measurer *m)
     check_cells(m, about);
     time_cells(m, about);
     free(about);
-    for (int i = 0; i < c->cells; i++) cost_times_tell(&m->times[i], &c->cell[i]);
-    cost_judge(c);
-    c->complete = !cost_is_stopped(&m->p);
+    for (int i = 0; i < c->cells; i++) iso_cost_times_tell(&m->times[i], &c->cell[i]);
+    iso_cost_judge(c);
+    c->complete = !iso_cost_is_stopped(&m->p);
     return c->complete ? ISO_OK : iso_context_fail(m->p.user, ISO_STOPPED, "", "stopped on request");
 }
 
@@ -279,7 +280,7 @@ iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_
     measurer m = {.options = options, .begin = processor_seconds()};
     *cost = NULL;
     m.seconds = options->seconds > 0 ? options->seconds : options->quick ? QUICK : LONG;
-    iso_status status = cost_problem_open(&m.p, ctx, scene, options);
+    iso_status status = iso_cost_problem_open(&m.p, ctx, scene, options);
     if (status != ISO_OK) return status;
     m.out = calloc(1, sizeof *m.out);
     status = m.out ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the measurement");
@@ -290,10 +291,10 @@ iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_
         m.share = 1;
         tell(&m, "done");
     }
-    cost_reference_free(&m.reference);
+    iso_cost_reference_free(&m.reference);
     free(m.time);
     free(m.times);
-    cost_problem_close(&m.p);
+    iso_cost_problem_close(&m.p);
     if (status == ISO_OK || (status == ISO_STOPPED && m.out->cells > 0))
         *cost = m.out;
     else

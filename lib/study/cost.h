@@ -6,16 +6,16 @@
  *     const iso_cost_cell *best = iso_cost_choose(cost, 1e-9);      the cheapest that reaches it, or NULL
  *     iso_cost_free(cost);
  *
- * A cell is one backend with one method at one tolerance. Its error is the largest, over output times spread evenly over
- * the scene, of the relative error of the ball's (omega, n) (each vector relative to its length) against a reference that
- * no cell shares: the closed solution where there is one, else a run in extended precision. The reference's own
- * uncertainty is its distance from a second, independent one: of the other formulation where there are two, else by
- * another code. Only what acts on the motion is computed, no attitude and no reactions.
+ * A cell is one backend with one method at one tolerance. Its error is the largest, over output times spread evenly
+ * over the scene, of the relative error of the ball's (omega, n) (each vector relative to its length) against a
+ * reference that no cell shares: the closed solution where there is one, else a run in extended precision. The
+ * reference's own uncertainty is its distance from a second, independent one: of the other formulation where there is
+ * one, else by another code. Only what acts on the motion is computed, no attitude and no reactions.
  *
  * Times are processor time of warm runs straight to the scene's end, repeated in rounds over all cells, so that a
- * disturbance of the machine does not fall on one of them, until minimum and median are known to about 5 %; set-up (the
- * creation of the orbit) is apart from stepping. A cell that would take more than its share of the time is given up, and
- * the tighter tolerances of its line are not tried.
+ * disturbance of the machine does not fall on one of them, until minimum and median are known to about 5 %; set-up
+ * (the creation of the orbit) is apart from stepping. A cell that would take more than its share of the time is given
+ * up, and the tighter tolerances of its line are not tried.
  */
 #ifndef ISO_STUDY_COST_H
 #define ISO_STUDY_COST_H
@@ -23,13 +23,13 @@
 #include "../orbit/orbit.h"
 
 typedef struct iso_cost_options {
-    bool quick;          /* three tolerances and about 3 s; else every second power of ten and about 40 s    */
-    double seconds;      /* of processor time, about how long it may take in all; 0: as above                */
-    int times;           /* output times at which errors are taken; 0: 20                                    */
-    iso_picture backend; /* this backend alone; ISO_AUTO: all                                                */
-    const iso_method *method; /* this method alone; NULL: all that serve the scene, but for the slow reference ones */
-    double tolerance;    /* this tolerance alone; 0: all                                                     */
-    void (*progress)(double share, const char *what, void *data); /* may be NULL; share in [0, 1] never falls */
+    bool quick;          /* three tolerances and about 3 s; else every second power of ten and about 40 s       */
+    double seconds;      /* of processor time, about how long it may take in all; 0: as above                   */
+    int times;           /* output times at which errors are taken; 0: 20                                       */
+    iso_picture backend; /* this backend alone; ISO_AUTO: all                                                   */
+    const iso_method *method; /* this method alone; NULL: all that serve the scene, but for slow reference ones */
+    double tolerance;    /* this tolerance alone; 0: all                                                        */
+    void (*progress)(double share, const char *what, void *data); /* may be NULL; share in [0, 1], never falls  */
     void *data;
 } iso_cost_options;
 
@@ -37,19 +37,19 @@ iso_cost_options iso_cost_defaults(void);
 
 typedef struct iso_cost_cell {
     iso_picture backend;
-    const iso_method *method; /* of the closed solution: NULL, and no tolerance (NaN)                        */
+    const iso_method *method; /* of the closed solution: NULL, and no tolerance (NaN)                           */
     double tolerance;
-    iso_status status;        /* ISO_OK, or why there is no result; ISO_STOPPED: it would take longer than its share */
-    char why[160];            /* in words                                                                    */
-    double setup, fastest, median, slowest; /* seconds; the last three of stepping, over the repeats         */
-    double total;             /* set-up and median: what one run takes, and what cells are compared by       */
+    iso_status status;        /* ISO_OK, or why there is no result; ISO_STOPPED: it would take too long         */
+    char why[160];            /* in words                                                                       */
+    double setup, fastest, median, slowest; /* seconds; the last three of stepping, over the repeats            */
+    double total;             /* set-up and median: what one run takes, and what cells are compared by          */
     int repeats;
     iso_statistics statistics;
-    double error;             /* largest over the output times ...                                           */
-    double clock_error;       /* ... of the carried clock (s; of a point t), relative to its largest value; NaN: not taken */
-    double energy_drift, constraint_drift; /* ... |I - I(start)|/size of the ball's energy and constraints; NaN: none holds */
-    bool below;               /* the reference is not exact enough to tell: error < 3 uncertainties          */
-    bool pareto;              /* no other cell is as exact and faster (1.05 times)                           */
+    double error;             /* largest over the output times ...                                              */
+    double clock_error;       /* ... of clock s (of a point's start: t), relative to its largest value; NaN     */
+    double energy_drift, constraint_drift; /* ... |I - I(start)|/size of the ball's; NaN: none holds            */
+    bool below;               /* the reference is not exact enough to tell: error < 3 uncertainties             */
+    bool pareto;              /* no other cell is as exact and faster (1.05 times)                              */
 } iso_cost_cell;
 
 /* One method of one backend, over its tolerances, the loosest first. */
@@ -58,7 +58,7 @@ typedef struct iso_cost_line {
     const iso_method *method;
     int first, count;        /* its cells                                                                    */
     double digit;            /* factor in time for one more digit, fitted where it still gains; NaN: too few */
-    double order;            /* error ~ (steps)^-order, fitted likewise; NaN: the method's own order varies, or too few */
+    double order;            /* error ~ (steps)^-order, fitted likewise; NaN: too few, or the method's varies */
     double least;            /* smallest error reached; NaN: none ...                                        */
     double stops_at;         /* ... and at which tolerance it stops gaining; NaN: it gains to the last       */
 } iso_cost_line;
@@ -74,10 +74,12 @@ typedef struct iso_cost {
     iso_cost_line *line;
 } iso_cost;
 
-/* Failing cells are no failure. Errors: those of the scene itself (as iso_orbit_create; also of a backend and a method
- * asked for); ISO_BAD_ARGUMENT about "end" for a scene without length; ISO_NUMERICAL where no reference gets to the end;
- * ISO_NO_MEMORY. On ISO_STOPPED *cost holds what was measured so far, NULL if nothing; on other errors it is NULL. */
-iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_cost_options *options, iso_cost **cost);
+/* Failing cells are no failure. Errors: those of the scene itself, or of a backend and a method asked for (as
+ * iso_orbit_create); ISO_BAD_ARGUMENT about "end" for a scene without length; ISO_NUMERICAL where no reference gets
+ * there; ISO_NO_MEMORY. On ISO_STOPPED *cost holds what was measured so far, NULL if nothing; on other errors it is
+ * NULL. */
+iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_cost_options *options,
+                            iso_cost **cost);
 void iso_cost_free(iso_cost *cost);
 
 /* The cell with the least `total` whose error is known to be at most `want`; NULL: none is. */

@@ -31,10 +31,10 @@ typedef struct grower {
 static iso_status probe(grower *g, iso_picture backend, const iso_method *method, double tolerance, double *seconds)
 {
     cost_track track;
-    iso_status status = cost_track_make(&g->p, TIMES, g->time, &track);
-    if (status == ISO_OK) status = cost_walk(&g->p, backend, method, tolerance, true, ERRORS, &track);
+    iso_status status = iso_cost_track_make(&g->p, TIMES, g->time, &track);
+    if (status == ISO_OK) status = iso_cost_walk(&g->p, backend, method, tolerance, true, ERRORS, &track);
     *seconds = track.seconds;
-    cost_track_free(&track);
+    iso_cost_track_free(&track);
     return status;
 }
 
@@ -45,7 +45,7 @@ static iso_status choose_horizons(grower *g, int *horizons)
     const iso_cost_cell *c = &g->cell;
     const iso_status status = probe(g, c->backend, c->method, c->tolerance, &own);
     if (status != ISO_OK)
-        return cost_is_stopped(&g->p)
+        return iso_cost_is_stopped(&g->p)
                    ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request")
                    : iso_context_fail(g->p.user, ISO_NUMERICAL, "", "the cell does not get to %g: %s", g->p.end,
                                       iso_context_message(g->p.ctx));
@@ -75,8 +75,8 @@ static void take_errors(grower *g)
     const cost_track *against = g->cell.backend == ISO_EXACT ? &r->second : &r->first;
     double error = 0, uncertainty = 0;
     for (int i = 0; i < g->track.reached; i++) {
-        g->error[i] = error = fmax(error, cost_distance_at(&g->track, against, i));
-        uncertainty = r->doubted ? fmax(uncertainty, cost_distance_at(&r->first, &r->second, i)) : INFINITY;
+        g->error[i] = error = fmax(error, iso_cost_distance_at(&g->track, against, i));
+        uncertainty = r->doubted ? fmax(uncertainty, iso_cost_distance_at(&r->first, &r->second, i)) : INFINITY;
         g->uncertainty[i] = g->cell.backend == ISO_EXACT ? NAN : uncertainty;
     }
 }
@@ -84,15 +84,15 @@ static void take_errors(grower *g)
 static iso_status find_errors(grower *g, int horizons)
 {
     const iso_cost_cell *c = &g->cell;
-    iso_status status = cost_reference_find(&g->p, TIMES * horizons, g->time, REFERENCES, true, &g->reference);
+    iso_status status = iso_cost_reference_find(&g->p, TIMES * horizons, g->time, REFERENCES, true, &g->reference);
     const int reached = status == ISO_OK ? g->reference.first.reached / TIMES : 0;
     if (status == ISO_OK && reached == 0)
         return iso_context_fail(g->p.user, ISO_NUMERICAL, "", "no reference gets to %g", g->p.end);
-    if (status == ISO_OK) status = cost_track_make(&g->p, TIMES * reached, g->time, &g->track);
+    if (status == ISO_OK) status = iso_cost_track_make(&g->p, TIMES * reached, g->time, &g->track);
     if (status != ISO_OK) return status;
     if (reached < horizons) snprintf(g->out->why, sizeof g->out->why, "no reference gets farther");
-    status = cost_walk(&g->p, c->backend, c->method, c->tolerance, false, ERRORS, &g->track);
-    if (cost_is_stopped(&g->p)) return iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request");
+    status = iso_cost_walk(&g->p, c->backend, c->method, c->tolerance, false, ERRORS, &g->track);
+    if (iso_cost_is_stopped(&g->p)) return iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request");
     if (status != ISO_OK)
         snprintf(g->out->why, sizeof g->out->why, "%.159s",
                  status == ISO_STOPPED ? "it would take too long" : iso_context_message(g->p.ctx));
@@ -104,8 +104,8 @@ static bool time_horizon(grower *g, double end, cost_times *times)
 {
     double about = 0, sum = 0;
     iso_statistics unused;
-    for (int i = 0; i < REPEATS && (i < LEAST_REPEATS || sum < MOMENT) && !cost_is_stopped(&g->p); i++) {
-        if (cost_time(&g->p, &g->cell, end, about, &times->setup[i], &times->stepping[i], &unused) != ISO_OK)
+    for (int i = 0; i < REPEATS && (i < LEAST_REPEATS || sum < MOMENT) && !iso_cost_is_stopped(&g->p); i++) {
+        if (iso_cost_time(&g->p, &g->cell, end, about, &times->setup[i], &times->stepping[i], &unused) != ISO_OK)
             return false;
         about = times->stepping[i];
         sum += about;
@@ -122,7 +122,7 @@ static void take_horizons(grower *g)
         cost_times times = {0};
         iso_cost_cell timed = g->cell;
         if (!time_horizon(g, g->time[last], &times)) return;
-        cost_times_tell(&times, &timed);
+        iso_cost_times_tell(&times, &timed);
         out->end[h] = g->time[last];
         out->error[h] = g->error[last];
         out->uncertainty[h] = g->uncertainty[last];
@@ -147,7 +147,7 @@ static double fit(int count, const double x[], const double y[], double *slope)
     return count > 0 ? (yy - *slope * xy) / count : NAN;
 }
 
-/* A power of more than STEEP that an exponential fits better is chaos: errors of regular orbits grow like t or t^2. */
+/* A power of more than STEEP that an exponential fits better is chaos: regular orbits' errors grow like t or t^2. */
 static const double STEEP = 3;
 
 static void fit_errors(const grower *g)
@@ -192,7 +192,7 @@ static iso_status grow(grower *g, int horizons)
     take_horizons(g);
     fit_errors(g);
     fit_seconds(g->out);
-    return cost_is_stopped(&g->p) ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request") : ISO_OK;
+    return iso_cost_is_stopped(&g->p) ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request") : ISO_OK;
 }
 
 iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cost_cell *cell, int horizons,
@@ -210,11 +210,11 @@ iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cos
     o.backend = cell->backend;
     o.method = cell->method;
     if (cell->method) o.tolerance = cell->tolerance;
-    iso_status status = cost_problem_open(&g->p, ctx, scene, &o);
+    iso_status status = iso_cost_problem_open(&g->p, ctx, scene, &o);
     if (status == ISO_OK) status = grow(g, horizons);
-    cost_reference_free(&g->reference);
-    cost_track_free(&g->track);
-    cost_problem_close(&g->p);
+    iso_cost_reference_free(&g->reference);
+    iso_cost_track_free(&g->track);
+    iso_cost_problem_close(&g->p);
     free(g);
     return status;
 }

@@ -19,22 +19,23 @@ typedef struct cost_problem {
     const iso_scene *scene;
     iso_effects effects;    /* that act on the motion                                */
     iso_clock clock, other; /* of the scene's times, and the one whose error is told */
-    double end;             /* in own clock of the scene                             */
+    double end;
     cost_watch watch;
 } cost_problem;
 
 /* The caller's refusals, in the caller's context. Errors: those of iso_cost_measure about the scene. */
-iso_status cost_problem_open(cost_problem *p, iso_context *user, const iso_scene *scene, const iso_cost_options *o);
-void cost_problem_close(cost_problem *p);
+iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_scene *scene,
+                                 const iso_cost_options *o);
+void iso_cost_problem_close(cost_problem *p);
 
-iso_status cost_orbit_open(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance,
-                           bool carry, iso_orbit **orbit);
+iso_status iso_cost_orbit_open(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance,
+                               bool carry, iso_orbit **orbit);
 
 /* Nothing asked of p->ctx from now on goes on for more than so many seconds. */
-void cost_allow(cost_problem *p, double seconds);
+void iso_cost_allow(cost_problem *p, double seconds);
 
 /* Whether the caller wants no more. */
-bool cost_is_stopped(cost_problem *p);
+bool iso_cost_is_stopped(cost_problem *p);
 
 /* An orbit at some times. */
 typedef struct cost_row {
@@ -50,17 +51,17 @@ typedef struct cost_track {
 } cost_track;
 
 /* Errors: ISO_NO_MEMORY, in the caller's context. */
-iso_status cost_track_make(cost_problem *p, int times, const double time[], cost_track *track);
-void cost_track_free(cost_track *track);
+iso_status iso_cost_track_make(cost_problem *p, int times, const double time[], cost_track *track);
+void iso_cost_track_free(cost_track *track);
 
 /* Fills the track. Gives up (ISO_STOPPED) as soon as it looks as if it took longer than so many seconds. */
-iso_status cost_walk(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance, bool carry,
-                     double seconds, cost_track *track);
+iso_status iso_cost_walk(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance, bool carry,
+                         double seconds, cost_track *track);
 
 /* The distance of row i of two tracks; the largest over what both reached; of the clock, relative to its largest. */
-double cost_distance_at(const cost_track *a, const cost_track *b, int i);
-double cost_distance(const cost_track *a, const cost_track *b);
-double cost_clock_distance(const cost_track *a, const cost_track *b);
+double iso_cost_distance_at(const cost_track *a, const cost_track *b, int i);
+double iso_cost_distance(const cost_track *a, const cost_track *b);
+double iso_cost_clock_distance(const cost_track *a, const cost_track *b);
 
 /* What errors are measured against. `second` of the closed solution is what its own cell is measured against. */
 typedef struct cost_reference {
@@ -72,14 +73,14 @@ typedef struct cost_reference {
 
 /* At the given times, in about so many seconds; as far as the best of them gets (`may_fall_short`), or all the way.
  * Errors: ISO_NUMERICAL, ISO_STOPPED, ISO_NO_MEMORY, in the caller's context. */
-iso_status cost_reference_find(cost_problem *p, int times, const double time[], double seconds, bool may_fall_short,
-                               cost_reference *reference);
-void cost_reference_free(cost_reference *reference);
+iso_status iso_cost_reference_find(cost_problem *p, int times, const double time[], double seconds,
+                                   bool may_fall_short, cost_reference *reference);
+void iso_cost_reference_free(cost_reference *reference);
 
-/* The seconds for which one orbit is set up and steps straight to `end`, the mean over some of them when they are short.
- * `about`: what one is expected to take. */
-iso_status cost_time(cost_problem *p, const iso_cost_cell *cell, double end, double about, double *setup,
-                     double *stepping, iso_statistics *statistics);
+/* The seconds for which one orbit is set up and steps straight to `end`, the mean over some of them when they are
+ * short. `about`: what one is expected to take. */
+iso_status iso_cost_time(cost_problem *p, const iso_cost_cell *cell, double end, double about, double *setup,
+                         double *stepping, iso_statistics *statistics);
 
 /* Times of one thing, repeated. */
 enum { COST_REPEATS = 40 };
@@ -89,13 +90,13 @@ typedef struct cost_times {
 } cost_times;
 
 /* Whether least and median of what was measured are known to about 5 %. */
-bool cost_times_settled(const cost_times *times);
-void cost_times_tell(const cost_times *times, iso_cost_cell *cell);
+bool iso_cost_times_settled(const cost_times *times);
+void iso_cost_times_tell(const cost_times *times, iso_cost_cell *cell);
 
 /* The median of all slopes of y over x between points that are at least `apart` from each other in x; NaN: none. */
-double cost_slope(int count, const double x[], const double y[], double apart);
+double iso_cost_slope(int count, const double x[], const double y[], double apart);
 
 /* Fits of the lines, and which cells are pareto. */
-void cost_judge(iso_cost *cost);
+void iso_cost_judge(iso_cost *cost);
 
 #endif

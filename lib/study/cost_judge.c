@@ -77,12 +77,12 @@ static void fit(const iso_cost_cell cell[], iso_cost_line *line)
         time[count] = log10(cell[i].median);
         steps[count++] = log10((double)cell[i].statistics.steps);
     }
-    line->digit = pow(10, -cost_slope(count, error, time, APART));
-    const double order = -1 / cost_slope(count, error, steps, APART);
+    line->digit = pow(10, -iso_cost_slope(count, error, time, APART));
+    const double order = -1 / iso_cost_slope(count, error, steps, APART);
     line->order = isfinite(order) && line->method && line->method->order > 0 ? order : NAN;
 }
 
-void cost_judge(iso_cost *cost)
+void iso_cost_judge(iso_cost *cost)
 {
     for (int l = 0; l < cost->lines; l++) {
         iso_cost_line *line = &cost->line[l];

@@ -22,16 +22,17 @@ static void describe(const source *s, double seconds, char what[120])
 
 static iso_status follow(cost_problem *p, const source *s, double seconds, cost_track *track)
 {
-    const iso_status status = cost_walk(p, s->backend, s->method, s->tolerance, true, seconds, track);
+    const iso_status status = iso_cost_walk(p, s->backend, s->method, s->tolerance, true, seconds, track);
     if (status == ISO_OK || status == ISO_STOPPED || track->reached > 0) return status;
-    return cost_walk(p, s->backend, s->method, s->tolerance, false, seconds, track); /* perhaps for want of a clock */
+    return iso_cost_walk(p, s->backend, s->method, s->tolerance, false, seconds,
+                         track); /* perhaps for want of a clock */
 }
 
 /* The first of the sources that gets to the end, else the one that gets farthest; -1: none gets anywhere. */
 static int best_source(cost_problem *p, const source list[], int count, double seconds, cost_track *track)
 {
     int best = -1, farthest = 0, used = -1;
-    for (int i = 0; i < count && !cost_is_stopped(p); i++) {
+    for (int i = 0; i < count && !iso_cost_is_stopped(p); i++) {
         if (list[i].backend != ISO_EXACT && !list[i].method) continue;
         used = i;
         if (follow(p, &list[i], seconds, track) == ISO_OK) return i;
@@ -52,7 +53,7 @@ static iso_status find_first(cost_problem *p, double seconds, bool may_fall_shor
                            {ISO_BALL, iso_method_find("bdf"), 1e-14},
                            {ISO_BALL, iso_method_find("bdf"), 1e-12}};
     const int i = best_source(p, list, (int)(sizeof list / sizeof *list), seconds, &r->first);
-    if (cost_is_stopped(p)) return iso_context_fail(p->user, ISO_STOPPED, "", "stopped on request");
+    if (iso_cost_is_stopped(p)) return iso_context_fail(p->user, ISO_STOPPED, "", "stopped on request");
     if (i < 0 || (r->first.reached < r->first.times && !may_fall_short))
         return iso_context_fail(p->user, ISO_NUMERICAL, "", "no reference gets to %s = %g in %.2g s: %s",
                                 iso_clock_name(p->clock), p->end, seconds, iso_context_message(p->ctx));
@@ -82,11 +83,11 @@ static bool find_by_others(cost_problem *p, double seconds, cost_reference *r)
     static const double tolerances[] = {1e-13, 1e-14, 1e-15};
     source best = {ISO_BALL, NULL, 0}, now = best;
     double least = INFINITY;
-    for (int i = 0; i < 12 && !cost_is_stopped(p); i++) {
+    for (int i = 0; i < 12 && !iso_cost_is_stopped(p); i++) {
         now.method = iso_method_find(names[i / 3]);
         now.tolerance = tolerances[i % 3];
         follow(p, &now, seconds, &r->second);
-        const double off = cost_distance(&r->first, &r->second);
+        const double off = iso_cost_distance(&r->first, &r->second);
         if (r->second.reached >= r->first.reached && off > 0 && off < least)
             best = now, least = off;
         else if (r->second.reached < r->first.reached)
@@ -97,25 +98,25 @@ static bool find_by_others(cost_problem *p, double seconds, cost_reference *r)
     return true;
 }
 
-iso_status cost_reference_find(cost_problem *p, int times, const double time[], double seconds, bool may_fall_short,
-                               cost_reference *r)
+iso_status iso_cost_reference_find(cost_problem *p, int times, const double time[], double seconds,
+                                   bool may_fall_short, cost_reference *r)
 {
     source from;
     *r = (cost_reference){.uncertainty = INFINITY};
-    iso_status status = cost_track_make(p, times, time, &r->first);
-    if (status == ISO_OK) status = cost_track_make(p, times, time, &r->second);
+    iso_status status = iso_cost_track_make(p, times, time, &r->first);
+    if (status == ISO_OK) status = iso_cost_track_make(p, times, time, &r->second);
     if (status == ISO_OK) status = find_first(p, seconds / 3, may_fall_short, r, &from);
     if (status != ISO_OK) return status;
     snprintf(r->second_what, sizeof r->second_what, "none");
     r->doubted = find_by_series(p, &from, seconds / 3, r);
     if (!r->doubted) r->doubted = find_by_others(p, seconds / 24, r);
-    if (r->doubted) r->uncertainty = cost_distance(&r->first, &r->second);
-    if (cost_is_stopped(p)) return iso_context_fail(p->user, ISO_STOPPED, "", "stopped on request");
+    if (r->doubted) r->uncertainty = iso_cost_distance(&r->first, &r->second);
+    if (iso_cost_is_stopped(p)) return iso_context_fail(p->user, ISO_STOPPED, "", "stopped on request");
     return ISO_OK;
 }
 
-void cost_reference_free(cost_reference *r)
+void iso_cost_reference_free(cost_reference *r)
 {
-    cost_track_free(&r->first);
-    cost_track_free(&r->second);
+    iso_cost_track_free(&r->first);
+    iso_cost_track_free(&r->second);
 }

@@ -17,7 +17,7 @@ static iso_status run_some(cost_problem *p, const iso_cost_cell *cell, double en
     iso_status status = ISO_OK;
     const double begin = processor_seconds();
     for (int i = 0; status == ISO_OK && i < count; i++)
-        status = cost_orbit_open(p, cell->backend, cell->method, cell->tolerance, false, &orbit[i]);
+        status = iso_cost_orbit_open(p, cell->backend, cell->method, cell->tolerance, false, &orbit[i]);
     const double between = processor_seconds();
     for (int i = 0; status == ISO_OK && i < count; i++) status = iso_orbit_at(orbit[i], end, &sample);
     *stepping = (processor_seconds() - between) / count;
@@ -27,8 +27,8 @@ static iso_status run_some(cost_problem *p, const iso_cost_cell *cell, double en
     return status;
 }
 
-iso_status cost_time(cost_problem *p, const iso_cost_cell *cell, double end, double about, double *setup,
-                     double *stepping, iso_statistics *statistics)
+iso_status iso_cost_time(cost_problem *p, const iso_cost_cell *cell, double end, double about, double *setup,
+                         double *stepping, iso_statistics *statistics)
 {
     const int count = about < SHORT / TOGETHER ? TOGETHER : about < SHORT ? (int)ceil(SHORT / about) : 1;
     if (about < 10 * SHORT) { /* what was there before is out of the caches */
@@ -51,7 +51,7 @@ static double median_of(int count, double x[])
 }
 
 /* The median lies between the numbers about sqrt(n)/2 places before and after the middle, two times in three. */
-bool cost_times_settled(const cost_times *times)
+bool iso_cost_times_settled(const cost_times *times)
 {
     double x[COST_REPEATS];
     const int n = times->count, reach = (int)ceil(sqrt(n) / 2);
@@ -62,7 +62,7 @@ bool cost_times_settled(const cost_times *times)
     return x[n / 2 + reach] - x[(n - 1) / 2 - reach] < 0.1 * median && x[1] - x[0] < 0.05 * x[0];
 }
 
-void cost_times_tell(const cost_times *times, iso_cost_cell *cell)
+void iso_cost_times_tell(const cost_times *times, iso_cost_cell *cell)
 {
     double x[COST_REPEATS], setup[COST_REPEATS];
     const int n = times->count;
@@ -77,7 +77,7 @@ void cost_times_tell(const cost_times *times, iso_cost_cell *cell)
     cell->total = cell->setup + cell->median;
 }
 
-double cost_slope(int count, const double x[], const double y[], double apart)
+double iso_cost_slope(int count, const double x[], const double y[], double apart)
 {
     const size_t most = (size_t)count * (size_t)count / 2 + 1;
     double *slope = malloc(most * sizeof *slope), median = NAN;

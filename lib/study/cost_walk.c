@@ -20,14 +20,14 @@ static bool go_on(void *data)
     return !w->stopped && !w->late;
 }
 
-void cost_allow(cost_problem *p, double seconds)
+void iso_cost_allow(cost_problem *p, double seconds)
 {
     p->watch.deadline = processor_seconds() + seconds;
     p->watch.late = false;
     p->watch.calls = 0;
 }
 
-bool cost_is_stopped(cost_problem *p)
+bool iso_cost_is_stopped(cost_problem *p)
 {
     if (!p->watch.stopped) p->watch.stopped = !iso_context_goes_on(p->user);
     return p->watch.stopped;
@@ -50,7 +50,8 @@ static iso_status check_scene(iso_context *ctx, const iso_scene *scene, const is
     return status;
 }
 
-iso_status cost_problem_open(cost_problem *p, iso_context *user, const iso_scene *scene, const iso_cost_options *o)
+iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_scene *scene,
+                                 const iso_cost_options *o)
 {
     *p = (cost_problem){.user = user, .scene = scene, .effects = iso_effects_acting(&scene->effects)};
     p->watch = (cost_watch){.user = user, .deadline = INFINITY};
@@ -70,13 +71,13 @@ static void watch(cost_problem *p)
     iso_context_watch(p->ctx, go_on, &p->watch);
 }
 
-void cost_problem_close(cost_problem *p)
+void iso_cost_problem_close(cost_problem *p)
 {
     iso_context_free(p->ctx);
 }
 
-iso_status cost_orbit_open(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance,
-                           bool carry, iso_orbit **orbit)
+iso_status iso_cost_orbit_open(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance,
+                               bool carry, iso_orbit **orbit)
 {
     iso_orbit_options o = iso_orbit_defaults(&p->scene->start);
     o.effects = &p->effects;
@@ -91,13 +92,13 @@ iso_status cost_orbit_open(cost_problem *p, iso_picture backend, const iso_metho
 
 /* --- tracks ----------------------------------------------------------------------------------------------------- */
 
-iso_status cost_track_make(cost_problem *p, int times, const double time[], cost_track *track)
+iso_status iso_cost_track_make(cost_problem *p, int times, const double time[], cost_track *track)
 {
     *track = (cost_track){.times = times, .time = time, .row = calloc((size_t)times, sizeof *track->row)};
     return track->row ? ISO_OK : iso_context_fail(p->user, ISO_NO_MEMORY, "", "no memory for %d rows", times);
 }
 
-void cost_track_free(cost_track *track)
+void iso_cost_track_free(cost_track *track)
 {
     free(track->row);
     track->row = NULL;
@@ -167,26 +168,26 @@ static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_t
     return ISO_OK;
 }
 
-iso_status cost_walk(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance, bool carry,
-                     double seconds, cost_track *track)
+iso_status iso_cost_walk(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance, bool carry,
+                         double seconds, cost_track *track)
 {
     iso_orbit *orbit;
     track->reached = 0;
     track->seconds = 0;
-    cost_allow(p, 1.5 * seconds);
-    iso_status status = cost_orbit_open(p, backend, method, tolerance, carry, &orbit);
+    iso_cost_allow(p, 1.5 * seconds);
+    iso_status status = iso_cost_orbit_open(p, backend, method, tolerance, carry, &orbit);
     if (status == ISO_OK) {
         status = walk(p, orbit, seconds, track);
         track->statistics = iso_orbit_statistics(orbit);
         iso_orbit_free(orbit);
     }
-    cost_allow(p, INFINITY);
+    iso_cost_allow(p, INFINITY);
     return status;
 }
 
 /* --- distances -------------------------------------------------------------------------------------------------- */
 
-double cost_distance_at(const cost_track *a, const cost_track *b, int i)
+double iso_cost_distance_at(const cost_track *a, const cost_track *b, int i)
 {
     const double *const x = a->row[i].ball, *const y = b->row[i].ball;
     return fmax(relative_difference(x, y), relative_difference(x + 3, y + 3));
@@ -197,14 +198,14 @@ static int both_reached(const cost_track *a, const cost_track *b)
     return a->reached < b->reached ? a->reached : b->reached;
 }
 
-double cost_distance(const cost_track *a, const cost_track *b)
+double iso_cost_distance(const cost_track *a, const cost_track *b)
 {
     double most = 0;
-    for (int i = 0; i < both_reached(a, b); i++) most = fmax(most, cost_distance_at(a, b, i));
+    for (int i = 0; i < both_reached(a, b); i++) most = fmax(most, iso_cost_distance_at(a, b, i));
     return most;
 }
 
-double cost_clock_distance(const cost_track *a, const cost_track *b)
+double iso_cost_clock_distance(const cost_track *a, const cost_track *b)
 {
     double most = 0, size = 0;
     for (int i = 0; i < both_reached(a, b); i++) {

@@ -1,0 +1,36 @@
+/* costs.h - scenes whose cost is measured. */
+#ifndef ISO_TESTS_COSTS_H
+#define ISO_TESTS_COSTS_H
+
+#include "scenes.h"
+#include "study/cost.h"
+
+static inline iso_scene cost_scene(iso_context *ctx, double k, const double J[3], double end)
+{
+    static const double omega[3] = {0.8, -0.6, 0}, normal[3] = {0.36, 0.48, 0.8};
+    iso_scene s = iso_scene_default();
+    s.params = laws_params(k, J);
+    s.end = end;
+    if (iso_start_ball(ctx, omega, normal, ISO_SPIN_REFUSE, &s.start) != ISO_OK) scene_stops("a start", ctx);
+    return s;
+}
+
+static inline iso_scene cost_plane(iso_context *ctx)
+{
+    return cost_scene(ctx, 1, (const double[]){1, 2, 4}, 40);
+}
+
+/* Ends the test where there is none. */
+static inline iso_cost *cost_of(iso_context *ctx, const iso_scene *scene, const iso_cost_options *o)
+{
+    iso_cost *c;
+    if (iso_cost_measure(ctx, scene, o, &c) != ISO_OK) scene_stops("a measurement", ctx);
+    return c;
+}
+
+static inline bool cost_is_measured(const iso_cost_cell *cell)
+{
+    return cell->status == ISO_OK && cell->repeats > 0;
+}
+
+#endif

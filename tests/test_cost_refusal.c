@@ -1,0 +1,103 @@
+/* What study/cost.h does not measure, gives up, and stops. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <string.h>
+
+#include "costs.h"
+
+static iso_context *ctx;
+
+/* --- refusals and ends ------------------------------------------------------------------------------------------ */
+
+static void refuse(const iso_scene *s, const iso_cost_options *o, iso_status status, const char *field)
+{
+    iso_cost *c;
+    const iso_status got = iso_cost_measure(ctx, s, o, &c);
+    gsl_test(got != status || c || strcmp(iso_context_field(ctx), field) != 0, "refused about '%s': %s", field,
+             iso_context_message(ctx));
+}
+
+static void check_refusals(void)
+{
+    const iso_cost_options all = iso_cost_defaults();
+    iso_cost_options o = all;
+    iso_cost_growth growth;
+    iso_scene s = cost_scene(ctx, 0.7, (const double[]){1, 2, 4}, 0);
+    refuse(&s, &all, ISO_BAD_ARGUMENT, "end");
+    s.end = INFINITY;
+    refuse(&s, &all, ISO_BAD_ARGUMENT, "end");
+    s.end = 10;
+    o.backend = ISO_EXACT;
+    refuse(&s, &o, ISO_BAD_ARGUMENT, "k");
+    o = all;
+    o.tolerance = 0.5;
+    refuse(&s, &o, ISO_BAD_ARGUMENT, "tolerance");
+    o = all;
+    o.backend = ISO_BALL;
+    o.method = iso_method_find("strang");
+    refuse(&s, &o, ISO_BAD_ARGUMENT, "method");
+    s.effects.on[ISO_GRAVITY] = true;
+    s.effects.mgb = 1;
+    s.effects.up[2] = 1;
+    o.method = NULL;
+    o.backend = ISO_POINT;
+    refuse(&s, &o, ISO_NOT_MAPPED, "gravity");
+    s.effects.mgb = NAN;
+    refuse(&s, &all, ISO_BAD_INPUT, "mgb");
+    gsl_test(iso_cost_grow(ctx, &s, &(iso_cost_cell){0}, 0, &growth) != ISO_BAD_ARGUMENT ||
+                 strcmp(iso_context_field(ctx), "horizons") != 0,
+             "no horizons are refused");
+}
+
+/* A method that cannot get there in time does not hold up the others. */
+static void check_hopeless(void)
+{
+    const iso_scene s = cost_plane(ctx);
+    iso_cost_options o = iso_cost_defaults();
+    o.seconds = 0.5;
+    o.method = iso_method_find("strang");
+    iso_cost *c = cost_of(ctx, &s, &o);
+    const iso_cost_cell *last = &c->cell[c->cells - 1];
+    gsl_test(last->status != ISO_STOPPED || last->repeats > 0 || !strstr(last->why, "not tried"), "hopeless: %s",
+             last->why);
+    gsl_test(!cost_is_measured(&c->cell[0]) || !c->complete, "what is loose is measured");
+    gsl_test(!(c->seconds < 5), "it ends, after %.2g s for 0.5", c->seconds);
+    iso_cost_free(c);
+}
+
+static bool count_down(void *data)
+{
+    int *left = data;
+    return --*left > 0;
+}
+
+static void check_stops(void)
+{
+    const iso_scene s = cost_plane(ctx);
+    iso_cost_options o = iso_cost_defaults();
+    iso_cost *c = NULL;
+    iso_cost_growth growth;
+    int left = 0;
+    o.quick = true;
+    iso_context_watch(ctx, count_down, &left);
+    gsl_test(iso_cost_measure(ctx, &s, &o, &c) != ISO_STOPPED || c, "stopped at once, nothing is told");
+    left = 2000;
+    gsl_test(iso_cost_measure(ctx, &s, &o, &c) != ISO_STOPPED || !c || c->complete || c->cells == 0,
+             "stopped later, there is what was measured");
+    iso_cost_free(c);
+    left = 3;
+    const iso_cost_cell cell = {.backend = ISO_BALL, .method = iso_method_find("rk8pd"), .tolerance = 1e-9};
+    gsl_test(iso_cost_grow(ctx, &s, &cell, 4, &growth) != ISO_STOPPED, "growth is stopped");
+    iso_context_watch(ctx, NULL, NULL);
+}
+
+int main(void)
+{
+    ctx = iso_context_create();
+    if (!ctx) return 1;
+    check_refusals();
+    check_stops();
+    check_hopeless();
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}
