@@ -7,10 +7,13 @@
 #include "study/cost_impl.h"
 
 /* How the time is divided: references; of the rest, a cell is run about RUNS times at least. */
-static const double QUICK = 3, LONG = 40, REFERENCES = 0.3, RUNS = 8;
+static const double QUICK = 3, LONG = 40, REFERENCES = 0.3, RUNS = 5;
+
+/* Runs shorter than this are warmed up. */
+static const double MOMENT = 1e-3;
 
 /* A cell may take so many times its fair share, for most take less. */
-static const double GENEROUS = 4;
+static const double GENEROUS = 8;
 
 enum { LEAST_REPEATS = 3, MOST_LINES = 128, MOST_TOLERANCES = 8 };
 
@@ -26,7 +29,8 @@ typedef struct measurer {
     cost_times *times; /* of each cell */
     int tolerances;
     const double *tolerance;
-    double share; /* done */
+    double promised; /* seconds that the least repeats of what was checked will take */
+    double share;    /* done */
 } measurer;
 
 iso_cost_options iso_cost_defaults(void)
@@ -173,6 +177,19 @@ static void give_up(measurer *m, const iso_cost_line *line, int from)
     }
 }
 
+/* What the least repeats take: short runs are warmed up, and timed several at once. */
+static double repeats_of(double about)
+{
+    return LEAST_REPEATS * (about < MOMENT ? 2 * about + MOMENT / 10 : about);
+}
+
+/* How long the next of `left` cells may run. */
+static double share_of(const measurer *m, int left)
+{
+    const double rest = fmax(m->seconds - elapsed(m) - m->promised, 0.01 * m->seconds);
+    return rest / RUNS * fmin(1, GENEROUS / left);
+}
+
 /* All lines at the loosest tolerance, then at the next, so that what there is after a while is of all. */
 static void check_cells(measurer *m, double about[])
 {
@@ -183,9 +200,9 @@ static void check_cells(measurer *m, double about[])
         for (int l = 0; l < m->out->lines && !iso_cost_is_stopped(&m->p); l++) {
             const iso_cost_line *line = &m->out->line[l];
             if (i >= line->count || !alive[l]) continue;
-            const double rest = fmax(m->seconds - elapsed(m), 0.01 * m->seconds);
             iso_cost_cell *cell = &m->out->cell[line->first + i];
-            check_cell(m, cell, GENEROUS * rest / (RUNS * left--), &about[line->first + i]);
+            check_cell(m, cell, share_of(m, left--), &about[line->first + i]);
+            if (cell->status == ISO_OK) m->promised += repeats_of(about[line->first + i]);
             tell(m, cell->method ? cell->method->name : "exact");
             if (cell->status != ISO_STOPPED || iso_cost_is_stopped(&m->p)) continue;
             alive[l] = false;
