@@ -56,8 +56,9 @@ extern "C" {
 #include "study/frequencies.h"
 #include "study/cost.h"
 
-/* io: scene and trajectory files, plots */
+/* io: scene and trajectory files, text files, plots */
 #include "io/scene_file.h"
+#include "io/output.h"
 #include "io/trajectory.h"
 #include "io/plot.h"
 
