@@ -241,6 +241,18 @@ static void time_cells(measurer *m, const double about[])
     }
 }
 
+/* A cell that a stop leaves without a time has that of the run that gave its error, set-up included. */
+static void keep_first_runs(measurer *m, const double about[])
+{
+    for (int i = 0; i < m->out->cells; i++) {
+        cost_times *times = &m->times[i];
+        if (m->out->cell[i].status != ISO_OK || times->count > 0) continue;
+        times->count = 1;
+        times->setup[0] = 0;
+        times->stepping[0] = about[i];
+    }
+}
+
 /* --- all of it -------------------------------------------------------------------------------------------------- */
 
 /* The normal's speed is |k omega x n|. */
@@ -284,6 +296,7 @@ static iso_status measure(measurer *m)
     if (!about) return iso_context_fail(m->p.user, ISO_NO_MEMORY, "", "no memory for the cells");
     check_cells(m, about);
     time_cells(m, about);
+    keep_first_runs(m, about);
     free(about);
     for (int i = 0; i < c->cells; i++) iso_cost_times_tell(&m->times[i], &c->cell[i]);
     iso_cost_judge(c);
