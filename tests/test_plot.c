@@ -202,6 +202,43 @@ static void test_refused(void)
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 
+/* A work-precision diagram: what it draws of what was measured, and what it refuses. */
+static void test_work(void)
+{
+    const char *path = in_folder("w.svg");
+    const double error[] = {1e-3, 0, NAN, 1e-9, 5}, seconds[] = {1e-5, 1e-3, 1, -1, 1e-6};
+    iso_plot_series series[ISO_PLOT_NAMES + 2];
+    for (int i = 0; i < ISO_PLOT_NAMES + 2; i++)
+        series[i] = (iso_plot_series){"ball", "it's `touch OWNED` <b>", 5, error, seconds};
+    series[1].name = NULL;
+    series[2].panel = "po'int\n!touch OWNED";
+    iso_plot_work work = {"a/0 'title'", 3, series, {0, 1e-6}, 1e-14};
+    gsl_test((int)iso_plot_cost(ctx, path, &work), "%s", iso_context_message(ctx));
+    gsl_test(!file_contains(path, "`touch OWNED` &lt;b"), "a name is drawn as it is");
+    gsl_test(!file_contains(path, "closed solution") || !file_contains(path, "other methods"), "what there is is named");
+    work.closed[0] = NAN;
+    work.uncertainty = INFINITY;
+    work.count = 1;
+    gsl_test((int)iso_plot_cost(ctx, path, &work), "nothing is known: %s", iso_context_message(ctx));
+    gsl_test(file_contains(path, "closed solution") || file_contains(path, "other methods"), "what there is not is not");
+    unlink(path);
+    series[0].count = 0;
+    gsl_test(iso_plot_cost(ctx, path, &work) != ISO_BAD_ARGUMENT, "no points");
+    work.closed[0] = 1e-15;
+    gsl_test((int)iso_plot_cost(ctx, path, &work), "the closed solution alone: %s", iso_context_message(ctx));
+    unlink(path);
+    static const char *const many[] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"};
+    for (int i = 0; i < ISO_PLOT_NAMES + 2; i++) series[i] = (iso_plot_series){"ball", many[i], 5, error, seconds};
+    work.count = ISO_PLOT_NAMES;
+    gsl_test((int)iso_plot_cost(ctx, path, &work), "as many names as there is room for: %s", iso_context_message(ctx));
+    unlink(path);
+    work.count++;
+    gsl_test(iso_plot_cost(ctx, path, &work) != ISO_BAD_ARGUMENT, "too many names");
+    for (int i = 0; i < 4; i++) series[i].panel = many[i];
+    gsl_test(iso_plot_cost(ctx, path, &work) != ISO_BAD_ARGUMENT, "too many panels");
+    gsl_test(files_in_folder() != 0, "nothing is left");
+}
+
 static void test_targets(void)
 {
     gsl_test(draw_simple(in_folder("no/such/a.svg"), "") != ISO_FILE_TROUBLE, "a missing folder");
@@ -295,6 +332,7 @@ int main(void)
     test_hostile_texts();
     test_records();
     test_refused();
+    test_work();
     test_targets();
     test_no_gnuplot();
     test_odd_hosts();

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "command.h"
 
@@ -296,13 +295,6 @@ static int write_file(iso_context *ctx, const options *o, iso_orbit *orbit, cons
         complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", keep ? written : 0,
                  t->count);
     return result;
-}
-
-static bool same_file(const char *a, const char *b)
-{
-    struct stat x, y;
-    if (!a || strcmp(a, "-") == 0 || stat(a, &x) != 0 || stat(b, &y) != 0 || !S_ISREG(x.st_mode)) return false;
-    return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
 static iso_status check_files(iso_context *ctx, const options *o)

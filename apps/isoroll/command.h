@@ -30,7 +30,10 @@ typedef struct options {
     double mass, radius;   /* --mass, --radius                                                 */
     double rows;           /* --rows                                                           */
     double turns, samples; /* NAN: not given                                                   */
-    bool json, level, verbose, help;
+    const char *csv;       /* --csv                                                            */
+    double want;           /* --want; NAN: not given                                           */
+    double horizons;       /* --horizons; 0: not given                                         */
+    bool json, level, quick, verbose, help;
 } options;
 
 typedef struct command {
@@ -42,8 +45,8 @@ typedef struct command {
     int (*run)(iso_context *ctx, const options *o);
 } command;
 
-extern const command command_run, command_convert, command_compare, command_check, command_analogue, command_explain,
-    command_frequencies, command_list;
+extern const command command_run, command_convert, command_compare, command_cost, command_check, command_analogue,
+    command_explain, command_frequencies, command_list;
 
 /* Reads the options of `command`. False: wrong ones, a message has been given. */
 bool options_read(const command *c, int argc, char **argv, options *o);
@@ -70,6 +73,9 @@ iso_orbit_options options_for_columns(const iso_scene *scene, const int columns[
 /* That orbit. */
 iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
                              iso_orbit **orbit);
+
+/* Whether two paths (NULL or "-": none) name the same regular file. */
+bool same_file(const char *a, const char *b);
 
 /* The effects that act, with their numbers and, if wanted, what they are; nothing where there are none. */
 void print_effects(const iso_effects *effects, bool docs);

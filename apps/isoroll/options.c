@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "command.h"
 
@@ -36,6 +37,13 @@ static bool set_positive(void *at, const char *text)
 static bool set_count(void *at, const char *text)
 {
     return set_number(at, text) && *(double *)at >= 1 && *(double *)at == floor(*(double *)at);
+}
+
+/* The number is optional. */
+static bool set_horizons(void *at, const char *text)
+{
+    const bool set = set_count(at, text ? text : "6");
+    return set && *(double *)at <= ISO_COST_HORIZONS;
 }
 
 static bool set_bound(void *at, const char *text)
@@ -106,6 +114,12 @@ static const struct row {
      AT(turns)},
     {"samples", "N", "a whole number from 1 on", "of that orbit, made a power of 2 (default 32 each turn)", set_count,
      AT(samples)},
+    {"quick", NULL, NULL, "three tolerances, a few seconds", set_flag, AT(quick)},
+    {"want", "X", "a positive number", "print only the cheapest choice with an error of at most X", set_positive,
+     AT(want)},
+    {"horizons", "[=N]", "a whole number from 1 to 24", "growth over N orbits (6), each twice as long as the one before",
+     set_horizons, AT(horizons)},
+    {"csv", "FILE", "a file", "write the table as CSV, - is standard output", set_text, AT(csv)},
     {"plot", "FILE", "a file", "draw a picture: .svg, .png or .pdf", set_text, AT(plot)},
     {"json", NULL, NULL, "print everything as JSON", set_flag, AT(json)},
     {"k", "K", "a number", "geometry number (where a file does not say)", set_number, AT(k)},
@@ -181,13 +195,18 @@ static bool set_file(const command *c, int argc, char **argv, options *o)
     return true;
 }
 
+static int argument_of(const struct row *r)
+{
+    return !r->argument ? no_argument : r->argument[0] == '[' ? optional_argument : required_argument;
+}
+
 bool options_read(const command *c, int argc, char **argv, options *o)
 {
     struct option known[ROWS + 1] = {{0}};
     int count = 0, found;
     for (int i = 0; i < ROWS; i++)
         if (takes(c, &table[i]))
-            known[count++] = (struct option){table[i].name, table[i].argument != NULL, NULL, LONG + i};
+            known[count++] = (struct option){table[i].name, argument_of(&table[i]), NULL, LONG + i};
     *o = (options){.output = "-",
                    .method = NULL,
                    .backend = (iso_picture)-1,
@@ -207,7 +226,8 @@ bool options_read(const command *c, int argc, char **argv, options *o)
                    .radius = 1,
                    .rows = 6,
                    .turns = NAN,
-                   .samples = NAN};
+                   .samples = NAN,
+                   .want = NAN};
     opterr = 0;
     const bool has_output = strstr(c->options, " output ") != NULL;
     while ((found = getopt_long(argc, argv, has_output ? ":ho:" : ":h", known, NULL)) != -1) {
@@ -241,6 +261,13 @@ int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso
     const bool from_option = method || (time && (!isnan(o->end) || !isnan(o->step)));
     const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
     return finish(ctx, from_option ? status : iso_scene_blame(ctx, scene, name, status));
+}
+
+bool same_file(const char *a, const char *b)
+{
+    struct stat x, y;
+    if (!a || !b || strcmp(a, "-") == 0 || stat(a, &x) != 0 || stat(b, &y) != 0 || !S_ISREG(x.st_mode)) return false;
+    return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
 iso_orbit_options options_for_columns(const iso_scene *scene, const int columns[], int count, iso_effects *effects)

@@ -52,4 +52,24 @@ iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_
  * Errors: as iso_plot_momentum. */
 iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *lines);
 
+/* One method's line of a work-precision diagram. */
+typedef struct iso_plot_series {
+    const char *panel, *name; /* a name looks the same in every panel; NULL: a thin grey line, one of the others */
+    int count;
+    const double *error, *seconds; /* points with an error that is not finite, or seconds not above 0, are left out */
+} iso_plot_series;
+
+enum { ISO_PLOT_PANELS = 3, ISO_PLOT_NAMES = 10, ISO_PLOT_SERIES = 128 };
+typedef struct iso_plot_work {
+    const char *title;
+    int count; /* at most ISO_PLOT_SERIES, in at most ISO_PLOT_PANELS panels, of at most ISO_PLOT_NAMES names */
+    const iso_plot_series *series;
+    double closed[2];   /* error and seconds of the closed solution, in every panel; NaN: none */
+    double uncertainty; /* of the errors: up to there a band; 0: none */
+} iso_plot_work;
+
+/* A work-precision diagram, time over error, both logarithmic, small errors on the right; panels side by side in the
+ * order of the series. Errors: as iso_plot_momentum. */
+iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_plot_work *work);
+
 #endif

@@ -1,0 +1,152 @@
+/* cost_data.c - what `isoroll cost` measured, for other programs: CSV and JSON. */
+#include <jansson.h>
+#include <math.h>
+#include <string.h>
+
+#include "cost_report.h"
+
+/* --- CSV -------------------------------------------------------------------------------------------------------- */
+
+/* A number; an empty field where there is none. */
+static void put(FILE *to, double x)
+{
+    char text[ISO_NUMBER_SIZE] = "";
+    if (isfinite(x)) iso_number_print(text, x);
+    fprintf(to, ",%s", text);
+}
+
+static void put_quoted(FILE *to, const char *text)
+{
+    fputs(",\"", to);
+    for (; *text; text++) fprintf(to, *text == '"' ? "\"%c" : "%c", *text);
+    fputs("\"\n", to);
+}
+
+static void put_cell(FILE *to, const iso_cost_cell *c)
+{
+    const bool measured = cost_is_measured(c);
+    const double result[] = {c->error,  c->clock_error, c->energy_drift, c->constraint_drift, c->setup, c->fastest,
+                             c->median, c->slowest,     c->total};
+    const long counts[] = {c->repeats,        c->statistics.steps,     c->statistics.rejected,
+                           c->statistics.rhs, c->statistics.jacobians, c->statistics.states};
+    fprintf(to, "%s,%s", iso_picture_name((int)c->backend), c->method ? c->method->name : "");
+    put(to, c->tolerance);
+    for (size_t i = 0; i < sizeof result / sizeof *result; i++) put(to, measured ? result[i] : (double)NAN);
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) fprintf(to, ",%ld", counts[i]);
+    fprintf(to, ",%d,%d", c->below, c->pareto);
+    put_quoted(to, c->why);
+}
+
+void cost_write_csv(const cost_report *r, FILE *to)
+{
+    const iso_cost *c = r->cost;
+    fprintf(to,
+            "# isoroll cost 1\n# end: %.17g\n# reference: %s\n# second reference: %s\n# uncertainty: %.17g\n"
+            "# isoroll: %s\n",
+            c->end, c->reference, c->second, c->uncertainty, ISO_VERSION);
+    fputs("backend,method,tolerance,error,clock_error,energy_drift,constraint_drift,setup,fastest,median,slowest,"
+          "total,repeats,steps,rejected,rhs,jacobians,states,below,pareto,failure\n",
+          to);
+    for (int i = 0; i < c->cells; i++) put_cell(to, &c->cell[i]);
+}
+
+/* --- JSON ------------------------------------------------------------------------------------------------------- */
+
+/* What is not known is null. */
+static json_t *number(double x)
+{
+    return isfinite(x) ? json_real(x) : json_null();
+}
+
+static json_t *method_of(const iso_method *method)
+{
+    return method ? json_string(method->name) : json_null();
+}
+
+static json_t *cell_of(const iso_cost_cell *c)
+{
+    const iso_statistics *s = &c->statistics;
+    const bool measured = cost_is_measured(c);
+    json_t *o = json_pack("{s:s, s:o, s:o, s:b, s:o}", "backend", iso_picture_name((int)c->backend), "method",
+                          method_of(c->method), "tolerance", number(c->tolerance), "measured", (int)measured,
+                          "failure", measured ? json_null() : json_string(c->why));
+    if (!o || !measured) return o;
+    json_t *more =
+        json_pack("{s:o, s:b, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:i, s:I, s:I, s:I, s:I, s:I}", "error",
+                  number(c->error), "below", (int)c->below, "pareto", (int)c->pareto, "clock_error",
+                  number(c->clock_error), "energy_drift", number(c->energy_drift), "constraint_drift",
+                  number(c->constraint_drift), "setup", number(c->setup), "fastest", number(c->fastest), "median",
+                  number(c->median), "slowest", number(c->slowest), "total", number(c->total), "repeats", c->repeats,
+                  "steps", (json_int_t)s->steps, "rejected", (json_int_t)s->rejected, "right_hand_sides",
+                  (json_int_t)s->rhs, "jacobians", (json_int_t)s->jacobians, "states", (json_int_t)s->states);
+    json_object_update(o, more);
+    json_decref(more);
+    return o;
+}
+
+static json_t *cells_of(const iso_cost *c)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < c->cells; i++) json_array_append_new(list, cell_of(&c->cell[i]));
+    return list;
+}
+
+static json_t *lines_of(const iso_cost *c)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < c->lines; i++) {
+        const iso_cost_line *l = &c->line[i];
+        json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "backend",
+                                              iso_picture_name((int)l->backend), "method", method_of(l->method),
+                                              "time_of_a_digit", number(l->digit), "order", number(l->order),
+                                              "least_error", number(l->least), "stops_at", number(l->stops_at)));
+    }
+    return list;
+}
+
+static json_t *why_of(const cost_growth *g)
+{
+    return *g->why ? json_string(g->why) : *g->growth.why ? json_string(g->growth.why) : json_null();
+}
+
+static json_t *growths_of(const cost_report *r)
+{
+    json_t *list = json_array();
+    for (int g = 0; g < r->growths; g++) {
+        const iso_cost_growth *x = &r->growth[g].growth;
+        json_t *rows = json_array();
+        for (int i = 0; i < x->count; i++)
+            json_array_append_new(rows, json_pack("{s:o, s:o, s:o, s:o}", "end", number(x->end[i]), "error",
+                                                  number(x->error[i]), "uncertainty", number(x->uncertainty[i]),
+                                                  "seconds", number(x->seconds[i])));
+        json_array_append_new(list,
+                              json_pack("{s:o, s:o, s:b, s:o, s:o, s:o, s:o}", "cell", cell_of(r->growth[g].cell),
+                                        "horizons", rows, "chaotic", (int)x->chaotic, "power", number(x->power),
+                                        "time_power", number(x->time_power), "lyapunov_time",
+                                        number(x->lyapunov_time), "failure", why_of(&r->growth[g])));
+    }
+    return list;
+}
+
+static json_t *choice_of(const cost_report *r)
+{
+    const iso_cost_cell *c = isnan(r->want) ? NULL : iso_cost_choose(r->cost, r->want);
+    return c ? cell_of(c) : json_null();
+}
+
+bool cost_print_json(const cost_report *r)
+{
+    const iso_params *p = &r->scene->params;
+    const iso_cost *c = r->cost;
+    json_t *o = json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:s, s:o, s:o, s:b, s:o, s:o, s:o, s:o, s:o}",
+                          "isoroll", ISO_VERSION, "k", number(p->k), "J", number(p->J[0]), number(p->J[1]),
+                          number(p->J[2]), "end", number(c->end), "turns", number(c->turns), "reference",
+                          c->reference, "second_reference", c->second, "uncertainty", number(c->uncertainty),
+                          "seconds", number(c->seconds), "complete", (int)c->complete, "cells", cells_of(c), "lines",
+                          lines_of(c), "want", number(r->want), "choice", choice_of(r), "growth", growths_of(r));
+    if (!o) return complain("out of memory"), false;
+    json_dumpf(o, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    printf("\n");
+    json_decref(o);
+    return true;
+}

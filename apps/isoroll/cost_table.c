@@ -1,0 +1,215 @@
+/* cost_table.c - `isoroll cost` on a terminal: a table of all that was measured, and the answer in words. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "cost_report.h"
+
+/* --- the table -------------------------------------------------------------------------------------------------- */
+
+enum { MOST_DIGITS = 20 }; /* an error may be 0 */
+
+static const char *method_name(const iso_method *method)
+{
+    return method ? method->name : "closed solution";
+}
+
+static void print_head(const cost_report *r)
+{
+    const iso_params *p = &r->scene->params;
+    const iso_cost *c = r->cost;
+    printf("k = %.10g (%s), J = %.10g %.10g %.10g; from 0 to %s = %.10g, about %.3g turns\n\n", p->k,
+           iso_surface_name((int)p->body.surface), p->J[0], p->J[1], p->J[2],
+           r->scene->start.model == ISO_BALL ? "t" : "s", c->end, c->turns);
+    printf("errors: the largest relative error of (omega, n), from %s,\n", c->reference);
+    if (isfinite(c->uncertainty))
+        printf("  known to %.1e: its distance from %s\n\n", c->uncertainty, c->second);
+    else
+        printf("  how exact that is, is not known: there is no second reference\n\n");
+}
+
+static void print_number(double x)
+{
+    if (isnan(x))
+        printf(" %8s", "-");
+    else
+        printf(" %8.1e", x);
+}
+
+static void print_cell(const iso_cost_cell *c)
+{
+    char tolerance[16] = "-", median[COST_SECONDS], setup[COST_SECONDS];
+    if (c->method) snprintf(tolerance, sizeof tolerance, "%g", c->tolerance);
+    printf("%s %-5s  %-22s %7s %s%7.1e", c->pareto ? "*" : " ", iso_picture_name((int)c->backend),
+           method_name(c->method), tolerance, c->below ? " ~" : "  ", c->error);
+    print_number(c->clock_error);
+    print_number(c->energy_drift);
+    printf(" %9s %5.0f %% %9ld %9ld %9s\n", cost_seconds(c->median, median),
+           100 * (c->slowest - c->fastest) / c->median, c->statistics.steps, c->statistics.rhs,
+           cost_seconds(c->setup, setup));
+}
+
+static void print_cells(const iso_cost *cost, const iso_cost_line *const line[])
+{
+    printf("  %-5s  %-22s %7s %9s %8s %8s %9s %7s %9s %9s %9s\n", "", "method", "tol", "error", "clocks", "energy",
+           "time", "spread", "steps", "rhs", "set-up");
+    for (int l = 0; l < cost->lines; l++)
+        for (int i = line[l]->first; i < line[l]->first + line[l]->count; i++)
+            if (cost_is_measured(&cost->cell[i])) print_cell(&cost->cell[i]);
+    printf("* on the Pareto front: nothing else is both more exact and faster   ~ too exact for the reference to "
+           "tell\n");
+}
+
+static void print_failed(const iso_cost *cost)
+{
+    if (cost_count(cost, cost_is_failed) > 0) printf("\nfailed\n");
+    for (int i = 0; i < cost->cells; i++) {
+        const iso_cost_cell *c = &cost->cell[i];
+        if (!cost_is_failed(c)) continue;
+        printf("  %-5s  %-22s %7g  %s\n", iso_picture_name((int)c->backend), method_name(c->method), c->tolerance,
+               c->why);
+    }
+}
+
+/* What would take longer than its share: of each line the loosest tolerance of those. */
+static void print_left_out(const iso_cost *cost)
+{
+    int lines = 0;
+    for (int l = 0; l < cost->lines; l++) {
+        const iso_cost_line *line = &cost->line[l];
+        const iso_cost_cell *c = &cost->cell[line->first], *end = c + line->count;
+        while (c < end && c->status != ISO_STOPPED) c++;
+        if (c == end) continue;
+        if (lines++ == 0) printf("\nleft out for the time it would take\n");
+        printf("  %-5s  %-22s %7g  and tighter\n", iso_picture_name((int)line->backend), method_name(line->method),
+               c->tolerance);
+    }
+}
+
+/* --- what the methods give for more time ------------------------------------------------------------------------ */
+
+static void print_time_to(const iso_cost *cost, const iso_cost_line *line, double want)
+{
+    char words[COST_SECONDS];
+    const iso_cost_cell *c = cost_choose_steps(cost, line, want);
+    printf(" %9s", cost_seconds(c ? c->total : (double)NAN, words));
+}
+
+static void print_lines(const iso_cost *cost, const iso_cost_line *const line[])
+{
+    printf("\nmethods, the fastest to an error of 1e-9 first: the time to an error, what one more digit costs, where "
+           "they "
+           "stop to gain\n  %-5s  %-22s %9s %9s %9s  %10s  %8s  %s\n",
+           "", "", "to 1e-6", "to 1e-9", "to 1e-12", "a digit", "order", "least error");
+    for (int l = 0; l < cost->lines; l++) {
+        const iso_cost_line *m = line[l];
+        if (!m->method || isnan(m->least)) continue;
+        printf("  %-5s  %-22s", iso_picture_name((int)m->backend), m->method->name);
+        print_time_to(cost, m, 1e-6);
+        print_time_to(cost, m, 1e-9);
+        print_time_to(cost, m, 1e-12);
+        if (isnan(m->digit))
+            printf("  %10s", "-");
+        else
+            printf("  %4.2f times", m->digit);
+        if (isnan(m->order) || m->method->order == 0)
+            printf("  %8s", "-");
+        else
+            printf("  %4.1f of %2d", m->order, m->method->order);
+        printf("  %.1e", m->least);
+        if (isnan(m->stops_at))
+            printf("\n");
+        else
+            printf(" from --tol %g on\n", m->stops_at);
+    }
+}
+
+/* --- the answer ------------------------------------------------------------------------------------------------- */
+
+static const iso_cost_cell *choose_steps(const iso_cost *cost, double want)
+{
+    return cost_choose_steps(cost, NULL, want);
+}
+
+static void print_choice(const iso_cost_cell *c, int digits)
+{
+    char words[COST_SECONDS];
+    printf("  for 1e-%-2d take ", digits);
+    if (c->method)
+        printf("%s/%s at --tol %g", iso_picture_name((int)c->backend), c->method->name, c->tolerance);
+    else
+        printf("the closed solution, --backend exact");
+    printf(": %s (error %.1e%s)\n", cost_seconds(c->total, words), c->error,
+           c->below ? ", as far as the reference can tell" : "");
+}
+
+typedef const iso_cost_cell *chooser(const iso_cost *cost, double want);
+
+static const iso_cost_cell *choose_digits(const iso_cost *cost, chooser *choose, int digits)
+{
+    return digits <= MOST_DIGITS ? choose(cost, pow(10, -digits)) : NULL;
+}
+
+/* Each choice once, with the most digits that it is the choice for, from so many on. Gives the first without one. */
+static int print_choices(const iso_cost *cost, chooser *choose, int digits)
+{
+    const iso_cost_cell *c = choose_digits(cost, choose, digits);
+    for (; c; digits++) {
+        const iso_cost_cell *next = choose_digits(cost, choose, digits + 1);
+        if (next != c) print_choice(c, digits);
+        c = next;
+    }
+    return digits;
+}
+
+/* Where the closed solution is the choice, the best of the others as well. */
+static void print_answer(const iso_cost *cost)
+{
+    printf("\nwhat to take (times with set-up, on this machine; on others their ratios are much the same)\n");
+    const int beyond = print_choices(cost, iso_cost_choose, 1);
+    printf("  nothing measured reaches 1e-%d\n", beyond);
+    for (int digits = 1; digits < beyond; digits++) {
+        if (choose_digits(cost, iso_cost_choose, digits)->method) continue;
+        if (!choose_digits(cost, choose_steps, digits)) return;
+        printf("of those that take steps\n");
+        print_choices(cost, choose_steps, digits);
+        return;
+    }
+}
+
+static void print_growth(const cost_growth *g)
+{
+    char words[COST_OPTIONS], seconds[COST_SECONDS];
+    const iso_cost_growth *x = &g->growth;
+    printf("\ngrowth with the length of the orbit: %s\n", cost_options_of(g->cell, words));
+    if (*g->why || *x->why) printf("  ended early: %s\n", *g->why ? g->why : x->why);
+    if (x->count == 0) return;
+    printf("  errors from %s\n", x->reference);
+    printf("  %14s %9s %12s %10s\n", "to", "error", "known to", "time");
+    for (int i = 0; i < x->count; i++) {
+        printf("  %14.8g %9.1e    ", x->end[i], x->error[i]);
+        print_number(x->uncertainty[i]);
+        printf(" %10s\n", cost_seconds(x->seconds[i], seconds));
+    }
+    printf("  ");
+    if (x->chaotic)
+        printf("the error grows e-fold in %.3g, the Lyapunov time: the orbit is chaotic", x->lyapunov_time);
+    else if (isnan(x->power))
+        printf("too little is known to tell how the error grows");
+    else
+        printf("the error grows as the length^%.2f", x->power);
+    if (isnan(x->time_power))
+        printf("\n");
+    else
+        printf("; time as the length^%.2f\n", x->time_power);
+}
+
+void cost_print(const cost_report *r, const iso_cost_line *const line[])
+{
+    print_head(r);
+    print_cells(r->cost, line);
+    if (r->cost->complete) print_left_out(r->cost);
+    print_failed(r->cost);
+    if (cost_choose_steps(r->cost, NULL, INFINITY)) print_lines(r->cost, line);
+    print_answer(r->cost);
+    for (int i = 0; i < r->growths; i++) print_growth(&r->growth[i]);
+}

@@ -1,0 +1,157 @@
+#!/bin/sh
+# cost.sh ISOROLL - `isoroll cost`: its table, words, CSV, JSON, pictures and choices say the same and are right; what it
+# refuses, what fails, and what an interruption leaves.
+. "$(dirname "$0")/lib.sh"
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
+scene 0.7 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >open.yaml
+
+# is_json: braces and brackets of `out` close
+is_json() {
+    tr -cd '{}[]' <out | awk '{ n = gsub(/{/, "") - gsub(/}/, ""); m = gsub(/\[/, "") - gsub(/]/, ""); exit n || m }'
+}
+
+# fields FILE: those of a CSV without its comments, the last, quoted one apart, separated by blanks; - for empty ones
+fields() {
+    grep -v '^#' "$1" | sed 's/,"\(.*\)"$/,/' | awk -F, '{ for (i = 1; i < NF; i++) printf "%s ", $i == "" ? "-" : $i; print "" }'
+}
+
+# cells FILE: how many cells a table has
+cells() {
+    grep -cE '^[* ] (ball|point|exact) .* %' "$1"
+}
+
+# --- everything at once
+run 0 cost scene.yaml --quick --csv table.csv
+silent
+cp out table
+check "against what" grep -q '^errors: .* from the closed solution,$' table
+check "its uncertainty" grep -qE '^  known to [0-9.]+e-1[4-9]: its distance from ' table
+check "many cells" test "$(cells table)" -ge 70
+check "the closed solution" grep -qE '^[* ] exact  closed solution +- ' table
+check "what a digit costs" grep -qE '^  ball   rk8pd .* 1\.[0-9]+ times   [6-9]\.[0-9] of  8 ' table
+check "an end" grep -q '^  nothing measured reaches 1e-' table
+sed -n 's/^  for 1e-[0-9]* *take \([a-z]*\).\([a-z0-9_]*\) at --tol \([^:]*\): .*/\1 \2 \3/p' table >choices
+check "choices in words" test "$(wc -l <choices)" -ge 2
+sed '/^of those that take steps/,$d' table | sed -n 's/^  for 1e-[0-9]* *take \([a-z]*\)\/\([a-z0-9_]*\) at --tol \([^:]*\): .*/\1 \2 \3/p' |
+    while read -r backend method tolerance; do
+        grep -qE "^\* $backend +$method +$tolerance " table || echo "$backend $method $tolerance"
+    done >astray
+check "what is chosen is on the front" test ! -s astray
+fields table.csv >rows
+check "CSV: rows" test "$(wc -l <rows)" -gt 100
+check "CSV: as many fields in each" test "$(awk '{ print NF }' rows | sort -u)" = 20
+check "CSV: a table's numbers" awk 'NR > 1 && $4 != "-" { if (!($4 >= 0 && $9 <= $10 && $10 <= $11 && $13 >= 3)) bad = 1; n++ }
+    END { exit bad || n < 70 }' rows
+check "CSV: the other columns" test "$(head -n 1 rows | tr ' ' '\n' | tail -n 4 | tr '\n' ' ')" = "states below pareto  "
+
+# --- errors are those of `run`
+awk 'BEGIN { for (i = 1; i <= 20; i++) print 0.5 * i }' >times
+run 0 run scene.yaml --backend exact --times times
+cp out exact.csv
+for cell in "ball rk8pd 1e-09" "point taylor 1e-06" "point blanes_moan6 1e-09" "ball adams 1e-12"; do
+    echo "$cell" >cell
+    read -r backend method tolerance <cell
+    run 0 run scene.yaml --backend "$backend" --method "$method" --tol "$tolerance" --times times
+    error=$(difference exact.csv out)
+    told=$(sed -n "s/^[* ] $backend  *$method  *$tolerance *~*\([0-9.e-]*\) .*/\1/p" table)
+    at_most "$cell: told" "$told" "$(awk -v e="$error" 'BEGIN { print 2 * e }')"
+    at_most "$cell: found" "$error" "$(awk -v e="$told" 'BEGIN { print 2 * e }')"
+done
+
+# --- JSON, and the one choice
+run 0 cost open.yaml --quick --want 1e-8 --json
+silent
+check "JSON" is_json
+check "the reference" grep -q '"reference": "taylor_' out
+awk '/^ "choice": {/ { choice = 1 } /"error":/ { error = $2 + 0 }
+    /"total":/ { total = $2 + 0
+                 if (choice) { exit !(n > 70 && error <= 1e-8 && total == least) }
+                 n++; if (error <= 1e-8 && (!least || total < least)) least = total }' out
+check "the choice is the cheapest cell that reaches it" test $? -eq 0
+run 0 cost open.yaml --method taylor --want 1e-8
+says "expected: error "
+check "options, and nothing else" grep -qxE -e '--backend (ball|point) --method taylor --tol 1e-(06|09)' out
+check "one line" test "$(wc -l <out)" -eq 1
+# shellcheck disable=SC2046 # options
+run 0 run open.yaml $(cat out) --times times
+run 1 cost open.yaml --method rk4 --want 1e-15
+says "nothing measured reaches an error of 1e-15"
+check "no options" test ! -s out
+
+# --- one backend, method, tolerance
+run 0 cost open.yaml --backend ball --method rk8pd --tol 1e-9
+check "one cell" test "$(cells out)" -eq 1
+run 0 cost scene.yaml --backend exact --csv -
+check "the closed solution alone, as CSV on standard output" test "$(fields /dev/stdin <out | wc -l)" -eq 2
+run 0 cost open.yaml --method taylor --quick --horizons=3
+check "three lengths of each backend" test "$(grep -cE '^ +(10|20|40) ' out)" -eq 6
+check "growth in words" grep -qE '^  the error grows |^  too little' out
+run 0 cost open.yaml --method taylor --backend point --quick --horizons=2 --json
+check "JSON of growth" is_json
+check "two lengths" test "$(grep -c '"uncertainty"' out)" -eq 3
+
+# --- what fails is told, and the rest goes on
+scene -0.5 "1e-6, 1, 1" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.1 >thin.yaml
+run 1 cost thin.yaml --method adams --tol 1e-12 --csv thin.csv
+check "why" grep -qE '^  point  adams +1e-12  .*lost the energy' out
+check "the rest" grep -qE '^[* ] ball   adams +1e-12 ' out
+check "why, in CSV" grep -qE '^point,adams,.*,".*lost the energy.*"$' thin.csv
+
+# --- refusals
+for bad in x 0 -1 nan ''; do refuses 2 "--want '$bad': expected a positive number" cost scene.yaml --want "$bad"; done
+for bad in x 0 2.5 25; do refuses 2 "--horizons '$bad': expected a whole number" cost scene.yaml --horizons=$bad; done
+refuses 2 "expected a method" cost scene.yaml --method rk
+refuses 2 ".svg, .png or .pdf" cost scene.yaml --plot a.gif
+refuses 2 "standard output has room for one" cost scene.yaml --csv - --json
+refuses 2 "standard output has room for one" cost scene.yaml --csv - --want 1e-9
+cp scene.yaml scene.svg
+refuses 2 "would be overwritten" cost scene.yaml --csv ./scene.yaml
+refuses 2 "would be overwritten" cost scene.svg --plot scene.svg
+check "the scene is as it was" cmp scene.yaml scene.svg
+refuses 2 "strang is for the point" cost scene.yaml --backend ball --method strang
+refuses 2 "the scene ends where it begins" cost scene.yaml --t-end 0
+refuses 3 "open.yaml:1:" cost open.yaml --backend exact
+refuses 3 "<stdin>:1:1" cost - </dev/null
+before=$(date +%s)
+refuses 5 "absent" cost scene.yaml --csv absent/a.csv
+check "refused before the work" test $(($(date +%s) - before)) -le 1
+
+# --- pictures
+if command -v gnuplot >/dev/null; then
+    for format in svg png pdf; do
+        run 0 cost scene.yaml --method rk8pd --plot picture.$format
+        silent
+    done
+    check "SVG" grep -q 'processor time' picture.svg
+    check "its method" grep -q '>rk8pd<' picture.svg
+    check "PNG" test "$(head -c 8 picture.png | od -An -tx1 | tr -d ' ')" = 89504e470d0a1a0a
+    check "PDF" test "$(head -c 5 picture.pdf)" = %PDF-
+    run 5 cost scene.yaml --method rk8pd --plot absent/a.svg
+else
+    echo "gnuplot is not installed: no pictures"
+fi
+
+# --- closed pipes, full disks, interruptions
+first=$("$isoroll" cost open.yaml --method taylor --quick 2>err | head -n 1)
+check "cost | head -1: a line" test -n "$first"
+check "cost | head -1: quiet" test ! -s err
+if [ -c /dev/full ]; then
+    "$isoroll" cost open.yaml --method taylor --quick >/dev/full 2>err
+    check "a full disk" test $? -eq 5
+    run 5 cost open.yaml --method taylor --want 1e-6 --csv /dev/full
+fi
+case $(sed -n 's/^SigIgn:.*\(.\)$/\1/p' /proc/self/status 2>/dev/null) in
+[2367abefABEF]) echo "SIGINT is ignored here: not tried" ;; # started in the background
+*)
+    mkdir stop
+    last="cost <- INT"
+    timeout --preserve-status -k 30 -s INT 2 "$isoroll" cost "$source/examples/02_neumann_shell/scene.yaml" --csv stop/a.csv >out 2>err
+    check "interrupted: exit status 1" test $? -eq 1
+    says "interrupted: "
+    check "what has been measured" test "$(cells out)" -ge 5
+    check "as many as it says" grep -q "^isoroll: interrupted: $(cells out) of " err
+    check "the table as CSV, and no temporary file" test "$(ls -A stop)" = a.csv
+    check "what has not" grep -q ',"not reached"$' stop/a.csv
+    ;;
+esac
+finish
