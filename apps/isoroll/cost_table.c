@@ -98,7 +98,7 @@ static void print_lines(const iso_cost *cost, const iso_cost_line *const line[])
 {
     printf("\nmethods, the fastest to an error of 1e-9 first: the time to an error, what one more digit costs, where "
            "they "
-           "stop to gain\n  %-5s  %-22s %9s %9s %9s  %10s  %8s  %s\n",
+           "stop gaining\n  %-5s  %-22s %9s %9s %9s  %10s  %8s  %s\n",
            "", "", "to 1e-6", "to 1e-9", "to 1e-12", "a digit", "order", "least error");
     for (int l = 0; l < cost->lines; l++) {
         const iso_cost_line *m = line[l];
