@@ -11,13 +11,12 @@ typedef struct source {
     double tolerance;
 } source;
 
-static void describe(const source *s, double seconds, char what[120])
+static void describe(const source *s, char what[120])
 {
     if (s->backend == ISO_EXACT)
         snprintf(what, 120, "the closed solution");
     else
-        snprintf(what, 120, "%s at %g, backend %s, %.2g s", s->method->name, s->tolerance,
-                 iso_picture_name((int)s->backend), seconds);
+        snprintf(what, 120, "%s at %g, backend %s", s->method->name, s->tolerance, iso_picture_name((int)s->backend));
 }
 
 static iso_status follow(cost_problem *p, const source *s, double seconds, cost_track *track)
@@ -59,7 +58,7 @@ static iso_status find_first(cost_problem *p, double seconds, bool may_fall_shor
                                 iso_clock_name(p->clock), p->end, seconds, iso_context_message(p->ctx));
     *from = list[i];
     r->exact = from->backend == ISO_EXACT;
-    describe(from, r->first.seconds, r->what);
+    describe(from, r->what);
     return ISO_OK;
 }
 
@@ -72,7 +71,7 @@ static bool find_by_series(cost_problem *p, const source *first, double seconds,
                            {backend, iso_method_find("taylor_extended"), 1e-15}};
     const int i = best_source(p, list, 2, seconds, &r->second);
     if (i < 0 || r->second.reached < r->first.reached) return false;
-    describe(&list[i], r->second.seconds, r->second_what);
+    describe(&list[i], r->second_what);
     return true;
 }
 
@@ -94,7 +93,7 @@ static bool find_by_others(cost_problem *p, double seconds, cost_reference *r)
             i += 2 - i % 3; /* the tighter ones do not get there either */
     }
     if (!best.method || follow(p, &best, 2 * seconds, &r->second) != ISO_OK) return false; /* others are there now */
-    describe(&best, r->second.seconds, r->second_what);
+    describe(&best, r->second_what);
     return true;
 }
 
