@@ -6,7 +6,7 @@
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
-enum { MOST_DIGITS = 20 }; /* an error may be 0 */
+enum { MOST_DIGITS = 16 }; /* a double has no more, but an error may be 0 */
 
 static const char *method_name(const iso_method *method)
 {
@@ -35,12 +35,20 @@ static void print_number(double x)
         printf(" %8.1e", x);
 }
 
+/* Which cell it is: backend, method, tolerance. */
+static void print_name(const iso_cost_cell *c)
+{
+    char tolerance[16] = "-";
+    if (c->method) snprintf(tolerance, sizeof tolerance, "%g", c->tolerance);
+    printf(" %-5s  %-22s %7s ", iso_picture_name((int)c->backend), method_name(c->method), tolerance);
+}
+
 static void print_cell(const iso_cost_cell *c)
 {
-    char tolerance[16] = "-", median[COST_SECONDS], setup[COST_SECONDS];
-    if (c->method) snprintf(tolerance, sizeof tolerance, "%g", c->tolerance);
-    printf("%s %-5s  %-22s %7s %s%7.1e", c->pareto ? "*" : " ", iso_picture_name((int)c->backend),
-           method_name(c->method), tolerance, c->below ? " ~" : "  ", c->error);
+    char median[COST_SECONDS], setup[COST_SECONDS];
+    printf("%s", c->pareto ? "*" : " ");
+    print_name(c);
+    printf("%s%7.1e", c->below ? " ~" : "  ", c->error);
     print_number(c->clock_error);
     print_number(c->energy_drift);
     printf(" %9s %5.0f %% %9ld %9ld %9s\n", cost_seconds(c->median, median),
@@ -65,8 +73,9 @@ static void print_failed(const iso_cost *cost)
     for (int i = 0; i < cost->cells; i++) {
         const iso_cost_cell *c = &cost->cell[i];
         if (!cost_is_failed(c)) continue;
-        printf("  %-5s  %-22s %7g  %s\n", iso_picture_name((int)c->backend), method_name(c->method), c->tolerance,
-               c->why);
+        printf(" ");
+        print_name(c);
+        printf(" %s\n", c->why);
     }
 }
 
@@ -80,8 +89,9 @@ static void print_left_out(const iso_cost *cost)
         while (c < end && c->status != ISO_STOPPED) c++;
         if (c == end) continue;
         if (lines++ == 0) printf("\nleft out for the time it would take\n");
-        printf("  %-5s  %-22s %7g  and tighter\n", iso_picture_name((int)line->backend), method_name(line->method),
-               c->tolerance);
+        printf(" ");
+        print_name(c);
+        printf(c->method ? " and tighter\n" : "\n");
     }
 }
 
@@ -166,7 +176,7 @@ static void print_answer(const iso_cost *cost)
 {
     printf("\nwhat to take (times with set-up, on this machine; on others their ratios are much the same)\n");
     const int beyond = print_choices(cost, iso_cost_choose, 1);
-    printf("  nothing measured reaches 1e-%d\n", beyond);
+    if (beyond <= MOST_DIGITS) printf("  nothing measured reaches 1e-%d\n", beyond);
     for (int digits = 1; digits < beyond; digits++) {
         if (choose_digits(cost, iso_cost_choose, digits)->method) continue;
         if (!choose_digits(cost, choose_steps, digits)) return;

@@ -76,7 +76,7 @@ static bool find_by_series(cost_problem *p, const source *first, double seconds,
 }
 
 /* Other codes in the same formulation: that which agrees best bears the first out. */
-static bool find_by_others(cost_problem *p, double seconds, cost_reference *r)
+static bool find_by_others(cost_problem *p, const source *first, double seconds, cost_reference *r)
 {
     static const char *const names[] = {"rk8pd", "fehlberg78", "bsimp", "bdf"};
     static const double tolerances[] = {1e-13, 1e-14, 1e-15};
@@ -85,9 +85,10 @@ static bool find_by_others(cost_problem *p, double seconds, cost_reference *r)
     for (int i = 0; i < 12 && !iso_cost_is_stopped(p); i++) {
         now.method = iso_method_find(names[i / 3]);
         now.tolerance = tolerances[i % 3];
+        if (now.method == first->method && now.tolerance == first->tolerance) continue;
         follow(p, &now, seconds, &r->second);
         const double off = iso_cost_distance(&r->first, &r->second);
-        if (r->second.reached >= r->first.reached && off > 0 && off < least)
+        if (r->second.reached >= r->first.reached && off < least)
             best = now, least = off;
         else if (r->second.reached < r->first.reached)
             i += 2 - i % 3; /* the tighter ones do not get there either */
@@ -108,7 +109,7 @@ iso_status iso_cost_reference_find(cost_problem *p, int times, const double time
     if (status != ISO_OK) return status;
     snprintf(r->second_what, sizeof r->second_what, "none");
     r->doubted = find_by_series(p, &from, seconds / 3, r);
-    if (!r->doubted) r->doubted = find_by_others(p, seconds / 24, r);
+    if (!r->doubted) r->doubted = find_by_others(p, &from, seconds / 24, r);
     if (r->doubted) r->uncertainty = iso_cost_distance(&r->first, &r->second);
     if (iso_cost_is_stopped(p)) return iso_context_fail(p->user, ISO_STOPPED, "", "stopped on request");
     return ISO_OK;

@@ -90,6 +90,18 @@ run 0 cost open.yaml --method taylor --backend point --quick --horizons=2 --json
 check "JSON of growth" is_json
 check "two lengths" test "$(grep -c '"uncertainty"' out)" -eq 3
 
+run 0 cost scene.yaml --backend exact --horizons=2
+check "the closed solution's error does not come from itself" grep -q '^  errors from taylor_' out
+
+# --- a ball at rest: no error is the least
+scene 0.7 "1.4, 2.1, 3.0" "0, 0, 0" "0.36, 0.48, 0.8" 10 0.5 >rest.yaml
+run 0 cost rest.yaml --quick
+silent
+check "its reference is borne out" grep -q '^  known to 0.0e+00: its distance from ' out
+check "as many digits as there are, and an end of words" test "$(sed -n '/^what to take/,$p' out | grep -c ' for 1e-16 ')" -eq "$(sed -n '/^what to take/,$p' out | grep -c '^  ')"
+run 0 cost rest.yaml --want 1e-12
+says "expected: error 0.0e+00, time "
+
 # --- what fails is told, and the rest goes on
 scene -0.5 "1e-6, 1, 1" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.1 >thin.yaml
 run 1 cost thin.yaml --method adams --tol 1e-12 --csv thin.csv
