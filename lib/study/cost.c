@@ -123,7 +123,7 @@ static void take_errors(measurer *m, const cost_track *track, iso_cost_cell *cel
 {
     const cost_reference *r = &m->reference;
     const cost_track *against = cell->backend == ISO_EXACT ? &r->second : &r->first;
-    cell->error = iso_cost_distance(track, against);
+    cell->error = cell->backend == ISO_EXACT && !r->doubted ? NAN : iso_cost_distance(track, against);
     cell->energy_drift = track->energy_drift;
     cell->constraint_drift = track->constraint_drift;
     cell->statistics = track->statistics;

@@ -187,7 +187,8 @@ static iso_status grow(grower *g, int horizons)
     iso_status status = choose_horizons(g, &horizons);
     if (status == ISO_OK) status = find_errors(g, horizons);
     if (status != ISO_OK) return status;
-    snprintf(g->out->reference, sizeof g->out->reference, "%s", g->reference.what);
+    snprintf(g->out->reference, sizeof g->out->reference, "%s",
+             g->cell.backend == ISO_EXACT ? g->reference.second_what : g->reference.what);
     snprintf(g->out->second, sizeof g->out->second, "%s", g->reference.second_what);
     take_horizons(g);
     fit_errors(g);
