@@ -162,8 +162,7 @@ static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_t
         track->row[i].clock = sample.clock[p->other];
         track->reached++;
         follow_integrals(&k, orbit, &sample, track);
-        if (i + 1 < track->times && looks_longer(track, track->seconds, seconds))
-            return iso_context_fail(p->ctx, ISO_STOPPED, "", "it would take too long");
+        if (i + 1 < track->times && looks_longer(track, track->seconds, seconds)) return ISO_STOPPED;
     }
     return ISO_OK;
 }
@@ -181,6 +180,7 @@ iso_status iso_cost_walk(cost_problem *p, iso_picture backend, const iso_method 
         track->statistics = iso_orbit_statistics(orbit);
         iso_orbit_free(orbit);
     }
+    if (status == ISO_STOPPED) iso_context_fail(p->ctx, ISO_STOPPED, "", "it would take too long");
     iso_cost_allow(p, INFINITY);
     return status;
 }
