@@ -133,7 +133,7 @@ static int tell_choice(const cost_report *r)
     if (!c) return complain("nothing measured reaches an error of %g", r->want), EXIT_SOME_FAILED;
     printf("%s\n", cost_options_of(c, words));
     complain("expected: error %.1e%s, time %s", c->error, c->below ? ", as far as the reference can tell" : "",
-             cost_seconds(c->median, seconds));
+             cost_seconds(c->total, seconds));
     return EXIT_DONE;
 }
 
