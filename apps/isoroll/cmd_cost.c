@@ -175,6 +175,11 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     if (o->csv && strcmp(o->csv, "-") == 0 && (o->json || !isnan(o->want)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
                                 "cost: standard output has room for one: --csv -, --json or --want");
+    if (o->horizons > 0 && !o->json && (!isnan(o->want) || (o->csv && strcmp(o->csv, "-") == 0)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "horizons",
+                                "cost: --want and --csv - leave no room for what --horizons tells");
+    if (o->csv && o->plot && (strcmp(o->csv, o->plot) == 0 || same_file(o->csv, o->plot)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv", "cost: --csv and --plot would be one file");
     if (same_file(o->file, o->csv) || same_file(o->file, o->plot))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv", "cost: '%s' would be overwritten", o->file);
     iso_status status = scene_with_options(ctx, o, scene);
@@ -195,7 +200,10 @@ static int run(iso_context *ctx, const options *o)
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &how, &cost);
     int result = finish_scene(ctx, o, &scene, status);
     const int measured = cost ? cost_count(cost, cost_is_measured) : 0;
-    if (status == ISO_STOPPED) complain("interrupted: %d of %d cells", measured, cost ? cost->cells : 0);
+    if (status == ISO_STOPPED && cost)
+        complain("interrupted: %d of %d cells", measured, cost->cells);
+    else if (status == ISO_STOPPED)
+        complain("interrupted: nothing has been measured");
     if (measured > 0 || status == ISO_OK) {
         cost_report r = {.scene = &scene, .cost = cost, .want = o->want};
         result = worse(result, report(ctx, o, &r, csv));

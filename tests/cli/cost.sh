@@ -116,6 +116,8 @@ refuses 2 "expected a method" cost scene.yaml --method rk
 refuses 2 ".svg, .png or .pdf" cost scene.yaml --plot a.gif
 refuses 2 "standard output has room for one" cost scene.yaml --csv - --json
 refuses 2 "standard output has room for one" cost scene.yaml --csv - --want 1e-9
+refuses 2 "no room for what --horizons tells" cost scene.yaml --want 1e-9 --horizons=2
+refuses 2 "would be one file" cost scene.yaml --csv a.svg --plot a.svg
 cp scene.yaml scene.svg
 refuses 2 "would be overwritten" cost scene.yaml --csv ./scene.yaml
 refuses 2 "would be overwritten" cost scene.svg --plot scene.svg
