@@ -32,7 +32,7 @@ static iso_status probe(grower *g, iso_picture backend, const iso_method *method
 {
     cost_track track;
     iso_status status = iso_cost_track_make(&g->p, TIMES, g->time, &track);
-    if (status == ISO_OK) status = iso_cost_walk(&g->p, backend, method, tolerance, true, ERRORS, &track);
+    if (status == ISO_OK) status = iso_cost_walk(&g->p, backend, method, tolerance, false, ERRORS, &track);
     *seconds = track.seconds;
     iso_cost_track_free(&track);
     return status;

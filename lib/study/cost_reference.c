@@ -78,7 +78,7 @@ static bool find_by_series(cost_problem *p, const source *first, double seconds,
 /* Other codes in the same formulation: that which agrees best bears the first out. */
 static bool find_by_others(cost_problem *p, const source *first, double seconds, cost_reference *r)
 {
-    static const char *const names[] = {"rk8pd", "fehlberg78", "bsimp", "bdf"};
+    static const char *const names[] = {"rk8pd", "fehlberg_13_7_8", "bsimp", "bdf"};
     static const double tolerances[] = {1e-13, 1e-14, 1e-15};
     source best = {ISO_BALL, NULL, 0}, now = best;
     double least = INFINITY;
