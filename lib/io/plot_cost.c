@@ -158,7 +158,7 @@ static void put_lines(FILE *f, const iso_plot_work *w, layout *l, int panel)
 
 static void put_panel(FILE *f, const iso_plot_work *w, layout *l, int panel)
 {
-    const double left = 0.085, gap = 0.025, width = (0.985 - left - gap * (l->panels - 1)) / l->panels;
+    const double left = 0.085, gap = 0.05, width = (0.965 - left - gap * (l->panels - 1)) / l->panels;
     const double from = left + panel * (width + gap);
     fputs("set lmargin at screen ", f);
     iso_gnuplot_number(f, from);
