@@ -164,7 +164,10 @@ static int report(iso_context *ctx, const options *o, cost_report *r, iso_output
         cost_write_csv(r, iso_output_stream(csv));
         result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
     }
-    if (o->plot) result = worse(result, finish(ctx, draw(ctx, o, line, r)));
+    if (o->plot && cost_count(r->cost, cost_is_measured) > 0)
+        result = worse(result, finish(ctx, draw(ctx, o, line, r)));
+    else if (o->plot)
+        complain("no picture: nothing has been measured");
     free(line);
     return result;
 }

@@ -113,6 +113,8 @@ scene -0.5 "1e-6, 1, 1" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.1 >thin.yaml
 run 1 cost thin.yaml --method adams --tol 1e-12 --csv thin.csv
 check "why" grep -qE '^  point  adams +1e-12  .*lost the energy' out
 check "the rest" grep -qE '^[* ] ball   adams +1e-12 ' out
+run 1 cost thin.yaml --method adams --backend point --tol 1e-12 --plot none.svg
+says "no picture: nothing has been measured"
 check "why, in CSV" grep -qE '^point,adams,.*,".*lost the energy.*"$' thin.csv
 
 # --- refusals
