@@ -50,6 +50,16 @@ static inline double min3(const double a[3])
     return fmin(a[0], fmin(a[1], a[2]));
 }
 
+/* The axes in ascending order of a; equal ones stay as they are. */
+static inline void sort_by(const double a[3], int axis[3])
+{
+    for (int i = 0; i < 3; i++) axis[i] = i;
+    for (int pass = 0; pass < 3; pass++) {
+        const int i = pass % 2, first = axis[i], second = axis[i + 1];
+        if (a[first] > a[second]) axis[i] = second, axis[i + 1] = first;
+    }
+}
+
 /* a += f b */
 static inline void add_scaled(double a[3], double f, const double b[3])
 {

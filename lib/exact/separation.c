@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec3_impl.h"
+
 enum { U, V };           /* the coordinates         */
 enum { AL = 3, BE = 4 }; /* roots beyond b1, b2, b3 */
 
@@ -53,14 +55,7 @@ real iso_separation_action(const separation *s, const oscillation *o)
 
 static void sort_axes(separation *s, const double J[3])
 {
-    for (int i = 0; i < 3; i++) s->axis[i] = i;
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < 2; i++)
-            if ((J[s->axis[i]] > J[s->axis[i + 1]]) == (s->k == -1) && J[s->axis[i]] != J[s->axis[i + 1]]) {
-                const int other = s->axis[i];
-                s->axis[i] = s->axis[i + 1];
-                s->axis[i + 1] = other;
-            }
+    sort_by((const double[]){-s->k * J[0], -s->k * J[1], -s->k * J[2]}, s->axis);
     const real middle = J[s->axis[1]];
     for (int i = 0; i < 3; i++) {
         const real Ji = J[s->axis[i]];
@@ -183,7 +178,8 @@ static void rates(const separation *s, const real y[6], real dy[6])
     }
 }
 
-/* Where u and v are nearly one, al and the rates have lost their digits: a little further on they have them. By Runge and Kutta's method in steps that leave no error, once for an orbit. */
+/* Where u and v are nearly one, al and the rates have lost their digits: a little further on they have them. By Runge
+ * and Kutta's method in steps that leave no error, once for an orbit. */
 static void carry_on(separation *s, moment *m)
 {
     enum { STEPS = 4000 };

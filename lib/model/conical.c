@@ -40,11 +40,8 @@ typedef struct axes {
 
 static axes sort_axes(const double b[3])
 {
-    axes a = {.axis = {0, 1, 2}};
-    for (int pass = 0; pass < 3; pass++) {
-        const int i = pass % 2, first = a.axis[i], second = a.axis[i + 1];
-        if (b[first] > b[second]) a.axis[i] = second, a.axis[i + 1] = first;
-    }
+    axes a;
+    sort_by(b, a.axis);
     for (int i = 0; i < 3; i++) a.b[i] = b[a.axis[i]];
     a.low = difference((twofold){a.b[1], 0}, (twofold){a.b[0], 0});
     a.high = difference((twofold){a.b[2], 0}, (twofold){a.b[1], 0});

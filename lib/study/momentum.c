@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/vec3_impl.h"
+
 static double coupling(const iso_momentum *m, double h)
 {
     return h * m->det_J; /* k^2 = 1 */
@@ -24,14 +26,9 @@ static double F_at(const iso_momentum *m, double h, double z)
 bool iso_momentum_make(const iso_params *p, double H, iso_momentum *m)
 {
     if ((p->k != 1 || H != 0) && p->k != -1) return false;
-    *m = (iso_momentum){.k = (int)p->k, .axis = {0, 1, 2}, .det_J = p->det_J, .H = H};
+    *m = (iso_momentum){.k = (int)p->k, .det_J = p->det_J, .H = H};
     m->F = m->k == 1 ? "F_plane" : "F_shell";
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < 2; i++) {
-            const int here = m->axis[i], next = m->axis[i + 1];
-            if (!(m->k * p->J[here] < m->k * p->J[next])) continue;
-            m->axis[i] = next, m->axis[i + 1] = here;
-        }
+    sort_by((const double[]){-m->k * p->J[0], -m->k * p->J[1], -m->k * p->J[2]}, m->axis);
     for (int i = 0; i < 3; i++) m->b[i] = m->k == 1 ? 1 / p->J[m->axis[i]] : p->J[m->axis[i]];
     return true;
 }
