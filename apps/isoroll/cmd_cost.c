@@ -37,7 +37,7 @@ static const iso_cost_cell *most_exact(const iso_cost *cost, const iso_cost_line
     const iso_cost_cell *best = NULL;
     for (int i = line->first; i < line->first + line->count; i++) {
         const iso_cost_cell *c = &cost->cell[i];
-        if (cost_is_measured(c) && (!best || c->error < best->error)) best = c;
+        if (iso_cost_is_measured(c) && (!best || c->error < best->error)) best = c;
     }
     return best;
 }
@@ -112,7 +112,7 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_cost_line *
     if (!error) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to draw");
     for (int i = 0; i < cost->cells; i++) {
         const iso_cost_cell *c = &cost->cell[i];
-        error[i] = cost_is_measured(c) ? c->error : (double)NAN;
+        error[i] = iso_cost_is_measured(c) ? c->error : (double)NAN;
         seconds[i] = c->total;
         if (!c->method) work.closed[0] = error[i], work.closed[1] = seconds[i];
     }
@@ -164,7 +164,7 @@ static int report(iso_context *ctx, const options *o, cost_report *r, iso_output
         cost_write_csv(r, iso_output_stream(csv));
         result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
     }
-    if (o->plot && cost_count(r->cost, cost_is_measured) > 0)
+    if (o->plot && cost_count(r->cost, iso_cost_is_measured) > 0)
         result = worse(result, finish(ctx, draw(ctx, o, line, r)));
     else if (o->plot)
         complain("no picture: nothing has been measured");
@@ -202,7 +202,7 @@ static int run(iso_context *ctx, const options *o)
     iso_context_watch(ctx, go_on, NULL);
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &how, &cost);
     int result = finish_scene(ctx, o, &scene, status);
-    const int measured = cost ? cost_count(cost, cost_is_measured) : 0;
+    const int measured = cost ? cost_count(cost, iso_cost_is_measured) : 0;
     if (status == ISO_STOPPED && cost)
         complain("interrupted: %d of %d cells", measured, cost->cells);
     else if (status == ISO_STOPPED)

@@ -24,7 +24,7 @@ static void put_quoted(FILE *to, const char *text)
 
 static void put_cell(FILE *to, const iso_cost_cell *c)
 {
-    const bool measured = cost_is_measured(c);
+    const bool measured = iso_cost_is_measured(c);
     const double result[] = {c->error,  c->clock_error, c->energy_drift, c->constraint_drift, c->setup, c->fastest,
                              c->median, c->slowest,     c->total};
     const long counts[] = {c->repeats,        c->statistics.steps,     c->statistics.rejected,
@@ -66,7 +66,7 @@ static json_t *method_of(const iso_method *method)
 static json_t *cell_of(const iso_cost_cell *c)
 {
     const iso_statistics *s = &c->statistics;
-    const bool measured = cost_is_measured(c);
+    const bool measured = iso_cost_is_measured(c);
     json_t *o = json_pack("{s:s, s:o, s:o, s:b, s:o}", "backend", iso_picture_name((int)c->backend), "method",
                           method_of(c->method), "tolerance", number(c->tolerance), "measured", (int)measured,
                           "failure", measured ? json_null() : json_string(c->why));

@@ -4,11 +4,6 @@
 
 #include "cost_report.h"
 
-bool cost_is_measured(const iso_cost_cell *cell)
-{
-    return cell->status == ISO_OK && cell->repeats > 0;
-}
-
 bool cost_is_failed(const iso_cost_cell *cell)
 {
     return cell->status != ISO_OK && cell->status != ISO_STOPPED;
@@ -27,8 +22,7 @@ const iso_cost_cell *cost_choose_steps(const iso_cost *cost, const iso_cost_line
     const int first = line ? line->first : 0, end = line ? first + line->count : cost->cells;
     for (int i = first; i < end; i++) {
         const iso_cost_cell *c = &cost->cell[i];
-        const bool reaches = c->error <= want && !(c->below && want < cost->uncertainty);
-        if (c->method && cost_is_measured(c) && reaches && (!best || c->total < best->total)) best = c;
+        if (c->method && iso_cost_reaches(cost, c, want) && (!best || c->total < best->total)) best = c;
     }
     return best;
 }

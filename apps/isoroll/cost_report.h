@@ -21,8 +21,7 @@ typedef struct cost_report {
     cost_growth growth[COST_GROWTHS];
 } cost_report;
 
-/* Whether a cell has a result, and whether it has none for another reason than time. */
-bool cost_is_measured(const iso_cost_cell *cell);
+/* Whether a cell has no result for another reason than time. */
 bool cost_is_failed(const iso_cost_cell *cell);
 
 /* How many cells of a kind there are. */

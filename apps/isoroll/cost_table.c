@@ -64,7 +64,7 @@ static void print_cells(const iso_cost *cost, const iso_cost_line *const line[])
            "time", "spread", "steps", "rhs", "set-up");
     for (int l = 0; l < cost->lines; l++)
         for (int i = line[l]->first; i < line[l]->first + line[l]->count; i++)
-            if (cost_is_measured(&cost->cell[i])) print_cell(&cost->cell[i]);
+            if (iso_cost_is_measured(&cost->cell[i])) print_cell(&cost->cell[i]);
     printf("* on the Pareto front: nothing else is both more exact and faster   ~ too exact for the reference to "
            "tell\n");
 }

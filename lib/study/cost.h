@@ -82,6 +82,12 @@ iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_
                             iso_cost **cost);
 void iso_cost_free(iso_cost *cost);
 
+/* Whether a cell has a result. */
+bool iso_cost_is_measured(const iso_cost_cell *cell);
+
+/* Whether it has one with an error of at most `want`, as far as the reference can tell. */
+bool iso_cost_reaches(const iso_cost *cost, const iso_cost_cell *cell, double want);
+
 /* The cell with the least `total` whose error is known to be at most `want`; NULL: none is. */
 const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want);
 

@@ -10,7 +10,7 @@ static const double FASTER = 1.05, LOST = 0.1, AT_FLOOR = 2;
 /* A fit wants points this far apart, in decades. */
 static const double APART = 0.3;
 
-static bool measured(const iso_cost_cell *cell)
+bool iso_cost_is_measured(const iso_cost_cell *cell)
 {
     return cell->status == ISO_OK && cell->repeats > 0;
 }
@@ -21,23 +21,27 @@ static double known_error(const iso_cost *cost, const iso_cost_cell *cell)
     return cell->below ? fmax(cell->error, cost->uncertainty) : cell->error;
 }
 
+bool iso_cost_reaches(const iso_cost *cost, const iso_cost_cell *cell, double want)
+{
+    return iso_cost_is_measured(cell) && known_error(cost, cell) <= want;
+}
+
 const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want)
 {
     const iso_cost_cell *best = NULL;
     for (int i = 0; i < cost->cells; i++) {
         const iso_cost_cell *cell = &cost->cell[i];
-        if (measured(cell) && known_error(cost, cell) <= want && (!best || cell->total < best->total)) best = cell;
+        if (iso_cost_reaches(cost, cell, want) && (!best || cell->total < best->total)) best = cell;
     }
     return best;
 }
 
 static bool is_pareto(const iso_cost *cost, const iso_cost_cell *cell)
 {
-    if (!measured(cell) || !(cell->error < LOST)) return false;
+    if (!iso_cost_is_measured(cell) || !(cell->error < LOST)) return false;
     for (int i = 0; i < cost->cells; i++) {
         const iso_cost_cell *other = &cost->cell[i];
-        if (measured(other) && known_error(cost, other) <= known_error(cost, cell) &&
-            FASTER * other->total < cell->total)
+        if (iso_cost_reaches(cost, other, known_error(cost, cell)) && FASTER * other->total < cell->total)
             return false;
     }
     return true;
@@ -49,12 +53,12 @@ static void find_floor(const iso_cost_cell cell[], iso_cost_line *line)
 {
     int last = -1;
     for (int i = 0; i < line->count; i++) {
-        if (!measured(&cell[i])) continue;
+        if (!iso_cost_is_measured(&cell[i])) continue;
         last = i;
         if (!(cell[i].error >= line->least)) line->least = cell[i].error;
     }
     for (int i = 0; i < last; i++) { /* what only the last reaches may go on */
-        if (!measured(&cell[i]) || cell[i].error > AT_FLOOR * line->least || cell[i].below) continue;
+        if (!iso_cost_is_measured(&cell[i]) || cell[i].error > AT_FLOOR * line->least || cell[i].below) continue;
         line->stops_at = cell[i].tolerance;
         return;
     }
@@ -64,7 +68,7 @@ static void find_floor(const iso_cost_cell cell[], iso_cost_line *line)
 static bool gains(const iso_cost_cell *cell, const iso_cost_line *line)
 {
     const bool above = isnan(line->stops_at) || cell->error > AT_FLOOR * line->least;
-    return measured(cell) && !cell->below && cell->error < LOST && cell->error > 0 && above;
+    return iso_cost_is_measured(cell) && !cell->below && cell->error < LOST && cell->error > 0 && above;
 }
 
 static void fit(const iso_cost_cell cell[], iso_cost_line *line)

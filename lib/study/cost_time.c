@@ -1,4 +1,6 @@
 /* cost_time.c - times on a machine that does other things as well. */
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -38,16 +40,11 @@ iso_status iso_cost_time(cost_problem *p, const iso_cost_cell *cell, double end,
     return run_some(p, cell, end, count, setup, stepping, statistics);
 }
 
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
+/* Sorts. */
 static double median_of(int count, double x[])
 {
-    qsort(x, (size_t)count, sizeof *x, ascending);
-    return (x[(count - 1) / 2] + x[count / 2]) / 2;
+    gsl_sort(x, 1, (size_t)count);
+    return gsl_stats_median_from_sorted_data(x, 1, (size_t)count);
 }
 
 /* The median lies between the numbers about sqrt(n)/2 places before and after the middle, two times in three. */
