@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/finite_impl.h"
+#include "base/vec3_impl.h"
 #include "exact/form_impl.h"
 #include "model/effect.h"
 
@@ -27,14 +28,12 @@ struct iso_exact {
 /* Errors: numbers that are none, or that no motion has. */
 static iso_status check_numbers(iso_context *ctx, const iso_field *f, const double point[ISO_STATE])
 {
-    const double *g = point + 3, square = g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+    const double *g = point + 3, square = dot(g, g);
     if (!all_finite(point, ISO_STATE) || !(square > 0))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the start is not finite, or gamma is zero");
     if (!(f->eps > 0 && isnormal(f->eps)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "the closed solution needs a coupling eps > 0");
-    const double q = (f->p.J[0] * g[0] * g[0] + f->p.J[1] * g[1] * g[1] + f->p.J[2] * g[2] * g[2]) / square;
-    const double fall = f->eps * pow(q, -1 / f->p.k),
-                 M2 = point[0] * point[0] + point[1] * point[1] + point[2] * point[2];
+    const double q = dot_diag(g, f->p.J, g) / square, fall = f->eps * pow(q, -1 / f->p.k), M2 = dot(point, point);
     const bool on_level = f->energy == 0 ? M2 > 0 : fabs(M2 / 2 - fall - f->energy) <= 1e-6 * (M2 / 2 + fall);
     if (isfinite(fall) && on_level) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[ISO_LEVEL]->name,
@@ -65,11 +64,10 @@ static iso_status find_form(iso_context *ctx, const iso_field *f, double point[I
     double snapped[ISO_STATE], size[2];
     *form = form_for(f, point);
     if (*form) return ISO_OK;
-    for (int i = 0; i < 2; i++)
-        size[i] = fmax(fmax(fabs(point[3 * i]), fabs(point[3 * i + 1])), fabs(point[3 * i + 2]));
+    for (int i = 0; i < 2; i++) size[i] = largest(point + 3 * i);
     for (int i = 0; i < ISO_STATE; i++) snapped[i] = fabs(point[i]) <= 4 * DBL_EPSILON * size[i / 3] ? 0 : point[i];
     *form = form_for(f, snapped);
-    if (*form) return memcpy(point, snapped, sizeof snapped), ISO_OK;
+    if (*form) return copy(snapped, point, ISO_STATE), ISO_OK;
     if (f->p.k == 1)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[ISO_LEVEL]->name,
                                 "k = 1 has a closed solution on the level H = 0 alone");
@@ -110,8 +108,7 @@ static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact
     for (int i = 0; i < STEPS_A_TURN * MOST_TURNS && near < STEPS_A_TURN; i++) {
         p.along = NAN;
         x->form->find(x->data, (iso_clock)clock, time, &p);
-        const double *M = p.point, *g = p.point + 3, speed = hypot(hypot(M[0], M[1]), M[2]);
-        const double q = f->p.J[0] * g[0] * g[0] + f->p.J[1] * g[1] * g[1] + f->p.J[2] * g[2] * g[2];
+        const double *g = p.point + 3, q = dot_diag(g, f->p.J, g), speed = norm(p.point);
         near = fabs(g[axis]) < 1e-16 ? near + 1 : 0;
         time += direction * iso_clock_rate(&f->p, (iso_clock)clock, q, NULL) /
                 iso_clock_rate(&f->p, ISO_CLOCK_S, q, NULL) * 2 * ISO_PI / STEPS_A_TURN / speed;
@@ -132,7 +129,7 @@ static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact
 /* Whether a solution is where it should be at time 0, and anywhere a little later. */
 static bool begins(const iso_exact *x, const double point[ISO_STATE])
 {
-    const double *g = point + 3, length = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    const double *g = point + 3, length = norm(g);
     for (int c = 0; c < ISO_CLOCKS; c++) {
         form_place p = {.along = NAN};
         if (!x->has[c]) continue;
@@ -170,7 +167,7 @@ iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const doub
     const iso_form *form = NULL;
     double start[ISO_STATE];
     *exact = NULL;
-    memcpy(start, point, sizeof start);
+    copy(point, start, ISO_STATE);
     iso_status status = check(ctx, field, start);
     if (status == ISO_OK) status = find_form(ctx, field, start, &form);
     if (status != ISO_OK) return status;
@@ -209,7 +206,7 @@ static iso_status check_point(iso_context *ctx, const form_place *p)
 
 static void hand_over(const iso_exact *x, const form_place *p, double point[ISO_STATE], double clocks[ISO_CLOCKS])
 {
-    for (int i = 0; i < ISO_STATE; i++) point[i] = p->point[i];
+    copy(p->point, point, ISO_STATE);
     for (int c = 0; clocks && c < ISO_CLOCKS; c++) clocks[c] = x->has[c] ? (double)p->clock[c] : NAN;
 }
 
@@ -258,9 +255,8 @@ iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock,
         status = check_point(ctx, &p);
         if (status != ISO_OK) return status;
         if (isnan(p.along) || fabsl(guess - p.along) > POOR) known = 0; /* an end; or steps too long */
-        for (int j = 1; j < known; j++) trail[j - (known == TRAIL)] = trail[j];
-        known += known < TRAIL;
-        trail[known - 1] = p.along - even;
+        if (known == TRAIL) memmove(trail, trail + 1, (size_t)--known * sizeof *trail);
+        trail[known++] = p.along - even;
     }
     return ISO_OK;
 }
@@ -287,23 +283,20 @@ iso_status iso_exact_point(iso_context *ctx, const iso_exact *x, const double an
 {
     const iso_status status = check_angles(ctx, x);
     if (status != ISO_OK) return status;
-    const iso_exact_torus torus = iso_exact_describe(x);
-    if (!all_finite(angle, torus.angles))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "an angle is not finite");
     x->form->point(x->data, angle, point);
-    return ISO_OK;
+    if (all_finite(point, ISO_STATE)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "an angle is not finite");
 }
 
 iso_exact_torus iso_exact_describe(const iso_exact *x)
 {
-    iso_exact_torus torus = {.action = {NAN, NAN}, .c = NAN, .distance = NAN};
-    for (int c = 0; c < ISO_CLOCKS; c++) torus.frequency[c][0] = torus.frequency[c][1] = NAN;
+    iso_exact_torus nothing = {.action = {NAN, NAN}, .c = NAN, .distance = NAN};
+    for (int c = 0; c < ISO_CLOCKS; c++) nothing.frequency[c][0] = nothing.frequency[c][1] = NAN;
+    iso_exact_torus torus = nothing;
     x->form->describe(x->data, x->has, &torus);
     if (!x->past.rotation) return torus;
-    torus.kind = ISO_EXACT_SEPARATRIX;
-    torus.angles = 0;
-    torus.distance = 0;
-    torus.action[0] = torus.action[1] = NAN;
-    for (int c = 0; c < ISO_CLOCKS; c++) torus.frequency[c][0] = torus.frequency[c][1] = NAN;
-    return torus;
+    nothing.kind = ISO_EXACT_SEPARATRIX;
+    nothing.c = torus.c;
+    nothing.distance = 0;
+    return nothing;
 }

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/vec3_impl.h"
 #include "exact/form_impl.h"
 
 typedef struct rest {
@@ -24,11 +25,9 @@ static iso_status make(const iso_field *f, const double y[ISO_STATE], const bool
 {
     rest *r = *data = calloc(1, sizeof *r);
     if (!r) return ISO_NO_MEMORY;
-    double q = 0, length = hypot(hypot(y[3], y[4]), y[5]);
-    for (int i = 0; i < 3; i++) {
-        r->point[3 + i] = y[3 + i] / length;
-        q += f->p.J[i] * r->point[3 + i] * r->point[3 + i];
-    }
+    copy(y + 3, r->point + 3, 3);
+    make_unit(r->point + 3);
+    const double q = dot_diag(r->point + 3, f->p.J, r->point + 3);
     const double s = iso_clock_rate(&f->p, ISO_CLOCK_S, q, NULL);
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) r->rate[c] = clocks[c] ? iso_clock_rate(&f->p, c, q, NULL) / s : NAN;
     return ISO_OK;
@@ -38,7 +37,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
 {
     const rest *r = data;
     p->along = time / r->rate[clock];
-    for (int i = 0; i < ISO_STATE; i++) p->point[i] = r->point[i];
+    copy(r->point, p->point, ISO_STATE);
     for (int c = 0; c < ISO_CLOCKS; c++) p->clock[c] = c == (int)clock ? time : r->rate[c] * p->along;
 }
 

@@ -28,22 +28,22 @@ typedef struct growing {
 } growing;
 
 typedef struct revolution {
-    int axis[3]; /* the caller's axes, right-handed; the first is x's                             */
-    bool plane;  /* a principal plane ...                                                          */
-    int across;  /* ... and the axis that stands on it                                             */
+    int axis[3];             /* the caller's axes, right-handed; the first is x's                     */
+    bool plane;              /* a principal plane ...                                                 */
+    int across;              /* ... and the axis that stands on it                                    */
     latitude x;
-    real det, force; /* det J/k^2; mean of M^2 ds/dxi                                                 */
+    real det, force;         /* det J/k^2; mean of M^2 ds/dxi                                         */
     elliptic f;
-    real start; /* xi at time 0, plus half a period of sn where half is -1                       */
+    real start;              /* xi at time 0, plus half a period of sn where half is -1               */
     int half;
-    double turned[2], sense; /* exp(i longitude) of the smooth factor at time 0; of growing longitude         */
-    growing of[SERIES];      /* the clocks, and psi (in the sense of growing longitude)                       */
+    double turned[2], sense; /* exp(i longitude) of the smooth factor at time 0; of growing longitude */
+    growing of[SERIES];      /* the clocks, and psi (in the sense of growing longitude)               */
 } revolution;
 
 /* --- the series ------------------------------------------------------------------------------------------------- */
 
-/* d/dxi of the clocks and of psi at xi; y is even about 0 and pi */
-static void rates_at(const revolution *r, real xi, real rate[SERIES])
+/* y at xi, where it is even about 0 and pi, and d/dxi of the clocks and of psi */
+static real rates_at(const revolution *r, real xi, real rate[SERIES])
 {
     real sn, cn, dn;
     iso_elliptic_at(&r->f, xi, &sn, &cn, &dn);
@@ -53,6 +53,7 @@ static void rates_at(const revolution *r, real xi, real rate[SERIES])
     rate[ISO_CLOCK_S] = ds;
     rate[ISO_CLOCK_TAU] = r->det * powl(q, r->x.power) * ds;
     rate[ISO_CLOCK_T] = r->det * powl(q, r->x.power / 2 - 1) * ds;
+    return y;
 }
 
 /* NaN where one is */
@@ -92,15 +93,12 @@ static void forget(revolution *r)
 /* One number of samples. */
 static bool make_series(revolution *r, int N, double *samples, double work[])
 {
-    real rate[SERIES], sn, cn, dn;
+    real rate[SERIES];
     forget(r);
     r->force = 0;
     for (int j = 0; j <= N; j++) {
-        const real weight = (j % N == 0 ? 0.5L : 1) / N;
-        rates_at(r, ISO_PI * j / N, rate);
-        iso_elliptic_at(&r->f, ISO_PI * j / N, &sn, &cn, &dn);
-        r->force +=
-            weight * rate[ISO_CLOCK_S] * iso_latitude_m(&r->x, r->x.side ? r->x.a * dn * dn : r->x.a * cn * cn);
+        const real weight = (j % N == 0 ? 0.5L : 1) / N, y = rates_at(r, ISO_PI * j / N, rate);
+        r->force += weight * rate[ISO_CLOCK_S] * iso_latitude_m(&r->x, y);
         for (int i = 0; i < SERIES; i++) {
             samples[i * (N + 1) + j] = (double)rate[i];
             r->of[i].mean += weight * rate[i];
