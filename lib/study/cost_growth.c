@@ -1,4 +1,5 @@
 /* cost_growth.c - how error and time grow with the length of an orbit. */
+#include <gsl/gsl_fit.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -136,15 +137,9 @@ static void take_horizons(grower *g)
 /* y = a + slope x by least squares; gives the mean square of what is left. */
 static double fit(int count, const double x[], const double y[], double *slope)
 {
-    double mx = 0, my = 0, xx = 0, xy = 0, yy = 0;
-    for (int i = 0; i < count; i++) mx += x[i] / count, my += y[i] / count;
-    for (int i = 0; i < count; i++) {
-        xx += (x[i] - mx) * (x[i] - mx);
-        xy += (x[i] - mx) * (y[i] - my);
-        yy += (y[i] - my) * (y[i] - my);
-    }
-    *slope = xx > 0 ? xy / xx : NAN;
-    return count > 0 ? (yy - *slope * xy) / count : NAN;
+    double a, covariance[3], rest;
+    gsl_fit_linear(x, 1, y, 1, (size_t)count, &a, slope, &covariance[0], &covariance[1], &covariance[2], &rest);
+    return rest / count;
 }
 
 /* A power of more than STEEP that an exponential fits better is chaos: regular orbits' errors grow like t or t^2. */
