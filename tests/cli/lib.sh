@@ -155,6 +155,39 @@ time: {end: $5, step: $6}
 END
 }
 
+# The book of the hard cases, as tests/hard.h keeps it, for scripts that begin with hard_topic TITLE.
+hard_topic() {
+    topic=$1
+    table=${ISO_BUILD:-$work}/tests/$(basename "$0" .sh).tsv
+    [ -d "$(dirname "$table")" ] || table=$work/hard.tsv
+    : >"$table"
+}
+
+# hard_case NAME QUANTITY WHY
+hard_case() {
+    case=$1
+    printf '%s\t%s\tcase\t%s\t%s\t\t0\n' "$topic" "$case" "$2" "$3" >>"$table"
+}
+
+# hard_hold VALUE BOUND [BACKEND METHOD]
+hard_hold() {
+    printf '%s\t%s\thold\t%s\t%s\t%s\t%s\n' "$topic" "$case" "${3-}" "${4-}" "$1" "$2" >>"$table"
+    at_most "$case ${3-} ${4-}" "$1" "$2"
+}
+
+# hard_refused WORDS [BACKEND METHOD]: the right answer is to refuse (check that with `refuses`)
+hard_refused() {
+    printf '%s\t%s\trefused\t%s\t%s\t%s\t0\n' "$topic" "$case" "${2-}" "${3-}" "$1" >>"$table"
+}
+
+# hard_naive HOW VALUE BOUND: the naive formulation, which breaks the bound
+hard_naive() {
+    printf '%s\t%s\tnaive\t%s\t\t%s\t%s\n' "$topic" "$case" "$1" "$2" "$3" >>"$table"
+    checks=$((checks + 1))
+    awk -v x="$2" -v bound="$3" 'BEGIN { exit !(x !~ /^[-+0-9.eE]+$/ || x + 0 > bound + 0) }' ||
+        fail "$case: naive ($1) holds: $2 is not above $3"
+}
+
 # finish: the count, and the exit status
 finish() {
     echo "$(basename "$0" .sh): $checks checks, $failures failures"
