@@ -1,4 +1,9 @@
-/* isoroll.h - everything: the floors of the library, bottom-up. A header includes only floors below its own. */
+/* isoroll.h - everything: the floors of the library, bottom-up. A header includes only floors below its own.
+ *
+ * A host program's rounding mode, floating-point traps, flush-to-zero mode and locale change no result by a bit: what
+ * answers an iso_status computes by C's default rules (so does what it calls back), and gives the host's back. Single
+ * formulas, which answer numbers (most of model and map), are computed by the host's rules.
+ */
 #ifndef ISOROLL_H
 #define ISOROLL_H
 

@@ -7,8 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
+
 bool iso_number_read(const char *text, size_t length, double *value)
 {
+    ISO_DEFAULT_ARITHMETIC;
     char copy[512], *end = copy;
     if (length == 0 || length >= sizeof copy) return false;
     memcpy(copy, text, length); /* text need not be terminated */
@@ -24,6 +27,7 @@ bool iso_number_read(const char *text, size_t length, double *value)
 
 int iso_number_print(char text[ISO_NUMBER_SIZE], double value)
 {
+    ISO_DEFAULT_ARITHMETIC;
     /* In any locale: whatever stands where the decimal point should, one character or several, is made a point. */
     static const char plain[] = "0123456789+-e";
     char local[ISO_NUMBER_SIZE + MB_LEN_MAX];

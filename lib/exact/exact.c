@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/form_impl.h"
@@ -164,6 +165,7 @@ static iso_status make(iso_context *ctx, const iso_field *field, const double po
 iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const double point[ISO_STATE],
                             const bool clocks[ISO_CLOCKS], iso_exact **exact)
 {
+    ISO_DEFAULT_ARITHMETIC;
     const iso_form *form = NULL;
     double start[ISO_STATE];
     *exact = NULL;
@@ -213,6 +215,7 @@ static void hand_over(const iso_exact *x, const form_place *p, double point[ISO_
 iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, double time, double point[ISO_STATE],
                         double clocks[ISO_CLOCKS])
 {
+    ISO_DEFAULT_ARITHMETIC;
     form_place p = {.along = NAN};
     const iso_status status = check_time(ctx, x, clock, time);
     if (status != ISO_OK) return status;
@@ -240,6 +243,7 @@ static real extrapolate(const real value[], int count)
 iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock, double start, double step,
                           size_t count, double points[], double clocks[])
 {
+    ISO_DEFAULT_ARITHMETIC;
     real trail[TRAIL];
     int known = 0;
     iso_status status = check_time(ctx, x, clock, start);
@@ -271,6 +275,7 @@ static iso_status check_angles(iso_context *ctx, const iso_exact *x)
 
 iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double point[ISO_STATE], double angle[2])
 {
+    ISO_DEFAULT_ARITHMETIC;
     const iso_status status = check_angles(ctx, x);
     if (status != ISO_OK) return status;
     if (!all_finite(point, ISO_STATE) || !x->form->angles(x->data, point, angle))
@@ -281,6 +286,7 @@ iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double p
 
 iso_status iso_exact_point(iso_context *ctx, const iso_exact *x, const double angle[2], double point[ISO_STATE])
 {
+    ISO_DEFAULT_ARITHMETIC;
     const iso_status status = check_angles(ctx, x);
     if (status != ISO_OK) return status;
     x->form->point(x->data, angle, point);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "io/gnuplot_impl.h"
 #include "io/plot_impl.h"
 
@@ -226,6 +227,7 @@ iso_status iso_plot_check_format(iso_context *ctx, const char *path)
 
 iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot)
 {
+    ISO_DEFAULT_ARITHMETIC;
     int n[2], gamma[2];
     iso_gnuplot *g;
     iso_status status = find_vectors(ctx, plot->ball, &n[0], &gamma[0]);

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "io/gnuplot_impl.h"
 #include "io/plot.h"
 #include "io/plot_impl.h"
@@ -199,6 +200,7 @@ static void put_key(FILE *f, const iso_plot_work *w, const layout *l)
 
 iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_plot_work *work)
 {
+    ISO_DEFAULT_ARITHMETIC;
     layout l;
     iso_gnuplot *g;
     if (!lay_out(work, &l))

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "io/gnuplot_impl.h"
 #include "io/plot.h"
 #include "io/plot_impl.h"
@@ -108,6 +109,7 @@ static void put_panel(FILE *f, const iso_plot_map *map, bool over_h, bool key)
 
 iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_map *map)
 {
+    ISO_DEFAULT_ARITHMETIC;
     const iso_record *r = map->bounds;
     const size_t columns = 1 + 2 * (size_t)map->parts + (size_t)map->lines;
     iso_gnuplot *g;
@@ -177,6 +179,7 @@ static void put_names(FILE *f, const iso_record *r)
 
 iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *r)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_gnuplot *g;
     double least = 1;
     if (!r || iso_record_rows(r) == 0 || iso_record_columns(r) != 5 || axis < 0 || axis > 2)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "io/scene_draft_impl.h"
 #include "io/text_impl.h"
 
@@ -206,6 +207,7 @@ static iso_status make_scene(iso_draft *d)
 
 iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_draft d = {.yaml = {.ctx = ctx, .name = name}, .backend = ISO_AUTO, .as = ISO_AUTO};
     d.scene = iso_scene_default();
     d.scene.effects.level = d.D = d.g = NAN;

@@ -12,6 +12,7 @@
 #include <gsl/gsl_roots.h>
 #include <math.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 
@@ -136,6 +137,7 @@ static bool search_step(search *s, double from, double to, double *dt)
 iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, double from, double to, bool *found,
                                 double *t, double y[])
 {
+    ISO_DEFAULT_ARITHMETIC;
     const int direction = to > 0 ? 1 : -1;
     *found = false;
     if (!isfinite(from) || !isfinite(to) || direction * from < 0 || direction * (to - from) < 0)

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
@@ -62,6 +63,7 @@ iso_status iso_tolerance_check(iso_context *ctx, double tolerance)
 iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
                                  const iso_method_options *options, iso_integrator **integrator)
 {
+    ISO_DEFAULT_ARITHMETIC;
     *integrator = NULL;
     iso_method_options o = *options;
     if (!method) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "no such method");
@@ -106,6 +108,7 @@ static iso_status set_out(iso_integrator *it, int direction)
 
 iso_status iso_integrator_start(iso_integrator *it, const double y0[])
 {
+    ISO_DEFAULT_ARITHMETIC;
     double f[ISO_MAX_STATE];
     it->statistics = (iso_statistics){0};
     copy(y0, it->y0, it->model.dim);
@@ -172,6 +175,7 @@ iso_status iso_integrator_within(iso_integrator *it, double dt, double y[])
 
 iso_status iso_integrator_at(iso_integrator *it, double t, double y[])
 {
+    ISO_DEFAULT_ARITHMETIC;
     if (!isfinite(t)) return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "a time is not finite");
     const iso_status status = iso_integrator_reach(it, t > 0 ? 1 : t < 0 ? -1 : it->direction, t);
     if (status != ISO_OK) return status;

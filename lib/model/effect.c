@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 
@@ -117,6 +118,7 @@ static iso_status check_mass(iso_context *ctx, const iso_params *p, const char *
 
 iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double normal[3], iso_effects *e)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_status status = ISO_OK;
     for (int i = 0; status == ISO_OK && i < ISO_EFFECTS; i++)
         if (e->on[i]) status = check_finite(ctx, iso_effect_list[i], e);

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 
 const iso_dimension iso_dimension_h = {1, 0, 2}, iso_dimension_eps = {4, 0, 2};
@@ -34,6 +35,7 @@ static void fill(double k, const double J[3], iso_params *p)
 
 iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso_params *p)
 {
+    ISO_DEFAULT_ARITHMETIC;
     if (!isfinite(k) || !isnormal(k))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "k",
                                 "k = %.17g: the geometry number must be finite and not 0 (at k = 0 the normal does "
@@ -53,6 +55,7 @@ iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso
 
 iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *p)
 {
+    ISO_DEFAULT_ARITHMETIC;
     if (!(is_positive(D) && D < min3(p->J)))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "D",
                                 "D = %.17g: m b^2 must be positive and less than each J (J - D are the moments about "
@@ -95,6 +98,7 @@ static iso_status check_radii(iso_context *ctx, const iso_body *b)
 
 iso_status iso_params_physical(iso_context *ctx, const iso_body *b, iso_params *p)
 {
+    ISO_DEFAULT_ARITHMETIC;
     const double *I = b->inertia;
     if (!is_positive(b->mass))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "mass", "mass %.17g: must be positive and finite", b->mass);

@@ -10,6 +10,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/arithmetic_impl.h"
 #include "method/integrator_impl.h"
 #include "method/lanes_impl.h"
 #include "orbit/orbit_impl.h"
@@ -302,6 +303,7 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
                          const iso_batch_options *options, const double times[], size_t rows, iso_sample samples[],
                          iso_status status[])
 {
+    ISO_DEFAULT_ARITHMETIC;
     const iso_lane_code *code = iso_lane_code_find(options->vectors);
     iso_status checked = check(ctx, options, code, times, rows);
     if (checked != ISO_OK) return checked;

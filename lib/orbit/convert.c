@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 
@@ -266,6 +267,7 @@ static iso_status prepare(conversion *c, double *origin)
 iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_picture to,
                        double tolerance, iso_record **out)
 {
+    ISO_DEFAULT_ARITHMETIC;
     const iso_system *target = to == ISO_BALL ? &iso_system_ball : &iso_system_point;
     conversion c = {.ctx = ctx,
                     .params = params,

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 
@@ -16,6 +17,7 @@ static void line_key(char key[ISO_NAME_SIZE], const iso_effect *effect, const is
 
 iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const iso_effects *effects)
 {
+    ISO_DEFAULT_ARITHMETIC;
     char names[256] = "", key[ISO_NAME_SIZE];
     iso_status status = ISO_OK;
     for (int e = 0; status == ISO_OK && e < ISO_EFFECTS; e++) {
@@ -33,6 +35,7 @@ iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const is
 iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *model, const iso_params *p,
                                const iso_orbit *orbit)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_status status = iso_record_set(ctx, r, "model", model);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "k", 1, &p->k);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, r, "J", 3, p->J);
@@ -51,6 +54,7 @@ iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *mode
 
 iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *p)
 {
+    ISO_DEFAULT_ARITHMETIC;
     double k, J[3];
     iso_status status;
     const bool has_k = iso_record_get_numbers(ctx, r, "k", 1, &k, &status);
@@ -72,6 +76,7 @@ iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *
 
 iso_status iso_record_find_state(iso_context *ctx, const iso_record *r, iso_picture model, int columns[ISO_STATE])
 {
+    ISO_DEFAULT_ARITHMETIC;
     const char *const *names = (model == ISO_BALL ? &iso_system_ball : &iso_system_point)->state;
     const char *missing;
     if (iso_record_find_all(r, ISO_STATE, names, columns, &missing)) return ISO_OK;
@@ -118,6 +123,7 @@ static iso_status check_named(iso_context *ctx, const iso_record *r, const iso_e
 
 iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects *effects)
 {
+    ISO_DEFAULT_ARITHMETIC;
     const char *names = iso_record_get(r, "effects");
     iso_status status;
     *effects = (iso_effects){.on = {false}};
@@ -167,6 +173,7 @@ static iso_status turn_effects(iso_context *ctx, const iso_record *r, size_t row
 iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_picture model, size_t row,
                             iso_start *start, iso_effects *effects)
 {
+    ISO_DEFAULT_ARITHMETIC;
     int columns[ISO_STATE];
     const bool twists = effects->on[ISO_TWIST];
     iso_status status = iso_record_find_state(ctx, r, model, columns);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "orbit/orbit_impl.h"
@@ -79,6 +80,7 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_start *start,
                             const iso_orbit_options *options, iso_orbit **orbit)
 {
+    ISO_DEFAULT_ARITHMETIC;
     *orbit = NULL;
     iso_orbit *o = calloc(1, sizeof *o);
     if (!o) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
@@ -169,6 +171,7 @@ static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
 
 iso_status iso_orbit_check_time(const iso_orbit *o, double time)
 {
+    ISO_DEFAULT_ARITHMETIC;
     double own_time;
     return to_own_time(o, time, &own_time);
 }
@@ -190,6 +193,7 @@ static iso_status check_drift(const iso_orbit *o, const double y[])
 
 iso_status iso_orbit_at(iso_orbit *o, double time, iso_sample *sample)
 {
+    ISO_DEFAULT_ARITHMETIC;
     double own_time, y[ISO_MAX_STATE];
     iso_status status = to_own_time(o, time, &own_time);
     if (status == ISO_OK) status = iso_integrator_at(o->integrator, own_time, y);
@@ -217,6 +221,7 @@ static double event_function(const iso_model *model, const double y[], const voi
 iso_status iso_orbit_event(iso_orbit *o, double (*g)(const iso_sample *sample, const void *data), const void *data,
                            int direction, double from, double to, bool *found, iso_sample *sample)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_status sampled = ISO_OK;
     const sampled_event wrapped = {o, g, data, &sampled};
     const iso_event event = {event_function, &wrapped, direction};
@@ -252,6 +257,7 @@ double iso_orbit_reached(const iso_orbit *o)
 
 iso_status iso_orbit_last(iso_orbit *o, iso_sample *sample)
 {
+    ISO_DEFAULT_ARITHMETIC;
     double own_time, y[ISO_MAX_STATE];
     iso_integrator_last(o->integrator, &own_time, y);
     return iso_orbit_make_sample(o, iso_orbit_reached(o), y, sample);

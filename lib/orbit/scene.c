@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 
 const char *const iso_trajectory_columns[ISO_TRAJECTORY_COLUMNS] = {
@@ -62,6 +63,7 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
 iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], iso_spin spin,
                           iso_start *start)
 {
+    ISO_DEFAULT_ARITHMETIC;
     *start = (iso_start){.model = ISO_BALL};
     copy(omega, start->y, 3);
     copy(normal, start->y + 3, 3);
@@ -71,6 +73,7 @@ iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double 
 iso_status iso_start_point(iso_context *ctx, const double M[3], const double gamma[3], const double *eps,
                            bool project, iso_start *start)
 {
+    ISO_DEFAULT_ARITHMETIC;
     *start = (iso_start){.model = ISO_POINT, .eps = eps ? *eps : NAN};
     copy(M, start->y, 3);
     copy(gamma, start->y + 3, 3);

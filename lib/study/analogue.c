@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 
@@ -232,6 +233,7 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
 iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *problem, double mass, double radius,
                              iso_analogue *a)
 {
+    ISO_DEFAULT_ARITHMETIC;
     memset(a, 0, sizeof *a);
     a->problem = *problem;
     iso_status status = check_numbers(ctx, problem);
@@ -262,6 +264,7 @@ static iso_status check_effects(iso_context *ctx, const iso_effects *e)
 iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
                                    double point[ISO_STATE])
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_orbit *orbit;
     iso_sample sample;
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
@@ -329,6 +332,7 @@ static iso_status start_ball(iso_context *ctx, const iso_params *p, const double
 iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, const double point[ISO_STATE],
                               double s_end, iso_scene *scene)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_orbit *orbit;
     iso_sample sample;
     iso_scene s = iso_scene_default();

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "orbit/convert.h"
@@ -291,6 +292,7 @@ static iso_status measure_clocks(checker *c)
 iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
                      iso_residuals *residuals)
 {
+    ISO_DEFAULT_ARITHMETIC;
     checker c = {.ctx = ctx, .params = params, .record = record, .tolerance = tolerance, .out = residuals};
     *residuals = (iso_residuals){.rows = iso_record_rows(record)};
     for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)

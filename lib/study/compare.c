@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "study/seconds_impl.h"
 
@@ -182,6 +183,7 @@ static iso_status compare_runs(iso_context *ctx, iso_comparison *c)
 iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data),
                        void *data, iso_comparison **comparison)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_comparison *c = *comparison = calloc(1, sizeof *c);
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a comparison");
     runner r = {.ctx = ctx, .scene = scene, .effects = iso_effects_acting(&scene->effects), .out = c};

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/arithmetic_impl.h"
 #include "study/cost_impl.h"
 
 /* How the time is divided: references; of the rest, a cell is run about RUNS times at least. */
@@ -307,6 +308,7 @@ static iso_status measure(measurer *m)
 iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_cost_options *options,
                             iso_cost **cost)
 {
+    ISO_DEFAULT_ARITHMETIC;
     measurer m = {.options = options, .begin = processor_seconds()};
     *cost = NULL;
     m.seconds = options->seconds > 0 ? options->seconds : options->quick ? QUICK : LONG;

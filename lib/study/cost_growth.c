@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "study/cost_impl.h"
 
@@ -194,6 +195,7 @@ static iso_status grow(grower *g, int horizons)
 iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cost_cell *cell, int horizons,
                          iso_cost_growth *growth)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_cost_options o = iso_cost_defaults();
     *growth = (iso_cost_growth){.power = NAN, .time_power = NAN, .lyapunov_time = NAN};
     if (horizons < 1 || horizons > ISO_COST_HORIZONS)

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "study/seconds_impl.h"
 
@@ -179,6 +180,7 @@ iso_status iso_error_find(iso_context *ctx, const iso_params *params, const iso_
                           const iso_orbit_options *options, const iso_orbit *orbit, const iso_error_rows *rows,
                           iso_error *error)
 {
+    ISO_DEFAULT_ARITHMETIC;
     static const iso_error_of unknown = {NAN, NAN, NAN};
     const double begin = processor_seconds();
     iso_orbit_options o = *options;

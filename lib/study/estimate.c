@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "study/basis_impl.h"
 #include "study/frequencies_impl.h"
@@ -309,6 +310,7 @@ static iso_status prepare(estimator *e, const iso_frequencies_options *o)
 iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
                                     iso_frequencies *f)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_status status = iso_frequencies_check(ctx, options);
     if (status != ISO_OK) return status;
     const bool fixed = !isnan(options->turns) || !isnan(options->end) || !isnan(options->samples);

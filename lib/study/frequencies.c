@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/coordinates.h"
 #include "map/state.h"
@@ -293,6 +294,7 @@ static iso_status find_exact(iso_context *ctx, const iso_scene *scene, iso_frequ
 iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
                                 iso_frequencies *f)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_status status = iso_frequencies_check(ctx, options);
     if (status == ISO_OK) status = find_exact(ctx, scene, f);
     if (status != ISO_OK || !f->estimated) return status;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 
 static double coupling(const iso_momentum *m, double h)
@@ -25,6 +26,7 @@ static double F_at(const iso_momentum *m, double h, double z)
 
 bool iso_momentum_make(const iso_params *p, double H, iso_momentum *m)
 {
+    ISO_DEFAULT_ARITHMETIC;
     if ((p->k != 1 || H != 0) && p->k != -1) return false;
     *m = (iso_momentum){.k = (int)p->k, .det_J = p->det_J, .H = H};
     m->F = m->k == 1 ? "F_plane" : "F_shell";
@@ -92,6 +94,7 @@ static bool fill(const iso_momentum *m, double h, double row[])
 
 iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h, iso_record **bounds)
 {
+    ISO_DEFAULT_ARITHMETIC;
     enum { ROWS = 201 };
     static const char *const names[1 + 2 * ISO_MOMENTUM_PARTS + ISO_MOMENTUM_LINES] = {
         "h",          "about_1_low", "about_1_high", "about_3_low", "about_3_high", "side_low",  "side_high",

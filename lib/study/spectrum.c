@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arithmetic_impl.h"
+
 #define PI 3.14159265358979323846
 static const double LEAST = 1e-14; /* amplitudes that count, relative to the largest */
 
@@ -247,6 +249,7 @@ static void find(analysis *z, int most)
 iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t count, double step, int most,
                              iso_line line[], int *found)
 {
+    ISO_DEFAULT_ARITHMETIC;
     *found = 0;
     if (count < 64 || (count & (count - 1)) != 0 || !(step > 0) || most < 1 || most > ISO_MAX_LINES)
         return iso_context_fail(
