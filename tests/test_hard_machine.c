@@ -1,0 +1,340 @@
+/* The machine under the numbers: threads, and what a host program may have set for itself, its rounding, its subnormal
+ * numbers, its traps and its locale. None of it may change a bit of an answer, lib/base/arithmetic_impl.h. */
+#include <fenv.h>
+#include <locale.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#ifdef __SSE2__
+#include <xmmintrin.h>
+#endif
+
+#include "machine.h"
+
+/* --- what they are measured by: the answers in a plain program --------------------------------------------------- */
+
+static answer orbit_answer[HARD_WAYS], study_answer[STUDIES];
+
+static void find_answers(void)
+{
+    for (int i = 0; i < hard_ways; i++) orbit_answer[i] = orbit_by(ctx, &hard_way[i]);
+    for (int i = 0; i < STUDIES; i++) {
+        study_answer[i] = study_by(&studies[i]);
+        const void *failure = memmem(study_answer[i].bytes, study_answer[i].length, "unexpected", 10);
+        gsl_test(failure != NULL, "%s: every call is answered %.200s", studies[i].name,
+                 failure ? (const char *)failure - 60 : "");
+    }
+}
+
+/* --- runs and threads -------------------------------------------------------------------------------------------- */
+
+typedef struct walk {
+    bool backwards;
+    double differing[HARD_WAYS];
+} walk;
+
+static void *walk_ways(void *data)
+{
+    walk *w = data;
+    iso_context *own = iso_context_create();
+    for (int i = 0; own && i < hard_ways; i++) {
+        const int way = w->backwards ? hard_ways - 1 - i : i;
+        answer a = orbit_by(own, &hard_way[way]);
+        w->differing[way] = differing(&orbit_answer[way], &a);
+        free(a.bytes);
+    }
+    iso_context_free(own);
+    return NULL;
+}
+
+/* x1 + ... + xn, then xn + ... + x1: what a shared sum becomes when threads come in another order. */
+static double sum_of_batch(bool backwards)
+{
+    double sum = 0;
+    for (int i = 0; i < 1000; i++) sum += 1.0 / (1 + (backwards ? 999 - i : i));
+    return sum;
+}
+
+static void check_threads(void)
+{
+    hard_case("threads",
+              "bytes of the state at t = 10 that differ: two threads at once, the methods in opposite order",
+              "global state of a library, and of SUNDIALS and GSL under it, would show in another thread's numbers");
+    static walk walks[2] = {{.backwards = false}, {.backwards = true}};
+    pthread_t thread;
+    gsl_test(pthread_create(&thread, NULL, walk_ways, &walks[1]), "a thread");
+    walk_ways(&walks[0]);
+    pthread_join(thread, NULL);
+    for (int i = 0; i < hard_ways; i++) hard_hold(&hard_way[i], walks[0].differing[i] + walks[1].differing[i], 0);
+    hard_case("batches",
+              "bytes of 66 orbits that differ: again, and with 1, 2 and 3 threads, in each kind of vectors",
+              "which orbits stand side by side in the lanes depends on the threads");
+    iso_batch_options o = iso_batch_defaults();
+    iso_status first[BATCH_ORBITS], again[BATCH_ORBITS], all, whole;
+    const double times[] = {0.5, 2, 5};
+    o.max_steps = 2000;
+    for (int i = 0; (o.vectors = iso_batch_vectors(i, NULL)); i++) {
+        o.threads = 1;
+        iso_sample *samples = batch_run(ctx, pool.orbit, pool.count, &o, times, 3, first, &whole);
+        const answer one = {(char *)samples, (size_t)pool.count * 3 * sizeof *samples};
+        for (int threads = 1; threads <= 3; threads++) {
+            o.threads = threads;
+            iso_sample *others = batch_run(ctx, pool.orbit, pool.count, &o, times, 3, again, &all);
+            const answer other = {(char *)others, one.length};
+            hard_hold(NULL, differing(&one, &other) + (all != whole) + !!memcmp(first, again, sizeof first), 0);
+            free(others);
+        }
+        free(samples);
+    }
+    hard_naive("a sum of 1000 numbers in the order in which threads bring them",
+               fabs(sum_of_batch(false) - sum_of_batch(true)), 0);
+}
+
+/* --- what a host program has set ---------------------------------------------------------------------------------- */
+
+typedef struct host {
+    const char *name;
+    void (*set)(void);
+    bool (*stands)(void); /* whether it still is so */
+} host;
+
+/* Bytes that differ from a plain program's, and one if the host does not find again what it has set. */
+static double under(const host *h, const answer *plain, const hard_road *way, const struct study *study)
+{
+    h->set();
+    answer a = way ? orbit_by(ctx, way) : study_by(study);
+    const bool stands = h->stands();
+    fesetenv(FE_DFL_ENV);
+    const double count = differing(plain, &a) + !stands;
+    gsl_test(count > 0, "%s: %s %s: %g bytes differ%s", h->name,
+             way ? iso_picture_name((int)way->backend) : study->name, way && way->method ? way->method->name : "",
+             count, stands ? "" : ", and what the host had set is gone");
+    free(a.bytes);
+    return count;
+}
+
+static void check_hosts(const host hosts[], int count)
+{
+    for (int i = 0; i < hard_ways; i++) {
+        double sum = 0;
+        for (int h = 0; h < count; h++) sum += under(&hosts[h], &orbit_answer[i], &hard_way[i], NULL);
+        hard_hold(&hard_way[i], sum, 0);
+    }
+    for (int i = 0; i < STUDIES; i++)
+        for (int h = 0; h < count; h++) hard_hold(NULL, under(&hosts[h], &study_answer[i], NULL, &studies[i]), 0);
+}
+
+static void upward(void)
+{
+    fesetround(FE_UPWARD);
+}
+static void downward(void)
+{
+    fesetround(FE_DOWNWARD);
+}
+static void to_zero(void)
+{
+    fesetround(FE_TOWARDZERO);
+}
+static bool is_upward(void)
+{
+    return fegetround() == FE_UPWARD;
+}
+static bool is_downward(void)
+{
+    return fegetround() == FE_DOWNWARD;
+}
+static bool is_to_zero(void)
+{
+    return fegetround() == FE_TOWARDZERO;
+}
+
+/* The ball of the orbits stepped by the classical Runge-Kutta method in the host's own arithmetic; one number of it. */
+static double runge_kutta(void)
+{
+    const orbit o = orbit_sample(ctx, &iso_system_ball, -1, orbit_J, 1);
+    double y[ISO_STATE], k[4][ISO_STATE], at[ISO_STATE];
+    copy(batch_usual.y, y, ISO_STATE);
+    static const double part[4] = {0, 0.5, 0.5, 1}, weight[4] = {1, 2, 2, 1};
+    for (int step = 0; step < 1000; step++) {
+        for (int s = 0; s < 4; s++) {
+            for (int i = 0; i < ISO_STATE; i++) at[i] = y[i] + (s > 0 ? 0.01 * part[s] * k[s - 1][i] : 0);
+            o.model.rhs(&o.model, at, k[s]);
+        }
+        for (int i = 0; i < ISO_STATE; i++)
+            for (int s = 0; s < 4; s++) y[i] += 0.01 / 6 * weight[s] * k[s][i];
+    }
+    return y[0];
+}
+
+static void check_rounding(void)
+{
+    static const host hosts[] = {{"FE_UPWARD", upward, is_upward},
+                                 {"FE_DOWNWARD", downward, is_downward},
+                                 {"FE_TOWARDZERO", to_zero, is_to_zero}};
+    hard_case(
+        "rounding", "bytes that differ where the host rounds up, down or to zero, which it does afterwards, too",
+        "rounding one way makes errors that add up; sums of two numbers are exact only to nearest; decimals are "
+        "read and written by the same rule");
+    check_hosts(hosts, 3);
+    const double nearest = runge_kutta();
+    upward();
+    const double up = runge_kutta();
+    fesetenv(FE_DFL_ENV);
+    hard_naive("a Runge-Kutta method in the host's own rounding, upward", fabs(up - nearest), 0);
+}
+
+#ifdef __SSE2__
+enum { FLUSH = 0x8040 }; /* of MXCSR: flush-to-zero, denormals-are-zero */
+
+static void flush(void)
+{
+    _mm_setcsr(_mm_getcsr() | FLUSH);
+}
+static bool is_flush(void)
+{
+    return (_mm_getcsr() & FLUSH) == FLUSH;
+}
+
+static void check_subnormal(void)
+{
+    static const host hosts[] = {{"flush-to-zero", flush, is_flush}};
+    volatile double J = 1.4e-310;
+    hard_case("subnormal numbers",
+              "bytes that differ where the host makes subnormal numbers 0, which it does afterwards",
+              "a host linked with -ffast-math starts so; a body of 1e-310 is none then");
+    check_hosts(hosts, 1);
+    flush();
+    volatile const double made = J * 0x1p100 / 0x1p100; /* here, not later */
+    fesetenv(FE_DFL_ENV);
+    hard_naive("a moment of inertia scaled up and down in the host's own arithmetic: relative error",
+               fabs(made - J) / J, 0);
+}
+#else
+static void check_subnormal(void)
+{
+    hard_case("subnormal numbers", "bytes that differ where the host makes subnormal numbers 0", "");
+    hard_refused(NULL, true, "this processor has no such mode, or not where this test looks for it");
+}
+#endif
+
+/* --- traps -------------------------------------------------------------------------------------------------------- */
+
+enum { TRAPS = FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW };
+
+/* In a process of its own, which a trap ends: 1 when it does, or when the answer differs. */
+static double trapped(const answer *plain, const hard_road *way, const struct study *study)
+{
+    int ended = 0;
+    fflush(NULL);
+    const pid_t child = fork();
+    if (child == 0) {
+        feenableexcept(TRAPS);
+        answer a = way ? orbit_by(ctx, way) : study_by(study);
+        const bool stands = fegetexcept() == TRAPS;
+        _exit(differing(plain, &a) > 0 || !stands);
+    }
+    const bool survived =
+        child > 0 && waitpid(child, &ended, 0) == child && WIFEXITED(ended) && WEXITSTATUS(ended) == 0;
+    gsl_test(!survived, "a host that traps: %s %s: status %x",
+             way ? iso_picture_name((int)way->backend) : study->name, way && way->method ? way->method->name : "",
+             (unsigned)ended);
+    return survived ? 0 : 1;
+}
+
+static void check_traps(void)
+{
+    hard_case(
+        "traps", "hosts that trap division by 0, invalid operations and overflow, and do not survive",
+        "steps that are tried and given up, lanes without an orbit and vectors with garbage in their ends may raise "
+        "any of them, here, in SUNDIALS, GSL and the C library");
+    if (feenableexcept(0) < 0) {
+        hard_refused(NULL, true, "this processor does not trap");
+        return;
+    }
+    int raising = 0;
+    for (int i = 0; i < hard_ways; i++) hard_hold(&hard_way[i], trapped(&orbit_answer[i], &hard_way[i], NULL), 0);
+    for (int i = 0; i < STUDIES; i++) {
+        hard_hold(NULL, trapped(&study_answer[i], NULL, &studies[i]), 0);
+        feclearexcept(FE_ALL_EXCEPT);
+        answer a = study_by(&studies[i]);
+        raising += fetestexcept(TRAPS) != 0;
+        free(a.bytes);
+    }
+    hard_naive("the same studies, had the host's traps stood: how many raise one", raising, 0);
+}
+
+/* --- a comma for a point ------------------------------------------------------------------------------------------ */
+
+/* A locale made here, since a fresh machine has none with a comma, also for gnuplot; else one that is there. */
+static bool take_comma(void)
+{
+    static const char *const there[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "ps_AF.UTF-8"};
+    char folder[4096];
+    FILE *source = fopen("hard_machine_comma.src", "w");
+    if (!source) return false;
+    fputs("comment_char %\nescape_char /\nLC_NUMERIC\ndecimal_point \"<U002C>\"\nthousands_sep \"<U002E>\"\n"
+          "grouping 3;3\nEND LC_NUMERIC\n",
+          source);
+    fclose(source);
+    (void)!system("localedef -c -f ANSI_X3.4-1968 -i hard_machine_comma.src ./hard_machine_comma >/dev/null 2>&1");
+    unlink("hard_machine_comma.src");
+    if (getcwd(folder, sizeof folder)) setenv("LOCPATH", folder, 1);
+    setenv("LC_ALL", "hard_machine_comma", 1);
+    if (setlocale(LC_ALL, "")) return true;
+    unsetenv("LOCPATH");
+    for (size_t i = 0; i < sizeof there / sizeof *there; i++)
+        if (setenv("LC_ALL", there[i], 1) == 0 && setlocale(LC_ALL, "") && *localeconv()->decimal_point == ',')
+            return true;
+    return false;
+}
+
+static void check_comma(void)
+{
+    hard_case("comma",
+              "bytes of what is read, computed, written and drawn that differ where the host's locale has a comma",
+              "printf and strtod of the C library follow the host's locale; 1,5 is two columns of a CSV file");
+    if (!take_comma()) {
+        hard_refused(NULL, true, "this machine has no locale with a comma, and no localedef to make one");
+        return;
+    }
+    double count[STUDIES];
+    for (int i = 0; i < STUDIES; i++) {
+        answer a = study_by(&studies[i]);
+        count[i] = differing(&study_answer[i], &a);
+        free(a.bytes);
+    }
+    char text[32];
+    snprintf(text, sizeof text, "%.17g", 1.5);
+    const double naive = fabs(strtod("1.5", NULL) - 1.5) + !strchr(text, '.');
+    setlocale(LC_ALL, "C"); /* the book is kept with points */
+    for (int i = 0; i < STUDIES; i++) {
+        gsl_test(count[i] > 0, "a comma: %s: %g bytes differ", studies[i].name, count[i]);
+        hard_hold(NULL, count[i], 0);
+    }
+    hard_naive("strtod of \"1.5\", and of what printf makes of 1.5", naive, 0);
+    (void)!system("rm -rf hard_machine_comma");
+}
+
+int main(void)
+{
+    ctx = iso_context_create();
+    if (!ctx) return 1;
+    iso_random *dice = iso_random_create(10);
+    batch_fill(&pool, ctx, dice);
+    iso_random_free(dice);
+    hard_topic("10. Machine");
+    find_answers();
+    check_threads();
+    check_rounding();
+    check_subnormal();
+    check_traps();
+    check_comma();
+    for (int i = 0; i < hard_ways; i++) free(orbit_answer[i].bytes);
+    for (int i = 0; i < STUDIES; i++) free(study_answer[i].bytes);
+    iso_context_free(ctx);
+    return hard_summary();
+}
