@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/room_impl.h"
 #include "base/sundials_impl.h"
 
 struct iso_context {
@@ -70,8 +71,17 @@ iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *fie
     return status;
 }
 
+bool iso_room(void)
+{
+    enum { ROOM = 65536 };
+    void *volatile room = malloc(ROOM); /* which the compiler would else take for granted */
+    free(room);
+    return room != NULL;
+}
+
 SUNContext iso_context_sundials(iso_context *ctx)
 {
+    if (!iso_room()) return NULL;
     if (!ctx->sun && ISO_SUN_CONTEXT_CREATE(&ctx->sun) != 0) ctx->sun = NULL;
     if (ctx->sun) ISO_SUN_CONTEXT_QUIET(ctx->sun);
     return ctx->sun;

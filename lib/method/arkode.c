@@ -8,6 +8,7 @@
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
 
+#include "base/room_impl.h"
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 #include "method/sundials_vector_impl.h"
@@ -53,6 +54,8 @@ static iso_status create(iso_integrator *it)
 static iso_status start(iso_integrator *it)
 {
     arkode *a = it->data;
+    if (!iso_room()) /* the first step takes more */
+        return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for ARKODE");
     copy(it->at_right, N_VGetArrayPointer(a->y), it->model.dim);
     int failed = ERKStepReInit(a->memory, iso_sundials_rhs, 0, a->y);
     if (!failed && it->options.fixed_step > 0)

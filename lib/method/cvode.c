@@ -7,6 +7,7 @@
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
+#include "base/room_impl.h"
 #include "base/sundials_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
@@ -103,6 +104,8 @@ static iso_status create(iso_integrator *it)
 static iso_status start(iso_integrator *it)
 {
     cvode *c = it->data;
+    if (!iso_room()) /* the first step takes more */
+        return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for CVODE");
     copy(it->at_right, N_VGetArrayPointer(c->y), it->model.dim);
     const int failed = CVodeReInit(c->memory, 0, c->y);
     return failed ? iso_sundials_stopped(it, CVodeGetReturnFlagName(failed)) : ISO_OK;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/room_impl.h"
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 
@@ -101,9 +102,10 @@ static const gsl_odeiv2_control_type model_control = {
 iso_status iso_gsl_open(iso_integrator *it, const gsl_odeiv2_step_type *type, iso_gsl *g)
 {
     const double tolerance = it->options.tolerance;
+    const bool room = iso_room();
     *g = (iso_gsl){.system = {function, jacobian, (size_t)it->model.dim, it}};
-    g->driver = gsl_odeiv2_driver_alloc_y_new(&g->system, type, 1, tolerance, 0);
-    gsl_odeiv2_control *control = gsl_odeiv2_control_alloc(&model_control);
+    if (room) g->driver = gsl_odeiv2_driver_alloc_y_new(&g->system, type, 1, tolerance, 0);
+    gsl_odeiv2_control *control = room ? gsl_odeiv2_control_alloc(&model_control) : NULL;
     if (!g->driver || !control) {
         iso_gsl_close(g);
         free(control);
@@ -130,8 +132,17 @@ void iso_gsl_start(iso_gsl *g, double first_step)
     g->t = 0;
 }
 
+/* Methods that solve linear systems take memory in each step. */
+static iso_status check_room(iso_integrator *it, const iso_gsl *g)
+{
+    const gsl_odeiv2_step_type *type = g->driver->s->type;
+    if ((type != gsl_odeiv2_step_bsimp && type != gsl_odeiv2_step_msbdf) || iso_room()) return ISO_OK;
+    return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for GSL's %s", type->name);
+}
+
 iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[], double *h)
 {
+    if (check_room(it, g) != ISO_OK) return ISO_NO_MEMORY;
     gsl_odeiv2_evolve *e = g->driver->e;
     const unsigned long failed = e->failed_steps;
     const int status =
@@ -180,6 +191,7 @@ static iso_status start(iso_integrator *it)
 static iso_status fixed_step(iso_integrator *it, iso_gsl *g, double y[], double *h)
 {
     double error[ISO_MAX_STATE], sum = 0;
+    if (check_room(it, g) != ISO_OK) return ISO_NO_MEMORY;
     *h = it->direction * it->options.fixed_step;
     const int status = gsl_odeiv2_step_apply(g->driver->s, 0, *h, y, error, NULL, NULL, &g->system);
     for (int i = 0; i < it->model.dim; i++) sum += error[i];
