@@ -64,8 +64,8 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
     printf("\n");
 }
 
-/* What `run --backend exact` would say of these columns. */
-static void explain_exact(iso_context *ctx, const iso_scene *scene, const int columns[], int count)
+/* What `run --backend exact` would say of these columns. Errors: ISO_NO_MEMORY, which is no answer. */
+static iso_status explain_exact(iso_context *ctx, const iso_scene *scene, const int columns[], int count)
 {
     static const char *const kinds[ISO_EXACT_KINDS] = {
         [ISO_EXACT_SEPARATED] = "two oscillations in sphero-conical coordinates",
@@ -80,12 +80,12 @@ static void explain_exact(iso_context *ctx, const iso_scene *scene, const int co
     o.backend = ISO_EXACT;
     o.method = NULL;
     printf("closed solution (--backend exact)\n");
-    if (iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit) != ISO_OK) {
-        printf("  %s\n\n", iso_context_message(ctx));
-        return;
-    }
+    const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    if (status == ISO_NO_MEMORY) return status;
+    if (status != ISO_OK) return printf("  %s\n\n", iso_context_message(ctx)), ISO_OK;
     printf("  any time at the same cost: %s\n\n", kinds[iso_exact_describe(iso_orbit_exact(orbit)).kind]);
     iso_orbit_free(orbit);
+    return ISO_OK;
 }
 
 static const char *reason_of(const iso_model *m, int state)
@@ -166,13 +166,13 @@ static double cost(const iso_model *m, const double y[])
     return best;
 }
 
-static void explain_cost(const iso_model *m)
+static iso_status explain_cost(iso_context *ctx, const iso_model *m)
 {
     static const bool none[ISO_CLOCKS] = {false};
     iso_field field = {.p = m->field.p};
     double six[ISO_STATE], y[ISO_MAX_STATE];
     iso_random *random = iso_random_create(1);
-    if (!random) return;
+    if (!random) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sample");
     iso_system_ball.sample(&field, random, six);
     const iso_model free_ball = iso_model_assemble(&iso_system_ball, &field, ISO_CLOCK_T, none);
     const double reference = cost(&free_ball, six);
@@ -181,6 +181,7 @@ static void explain_cost(const iso_model *m)
     iso_model_begin(m, six, y);
     printf("\ncost of a right-hand side: %.2f times the free ball's in its own time (measured)\n",
            cost(m, y) / reference);
+    return ISO_OK;
 }
 
 static int run(iso_context *ctx, const options *o)
@@ -197,12 +198,14 @@ static int run(iso_context *ctx, const options *o)
     explain_effects(orbit);
     explain_level_plane(&scene, orbit);
     explain_map(&scene.params, orbit);
-    explain_exact(ctx, &scene, columns, count);
-    explain_states(&scene, orbit, columns, count);
-    explain_integrals(orbit);
-    if (!iso_orbit_exact(orbit)) explain_cost(iso_orbit_model(orbit));
+    status = explain_exact(ctx, &scene, columns, count);
+    if (status == ISO_OK) {
+        explain_states(&scene, orbit, columns, count);
+        explain_integrals(orbit);
+        if (!iso_orbit_exact(orbit)) status = explain_cost(ctx, iso_orbit_model(orbit));
+    }
     iso_orbit_free(orbit);
-    return EXIT_DONE;
+    return finish(ctx, status);
 }
 
 const command command_explain = {

@@ -44,7 +44,8 @@ static yaml_mark_t mark_of_byte(const char *text, size_t offset)
 static iso_status fail_syntax(const iso_yaml *y, const yaml_parser_t *p, const char *text, size_t length)
 {
     const char *problem = p->problem ? p->problem : "unknown problem", *context = p->context;
-    if (p->error == YAML_MEMORY_ERROR) return iso_context_fail(y->ctx, ISO_NO_MEMORY, "", "no memory for a scene");
+    const bool no_memory = p->error == YAML_MEMORY_ERROR || p->error == YAML_NO_ERROR; /* it does not always say so */
+    if (no_memory) return iso_context_fail(y->ctx, ISO_NO_MEMORY, "", "no memory for a scene");
     if (p->error != YAML_READER_ERROR)
         return iso_yaml_fail(y, p->problem_mark, "not valid YAML: %s%s%s", context ? context : "",
                              context ? ", " : "", problem);
