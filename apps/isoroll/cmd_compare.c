@@ -1,8 +1,8 @@
 /* isoroll compare - the same orbit by every backend: table, picture, JSON. */
-#include <jansson.h>
 #include <math.h>
 
 #include "command.h"
+#include "json.h"
 
 static const char *backend_name(const iso_comparison *c, int run)
 {
@@ -204,12 +204,8 @@ static bool print_json(const iso_scene *scene, const iso_comparison *c)
                   number(c->eps), "effects", effects_of(&c->effects), "tolerance", number(scene->tolerance), "clock",
                   iso_clock_name(c->clock), "worst_difference", worst_of(c, c->worst), "difference",
                   columns_of(c->difference), "backends", "ball", backend_of(&c->run[ISO_BALL]), "point", backend_of(&c->run[ISO_POINT]));
-    if (!o) return complain("out of memory"), false;
-    add_exact(o, c);
-    json_dumpf(o, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
-    printf("\n");
-    json_decref(o);
-    return true;
+    if (o) add_exact(o, c);
+    return json_print(o);
 }
 
 /* --- the command --------------------------------------------------------------------------------------------------- */

@@ -1,9 +1,9 @@
 /* isoroll frequencies - how fast a motion turns and swings: exactly where it can be, else by an estimate. */
-#include <jansson.h>
 #include <math.h>
 #include <string.h>
 
 #include "command.h"
+#include "json.h"
 
 static const char *const verdicts[] = {[ISO_REGULAR] = "regular",
                                        [ISO_CHAOTIC] = "chaotic",
@@ -188,11 +188,7 @@ static bool print_json(const iso_scene *scene, const iso_frequencies *f)
                           "integral", integral_of(f), "c", number(f->c), "angles", angles_of(f), "rotation_number",
                           number(f->rotation), "resonances", resonances_of(f), "separatrices", separatrices_of(f),
                           "closed_orbit", clocks_of(f->closed), "estimate", estimate_of(f));
-    if (!o) return complain("out of memory"), false;
-    json_dumpf(o, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
-    printf("\n");
-    json_decref(o);
-    return true;
+    return json_print(o);
 }
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */

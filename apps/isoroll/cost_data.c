@@ -1,9 +1,9 @@
 /* cost_data.c - what `isoroll cost` measured, for other programs: CSV and JSON. */
-#include <jansson.h>
 #include <math.h>
 #include <string.h>
 
 #include "cost_report.h"
+#include "json.h"
 
 /* --- CSV -------------------------------------------------------------------------------------------------------- */
 
@@ -144,9 +144,5 @@ bool cost_print_json(const cost_report *r)
                           c->reference, "second_reference", c->second, "uncertainty", number(c->uncertainty),
                           "seconds", number(c->seconds), "complete", (int)c->complete, "cells", cells_of(c), "lines",
                           lines_of(c), "want", number(r->want), "choice", choice_of(r), "growth", growths_of(r));
-    if (!o) return complain("out of memory"), false;
-    json_dumpf(o, stdout, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
-    printf("\n");
-    json_decref(o);
-    return true;
+    return json_print(o);
 }

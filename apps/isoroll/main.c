@@ -3,15 +3,17 @@
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_version.h>
-#include <jansson.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <string.h>
 #include <sundials/sundials_version.h>
 #include <time.h>
+#include <unistd.h>
 #include <yaml.h>
 
 #include "command.h"
+#include "json.h"
 
 static const command *const commands[] = {&command_run,      &command_convert,     &command_compare,
                                           &command_cost,     &command_check,       &command_analogue,
@@ -146,6 +148,7 @@ int main(int argc, char **argv)
     signal(SIGPIPE, SIG_IGN); /* writing tells, here and of a file that would be too large */
     signal(SIGXFSZ, SIG_IGN);
     gsl_set_error_handler_off();
+    json_begin();
     const char *name = argc > 1 ? argv[1] : "";
     if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0 || strcmp(name, "help") == 0)
         return print_help(stdout), flush_output(EXIT_DONE);

@@ -1,0 +1,33 @@
+/* What --json prints: all of it, or nothing. */
+#include "json.h"
+
+#include <stdlib.h>
+
+#include "command.h"
+
+static bool lacking; /* jansson leaves out what it had no memory for, and does not say so */
+
+static void *allocate(size_t size)
+{
+    void *block = malloc(size);
+    lacking = lacking || !block;
+    return block;
+}
+
+void json_begin(void)
+{
+    json_set_alloc_funcs(allocate, free);
+}
+
+bool json_print(json_t *o)
+{
+    char *text = o ? json_dumps(o, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
+    const bool whole = text && !lacking;
+    if (whole)
+        puts(text);
+    else
+        complain("no memory for --json");
+    free(text);
+    json_decref(o);
+    return whole;
+}
