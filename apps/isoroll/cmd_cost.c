@@ -181,10 +181,6 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     if (o->horizons > 0 && !o->json && (!isnan(o->want) || (o->csv && strcmp(o->csv, "-") == 0)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "horizons",
                                 "cost: --want and --csv - leave no room for what --horizons tells");
-    if (o->csv && o->plot && (strcmp(o->csv, o->plot) == 0 || same_file(o->csv, o->plot)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv", "cost: --csv and --plot would be one file");
-    if (same_file(o->file, o->csv) || same_file(o->file, o->plot))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv", "cost: '%s' would be overwritten", o->file);
     iso_status status = scene_with_options(ctx, o, scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK && o->csv) status = iso_output_open(ctx, o->csv, csv);

@@ -299,8 +299,6 @@ static int write_file(iso_context *ctx, const options *o, iso_orbit *orbit, cons
 
 static iso_status check_files(iso_context *ctx, const options *o)
 {
-    if (same_file(o->file, o->output) || same_file(o->times, o->output))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output", "-o '%s' would overwrite what is read", o->output);
     if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->file, "-") == 0)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "standard input is the scene or the times, not both");
     return ISO_OK;

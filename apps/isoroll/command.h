@@ -74,9 +74,6 @@ iso_orbit_options options_for_columns(const iso_scene *scene, const int columns[
 iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
                              iso_orbit **orbit);
 
-/* Whether two paths (NULL or "-": none) name the same regular file. */
-bool same_file(const char *a, const char *b);
-
 /* The effects that act, with their numbers and, if wanted, what they are; nothing where there are none. */
 void print_effects(const iso_effects *effects, bool docs);
 

@@ -195,6 +195,31 @@ static bool set_file(const command *c, int argc, char **argv, options *o)
     return true;
 }
 
+/* Whether two paths (NULL: none, "-": the standard stream that is given) name the same regular file. */
+static bool same_file(const char *a, const char *b, const char *stream)
+{
+    struct stat x, y;
+    if (!a || !b || stat(strcmp(a, "-") == 0 ? stream : a, &x) != 0 || stat(strcmp(b, "-") == 0 ? stream : b, &y) != 0)
+        return false;
+    return S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+/* What is written takes nothing's place that is read, or written too. */
+static bool files_are_apart(const command *c, const options *o)
+{
+    const char *const written[] = {o->output, o->plot, o->csv};
+    for (int i = 0; i < 3; i++) {
+        const char *path = written[i];
+        if (!path || strcmp(path, "-") == 0) continue;
+        if (same_file(o->file, path, "/dev/stdin") || same_file(o->times, path, "/dev/stdin"))
+            return complain("%s: '%s' would overwrite what is read", c->name, path), false;
+        for (int j = 0; j < i; j++)
+            if (written[j] && (strcmp(path, written[j]) == 0 || same_file(path, written[j], "/dev/null")))
+                return complain("%s: '%s' would be two files in one", c->name, path), false;
+    }
+    return true;
+}
+
 static int argument_of(const struct row *r)
 {
     return !r->argument ? no_argument : r->argument[0] == '[' ? optional_argument : required_argument;
@@ -235,7 +260,7 @@ bool options_read(const command *c, int argc, char **argv, options *o)
         if (found == '?') return unknown(c, argv);
         if (!set_option(c, found_row(found), optarg, o)) return false;
     }
-    return set_file(c, argc, argv, o);
+    return set_file(c, argc, argv, o) && (o->help || files_are_apart(c, o));
 }
 
 iso_status scene_with_options(iso_context *ctx, const options *o, iso_scene *scene)
@@ -261,13 +286,6 @@ int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso
     const bool from_option = method || (time && (!isnan(o->end) || !isnan(o->step)));
     const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
     return finish(ctx, from_option ? status : iso_scene_blame(ctx, scene, name, status));
-}
-
-bool same_file(const char *a, const char *b)
-{
-    struct stat x, y;
-    if (!a || !b || strcmp(a, "-") == 0 || stat(a, &x) != 0 || stat(b, &y) != 0 || !S_ISREG(x.st_mode)) return false;
-    return x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
 iso_orbit_options options_for_columns(const iso_scene *scene, const int columns[], int count, iso_effects *effects)

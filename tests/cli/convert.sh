@@ -63,8 +63,8 @@ cp out back_point.csv
 run 0 convert --to ball back_point.csv
 at_most "backwards" "$(difference back.csv out)" 1e-11
 cp ball.csv place.csv
-run 0 convert --to point place.csv -o place.csv
-check "in place" cmp place.csv point.csv
+refuses 2 "would overwrite what is read" convert --to point place.csv -o place.csv
+check "what is read is as it was" cmp place.csv ball.csv
 
 # a piece that does not begin at 0 keeps its times
 awk '!/^[0-9]/ || ++n > 8' ball.csv >late.csv

@@ -125,10 +125,10 @@ refuses 2 ".svg, .png or .pdf" cost scene.yaml --plot a.gif
 refuses 2 "standard output has room for one" cost scene.yaml --csv - --json
 refuses 2 "standard output has room for one" cost scene.yaml --csv - --want 1e-9
 refuses 2 "no room for what --horizons tells" cost scene.yaml --want 1e-9 --horizons=2
-refuses 2 "would be one file" cost scene.yaml --csv a.svg --plot a.svg
+refuses 2 "would be two files in one" cost scene.yaml --csv a.svg --plot a.svg
 cp scene.yaml scene.svg
-refuses 2 "would be overwritten" cost scene.yaml --csv ./scene.yaml
-refuses 2 "would be overwritten" cost scene.svg --plot scene.svg
+refuses 2 "would overwrite what is read" cost scene.yaml --csv ./scene.yaml
+refuses 2 "would overwrite what is read" cost scene.svg --plot scene.svg
 check "the scene is as it was" cmp scene.yaml scene.svg
 refuses 2 "strang is for the point" cost scene.yaml --backend ball --method strang
 refuses 2 "the scene ends where it begins" cost scene.yaml --t-end 0
