@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_version.h>
-#include <poll.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <string.h>
@@ -129,6 +128,7 @@ static int flush_output(int status)
 {
     errno = 0;
     if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+    if (errno == 0) (void)!write(STDOUT_FILENO, "\n", 1); /* an earlier write has failed: the next one says why */
     if (errno != EPIPE && status != EXIT_FILE)
         complain("cannot write to standard output: %s", strerror(errno ? errno : EIO));
     return status == EXIT_DONE ? EXIT_FILE : status;
