@@ -1,0 +1,277 @@
+#!/bin/sh
+# Disks that are full, pipes and streams that are closed, signals, memory that is not there: in each case a clear error or
+# the whole result, and under its name the older file or the new one, whole; never half of one, never success without it.
+. "$(dirname "$0")/lib.sh"
+# ISO_NO_MEMORY: no_memory.so, made from no_memory.c; empty under sanitizers, which have a malloc of their own
+: "${ISO_NO_MEMORY=}"
+
+hard_topic "12. Faults"
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
+scene 0.5 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >open.yaml
+cat >effects.yaml <<'END'
+reduced: {k: 0.5, J: [1.4, 2.1, 3.0], D: 0.4}
+initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}
+time: {end: 2, step: 1}
+effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}, twist: {resistance: 1.0e+6}, attitude: {}, reactions: {}}
+END
+"$isoroll" run scene.yaml -o ball.csv
+
+# timeless FILE: without what a clock has measured
+timeless() {
+    sed -E 's/[0-9.e+-]+ (ms|us|ns|s)\b/TIME/g; s/"seconds": .*//; s/^cost of .*//' "$1"
+}
+
+# whole NAME: what has just succeeded, its output `out` and its file `made`, is as in `good.out` and `good`
+whole() {
+    cmp -s out good.out || { timeless out >out.plain && timeless good.out | cmp -s - out.plain; } || return 1
+    [ ! -e good ] || cmp -s made good || { timeless made >made.plain && timeless good | cmp -s - made.plain; }
+}
+
+# kept: after a failure `made` is what it was, or new and whole, or says how far it got; and nothing else is left
+kept() {
+    set -- .isoroll-*
+    [ "$1" = '.isoroll-*' ] || { rm -f .isoroll-*; return 1; }
+    [ "$(head -c 9 made 2>/dev/null)" = "old file" ] || { [ -e good ] && cmp -s made good; } ||
+        grep -q 'rows were written' err
+}
+
+# spoken: every message is isoroll's, and there is one
+spoken() {
+    [ -s err ] && while IFS= read -r line; do
+        case $line in "isoroll: "*) ;; *) return 1 ;; esac
+    done <err
+}
+
+# --- memory: every call in turn, then every call and all after it
+
+# starve STRIDE ARGUMENT...: `made` among the arguments is the file written. Adds to $starved and $wrong.
+starve() {
+    stride=$1
+    shift
+    rm -f made good
+    ISO_FAIL_COUNT=calls LD_PRELOAD=$ISO_NO_MEMORY "$isoroll" "$@" >good.out 2>err </dev/null ||
+        fail "isoroll $*: with memory"
+    [ ! -e made ] || mv made good
+    calls=$(cat calls)
+    check "isoroll $*: memory is asked for" test "$calls" -gt 0
+    for how in AT FROM; do
+        n=1
+        while [ "$n" -le "$calls" ]; do
+            echo "old file" >made
+            if [ $how = AT ]; then
+                ISO_FAIL_AT=$n LD_PRELOAD=$ISO_NO_MEMORY "$isoroll" "$@" >out 2>err </dev/null
+            else
+                ISO_FAIL_FROM=$n LD_PRELOAD=$ISO_NO_MEMORY "$isoroll" "$@" >out 2>err </dev/null
+            fi
+            status=$?
+            starved=$((starved + 1))
+            case $status in
+            0) whole ;;
+            4 | 5) kept && spoken ;;
+            *) false ;;
+            esac || { wrong=$((wrong + 1)) && fail "isoroll $*: call $n ($how): exit status $status"; }
+            n=$((n + stride))
+        done
+    done
+}
+
+hard_case "memory" "runs that crash, tear a file, say nothing or succeed without the whole result, malloc failing at each call" \
+    "libyaml and jansson leave out what they have no memory for; SUNDIALS and GSL do not survive a malloc of theirs that fails"
+if [ -n "$ISO_NO_MEMORY" ]; then
+    starved=0 wrong=0
+    starve 1 run scene.yaml -o made
+    starve 1 convert --to point ball.csv -o made
+    starve 3 check ball.csv
+    starve 8 explain scene.yaml
+    starve 8 compare scene.yaml
+    starve 90 compare scene.yaml --json
+    starve 1 list
+    starve 8 frequencies scene.yaml
+    starve 12 frequencies open.yaml --turns 30
+    starve 15 frequencies scene.yaml --json
+    starve 8 analogue "$source/examples/07_neumann_point/scene.yaml"
+    starve 12 run effects.yaml -o made
+    starve 15 run scene.yaml --verbose -o made
+    for method in adams bdf dormand_prince_7_4_5 rk8pd bsimp msbdf blanes_moan6; do
+        starve 17 run scene.yaml --method $method --tol 1e-6 -o made
+    done
+    starve 17 run scene.yaml --backend exact -o made
+    if command -v gnuplot >/dev/null; then
+        ln -s made made.svg
+        starve 40 compare scene.yaml --plot made.svg
+        rm -f made.svg
+    fi
+    echo "memory: $starved runs, $wrong wrong"
+    hard_hold $wrong 0
+    crashed=0
+    for n in 260 270 280 290 300; do
+        ISO_FAIL_ANY=$n LD_PRELOAD=$ISO_NO_MEMORY "$isoroll" run scene.yaml --method bdf -o made >out 2>err
+        [ $? -lt 128 ] || crashed=$((crashed + 1))
+        rm -f made .isoroll-*
+    done
+    hard_naive "SUNDIALS where room has not been made sure of: crashes" $crashed 0
+else
+    hard_refused "a sanitizer has a malloc of its own: tried without"
+fi
+
+hard_case "memory for cost" "runs of cost --quick that crash, tear a file, or succeed without the whole result" \
+    "a cell without memory is one that failed: exit status 1, and the others are told"
+if [ -n "$ISO_NO_MEMORY" ]; then
+    wrong=0
+    for n in 1 100 240 280 300 330 350 400 500 700 1000 2000; do
+        ISO_FAIL_AT=$n LD_PRELOAD=$ISO_NO_MEMORY "$isoroll" cost scene.yaml --quick --method taylor --tol 1e-9 --csv made >out 2>err
+        status=$?
+        case $status in
+        0) [ "$(wc -l <made)" -ge 3 ] ;;
+        1) grep -q "no memory" made ;;
+        4 | 5) spoken ;;
+        *) false ;;
+        esac && [ -z "$(find . -name '.isoroll-*')" ] ||
+            { wrong=$((wrong + 1)) && fail "cost: call $n: exit status $status"; }
+        rm -f made
+    done
+    hard_hold $wrong 0
+else
+    hard_refused "a sanitizer has a malloc of its own: tried without"
+fi
+
+# --- disks
+
+# torn FILE: 1 where the file is neither whole (as `good`) nor the old one nor absent
+torn() {
+    if [ ! -e "$1" ] || cmp -s "$1" good || [ "$(head -c 8 "$1")" = "old file" ]; then echo 0; else echo 1; fi
+}
+
+# fill WORDS ARGUMENT...: with room for 1, 2, ... blocks of 512 bytes until it is enough. Adds to $wrong, $naive.
+fill() {
+    words=$1
+    shift
+    rm -f made made.svg good good.svg
+    "$isoroll" "$@" >good.out 2>err || fail "isoroll $*: on a disk with room"
+    if [ -e made.svg ]; then mv made.svg good; else mv made good; fi
+    file=made
+    [ "$words" != gnuplot ] || file=made.svg
+    blocks=1 status=5
+    while [ $blocks -lt 400 ] && [ "$status" -ne 0 ]; do
+        echo "old file" >$file
+        (ulimit -f $blocks && exec "$isoroll" "$@") >/dev/null 2>err
+        status=$?
+        case $status in
+        0) [ "$(wc -l <$file)" -eq "$(wc -l <good)" ] ;; # times differ
+        5) [ "$(torn $file)" -eq 0 ] && grep -q "$words" err ;;
+        *) false ;;
+        esac && [ -z "$(find . -name '.isoroll-*')" ] ||
+            { wrong=$((wrong + 1)) && fail "isoroll $*: room for $blocks blocks: exit status $status"; }
+        blocks=$((blocks * 3 / 2 + 1))
+    done
+    check "isoroll $*: with room for $blocks blocks it is written" test "$status" -eq 0
+}
+
+hard_case "disk full" "runs that tear a file, leave a temporary one, or succeed without all of it: with room for 1, 2, ... blocks" \
+    "a write may fail late, when the buffer is flushed or the file is synced"
+wrong=0
+fill "File too large" run scene.yaml --step 0.02 -o made
+fill "File too large" convert --to point ball.csv -o made
+fill "File too large" cost scene.yaml --quick --method taylor --tol 1e-9 --csv made
+if command -v gnuplot >/dev/null; then fill gnuplot compare scene.yaml --plot made.svg; fi
+hard_hold $wrong 0
+"$isoroll" run scene.yaml --step 0.02 >good
+(ulimit -f 4 && exec "$isoroll" run scene.yaml --step 0.02) >made 2>err
+hard_naive "written where the shell puts it, run SCENE >FILE" "$(torn made)" 0
+
+hard_case "tmpfs" "the same where a file system of 16 kB is full" "a full disk says so at other calls than a limit does"
+cat >tiny.sh <<'END'
+mkdir -p tiny && mount -t tmpfs -o size=16k none tiny || exit 99
+echo "old file" >tiny/made
+"$1" run scene.yaml --step 0.02 -o tiny/made 2>err
+[ $? -eq 5 ] && grep -q "No space left" err && [ "$(cat tiny/made)" = "old file" ] && [ "$(ls -A tiny)" = made ]
+END
+unshare -rm sh tiny.sh "$isoroll" 2>/dev/null
+case $? in
+0) hard_hold 0 0 ;;
+1) hard_hold 1 0 ;;
+*) hard_refused "no file system can be mounted here" ;;
+esac
+
+hard_case "closed streams" "commands that succeed, crash or talk where standard output is full, closed, or a pipe that nobody reads" \
+    "what is printed last is written when the program ends"
+wrong=0
+for arguments in "run scene.yaml --step 0.002" "convert --to point ball.csv" "compare scene.yaml --json" list --help --version \
+    "check ball.csv" "explain scene.yaml" "frequencies scene.yaml" "frequencies scene.yaml --json" \
+    "analogue $source/examples/07_neumann_point/scene.yaml" "cost scene.yaml --quick --method taylor --tol 1e-9"; do
+    # shellcheck disable=SC2086 # a list
+    {
+        "$isoroll" $arguments >&- 2>err
+        [ $? -eq 5 ] && spoken || { wrong=$((wrong + 1)) && fail "isoroll $arguments >&-"; }
+        if [ -c /dev/full ]; then
+            "$isoroll" $arguments >/dev/full 2>err
+            [ $? -eq 5 ] && spoken || { wrong=$((wrong + 1)) && fail "isoroll $arguments >/dev/full"; }
+        fi
+        { sleep 0.05 && "$isoroll" $arguments 2>err; echo $? >status; } | :
+        [ "$(cat status)" -eq 5 ] && [ ! -s err ] || { wrong=$((wrong + 1)) && fail "isoroll $arguments | :"; }
+    }
+done
+hard_hold $wrong 0
+
+# --- signals
+hard_case "signals" "runs, ended by INT, TERM or KILL at some moment, after which the file is torn or lost" \
+    "the file is being written; after KILL nothing can be put in order"
+wrong=0
+ignored=$(sed -n 's/^SigIgn:.*\(.\)$/\1/p' /proc/self/status 2>/dev/null)
+mkdir stop
+for signal in INT TERM KILL; do
+    case $signal$ignored in
+    INT[2367abefABEF]) echo "SIGINT is ignored here: not tried" && continue ;; # started in the background
+    esac
+    for seconds in 0.02 0.1 0.3 0.7; do
+        rm -rf stop/.isoroll-* && cp ball.csv stop/made
+        timeout --preserve-status -k 30 -s $signal $seconds "$isoroll" run scene.yaml --t-end 1e8 --step 1 -o stop/made 2>err
+        status=$?
+        if cmp -s stop/made ball.csv; then # not begun, or killed
+            [ $status -gt 1 ] && [ $signal != INT ] || [ $seconds = 0.02 ]
+        else # a row at least, no half of one, and all of it an orbit
+            [ $status -eq 1 ] && [ "$signal" != KILL ] && "$isoroll" check --max 1e-8 stop/made >/dev/null 2>&1
+        fi || { wrong=$((wrong + 1)) && fail "$signal after $seconds s: exit status $status"; }
+        for left in stop/.isoroll-*; do # what KILL leaves says what it is
+            case $signal$left in *'*' | KILL*.tmp) ;; *) wrong=$((wrong + 1)) && fail "$signal: $left is left" ;; esac
+        done
+    done
+done
+hard_hold $wrong 0
+timeout -s KILL 0.3 "$isoroll" run scene.yaml --t-end 1e8 --step 1 >made 2>err
+hard_naive "written where the shell puts it, run SCENE >FILE: half lines after KILL" "$(tail -c 1 made | tr -d '\n' | wc -c)" 0
+
+# --- names
+hard_case "one file for two" "commands that write over what they read" \
+    "a link, or another spelling of the path, is the same file"
+wrong=0
+cp scene.yaml scene.svg && cp ball.csv times.csv
+ln -s scene.svg link.svg && ln scene.svg hard.svg
+for arguments in "run scene.yaml -o ./scene.yaml" "run scene.yaml --times times.csv -o times.csv" \
+    "convert --to point ball.csv -o ball.csv" "compare scene.svg --plot scene.svg" "compare scene.svg --plot link.svg" \
+    "compare hard.svg --plot scene.svg" "frequencies scene.svg --plot $work/scene.svg" \
+    "cost scene.svg --quick --plot scene.svg" "cost scene.svg --quick --csv scene.svg" \
+    "cost scene.yaml --quick --csv a.svg --plot a.svg" "run - -o scene.yaml"; do
+    # shellcheck disable=SC2086 # a list
+    "$isoroll" $arguments >out 2>err <scene.yaml
+    [ $? -eq 2 ] && spoken && cmp -s scene.yaml scene.svg && cmp -s ball.csv times.csv && [ ! -e a.svg ] ||
+        { wrong=$((wrong + 1)) && fail "isoroll $arguments"; }
+done
+hard_hold $wrong 0
+apart=0
+for path in ./scene.svg link.svg hard.svg "$work/scene.svg"; do [ "$path" = scene.svg ] || apart=$((apart + 1)); done
+hard_naive "paths compared as text: pairs taken for two files" $apart 0
+
+hard_case "long names" "names of 255 characters that cannot be written; longer ones that are not refused, or without a reason" \
+    "a temporary file's name must fit where the file's own just does"
+wrong=0
+"$isoroll" run scene.yaml -o good
+name=$(printf '%0251d.csv' 0)
+"$isoroll" run scene.yaml -o "$name" && cmp -s "$name" good || wrong=$((wrong + 1))
+for long in 0 "$(printf '%02000d' 0)/" "$(printf '%03900d' 0)/"; do
+    refuses 5 "File name too long" run scene.yaml -o "$long$name"
+done
+hard_hold $wrong 0
+(: >".$name.tmp") 2>/dev/null
+hard_naive "a temporary name made from the file's, .NAME.tmp" "$(($? != 0))" 0
+finish
