@@ -86,8 +86,8 @@ static void print_help(FILE *to)
         fprintf(to, "  %-11s %-9s %s\n", commands[i]->name, commands[i]->argument, commands[i]->doc);
     fputs("\n  isoroll COMMAND --help     the options of a command\n"
           "  isoroll --version          of isoroll and its libraries\n\n"
-          "exit status: 0 done; 1 some rows failed, or interrupted; 2 usage; 3 bad input; 4 numerical failure; "
-          "5 file trouble\n",
+          "exit status: 0 done; 1 some rows failed, or interrupted; 2 usage; 3 bad input; 4 numerical failure, or no "
+          "memory;\n5 file trouble\n",
           to);
 }
 
