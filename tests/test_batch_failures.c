@@ -112,7 +112,7 @@ static void check_failure(const iso_batch_options *options, const iso_batch_orbi
 
 static void check_failures(void)
 {
-    const iso_params p = laws_params(0.5, orbit_J), fast = laws_params(1e12, orbit_J);
+    const iso_params p = laws_params(0.5, orbit_J), needle = laws_params(0.5, (double[]){1e-60, 2.1, 3.0});
     const iso_start start = batch_usual, rest = batch_start(0, 0, 0, 0.36, 0.48, 0.8);
     const iso_effects bad = {.on[ISO_GRAVITY] = true, .mgb = NAN, .up = {0, 0, 1}};
     const iso_effects brake = {.on[ISO_ROLLING_RESISTANCE] = true, .resistance = 10};
@@ -126,7 +126,7 @@ static void check_failures(void)
     o.max_steps = 0;
     o.backend = ISO_BALL;
     o.tolerance = 1e-15;
-    check_failure(&o, &(iso_batch_orbit){&fast, &start, NULL}, 4, ISO_NUMERICAL, "diverges", 0);
+    check_failure(&o, &(iso_batch_orbit){&needle, &start, NULL}, 4, ISO_NUMERICAL, "diverges", 0);
 }
 
 /* M leaves the range of doubles on the way: no row from there on. */

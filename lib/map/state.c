@@ -12,28 +12,52 @@ static double momentum_factor(const iso_params *p, const double gamma[3])
     return sqrt(p->det_J) / p->k * pow(q, -1 / (2 * p->k));
 }
 
+void iso_ball_to_point_t(const iso_params *p, const double ball[ISO_STATE], double y[ISO_STATE])
+{
+    for (int i = 0; i < 3; i++) {
+        y[i] = p->root_J[i] * ball[i];
+        y[3 + i] = ball[3 + i] / p->root_J[i];
+    }
+    make_unit(y + 3);
+}
+
+void iso_point_t_to_ball(const iso_params *p, const double y[ISO_STATE], double ball[ISO_STATE])
+{
+    for (int i = 0; i < 3; i++) {
+        ball[i] = y[i] / p->root_J[i];
+        ball[3 + i] = p->root_J[i] * y[3 + i];
+    }
+    make_unit(ball + 3);
+}
+
+void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE])
+{
+    const double NN = momentum_factor(p, point + 3);
+    for (int i = 0; i < 3; i++) {
+        y[i] = point[i] / NN;
+        y[3 + i] = point[3 + i];
+    }
+}
+
+void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE])
+{
+    const double NN = momentum_factor(p, y + 3);
+    for (int i = 0; i < 3; i++) {
+        point[i] = NN * y[i];
+        point[3 + i] = y[3 + i];
+    }
+}
+
 void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE])
 {
-    double gamma[3];
-    for (int i = 0; i < 3; i++) gamma[i] = ball[3 + i] / p->root_J[i];
-    make_unit(gamma);
-    const double NN = momentum_factor(p, gamma);
-    for (int i = 0; i < 3; i++) {
-        point[i] = NN * p->root_J[i] * ball[i];
-        point[3 + i] = gamma[i];
-    }
+    iso_ball_to_point_t(p, ball, point);
+    iso_point_t_to_point(p, point, point);
 }
 
 void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], double ball[ISO_STATE])
 {
-    const double NN = momentum_factor(p, point + 3);
-    double n[3];
-    for (int i = 0; i < 3; i++) n[i] = p->root_J[i] * point[3 + i];
-    make_unit(n);
-    for (int i = 0; i < 3; i++) {
-        ball[i] = point[i] / (NN * p->root_J[i]);
-        ball[3 + i] = n[i];
-    }
+    iso_point_to_point_t(p, point, ball);
+    iso_point_t_to_ball(p, ball, ball);
 }
 
 double iso_coupling(const iso_params *p, double h)

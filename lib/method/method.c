@@ -4,7 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 
 const iso_method *const iso_methods[] = {
@@ -46,19 +45,6 @@ const iso_method *iso_method_find(const char *name)
     return candidates == 1 ? candidate : NULL;
 }
 
-/* The series of a point are of powers of q = (gamma, J gamma) up to q^(1/k). Where q^(1/k) ranges over more than
- * MOST_DECADES along an orbit, as for small |k|, coefficients overflow and steps shrink; right-hand sides do not
- * mind. Nor do they where the normal turns |k| times faster than the ball, which coefficient n has to the n-th power
- * (it overflows from 1e11 on). */
-enum { MOST_DECADES = 10, MOST_K = 1000000 };
-
-static bool suits_series(const iso_model *m)
-{
-    const iso_params *p = &m->field.p;
-    if (fabs(p->k) > MOST_K) return false;
-    return m->system != &iso_system_point || log10(max3(p->J) / min3(p->J)) <= MOST_DECADES * fabs(p->k);
-}
-
 /* Taylor series need the least time for every error to within 1.2 times, of the library methods rk8pd: milliseconds for
  * k = -1, 1, 0.5, J = (1.4, 2.1, 3.0), n = (0.36, 0.48, 0.8), omega = (0.9, -0.3, -0.225), t = 1000 (`isoroll cost`):
  *
@@ -76,5 +62,6 @@ const iso_method *iso_method_auto(const iso_model *model)
     const double stiffness = iso_effects_stiffness(&model->field);
     if (stiffness > VERY_STIFF) return &iso_method_bdf;
     if (stiffness > ISO_STIFF) return &iso_method_bsimp;
-    return suits_series(model) ? &iso_method_taylor : &iso_method_rk8pd;
+    const bool suits_series = model->system != &iso_system_point || !iso_params_steep(&model->field.p);
+    return suits_series ? &iso_method_taylor : &iso_method_rk8pd;
 }

@@ -77,8 +77,8 @@ extern const iso_method *const iso_methods[];
  * ("gsl-rk8pd", "cvode_adams"), and a beginning that fits only one method is enough ("dormand_prince"). */
 const iso_method *iso_method_find(const char *name);
 
-/* What "auto" means for a model: the cheapest method that is exact enough. `taylor`; `rk8pd` for a point with |k| so small
- * that (max J/min J)^(1/|k|) > 1e10, and for |k| > 1e6; for stiff models (iso_effects_stiffness) `bsimp`, or `bdf`. */
+/* What "auto" means for a model: the cheapest method that is exact enough. `taylor`; `rk8pd` for (24) with |k| so small
+ * that (max J/min J)^(1/|k|) > 1e10; for stiff models (iso_effects_stiffness) `bsimp`, or `bdf`. */
 const iso_method *iso_method_auto(const iso_model *model);
 
 /* Errors: ISO_BAD_ARGUMENT (no method, one that does not serve the model, tolerance out of range, fixed steps with a

@@ -15,7 +15,7 @@ typedef struct form {
     series S;
     iso_model shape;
     iso_clock own;
-    bool is_point, in_t, is_neumann, rolls, unprojected;
+    bool is_point, is_point_t, in_t, is_neumann, rolls, unprojected; /* of points: is_point */
     enum second_integral_of { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
     double tolerance;                      /* of the last terms, in units of the state */
     real second;                           /* the second integral at the start */
@@ -55,7 +55,8 @@ static void call_point(form *T)
     const iso_field *f = &T->shape.field;
     S->in_field = f->effects.on[ISO_FIELD];
     T->is_neumann = f->p.k == -1 && !S->in_field;
-    T->in_t = !S->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1;
+    T->in_t = T->is_point_t ||
+              (!S->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1);
     call(S, T->in_t ? point_t : T->is_neumann ? neumann : point_s);
     if (S->in_field) call(S, point_field);
 }
@@ -78,7 +79,8 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     memset(T, 0, sizeof *T);
     T->shape = *m;
     T->tolerance = tolerance * FINER;
-    T->is_point = m->system == &iso_system_point;
+    T->is_point_t = m->system == &iso_system_point_t;
+    T->is_point = m->system == &iso_system_point || T->is_point_t;
     T->rolls = m->field.at[ISO_ATTITUDE] && m->field.p.k == 1;
     if (T->is_point ? !m->field.effects.on[ISO_FIELD] : m->forces == 0 && !m->field.effects.on[ISO_TWIST])
         T->second_of = m->field.p.k == -1 ? SHELL : m->field.p.k == 1 ? PLANE : NONE;
@@ -152,10 +154,11 @@ static real q_of(const series *S, const real gamma[])
     return q;
 }
 
-/* d(own variable)/ds of a point at gamma */
+/* d(own variable)/ds of a point at gamma; of point_t sqrt(det J)/(k q), as gamma' = (k q/sqrt(det J)) gamma x p */
 static real pace(const form *T, const real gamma[])
 {
     if (!T->in_t) return spread(1);
+    if (T->is_point_t) return 1 / (root(T->S.over_det) * T->S.k * q_of(&T->S, gamma));
     return T->S.factor * raised(q_of(&T->S, gamma), -1 - 1 / (2 * T->S.k));
 }
 
@@ -317,12 +320,19 @@ static inline real rough_root(real x, int n)
     return 0.97 * x;
 }
 
-/* The step whose last three terms are as small as the tolerance, at most 1000; shorter where the clocks need it. Two
+/* The time in which the unit vector moves by about 1000, which may be anything in own units of s: for k = 1e6, 1e15. */
+static real longest_step(const series *S)
+{
+    const real pace = larger(largest(S->n[1]), root(largest(S->n[2])));
+    return 1000 / choose(pace > spread((NUMBER)1e-100), pace, spread(1));
+}
+
+/* The step whose last three terms are as small as the tolerance, or the longest; shorter where the clocks need it. Two
  * may be small by chance: coefficients next to a pair of conjugate poles go like a cosine of n. */
 static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
 {
     const real least = spread((NUMBER)1e-290), tolerance = spread(T->tolerance);
-    real h = spread(1000);
+    real h = longest_step(&T->S);
     for (int n = T->S.order - 2; n <= T->S.order; n++) {
         const real longest = rough_root(T->tolerance / larger(coefficient(T, n), least), n);
         h = choose(longest < h, longest, h);

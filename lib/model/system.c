@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/vec3_impl.h"
+
 const iso_system *const iso_systems[] = {&iso_system_ball, &iso_system_point, NULL};
 
 const iso_system *iso_system_find(const char *name)
@@ -36,6 +38,11 @@ double iso_clock_rate(const iso_params *p, iso_clock clock, double q, double *ex
     }
     if (exponent) *exponent = e;
     return e == 0 ? factor : factor * pow(q, e);
+}
+
+bool iso_params_steep(const iso_params *p)
+{
+    return log10(max3(p->J) / min3(p->J)) > 10 * fabs(p->k);
 }
 
 bool iso_params_symmetric(const iso_params *p, int axis)

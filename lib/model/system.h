@@ -66,11 +66,19 @@ typedef struct iso_system {
 
 extern const iso_system iso_system_ball, iso_system_point;
 
+/* The point on H = 0 again, y = (J^(1/2) omega, gamma) in the ball's time, free of powers of q: for extreme k (point_t.c).
+ * Not in the registry. */
+extern const iso_system iso_system_point_t;
+
 /* The registry, ended by NULL. */
 extern const iso_system *const iso_systems[];
 
 /* The system called `name`, or NULL. */
 const iso_system *iso_system_find(const char *name);
+
+/* Whether powers q^(1/k) may range over more than ten decades along an orbit: series of (24) then overflow, and its steps
+ * shrink. */
+bool iso_params_steep(const iso_params *p);
 
 /* Whether two moments of inertia are equal (to 4 units in the last place), making axis `axis` (0-2) one of symmetry. */
 bool iso_params_symmetric(const iso_params *p, int axis);

@@ -58,7 +58,7 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     iso_status status = iso_orbit_find_start(o, p, start, six);
     if (status != ISO_OK) return status;
     const iso_field field = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
-    o->model = iso_model_assemble(ball ? &iso_system_ball : &iso_system_point, &field, opt->clock, opt->carry);
+    o->model = iso_model_assemble(o->system, &field, opt->clock, opt->carry);
     iso_model_begin(&o->model, six, y);
     if (ball) o->model.field.energy = iso_system_ball.integrals[0].value(&o->model.field, y, &size);
     if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
@@ -123,33 +123,57 @@ void iso_sample_blank(iso_sample *s)
     for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) iso_sample_set_column(s, c, NAN);
 }
 
-iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s)
+/* The state of what is integrated as a ball's, or as a point's. */
+static void as_ball(const iso_orbit *o, const double y[], double ball[ISO_STATE])
 {
     const iso_params *own = &o->units.own;
-    const bool is_ball = o->options.backend == ISO_BALL;
+    if (o->system == &iso_system_ball) copy(y, ball, ISO_STATE);
+    if (o->system == &iso_system_point) iso_point_to_ball(own, y, ball);
+    if (o->system == &iso_system_point_t) iso_point_t_to_ball(own, y, ball);
+}
+
+static void as_point(const iso_orbit *o, const double y[], double point[ISO_STATE])
+{
+    const iso_params *own = &o->units.own;
+    if (o->system == &iso_system_ball) iso_ball_to_point(own, y, point);
+    if (o->system == &iso_system_point) copy(y, point, ISO_STATE);
+    if (o->system == &iso_system_point_t) iso_point_t_to_point(own, y, point);
+}
+
+/* Powers q^(1/(2k)) may leave the range of doubles even in own units. */
+static iso_status sample_clock(const iso_orbit *o, double time, iso_clock c, double own, iso_sample *s)
+{
+    s->clock[c] = own;
+    if (isnormal(own) || time == 0) return to_users_units(o, iso_clock_name(c), o->unit_clock[c], &s->clock[c], 1);
+    return iso_orbit_too_extreme(o, iso_clock_name(c), "ask for t alone");
+}
+
+static iso_status sample_point(const iso_orbit *o, const double y[], iso_sample *s)
+{
+    as_point(o, y, s->point);
+    const bool moves = o->system != &iso_system_point && largest(y) > 0;
+    if (o->options.gamma_alone)
+        for (int i = 0; i < 3; i++) s->point[i] = NAN;
+    else if (moves && !isnormal(largest(s->point)))
+        return iso_orbit_too_extreme(o, "M", "ask for omega, n or gamma alone");
+    else
+        return to_users_units(o, "M", o->unit_M, s->point, 3);
+    return ISO_OK;
+}
+
+iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s)
+{
     iso_status status = ISO_OK;
     iso_sample_blank(s);
     s->clock[o->model.clock] = time;
-    for (int i = 0; status == ISO_OK && i < o->model.carried; i++) {
-        const iso_clock c = o->model.carry[i];
-        s->clock[c] = y[o->model.moving + i];
-        status = to_users_units(o, iso_clock_name(c), o->unit_clock[c], &s->clock[c], 1);
-    }
+    for (int i = 0; status == ISO_OK && i < o->model.carried; i++)
+        status = sample_clock(o, time, o->model.carry[i], y[o->model.moving + i], s);
     if (o->options.show != ISO_POINT) {
-        if (is_ball)
-            copy(y, s->ball, ISO_STATE);
-        else
-            iso_point_to_ball(own, y, s->ball);
+        as_ball(o, y, s->ball);
         if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, s->ball, 3);
-        if (is_ball) iso_orbit_sample_effects(o, y, s);
+        if (o->system == &iso_system_ball) iso_orbit_sample_effects(o, y, s);
     }
-    if (o->options.show != ISO_BALL) {
-        if (is_ball)
-            iso_ball_to_point(own, y, s->point);
-        else
-            copy(y, s->point, ISO_STATE);
-        if (status == ISO_OK) status = to_users_units(o, "M", o->unit_M, s->point, 3);
-    }
+    if (status == ISO_OK && o->options.show != ISO_BALL) status = sample_point(o, y, s);
     return status;
 }
 
@@ -162,7 +186,7 @@ static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
                                                 : fmax(iso_clock_rate(own, clock, min3(own->J), NULL),
                                                        iso_clock_rate(own, clock, max3(own->J), NULL));
     *own_time = time / o->unit_clock[clock];
-    const double turns = fmax(1, fabs(own->k)) * (*own_time / fastest);
+    const double turns = *own_time / fastest;
     if (fabs(turns) <= 1e15) return ISO_OK;
     return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "end",
                             "%s = %g is out of range: it is %g turns of this ball, and 1e15 can be told apart",

@@ -11,13 +11,14 @@ struct iso_orbit {
     double unit_M, unit_clock[ISO_CLOCKS]; /* one own unit in the caller's */
     double h, eps, level;                  /* own units: energies of the ball and of the point, eps */
     iso_effects effects;                   /* own units                    */
+    const iso_system *system;              /* that is integrated           */
     double length;                         /* |b|, in the caller's units; 1 for a reduced ball */
     iso_model model;
     iso_integrator *integrator;
 };
 
-/* Sets o->units, o->effects, o->h, o->eps and o->level from a start and what o->options ask for (backend not
- * ISO_AUTO), and gives the start in the backend's variables and own units. Errors: those of iso_orbit_create. */
+/* Sets o->units, o->effects, o->h, o->eps, o->level and o->system from a start and what o->options ask for (backend not
+ * ISO_AUTO), and gives the start in that system's variables and own units. Errors: those of iso_orbit_create. */
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE]);
 
 /* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model.
@@ -25,8 +26,11 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
 iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_MAX_STATE]);
 
 /* The sample at `time` (in the caller's units) where the model's state is y. Errors: ISO_NUMERICAL where a number
- * does not fit the caller's units. */
+ * does not fit a double, in own units or in the caller's. */
 iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y[], iso_sample *s);
+
+/* Fails with ISO_NUMERICAL: what leaves the range of doubles for this k, and what to do about it. */
+iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out);
 
 /* The method of backend ISO_EXACT: a model of the point is found by its closed solution. */
 extern const iso_method iso_method_exact;

@@ -8,7 +8,7 @@
 
 static void set_units(iso_orbit *o, const iso_params *p, double speed)
 {
-    iso_units_choose(p, speed, &o->units);
+    iso_units_choose(p, speed * fmax(1, fabs(p->k)), &o->units); /* the normal turns |k| times as fast */
     o->unit_M = iso_unit(&o->units, iso_system_point.fast_dimension);
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) o->unit_clock[c] = iso_unit(&o->units, iso_clock_dimension(c));
 }
@@ -17,7 +17,8 @@ static void set_units(iso_orbit *o, const iso_params *p, double speed)
 static iso_status check_units(const iso_orbit *o, const iso_start *start)
 {
     const iso_orbit_options *opt = &o->options;
-    bool fits = (opt->show == ISO_BALL && start->model == ISO_BALL) || isnormal(o->unit_M);
+    const bool M = start->model == ISO_POINT || (opt->show != ISO_BALL && !opt->gamma_alone);
+    bool fits = !M || isnormal(o->unit_M);
     for (int c = 0; c < ISO_CLOCKS; c++)
         fits = fits && ((c != (int)opt->clock && !opt->carry[c]) || isnormal(o->unit_clock[c]));
     if (fits) return ISO_OK;
@@ -27,18 +28,33 @@ static iso_status check_units(const iso_orbit *o, const iso_start *start)
                             o->unit_M, o->unit_clock[ISO_CLOCK_S]);
 }
 
-/* Everything but the ball in its own time has powers of q up to 1 + 1/|k|, times k^2/det J. They must fit a double
- * wherever the orbit may go: q lies between the least and the largest moment of inertia. */
-static iso_status check_powers(const iso_orbit *o)
+iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out)
 {
     const iso_params *p = &o->units.own;
-    const double reach = fmax(fabs(log2(min3(p->J))), fabs(log2(max3(p->J)))), k = fabs(p->k);
-    if (reach * (1 + 1 / k) + fabs(2 * log2(k) - log2(p->det_J)) < 960) return ISO_OK;
-    return iso_context_fail(
-        o->ctx, ISO_NUMERICAL, "k",
-        "k = %g is too extreme for the point and the clocks tau and s of a ball with max J/min J = "
-        "%.3g: q^(1/k) leaves the range of doubles; the ball in its time t can be had",
-        p->k, max3(p->J) / min3(p->J));
+    return iso_context_fail(o->ctx, ISO_NUMERICAL, "k",
+                            "k = %g is too extreme for %s with max J/min J = %.3g: powers q^(1/k) leave the "
+                            "range of doubles; %s",
+                            p->k, what, max3(p->J) / min3(p->J), way_out);
+}
+
+/* Whether q^(exponent), times k^2/det J, is a double for all these q. */
+static bool powers_fit(const iso_params *p, double least, double most, double exponent)
+{
+    const double reach = fmax(fabs(log2(least)), fabs(log2(most)));
+    return reach * exponent + fabs(2 * log2(fabs(p->k)) - log2(p->det_J)) < 960;
+}
+
+/* M and the clocks tau and s have powers up to 1 + 1/(2|k|), the coupling of a point 1/k. Where an orbit starts they must
+ * be doubles; further on that is seen at its samples. */
+static iso_status check_powers(const iso_orbit *o, const iso_start *start)
+{
+    const iso_params *p = &o->units.own;
+    const bool point = start->model == ISO_POINT;
+    const double *n = start->y + 3;
+    const double q = point ? dot_diag(n, p->J, n) : 1 / dot_diag(n, p->inv_J, n);
+    if (powers_fit(p, q, q, 1 + (point ? 1 : 0.5) / fabs(p->k))) return ISO_OK;
+    return iso_orbit_too_extreme(o, "M and the clocks tau and s",
+                                 point ? "start from a ball" : "ask for omega, n or gamma, and t, alone");
 }
 
 /* The speed that the potentials can give the ball, in the caller's units. */
@@ -157,6 +173,25 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
     return iso_effects_check(o->ctx, p, n, e);
 }
 
+/* (24), or on H = 0 the form without powers of q where they are steep: no method for (24) alone has a use for it. */
+static const iso_system *choose_system(const iso_orbit *o)
+{
+    const iso_params *p = &o->units.own;
+    const iso_method *method = o->options.method;
+    const bool bound = o->options.backend == ISO_EXACT || (method && method->system);
+    if (o->options.backend == ISO_BALL) return &iso_system_ball;
+    if (bound || o->level != 0 || o->effects.on[ISO_FIELD] || p->k == -1) return &iso_system_point;
+    return iso_params_steep(p) ? &iso_system_point_t : &iso_system_point;
+}
+
+/* (24) has q^(1 + 1/|k|) wherever the orbit may go: q lies between the least and the largest moment of inertia. */
+static iso_status check_form(const iso_orbit *o)
+{
+    const iso_params *p = &o->units.own;
+    if (o->system != &iso_system_point || powers_fit(p, min3(p->J), max3(p->J), 1 + 1 / fabs(p->k))) return ISO_OK;
+    return iso_orbit_too_extreme(o, "the form (24) of the point", "take backend ball");
+}
+
 /* What an orbit is asked for decides what must exist: the ball, the point, powers of q. */
 typedef struct needs {
     bool ball, point, powers;
@@ -166,17 +201,26 @@ static needs what_is_needed(const iso_orbit_options *opt, const iso_start *start
 {
     const bool other_clocks = opt->carry[ISO_CLOCK_TAU] || opt->carry[ISO_CLOCK_S];
     const bool point = opt->backend != ISO_BALL || opt->show != ISO_BALL;
+    const bool M = opt->show != ISO_BALL && !opt->gamma_alone;
     return (needs){
         .ball = opt->backend == ISO_BALL || opt->show != ISO_POINT || opt->clock != ISO_CLOCK_S ||
                 opt->carry[ISO_CLOCK_T] || opt->carry[ISO_CLOCK_TAU],
         .point = point,
-        .powers = point || start->model == ISO_POINT || opt->clock != ISO_CLOCK_T || other_clocks,
+        .powers = M || start->model == ISO_POINT || opt->clock != ISO_CLOCK_T || other_clocks,
     };
+}
+
+static void to_system(const iso_orbit *o, iso_picture model, double y[ISO_STATE])
+{
+    const iso_params *own = &o->units.own;
+    const bool ball = model == ISO_BALL;
+    if (o->system == &iso_system_ball && !ball) iso_point_to_ball(own, y, y);
+    if (o->system == &iso_system_point && ball) iso_ball_to_point(own, y, y);
+    if (o->system == &iso_system_point_t) (ball ? iso_ball_to_point_t : iso_point_to_point_t)(own, y, y);
 }
 
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
-    const iso_picture backend = o->options.backend;
     const needs need = what_is_needed(&o->options, start);
     if (start->model != ISO_BALL && start->model != ISO_POINT)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "an orbit starts as a ball or as a point");
@@ -187,7 +231,7 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     iso_status status = check_effects(o, p, start);
     if (status != ISO_OK) return status;
     set_units(o, p, 0);
-    status = need.powers ? check_powers(o) : ISO_OK;
+    status = need.powers ? check_powers(o, start) : ISO_OK;
     if (status != ISO_OK) return status;
     if (start->model == ISO_BALL)
         start_ball(o, p, start, y);
@@ -202,8 +246,10 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     if (start->model == ISO_BALL && o->effects.on[ISO_LEVEL] && o->effects.level == 0)
         return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
                                 "level: c is out of the range of doubles in the ball's own units");
-    if (backend != ISO_BALL && start->model == ISO_BALL) iso_ball_to_point(&o->units.own, y, y);
-    if (backend == ISO_BALL && start->model == ISO_POINT) iso_point_to_ball(&o->units.own, y, y);
+    o->system = choose_system(o);
+    status = check_form(o);
+    if (status != ISO_OK) return status;
+    to_system(o, start->model, y);
     const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
     if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps)) &&
         (!level || !o->effects.on[ISO_LEVEL] || isfinite(o->effects.level)))

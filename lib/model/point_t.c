@@ -1,0 +1,118 @@
+/* point_t.c - the point of (24) on the level H = 0, in the ball's time t, where no power of q is left.
+ *
+ * There |M| = sqrt(2 eps) q^(-1/(2k)) is known, and spans hundreds of decades for small |k|. What is carried instead
+ *
+ *     p = (k/sqrt(det J)) q^(1/(2k)) M = J^(1/2) omega,     q = (gamma, J gamma)                        by (18)
+ *
+ * has the length sqrt(2h) of the ball's energy h. With ds/dt = (k^2/det J) q^(1+1/(2k)), (24) becomes
+ *
+ *     p' = r [ p^2 c - (c,p) p ],     gamma' = k r q gamma x p,     c = gamma x J gamma,     r = 1/sqrt(det J)
+ *
+ * since q' = 2 (J gamma, gamma') = -2 k r q (c,p).
+ */
+#include <math.h>
+
+#include "base/vec3_impl.h"
+#include "model/system.h"
+
+static double point_q(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE])
+{
+    return iso_system_point.q(p, y, gradient);
+}
+
+static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STATE])
+{
+    const double *p = y, *gamma = y + 3, r = 1 / sqrt(f->p.det_J);
+    double Jgamma[3], c[3];
+    diag(f->p.J, gamma, Jgamma);
+    cross(gamma, Jgamma, c);
+    const double square = dot(p, p), along = dot(c, p);
+    for (int i = 0; i < 3; i++) dy[i] = r * (square * c[i] - along * p[i]);
+    cross(gamma, p, dy + 3);
+    scale(dy + 3, f->p.k * r * dot(gamma, Jgamma));
+}
+
+/* dc/dgamma_j = e_j x J gamma + J_j gamma x e_j */
+static void jacobian(const iso_field *f, const double y[ISO_STATE], double jac[ISO_STATE * ISO_STATE])
+{
+    const double *p = y, *gamma = y + 3, r = 1 / sqrt(f->p.det_J), kr = f->p.k * r;
+    double Jgamma[3], c[3], turn[3];
+    diag(f->p.J, gamma, Jgamma);
+    cross(gamma, Jgamma, c);
+    cross(gamma, p, turn);
+    const double square = dot(p, p), along = dot(c, p), q = dot(gamma, Jgamma);
+    for (int j = 0; j < 3; j++) {
+        const double e[3] = {j == 0, j == 1, j == 2};
+        double e_Jgamma[3], gamma_e[3], e_p[3], dc[3];
+        cross(e, Jgamma, e_Jgamma);
+        cross(gamma, e, gamma_e);
+        cross(e, p, e_p);
+        for (int i = 0; i < 3; i++) dc[i] = e_Jgamma[i] + f->p.J[j] * gamma_e[i];
+        for (int i = 0; i < 3; i++) {
+            jac[6 * i + j] = r * (2 * p[j] * c[i] - c[j] * p[i] - along * e[i]);
+            jac[6 * i + 3 + j] = r * (square * dc[i] - dot(dc, p) * p[i]);
+            jac[6 * (3 + i) + j] = kr * q * gamma_e[i];
+            jac[6 * (3 + i) + 3 + j] = kr * (2 * Jgamma[j] * turn[i] + q * e_p[i]);
+        }
+    }
+}
+
+/* The ball's, from eps = h det J/k^2 */
+static double ball_energy(const iso_field *f)
+{
+    return f->eps / f->p.det_J * (f->p.k * f->p.k);
+}
+
+/* H = G (p^2/2 - h) in units of G */
+static double energy(const iso_field *f, const double y[], double *size)
+{
+    const double T = dot(y, y) / 2, h = ball_energy(f);
+    *size = T + h;
+    return T - h;
+}
+
+static double speed(const iso_field *f, const double y[])
+{
+    (void)f;
+    return norm(y);
+}
+
+static double project(const iso_field *f, double y[])
+{
+    const double length_error = make_unit(y + 3) - 1, size = norm(y);
+    if (size == 0) return fabs(length_error);
+    const double correction = fmax(fabs(length_error), fabs(remove_along(y, y + 3)) / size);
+    const double stretch = sqrt(2 * ball_energy(f)) / norm(y);
+    scale(y, stretch);
+    return fmax(correction, fabs(stretch - 1));
+}
+
+/* At about one turn per unit of time. */
+static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
+{
+    iso_random_direction(r, y + 3);
+    iso_random_direction(r, y);
+    for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3); /* twice: p may be nearly along gamma */
+    f->eps = iso_random_uniform(r, 0.5, 2) * f->p.det_J / (f->p.k * f->p.k);
+    f->energy = 0;
+    scale(y, sqrt(2 * ball_energy(f)) / norm(y));
+}
+
+static const char *const state_names[] = {"p1", "p2", "p3", "gamma1", "gamma2", "gamma3"};
+
+static const iso_integral integrals[] = {
+    {.name = "H", .doc = "p^2/2 - eps k^2/det J", .dimension = {1, 0, 2}, .value = energy}, {0}};
+
+const iso_system iso_system_point_t = {
+    .name = "point",
+    .doc = "point on a sphere on the level H = 0, in the ball's time",
+    .clock = ISO_CLOCK_T,
+    .state = state_names,
+    .integrals = integrals,
+    .rhs = rhs,
+    .jacobian = jacobian,
+    .q = point_q,
+    .project = project,
+    .speed = speed,
+    .sample = sample,
+};
