@@ -5,34 +5,60 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/finite_impl.h"
 #include "base/room_impl.h"
-#include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 
 /* --- the model as GSL sees it ---------------------------------------------------------------------------------- */
 
-/* Any failure but GSL_EBADFUNC makes the evolution try a shorter step. */
-static int function(double t, const double y[], double dydt[], void *integrator)
+static void to_units(const iso_gsl *g, const double y[], double z[])
 {
-    (void)t;
-    return iso_integrator_rhs(integrator, y, dydt) ? GSL_SUCCESS : GSL_FAILURE;
+    for (int i = 0; i < g->it->model.dim; i++) z[i] = y[i] / g->unit[i];
 }
 
-static int jacobian(double t, const double y[], double *dfdy, double dfdt[], void *integrator)
+static void from_units(const iso_gsl *g, const double z[], double y[])
 {
-    iso_integrator *it = integrator;
+    for (int i = 0; i < g->it->model.dim; i++) y[i] = z[i] * g->unit[i];
+}
+
+/* Any failure but GSL_EBADFUNC makes the evolution try a shorter step. */
+static int function(double t, const double y[], double dydt[], void *gsl)
+{
+    const iso_gsl *g = gsl;
     (void)t;
-    it->statistics.jacobians++;
-    it->model.jacobian(&it->model, y, dfdy);
-    for (int i = 0; i < it->model.dim; i++) dfdt[i] = 0;
-    return GSL_SUCCESS;
+    return iso_integrator_rhs(g->it, y, dydt) ? GSL_SUCCESS : GSL_FAILURE;
+}
+
+static int function_in_units(double t, const double z[], double dzdt[], void *gsl)
+{
+    const iso_gsl *g = gsl;
+    double y[ISO_MAX_STATE];
+    from_units(g, z, y);
+    const int status = function(t, y, dzdt, gsl);
+    to_units(g, dzdt, dzdt);
+    return status;
+}
+
+static int jacobian_in_units(double t, const double z[], double *dfdz, double dfdt[], void *gsl)
+{
+    const iso_gsl *g = gsl;
+    const int dim = g->it->model.dim;
+    double y[ISO_MAX_STATE];
+    (void)t;
+    g->it->statistics.jacobians++;
+    from_units(g, z, y);
+    g->it->model.jacobian(&g->it->model, y, dfdz);
+    for (int i = 0; i < dim; i++)
+        for (int j = 0; j < dim; j++) dfdz[dim * i + j] *= g->unit[j] / g->unit[i];
+    for (int i = 0; i < dim; i++) dfdt[i] = 0;
+    return all_finite(dfdz, dim * dim) ? GSL_SUCCESS : GSL_FAILURE;
 }
 
 /* --- error control: GSL's standard rule, measured in units of tolerance * iso_model_size() --------------------- */
 
 static void *control_alloc(void)
 {
-    return malloc(1); /* GSL wants a pointer; iso_gsl_open puts the integrator in its place */
+    return malloc(1); /* GSL wants a pointer; iso_gsl_open puts its own in its place */
 }
 
 static int control_init(void *state, double eps_abs, double eps_rel, double a_y, double a_dydt)
@@ -41,15 +67,24 @@ static int control_init(void *state, double eps_abs, double eps_rel, double a_y,
     return GSL_SUCCESS;
 }
 
+/* The sizes of what GSL has as y */
+static void sizes(const iso_gsl *g, const double y[], double size[])
+{
+    double state[ISO_MAX_STATE];
+    if (g->implicit) from_units(g, y, state);
+    iso_model_size(&g->it->model, g->implicit ? state : y, size);
+    if (g->implicit) to_units(g, size, size);
+}
+
 static int control_hadjust(void *state, size_t dim, unsigned int order, const double y[], const double yerr[],
                            const double dydt[], double *h)
 {
-    const iso_integrator *it = state;
+    const iso_gsl *g = state;
     double size[ISO_MAX_STATE], worst = 0;
     (void)dydt;
-    iso_model_size(&it->model, y, size);
+    sizes(g, y, size);
     for (size_t i = 0; i < dim; i++) {
-        const double r = fabs(yerr[i]) / (it->options.tolerance * size[i]);
+        const double r = fabs(yerr[i]) / (g->it->options.tolerance * size[i]);
         if (!(r <= worst)) worst = r; /* a NaN wins */
     }
     if (!isfinite(worst)) {
@@ -70,11 +105,11 @@ static int control_hadjust(void *state, size_t dim, unsigned int order, const do
 static int control_errlevel(void *state, const double y, const double dydt, const double h, const size_t i,
                             double *level)
 {
-    const iso_integrator *it = state;
+    const iso_gsl *g = state;
     double size[ISO_MAX_STATE];
     (void)y, (void)dydt, (void)h;
-    iso_model_size(&it->model, it->at_right, size); /* where the step begins */
-    *level = it->options.tolerance * size[i];
+    iso_model_size(&g->it->model, g->it->at_right, size); /* where the step begins */
+    *level = g->it->options.tolerance * size[i] / g->unit[i];
     return GSL_SUCCESS;
 }
 
@@ -102,8 +137,10 @@ static const gsl_odeiv2_control_type model_control = {
 iso_status iso_gsl_open(iso_integrator *it, const gsl_odeiv2_step_type *type, iso_gsl *g)
 {
     const double tolerance = it->options.tolerance;
+    const size_t dim = (size_t)it->model.dim;
     const bool room = iso_room();
-    *g = (iso_gsl){.system = {function, jacobian, (size_t)it->model.dim, it}};
+    *g = (iso_gsl){.it = it, .implicit = type == gsl_odeiv2_step_bsimp || type == gsl_odeiv2_step_msbdf};
+    g->system = (gsl_odeiv2_system){g->implicit ? function_in_units : function, jacobian_in_units, dim, g};
     if (room) g->driver = gsl_odeiv2_driver_alloc_y_new(&g->system, type, 1, tolerance, 0);
     gsl_odeiv2_control *control = room ? gsl_odeiv2_control_alloc(&model_control) : NULL;
     if (!g->driver || !control) {
@@ -112,7 +149,7 @@ iso_status iso_gsl_open(iso_integrator *it, const gsl_odeiv2_step_type *type, is
         return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for GSL's %s", type->name);
     }
     free(control->state);
-    control->state = it;
+    control->state = g;
     gsl_odeiv2_control_free(g->driver->c);
     g->driver->c = control;
     return ISO_OK;
@@ -124,8 +161,14 @@ void iso_gsl_close(iso_gsl *g)
     g->driver = NULL;
 }
 
-void iso_gsl_start(iso_gsl *g, double first_step)
+void iso_gsl_start(iso_gsl *g, const double y[], double first_step)
 {
+    double size[ISO_MAX_STATE];
+    iso_model_size(&g->it->model, y, size);
+    for (int i = 0; i < g->it->model.dim; i++) {
+        const bool has_size = isnormal(size[i]);
+        g->unit[i] = g->implicit && has_size ? ldexp(1, ilogb(size[i])) : 1;
+    }
     gsl_odeiv2_step_reset(g->driver->s);
     gsl_odeiv2_evolve_reset(g->driver->e);
     g->h = first_step;
@@ -135,9 +178,8 @@ void iso_gsl_start(iso_gsl *g, double first_step)
 /* Methods that solve linear systems take memory in each step. */
 static iso_status check_room(iso_integrator *it, const iso_gsl *g)
 {
-    const gsl_odeiv2_step_type *type = g->driver->s->type;
-    if ((type != gsl_odeiv2_step_bsimp && type != gsl_odeiv2_step_msbdf) || iso_room()) return ISO_OK;
-    return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for GSL's %s", type->name);
+    if (!g->implicit || iso_room()) return ISO_OK;
+    return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for GSL's %s", g->driver->s->type->name);
 }
 
 iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[], double *h)
@@ -145,8 +187,10 @@ iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[]
     if (check_room(it, g) != ISO_OK) return ISO_NO_MEMORY;
     gsl_odeiv2_evolve *e = g->driver->e;
     const unsigned long failed = e->failed_steps;
+    if (g->implicit) to_units(g, y, y);
     const int status =
         gsl_odeiv2_evolve_apply(e, g->driver->c, g->driver->s, &g->system, &g->t, limit, &g->h, y);
+    if (g->implicit) from_units(g, y, y);
     it->statistics.rejected += (long)(e->failed_steps - failed);
     if (status != GSL_SUCCESS) return iso_integrator_stopped(it, "no step is short enough for the tolerance");
     *h = e->last_step;
@@ -183,7 +227,7 @@ static iso_status create(iso_integrator *it)
 static iso_status start(iso_integrator *it)
 {
     const int order = it->method->order ? it->method->order : 2;
-    iso_gsl_start(it->data, iso_integrator_first_step(it, order));
+    iso_gsl_start(it->data, it->at_right, iso_integrator_first_step(it, order));
     return ISO_OK;
 }
 
@@ -193,7 +237,9 @@ static iso_status fixed_step(iso_integrator *it, iso_gsl *g, double y[], double 
     double error[ISO_MAX_STATE], sum = 0;
     if (check_room(it, g) != ISO_OK) return ISO_NO_MEMORY;
     *h = it->direction * it->options.fixed_step;
+    if (g->implicit) to_units(g, y, y);
     const int status = gsl_odeiv2_step_apply(g->driver->s, 0, *h, y, error, NULL, NULL, &g->system);
+    if (g->implicit) from_units(g, y, y);
     for (int i = 0; i < it->model.dim; i++) sum += error[i];
     return status == GSL_SUCCESS && isfinite(sum) ? ISO_OK : iso_integrator_stopped(it, "the step failed");
 }
@@ -209,7 +255,9 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     if (status != ISO_OK || !it->method->projects || it->options.no_projection) return status;
     iso_integrator_project(it, y);
     /* the next step begins with the derivative GSL has kept, which belongs to the state before projection */
-    if (!iso_integrator_rhs(it, y, g->driver->e->dydt_out)) return iso_integrator_stopped(it, "not finite");
+    double *slope = g->driver->e->dydt_out;
+    if (!iso_integrator_rhs(it, y, slope)) return iso_integrator_stopped(it, "not finite");
+    if (g->implicit) to_units(g, slope, slope);
     return ISO_OK;
 }
 

@@ -39,7 +39,7 @@ iso_status iso_leap(iso_integrator *it, double dt, double y[])
     iso_gsl *g = &it->leaper->gsl;
     double state[ISO_MAX_STATE], h;
     copy(it->at_left, state, it->model.dim);
-    iso_gsl_start(g, dt);
+    iso_gsl_start(g, state, dt);
     for (long steps = 0; g->t != dt; steps++) {
         if (!iso_context_goes_on(it->ctx)) return iso_context_fail(it->ctx, ISO_STOPPED, "", "stopped on request");
         const iso_status status = iso_gsl_step(it, g, dt, state, &h);
