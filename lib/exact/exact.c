@@ -73,9 +73,9 @@ static iso_status find_form(iso_context *ctx, const iso_field *f, double point[I
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[ISO_LEVEL]->name,
                                 "k = 1 has a closed solution on the level H = 0 alone");
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k",
-                            "k = %.15g has a closed solution only where two moments of inertia are equal, or in a "
+                            "k = %.*g has a closed solution only where two moments of inertia are equal, or in a "
                             "principal plane; k = 1 and k = -1 have one everywhere",
-                            f->p.k);
+                            fabs(fabs(f->p.k) - 1) < 1e-14 ? 17 : 15, f->p.k); /* 1 + 1e-15 must not read as 1 */
 }
 
 static void find(const iso_exact *x, iso_clock clock, real time, form_place *p)
