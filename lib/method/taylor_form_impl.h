@@ -15,7 +15,7 @@ typedef struct form {
     series S;
     iso_model shape;
     iso_clock own;
-    bool is_point, is_point_t, in_t, is_neumann, rolls, unprojected; /* of points: is_point */
+    bool is_point, is_point_t, in_t, is_neumann, rolls, unprojected;
     enum second_integral_of { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
     double tolerance;                      /* of the last terms, in units of the state */
     real second;                           /* the second integral at the start */
@@ -55,8 +55,7 @@ static void call_point(form *T)
     const iso_field *f = &T->shape.field;
     S->in_field = f->effects.on[ISO_FIELD];
     T->is_neumann = f->p.k == -1 && !S->in_field;
-    T->in_t = T->is_point_t ||
-              (!S->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1);
+    T->in_t = !S->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1;
     call(S, T->in_t ? point_t : T->is_neumann ? neumann : point_s);
     if (S->in_field) call(S, point_field);
 }
@@ -80,13 +79,17 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     T->shape = *m;
     T->tolerance = tolerance * FINER;
     T->is_point_t = m->system == &iso_system_point_t;
-    T->is_point = m->system == &iso_system_point || T->is_point_t;
+    T->is_point = m->system == &iso_system_point;
     T->rolls = m->field.at[ISO_ATTITUDE] && m->field.p.k == 1;
-    if (T->is_point ? !m->field.effects.on[ISO_FIELD] : m->forces == 0 && !m->field.effects.on[ISO_TWIST])
+    if (T->is_point ? !m->field.effects.on[ISO_FIELD]
+                    : !T->is_point_t && m->forces == 0 && !m->field.effects.on[ISO_TWIST])
         T->second_of = m->field.p.k == -1 ? SHELL : m->field.p.k == 1 ? PLANE : NONE;
     S->order = order_for(T->tolerance);
     for (int i = 1; i < MOST + 3; i++) S->count[i] = spread((NUMBER)i), S->inverse[i] = 1 / S->count[i];
-    T->is_point ? call_point(T) : call_ball(T);
+    if (T->is_point_t)
+        call(S, point_p);
+    else
+        T->is_point ? call_point(T) : call_ball(T);
     T->own = T->is_point && !T->in_t ? ISO_CLOCK_S : ISO_CLOCK_T;
     call_clock(T, m->clock);
     for (int i = 0; i < m->carried; i++) call_clock(T, m->carry[i]);
@@ -103,7 +106,7 @@ static void set_clock(form *T, int lane, const iso_params *p, iso_clock clock, N
     iso_clock_rate(p, clock, 1, &e);
     iso_clock_rate(p, T->own, 1, &e_own);
     LANE(T->rate[clock], lane) = (clock == ISO_CLOCK_S ? 1 / factor : 1) * (T->own == ISO_CLOCK_S ? factor : 1);
-    LANE(T->power[clock], lane) = T->is_point ? e - e_own : e_own - e;
+    LANE(T->power[clock], lane) = T->is_point || T->is_point_t ? e - e_own : e_own - e;
 }
 
 static void set_numbers(form *T, int lane, const iso_model *m)
@@ -126,6 +129,7 @@ static void set_numbers(form *T, int lane, const iso_model *m)
     /* in t, with eps = h det J/k^2: B = 2 h k/det J */
     LANE(S->alpha, lane) = T->in_t ? 1 + 1 / (2 * k) : -1 - 1 / k;
     LANE(S->coupling, lane) = T->in_t ? 2 * eps / (k * factor * factor) : 2 * eps / k;
+    if (T->is_point_t) LANE(S->alpha, lane) = 1 / ROOT(J[0] * J[1] * J[2]), LANE(S->coupling, lane) = 2 * eps / factor;
     for (int i = 0; i < 3; i++) { /* of the point: B = J^(1/2) C J^(1/2), m = J^(1/2) l */
         const NUMBER root_J = T->is_point ? ROOT(J[i]) : 1;
         LANE(AT(S->J, i), lane) = J[i];
@@ -154,11 +158,10 @@ static real q_of(const series *S, const real gamma[])
     return q;
 }
 
-/* d(own variable)/ds of a point at gamma; of point_t sqrt(det J)/(k q), as gamma' = (k q/sqrt(det J)) gamma x p */
+/* d(own variable)/ds of a point at gamma */
 static real pace(const form *T, const real gamma[])
 {
     if (!T->in_t) return spread(1);
-    if (T->is_point_t) return 1 / (root(T->S.over_det) * T->S.k * q_of(&T->S, gamma));
     return T->S.factor * raised(q_of(&T->S, gamma), -1 - 1 / (2 * T->S.k));
 }
 

@@ -311,6 +311,23 @@ static void point_t(series *S, int n)
     accelerate(S, n, plus(componentwise(S->c, S->n, n), times(S->alpha, scaled(S->r, S->w, n))));
 }
 
+/* in t, on H = 0, w = p (point_t.c): p' = r (p^2 c - (c,p) p),  gamma' = k r q gamma x p,  c = gamma x J gamma; r = alpha.
+ * Nothing is divided by k; with 2h in the place of p^2 an error of |p| would grow as fast as the ball turns. */
+static void point_p(series *S, int n)
+{
+    S->u[n] = by(S->J, S->n[n]);
+    S->base[n] = dot(S->n, S->u, n);
+    S->slope[n] = S->count[n] * S->base[n];
+    if (n == 0) S->over_base = 1 / S->base[0];
+    S->c[n] = cross(S->n, S->u, n);
+    S->z[n] = cross(S->n, S->w, n);
+    S->r[n] = dot(S->c, S->w, n);
+    S->spin[n] = dot(S->w, S->w, n);
+    const vector push = minus(scaled(S->spin, S->c, n), scaled(S->r, S->w, n));
+    S->w[n + 1] = times(S->alpha * S->inverse[n + 1], push);
+    S->n[n + 1] = times(S->k * S->alpha * S->inverse[n + 1], scaled(S->base, S->z, n));
+}
+
 static void expand(series *S)
 {
     for (int n = 0; n < S->order; n++)

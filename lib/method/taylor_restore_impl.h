@@ -142,6 +142,14 @@ static real restore_point(const form *T, state *s)
     return worst;
 }
 
+static real restore_point_t(const form *T, state *s)
+{
+    const real worst = restore_length(s->n, 3, spread(1), everywhere());
+    const real along = defect_of(s->n, s->w, 3, zero), square = T->S.coupling;
+    for (int i = 0; i < 3; i++) s->w[i] -= along * s->n[i];
+    return worst + restore_length(s->w, 3, square, square > zero);
+}
+
 /* (w,n) = 0 of a ball that does not twist; a free ball's energy. */
 static real restore_ball(const form *T, state *s)
 {
@@ -163,7 +171,7 @@ static real restore_ball(const form *T, state *s)
 static real restore(const form *T, state *s)
 {
     if (T->unprojected && !T->is_point) return zero; /* off them a point's equations are unstable */
-    real worst = T->is_point ? restore_point(T, s) : restore_ball(T, s);
+    real worst = T->is_point_t ? restore_point_t(T, s) : T->is_point ? restore_point(T, s) : restore_ball(T, s);
     if (T->shape.field.at[ISO_GRAVITY]) worst += restore_length(s->e, 3, spread(1), everywhere());
     if (T->shape.field.at[ISO_ATTITUDE]) worst += restore_length(s->Q, 4, spread(1), everywhere());
     return worst;
