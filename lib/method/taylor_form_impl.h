@@ -18,6 +18,7 @@ typedef struct form {
     bool is_point, is_point_t, in_t, is_neumann, rolls, unprojected;
     enum second_integral_of { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
     double tolerance;                      /* of the last terms, in units of the state */
+    double at_poles;                       /* the same of 1/g of a ball, see for_poles */
     real second;                           /* the second integral at the start */
     quadrature rule;
     int clocks; /* those that are not the own */
@@ -44,6 +45,7 @@ static void call_ball(form *T)
     if (on[ISO_LEVEL]) call(S, level);
     if (on[ISO_ROLLING_RESISTANCE]) call(S, resistance);
     call(S, twists ? loose : rigid);
+    call(S, twists ? poles_of_loose : poles_of_rigid);
     if (on[ISO_ATTITUDE]) call(S, attitude);
     if (T->rolls) call(S, roll);
 }
@@ -79,6 +81,7 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     T->shape = *m;
     T->tolerance = tolerance * FINER;
     T->is_point_t = m->system == &iso_system_point_t;
+    T->at_poles = pow(T->tolerance, 0.75);
     T->is_point = m->system == &iso_system_point;
     T->rolls = m->field.at[ISO_ATTITUDE] && m->field.p.k == 1;
     if (T->is_point ? !m->field.effects.on[ISO_FIELD]
@@ -330,6 +333,15 @@ static real longest_step(const series *S)
     return 1000 / choose(pace > spread((NUMBER)1e-100), pace, spread(1));
 }
 
+/* A ball that rolls in a principal plane turns evenly, an entire function of t, in steps of any length; but how it
+ * leaves the plane, by however little, follows an equation with the poles of 1/g, and a series beyond them is wrong
+ * by many decades. So the terms of 1/g are kept small as well: as small as the state's would cost other orbits a
+ * fifth more steps, 3/4 of the digits 2 %. */
+static real for_poles(const form *T, int n)
+{
+    return rough_root(T->at_poles * magnitude(T->S.r[0]) / larger(magnitude(T->S.r[n]), spread((NUMBER)1e-290)), n);
+}
+
 /* The step whose last three terms are as small as the tolerance, or the longest; shorter where the clocks need it. Two
  * may be small by chance: coefficients next to a pair of conjugate poles go like a cosine of n. */
 static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
@@ -339,6 +351,9 @@ static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
     for (int n = T->S.order - 2; n <= T->S.order; n++) {
         const real longest = rough_root(T->tolerance / larger(coefficient(T, n), least), n);
         h = choose(longest < h, longest, h);
+        if (T->is_point) continue;
+        const real near = for_poles(T, n - 1);
+        h = choose(near < h, near, h);
     }
     for (int i = 0;; i++) {
         const real doubt = pass_time(T, direction * h, gained); /* NaN where the polynomial is no rate any more */

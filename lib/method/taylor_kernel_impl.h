@@ -14,7 +14,7 @@
 #include "model/system.h"
 
 /* The highest order, that of the least tolerance, and the most terms of a model. */
-enum { MOST = FINEST_ORDER, TERMS = 8 };
+enum { MOST = FINEST_ORDER, TERMS = 9 };
 
 typedef struct series series;
 typedef void recurrence(series *S, int n);
@@ -189,6 +189,17 @@ static void loose(series *S, int n)
     if (n == 0) S->over_gap = 1 / S->gap[0];
     S->lambda[n] = quotient(dot(S->u, S->x, n), S->gap, S->over_gap, S->lambda, n);
     S->w[n + 1] = times(S->inverse[n + 1], plus(by(S->inv_J, S->x[n]), times(S->D, scaled(S->lambda, S->u, n))));
+}
+
+/* r = 1/g of a rigid contact, 1/(1 - D g) of a loose one: where they have poles, so have the ball's equations. */
+static void poles_of_rigid(series *S, int n)
+{
+    S->r[n] = n == 0 ? S->over_base : quotient(zero, S->base, S->over_base, S->r, n);
+}
+
+static void poles_of_loose(series *S, int n)
+{
+    S->r[n] = n == 0 ? S->over_gap : quotient(zero, S->gap, S->over_gap, S->r, n);
 }
 
 /* --- its effects: torques added to x, states -------------------------------------------------------------------- */
