@@ -65,10 +65,9 @@ static real P_rate(const latitude *r, real y)
     return P_slope(r, y, y);
 }
 
-/* The zero between low and high, where f has different signs or is zero at one of them. */
-static real bisect(const latitude *r, function *f, real low, real high)
+/* The zero between low and high, which f passes upwards (rising) or downwards; it may be one of them. */
+static real bisect(const latitude *r, function *f, bool rising, real low, real high)
 {
-    const bool rising = f(r, high) > 0;
     for (int i = 0; i < 200; i++) {
         const real middle = (low + high) / 2;
         if (middle == low || middle == high) break;
@@ -78,9 +77,9 @@ static real bisect(const latitude *r, function *f, real low, real high)
 }
 
 /* A zero of P, by bisection and, as long as it gets better, Newton's method. */
-static real root_of_P(const latitude *r, real low, real high)
+static real root_of_P(const latitude *r, bool rising, real low, real high)
 {
-    real y = bisect(r, P_at, low, high);
+    real y = bisect(r, P_at, rising, low, high);
     for (int i = 0; i < 4; i++) {
         const real next = y - P_at(r, y) / P_rate(r, y);
         if (!(next >= low && next <= high && fabsl(P_at(r, next)) < fabsl(P_at(r, y)))) break;
@@ -99,7 +98,7 @@ static int monotonic_parts(const latitude *r, real place[5])
     place[count++] = low;
     for (int i = 0; i < 2; i++)
         if (part[i] < part[i + 1] && (P_rate(r, part[i]) > 0) != (P_rate(r, part[i + 1]) > 0))
-            place[count++] = bisect(r, P_rate, part[i], part[i + 1]);
+            place[count++] = bisect(r, P_rate, P_rate(r, part[i + 1]) > 0, part[i], part[i + 1]);
     place[count++] = 1;
     return count;
 }
@@ -118,7 +117,7 @@ real iso_latitude_distance(const latitude *r, real root)
     return direct * iso_latitude_m(r, r->y0) >= steep ? direct : r->dx0 * r->dx0 / steep;
 }
 
-/* a and b: from y0 to where P falls to zero. */
+/* a and b: from y0, which is one of them where the motion turns, to where P falls to zero. */
 void iso_latitude_range(latitude *r)
 {
     real place[5], from = r->y0;
@@ -130,7 +129,7 @@ void iso_latitude_range(latitude *r)
             from = place[i];
             continue;
         }
-        r->a = place[i] == 1 && r->Mx == 0 && P_at(r, from) > 0 ? 1 : root_of_P(r, from, place[i]);
+        r->a = place[i] == 1 && r->Mx == 0 && P_at(r, from) > 0 ? 1 : root_of_P(r, false, from, place[i]);
         break;
     }
     if (r->y0 >= 1) r->a = 1;
@@ -138,7 +137,7 @@ void iso_latitude_range(latitude *r)
     for (int i = count - 1; i >= 0 && !r->has_b; i--) {
         if (place[i] >= r->y0) continue;
         r->has_b = P_at(r, place[i]) <= 0;
-        if (r->has_b) r->b = root_of_P(r, place[i], from);
+        if (r->has_b) r->b = root_of_P(r, true, place[i], from);
         from = place[i];
     }
     r->rest_a = rest_of(r, r->a);
