@@ -182,12 +182,22 @@ static iso_status check_room(iso_integrator *it, const iso_gsl *g)
     return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for GSL's %s", g->driver->s->type->name);
 }
 
+/* bsimp measures each component by what it is when a step begins, 1 where it is 0: its steps shrink until they are as
+ * small as the least of them, and where their squares underflow it has no result. In the ball's own units what is
+ * this small is 0. */
+static void drop_traces(const gsl_odeiv2_step *s, int dim, double y[])
+{
+    for (int i = 0; s->type == gsl_odeiv2_step_bsimp && i < dim; i++)
+        if (fabs(y[i]) < 1e-130) y[i] = copysign(0, y[i]);
+}
+
 iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[], double *h)
 {
     if (check_room(it, g) != ISO_OK) return ISO_NO_MEMORY;
     gsl_odeiv2_evolve *e = g->driver->e;
     const unsigned long failed = e->failed_steps;
     if (g->implicit) to_units(g, y, y);
+    drop_traces(g->driver->s, it->model.dim, y);
     const int status =
         gsl_odeiv2_evolve_apply(e, g->driver->c, g->driver->s, &g->system, &g->t, limit, &g->h, y);
     if (g->implicit) from_units(g, y, y);
