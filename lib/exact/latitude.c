@@ -113,8 +113,9 @@ static real rest_of(const latitude *r, real y)
 /* How far y0 is from a root of P: P(y0) = (y0 - root) P[root,y0], of which one factor may have no digits. */
 real iso_latitude_distance(const latitude *r, real root)
 {
-    const real direct = fabsl(root - r->y0), steep = fabsl(P_slope(r, root, r->y0));
-    return direct * iso_latitude_m(r, r->y0) >= steep ? direct : r->dx0 * r->dx0 / steep;
+    const real m = iso_latitude_m(r, r->y0), direct = fabsl(root - r->y0);
+    const real steep = fabsl(rest_of(r, root) * slope(r, root, r->y0) - m);
+    return direct * m >= steep ? direct : r->dx0 * r->dx0 / steep;
 }
 
 /* a and b: from y0, which is one of them where the motion turns, to where P falls to zero. */
