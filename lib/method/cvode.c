@@ -1,6 +1,7 @@
 /* cvode.c - SUNDIALS CVODE: Adams for smooth motion, BDF with the analytic Jacobian and projection for stiff. */
 #include <cvode/cvode.h>
 #include <cvode/cvode_proj.h>
+#include <math.h>
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
 #include <sunlinsol/sunlinsol_dense.h>
@@ -101,13 +102,18 @@ static iso_status create(iso_integrator *it)
     return failed ? iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "CVODE cannot be set up (%d)", failed) : ISO_OK;
 }
 
+#define SHORT 1e-12
+
 static iso_status start(iso_integrator *it)
 {
     cvode *c = it->data;
     if (!iso_room()) /* the first step takes more */
         return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for CVODE");
     copy(it->at_right, N_VGetArrayPointer(c->y), it->model.dim);
-    const int failed = CVodeReInit(c->memory, 0, c->y);
+    const double first = iso_integrator_first_step(it, 1);
+    int failed = CVodeReInit(c->memory, 0, c->y);
+    /* CVODE finds its own, but none that is less than 1e-14 of the time in which the ball turns */
+    if (!failed) failed = CVodeSetInitStep(c->memory, fabs(first) < SHORT ? first : 0);
     return failed ? iso_sundials_stopped(it, CVodeGetReturnFlagName(failed)) : ISO_OK;
 }
 
