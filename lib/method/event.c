@@ -46,6 +46,17 @@ static double g_moved(search *s, const double y[], const double f[], double time
     return g_of(s, moved);
 }
 
+/* g a moment after dt on the way, on the orbit: the straight way leads off it, on which a g that only touches 0 passes it. */
+static double g_beyond(search *s, double dt, double straight)
+{
+    iso_integrator *it = s->it;
+    const double later = dt + it->direction * s->nearby;
+    double y[ISO_MAX_STATE];
+    if (fabs(later) > fabs(it->h)) return straight;
+    if (s->status == ISO_OK) s->status = iso_integrator_within(it, later, y);
+    return s->status == ISO_OK ? g_of(s, y) : 0;
+}
+
 /* What there is at dt. A g that is exactly 0 is taken from just beyond, so that every zero lies within one part. */
 static place look(search *s, double dt)
 {
@@ -59,7 +70,7 @@ static place look(search *s, double dt)
     const double before = g_moved(s, y, f, -s->nearby), after = g_moved(s, y, f, s->nearby);
     p.g = g_of(s, y);
     p.slope = after - before;
-    if (p.g == 0) p.g = it->direction > 0 ? after : before;
+    if (p.g == 0) p.g = g_beyond(s, dt, it->direction > 0 ? after : before);
     return p;
 }
 

@@ -1,4 +1,6 @@
 /* effect_reactions.c - the forces of the contact: asked for, they act on nothing that is not simulated anyway. */
+#include <float.h>
+
 #include "base/vec3_impl.h"
 #include "model/contact_impl.h"
 #include "model/effects_impl.h"
@@ -14,6 +16,10 @@ static void torques(const iso_field *f, const double y[], double T[3])
     }
 }
 
+/* Of the pressure, relative to its terms: what is less is none. Else a ball that grazes weightlessness, or rolls down a
+ * wall, would leave its support where rounding says so. */
+#define ROUNDING (8 * DBL_EPSILON)
+
 /* w x n' + w x (w x n) = (1-k) w x (w x n) = (1-k) [ (w,n) w - w^2 n ]. The parts along n and across are found one by one:
  * on a plane without weight the first is exactly 0. */
 iso_reactions iso_reactions_at(const iso_field *f, const double y[])
@@ -28,13 +34,15 @@ iso_reactions iso_reactions_at(const iso_field *f, const double y[])
     cross(dy, n, across);
     add_scaled(across, (1 - k) * spin, w);
     scale(across, D);
-    double normal = -D * (1 - k) * dot(w, w);
+    double normal = -D * (1 - k) * dot(w, w), size = fabs(normal);
     if (f->effects.on[ISO_GRAVITY]) {
         const double *e = y + f->at[ISO_GRAVITY];
         add_scaled(across, f->effects.mgb, e);
         normal += f->effects.mgb * dot(e, n);
+        size += fabs(f->effects.mgb);
     }
     normal += D * (1 - k) * spin * spin;
+    if (fabs(normal) <= ROUNDING * size) normal = 0;
     remove_along(across, n);
     iso_reactions r = {.pressure = side * b * normal, .friction = norm(across), .twist = contact->twist(f, y, T)};
     r.needed = r.friction / fabs(r.pressure);

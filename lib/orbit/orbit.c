@@ -269,6 +269,8 @@ static double pressure(const iso_sample *sample, const void *data)
 
 iso_status iso_orbit_lost_contact(iso_orbit *o, double from, double to, bool *lost, iso_sample *sample)
 {
+    *lost = false;
+    if (o->model.field.p.k == 1) return ISO_OK; /* on a plane the pressure is mgb (e,n), an integral: what it changes by is error */
     return iso_orbit_event(o, pressure, NULL, to < 0 ? 1 : -1, from, to, lost, sample);
 }
 
