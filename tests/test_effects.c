@@ -74,7 +74,9 @@ static void beginnings(const effects_case *c, laws_worst *worst)
     if (lambda == 0) return;
     const double torque = -e->twist * dot(c->y, c->y + 3);
     effects_note(c, worst, fabs(y[lambda] - torque), 4 * DBL_EPSILON * e->twist * norm(c->y), "lambda");
-    effects_note(c, worst, fabs(size[lambda] - fabs(torque) - 2 * iso_ball_energy(&c->model.field.p, c->y)),
+    const double resists = e->on[ISO_ROLLING_RESISTANCE] ? e->resistance * largest(c->y) : 0;
+    const double motion = 2 * iso_ball_energy(&c->model.field.p, c->y) + resists;
+    effects_note(c, worst, fabs(size[lambda] - fabs(torque) - motion),
                  8 * DBL_EPSILON * (size[lambda] + e->twist * norm(c->y)), "size of lambda");
 }
 

@@ -99,6 +99,7 @@ static iso_status set_out(iso_integrator *it, int direction)
 {
     it->direction = direction;
     it->stopped = false;
+    it->resting = false;
     it->left = (iso_instant){0, 0};
     it->h = 0;
     copy(it->y0, it->at_left, it->model.dim);
@@ -118,6 +119,48 @@ iso_status iso_integrator_start(iso_integrator *it, const double y0[])
     return it->method->at ? it->method->start(it) : ISO_OK;
 }
 
+/* Resistance that runs backwards drives the ball, faster and faster: some turns more are more steps than ever end. */
+enum { MOST_GROWTH = 10000 };
+
+static bool spins_up(const iso_integrator *it, const double y[])
+{
+    const iso_field *f = &it->model.field;
+    if (it->direction > 0 || it->model.system != &iso_system_ball || !(iso_effects_stiffness(f) > 0)) return false;
+    return !(iso_system_ball.speed(f, y) <= MOST_GROWTH * iso_system_ball.speed(f, it->y0));
+}
+
+/* What a method without projection has lost of (w,n) = 0, or of (w,n) = -lambda/c under a stiff contact, resistance does
+ * not take out again: in the end it is all of w. */
+static bool has_lost_spin(const iso_integrator *it, const double y[])
+{
+    const iso_field *f = &it->model.field;
+    if (it->method->projects || it->model.system != &iso_system_ball) return false;
+    const bool twists = f->effects.on[ISO_TWIST], stiff = f->at[ISO_TWIST] > 0;
+    if ((twists && !stiff) || !(iso_effects_stiffness(f) > 0)) return false;
+    const double lost = dot(y, y + 3) + (stiff ? y[f->at[ISO_TWIST]] / f->effects.twist : 0);
+    return fabs(lost) > fmax(1e-3, 1e4 * it->options.tolerance) * iso_system_ball.speed(f, y);
+}
+
+/* At rest only clocks go on, evenly: a state y becomes y + dt f(y). */
+static void rest(iso_integrator *it, double dt, double y[])
+{
+    double f[ISO_MAX_STATE];
+    const int lambda = it->model.field.at[ISO_TWIST];
+    for (int i = 0; i < 3; i++) y[i] = 0;
+    if (lambda > 0) y[lambda] = 0;
+    iso_integrator_rhs(it, y, f);
+    for (int i = 0; i < it->model.dim; i++) y[i] += dt * f[i];
+}
+
+static iso_status take_step(iso_integrator *it, double y[], double *h)
+{
+    it->resting = it->direction > 0 && it->model.system == &iso_system_ball && iso_effects_at_rest(&it->model.field, y);
+    if (!it->resting) return it->method->step(it, y, h);
+    *h = fmax(1e18, 1e3 * it->left.head); /* beyond most times that can be told apart */
+    rest(it, *h, y);
+    return ISO_OK;
+}
+
 iso_status iso_integrator_advance(iso_integrator *it)
 {
     double y[ISO_MAX_STATE], h = 0;
@@ -127,8 +170,14 @@ iso_status iso_integrator_advance(iso_integrator *it)
     if (it->options.max_steps > 0 && it->statistics.steps >= it->options.max_steps)
         return iso_integrator_stopped(it, "more steps than allowed");
     copy(it->at_right, y, it->model.dim);
-    const iso_status status = it->method->step(it, y, &h);
+    const iso_status status = take_step(it, y, &h);
     if (status != ISO_OK) return status;
+    if (spins_up(it, y))
+        return iso_integrator_stopped(it, "backwards in time resistance drives the ball, without end: it turns more "
+                                          "than 10000 times as fast as at the start");
+    if (has_lost_spin(it, y))
+        return iso_integrator_stopped(it, "it does not keep (omega,n) = 0, and little else is left of omega: take a "
+                                          "method with projection");
     /* before a place they cannot pass, some methods go on for ever with steps that hardly move the clock */
     if (fabs(h) <= 64 * DBL_EPSILON * fabs(it->left.head)) return iso_integrator_stopped(it, "steps shrink to nothing");
     it->stopped = false;
@@ -168,6 +217,10 @@ iso_status iso_integrator_reach(iso_integrator *it, int direction, double t)
 
 iso_status iso_integrator_within(iso_integrator *it, double dt, double y[])
 {
+    if (it->resting) {
+        copy(it->at_left, y, it->model.dim);
+        return rest(it, dt, y), ISO_OK;
+    }
     if (dt != 0 && dt != it->h) return it->method->within ? it->method->within(it, dt, y) : iso_leap(it, dt, y);
     copy(dt == 0 ? it->at_left : it->at_right, y, it->model.dim);
     return ISO_OK;

@@ -305,7 +305,7 @@ static real coefficient(const form *T, int n)
     real most = largest(S->n[n]);
     const vector rest = T->is_point ? times(S->count[n + 1], S->n[n + 1]) : S->w[n]; /* of gamma', or w */
     const real speed = largest(T->is_point ? S->n[1] : S->w[0]);
-    most = larger(most, largest(rest) / (speed + spread((NUMBER)1e-100)));
+    most = larger(most, largest(rest) / (speed + spread((NUMBER)ISO_REST)));
     if (T->shape.field.at[ISO_GRAVITY]) most = larger(most, largest(S->e[n]));
     if (T->shape.field.at[ISO_ATTITUDE]) most = larger(most, largest(S->Q[n]));
     return most;

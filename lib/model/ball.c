@@ -160,7 +160,7 @@ static double f_axis3(const iso_field *f, const double y[], double *size)
  * error of h would be a large one of w. */
 static double project(const iso_field *f, double y[])
 {
-    const double length_error = make_unit(y + 3) - 1, moving = norm(y);
+    const double length_error = make_unit(y + 3) - 1, moving = fmax(norm(y), largest(y));
     double correction = fabs(length_error);
     if (moving == 0) return correction;
     if (!f->effects.on[ISO_TWIST]) correction = fmax(correction, fabs(remove_along(y, y + 3)) / moving);
@@ -174,11 +174,12 @@ static double project(const iso_field *f, double y[])
     return fmax(correction, fabs(stretch - 1));
 }
 
-/* |w|, or what it would be if the potentials moved it: a ball may turn back */
+/* |w|, or what it would be if the potentials moved it: a ball may turn back. One that resistance brings to rest has soon
+ * a w whose square is no double any more. */
 static double speed(const iso_field *f, const double y[])
 {
     if (iso_effects_none(&f->effects)) return norm(y);
-    return fmax(norm(y), sqrt(2 * iso_effects_strength(f, y) / max3(f->p.J)));
+    return fmax(fmax(norm(y), largest(y)), sqrt(2 * iso_effects_strength(f, y) / max3(f->p.J)));
 }
 
 static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])

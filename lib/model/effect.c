@@ -219,6 +219,24 @@ bool iso_effects_keep_energy(const iso_field *f)
     return !e->on[ISO_GRAVITY] || f->p.k != 1 || e->on[ISO_ATTITUDE];
 }
 
+/* No potential moves the ball. */
+static bool only_resisted(const iso_field *f)
+{
+    const bool *on = f->effects.on;
+    return !on[ISO_GRAVITY] && !on[ISO_FIELD] && !on[ISO_LEVEL] && iso_effects_stiffness(f) > 0;
+}
+
+double iso_effects_moving(const iso_field *f)
+{
+    if (!only_resisted(f) || !f->effects.on[ISO_ROLLING_RESISTANCE]) return INFINITY;
+    return -log(ISO_REST) * max3(f->p.J) / f->effects.resistance * fmax(1, fabs(f->p.k));
+}
+
+bool iso_effects_at_rest(const iso_field *f, const double y[])
+{
+    return largest(y) < ISO_REST && only_resisted(f);
+}
+
 int iso_integrals_holding(const iso_system *system, const iso_field *f, const iso_integral *list[], int most)
 {
     int count = 0;

@@ -102,6 +102,15 @@ bool iso_effects_keep_energy(const iso_field *f);
 enum { ISO_STIFF = 50 };
 double iso_effects_stiffness(const iso_field *f);
 
+/* The turns of the ball, in its own units, for which it moves at most before resistance has brought it to rest, all the
+ * way through the range of doubles; infinite where nothing does, or something keeps it moving. */
+double iso_effects_moving(const iso_field *f);
+
+/* In own units a ball that turns more slowly than this, and only loses motion, is at rest: a tolerance of that is still a
+ * normal double. */
+#define ISO_REST 1e-290
+bool iso_effects_at_rest(const iso_field *f, const double y[]);
+
 enum { ISO_MAX_INTEGRALS = 24 };
 
 /* The integrals of a system that hold for a field, those of its effects last: at most `most` into list, and how many

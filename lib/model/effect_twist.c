@@ -74,10 +74,12 @@ static void rates_slope(const iso_field *f, const double y[], const double dy[],
     for (int j = 0; j < 3; j++) row[3 + j] -= f->effects.twist * dy[j];
 }
 
-/* That of the torques of the motion, (Jw,w). */
+/* That of the torques of the motion, (Jw,w), or of rolling resistance, which are more when little motion is left. */
 static void size(const iso_field *f, const double y[], double size[])
 {
-    size[f->at[ISO_TWIST]] = fabs(y[f->at[ISO_TWIST]]) + dot_diag(y, f->p.J, y);
+    const double resists = f->effects.on[ISO_ROLLING_RESISTANCE] ? f->effects.resistance : 0;
+    const double moves = dot_diag(y, f->p.J, y) + resists * largest(y);
+    size[f->at[ISO_TWIST]] = fmax(fabs(y[f->at[ISO_TWIST]]) + moves, ISO_REST);
 }
 
 static double restore(const iso_field *f, double y[])

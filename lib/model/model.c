@@ -200,7 +200,7 @@ double iso_model_project(const iso_model *m, double y[])
 void iso_model_size(const iso_model *m, const double y[], double size[])
 {
     /* a state at rest has no size: any positive number does, since nothing moves */
-    const double speed = fmax(m->system->speed(&m->field, y), 1e-100);
+    const double speed = fmax(m->system->speed(&m->field, y), ISO_REST);
     const double length = norm(y + 3);
     for (int i = 0; i < 3; i++) {
         size[i] = speed;

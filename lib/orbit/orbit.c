@@ -101,8 +101,10 @@ void iso_orbit_free(iso_orbit *o)
 
 /* --- samples ------------------------------------------------------------------------------------------------------ */
 
-/* `count` numbers in the caller's units. What does not fit a double there, or loses its digits, must not be shown. */
-static iso_status to_users_units(const iso_orbit *o, const char *name, double unit, double x[], int count)
+/* `count` numbers in the caller's units. What does not fit a double there, or loses its digits, must not be shown; but
+ * what dies away may vanish. */
+static iso_status to_users_units(const iso_orbit *o, const char *name, double unit, bool vanishes, double x[],
+                                 int count)
 {
     double before = 0, after = 0;
     bool finite = true;
@@ -112,7 +114,7 @@ static iso_status to_users_units(const iso_orbit *o, const char *name, double un
         after = fmax(after, fabs(x[i]));
         finite = finite && isfinite(x[i]);
     }
-    if (finite && (before == 0 || after >= DBL_MIN)) return ISO_OK;
+    if (finite && (before == 0 || vanishes || after >= DBL_MIN)) return ISO_OK;
     return iso_context_fail(
         o->ctx, ISO_NUMERICAL, "",
         "%s is out of the range of doubles in these units: use other units of mass, length or time", name);
@@ -144,7 +146,8 @@ static void as_point(const iso_orbit *o, const double y[], double point[ISO_STAT
 static iso_status sample_clock(const iso_orbit *o, double time, iso_clock c, double own, iso_sample *s)
 {
     s->clock[c] = own;
-    if (isnormal(own) || time == 0) return to_users_units(o, iso_clock_name(c), o->unit_clock[c], &s->clock[c], 1);
+    if (isnormal(own) || time == 0)
+        return to_users_units(o, iso_clock_name(c), o->unit_clock[c], false, &s->clock[c], 1);
     return iso_orbit_too_extreme(o, iso_clock_name(c), "ask for t alone");
 }
 
@@ -157,7 +160,7 @@ static iso_status sample_point(const iso_orbit *o, const double y[], iso_sample 
     else if (moves && !isnormal(largest(s->point)))
         return iso_orbit_too_extreme(o, "M", "ask for omega, n or gamma alone");
     else
-        return to_users_units(o, "M", o->unit_M, s->point, 3);
+        return to_users_units(o, "M", o->unit_M, false, s->point, 3);
     return ISO_OK;
 }
 
@@ -169,8 +172,9 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
     for (int i = 0; status == ISO_OK && i < o->model.carried; i++)
         status = sample_clock(o, time, o->model.carry[i], y[o->model.moving + i], s);
     if (o->options.show != ISO_POINT) {
+        const bool vanishes = iso_effects_stiffness(&o->model.field) > 0;
         as_ball(o, y, s->ball);
-        if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, s->ball, 3);
+        if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, vanishes, s->ball, 3);
         if (o->system == &iso_system_ball) iso_orbit_sample_effects(o, y, s);
     }
     if (status == ISO_OK && o->options.show != ISO_BALL) status = sample_point(o, y, s);
@@ -270,7 +274,8 @@ static double pressure(const iso_sample *sample, const void *data)
 iso_status iso_orbit_lost_contact(iso_orbit *o, double from, double to, bool *lost, iso_sample *sample)
 {
     *lost = false;
-    if (o->model.field.p.k == 1) return ISO_OK; /* on a plane the pressure is mgb (e,n), an integral: what it changes by is error */
+    if (o->model.field.p.k == 1)
+        return ISO_OK; /* on a plane the pressure is mgb (e,n), an integral: what it changes by is error */
     return iso_orbit_event(o, pressure, NULL, to < 0 ? 1 : -1, from, to, lost, sample);
 }
 
