@@ -181,6 +181,21 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
     return status;
 }
 
+/* Where a model is stiff, steps of an explicit method are about as short as the time in which the fastest motion dies
+ * away, however smooth the rest is. So many take seconds. */
+#define MOST_STIFF_STEPS 1e6
+
+static iso_status check_steps(const iso_orbit *o, double turns)
+{
+    const iso_field *f = &o->model.field;
+    const double stiffness = iso_effects_stiffness(f), steps = stiffness * fmin(turns, iso_effects_moving(f));
+    if (o->options.method->implicit || !(stiffness > ISO_STIFF && steps > MOST_STIFF_STEPS)) return ISO_OK;
+    return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "method",
+                            "this model is stiff: what resists acts %.1g times as fast as the ball turns, and %s, which is "
+                            "explicit, would take about %.1g steps: take bdf or bsimp",
+                            stiffness, o->options.method->name, steps);
+}
+
 /* Beyond 1e15 turns a double does not tell one part of a turn from another (and no one would live to see it). */
 static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
 {
@@ -191,7 +206,7 @@ static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
                                                        iso_clock_rate(own, clock, max3(own->J), NULL));
     *own_time = time / o->unit_clock[clock];
     const double turns = *own_time / fastest;
-    if (fabs(turns) <= 1e15) return ISO_OK;
+    if (fabs(turns) <= 1e15) return check_steps(o, turns);
     return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "end",
                             "%s = %g is out of range: it is %g turns of this ball, and 1e15 can be told apart",
                             iso_clock_name(clock), time, turns);

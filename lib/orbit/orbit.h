@@ -63,11 +63,14 @@ iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const is
                             const iso_orbit_options *options, iso_orbit **orbit);
 void iso_orbit_free(iso_orbit *orbit);
 
-/* Whether a time can be asked for: finite, and within 1e15 turns of the start. Errors: ISO_BAD_ARGUMENT. */
+/* Whether a time can be asked for: finite, within 1e15 turns of the start, and by an explicit method not through more than
+ * 1e6 times in which a stiff motion dies away. Errors: ISO_BAD_ARGUMENT about "end" or "method". */
 iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
 
-/* The orbit at `time` of the options' clock, in any order, before or after the start.
- * Errors: ISO_BAD_ARGUMENT (a time that is not finite or beyond 1e15 turns), ISO_NUMERICAL (what stopped, and where; or
+/* The orbit at `time` of the options' clock, in any order, before or after the start. A ball that resistance brings to rest
+ * slows down to 1e-290 of its own unit of speed, then stands still. Backwards, where resistance drives it, it is followed
+ * until it turns 1e4 times as fast as at the start.
+ * Errors: ISO_BAD_ARGUMENT (a time that iso_orbit_check_time refuses), ISO_NUMERICAL (what stopped, and where; or
  * a result that does not fit a double, or lost its digits). */
 iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
 
@@ -78,7 +81,7 @@ iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sample *sampl
                            int direction, double from, double to, bool *found, iso_sample *sample);
 
 /* The first time after `from`, not after `to`, at which the support would have to pull the ball (`pressure` passes 0
- * downwards along the way); needs the effect `reactions`. Errors: as iso_orbit_event. */
+ * downwards along the way; to touch it is no loss, and on a plane it does not change); needs the effect `reactions`. Errors: as iso_orbit_event. */
 iso_status iso_orbit_lost_contact(iso_orbit *orbit, double from, double to, bool *lost, iso_sample *sample);
 
 /* How far the integration has come, in the options' clock: for progress. */
