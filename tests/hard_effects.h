@@ -1,0 +1,125 @@
+/* hard_effects.h - what the hard cases of the effects share: one ball, solved by each way that claims to serve it. */
+#ifndef ISO_TESTS_HARD_EFFECTS_H
+#define ISO_TESTS_HARD_EFFECTS_H
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "hard.h"
+#include "laws.h"
+
+/* A ball with J = 1.4, 2.1, 3 and D = 0.4 that turns about once in 5 units of time. */
+static const double he_omega[3] = {0.9, -0.3, -0.225}, he_normal[3] = {0.36, 0.48, 0.8};
+
+static inline iso_params he_ball(iso_context *ctx, double k)
+{
+    iso_params p = laws_params(k, (const double[]){1.4, 2.1, 3.0});
+    if (iso_params_set_D(ctx, 0.4, &p) != ISO_OK) abort();
+    return p;
+}
+
+static inline iso_start he_start(void)
+{
+    iso_start start = {.model = ISO_BALL};
+    copy(he_omega, start.y, 3);
+    copy(he_normal, start.y + 3, 3);
+    return start;
+}
+
+/* The ways of the ball; the others refuse effects that break the isomorphism (see he_refusals). */
+static inline bool he_is_ball(int way)
+{
+    return hard_way[way].backend == ISO_BALL;
+}
+
+/* taylor and rk8pd at their best, to be held to rounding; the others as they are used. */
+static inline double he_tolerance(const hard_road *way)
+{
+    if (way->method == iso_method_find("taylor")) return 1e-15;
+    return way->method == iso_method_find("rk8pd") ? 1e-14 : way->tolerance;
+}
+
+static inline hard_road he_quad(void)
+{
+    const iso_method *quad = iso_method_find("taylor_quad");
+    return (hard_road){ISO_BALL, quad ? quad : iso_method_find("taylor_extended"), 1e-15};
+}
+
+/* What a way gives at a time, in how many steps; the ball in its time t, with the columns of its effects. */
+typedef struct he_answer {
+    iso_status status;
+    iso_sample at;
+    double steps;
+} he_answer;
+
+static inline iso_orbit *he_orbit(iso_context *ctx, const hard_road *way, const iso_params *p, const iso_start *start,
+                                  const iso_effects *effects)
+{
+    iso_orbit *orbit;
+    iso_orbit_options o = iso_orbit_defaults(start);
+    o.effects = effects;
+    o.backend = way->backend;
+    o.method = way->method;
+    o.tolerance = way->backend == ISO_BALL ? he_tolerance(way) : way->tolerance;
+    o.max_steps = 10000000;
+    return iso_orbit_create(ctx, p, start, &o, &orbit) == ISO_OK ? orbit : NULL;
+}
+
+static inline he_answer he_solve(iso_context *ctx, const hard_road *way, const iso_params *p, const iso_start *start,
+                                 const iso_effects *effects, double time)
+{
+    he_answer a = {.status = ISO_NUMERICAL};
+    iso_orbit *orbit = he_orbit(ctx, way, p, start, effects);
+    if (!orbit) return a;
+    a.status = iso_orbit_at(orbit, time, &a.at);
+    a.steps = (double)iso_orbit_statistics(orbit).steps;
+    iso_orbit_free(orbit);
+    return a;
+}
+
+/* Errors of steps add up, each at most its tolerance; 100 roundings besides. On the orbits here, a turn or two long or
+ * damped, they at most double. */
+static inline double he_bound(const hard_road *way, double steps)
+{
+    return 2 * steps * he_tolerance(way) + 100 * DBL_EPSILON;
+}
+
+/* The way answers, and is off by at most the bound. */
+static inline void he_hold(const hard_road *way, const he_answer *a, const iso_sample *expected)
+{
+    hard_hold(way, a->status == ISO_OK ? hard_error(a->at.ball, expected->ball) : NAN, he_bound(way, a->steps));
+}
+
+/* The way refuses, in words that have these in them. */
+static inline void he_refuses(iso_context *ctx, const hard_road *way, iso_status status, const char *words)
+{
+    const bool refused = status != ISO_OK && strstr(iso_context_message(ctx), words) != NULL;
+    hard_refused(way, refused, refused ? words : iso_context_message(ctx));
+}
+
+/* A point has no such ball, and no closed solution is known: all their ways say so. */
+static inline void he_refusals(iso_context *ctx, const iso_params *p, const iso_start *start,
+                               const iso_effects *effects, double time)
+{
+    for (int i = 0; i < hard_ways; i++) {
+        if (he_is_ball(i)) continue;
+        const he_answer a = he_solve(ctx, &hard_way[i], p, start, effects, time);
+        he_refuses(ctx, &hard_way[i], a.status,
+                   hard_way[i].backend == ISO_EXACT ? "the closed solution is for a ball on which nothing acts"
+                                                    : "breaks the isomorphism");
+    }
+}
+
+static inline iso_sample he_reference(iso_context *ctx, const iso_params *p, const iso_start *start,
+                                      const iso_effects *effects, double time)
+{
+    const hard_road quad = he_quad();
+    const he_answer a = he_solve(ctx, &quad, p, start, effects, time);
+    if (a.status != ISO_OK) hard_hold(&quad, NAN, 0);
+    return a.at;
+}
+
+#endif
