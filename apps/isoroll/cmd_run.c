@@ -1,112 +1,16 @@
 /* isoroll run - integrate a scene and write its trajectory. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
-
-/* The times asked for: a scene's grid, or a list from a file. */
-typedef struct times {
-    const iso_scene *scene;
-    double *list; /* NULL: the scene's grid */
-    size_t count;
-} times;
-
-/* Where in a file, from 1, columns in characters. */
-typedef struct place {
-    int line, column;
-} place;
+#include "times.h"
 
 /* What is being done, for the bar. */
 typedef struct work {
     const iso_orbit *orbit;
     double farthest; /* time */
 } work;
-
-static double time_at(const times *t, size_t i)
-{
-    return t->list ? t->list[i] : iso_scene_time(t->scene, i);
-}
-
-/* The time farthest from the start. */
-static double farthest(const times *t)
-{
-    double most = t->list ? 0 : t->scene->end;
-    for (size_t i = 0; t->list && i < t->count; i++)
-        if (fabs(t->list[i]) > fabs(most)) most = t->list[i];
-    return most;
-}
-
-static iso_status add_time(iso_context *ctx, times *t, size_t *room, double time)
-{
-    if (t->count == *room) {
-        *room = *room ? 2 * *room : 64;
-        double *grown = realloc(t->list, *room * sizeof *grown);
-        if (!grown) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the output times");
-        t->list = grown;
-    }
-    t->list[t->count++] = time;
-    return ISO_OK;
-}
-
-enum { WORD = 512 }; /* as long as a number can be (iso_number_read) */
-
-/* The next number of the file into word, with the place where it begins; its length, 0 at the end. Between them are
- * blanks, commas, new lines, and comments, which begin with #. */
-static size_t next_word(FILE *file, char word[WORD], place *at)
-{
-    size_t length = 0;
-    bool comment = false;
-    for (int c; length < WORD - 1 && (c = getc(file)) != EOF;) {
-        comment = c != '\n' && (comment || c == '#');
-        if (c != '\0' && strchr(" \t,\r\n#", c)) {
-            if (length > 0) {
-                ungetc(c, file);
-                break;
-            }
-        } else if (!comment) {
-            word[length++] = (char)c;
-            continue;
-        }
-        at->column = c == '\n' ? 1 : at->column + ((c & 0xC0) != 0x80);
-        at->line += c == '\n';
-    }
-    word[length] = '\0';
-    return length;
-}
-
-static iso_status read_words(iso_context *ctx, const char *name, FILE *file, times *t)
-{
-    iso_status status = ISO_OK;
-    char word[WORD];
-    place at = {1, 1};
-    size_t room = 0, length;
-    double time;
-    while (status == ISO_OK && (length = next_word(file, word, &at)) > 0) {
-        if (!iso_number_read(word, length, &time))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                    "%s:%d:%d: '%.40s' is not a time: expected a finite number", name, at.line,
-                                    at.column, word);
-        status = add_time(ctx, t, &room, time);
-        at.column += (int)length;
-    }
-    if (ferror(file))
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", name, strerror(errno));
-    if (status == ISO_OK && t->count == 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:1:1: no times in this file: expected numbers", name);
-    return status;
-}
-
-static iso_status read_times(iso_context *ctx, const char *path, times *t)
-{
-    if (strcmp(path, "-") == 0) return read_words(ctx, "<stdin>", stdin, t);
-    FILE *file = fopen(path, "r");
-    if (!file) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));
-    const iso_status status = read_words(ctx, path, file, t);
-    fclose(file);
-    return status;
-}
 
 static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_orbit *orbit, const int columns[],
                            int count, iso_record **header)
@@ -133,14 +37,6 @@ static bool go_on(void *data)
     const work *w = data;
     if (steps++ % 256 == 0 && w->farthest != 0) progress_show(fabs(iso_orbit_reached(w->orbit) / w->farthest));
     return !interrupted();
-}
-
-static iso_status write_sample(iso_context *ctx, const iso_sample *sample, const int columns[], int count,
-                               iso_trajectory_writer *writer)
-{
-    double row[ISO_TRAJECTORY_COLUMNS];
-    for (int c = 0; c < count; c++) row[c] = iso_sample_column(sample, columns[c]);
-    return iso_trajectory_write_row(ctx, writer, row, (size_t)count);
 }
 
 /* Where the ball leaves the support it is pressed to: looked for from row to row, before and after the start apart. */
@@ -199,24 +95,68 @@ static iso_status take_sample(iso_orbit *orbit, double time, contact *c, iso_sam
     return ISO_OK;
 }
 
+/* Rows that are found in another order than that of the file, until all are there. */
+typedef struct shelf {
+    double *numbers;
+    bool *filled;
+} shelf;
+
+static iso_status make_shelf(iso_context *ctx, const times *t, int count, shelf *s)
+{
+    *s = (shelf){.filled = NULL};
+    if (!t->order) return ISO_OK;
+    s->numbers = malloc(t->count * (size_t)count * sizeof *s->numbers);
+    s->filled = calloc(t->count, sizeof *s->filled);
+    return s->numbers && s->filled ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the rows");
+}
+
+static void fill_row(const iso_sample *sample, const int columns[], int count, double row[])
+{
+    for (int c = 0; c < count; c++) row[c] = iso_sample_column(sample, columns[c]);
+}
+
+/* What there is, in the order of the file; after a failure, too. */
+static iso_status empty_shelf(iso_context *ctx, shelf *s, const times *t, int count, iso_trajectory_writer *writer,
+                              size_t *written)
+{
+    iso_status status = ISO_OK;
+    for (size_t i = 0; s->filled && s->numbers && i < t->count && status == ISO_OK; i++) {
+        if (!s->filled[i]) continue;
+        status = iso_trajectory_write_row(ctx, writer, s->numbers + i * (size_t)count, (size_t)count);
+        *written += status == ISO_OK;
+    }
+    free(s->numbers);
+    free(s->filled);
+    return status;
+}
+
 static iso_status write_rows(iso_context *ctx, iso_orbit *orbit, const times *t, const int columns[], int count,
                              iso_trajectory_writer *writer, iso_error_rows *rows, size_t *written)
 {
-    work w = {orbit, farthest(t)};
+    work w = {orbit, times_farthest(t)};
     contact c;
-    iso_status status = watch_contact(t->scene, orbit, &c);
+    shelf s;
+    iso_status status = make_shelf(ctx, t, count, &s);
+    if (status == ISO_OK) status = watch_contact(t->scene, orbit, &c);
     iso_context_watch(ctx, go_on, &w);
     *written = 0;
     for (size_t i = 0; status == ISO_OK && i < t->count; i++) {
+        const output_time at = times_at(t, i);
+        double numbers[ISO_TRAJECTORY_COLUMNS];
         iso_sample sample;
         bool row = true;
-        if (interrupted()) return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
-        status = take_sample(orbit, time_at(t, i), &c, &sample, &row);
-        if (status == ISO_OK && row) status = write_sample(ctx, &sample, columns, count, writer);
-        if (status == ISO_OK && row && rows) iso_error_keep(rows, &sample);
-        *written += status == ISO_OK && row;
+        status = interrupted() ? iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request")
+                               : take_sample(orbit, at.time, &c, &sample, &row);
+        if (status != ISO_OK || !row) continue;
+        fill_row(&sample, columns, count, t->order ? s.numbers + at.row * (size_t)count : numbers);
+        if (t->order)
+            s.filled[at.row] = true;
+        else if ((status = iso_trajectory_write_row(ctx, writer, numbers, (size_t)count)) == ISO_OK)
+            ++*written;
+        if (status == ISO_OK && rows) iso_error_keep(rows, &sample);
     }
-    return status;
+    const iso_status shelved = empty_shelf(ctx, &s, t, count, writer, written);
+    return status == ISO_OK ? shelved : status;
 }
 
 static void tell(const iso_orbit *orbit, size_t rows)
@@ -228,8 +168,8 @@ static void tell(const iso_orbit *orbit, size_t rows)
     }
     complain("%zu rows; backend %s, method %s: %ld steps, %ld rejected, %ld right-hand sides, %ld Jacobians; largest "
              "correction by projection %.2g",
-             rows, iso_picture_name((int)iso_orbit_backend(orbit)), iso_orbit_method(orbit)->name, s.steps, s.rejected,
-             s.rhs, s.jacobians, s.correction);
+             rows, iso_picture_name((int)iso_orbit_backend(orbit)), iso_orbit_method(orbit)->name, s.steps,
+             s.rejected, s.rhs, s.jacobians, s.correction);
 }
 
 static bool not_interrupted(void *data)
@@ -248,7 +188,7 @@ static double rounded_up(double x)
 static void tell_error(const char *what, const char *clock, const iso_error_of *e)
 {
     if (!isnan(e->worst))
-        complain("error of %s at most %.2g, at %s = %.6g; %.2g in the last row", what, rounded_up(e->worst), clock,
+        complain("error of %s at most %.2g, at %s = %.6g; %.2g at the end", what, rounded_up(e->worst), clock,
                  e->worst_time, rounded_up(e->last));
 }
 
@@ -268,9 +208,10 @@ static void tell_errors(iso_context *ctx, const iso_scene *scene, const iso_orbi
     tell_error("(omega, n)", clock, &e.state[ISO_BALL]);
     tell_error("(M, gamma)", clock, &e.state[ISO_POINT]);
     for (int c = 0; c < ISO_CLOCKS; c++) tell_error(iso_clock_name((iso_clock)c), clock, &e.clock[c]);
-    complain("errors are relative, in %zu rows: from the same orbit by %s at tolerance %.2g, in %.2g s; of the first, "
-             "%.2g is the rounding of the start",
-             e.rows, e.method->name, e.tolerance, e.seconds, e.start);
+    complain(
+        "errors are relative, in %zu rows: from the same orbit by %s at tolerance %.2g, in %.2g s; of the first, "
+        "%.2g is the rounding of the start",
+        e.rows, e.method->name, e.tolerance, e.seconds, e.start);
 }
 
 /* Writes all rows it can: what was computed before a failure or an interruption is kept. `rows` (may be NULL) is given
@@ -316,14 +257,14 @@ static int run(iso_context *ctx, const options *o)
     iso_error_rows *rows = NULL;
     iso_status status = check_files(ctx, o);
     if (status == ISO_OK) status = scene_with_options(ctx, o, &scene);
-    if (status == ISO_OK && o->times) status = read_times(ctx, o->times, &t);
+    if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &t);
     if (status == ISO_OK) {
         if (!t.list) t.count = iso_scene_rows(&scene);
         count = iso_scene_columns(&scene, columns);
         how = options_for_columns(&scene, columns, count, &effects);
         status = iso_orbit_create(ctx, &scene.params, &scene.start, &how, &orbit);
     }
-    if (status == ISO_OK) status = iso_orbit_check_time(orbit, farthest(&t));
+    if (status == ISO_OK) status = iso_orbit_check_time(orbit, times_farthest(&t));
     if (status == ISO_OK) status = describe(ctx, &scene, orbit, columns, count, &header);
     if (status == ISO_OK && o->verbose) {
         rows = calloc(1, sizeof *rows);
@@ -335,7 +276,7 @@ static int run(iso_context *ctx, const options *o)
     free(rows);
     iso_record_free(header);
     iso_orbit_free(orbit);
-    free(t.list);
+    times_free(&t);
     return result;
 }
 
@@ -347,8 +288,10 @@ const command command_run = {
     .more =
         "The times of --t-end, --step and --times are those of the clock of the scene's model: t of a ball, s of a "
         "point.\nBackend exact is the closed solution, where there is one ('isoroll explain' says): every time costs "
-        "the same, near or far;\nit takes no method and no tolerance.\nRows do not depend on which other times are asked. Interrupted "
-        "(Ctrl-C), the rows so far are kept.\n--verbose computes the orbit once more, finer, and tells the largest error of the rows: it covers "
+        "the same, near or far;\nit takes no method and no tolerance.\nRows do not depend on which other times are "
+        "asked. Interrupted "
+        "(Ctrl-C), the rows so far are kept.\n--verbose computes the orbit once more, finer, and tells the largest "
+        "error of the rows: it covers "
         "the method's error and\nthe rounding of the start, not numbers of k, effects and times that are no doubles.",
     .run = run,
 };

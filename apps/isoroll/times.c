@@ -1,0 +1,127 @@
+/* The times of `run`, see times.h. */
+#include "times.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where in a file, from 1, columns in characters. */
+typedef struct place {
+    int line, column;
+} place;
+
+output_time times_at(const times *t, size_t i)
+{
+    if (t->order) return t->order[i];
+    return (output_time){t->list ? t->list[i] : iso_scene_time(t->scene, i), i};
+}
+
+double times_farthest(const times *t)
+{
+    double most = t->list ? 0 : t->scene->end;
+    for (size_t i = 0; t->list && i < t->count; i++)
+        if (fabs(t->list[i]) > fabs(most)) most = t->list[i];
+    return most;
+}
+
+void times_free(times *t)
+{
+    free(t->list);
+    free(t->order);
+}
+
+/* --- the order ------------------------------------------------------------------------------------------------------ */
+
+static int by_work(const void *first, const void *second)
+{
+    const output_time *a = first, *b = second;
+    if ((a->time < 0) != (b->time < 0)) return a->time < 0 ? 1 : -1;
+    if (a->time != b->time) return fabs(a->time) > fabs(b->time) ? 1 : -1;
+    return (a->row > b->row) - (a->row < b->row);
+}
+
+static iso_status find_order(iso_context *ctx, times *t)
+{
+    size_t sorted = 1;
+    while (sorted < t->count &&
+           by_work(&(output_time){t->list[sorted - 1], sorted - 1}, &(output_time){t->list[sorted], sorted}) < 0)
+        sorted++;
+    if (sorted == t->count) return ISO_OK;
+    t->order = malloc(t->count * sizeof *t->order);
+    if (!t->order) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the order of the output times");
+    for (size_t i = 0; i < t->count; i++) t->order[i] = (output_time){t->list[i], i};
+    qsort(t->order, t->count, sizeof *t->order, by_work);
+    return ISO_OK;
+}
+
+/* --- reading -------------------------------------------------------------------------------------------------------- */
+
+static iso_status add_time(iso_context *ctx, times *t, size_t *room, double time)
+{
+    if (t->count == *room) {
+        *room = *room ? 2 * *room : 64;
+        double *grown = realloc(t->list, *room * sizeof *grown);
+        if (!grown) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the output times");
+        t->list = grown;
+    }
+    t->list[t->count++] = time;
+    return ISO_OK;
+}
+
+enum { WORD = 512 }; /* as long as a number can be (iso_number_read) */
+
+/* The next number of the file into word, with the place where it begins; its length, 0 at the end. Between them are
+ * blanks, commas, new lines, and comments, which begin with #. */
+static size_t next_word(FILE *file, char word[WORD], place *at)
+{
+    size_t length = 0;
+    bool comment = false;
+    for (int c; length < WORD - 1 && (c = getc(file)) != EOF;) {
+        comment = c != '\n' && (comment || c == '#');
+        if (c != '\0' && strchr(" \t,\r\n#", c)) {
+            if (length > 0) {
+                ungetc(c, file);
+                break;
+            }
+        } else if (!comment) {
+            word[length++] = (char)c;
+            continue;
+        }
+        at->column = c == '\n' ? 1 : at->column + ((c & 0xC0) != 0x80);
+        at->line += c == '\n';
+    }
+    word[length] = '\0';
+    return length;
+}
+
+static iso_status read_words(iso_context *ctx, const char *name, FILE *file, times *t)
+{
+    iso_status status = ISO_OK;
+    char word[WORD];
+    place at = {1, 1};
+    size_t room = 0, length;
+    double time;
+    while (status == ISO_OK && (length = next_word(file, word, &at)) > 0) {
+        if (!iso_number_read(word, length, &time))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                    "%s:%d:%d: '%.40s' is not a time: expected a finite number", name, at.line,
+                                    at.column, word);
+        status = add_time(ctx, t, &room, time);
+        at.column += (int)length;
+    }
+    if (ferror(file))
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", name, strerror(errno));
+    if (status == ISO_OK && t->count == 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:1:1: no times in this file: expected numbers", name);
+    return status;
+}
+
+iso_status times_read(iso_context *ctx, const char *path, times *t)
+{
+    FILE *file = strcmp(path, "-") == 0 ? stdin : fopen(path, "r");
+    if (!file) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));
+    const iso_status status = read_words(ctx, file == stdin ? "<stdin>" : path, file, t);
+    if (file != stdin) fclose(file);
+    return status == ISO_OK ? find_order(ctx, t) : status;
+}
