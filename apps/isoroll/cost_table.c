@@ -50,7 +50,9 @@ static void print_cell(const iso_cost_cell *c)
     char median[COST_SECONDS], setup[COST_SECONDS];
     printf("%s", c->pareto ? "*" : " ");
     print_name(c);
-    printf("%s%7.1e", c->below ? " ~" : "  ", c->error);
+    char error[16] = "-";
+    if (!isnan(c->error)) snprintf(error, sizeof error, "%.1e", c->error);
+    printf("%s%7s", c->below ? " ~" : "  ", error);
     print_number(c->clock_error);
     print_number(c->energy_drift);
     printf(" %9s %5.0f %% %9ld %9ld %9s\n", cost_seconds(c->median, median),
