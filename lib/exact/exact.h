@@ -35,7 +35,7 @@ void iso_exact_free(iso_exact *exact);
 
 /* The state (M, gamma) at `time` of `clock`, before or after 0, and the clocks there (NaN: not among those of the
  * creation). Errors: ISO_BAD_ARGUMENT: a time that is not finite, a clock that was not among them; ISO_NUMERICAL: no
- * finite state. */
+ * finite state, or a clock that does not fit a double. */
 iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock clock, double time,
                         double point[ISO_STATE], double clocks[ISO_CLOCKS]);
 
