@@ -42,6 +42,15 @@ static iso_picture choose_backend(const iso_orbit_options *opt, const iso_start 
     return e && (iso_effects_breaking(e) || e->on[ISO_ATTITUDE] || e->on[ISO_REACTIONS]) ? ISO_BALL : start->model;
 }
 
+static bool moves_nothing(const iso_model *m, const double y[])
+{
+    double f[ISO_MAX_STATE];
+    m->rhs(m, y, f);
+    for (int i = 0; i < m->dim; i++)
+        if (f[i] != 0) return false;
+    return true;
+}
+
 iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_MAX_STATE])
 {
     iso_orbit_options *opt = &o->options;
@@ -62,6 +71,7 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     iso_model_begin(&o->model, six, y);
     if (ball) o->model.field.energy = iso_system_ball.integrals[0].value(&o->model.field, y, &size);
     if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
+    o->rests = moves_nothing(&o->model, y);
     return ISO_OK;
 }
 
@@ -204,7 +214,8 @@ static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
     const double fastest = clock == ISO_CLOCK_T ? 1
                                                 : fmax(iso_clock_rate(own, clock, min3(own->J), NULL),
                                                        iso_clock_rate(own, clock, max3(own->J), NULL));
-    *own_time = time / o->unit_clock[clock];
+    *own_time =
+        o->rests && isfinite(time) ? 0 : time / o->unit_clock[clock]; /* rest has no turns: any time is the start */
     const double turns = *own_time / fastest;
     if (fabs(turns) <= 1e15) return check_steps(o, turns);
     return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "end",

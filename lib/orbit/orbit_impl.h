@@ -14,6 +14,7 @@ struct iso_orbit {
     const iso_system *system;              /* that is integrated           */
     double length;                         /* |b|, in the caller's units; 1 for a reduced ball */
     iso_model model;
+    bool rests;                            /* nothing moves, and no clock is carried */
     iso_integrator *integrator;
 };
 
