@@ -273,9 +273,7 @@ iso_status scene_with_options(iso_context *ctx, const options *o, iso_scene *sce
     if (!isnan(o->tolerance)) scene->tolerance = o->tolerance;
     if (!isnan(o->end)) scene->end = o->end;
     if (!isnan(o->step)) scene->step = o->step;
-    if (scene->step > 0 && fabs(scene->end) / scene->step > ISO_MOST_ROWS)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "step", "more than 1e8 rows: take a longer step");
-    return ISO_OK;
+    return iso_scene_check_times(ctx, scene);
 }
 
 int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso_status status)

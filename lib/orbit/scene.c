@@ -46,7 +46,12 @@ static iso_status check_pair(iso_context *ctx, const char *unit_name, const char
             unit[0] / length, unit[1] / length, unit[2] / length);
     make_unit(unit);
     const double most = largest(vector);
-    if (most == 0 || spin == ISO_SPIN_KEEP) return ISO_OK;
+    if (most == 0) return ISO_OK;
+    if (!isnormal(most))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, vector_name,
+                                "%s = %g is too small for a double to hold its digits: use a longer unit of time",
+                                vector_name, most);
+    if (spin == ISO_SPIN_KEEP) return ISO_OK;
     const double size = ldexp(1, ilogb(most)); /* a power of two: dividing by it rounds nothing */
     double v[3] = {vector[0] / size, vector[1] / size, vector[2] / size}; /* no overflow in the products */
     const double along = remove_along(v, unit);
@@ -87,11 +92,22 @@ iso_scene iso_scene_default(void)
     return (iso_scene){.backend = ISO_AUTO, .method = "auto", .tolerance = 1e-12, .as = ISO_AUTO};
 }
 
-/* A time grid that misses the end by rounding alone ends there. */
+enum { USUAL_STEPS = 100 };
+
+/* A time grid that misses the end by rounding alone ends there; one that goes anywhere has a step. */
 static double steps_to_end(const iso_scene *scene)
 {
-    const double step = scene->step > 0 ? scene->step : fabs(scene->end) / 100;
-    return step > 0 ? fabs(scene->end) / step : 0;
+    if (scene->end == 0) return 0;
+    return scene->step > 0 ? fmax(fabs(scene->end) / scene->step, 1) : USUAL_STEPS;
+}
+
+iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scene)
+{
+    if (!isfinite(scene->end)) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "end", "the last time is not finite");
+    if (!(scene->step >= 0 && isfinite(scene->step)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "step", "a step of %g is none", scene->step);
+    if (steps_to_end(scene) <= ISO_MOST_ROWS) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "step", "more than 1e8 rows: take a longer step");
 }
 
 size_t iso_scene_rows(const iso_scene *scene)
@@ -105,7 +121,7 @@ double iso_scene_time(const iso_scene *scene, size_t row)
     if (row + 1 >= iso_scene_rows(scene)) return scene->end;
     if (row == 0) return 0;
     if (scene->step > 0) return copysign(scene->step * (double)row, scene->end);
-    return scene->end * ((double)row / 100);
+    return scene->end * ((double)row / USUAL_STEPS);
 }
 
 /* A column that the scene's effects fill; mu only where something presses the ball to the support. */

@@ -78,6 +78,9 @@ iso_scene iso_scene_default(void);
 /* More rows than this in a scene file are a mistake in `step`. */
 #define ISO_MOST_ROWS 1e8
 
+/* Errors: ISO_BAD_ARGUMENT about "end" or "step": not finite, or more than ISO_MOST_ROWS rows. */
+iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scene);
+
 /* Output times: row i of a scene's time grid, i = 0 ... iso_scene_rows() - 1; the last row is exactly `end`. */
 size_t iso_scene_rows(const iso_scene *scene);
 double iso_scene_time(const iso_scene *scene, size_t row);
