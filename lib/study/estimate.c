@@ -278,7 +278,7 @@ static iso_status choose_length(estimator *e, double speed, const iso_frequencie
                                 length / turn, LEAST_TURNS);
     const double samples = isnan(o->samples) ? fmax(32 * length / turn, 12 * length * fast) : o->samples;
     e->count = 512;
-    while (e->count < (1u << 22) && (double)e->count < samples) e->count *= 2;
+    while (e->count < ISO_MOST_SAMPLES && (double)e->count < samples) e->count *= 2;
     if ((double)e->count >= 8 * length * fast) return ISO_OK;
     return iso_context_fail(
         e->ctx, ISO_BAD_ARGUMENT, "samples",

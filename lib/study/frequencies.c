@@ -17,6 +17,9 @@ iso_frequencies_options iso_frequencies_defaults(void)
 
 iso_status iso_frequencies_check(iso_context *ctx, const iso_frequencies_options *o)
 {
+    if (o->samples > ISO_MOST_SAMPLES)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "samples", "an estimate takes %d samples at most",
+                                ISO_MOST_SAMPLES);
     if (!(o->turns <= 0) && !(o->end <= 0) && !(o->samples <= 0)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "turns, the end and samples are numbers > 0");
 }

@@ -20,10 +20,12 @@
 #include "momentum.h"
 #include "spectrum.h"
 
+enum { ISO_MOST_SAMPLES = 1 << 22 };
+
 typedef struct iso_frequencies_options {
     double turns;   /* of n in the estimate, about, 20 or more; NaN: 1000                                */
     double end;     /* length of the orbit in t, 20 turns or more; NaN: by turns                         */
-    double samples; /* of the orbit, rounded up to a power of two, 512 to 2^22; NaN: 32 for each turn    */
+    double samples; /* of the orbit, rounded up to a power of two, 512 or more; NaN: 32 for each turn    */
 } iso_frequencies_options;
 
 /* All NaN: 1000 turns (fewer where |k| < 1/4), up to 16 times as many while the motion is not found regular. */
@@ -103,7 +105,7 @@ typedef struct iso_frequencies {
 
 /* Errors: ISO_NOT_MAPPED about the effect by which the motion is not quasi-periodic (it takes energy, or the ball
  * rolls away), and for a ball at rest; ISO_BAD_ARGUMENT about the options (of an estimate: less
- * than 20 turns, less than 8 samples a turn); as iso_orbit_create and iso_orbit_at. */
+ * than 20 turns, less than 8 samples a turn or too many in all); as iso_orbit_create and iso_orbit_at. */
 iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
                                 iso_frequencies *frequencies);
 

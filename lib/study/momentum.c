@@ -99,6 +99,10 @@ iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h
     static const char *const names[1 + 2 * ISO_MOMENTUM_PARTS + ISO_MOMENTUM_LINES] = {
         "h",          "about_1_low", "about_1_high", "about_3_low", "about_3_high", "side_low",  "side_high",
         "swings_low", "swings_high", "rotation_1",   "rotation_2",  "rotation_3",   "roots_meet"};
+    *bounds = NULL;
+    if (!isfinite(m->H) || !(h > 0 && isfinite(h)))
+        return iso_context_fail(ctx, ISO_NUMERICAL, "", "h = %g, H = %g is no place in the image of (h, %s)", h, m->H,
+                                m->F);
     iso_status status = iso_record_create(ctx, sizeof names / sizeof *names, names, bounds);
     for (int i = 0; status == ISO_OK && i < ROWS; i++) {
         double *row;

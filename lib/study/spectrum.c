@@ -251,7 +251,8 @@ iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t cou
 {
     ISO_DEFAULT_ARITHMETIC;
     *found = 0;
-    if (count < 64 || (count & (count - 1)) != 0 || !(step > 0) || most < 1 || most > ISO_MAX_LINES)
+    if (count < 64 || (count & (count - 1)) != 0 || !(step > 0) || !isnormal(step) ||
+        !isfinite(step * (double)count) || most < 1 || most > ISO_MAX_LINES)
         return iso_context_fail(
             ctx, ISO_BAD_ARGUMENT, "",
             "a spectrum is of a power of two samples, 64 or more, has steps > 0 and 1 to %d lines", ISO_MAX_LINES);
