@@ -206,12 +206,19 @@ static iso_status jump(iso_integrator *it, int direction, double t)
     return ISO_OK;
 }
 
+/* t minus the time of the step's right end, which is the next one's left: both ask it, so that a time that is the end but
+ * for rounding belongs to one of them, whichever way it is reached. */
+static double since_end(const iso_integrator *it, double t)
+{
+    return iso_instant_since(iso_instant_later(it->left, it->h), t);
+}
+
 iso_status iso_integrator_reach(iso_integrator *it, int direction, double t)
 {
     iso_status status = ISO_OK;
     if (it->method->at) return jump(it, direction, t);
     if (direction != it->direction || it->direction * iso_integrator_since(it, t) < 0) status = set_out(it, direction);
-    while (status == ISO_OK && it->direction * (iso_integrator_since(it, t) - it->h) > 0) status = iso_integrator_advance(it);
+    while (status == ISO_OK && it->direction * since_end(it, t) > 0) status = iso_integrator_advance(it);
     return status;
 }
 
@@ -232,7 +239,7 @@ iso_status iso_integrator_at(iso_integrator *it, double t, double y[])
     if (!isfinite(t)) return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "a time is not finite");
     const iso_status status = iso_integrator_reach(it, t > 0 ? 1 : t < 0 ? -1 : it->direction, t);
     if (status != ISO_OK) return status;
-    return iso_integrator_within(it, iso_integrator_since(it, t), y);
+    return iso_integrator_within(it, since_end(it, t) == 0 ? it->h : iso_integrator_since(it, t), y);
 }
 
 void iso_integrator_last(const iso_integrator *it, double *t, double y[])
