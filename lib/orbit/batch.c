@@ -105,7 +105,7 @@ static iso_status prepare(worker *w, size_t i, member *m)
     return status == ISO_OK && b->rows > 0 ? iso_orbit_check_time(&m->orbit, b->times[b->rows - 1]) : status;
 }
 
-/* Stiff: by itself. */
+/* Stiff, or at rest: by itself. */
 static iso_status solve_alone(worker *w, size_t i)
 {
     const batch *b = w->b;
@@ -121,9 +121,9 @@ static iso_status solve_alone(worker *w, size_t i)
     return status;
 }
 
-static bool is_stiff(const member *m)
+static bool is_for_lanes(const member *m)
 {
-    return iso_effects_stiffness(&m->orbit.model.field) > ISO_STIFF;
+    return !m->orbit.rests && iso_effects_stiffness(&m->orbit.model.field) <= ISO_STIFF;
 }
 
 /* --- a chunk of them -------------------------------------------------------------------------------------------- */
@@ -184,7 +184,7 @@ static bool solve_chunk(worker *w, member members[], size_t first, size_t count)
     for (size_t i = 0; i < count && going_on(w); i++) {
         member *m = &members[i];
         iso_status status = prepare(w, first + i, m);
-        in_lanes[i] = status == ISO_OK && !is_stiff(m);
+        in_lanes[i] = status == ISO_OK && is_for_lanes(m);
         if (status == ISO_OK && !in_lanes[i]) status = solve_alone(w, first + i);
         note(w, first + i, status);
         if (!in_lanes[i]) continue;

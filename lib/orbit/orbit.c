@@ -42,13 +42,13 @@ static iso_picture choose_backend(const iso_orbit_options *opt, const iso_start 
     return e && (iso_effects_breaking(e) || e->on[ISO_ATTITUDE] || e->on[ISO_REACTIONS]) ? ISO_BALL : start->model;
 }
 
-static bool moves_nothing(const iso_model *m, const double y[])
+/* Whether a start stays where it is: then any time is known without steps. */
+static void see_rest(iso_orbit *o, const double y[])
 {
-    double f[ISO_MAX_STATE];
-    m->rhs(m, y, f);
-    for (int i = 0; i < m->dim; i++)
-        if (f[i] != 0) return false;
-    return true;
+    o->rests = true;
+    copy(y, o->still, o->model.dim);
+    o->model.rhs(&o->model, y, o->rate);
+    for (int i = 0; i < o->model.moving; i++) o->rests = o->rests && o->rate[i] == 0;
 }
 
 iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_MAX_STATE])
@@ -71,7 +71,7 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     iso_model_begin(&o->model, six, y);
     if (ball) o->model.field.energy = iso_system_ball.integrals[0].value(&o->model.field, y, &size);
     if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
-    o->rests = moves_nothing(&o->model, y);
+    see_rest(o, y);
     return ISO_OK;
 }
 
@@ -214,9 +214,9 @@ static iso_status to_own_time(const iso_orbit *o, double time, double *own_time)
     const double fastest = clock == ISO_CLOCK_T ? 1
                                                 : fmax(iso_clock_rate(own, clock, min3(own->J), NULL),
                                                        iso_clock_rate(own, clock, max3(own->J), NULL));
-    *own_time =
-        o->rests && isfinite(time) ? 0 : time / o->unit_clock[clock]; /* rest has no turns: any time is the start */
+    *own_time = time / o->unit_clock[clock];
     const double turns = *own_time / fastest;
+    if (o->rests && isfinite(*own_time)) return ISO_OK; /* what rests has no turns */
     if (fabs(turns) <= 1e15) return check_steps(o, turns);
     return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "end",
                             "%s = %g is out of range: it is %g turns of this ball, and 1e15 can be told apart",
@@ -250,7 +250,10 @@ iso_status iso_orbit_at(iso_orbit *o, double time, iso_sample *sample)
     ISO_DEFAULT_ARITHMETIC;
     double own_time, y[ISO_MAX_STATE];
     iso_status status = to_own_time(o, time, &own_time);
-    if (status == ISO_OK) status = iso_integrator_at(o->integrator, own_time, y);
+    if (status == ISO_OK && o->rests)
+        for (int i = 0; i < o->model.dim; i++) y[i] = o->still[i] + o->rate[i] * own_time;
+    else if (status == ISO_OK)
+        status = iso_integrator_at(o->integrator, own_time, y);
     if (status == ISO_OK) status = check_drift(o, y);
     return status == ISO_OK ? iso_orbit_make_sample(o, time, y, sample) : status;
 }
@@ -283,6 +286,7 @@ iso_status iso_orbit_event(iso_orbit *o, double (*g)(const iso_sample *sample, c
     *found = false;
     iso_status status = to_own_time(o, from, &begin);
     if (status == ISO_OK) status = to_own_time(o, to, &end);
+    if (status == ISO_OK && o->rests && o->model.carried == 0) return ISO_OK; /* nothing passes anything */
     if (status == ISO_OK) status = iso_integrator_event(o->integrator, &event, begin, end, found, &own_time, y);
     if (status == ISO_OK) status = sampled;
     if (status != ISO_OK) *found = false;

@@ -14,7 +14,8 @@ struct iso_orbit {
     const iso_system *system;              /* that is integrated           */
     double length;                         /* |b|, in the caller's units; 1 for a reduced ball */
     iso_model model;
-    bool rests;                            /* nothing moves, and no clock is carried */
+    bool rests;                            /* nothing moves: clocks alone go on, evenly ... */
+    double still[ISO_MAX_STATE], rate[ISO_MAX_STATE]; /* ... from this state at this rate */
     iso_integrator *integrator;
 };
 
