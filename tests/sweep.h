@@ -1,0 +1,98 @@
+/* sweep.h - every number of a call, one after the other, made what no caller means: NaN, infinite, zero, subnormal, largest.
+ *
+ * A call answers with a status, and with ISO_OK in finite numbers alone; NaN and infinity it refuses. It is given its
+ * numbers as an array, and gives back what a caller would read.
+ */
+#ifndef ISO_TESTS_SWEEP_H
+#define ISO_TESTS_SWEEP_H
+
+#include <float.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <time.h>
+
+#include "orbit/orbit.h"
+
+enum { SWEEP_NUMBERS = 32, SWEEP_ANSWERS = 400 };
+
+typedef struct sweep_answer {
+    int count;
+    double value[SWEEP_ANSWERS];
+} sweep_answer;
+
+typedef struct sweep_call {
+    const char *name;
+    iso_status (*call)(iso_context *ctx, const void *data, const double v[], sweep_answer *answer);
+    const void *data; /* what is no number */
+    int count;
+    double usual[SWEEP_NUMBERS];
+    unsigned long free; /* bits of the numbers that may be NaN or infinite: "not stated", "no bound" */
+} sweep_call;
+
+static inline void sweep_give(sweep_answer *a, const double x[], int count)
+{
+    for (int i = 0; i < count && a->count < SWEEP_ANSWERS; i++) a->value[a->count++] = x[i];
+}
+
+/* The columns of a sample that are shown. */
+static inline void sweep_give_sample(sweep_answer *a, const iso_sample *sample, iso_picture show)
+{
+    sweep_give(a, sample->clock, 1);
+    if (show != ISO_POINT) sweep_give(a, sample->ball, ISO_STATE);
+    if (show != ISO_BALL) sweep_give(a, sample->point, ISO_STATE);
+}
+
+/* Long work is stopped: nothing here is asked for that takes more than a moment. */
+static clock_t sweep_began;
+static inline bool sweep_goes_on(void *data)
+{
+    (void)data;
+    return (double)(clock() - sweep_began) < 2.0 * CLOCKS_PER_SEC;
+}
+
+/* NULL, or what is wrong with the answer. */
+static inline const char *sweep_fault(const sweep_call *c, int place, double special, iso_status status,
+                                      const sweep_answer *a)
+{
+    const bool number = isfinite(special), optional = c->free >> place & 1;
+    if (status == ISO_STOPPED) return "takes too long";
+    if (status != ISO_OK) return NULL;
+    if (!number && !optional) return "is taken";
+    for (int i = 0; i < a->count; i++)
+        if (!isfinite(a->value[i])) return "gives what is no number";
+    return NULL;
+}
+
+/* How many of a call's answers are wrong, each with a line on standard error; 1 for a call that fails as it is. */
+static inline int sweep(iso_context *ctx, const sweep_call *c, int *cases)
+{
+    static const double special[] = {NAN,          INFINITY,     -INFINITY,     0.0,     -0.0,    DBL_MIN / 2,
+                                     -DBL_MIN / 2, DBL_TRUE_MIN, -DBL_TRUE_MIN, DBL_MAX, -DBL_MAX};
+    int wrong = 0;
+    sweep_answer answer = {0};
+    iso_context_watch(ctx, sweep_goes_on, NULL);
+    sweep_began = clock();
+    if (c->call(ctx, c->data, c->usual, &answer) != ISO_OK) {
+        gsl_test(1, "%s as it should be: %s", c->name, iso_context_message(ctx));
+        return 1;
+    }
+    for (int place = 0; place < c->count; place++)
+        for (size_t i = 0; i < sizeof special / sizeof *special; i++) {
+            double v[SWEEP_NUMBERS];
+            for (int j = 0; j < c->count; j++) v[j] = c->usual[j];
+            v[place] = special[i];
+            answer.count = 0;
+            sweep_began = clock();
+            const iso_status status = c->call(ctx, c->data, v, &answer);
+            const char *fault = sweep_fault(c, place, special[i], status, &answer);
+            ++*cases;
+            if (!fault) continue;
+            wrong++;
+            fprintf(stderr, "%s: %g as number %d %s\n", c->name, special[i], place + 1, fault);
+        }
+    iso_context_watch(ctx, NULL, NULL);
+    return wrong;
+}
+
+#endif
