@@ -1,4 +1,5 @@
-/* sweep.h - every number of a call, one after the other, made what no caller means: NaN, infinite, zero, subnormal, largest.
+/* sweep.h - every number of a call, one after the other, made what no caller means: NaN, infinite, zero, subnormal,
+ * largest.
  *
  * A call answers with a status, and with ISO_OK in finite numbers alone; NaN and infinity it refuses. It is given its
  * numbers as an array, and gives back what a caller would read.

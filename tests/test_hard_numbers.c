@@ -6,7 +6,7 @@
 #include "isoroll.h"
 #include "sweep.h"
 
-/* --- the ball and its start ----------------------------------------------------------------------------------------- */
+/* --- the ball and its start ------------------------------------------------------------------------------------- */
 
 static iso_status reduced(iso_context *ctx, const void *data, const double v[], sweep_answer *a)
 {
@@ -52,7 +52,7 @@ static iso_status start_of_point(iso_context *ctx, const void *data, const doubl
     return status;
 }
 
-/* --- orbits --------------------------------------------------------------------------------------------------------- */
+/* --- orbits ----------------------------------------------------------------------------------------------------- */
 
 /* How an orbit is asked, by a start that nothing has checked. */
 typedef struct request {
@@ -172,7 +172,7 @@ static iso_status batch(iso_context *ctx, const void *data, const double v[], sw
     return status;
 }
 
-/* --- integrators and the closed solution ---------------------------------------------------------------------------- */
+/* --- integrators and the closed solution ------------------------------------------------------------------------ */
 
 static iso_model make_model(const iso_system *system)
 {
@@ -222,7 +222,7 @@ static iso_status exact(iso_context *ctx, const void *data, const double v[], sw
     return status;
 }
 
-/* --- all of them ---------------------------------------------------------------------------------------------------- */
+/* --- all of them ------------------------------------------------------------------------------------------------ */
 
 #define BALL -1, 1.4, 2.1, 3, 0.9, -0.3, -0.225, 0.36, 0.48, 0.8, 1, 1e-6, 1
 #define POINT -1, 1.4, 2.1, 3, 0.7, -0.3, -0.135, 0.36, 0.48, 0.8, 1, 1e-6, 0.3

@@ -33,7 +33,7 @@ static int differing(const iso_sample *a, const iso_sample *b, double speed)
     return count;
 }
 
-/* --- rest ----------------------------------------------------------------------------------------------------------- */
+/* --- rest ------------------------------------------------------------------------------------------------------- */
 
 static double height(const iso_sample *sample, const void *data)
 {
@@ -112,7 +112,7 @@ static void check_rest(void)
         if (hard_way[w].backend == ISO_BALL) check_resting(&hard_way[w], &start, &gravity);
 }
 
-/* --- speeds --------------------------------------------------------------------------------------------------------- */
+/* --- speeds ----------------------------------------------------------------------------------------------------- */
 
 /* (omega, t) -> (c omega, t/c) is the same orbit, for a power of two to the last bit. */
 static void check_speeds(void)
@@ -158,7 +158,7 @@ static void check_subnormal(void)
     hard_naive("a third of it, three times", fabs(lost / start.y[0] - 1), DBL_EPSILON);
 }
 
-/* --- zeros ---------------------------------------------------------------------------------------------------------- */
+/* --- zeros ------------------------------------------------------------------------------------------------------ */
 
 /* The rotation in a principal plane, its three zeros of either sign: the same orbit. */
 static void check_zeros(void)

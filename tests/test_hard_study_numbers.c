@@ -6,7 +6,7 @@
 #include "isoroll.h"
 #include "sweep.h"
 
-/* --- records -------------------------------------------------------------------------------------------------------- */
+/* --- records ---------------------------------------------------------------------------------------------------- */
 
 enum { ROWS = 3, ROW = 1 + ISO_STATE };
 static const char *const ball_columns[ROW] = {"t", "omega1", "omega2", "omega3", "n1", "n2", "n3"},
@@ -121,7 +121,7 @@ static iso_status written(iso_context *ctx, const void *data, const double v[], 
     return status == ISO_OK ? closed : status;
 }
 
-/* --- scenes --------------------------------------------------------------------------------------------------------- */
+/* --- scenes ----------------------------------------------------------------------------------------------------- */
 
 enum { STATE = 4, EPS = 10, END, STEP, SCENE_TOLERANCE, AFTER_SCENE };
 
@@ -191,7 +191,7 @@ static iso_status cost(iso_context *ctx, const void *data, const double v[], swe
     return status;
 }
 
-/* --- the rest ------------------------------------------------------------------------------------------------------- */
+/* --- the rest --------------------------------------------------------------------------------------------------- */
 
 static void give_ball(sweep_answer *a, const iso_analogue_ball *b)
 {

@@ -49,11 +49,11 @@ static double worse(double a, double b)
     return isnan(a) || a > b ? a : b;
 }
 
-/* --- next to the start ---------------------------------------------------------------------------------------------- */
+/* --- next to the start ------------------------------------------------------------------------------------------ */
 
 /* The state moves by FASTEST |t| at most, to the 16 roundings of a start that goes through the point and is projected
- * back, magnified by max J/min J. The clocks are their rates at the start times t, up to the change of these. Only bdf
- * interpolates over its step, and is as good as that: to its tolerance. */
+ * back, magnified by max J/min J. The clocks are their rates at the start times t, up to the change of these. Only
+ * bdf interpolates over its step, and is as good as that: to its tolerance. */
 static void check_near(void)
 {
     static const double times[] = {0, -0.0, DBL_TRUE_MIN, 1e-300, -1e-300, 1e-17, -1e-17, 1e-9, -1e-9};
@@ -84,7 +84,7 @@ static void check_near(void)
     hard_naive("a clock as the difference of two", apart((turn + t) - turn, t) / (rounding + FASTEST * t), 1);
 }
 
-/* --- too far -------------------------------------------------------------------------------------------------------- */
+/* --- too far ---------------------------------------------------------------------------------------------------- */
 
 static double height(const iso_sample *sample, const void *data)
 {
@@ -117,7 +117,7 @@ static void check_far(void)
                1e-3);
 }
 
-/* --- any order ------------------------------------------------------------------------------------------------------ */
+/* --- any order -------------------------------------------------------------------------------------------------- */
 
 /* How many numbers of two samples differ in a bit. */
 static int differing(const iso_sample *a, const iso_sample *b)
@@ -207,11 +207,11 @@ static void check_orders(void)
     hard_naive("a step to each time", from_time_to_time(), 0);
 }
 
-/* --- ends of steps -------------------------------------------------------------------------------------------------- */
+/* --- ends of steps ---------------------------------------------------------------------------------------------- */
 
-/* The state at the end of a step is the method's, beside it what a leap or a polynomial says from the step's other end:
- * apart by an error of a step each, in each component at most `tolerance` of its vector's size, times max J/min J from model
- * to model; to rounding. */
+/* The state at the end of a step is the method's, beside it what a leap or a polynomial says from the step's other
+ * end: apart by an error of a step each, in each component at most `tolerance` of its vector's size, times max J/min J
+ * from model to model; to rounding. */
 static double allowed_jump(const hard_road *way)
 {
     return 2 * sqrt(3) * 3.0 / 1.4 * way->tolerance + 32 * DBL_EPSILON;
@@ -256,10 +256,10 @@ static void check_ends(void)
     hard_naive("straight lines to within a step", straight(), 1);
 }
 
-/* --- both clocks ---------------------------------------------------------------------------------------------------- */
+/* --- both clocks ------------------------------------------------------------------------------------------------ */
 
-/* An orbit in t says where s is; an orbit in s is asked there. Each step of both adds an error of at most the tolerance
- * to state and clock, and errors of the state move the clocks: twice that over these few turns. */
+/* An orbit in t says where s is; an orbit in s is asked there. Each step of both adds an error of at most the
+ * tolerance to state and clock, and errors of the state move the clocks: twice that over these few turns. */
 static void check_clocks(void)
 {
     static const double times[] = {7, -7, 1e-5, -40};
@@ -283,7 +283,7 @@ static void check_clocks(void)
     }
 }
 
-/* --- ten million ---------------------------------------------------------------------------------------------------- */
+/* --- ten million ------------------------------------------------------------------------------------------------ */
 
 /* Grid times are products, each rounded once: their error does not grow with their number. */
 static void check_grid(void)

@@ -31,7 +31,7 @@ void times_free(times *t)
     free(t->order);
 }
 
-/* --- the order ------------------------------------------------------------------------------------------------------ */
+/* --- the order -------------------------------------------------------------------------------------------------- */
 
 static int by_work(const void *first, const void *second)
 {
@@ -55,7 +55,7 @@ static iso_status find_order(iso_context *ctx, times *t)
     return ISO_OK;
 }
 
-/* --- reading -------------------------------------------------------------------------------------------------------- */
+/* --- reading ---------------------------------------------------------------------------------------------------- */
 
 static iso_status add_time(iso_context *ctx, times *t, size_t *room, double time)
 {

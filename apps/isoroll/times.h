@@ -1,7 +1,7 @@
-/* times.h - the times of `run`: a scene's grid, or a list from a file, in the order of the file and in that of the work.
+/* times.h - the times of `run`: a scene's grid, or a list from a file, in the file's order and in that of the work.
  *
- * An orbit is followed away from its start, and from the start again when a time lies behind: so times are worked on first
- * after the start and then before it, each the nearer ones first, whatever their order in the file.
+ * An orbit is followed away from its start, and from the start again when a time lies behind: so times are worked on
+ * first after the start and then before it, each the nearer ones first, whatever their order in the file.
  */
 #ifndef ISOROLL_TIMES_H
 #define ISOROLL_TIMES_H
@@ -21,7 +21,7 @@ typedef struct times {
     size_t count;
 } times;
 
-/* Reads the list from a file, "-" being standard input, and finds its order. The caller frees it, also after an error.
+/* Reads the list from a file, "-" being standard input, and finds its order. The caller frees it.
  * Errors: ISO_BAD_INPUT with the place, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status times_read(iso_context *ctx, const char *path, times *t);
 void times_free(times *t);

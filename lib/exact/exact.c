@@ -92,8 +92,8 @@ static void find_moments(const iso_field *f, const double point[ISO_STATE], doub
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) moment[c] = change > 0 ? s * iso_clock_rate(p, c, q, NULL) : 0;
 }
 
-/* The other clocks after a moment. As a difference of series they have the rounding error of a whole turn; Gauss's rule
- * with five nodes leaves none of its own (1e-19 of them). */
+/* The other clocks after a moment. As a difference of series they have the rounding error of a whole turn; Gauss's
+ * rule with five nodes leaves none of its own (1e-19 of them). */
 static void count_moment(const iso_exact *x, iso_clock clock, real time, form_place *p)
 {
     static const double node[] = {-0.90617984593866399, -0.53846931010568309, 0, 0.53846931010568309,

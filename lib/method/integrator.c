@@ -206,8 +206,8 @@ static iso_status jump(iso_integrator *it, int direction, double t)
     return ISO_OK;
 }
 
-/* t minus the time of the step's right end, which is the next one's left: both ask it, so that a time that is the end but
- * for rounding belongs to one of them, whichever way it is reached. */
+/* t minus the time of the step's right end, which is the next one's left: both ask it, so that a time that is the end
+ * but for rounding belongs to one of them, whichever way it is reached. */
 static double since_end(const iso_integrator *it, double t)
 {
     return iso_instant_since(iso_instant_later(it->left, it->h), t);

@@ -359,7 +359,8 @@ static iso_status within(iso_integrator *it, double dt, double y[])
     for (int i = 0; i < MAX_ITERATIONS; i++) {
         part(it, ds, reached, &z);
         const double miss = dt - z.clock[m->clock], q = m->system->q(&m->field.p, reached, NULL);
-        if (miss == 0 || (i > 0 && !(fabs(miss) > DBL_EPSILON * fabs(it->h)))) break; /* once, for a moment's clocks */
+        /* once in any case: a moment's clocks are found to their own size, not to the step's */
+        if (miss == 0 || (i > 0 && !(fabs(miss) > DBL_EPSILON * fabs(it->h)))) break;
         ds +=
             miss * iso_clock_rate(&m->field.p, ISO_CLOCK_S, q, NULL) / iso_clock_rate(&m->field.p, m->clock, q, NULL);
     }

@@ -5,9 +5,9 @@
  *     iso_batch_run(ctx, orbits, 1000, &o, (double[]){50, 100}, 2, samples, statuses);
  *
  * samples[2 i + 1] is then orbit i at t = 100. The method is `taylor`, with an orbit in each lane of the processor's
- * vectors (8 with AVX-512, 4 with AVX2, else 2) and its own steps; stiff models, for which it is not made, and balls at rest are
- * integrated one by one with the method auto. An orbit's samples depend on the kind of vectors, but not by a
- * bit on the orbits beside it, their order, or the number of threads.
+ * vectors (8 with AVX-512, 4 with AVX2, else 2) and its own steps; stiff models, for which it is not made, are
+ * integrated one by one with the method auto, and balls at rest are where they were. An orbit's samples depend on the
+ * kind of vectors, but not by a bit on the orbits beside it, their order, or the number of threads.
  */
 #ifndef ISO_ORBIT_BATCH_H
 #define ISO_ORBIT_BATCH_H

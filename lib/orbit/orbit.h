@@ -67,7 +67,8 @@ void iso_orbit_free(iso_orbit *orbit);
  * 1e6 times in which a stiff motion dies away. Errors: ISO_BAD_ARGUMENT about "end" or "method". */
 iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
 
-/* The orbit at `time` of the options' clock, in any order, before or after the start. A ball that resistance brings to rest
+/* The orbit at `time` of the options' clock, in any order, before or after the start. Cheap when times run away from
+ * the start; one that lies steps behind the last is found from the start again. A ball that resistance brings to rest
  * slows down to 1e-290 of its own unit of speed, then stands still. Backwards, where resistance drives it, it is followed
  * until it turns 1e4 times as fast as at the start.
  * Errors: ISO_BAD_ARGUMENT (a time that iso_orbit_check_time refuses), ISO_NUMERICAL (what stopped, and where; or

@@ -54,8 +54,8 @@ typedef struct iso_comparison {
 /* Finds the scene's orbit by every backend (its own choice of backend is not read), row by row; without a closed
  * solution by ball and point alone. `progress` (may be NULL) is called after each row with the part done in (0, 1]; when
  * it answers false the comparison ends there.
- * Errors: as iso_scene_check_times, iso_orbit_create and iso_orbit_at; ISO_BAD_ARGUMENT for a method there is not. After ISO_NUMERICAL in the
- * middle *comparison holds the rows before; otherwise it is NULL on failure. */
+ * Errors: as iso_scene_check_times, iso_orbit_create and iso_orbit_at; ISO_BAD_ARGUMENT for a method there is not.
+ * After ISO_NUMERICAL in the middle *comparison holds the rows before; otherwise it is NULL on failure. */
 iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data), void *data,
                        iso_comparison **comparison);
 void iso_comparison_free(iso_comparison *comparison);

@@ -39,7 +39,7 @@ bool iso_momentum_interval(const iso_momentum *m, double h, iso_momentum_part pa
 double iso_momentum_rotation(const iso_momentum *m, double h, int i);
 
 /* For a picture of the image round an energy h: rows with h' from about 0 to 2 h, then low and high F of each part,
- * then F of the four rotations; NaN where there is none. Errors: ISO_NUMERICAL (h, H or a bound does not fit a double),
+ * then F of the four rotations; NaN where there is none. Errors: ISO_NUMERICAL (h, H or a bound fits no double),
  * ISO_NO_MEMORY. */
 enum { ISO_MOMENTUM_LINES = 4 };
 iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h, iso_record **bounds);

@@ -19,7 +19,8 @@ steps() {
 
 hard_case "lists backwards" "steps beyond those of the same list forwards, and rows that differ" \
     "an orbit sets out again from its start where a time lies behind"
-for way in "ball adams" "ball rk8pd" "ball bdf" "ball taylor" "point taylor" "point blanes_moan6" "point verner_8_5_6"; do
+for way in "ball adams" "ball rk8pd" "ball bdf" "ball taylor" "point taylor" "point blanes_moan6" \
+    "point verner_8_5_6"; do
     backend=${way% *} method=${way#* }
     run 0 run scene.yaml --times forth.txt --backend "$backend" --method "$method" --tol 1e-8 --verbose
     forth=$(steps)
