@@ -210,7 +210,7 @@ static void check_orders(void)
 /* --- ends of steps ---------------------------------------------------------------------------------------------- */
 
 /* The state at the end of a step is the method's, beside it what a leap or a polynomial says from the step's other
- * end: apart by an error of a step each, in each component at most `tolerance` of its vector's size, times max J/min J
+ * end: apart by an error of a step each, in each component at most `tolerance` of its size, times max J/min J
  * from model to model; to rounding. */
 static double allowed_jump(const hard_road *way)
 {
