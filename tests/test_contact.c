@@ -39,16 +39,18 @@ static void torque_on(const effects_case *c, double T[3])
 static void rigid_equation(const effects_case *c, laws_worst *worst)
 {
     const iso_field *f = &c->model.field;
-    double T[3], dy[ISO_STATE], Jw[3], rest[3], along[3];
+    double y[ISO_STATE], T[3], dy[ISO_STATE], Jw[3], rest[3], along[3];
     torque_on(c, T);
-    iso_contact_rigid.solve(f, c->y, T, dy);
-    diag(f->p.J, c->y, Jw);
-    cross(c->y, Jw, rest);
+    copy(c->y, y, ISO_STATE);
+    for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3); /* where the ball is free to twist */
+    iso_contact_rigid.solve(f, y, T, dy);
+    diag(f->p.J, y, Jw);
+    cross(y, Jw, rest);
     for (int i = 0; i < 3; i++) rest[i] += f->p.J[i] * dy[i] - T[i];
-    cross(rest, c->y + 3, along);
-    const double w = norm(c->y), forces = max3(f->p.J) * w * w + norm(T), spread = laws_spread(&f->p);
+    cross(rest, y + 3, along);
+    const double w = norm(y), forces = max3(f->p.J) * w * w + norm(T), spread = laws_spread(&f->p);
     effects_note(c, worst, norm(along), 8 * DBL_EPSILON * spread * forces, "along n");
-    effects_note(c, worst, fabs(dot(dy, c->y + 3)), 8 * DBL_EPSILON * forces / min3(f->p.J), "(w',n)");
+    effects_note(c, worst, fabs(dot(dy, y + 3)), 8 * DBL_EPSILON * forces / min3(f->p.J), "(w',n)");
 }
 
 /* --- loose ----------------------------------------------------------------------------------------------------- */
@@ -193,7 +195,7 @@ static void note_unit(const effects_case *c, int count, const double pushed[], c
     effects_note(c, worst, turned, 4 * DBL_EPSILON, what);
 }
 
-/* w after the projection: without spin where there is no twist; of the right energy where that is kept and the ball
+/* w after the projection: without spin, by an impulse of the contact, where there is no twist; of the right energy where that is kept and the ball
  * moves enough; else, and in direction always, as it was. */
 static void note_omega(const effects_case *c, const iso_model *m, const double pushed[], const double y[],
                        laws_worst *worst)
@@ -201,9 +203,10 @@ static void note_omega(const effects_case *c, const iso_model *m, const double p
     const iso_field *f = &m->field;
     const double eps = laws_rounding(&f->p), spin = dot(pushed, y + 3), size = effects_energy_size(c);
     const bool loose = effects_on(c, ISO_TWIST);
-    double expected[3], across[3], unused;
+    double expected[3], u[3], across[3], unused;
     copy(pushed, expected, 3);
-    if (!loose) add_scaled(expected, -spin, y + 3);
+    diag(f->p.inv_J, y + 3, u);
+    if (!loose) add_scaled(expected, -spin / dot(y + 3, u), u);
     if (effects_lambda(c) > 0) add_scaled(expected, -spin - y[effects_lambda(c)] / f->effects.twist, y + 3);
     cross(expected, y, across);
     effects_note(c, worst, norm(across), 16 * DBL_EPSILON * norm(y) * norm(y), "direction of w");

@@ -44,7 +44,7 @@ static void call_ball(form *T)
     if (on[ISO_FIELD]) call(S, field);
     if (on[ISO_LEVEL]) call(S, level);
     if (on[ISO_ROLLING_RESISTANCE]) call(S, resistance);
-    call(S, twists ? loose : rigid);
+    call(S, twists ? loose : T->shape.forces > 0 ? forced : rigid);
     call(S, twists ? poles_of_loose : poles_of_rigid);
     if (on[ISO_ATTITUDE]) call(S, attitude);
     if (T->rolls) call(S, roll);
@@ -119,6 +119,7 @@ static void set_numbers(form *T, int lane, const iso_model *m)
     series *S = &T->S;
     (void)lane;
     const NUMBER k = f->p.k, eps = f->eps, J[3] = {f->p.J[0], f->p.J[1], f->p.J[2]};
+    const NUMBER least = J[0] < J[1] ? J[0] < J[2] ? J[0] : J[2] : J[1] < J[2] ? J[1] : J[2];
     const NUMBER factor = J[0] * J[1] * J[2] / (k * k);
     LANE(S->k, lane) = k;
     LANE(S->D, lane) = f->p.D;
@@ -137,6 +138,7 @@ static void set_numbers(form *T, int lane, const iso_model *m)
         const NUMBER root_J = T->is_point ? ROOT(J[i]) : 1;
         LANE(AT(S->J, i), lane) = J[i];
         LANE(AT(S->inv_J, i), lane) = 1 / J[i];
+        LANE(AT(S->past, i), lane) = J[i] - least;
         LANE(AT(S->l, i), lane) = root_J * e->linear[i];
         for (int j = 0; j < 3; j++)
             LANE(AT(S->C[j], i), lane) = root_J * e->quadratic[3 * i + j] * (T->is_point ? ROOT(J[j]) : 1);
@@ -339,7 +341,7 @@ static real longest_step(const series *S)
  * fifth more steps, 3/4 of the digits 2 %. */
 static real for_poles(const form *T, int n)
 {
-    return rough_root(T->at_poles * magnitude(T->S.r[0]) / larger(magnitude(T->S.r[n]), spread((NUMBER)1e-290)), n);
+    return rough_root(T->at_poles * magnitude(T->S.pole[0]) / larger(magnitude(T->S.pole[n]), spread((NUMBER)1e-290)), n);
 }
 
 /* The step whose last three terms are as small as the tolerance, or the longest; shorter where the clocks need it. Two

@@ -23,7 +23,7 @@ struct series {
     int order, terms;
     recurrence *term[TERMS];
     /* what distinguishes one orbit's equations from another's */
-    vector J, inv_J, C[3], l;
+    vector J, inv_J, past, C[3], l; /* past: J - min J */
     real k, D, factor, over_det, energy, mgb, level, twist, resistance; /* factor: det J/k^2 */
     real alpha, coupling; /* each form's own: see its term */
     bool in_field;
@@ -35,6 +35,7 @@ struct series {
     vector K[MOST + 2], u[MOST + 2], x[MOST + 2], c[MOST + 2], z[MOST + 2], a[MOST + 2], y[MOST + 2], b[MOST + 2];
     real base[MOST + 3], slope[MOST + 3]; /* g of a ball, q of a point; n base[n] */
     real over_base, over_gap;             /* 1/base[0], 1/gap[0] */
+    real pole[MOST + 2]; /* of a ball, terms of 1/g: for its steps */
     real spin[MOST + 2], r[MOST + 2], lambda[MOST + 2], gap[MOST + 2];
     real v[MOST + 2], v1[MOST + 2], v2[MOST + 2];
     real P[MOST + 2], L[MOST + 2], qP[MOST + 2], qL[MOST + 2];
@@ -154,20 +155,30 @@ static inline void normal(series *S, int n)
     if (n == 0) S->over_base = 1 / S->base[0];
 }
 
-/* x = J w x w, n' = k n x w */
+/* K = J w, n' = k n x w; no torque yet */
 static void ball(series *S, int n)
 {
     normal(S, n);
     S->K[n] = by(S->J, S->w[n]);
-    S->x[n] = cross(S->K, S->w, n);
+    S->x[n] = nought;
     S->n[n + 1] = times(S->k * S->inverse[n + 1], cross(S->n, S->w, n));
 }
 
-/* w' = J^-1 x + lambda u, lambda = -(x,u)/g */
+/* w' = r z, z = n x K, r = (n,K)/(g det J): see ball.c */
 static void rigid(series *S, int n)
 {
+    S->z[n] = cross(S->n, S->K, n);
+    S->r[n] = quotient(S->over_det * total(by(S->past, componentwise(S->n, S->w, n))), S->base, S->over_base, S->r, n);
+    S->w[n + 1] = times(S->inverse[n + 1], scaled(S->r, S->z, n));
+}
+
+/* the same under the torque x: + J^-1 x + lambda u, lambda = -(x,u)/g */
+static void forced(series *S, int n)
+{
+    rigid(S, n);
     S->lambda[n] = quotient(-dot(S->x, S->u, n), S->base, S->over_base, S->lambda, n);
-    S->w[n + 1] = times(S->inverse[n + 1], plus(by(S->inv_J, S->x[n]), scaled(S->lambda, S->u, n)));
+    const vector more = plus(by(S->inv_J, S->x[n]), scaled(S->lambda, S->u, n));
+    S->w[n + 1] = plus(S->w[n + 1], times(S->inverse[n + 1], more));
 }
 
 /* A contact that twists, in the place of `ball`: K = J w - D s n, s = (w,n), x = K x w - c s n + D s n' ... */
@@ -182,7 +193,7 @@ static void twisting_ball(series *S, int n)
     S->n[n + 1] = times(S->inverse[n + 1], S->z[n]);
 }
 
-/* ... and w' = J^-1 x + D lambda u, lambda = (u,x)/(1 - D g), in that of `rigid`. */
+/* ... and w' = J^-1 x + D lambda u, lambda = (u,x)/(1 - D g), in that of `forced`. */
 static void loose(series *S, int n)
 {
     S->gap[n] = (n == 0 ? spread(1) : zero) - S->D * S->base[n];
@@ -194,12 +205,12 @@ static void loose(series *S, int n)
 /* r = 1/g of a rigid contact, 1/(1 - D g) of a loose one: where they have poles, so have the ball's equations. */
 static void poles_of_rigid(series *S, int n)
 {
-    S->r[n] = n == 0 ? S->over_base : quotient(zero, S->base, S->over_base, S->r, n);
+    S->pole[n] = n == 0 ? S->over_base : quotient(zero, S->base, S->over_base, S->pole, n);
 }
 
 static void poles_of_loose(series *S, int n)
 {
-    S->r[n] = n == 0 ? S->over_gap : quotient(zero, S->gap, S->over_gap, S->r, n);
+    S->pole[n] = n == 0 ? S->over_gap : quotient(zero, S->gap, S->over_gap, S->pole, n);
 }
 
 /* --- its effects: torques added to x, states -------------------------------------------------------------------- */

@@ -54,7 +54,7 @@ static real square_of_speed(const form *T, const real gamma[3], real *terms)
  *     k = -1   point, in s: (M,JM)/det J + 2 eps (gamma,J^-1 gamma), M = gamma' x gamma
  *              ball:        [ (K,K) + 2 h det J (u,u) ]/g,  K = Jw,  u = J^-1 n,  g = (n,u)
  *     k = 1    point, in s: (gamma',J^-1 gamma') + 2 H (gamma,J^-1 gamma);  in t, H = 0: (gamma',J^-1 gamma')/q^3
- *              ball:        (K,K) - (K,n)^2 */
+ *              ball:        (K x n, K x n) */
 typedef struct second_integral {
     int count;
     real a[6], b[6], divisor, across[3], slope;
@@ -82,30 +82,42 @@ static void second_of_point(const form *T, const state *s, second_integral *F)
     F->divisor = q * q * q;
 }
 
+/* a x b, each component to one rounding (Kahan's difference of products): there may be large parts along each other. */
+static inline void cross_product_exactly(const real a[], const real b[], real c[])
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, l = (i + 2) % 3;
+        const real back = a[l] * b[j], lost = fused(-a[l], b[j], back);
+        c[i] = fused(a[j], b[l], -back) + lost;
+    }
+}
+
 static void second_of_ball(const form *T, const state *s, second_integral *F)
 {
     const series *S = &T->S;
-    real K[3], K_n = zero, across_n = zero;
-    for (int i = 0; i < 3; i++) {
-        F->a[i] = F->b[i] = K[i] = AT(S->J, i) * s->w[i];
-        K_n += K[i] * s->n[i];
-    }
+    real K[3], change[3];
+    for (int i = 0; i < 3; i++) K[i] = AT(S->J, i) * s->w[i];
     cross_product(s->n, K, F->across);
-    for (int i = 0; i < 3; i++) {
-        const real u = AT(S->inv_J, i) * s->n[i], change = AT(S->J, i) * F->across[i];
-        F->a[3 + i] = 2 * S->energy / S->over_det * u;
-        F->b[3 + i] = u;
-        F->slope += 2 * K[i] * change;
-        F->divisor += u * s->n[i];
-        across_n += change * s->n[i];
+    for (int i = 0; i < 3; i++) change[i] = AT(S->J, i) * F->across[i];
+    F->count = 3;
+    F->divisor = spread(1);
+    if (T->second_of == PLANE) {
+        cross_product_exactly(K, s->n, F->a);
+        cross_product(change, s->n, F->b);
+        F->slope = 2 * (F->a[0] * F->b[0] + F->a[1] * F->b[1] + F->a[2] * F->b[2]);
+        memcpy(F->b, F->a, sizeof F->b);
+        return;
     }
     F->count = 6;
-    if (T->second_of == SHELL) return;
-    F->count = 4;
-    F->divisor = spread(1);
-    F->slope -= 2 * K_n * across_n;
-    F->a[3] = -K_n;
-    F->b[3] = K_n;
+    F->divisor = zero;
+    for (int i = 0; i < 3; i++) {
+        const real u = AT(S->inv_J, i) * s->n[i];
+        F->a[i] = F->b[i] = K[i];
+        F->a[3 + i] = 2 * S->energy / S->over_det * u;
+        F->b[3 + i] = u;
+        F->slope += 2 * K[i] * change[i];
+        F->divisor += u * s->n[i];
+    }
 }
 
 static second_integral second_of(const form *T, const state *s)
@@ -150,14 +162,16 @@ static real restore_point_t(const form *T, state *s)
     return worst + restore_length(s->w, 3, square, square > zero);
 }
 
-/* (w,n) = 0 of a ball that does not twist; a free ball's energy. */
+/* (w,n) = 0 of a ball that does not twist, along J^-1 n as in ball.c; a free ball's energy. */
 static real restore_ball(const form *T, state *s)
 {
     const series *S = &T->S;
     real worst = restore_length(s->n, 3, spread(1), everywhere()), K[3];
     if (T->shape.field.effects.on[ISO_TWIST]) return worst;
-    const real spin = defect_of(s->w, s->n, 3, zero);
-    for (int i = 0; i < 3; i++) s->w[i] -= spin * s->n[i];
+    real g = zero;
+    for (int i = 0; i < 3; i++) g += s->n[i] * AT(S->inv_J, i) * s->n[i];
+    const real spin = defect_of(s->w, s->n, 3, zero) / g;
+    for (int i = 0; i < 3; i++) s->w[i] -= spin * AT(S->inv_J, i) * s->n[i];
     if (T->shape.forces > 0) return worst;
     for (int i = 0; i < 3; i++) K[i] = AT(S->J, i) * s->w[i];
     const real twice = 2 * S->energy;

@@ -5,7 +5,15 @@
  * lambda n is the torque that keeps the ball from twisting. It follows from (w,n)' = (w',n) = 0 (n' is orthogonal to
  * w), so with u = J^-1 n and g = (n, u)
  *
- *     lambda = -(J w x w, u) / g .
+ *     w' = J^-1 x + lambda u,     lambda = -(x,u)/g,     x = J w x w .
+ *
+ * Where the moments differ much, the two terms are max J/min J times larger than their sum. It is a double vector
+ * product, g J^-1 x - (x,u) u = n x (J^-1 x x u) = n x J(x x n)/det J, and x x n = (n,Jw) w on (w,n) = 0:
+ *
+ *     w' = (n,Jw) n x Jw / (g det J) ,
+ *
+ * of which nothing cancels but (n,Jw) where moments are nearly equal; there (n,(J - min J) w), the same, does not. Off
+ * (w,n) = 0 it still has (w',n) = 0, and no fast turns about n, which J w x w has.
  */
 #include <math.h>
 
@@ -14,45 +22,49 @@
 #include "model/integrals_impl.h"
 #include "model/system.h"
 
+/* (n,Jw) */
+static double along_normal(const iso_params *p, const double y[])
+{
+    const double least = min3(p->J);
+    return dot_diag(y, (const double[]){p->J[0] - least, p->J[1] - least, p->J[2] - least}, y + 3);
+}
+
 static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STATE])
 {
     const iso_params *p = &f->p;
     const double *w = y, *n = y + 3;
-    double Jw[3], u[3], c[3], turn[3];
+    double Jw[3], n_Jw[3], turn[3];
     diag(p->J, w, Jw);
-    diag(p->inv_J, n, u);
-    cross(Jw, w, c);
-    const double lambda = -dot(c, u) / dot(n, u);
+    cross(n, Jw, n_Jw);
     cross(n, w, turn);
+    const double part = along_normal(p, y) / (dot_diag(n, p->inv_J, n) * p->det_J);
     for (int i = 0; i < 3; i++) {
-        dy[i] = p->inv_J[i] * c[i] + lambda * u[i];
+        dy[i] = part * n_Jw[i];
         dy[3 + i] = p->k * turn[i];
     }
 }
 
-/* With c = J w x w:  dc/dw_j = J_j e_j x w + J w x e_j,
- * dlambda/dw_j = -(dc/dw_j, u)/g,   dlambda/dn_j = -(c_j/J_j + 2 lambda u_j)/g. */
+/* With a = (n,Jw)/(g det J), w' = a n x Jw:
+ *     dw'/dw_j = J_j a n x e_j + (J_j - min J) n_j n x Jw/(g det J)
+ *     dw'/dn_j = a e_j x Jw + (J_j - min J) w_j n x Jw/(g det J) - 2 (u_j/g) w' */
 static void jacobian(const iso_field *f, const double y[ISO_STATE], double jac[ISO_STATE * ISO_STATE])
 {
     const iso_params *p = &f->p;
     const double *w = y, *n = y + 3;
-    double Jw[3], u[3], c[3];
+    double Jw[3], n_Jw[3];
     diag(p->J, w, Jw);
-    diag(p->inv_J, n, u);
-    cross(Jw, w, c);
-    const double g = dot(n, u), lambda = -dot(c, u) / g;
+    cross(n, Jw, n_Jw);
+    const double g = dot_diag(n, p->inv_J, n), over = 1 / (g * p->det_J), a = along_normal(p, y) * over;
     for (int j = 0; j < 3; j++) {
         const double e[3] = {j == 0, j == 1, j == 2};
-        double e_w[3], Jw_e[3], n_e[3], dc[3];
+        double e_w[3], e_Jw[3], n_e[3];
         cross(e, w, e_w);
-        cross(Jw, e, Jw_e);
+        cross(e, Jw, e_Jw);
         cross(n, e, n_e);
-        for (int i = 0; i < 3; i++) dc[i] = p->J[j] * e_w[i] + Jw_e[i];
-        const double dlambda_dw = -dot(dc, u) / g;
-        const double dlambda_dn = -(p->inv_J[j] * c[j] + 2 * lambda * u[j]) / g;
+        const double past = (p->J[j] - min3(p->J)) * over, by_n = past * w[j] - 2 * a * p->inv_J[j] * n[j] / g;
         for (int i = 0; i < 3; i++) {
-            jac[6 * i + j] = p->inv_J[i] * dc[i] + dlambda_dw * u[i];
-            jac[6 * i + 3 + j] = dlambda_dn * u[i] + lambda * p->inv_J[i] * e[i];
+            jac[6 * i + j] = p->J[j] * a * n_e[i] + past * n[j] * n_Jw[i];
+            jac[6 * i + 3 + j] = by_n * n_Jw[i] + a * e_Jw[i];
             jac[6 * (3 + i) + j] = p->k * n_e[i];
             jac[6 * (3 + i) + 3 + j] = p->k * e_w[i];
         }
@@ -155,15 +167,25 @@ static double f_axis3(const iso_field *f, const double y[], double *size)
     return f_axis(f, y, 2, size);
 }
 
+static double remove_spin(const iso_params *p, double y[])
+{
+    double u[3];
+    diag(p->inv_J, y + 3, u);
+    const double spin = dot(y, y + 3);
+    add_scaled(y, -spin / dot(y + 3, u), u);
+    return spin;
+}
+
 /* The three relations are restored one after the other, none disturbing the one before: |n| = 1 by scaling n,
- * (w,n) = 0 by taking the spin out of w, h by scaling w. The last is left out where the ball hardly moves: there a small
- * error of h would be a large one of w. */
+ * (w,n) = 0 by taking the spin out of w, h by scaling w. The spin is taken out along J^-1 n, as the contact's torque
+ * would: along n a rounding error of a light axis would be a large one of a heavy one's Jw. h is left out where the ball
+ * hardly moves: there a small error of h would be a large one of w. */
 static double project(const iso_field *f, double y[])
 {
     const double length_error = make_unit(y + 3) - 1, moving = fmax(norm(y), largest(y));
     double correction = fabs(length_error);
     if (moving == 0) return correction;
-    if (!f->effects.on[ISO_TWIST]) correction = fmax(correction, fabs(remove_along(y, y + 3)) / moving);
+    if (!f->effects.on[ISO_TWIST]) correction = fmax(correction, fabs(remove_spin(&f->p, y)) / moving);
     const bool is_free = iso_effects_none(&f->effects);
     if (!is_free && !iso_effects_keep_energy(f)) return correction;
     const double T = kinetic(f, y), U = is_free ? 0 : iso_effects_potential(f, y);

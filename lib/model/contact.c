@@ -1,8 +1,9 @@
 /* contact.c - the ball's w' under torques: with a contact that cannot twist, and with one that can.
  *
- * rigid: with x = J w x w + T, u = J^-1 n, g = (n,u)
+ * rigid: with u = J^-1 n, g = (n,u)
  *
- *     w' = J^-1 x + lambda u,     lambda = -(x,u)/g                          so that (w',n) = 0
+ *     w' = that of the free ball (ball.c) + J^-1 T - (T,u)/g u              so that (w',n) = 0
+ *     lambda = -(J w x w + T, u)/g
  *
  * loose: with s = (w,n), A = J - D n n^T, and (w,n') = 0
  *
@@ -12,6 +13,7 @@
 #include "model/contact_impl.h"
 
 #include "base/vec3_impl.h"
+#include "model/system.h"
 
 static void turn_of_normal(const iso_field *f, const double y[], double n_dot[3])
 {
@@ -36,44 +38,34 @@ static void slope_of_normal(const iso_field *f, const double y[], int dim, doubl
 
 /* --- rigid -------------------------------------------------------------------------------------------------------- */
 
-/* x and lambda */
-static double rigid_parts(const iso_field *f, const double y[], const double T[3], double u[3], double x[3])
+/* The part of lambda that a torque x has, -(x,u)/g; and u */
+static double resisted(const iso_params *p, const double n[3], const double x[3], double u[3])
 {
-    double Jw[3];
-    diag(f->p.J, y, Jw);
-    diag(f->p.inv_J, y + 3, u);
-    cross(Jw, y, x);
-    add_scaled(x, 1, T);
-    return -dot(x, u) / dot(y + 3, u);
+    diag(p->inv_J, n, u);
+    return -dot(x, u) / dot(n, u);
 }
 
 static void rigid_solve(const iso_field *f, const double y[], const double T[3], double dy[])
 {
-    double u[3], x[3];
-    const double lambda = rigid_parts(f, y, T, u, x);
-    for (int i = 0; i < 3; i++) dy[i] = f->p.inv_J[i] * x[i] + lambda * u[i];
-    turn_of_normal(f, y, dy + 3);
+    double u[3];
+    const double lambda = resisted(&f->p, y + 3, T, u);
+    iso_system_ball.rhs(f, y, dy);
+    for (int i = 0; i < 3; i++) dy[i] += f->p.inv_J[i] * T[i] + lambda * u[i];
 }
 
-/* dlambda = -(dx,u)/g, and by n_j also -(x_j/J_j + 2 lambda u_j)/g */
+/* That of the free ball; of the part l of lambda that T has, dl = -(dT,u)/g, and by n_j also -(T_j/J_j + 2 l u_j)/g */
 static void rigid_slope(const iso_field *f, const double y[], const double T[3], int dim, double jac[])
 {
     const iso_params *p = &f->p;
-    double u[3], x[3], Jw[3];
-    const double lambda = rigid_parts(f, y, T, u, x), g = dot(y + 3, u);
-    diag(p->J, y, Jw);
+    double u[3], six[ISO_STATE * ISO_STATE];
+    const double lambda = resisted(p, y + 3, T, u), g = dot(y + 3, u);
+    iso_system_ball.jacobian(f, y, six);
     for (int j = 0; j < dim; j++) {
-        double dx[3] = {jac[j], jac[dim + j], jac[2 * dim + j]};
-        if (j < 3) {
-            const double unit[3] = {j == 0, j == 1, j == 2};
-            double unit_w[3], Jw_unit[3];
-            cross(unit, y, unit_w);
-            cross(Jw, unit, Jw_unit);
-            for (int i = 0; i < 3; i++) dx[i] += p->J[j] * unit_w[i] + Jw_unit[i];
-        }
-        double dlambda = -dot(dx, u) / g;
-        if (j >= 3 && j < 6) dlambda -= (p->inv_J[j - 3] * x[j - 3] + 2 * lambda * u[j - 3]) / g;
-        for (int i = 0; i < 3; i++) jac[dim * i + j] = p->inv_J[i] * dx[i] + dlambda * u[i];
+        const double dT[3] = {jac[j], jac[dim + j], jac[2 * dim + j]};
+        double dlambda = -dot(dT, u) / g;
+        if (j >= 3 && j < 6) dlambda -= (p->inv_J[j - 3] * T[j - 3] + 2 * lambda * u[j - 3]) / g;
+        for (int i = 0; i < 3; i++)
+            jac[dim * i + j] = p->inv_J[i] * dT[i] + dlambda * u[i] + (j < ISO_STATE ? six[ISO_STATE * i + j] : 0);
     }
     for (int j = 0; j < 3; j++) jac[dim * j + 3 + j] += lambda * p->inv_J[j];
     slope_of_normal(f, y, dim, jac);
@@ -81,8 +73,11 @@ static void rigid_slope(const iso_field *f, const double y[], const double T[3],
 
 static double rigid_twist(const iso_field *f, const double y[], const double T[3])
 {
-    double u[3], x[3];
-    return rigid_parts(f, y, T, u, x);
+    double Jw[3], u[3], x[3];
+    diag(f->p.J, y, Jw);
+    cross(Jw, y, x);
+    add_scaled(x, 1, T);
+    return resisted(&f->p, y + 3, x, u);
 }
 
 /* --- loose -------------------------------------------------------------------------------------------------------- */
