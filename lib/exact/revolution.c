@@ -200,16 +200,16 @@ static int across_plane(const double point[ISO_STATE])
 }
 
 /* The axis of revolution; -1: none. */
-static int symmetry_axis(const double J[3])
+static int symmetry_axis(const iso_params *p)
 {
     for (int i = 0; i < 3; i++)
-        if (J[(i + 1) % 3] == J[(i + 2) % 3]) return i;
+        if (iso_params_symmetric(p, i)) return i;
     return -1;
 }
 
 static bool serves(const iso_field *f, const double point[ISO_STATE])
 {
-    return across_plane(point) >= 0 || symmetry_axis(f->p.J) >= 0;
+    return across_plane(point) >= 0 || symmetry_axis(&f->p) >= 0;
 }
 
 /* gamma, gamma' = gamma x M on |gamma| = 1, (M,gamma) = 0 and the level H = 0; gives M_x. */
@@ -235,13 +235,15 @@ static void take_body(revolution *r, const iso_field *f, const double point[ISO_
     const int plane = across_plane(point), next = (plane + 1) % 3, last = (plane + 2) % 3;
     const int nearer =
         fabs(point[3 + next]) < fabs(point[3 + last]) ? next : last; /* to the equator: y has digits there */
-    const int first = plane >= 0 ? nearer : symmetry_axis(f->p.J);
+    const int first = plane >= 0 ? nearer : symmetry_axis(&f->p);
     r->plane = plane >= 0;
     r->across = plane;
     for (int i = 0; i < 3; i++) r->axis[i] = (first + i) % 3;
-    r->x.Ja = f->p.J[first], r->x.Je = f->p.J[plane < 0 ? (first + 1) % 3 : first == next ? last : next];
+    const real *const J = (const real[]){f->p.J[0], f->p.J[1], f->p.J[2]};
+    r->x.Ja = J[first]; /* of moments that differ by rounding the mean: what they differ by averages out in a turn */
+    r->x.Je = plane < 0 ? (J[(first + 1) % 3] + J[(first + 2) % 3]) / 2 : J[first == next ? last : next];
     r->x.eps = f->eps, r->x.H = f->energy, r->x.power = -1 / (real)f->p.k;
-    r->det = (real)f->p.J[0] * f->p.J[1] * f->p.J[2] / ((real)f->p.k * f->p.k);
+    r->det = J[0] * J[1] * J[2] / ((real)f->p.k * f->p.k);
 }
 
 /* xi at the start: P = (a - y)(y - b) Q gives what sn^2 takes of y0 */

@@ -161,10 +161,10 @@ static void say_separated(const iso_momentum *m, const double J[3], iso_momentum
         snprintf(f->angle[i].what, sizeof f->angle[i].what, "%c swings along axis %d", "uv"[i], m -> axis[i] + 1);
 }
 
-static void say_symmetric(const double J[3], iso_frequencies *f)
+static void say_symmetric(const iso_params *p, iso_frequencies *f)
 {
     int axis = 0; /* the first, as in lib/exact, where all three are equal */
-    while (axis < 2 && J[(axis + 1) % 3] != J[(axis + 2) % 3]) axis++;
+    while (axis < 2 && !iso_params_symmetric(p, axis)) axis++;
     snprintf(f->motion, sizeof f->motion, "turns about the axis of symmetry %d and swings along it", axis + 1);
     snprintf(f->angle[0].what, sizeof f->angle[0].what, "swings along the axis");
     snprintf(f->angle[1].what, sizeof f->angle[1].what, "turns about axis %d", axis + 1);
@@ -202,7 +202,7 @@ static void say(const iso_orbit *orbit, const iso_sample *start, const iso_exact
         const double F = m.k == 1 ? 2 * torus->c : -2 * torus->c / m.det_J;
         say_separated(&m, J, iso_momentum_find(&m, iso_energy(&field->p, field->eps), F), f);
         break;
-    case ISO_EXACT_SYMMETRIC: say_symmetric(J, f); break;
+    case ISO_EXACT_SYMMETRIC: say_symmetric(&field->p, f); break;
     case ISO_EXACT_PLANE: say_plane(field, start->point, f); break;
     case ISO_EXACT_SEPARATRIX:
         snprintf(f->motion, sizeof f->motion, "leaves an unstable rotation and comes back to it, once");
