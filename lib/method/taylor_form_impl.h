@@ -17,9 +17,9 @@ typedef struct form {
     iso_clock own;
     bool is_point, is_point_t, in_t, is_neumann, rolls, unprojected;
     enum second_integral_of { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
-    double tolerance;                      /* of the last terms, in units of the state */
-    double at_poles;                       /* the same of 1/g of a ball, see for_poles */
-    real second;                           /* the second integral at the start */
+    double tolerance;                                         /* of the last terms, in units of the state */
+    double at_poles;                                          /* the same of 1/g of a ball, see for_poles */
+    real second;                                              /* the second integral at the start */
     quadrature rule;
     int clocks; /* those that are not the own */
     iso_clock clock_of[ISO_CLOCKS];
@@ -133,7 +133,8 @@ static void set_numbers(form *T, int lane, const iso_model *m)
     /* in t, with eps = h det J/k^2: B = 2 h k/det J */
     LANE(S->alpha, lane) = T->in_t ? 1 + 1 / (2 * k) : -1 - 1 / k;
     LANE(S->coupling, lane) = T->in_t ? 2 * eps / (k * factor * factor) : 2 * eps / k;
-    if (T->is_point_t) LANE(S->alpha, lane) = 1 / ROOT(J[0] * J[1] * J[2]), LANE(S->coupling, lane) = 2 * eps / factor;
+    if (T->is_point_t)
+        LANE(S->alpha, lane) = 1 / ROOT(J[0] * J[1] * J[2]), LANE(S->coupling, lane) = 2 * eps / factor;
     for (int i = 0; i < 3; i++) { /* of the point: B = J^(1/2) C J^(1/2), m = J^(1/2) l */
         const NUMBER root_J = T->is_point ? ROOT(J[i]) : 1;
         LANE(AT(S->J, i), lane) = J[i];
@@ -341,7 +342,8 @@ static real longest_step(const series *S)
  * fifth more steps, 3/4 of the digits 2 %. */
 static real for_poles(const form *T, int n)
 {
-    return rough_root(T->at_poles * magnitude(T->S.pole[0]) / larger(magnitude(T->S.pole[n]), spread((NUMBER)1e-290)), n);
+    return rough_root(T->at_poles * magnitude(T->S.pole[0]) / larger(magnitude(T->S.pole[n]), spread((NUMBER)1e-290)),
+                      n);
 }
 
 /* The step whose last three terms are as small as the tolerance, or the longest; shorter where the clocks need it. Two
