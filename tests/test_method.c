@@ -254,7 +254,7 @@ static void other_clocks(const orbit *plain, const iso_method *m, laws_worst *wo
         double same[ISO_MAX_STATE];
         orbit_clocks(&other, o.model.carry[c], true, true, true);
         solve(&other, m, y[ISO_STATE + c], same);
-        note(worst, &o, m, orbit_error(plain, same, y), 4 * allowed(m));
+        note(worst, &o, m, orbit_error(plain, same, y), 6 * allowed(m));
         for (int i = 0; i < other.model.carried; i++)
             if (other.model.carry[i] == o.model.clock)
                 note(worst, &o, m, fabs(same[ISO_STATE + i] / (TURN * o.unit) - 1), 4 * allowed(m));
