@@ -16,10 +16,12 @@ typedef struct form {
     iso_model shape;
     iso_clock own;
     bool is_point, is_point_t, in_t, is_neumann, rolls, unprojected;
+    bool loaded;                              /* a ball with torques, or free to twist         */
     enum second_integral_of { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
-    double tolerance;                                         /* of the last terms, in units of the state */
-    double at_poles;                                          /* the same of 1/g of a ball, see for_poles */
-    real second;                                              /* the second integral at the start */
+    double tolerance;                /* of the last terms, in units of the state                             */
+    double at_poles;                 /* the same of 1/g of a ball, see for_poles                             */
+    real second;                     /* the second integral at the start                                     */
+    real twice_energy, keeps_energy; /* of a loaded ball at the start; 1 where it is conserved, else 0       */
     quadrature rule;
     int clocks; /* those that are not the own */
     iso_clock clock_of[ISO_CLOCKS];
@@ -84,8 +86,8 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     T->at_poles = pow(T->tolerance, 0.75);
     T->is_point = m->system == &iso_system_point;
     T->rolls = m->field.at[ISO_ATTITUDE] && m->field.p.k == 1;
-    if (T->is_point ? !m->field.effects.on[ISO_FIELD]
-                    : !T->is_point_t && m->forces == 0 && !m->field.effects.on[ISO_TWIST])
+    T->loaded = !T->is_point && !T->is_point_t && (m->forces > 0 || m->field.effects.on[ISO_TWIST]);
+    if (T->is_point ? !m->field.effects.on[ISO_FIELD] : !T->is_point_t && !T->loaded)
         T->second_of = m->field.p.k == -1 ? SHELL : m->field.p.k == 1 ? PLANE : NONE;
     S->order = order_for(T->tolerance);
     for (int i = 1; i < MOST + 3; i++) S->count[i] = spread((NUMBER)i), S->inverse[i] = 1 / S->count[i];

@@ -162,17 +162,85 @@ static real restore_point_t(const form *T, state *s)
     return worst + restore_length(s->w, 3, square, square > zero);
 }
 
-/* (w,n) = 0 of a ball that does not twist, along J^-1 n as in ball.c; a free ball's energy. */
+/* Twice the energy of a loaded ball as sum_i a_i b_i, begun with its motion's, which is twice `kinetic`; in the same
+ * units how large the potential is, or can be made. */
+typedef struct energy_sum {
+    int count;
+    real a[16], b[16], sum, kinetic, range;
+} energy_sum;
+
+static void add(energy_sum *E, real a, real b)
+{
+    E->a[E->count] = a;
+    E->b[E->count++] = b;
+    E->sum += a * b;
+}
+
+/* v in space: v + 2 q0 c + 2 q x c, c = q x v */
+static void to_space(const state *s, const real v[3], real in_space[3])
+{
+    real c[3], d[3];
+    cross_product(s->Q, v, c);
+    cross_product(s->Q, c, d);
+    for (int i = 0; i < 3; i++) in_space[i] = v[i] + 2 * (s->Q[3] * c[i] + d[i]);
+}
+
+/* mgb/(1-k) (n,e); on a plane mgb (E,x), E the vertical in space */
+static void add_weight(const form *T, const state *s, energy_sum *E)
+{
+    const real factor = T->rolls ? 2 * T->S.mgb : 2 * T->S.mgb / (1 - T->S.k);
+    real up[3];
+    if (T->rolls) to_space(s, s->e, up);
+    for (int i = 0; i < 3; i++) add(E, factor * (T->rolls ? up[i] : s->e[i]), T->rolls ? s->way[i] : s->n[i]);
+    E->range = magnitude(factor);
+}
+
+/* with (w,Jw) - D (w,n)^2, (n,Cn) + 2 (l,n) and -2 c g^(-1/k) */
+static void energy_of(const form *T, const state *s, energy_sum *E)
+{
+    const series *S = &T->S;
+    const bool *on = T->shape.field.effects.on;
+    const real k = S->k;
+    real spin = zero, g = zero;
+    *E = (energy_sum){0};
+    for (int i = 0; i < 3; i++) {
+        add(E, s->w[i], AT(S->J, i) * s->w[i]);
+        spin += s->w[i] * s->n[i];
+        g += s->n[i] * AT(S->inv_J, i) * s->n[i];
+    }
+    if (on[ISO_TWIST]) add(E, -S->D * spin, spin);
+    E->kinetic = E->sum;
+    if (on[ISO_GRAVITY]) add_weight(T, s, E);
+    const vector C_n = matrix_times(S, packed(s->n));
+    for (int i = 0; on[ISO_FIELD] && i < 3; i++) add(E, s->n[i], AT(C_n, i) + 2 * AT(S->l, i));
+    if (on[ISO_LEVEL]) add(E, -2 * S->level * raised(g, -1 / k), spread(1));
+    E->range = larger(E->range, magnitude(E->sum - E->kinetic));
+}
+
+/* Like the model's projection left out where the ball hardly moves: there a small error of h is a large one of w. */
+static real restore_energy(const form *T, state *s)
+{
+    energy_sum E;
+    mask wanted = T->keeps_energy > zero;
+    if (!any(wanted)) return zero;
+    energy_of(T, s, &E);
+    const real defect = defect_of(E.a, E.b, E.count, T->twice_energy), moving = E.kinetic - defect;
+    wanted = both(both(wanted, moving > zero), both(E.kinetic > moving / 2, E.kinetic > (NUMBER)0.1 * E.range));
+    const real part = choose(wanted, defect / (2 * E.kinetic), zero);
+    for (int i = 0; i < 3; i++) s->w[i] -= part * s->w[i];
+    return magnitude(part);
+}
+
+/* (w,n) = 0 of a ball that does not twist, along J^-1 n as in ball.c; its energy. */
 static real restore_ball(const form *T, state *s)
 {
     const series *S = &T->S;
     real worst = restore_length(s->n, 3, spread(1), everywhere()), K[3];
-    if (T->shape.field.effects.on[ISO_TWIST]) return worst;
     real g = zero;
     for (int i = 0; i < 3; i++) g += s->n[i] * AT(S->inv_J, i) * s->n[i];
-    const real spin = defect_of(s->w, s->n, 3, zero) / g;
+    const real spin = T->shape.field.effects.on[ISO_TWIST] ? zero : defect_of(s->w, s->n, 3, zero) / g;
     for (int i = 0; i < 3; i++) s->w[i] -= spin * AT(S->inv_J, i) * s->n[i];
-    if (T->shape.forces > 0) return worst;
+    if (T->loaded) return worst + restore_energy(T, s);
     for (int i = 0; i < 3; i++) K[i] = AT(S->J, i) * s->w[i];
     const real twice = 2 * S->energy;
     const real part = choose(twice > zero, defect_of(s->w, K, 3, twice) / (2 * twice), zero);
@@ -181,14 +249,40 @@ static real restore_ball(const form *T, state *s)
     return worst + magnitude(part);
 }
 
-/* Gives the relative size of the corrections to lengths and energy. */
+/* Gives the relative size of the corrections to lengths and energy, which asks for the vertical. */
 static real restore(const form *T, state *s)
 {
     if (T->unprojected && !T->is_point) return zero; /* off them a point's equations are unstable */
-    real worst = T->is_point_t ? restore_point_t(T, s) : T->is_point ? restore_point(T, s) : restore_ball(T, s);
+    real worst = zero;
     if (T->shape.field.at[ISO_GRAVITY]) worst += restore_length(s->e, 3, spread(1), everywhere());
     if (T->shape.field.at[ISO_ATTITUDE]) worst += restore_length(s->Q, 4, spread(1), everywhere());
-    return worst;
+    if (T->is_point_t) return worst + restore_point_t(T, s);
+    return worst + (T->is_point ? restore_point(T, s) : restore_ball(T, s));
+}
+
+/* The second integral, or a loaded ball's energy, at the start: of what the constraints make of it, or they and it
+ * would not fit together. */
+static void set_integrals(form *T, int lane, const iso_model *m)
+{
+    state start = T->now;
+    const enum second_integral_of wanted = T->second_of;
+    (void)lane;
+    T->second_of = NONE;
+    LANE(T->keeps_energy, lane) = 0;
+    restore(T, &start);
+    T->second_of = wanted;
+    if (wanted) {
+        const second_integral F = second_of(T, &start);
+        const real second = defect_of(F.a, F.b, F.count, zero) / F.divisor;
+        LANE(T->second, lane) = LANE(second, lane);
+    }
+    if (T->loaded) {
+        energy_sum E;
+        energy_of(T, &start, &E);
+        const real twice = defect_of(E.a, E.b, E.count, zero);
+        LANE(T->twice_energy, lane) = LANE(twice, lane);
+        LANE(T->keeps_energy, lane) = iso_effects_keep_energy(&m->field);
+    }
 }
 
 /* A new orbit in a lane, at y. */
@@ -196,15 +290,7 @@ static void set_out(form *T, int lane, const iso_model *m, const double y[])
 {
     set_numbers(T, lane, m);
     load(T, lane, y);
-    if (!T->second_of) return;
-    state start = T->now; /* F of what the constraints make of the start, or F and they would not fit together */
-    const enum second_integral_of wanted = T->second_of;
-    T->second_of = NONE;
-    restore(T, &start);
-    T->second_of = wanted;
-    const second_integral F = second_of(T, &start);
-    const real second = defect_of(F.a, F.b, F.count, zero) / F.divisor;
-    LANE(T->second, lane) = LANE(second, lane);
+    if (T->second_of || T->loaded) set_integrals(T, lane, m);
 }
 
 /* The state at x of the series. */
