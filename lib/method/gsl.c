@@ -7,6 +7,7 @@
 
 #include "base/finite_impl.h"
 #include "base/room_impl.h"
+#include "base/vec3_impl.h"
 #include "method/methods_impl.h"
 
 /* --- the model as GSL sees it ---------------------------------------------------------------------------------- */
@@ -241,17 +242,28 @@ static iso_status start(iso_integrator *it)
     return ISO_OK;
 }
 
-/* A step of given length, whatever its error; but an infinite one is bsimp's way to say that it has no result. */
+/* A step of given length, whatever its error. An infinite one is bsimp's way to say that it has no result: it
+ * measures changes by the components they are of, and one of those was next to zero. Half the step leads away. */
+static bool fixed_part(iso_integrator *it, iso_gsl *g, double h, int divisions, double y[])
+{
+    double error[ISO_MAX_STATE], sum = 0, reached[ISO_MAX_STATE];
+    copy(y, reached, it->model.dim);
+    const int status = gsl_odeiv2_step_apply(g->driver->s, 0, h, reached, error, NULL, NULL, &g->system);
+    for (int i = 0; i < it->model.dim; i++) sum += error[i];
+    if (status == GSL_SUCCESS && isfinite(sum)) return copy(reached, y, it->model.dim), true;
+    if (status != GSL_SUCCESS || divisions == 0) return false;
+    return fixed_part(it, g, h / 2, divisions - 1, y) && fixed_part(it, g, h / 2, divisions - 1, y);
+}
+
 static iso_status fixed_step(iso_integrator *it, iso_gsl *g, double y[], double *h)
 {
-    double error[ISO_MAX_STATE], sum = 0;
+    enum { MOST_DIVISIONS = 20 };
     if (check_room(it, g) != ISO_OK) return ISO_NO_MEMORY;
     *h = it->direction * it->options.fixed_step;
     if (g->implicit) to_units(g, y, y);
-    const int status = gsl_odeiv2_step_apply(g->driver->s, 0, *h, y, error, NULL, NULL, &g->system);
+    const bool done = fixed_part(it, g, *h, it->method->variant == BSIMP ? MOST_DIVISIONS : 0, y);
     if (g->implicit) from_units(g, y, y);
-    for (int i = 0; i < it->model.dim; i++) sum += error[i];
-    return status == GSL_SUCCESS && isfinite(sum) ? ISO_OK : iso_integrator_stopped(it, "the step failed");
+    return done ? ISO_OK : iso_integrator_stopped(it, "the step failed");
 }
 
 static iso_status step(iso_integrator *it, double y[], double *h)
