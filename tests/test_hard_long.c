@@ -1,0 +1,335 @@
+/* A million spins of a free ball: what must not drift does not, and phases go wrong no faster than their methods
+ * promise.
+ *
+ * A spin is 1/|omega| at the start, the time in which the ball turns by a radian. Run by itself every method goes as
+ * far as a test has time for; `test_hard_long 1e6` takes each so far at k = -1, or as far as ten minutes of processor
+ * time go, and says how far: for the table.
+ */
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+
+#include "hard_long.h"
+
+static iso_context *ctx;
+static double all_spins; /* of every method at k = -1; 0: what a test has time for */
+static long_run runs[HARD_WAYS];
+
+static const hard_road by_exact = {ISO_EXACT, NULL, 1e-12};
+
+static long_scene scene_of(double k)
+{
+    long_scene scene = {.p = laws_params(k, (double[]){1.4, 2.1, 3.0})};
+    const double omega[3] = {0.9, -0.3, -0.225}, normal[3] = {0.36, 0.48, 0.8};
+    if (iso_start_ball(ctx, omega, normal, ISO_SPIN_REFUSE, &scene.start) != ISO_OK) scene_stops("a start", ctx);
+    scene.spin = 1 / norm(scene.start.y);
+    return scene;
+}
+
+/* --- integrals -------------------------------------------------------------------------------------------------- */
+
+/* A second or two of each at k = -1, a tenth of it for other k. */
+static double length_of(const hard_road *way, double k)
+{
+    static const char *const fast[] = {"taylor", "blanes_moan6"};
+    const double part = k == -1 ? 1 : 0.1;
+    if (k == -1 && all_spins > 0) return all_spins;
+    for (int i = 0; i < 2 && way->method; i++)
+        if (strcmp(way->method->name, fast[i]) == 0) return 1e6 * part;
+    if (!way->method) return 1e6;
+    return part * (long_is(way, "splitting") ? 1e5 : strcmp(way->method->name, "rk8pd") == 0 ? 1e4 : 500);
+}
+
+static void run_all(double k)
+{
+    const long_scene scene = scene_of(k);
+    for (int i = 0; i < hard_ways; i++) {
+        const hard_road *way = &hard_way[i];
+        runs[i] = long_follow(ctx, &scene, way, length_of(way, k), fabs(k) == 1 ? &by_exact : NULL,
+                              all_spins > 0 ? 600 : 0);
+        if (all_spins == 0 || runs[i].refused) continue;
+        const double *drift = runs[i].drift;
+        printf("%s %s, k = %g: %g spins, energy %.1e, |n| %.1e, (w,n) %.1e, F %.1e, error %.1e ~ t^%.2f %s\n",
+               iso_picture_name((int)way->backend), way->method ? way->method->name : "", k, runs[i].spins,
+               drift[LONG_ENERGY], drift[LONG_UNITS], drift[LONG_SPIN], drift[LONG_SECOND], runs[i].error,
+               runs[i].growth, runs[i].words);
+        fflush(stdout);
+    }
+}
+
+static const char *lengths(double k)
+{
+    if (k != -1)
+        return "1e5 spins: taylor, blanes_moan6, exact (1e6); 1e4: other splittings; 1e3: "
+               "rk8pd; "
+               "50: others";
+    if (all_spins > 0) return "as many spins as asked for, or as ten minutes make";
+    return "1e6 spins: taylor, blanes_moan6, exact; 1e5: other splittings; 1e4: rk8pd; 500: "
+           "others";
+}
+
+/* Names of cases are kept by the book. */
+static const char *name_of(const char *what, double k)
+{
+    static char names[40][64];
+    static int used;
+    char *const name = names[used++ % 40];
+    snprintf(name, sizeof names[0], "%s, k = %g", what, k);
+    return name;
+}
+
+static void begin_case(const char *what, double k, const char *why)
+{
+    char quantity[256];
+    snprintf(quantity, sizeof quantity, "%s; %s", what, lengths(k));
+    hard_case(name_of(what, k), quantity, why);
+}
+
+static void hold_drift(double k, int quantity, const char *what, const char *why)
+{
+    begin_case(what, k, why);
+    for (int i = 0; i < hard_ways; i++) {
+        const hard_road *way = &hard_way[i];
+        if (runs[i].refused)
+            hard_refused(way, way->backend == ISO_EXACT && k == 0.5, runs[i].words);
+        else
+            hard_hold(way, runs[i].drift[quantity], long_bound(way, &runs[i], quantity));
+    }
+    for (int i = 0; i < hard_ways; i++) { /* what the projection is for */
+        const iso_method *m = hard_way[i].method;
+        if (!m || m->projects || hard_way[i].backend != ISO_BALL || long_is(&hard_way[i], "splitting") ||
+            quantity == LONG_SECOND)
+            continue;
+        hard_naive(m->name, runs[i].drift[quantity], LONG_ROUNDED);
+    }
+}
+
+/* Steps alike, symplectic: the energy's error has no trend. White noise would have one of three standard errors in
+ * one of 370 runs. */
+static void hold_trend(double k)
+{
+    begin_case("trend of the energy", k, "an error a step of one sign would be 1e6 times as large at the end");
+    for (int i = 0; i < hard_ways; i++)
+        if (long_is(&hard_way[i], "splitting")) hard_hold(&hard_way[i], runs[i].trend, 3);
+    for (int i = 0; i < hard_ways && k == -1; i++)
+        if (hard_way[i].method && hard_way[i].backend == ISO_BALL && strstr(hard_way[i].method->name, "adams"))
+            hard_naive(hard_way[i].method->name, runs[i].trend, 3);
+}
+
+/* With energy and F the frequencies stay, and phases go wrong linearly: t^1, and t^(3/2) if F went at random. */
+static void hold_growth(double k)
+{
+    begin_case("growth p of the phase error, t^(1+p)", k, "a drift of a frequency makes it t^2");
+    for (int i = 0; i < hard_ways; i++)
+        if (long_is(&hard_way[i], "splitting") || (hard_way[i].method && !strcmp(hard_way[i].method->name, "taylor")))
+            hard_hold(&hard_way[i], runs[i].growth - 1, 0.3);
+    for (int i = 0; i < hard_ways && k == -1; i++) /* which keeps energy and constraints, but not F */
+        if (hard_way[i].backend == ISO_BALL && hard_way[i].method && !strcmp(hard_way[i].method->name, "rk8pd"))
+            hard_naive("rk8pd, F left to drift", runs[i].growth - 1, 0.3);
+    begin_case("phase error in tolerances a spin", k, "steps add up");
+    for (int i = 0; i < hard_ways; i++)
+        if (long_is(&hard_way[i], "splitting") || (hard_way[i].method && !strcmp(hard_way[i].method->name, "taylor")))
+            hard_hold(&hard_way[i], runs[i].error / (hard_way[i].tolerance * runs[i].spins), 4);
+}
+
+static void integrals_hold(double k)
+{
+    run_all(k);
+    hold_drift(k, LONG_ENERGY, "energy", "restored with a rounding of its own at each of 1e6 steps");
+    hold_drift(k, LONG_UNITS, "length of n", "off it the equations are others, of a point unstable");
+    hold_drift(k, LONG_SPIN, "(omega,n)", "a twist that the contact forbids");
+    if (fabs(k) == 1) hold_drift(k, LONG_SECOND, "F", "nothing in the equations holds it");
+    hold_trend(k);
+    if (fabs(k) == 1) hold_growth(k);
+}
+
+/* --- what is no integral ---------------------------------------------------------------------------------------- */
+
+static void no_integral(void)
+{
+    const long_scene scene = scene_of(0.5);
+    const hard_road way = {ISO_BALL, iso_method_find("taylor"), 1e-12};
+    hard_case("no integral, k = 0.5", "energy beside F of k = 1 and of k = -1, 100 spins",
+              "a drift of what holds must be seen, and what does not hold must drift");
+    iso_orbit *orbit;
+    iso_sample first, s;
+    if (long_create(ctx, &scene, &way, &orbit) != ISO_OK) scene_stops("taylor", ctx);
+    first = scene_at(ctx, orbit, 0);
+    const char *const names[] = {"h", "F_plane", "F_shell"};
+    for (int j = 0; j < 3; j++) {
+        const iso_integral *integral = laws_integral(&iso_system_ball, names[j]);
+        double size, worst = 0;
+        const double begun = iso_orbit_integral(orbit, &iso_system_ball, integral, &first, &size);
+        for (int i = 1; i <= 200; i++) {
+            s = scene_at(ctx, orbit, i * scene.spin / 2);
+            const double drift = iso_orbit_integral(orbit, &iso_system_ball, integral, &s, &size) - begun;
+            worst = fmax(worst, fabs(drift) / size);
+        }
+        if (j == 0) hard_hold(&way, worst, LONG_ROUNDED);
+        if (j > 0) hard_naive(names[j], worst, 0.01);
+    }
+    iso_orbit_free(orbit);
+}
+
+/* --- the finest phase ------------------------------------------------------------------------------------------- */
+
+/* The ball's state by exact, and how far a start that differs by `off` in omega gets from it. */
+static double sensitivity(const long_scene *scene, double spins, double state[ISO_STATE])
+{
+    double worst = 0;
+    for (int i = -1; i < 3; i++) {
+        const double off = i < 0 ? 0 : 1e-10;
+        long_scene near = *scene;
+        iso_orbit *orbit;
+        double *const omega = near.start.y;
+        if (i >= 0) omega[i] += off * norm(omega), remove_along(omega, omega + 3);
+        if (long_create(ctx, &near, &by_exact, &orbit) != ISO_OK) scene_stops("exact", ctx);
+        const iso_sample s = scene_at(ctx, orbit, spins * scene->spin);
+        if (i < 0) copy(s.ball, state, ISO_STATE);
+        if (i >= 0) worst = fmax(worst, hard_error(s.ball, state) / off);
+        iso_orbit_free(orbit);
+    }
+    return worst;
+}
+
+/* Steps of the series with plain projection: n/|n|, omega without its part along n, of the length the energy asks. */
+static double plainly_projected(const long_scene *scene, double spins, const double right[ISO_STATE])
+{
+    enum { PARTS = 2 };
+    const iso_field f = {.p = scene->p};
+    iso_model model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[]){false, false, false});
+    const double *J = scene->p.J;
+    double y[ISO_STATE];
+    iso_integrator *it;
+    copy(scene->start.y, y, ISO_STATE);
+    model.field.energy = dot_diag(y, J, y) / 2;
+    if (iso_integrator_create(ctx, iso_method_find("taylor"), &model,
+                              &(iso_method_options){.tolerance = 1e-15, .no_projection = true}, &it) != ISO_OK)
+        scene_stops("taylor", ctx);
+    for (long i = 0; i < lrint(spins * PARTS); i++) {
+        iso_integrator_start(it, y);
+        if (iso_integrator_at(it, scene->spin / PARTS, y) != ISO_OK) scene_stops("taylor", ctx);
+        make_unit(y + 3);
+        remove_along(y, y + 3);
+        scale(y, sqrt(2 * model.field.energy / dot_diag(y, J, y)));
+    }
+    iso_integrator_free(it);
+    return hard_error(y, right);
+}
+
+/* What the rounding of the start (omega, n or M, gamma: six numbers, and J on the way) makes of the phase. */
+static void finest_phase(double k)
+{
+    enum { SPINS = 100000 };
+    const long_scene scene = scene_of(k);
+    double right[ISO_STATE];
+    const double rounded = 8 * DBL_EPSILON * sensitivity(&scene, SPINS, right);
+    hard_case(name_of("phase", k), "state against exact after 1e5 spins at tolerance 1e-15",
+              "roundings with a bias turn it at every step; F at random makes it t^(3/2)");
+    for (int i = 0; i < hard_ways; i++) {
+        hard_road way = hard_way[i];
+        if (!way.method || strcmp(way.method->name, "taylor") != 0) continue;
+        iso_orbit *orbit;
+        way.tolerance = 1e-15;
+        if (long_create(ctx, &scene, &way, &orbit) != ISO_OK) scene_stops("taylor", ctx);
+        const iso_sample s = scene_at(ctx, orbit, SPINS * scene.spin);
+        hard_hold(&hard_way[i], hard_error(s.ball, right), rounded);
+        iso_orbit_free(orbit);
+    }
+    hard_naive("projected by plain normalisation", plainly_projected(&scene, SPINS, right), rounded);
+}
+
+/* --- the clock -------------------------------------------------------------------------------------------------- */
+
+/* A random orbit in the system's own clock; gives the time of a radian of the unit vector. */
+static double sampled(const iso_system *system, double k, iso_model *model, double y[ISO_STATE])
+{
+    iso_field f = {.p = laws_params(k, (double[]){1.4, 2.1, 3.0})};
+    iso_random *random = iso_random_create(8);
+    double dy[ISO_STATE];
+    system->sample(&f, random, y);
+    iso_random_free(random);
+    *model = iso_model_assemble(system, &f, system->clock, (const bool[]){false, false, false});
+    model->rhs(model, y, dy);
+    return 1 / norm(dy + 3);
+}
+
+static iso_integrator *started(const iso_method *method, const iso_model *model, const iso_method_options *options,
+                               const double y[ISO_STATE])
+{
+    iso_integrator *it;
+    if (iso_integrator_create(ctx, method, model, options, &it) != ISO_OK || iso_integrator_start(it, y) != ISO_OK)
+        scene_stops(method->name, ctx);
+    return it;
+}
+
+static void clocks(void)
+{
+    enum { STEPS = 10000 };
+    hard_case("clock", "time after 10000 steps of 1/10 radian, in units of it",
+              "t += h rounds at each step, for equal steps to one side");
+    double h = 0, sum = 0;
+    for (int i = 0; i < hard_ways; i++) {
+        const hard_road *way = &hard_way[i];
+        if (!way->method || !way->method->fixed) continue;
+        iso_model model;
+        double t, y[ISO_STATE], reached[ISO_STATE];
+        h = 0.1 * sampled(way->backend == ISO_BALL ? &iso_system_ball : &iso_system_point, -1, &model, y);
+        iso_integrator *it = started(way->method, &model, &(iso_method_options){.fixed_step = h}, y);
+        const iso_status status = iso_integrator_at(it, (STEPS - 0.5) * h, reached);
+        iso_integrator_last(it, &t, y);
+        hard_hold(way, status == ISO_OK ? fabs(t / (STEPS * h) - 1) : NAN, 2 * DBL_EPSILON);
+        iso_integrator_free(it);
+    }
+    for (int i = 0; i < STEPS; i++) sum += h;
+    hard_naive("t += h", fabs(sum / (STEPS * h) - 1), 2 * DBL_EPSILON);
+}
+
+/* --- form 5b left alone ----------------------------------------------------------------------------------------- */
+
+/* gamma'' = (2 eps/k) q^(-1-1/k) [(1-k) q gamma - J gamma] */
+static int second_order(double s, const double y[], double dy[], void *model)
+{
+    const iso_field *f = &((const iso_model *)model)->field;
+    const double k = f->p.k, *J = f->p.J, *gamma = y + 3, q = dot_diag(gamma, J, gamma);
+    const double a = 2 * f->eps / k * pow(q, -1 - 1 / k);
+    (void)s;
+    for (int i = 0; i < 3; i++) dy[i] = a * ((1 - k) * q - J[i]) * gamma[i], dy[3 + i] = y[i];
+    return GSL_SUCCESS;
+}
+
+static void unprojected(double k)
+{
+    const hard_road way = {ISO_POINT, iso_method_find("taylor"), 1e-12};
+    const iso_method_options options = {.tolerance = way.tolerance};
+    iso_model model;
+    double start[ISO_STATE], y[ISO_STATE], s = 0;
+    hard_case(name_of("form 5b", k), "|gamma| after 300 radians",
+              "off |gamma| = 1 the equations of second order are unstable");
+    const double end = 300 * sampled(&iso_system_point, k, &model, start);
+    iso_integrator *it = started(way.method, &model, &options, start);
+    hard_hold(&way, iso_integrator_at(it, end, y) == ISO_OK ? fabs(norm(y + 3) - 1) : NAN, LONG_ROUNDED);
+    iso_integrator_free(it);
+    gsl_odeiv2_system system = {second_order, NULL, ISO_STATE, &model};
+    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-12, 1e-12);
+    gsl_odeiv2_driver_set_nmax(driver, 100000);
+    cross(start + 3, start, y);
+    copy(start + 3, y + 3, 3);
+    const int status = gsl_odeiv2_driver_apply(driver, &s, end, y);
+    hard_naive("unprojected, by rk8pd", status == GSL_SUCCESS ? fabs(norm(y + 3) - 1) : NAN, LONG_ROUNDED);
+    gsl_odeiv2_driver_free(driver);
+}
+
+int main(int argc, char **argv)
+{
+    gsl_set_error_handler_off();
+    all_spins = argc > 1 ? atof(argv[1]) : 0;
+    ctx = iso_context_create();
+    hard_topic("5. Long time");
+    for (int i = 0; i < 3; i++) integrals_hold((const double[]){-1, 1, 0.5}[i]);
+    no_integral();
+    for (int k = -1; k <= 1; k += 2) finest_phase(k);
+    clocks();
+    for (int i = 0; i < 3; i++) unprojected((const double[]){-1, 0.5, 0.75}[i]);
+    iso_context_free(ctx);
+    return hard_summary();
+}
