@@ -110,8 +110,9 @@ static void touching(void)
         const he_answer a = he_solve(ctx, way, &l.p, &l.start, &l.e, l.top);
         /* pressure's terms are of size 3, their errors those of the state's largest, w = 3 */
         hard_hold(way, a.status == ISO_OK ? fabs(a.at.pressure) : NAN, 9 * he_bound(way, a.steps));
-        if (way->method != iso_method_find("taylor")) continue;
-        hard_hold(way, isnan(loss(way, &l.p, &l.start, &l.e, 2, &steps, &answered)) && answered ? 0 : 1, 0);
+        if (way->method == iso_method_find("taylor"))
+            hard_hold(way, isnan(loss(way, &l.p, &l.start, &l.e, 2, &steps, &answered)) && answered ? 0 : 1, 0);
+        if (way->method != iso_method_find("rk8pd")) continue;
         for (int j = -50; j <= 50; j++) { /* -D (1-k) w^2 + mgb (e,n) as it comes */
             const he_answer near = he_solve(ctx, way, &l.p, &l.start, &l.e, l.top + j * 1e-9);
             const double w = norm(near.at.ball), c = dot(near.at.vertical, near.at.ball + 3);
