@@ -151,6 +151,16 @@ static void projection_restores(const laws_case *c, laws_worst *worst)
     }
 }
 
+/* A part of the fast vector along the unit one, of that share of its length: a ball's as an impulse of the contact gives
+ * it, along J^-1 n, a point's along gamma. */
+static void add_spin(const laws_case *c, double share, double y[ISO_STATE])
+{
+    double along[3];
+    copy(c->y + 3, along, 3);
+    if (c->system == &iso_system_ball) diag(c->field.p.inv_J, c->y + 3, along);
+    add_scaled(y, share * norm(y) / dot(along, c->y + 3), along);
+}
+
 /* Each relation broken alone, by a known amount: the correction is that amount, and the state is back. */
 static void correction_reported(const laws_case *c, laws_worst *worst)
 {
@@ -162,7 +172,7 @@ static void correction_reported(const laws_case *c, laws_worst *worst)
             double y[ISO_STATE];
             copy(c->y, y, ISO_STATE);
             if (relation == 0) scale(y + 3, 1 + push);
-            if (relation == 1) add_scaled(y, push * norm(y), c->y + 3);
+            if (relation == 1) add_spin(c, push, y);
             if (relation == 2) scale(y, 1 + push);
             const double correction = c->system->project(&c->field, y);
             laws_note(worst, fabs(correction - push), 4 * laws_rounding(p) + 2 * gain * push * push, p,

@@ -184,12 +184,12 @@ static iso_status check_room(iso_integrator *it, const iso_gsl *g)
 }
 
 /* bsimp measures each component by what it is when a step begins, 1 where it is 0: its steps shrink until they are as
- * small as the least of them, and where their squares underflow it has no result. In the ball's own units what is
+ * small as the least of them, and where their squares underflow it has no result. Beside the rest of its vector what is
  * this small is 0. */
-static void drop_traces(const gsl_odeiv2_step *s, int dim, double y[])
+static void drop_traces(const gsl_odeiv2_step *s, double y[ISO_STATE])
 {
-    for (int i = 0; s->type == gsl_odeiv2_step_bsimp && i < dim; i++)
-        if (fabs(y[i]) < 1e-130) y[i] = copysign(0, y[i]);
+    for (int i = 0; s->type == gsl_odeiv2_step_bsimp && i < ISO_STATE; i++)
+        if (fabs(y[i]) < 1e-130 * largest(y + i / 3 * 3)) y[i] = copysign(0, y[i]);
 }
 
 iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[], double *h)
@@ -198,9 +198,8 @@ iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[]
     gsl_odeiv2_evolve *e = g->driver->e;
     const unsigned long failed = e->failed_steps;
     if (g->implicit) to_units(g, y, y);
-    drop_traces(g->driver->s, it->model.dim, y);
-    const int status =
-        gsl_odeiv2_evolve_apply(e, g->driver->c, g->driver->s, &g->system, &g->t, limit, &g->h, y);
+    drop_traces(g->driver->s, y);
+    const int status = gsl_odeiv2_evolve_apply(e, g->driver->c, g->driver->s, &g->system, &g->t, limit, &g->h, y);
     if (g->implicit) from_units(g, y, y);
     it->statistics.rejected += (long)(e->failed_steps - failed);
     if (status != GSL_SUCCESS) return iso_integrator_stopped(it, "no step is short enough for the tolerance");
@@ -285,23 +284,45 @@ static iso_status step(iso_integrator *it, double y[], double *h)
 
 #define GSL_METHOD .family = "gsl", .create = create, .start = start, .step = step, .free = release
 
-const iso_method iso_method_rk4 = {
-    .name = "rk4", .order = 4, .variant = RK4, .fixed = true, .projects = true,
-    .doc = "classical Runge-Kutta 4, error by step doubling", GSL_METHOD};
-const iso_method iso_method_rkf45 = {
-    .name = "rkf45", .order = 5, .variant = RKF45, .fixed = true, .projects = true,
-    .doc = "Runge-Kutta-Fehlberg 4(5)", GSL_METHOD};
-const iso_method iso_method_rkck = {
-    .name = "rkck", .order = 5, .variant = RKCK, .fixed = true, .projects = true,
-    .doc = "Runge-Kutta Cash-Karp 4(5)", GSL_METHOD};
-const iso_method iso_method_rk8pd = {
-    .name = "rk8pd", .order = 8, .variant = RK8PD, .fixed = true, .projects = true,
-    .doc = "Runge-Kutta Prince-Dormand 8(9)", GSL_METHOD};
+const iso_method iso_method_rk4 = {.name = "rk4",
+                                   .order = 4,
+                                   .variant = RK4,
+                                   .fixed = true,
+                                   .projects = true,
+                                   .doc = "classical Runge-Kutta 4, error by step doubling",
+                                   GSL_METHOD};
+const iso_method iso_method_rkf45 = {.name = "rkf45",
+                                     .order = 5,
+                                     .variant = RKF45,
+                                     .fixed = true,
+                                     .projects = true,
+                                     .doc = "Runge-Kutta-Fehlberg 4(5)",
+                                     GSL_METHOD};
+const iso_method iso_method_rkck = {.name = "rkck",
+                                    .order = 5,
+                                    .variant = RKCK,
+                                    .fixed = true,
+                                    .projects = true,
+                                    .doc = "Runge-Kutta Cash-Karp 4(5)",
+                                    GSL_METHOD};
+const iso_method iso_method_rk8pd = {.name = "rk8pd",
+                                     .order = 8,
+                                     .variant = RK8PD,
+                                     .fixed = true,
+                                     .projects = true,
+                                     .doc = "Runge-Kutta Prince-Dormand 8(9)",
+                                     GSL_METHOD};
 const iso_method iso_method_msadams = {
     .name = "msadams", .variant = MSADAMS, .doc = "variable-order Adams in Nordsieck form, orders 1-12", GSL_METHOD};
-const iso_method iso_method_msbdf = {
-    .name = "msbdf", .variant = MSBDF, .implicit = true,
-    .doc = "variable-order BDF in Nordsieck form, orders 1-5", GSL_METHOD};
-const iso_method iso_method_bsimp = {
-    .name = "bsimp", .variant = BSIMP, .implicit = true, .projects = true, .fixed = true,
-    .doc = "implicit Bulirsch-Stoer of Bader and Deuflhard, seven columns", GSL_METHOD};
+const iso_method iso_method_msbdf = {.name = "msbdf",
+                                     .variant = MSBDF,
+                                     .implicit = true,
+                                     .doc = "variable-order BDF in Nordsieck form, orders 1-5",
+                                     GSL_METHOD};
+const iso_method iso_method_bsimp = {.name = "bsimp",
+                                     .variant = BSIMP,
+                                     .implicit = true,
+                                     .projects = true,
+                                     .fixed = true,
+                                     .doc = "implicit Bulirsch-Stoer of Bader and Deuflhard, seven columns",
+                                     GSL_METHOD};

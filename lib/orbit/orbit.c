@@ -152,12 +152,14 @@ static void as_point(const iso_orbit *o, const double y[], double point[ISO_STAT
     if (o->system == &iso_system_point_t) iso_point_t_to_point(own, y, point);
 }
 
-/* Powers q^(1/(2k)) may leave the range of doubles even in own units. */
+/* Powers q^(1/(2k)) may leave the range of doubles even in own units. In a moment that is hardly a number itself, a clock
+ * may be none. */
 static iso_status sample_clock(const iso_orbit *o, double time, iso_clock c, double own, iso_sample *s)
 {
+    const bool moment = fabs(time / o->unit_clock[o->model.clock]) < 1e-200;
     s->clock[c] = own;
-    if (isnormal(own) || time == 0)
-        return to_users_units(o, iso_clock_name(c), o->unit_clock[c], false, &s->clock[c], 1);
+    if (isnormal(own) || moment)
+        return to_users_units(o, iso_clock_name(c), o->unit_clock[c], moment, &s->clock[c], 1);
     return iso_orbit_too_extreme(o, iso_clock_name(c), "ask for t alone");
 }
 

@@ -167,7 +167,7 @@ case $(sed -n 's/^SigIgn:.*\(.\)$/\1/p' /proc/self/status 2>/dev/null) in
 *)
     mkdir stop
     last="cost <- INT"
-    timeout --preserve-status -k 30 -s INT 2 "$isoroll" cost "$source/examples/02_neumann_shell/scene.yaml" --csv stop/a.csv >out 2>err
+    timeout --preserve-status -k 30 -s INT 6 "$isoroll" cost "$source/examples/02_neumann_shell/scene.yaml" --csv stop/a.csv >out 2>err
     check "interrupted: exit status 1" test $? -eq 1
     says "interrupted: "
     check "what has been measured" test "$(cells out)" -ge 5
