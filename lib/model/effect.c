@@ -109,7 +109,12 @@ static iso_status check_positive(iso_context *ctx, const char *effect, const cha
 
 static iso_status check_mass(iso_context *ctx, const iso_params *p, const char *effect)
 {
-    if (p->D > 0) return ISO_OK;
+    if (p->D > 0 && p->D < fmin(p->J[0], fmin(p->J[1], p->J[2]))) return ISO_OK;
+    if (p->D > 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
+                                "'%s' needs the moments about the centre, which are less than the last digit of m b^2 "
+                                "= %g: give a ball with larger ones",
+                                effect, p->D);
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
                             "'%s' needs the ball's mass and radius: give D = m b^2 ('%s: {D: ...}'), or a ball and a "
                             "surface",
