@@ -146,7 +146,7 @@ void iso_units_choose(const iso_params *p, double speed, iso_units *u)
 {
     const double mean_log2 = (log2(p->J[0]) + log2(p->J[1]) + log2(p->J[2])) / 3;
     double J[3];
-    u->J = ldexp(1, (int)lrint(mean_log2));
+    u->J = ldexp(1, (int)lrint(fmin(mean_log2, DBL_MAX_EXP - 1)));
     u->w = speed > 0 ? ldexp(1, (int)fmax(-1021, fmin(ilogb(speed), 1021))) : 1; /* so that 1/w is a normal double */
     for (int i = 0; i < 3; i++) J[i] = p->J[i] / u->J;
     u->own = *p;
