@@ -187,7 +187,7 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
         const bool vanishes = iso_effects_stiffness(&o->model.field) > 0;
         as_ball(o, y, s->ball);
         if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, vanishes, s->ball, 3);
-        if (o->system == &iso_system_ball) iso_orbit_sample_effects(o, y, s);
+        if (status == ISO_OK && o->system == &iso_system_ball) status = iso_orbit_sample_effects(o, y, s);
     }
     if (status == ISO_OK && o->options.show != ISO_BALL) status = sample_point(o, y, s);
     return status;

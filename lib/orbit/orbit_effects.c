@@ -39,12 +39,19 @@ static void sample_reactions(const iso_orbit *o, const double y[], iso_sample *s
     s->lambda = r.twist * torque;
 }
 
-void iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *s)
+iso_status iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *s)
 {
     const iso_field *f = &o->model.field;
     if (f->effects.on[ISO_GRAVITY]) copy(y + f->at[ISO_GRAVITY], s->vertical, 3);
     if (f->effects.on[ISO_ATTITUDE]) sample_attitude(o, y, s);
     if (f->effects.on[ISO_REACTIONS]) sample_reactions(o, y, s);
+    for (int c = ISO_COLUMN_EFFECTS; c < ISO_TRAJECTORY_COLUMNS; c++)
+        if (f->effects.on[iso_column_effect(c)] && !isfinite(iso_sample_column(s, c)))
+            return iso_context_fail(
+                o->ctx, ISO_NUMERICAL, "",
+                "%s is out of the range of doubles in these units: use other units of mass, length or time",
+                iso_trajectory_columns[c]);
+    return ISO_OK;
 }
 
 void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_sample *s, double y[])

@@ -40,8 +40,9 @@ extern const iso_method iso_method_exact;
 /* NaN in every column. */
 void iso_sample_blank(iso_sample *s);
 
-/* What effects add to a sample of the ball's model; back from a sample to the state of the whole model, own units. */
-void iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *sample);
+/* What effects add to a sample of the ball's model (errors: as iso_orbit_make_sample); back from a sample to the state of
+ * the whole model, own units. */
+iso_status iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *sample);
 void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_sample *sample, double y[]);
 
 #endif
