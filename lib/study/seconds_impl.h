@@ -1,4 +1,5 @@
-/* seconds_impl.h - processor time, for what tells how long it took. */
+/* seconds_impl.h - processor time, for what tells how long it took. That of the thread: the clock of the process ticks in
+ * milliseconds where a limit of time has been set (ulimit -t, ITIMER_PROF). */
 #ifndef ISO_STUDY_SECONDS_IMPL_H
 #define ISO_STUDY_SECONDS_IMPL_H
 
@@ -7,7 +8,7 @@
 static inline double processor_seconds(void)
 {
     struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
