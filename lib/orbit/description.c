@@ -42,7 +42,8 @@ iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *mode
     if (status != ISO_OK || !orbit) return status;
     const bool twin = iso_orbit_has_twin(orbit);
     const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
-    const iso_effects effects = iso_orbit_effects(orbit);
+    iso_effects effects = iso_orbit_effects(orbit);
+    effects.on[ISO_LEVEL] = effects.on[ISO_LEVEL] && isnormal(effects.level);
     const bool reactions = effects.on[ISO_REACTIONS], lengths = reactions || effects.on[ISO_ATTITUDE];
     if (effects.on[ISO_TWIST] || reactions) status = iso_record_set_numbers(ctx, r, "D", 1, &p->D);
     if (status == ISO_OK && lengths && p->body.radius > 0)

@@ -12,7 +12,7 @@
 #include "orbit.h"
 
 /* Writes the lines that a record needs to be carried back: model, k, J, and of the orbit (NULL: not touched) h, eps and the
- * effects. What is no normal double in these units is left out: h and eps follow from any row. */
+ * effects. What is no normal double in these units is left out: h, eps and a point's level follow from any row. */
 iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,
                                const iso_orbit *orbit);
 

@@ -251,9 +251,11 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     if (status != ISO_OK) return status;
     to_system(o, start->model, y);
     const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
-    if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps)) &&
-        (!level || !o->effects.on[ISO_LEVEL] || isfinite(o->effects.level)))
-        return ISO_OK;
+    if (level && o->effects.on[ISO_LEVEL] && !isnormal(iso_orbit_effects(o).level))
+        return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
+                                "level: c of the ball is out of the range of doubles in these units: use other units, or "
+                                "ask for the point in its time s alone");
+    if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps))) return ISO_OK;
     return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
                             "the start is out of the range of doubles in the ball's own units");
 }
