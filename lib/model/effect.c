@@ -109,12 +109,16 @@ static iso_status check_positive(iso_context *ctx, const char *effect, const cha
 
 static iso_status check_mass(iso_context *ctx, const iso_params *p, const char *effect)
 {
-    if (p->D > 0 && p->D < fmin(p->J[0], fmin(p->J[1], p->J[2]))) return ISO_OK;
-    if (p->D > 0)
+    const bool body = p->body.surface != ISO_REDUCED;
+    if (body && !isnormal(p->D))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
+                                "'%s' needs m b^2, which does not fit a double: use other units", effect);
+    if (body && p->D >= min3(p->J))
         return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
                                 "'%s' needs the moments about the centre, which are less than the last digit of m b^2 "
                                 "= %g: give a ball with larger ones",
                                 effect, p->D);
+    if (p->D > 0) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
                             "'%s' needs the ball's mass and radius: give D = m b^2 ('%s: {D: ...}'), or a ball and a "
                             "surface",
