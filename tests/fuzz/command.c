@@ -1,8 +1,8 @@
 /* command.c - bytes as a command line, one argument a line: the command ends with one of its exit statuses and says
  * why; what it printed can be read; nothing but what was asked for is left in the folder.
  *
- * It runs in a folder of its own, with the files below, an empty standard input and no gnuplot. Arguments that name other
- * folders are passed over. Linked with --wrap (CMakeLists.txt): after STEPS steps it looks as if Ctrl-C was pressed. */
+ * It runs in a folder of its own, with the files below and no gnuplot. What follows a line `<` is the file `input`, and
+ * standard input. Arguments that name other folders are passed over. Linked with --wrap (CMakeLists.txt): after STEPS steps it looks as if Ctrl-C was pressed. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <getopt.h>
@@ -52,7 +52,7 @@ static const struct {
     const char *name, *text;
 } files[] = {
     {"ball", BALL SHORT},
-    {"point", POINT SHORT "solver: {backend: point, method: yoshida6, tolerance: 1e-8}\n"},
+    {"point", POINT SHORT "solver: {backend: point, method: blanes_moan6, tolerance: 1e-8}\n"},
     {"forced", FORCED EFFECTS SHORT},
     {"bad", BALL "time: {end: 1e400}\n"},
     {"ball.csv",
@@ -66,12 +66,17 @@ enum { FILES = sizeof files / sizeof *files };
 
 static char folder[64];
 
-static void make_files(void)
+static void make_file(const char *name, const char *text)
 {
-    for (int i = 0; i < FILES; i++) {
-        FILE *file = fopen(files[i].name, "we");
-        if (!file || fputs(files[i].text, file) < 0 || fclose(file) != 0) abort();
-    }
+    FILE *file = fopen(name, "we");
+    if (!file || fputs(text, file) < 0 || fclose(file) != 0) abort();
+}
+
+static void make_files(const char *input)
+{
+    for (int i = 0; i < FILES; i++) make_file(files[i].name, files[i].text);
+    make_file("input", input);
+    if (!freopen("input", "r", stdin)) abort();
 }
 
 /* Takes all files away; none may be one that was not finished. */
@@ -96,7 +101,7 @@ static void make_folder(void)
 {
     const char *parent = getenv("TMPDIR");
     snprintf(folder, sizeof folder, "%s/isoroll-fuzz-XXXXXX", parent && strlen(parent) < 40 ? parent : "/tmp");
-    if (!mkdtemp(folder) || setenv("PATH", folder, 1) != 0 || !freopen("/dev/null", "r", stdin)) abort();
+    if (!mkdtemp(folder) || setenv("PATH", folder, 1) != 0) abort();
     atexit(remove_folder);
 }
 
@@ -126,6 +131,7 @@ static void check_output(const char *out, size_t size)
 static void check_messages(int status, const char *err)
 {
     FUZZ_REQUIRE(status >= 0 && status <= 5, "%d\n", status);
+
     FUZZ_REQUIRE(status <= 1 || *err, "status %d without a message\n", status);
     for (const char *line = err; *line; line = strchr(line, '\n') + 1)
         FUZZ_REQUIRE(strncmp(line, "isoroll: ", 9) == 0 && strchr(line, '\n'), "%s\n", err);
@@ -141,7 +147,6 @@ static void command(int argc, char **argv)
     if (!stdout || !stderr) abort();
     steps = STEPS;
     optind = 0;
-    rewind(stdin);
     const int status = isoroll_main(argc, argv);
     steps = LONG_MAX;
     fclose(stdout), fclose(stderr);
@@ -167,15 +172,25 @@ static bool split(char *text, int *argc, char *argv[ARGUMENTS + 1])
     return true;
 }
 
+/* Cuts the text at its first line `<`; what follows. */
+static const char *cut_input(char *text)
+{
+    char *mark = strstr(text, "\n<\n");
+    if (!mark) return "";
+    *mark = '\0';
+    return mark + 3;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     char *argv[ARGUMENTS + 1], *text = strndup((const char *)data, size);
+    const char *input = text ? cut_input(text) : "";
     int argc;
     if (text && split(text, &argc, argv)) {
         if (!*folder) make_folder();
         const int before = open(".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         if (chdir(folder) != 0) abort();
-        make_files();
+        make_files(input);
         command(argc, argv);
         empty_folder();
         if (before < 0 || fchdir(before) != 0) abort();
