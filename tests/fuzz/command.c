@@ -1,8 +1,9 @@
 /* command.c - bytes as a command line, one argument a line: the command ends with one of its exit statuses and says
  * why; what it printed can be read; nothing but what was asked for is left in the folder.
  *
- * It runs in a folder of its own, with the files below and no gnuplot. What follows a line `<` is the file `input`, and
- * standard input. Arguments that name other folders are passed over. Linked with --wrap (CMakeLists.txt): after STEPS steps it looks as if Ctrl-C was pressed. */
+ * It runs in a folder of its own, with the files below and no gnuplot. What follows a line `<` is the file `input` and
+ * standard input. Arguments that name other folders are passed over. Linked with --wrap (CMakeLists.txt): after STEPS
+ * steps it looks as if Ctrl-C was pressed. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <getopt.h>
@@ -131,7 +132,6 @@ static void check_output(const char *out, size_t size)
 static void check_messages(int status, const char *err)
 {
     FUZZ_REQUIRE(status >= 0 && status <= 5, "%d\n", status);
-
     FUZZ_REQUIRE(status <= 1 || *err, "status %d without a message\n", status);
     for (const char *line = err; *line; line = strchr(line, '\n') + 1)
         FUZZ_REQUIRE(strncmp(line, "isoroll: ", 9) == 0 && strchr(line, '\n'), "%s\n", err);

@@ -1,5 +1,5 @@
-/* mutate.c - half of the fuzzer's changes put another number where one stands: bytes changed at random seldom leave text
- * that reaches the physics. */
+/* mutate.c - half of the fuzzer's changes put another number where one stands: bytes changed at random seldom leave a
+ * text that reaches the physics. */
 #include <ctype.h>
 
 #include "fuzz.h"
