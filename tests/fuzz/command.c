@@ -1,9 +1,9 @@
 /* command.c - bytes as a command line, one argument a line: the command ends with one of its exit statuses and says
  * why; what it printed can be read; nothing but what was asked for is left in the folder.
  *
- * It runs in a folder of its own, with the files below and no gnuplot. What follows a line `<` is the file `input` and
- * standard input. Arguments that name other folders are passed over. Linked with --wrap (CMakeLists.txt): after STEPS
- * steps it looks as if Ctrl-C was pressed. */
+ * It runs in a folder of its own, with the files below and no gnuplot. What follows a line `<` is standard input and
+ * the file `input`. Arguments that name other folders are passed over. Linked with --wrap (CMakeLists.txt): after
+ * STEPS steps it looks as if Ctrl-C was pressed. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <getopt.h>
