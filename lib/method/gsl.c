@@ -1,11 +1,11 @@
 /* gsl.c - the methods of GSL's ode-initval2. */
 #include "method/gsl_impl.h"
 
+#include <float.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/finite_impl.h"
 #include "base/room_impl.h"
 #include "base/vec3_impl.h"
 #include "method/methods_impl.h"
@@ -40,6 +40,30 @@ static int function_in_units(double t, const double z[], double dzdt[], void *gs
     return status;
 }
 
+static double sum_of_sizes(int count, const double x[])
+{
+    double sum = 0;
+    for (int i = 0; i < count; i++) sum += fabs(x[i]);
+    return sum;
+}
+
+/* GSL solves with 1 - h J, and where a pivot is 0 calls its error handler, which is not ours to change and by default ends
+ * the program. So it may be where J has rows that depend on each other and h J is so large that the 1 is lost: of slow
+ * motions, for which steps would be that long (longest_step), and of the stiffest, whose J is kept regular here. Its
+ * diagonal is moved by a few of its last digits, against the direction of time; beyond HOPELESS there is no step. */
+static const double HOPELESS = 1e17;
+
+static bool keep_regular(const iso_integrator *it, double *dfdz)
+{
+    const int dim = it->model.dim;
+    for (int i = 0; i < dim; i++) {
+        const double row = sum_of_sizes(dim, dfdz + dim * i);
+        if (!(row <= HOPELESS)) return false;
+        dfdz[dim * i + i] -= it->direction * 16 * DBL_EPSILON * row;
+    }
+    return true;
+}
+
 static int jacobian_in_units(double t, const double z[], double *dfdz, double dfdt[], void *gsl)
 {
     const iso_gsl *g = gsl;
@@ -52,7 +76,7 @@ static int jacobian_in_units(double t, const double z[], double *dfdz, double df
     for (int i = 0; i < dim; i++)
         for (int j = 0; j < dim; j++) dfdz[dim * i + j] *= g->unit[j] / g->unit[i];
     for (int i = 0; i < dim; i++) dfdt[i] = 0;
-    return all_finite(dfdz, dim * dim) ? GSL_SUCCESS : GSL_FAILURE;
+    return keep_regular(g->it, dfdz) ? GSL_SUCCESS : GSL_FAILURE;
 }
 
 /* --- error control: GSL's standard rule, measured in units of tolerance * iso_model_size() --------------------- */
@@ -192,17 +216,29 @@ static void drop_traces(const gsl_odeiv2_step *s, double y[ISO_STATE])
         if (fabs(y[i]) < 1e-130 * largest(y + i / 3 * 3)) y[i] = copysign(0, y[i]);
 }
 
+/* It keeps four digits of the 1 in 1 - h J. Never less than 1, about the time in which the ball turns. */
+static double longest_step(iso_gsl *g, const double z[])
+{
+    const int dim = g->it->model.dim;
+    double dfdz[ISO_MAX_STATE * ISO_MAX_STATE], dfdt[ISO_MAX_STATE];
+    return jacobian_in_units(0, z, dfdz, dfdt, g) == GSL_SUCCESS ? fmax(1, 1e12 / sum_of_sizes(dim * dim, dfdz)) : 1;
+}
+
 iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[], double *h)
 {
     if (check_room(it, g) != ISO_OK) return ISO_NO_MEMORY;
     gsl_odeiv2_evolve *e = g->driver->e;
     const unsigned long failed = e->failed_steps;
     if (g->implicit) to_units(g, y, y);
+    if (g->implicit && fabs(g->h) > 1) g->h = copysign(fmin(fabs(g->h), longest_step(g, y)), g->h);
     drop_traces(g->driver->s, y);
     const int status = gsl_odeiv2_evolve_apply(e, g->driver->c, g->driver->s, &g->system, &g->t, limit, &g->h, y);
     if (g->implicit) from_units(g, y, y);
     it->statistics.rejected += (long)(e->failed_steps - failed);
-    if (status != GSL_SUCCESS) return iso_integrator_stopped(it, "no step is short enough for the tolerance");
+    if (status != GSL_SUCCESS)
+        return iso_integrator_stopped(
+            it, g->implicit ? "no step is short enough for the tolerance, or this is too stiff for it (bdf may do)"
+                            : "no step is short enough for the tolerance");
     *h = e->last_step;
     return ISO_OK;
 }
