@@ -9,7 +9,7 @@ mark='<!-- from here on written by hard_table.sh -->'
 sed "/^$mark/,\$d" README.md >README.new
 {
     echo "$mark"
-    cat "$build"/tests/hard_*.tsv | sort -s -t "$(printf '\t')" -n -k1,1 | awk -F '\t' '
+    cat "$build"/tests/hard_*.tsv | sort -s -t "$(printf '\t')" -V -k1,1 | awk -F '\t' '
         # a topic: its cases in words, then a matrix of backends and methods by cases
         function flush(i, j, row, text, plain, wide) {
             if (!cases) return
@@ -33,18 +33,21 @@ sed "/^$mark/,\$d" README.md >README.new
             }
             cases = ways = notes = 0
             split("", seen); split("", place); split("", cell); split("", matrix); split("", known)
-            split("", worst); split("", bound); split("", naive)
+            split("", worst); split("", bound); split("", naive); split("", least); split("", most)
         }
         function at(label) {
             if (!(label in place)) { way[++ways] = label; place[label] = ways }
             return place[label]
         }
+        { gsub(/\|/, "\\|") }
         $1 != topic { flush(); topic = $1 }
         $3 == "case" { if (!($2 in seen)) { name[++cases] = $2; seen[$2] = cases; quantity[cases] = $4; why[cases] = $5 } next }
         { c = seen[$2] }
         $3 == "naive" { naive[c] = naive[c] (naive[c] == "" ? "" : "; ") $4 ": " $6; next }
         $3 == "hold" {
-            if (bound[c] == "" || $7 + 0 > bound[c] + 0) bound[c] = $7
+            if (!(c in most) || $7 + 0 > most[c] + 0) most[c] = $7
+            if (!(c in least) || $7 + 0 < least[c] + 0) least[c] = $7
+            bound[c] = least[c] + 0 == most[c] + 0 ? most[c] : least[c] " to " most[c]
             if (worst[c] == "" || $6 + 0 > worst[c] + 0) worst[c] = $6
             if ($4 == "") next
             matrix[c] = 1; cell[c, at($4 " | " $5)] = $6
