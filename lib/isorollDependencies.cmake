@@ -16,8 +16,25 @@ find_package(Threads REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(isoroll_yaml REQUIRED IMPORTED_TARGET yaml-0.1)
 
+# HDF5 may be missing, or be the flavour that needs MPI: then there is none.
+option(ISO_HDF5 "Trajectories in HDF5 (.h5), where its serial library is installed" ON)
+if(ISO_HDF5)
+  foreach(name hdf5-serial hdf5) # Debian's, and others'
+    if(NOT TARGET PkgConfig::isoroll_hdf5)
+      pkg_check_modules(isoroll_hdf5 QUIET IMPORTED_TARGET ${name})
+      if(isoroll_hdf5_LINK_LIBRARIES MATCHES "mpi")
+        set(isoroll_hdf5_FOUND FALSE)
+      endif()
+    endif()
+  endforeach()
+endif()
+
 # The serial vector and the dense matrix and solver are part of the cvode and arkode libraries.
 set(ISO_DEPENDENCIES SUNDIALS::cvode SUNDIALS::arkode GSL::gsl PkgConfig::isoroll_yaml Threads::Threads m)
+if(ISO_HDF5 AND isoroll_hdf5_FOUND)
+  list(APPEND ISO_DEPENDENCIES PkgConfig::isoroll_hdf5)
+  set(ISO_HDF5_PC ${isoroll_hdf5_MODULE_NAME})
+endif()
 set(ISO_SUNDIALS_LIBS "-lsundials_cvode -lsundials_arkode") # the same for isoroll.pc: SUNDIALS has no .pc file
 if(TARGET SUNDIALS::core) # 7.x
   list(PREPEND ISO_DEPENDENCIES SUNDIALS::core)

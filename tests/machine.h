@@ -175,7 +175,7 @@ static void put_studies(FILE *to)
     put_status(to, ctx, iso_record_describe(ctx, written, "both", &scene.params, NULL), true);
     put_status(to, ctx, iso_record_set_numbers(ctx, written, "h", 1, &c->h), true);
     put_status(to, ctx, iso_trajectory_write(ctx, "hard_machine.csv", written), true);
-    status = iso_trajectory_read(ctx, "hard_machine.csv", &read);
+    status = iso_trajectory_read(ctx, "hard_machine.csv", NULL, &read);
     put_file(to, "hard_machine.csv");
     put_status(to, ctx, status, true);
     if (status == ISO_OK) {

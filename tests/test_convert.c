@@ -300,7 +300,7 @@ static void check_refusals(void)
     static const double bad[3] = {NAN, INFINITY, -INFINITY};
     static const char *const columns[] = {"t", "omega1", "n2"}, *const row3[] = {"row 3", "row 3", "row 3"};
     iso_record *r = damaged(ISO_POINT, "s", 0, 1, 0);
-    for (int i = 0; i < 3; i++) iso_record_row(r, 3)[1 + i] *= 1.001;
+    for (int i = 0; i < 3; i++) iso_record_row(r, 3)[1 + i] *= 1.01;
     refused(r, ISO_BALL, ISO_NOT_MAPPED, "row 4", "off the level");
     r = damaged(ISO_BALL, "t", 0, 1, 0);
     for (int i = 0; i < 3; i++) iso_record_row(r, 2)[1 + i] = 0;
@@ -316,7 +316,7 @@ static void check_refusals(void)
     for (int i = 0; i < 3; i++)
         for (int c = 0; c < 3; c++)
             refused(damaged(ISO_BALL, columns[c], 2, 0, bad[i]), ISO_POINT, ISO_BAD_INPUT, row3[c], columns[c]);
-    refused(damaged(ISO_BALL, "t", 5, 1, 1e300), ISO_POINT, ISO_BAD_INPUT, "row 5",
+    refused(damaged(ISO_BALL, "t", 5, 1, 1e300), ISO_POINT, ISO_BAD_INPUT, "row 6",
             "a time that no one can reach");
     const char *const names[] = {"t", "omega1", "omega2", "omega3", "n1", "n2", "n3"};
     must(iso_record_create(ctx, 7, names, &r), "a record");

@@ -166,7 +166,7 @@ static iso_status study(const hard_road *way)
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, written, "J", 3, scene.params.J);
     if (status == ISO_OK) status = iso_record_set_numbers(ctx, written, "h", 1, &c->h);
     if (status == ISO_OK) status = iso_trajectory_write(ctx, "hard_memory.csv", written);
-    if (status == ISO_OK) status = iso_trajectory_read(ctx, "hard_memory.csv", &read);
+    if (status == ISO_OK) status = iso_trajectory_read(ctx, "hard_memory.csv", NULL, &read);
     if (status == ISO_OK) status = iso_convert(ctx, &scene.params, read, ISO_POINT, 1e-12, &converted);
     if (status == ISO_OK) status = iso_check(ctx, &scene.params, read, 1e-12, &residuals);
     if (status == ISO_OK) digits = c->worst[1] + iso_record_const_row(converted, 4)[2] + residuals.residual[0].worst;

@@ -23,7 +23,7 @@ static int run(iso_context *ctx, const options *o)
     iso_params params;
     iso_residuals residuals;
     bool failed = false;
-    iso_status status = iso_trajectory_read(ctx, o->file, &record);
+    iso_status status = iso_trajectory_read(ctx, o->file, o->columns, &record);
     if (status == ISO_OK) status = parameters_of_file(ctx, o, record, &params);
     if (status == ISO_OK)
         status = iso_check(ctx, &params, record, isnan(o->tolerance) ? 1e-13 : o->tolerance, &residuals);
@@ -40,7 +40,7 @@ const command command_check = {
     .name = "check",
     .argument = "[FILE]",
     .doc = "residuals of a trajectory: constraints, integrals, whether it solves its model",
-    .options = " k J eps h tol max ",
+    .options = " k J eps h scene columns tol max ",
     .more = "Residuals are relative. 'flow' integrates each row to the time of the next at --tol (default 1e-13).",
     .run = run,
 };

@@ -1,28 +1,180 @@
-/* isoroll convert - a trajectory of one model in, the other's out. */
+/* isoroll convert - a trajectory of one model in, the other's out: a filter, row by row. */
 #include <math.h>
 #include <string.h>
 
 #include "command.h"
 #include "parameters.h"
 
+/* Rows that follow other equations than the stated ones drift by this or more while n moves by half a radian; rows
+ * that are unit vectors to 1e-6, as they must be, drift by less. */
+static const double other_equations = 1e-4;
+
+typedef struct filter {
+    iso_context *ctx;
+    const options *o;
+    const char *name; /* of the file, in messages */
+    iso_trajectory_reader *in;
+    iso_trajectory_writer *out;
+    iso_conversion *conversion;
+    size_t columns;
+} filter;
+
+static iso_status put_header(void *data, const iso_record *header)
+{
+    filter *f = data;
+    f->columns = iso_record_columns(header);
+    return iso_trajectory_write_header(f->ctx, f->out, header);
+}
+
+static iso_status put_row(void *data, const double row[])
+{
+    filter *f = data;
+    return row ? iso_trajectory_write_row(f->ctx, f->out, row, f->columns)
+               : iso_trajectory_write_mark(f->ctx, f->out);
+}
+
+/* A bad row is named, and ends the work only under --strict. */
+static iso_status put_bad(void *data, size_t line, iso_status why, const char *words)
+{
+    const filter *f = data;
+    if (f->o->strict) return iso_context_fail(f->ctx, why, "", "%s:%zu: %s", f->name, line, words);
+    complain("%s:%zu: %s", f->name, line, words);
+    return ISO_OK;
+}
+
+/* One row from in to out. */
+static iso_status take_row(filter *f, double row[], bool *more)
+{
+    const iso_status status = iso_trajectory_next(f->ctx, f->in, row, more);
+    if (status == ISO_OK) return *more ? iso_conversion_put(f->conversion, row, iso_trajectory_line(f->in)) : ISO_OK;
+    if (status != ISO_BAD_INPUT || f->o->strict) return status;
+    complain("%s", iso_context_message(f->ctx));
+    return iso_conversion_skip(f->conversion, iso_trajectory_line(f->in));
+}
+
+static bool not_interrupted(void *data)
+{
+    (void)data;
+    return !interrupted();
+}
+
+static iso_status take_rows(filter *f, iso_conversion_summary *summary)
+{
+    double row[ISO_TRAJECTORY_COLUMNS];
+    iso_status status = ISO_OK;
+    bool more = true;
+    iso_context_watch(f->ctx, not_interrupted, NULL);
+    while (status == ISO_OK && more && !interrupted()) status = take_row(f, row, &more);
+    if (status == ISO_OK && more) status = iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request");
+    iso_context_watch(f->ctx, NULL, NULL);
+    const bool settle = status == ISO_OK || status == ISO_STOPPED;
+    const iso_status ended = settle ? iso_conversion_end(f->conversion, summary) : status;
+    return status == ISO_OK ? ended : status;
+}
+
+/* How the other clock was found, at the end of the file. */
+static iso_status write_clock(filter *f, const iso_conversion_summary *s)
+{
+    char key[ISO_NAME_SIZE], text[160];
+    const char *clock = iso_clock_name(s->clock);
+    if (!s->computed) return ISO_OK;
+    snprintf(key, sizeof key, "%s.from", clock);
+    snprintf(text, sizeof text, "the rows, %zu intervals by two-point Taylor quadrature, %zu by integration",
+             s->between, s->integrated);
+    const iso_status status = iso_trajectory_write_line(f->ctx, f->out, key, text);
+    if (status != ISO_OK) return status;
+    snprintf(key, sizeof key, "%s.error", clock);
+    snprintf(text, sizeof text, "%.2g", s->error);
+    return iso_trajectory_write_line(f->ctx, f->out, key, text);
+}
+
+static void tell(const filter *f, const iso_conversion_summary *s)
+{
+    complain("%s: %zu rows, %zu bad; worst: constraint %.2g (line %zu), energy %.2g (line %zu)", f->name, s->rows,
+             s->bad, s->constraint.value, s->constraint.line, s->energy.value, s->energy.line);
+    if (!s->checked) {
+        complain("%s: no clock, so not known whether the rows lie on one orbit", f->name);
+        return;
+    }
+    complain("%s: rows against the orbit through the ones before: defect %.2g (line %zu), drift %.2g (line %zu)",
+             f->name, s->defect.value, s->defect.line, s->drift.value, s->drift.line);
+    if (s->computed)
+        complain("%s: %s = %.6g at the end, error about %.2g; %zu intervals by two-point Taylor quadrature, %zu by "
+                 "integration",
+                 f->name, iso_clock_name(s->clock), s->end, s->error, s->between, s->integrated);
+}
+
+/* Whether the rows are what the file says they are. */
+static bool judge(const filter *f, const iso_conversion_summary *s)
+{
+    bool good = s->bad == 0;
+    if (s->bad > 0)
+        complain("%s: %zu of %zu rows could not be converted: nan stands in their place", f->name, s->bad, s->rows);
+    if (s->checked && !isnan(f->o->max_defect) && !(s->defect.value <= f->o->max_defect)) {
+        complain("%s:%zu: the defect %.2g is above %g", f->name, s->defect.line, s->defect.value, f->o->max_defect);
+        good = false;
+    }
+    if (s->checked && !(s->drift.value <= other_equations) && isnan(f->o->max_defect)) {
+        complain(
+            "%s:%zu: these rows do not solve the equations of the ball that the file or the options state (k, J): "
+            "they drift off by %.2g within half a radian (--max-defect X sets another bound)",
+            f->name, s->drift.line, s->drift.value);
+        good = false;
+    }
+    return good;
+}
+
+static int finish_filter(filter *f, iso_status status, const iso_conversion_summary *s)
+{
+    if (status == ISO_OK || status == ISO_STOPPED) {
+        const iso_status written = f->columns > 0 ? write_clock(f, s) : ISO_OK;
+        if (status == ISO_OK) status = written;
+    }
+    const bool keep = f->columns > 0 && (status == ISO_OK || status == ISO_STOPPED);
+    if (status != ISO_OK && status != ISO_FILE_TROUBLE && status != ISO_BAD_ARGUMENT)
+        status = name_the_file(f->ctx, f->o, status);
+    const int result = finish(f->ctx, status);
+    const iso_status closed = iso_trajectory_close(f->ctx, f->out, keep);
+    if (closed != ISO_OK) return result == EXIT_DONE ? finish(f->ctx, closed) : result;
+    if (status == ISO_STOPPED) complain("interrupted: %zu rows were converted", s->rows - s->bad);
+    if (status != ISO_OK) return result;
+    if (!f->o->quiet) tell(f, s);
+    return judge(f, s) ? EXIT_DONE : EXIT_SOME_FAILED;
+}
+
+static iso_status open_filter(filter *f, iso_params *params)
+{
+    const options *o = f->o;
+    const iso_conversion_target target = {put_header, put_row, put_bad, f};
+    iso_status status = iso_trajectory_reader_open(f->ctx, o->file, o->columns, &f->in);
+    if (status == ISO_OK) status = parameters_of_file(f->ctx, o, iso_trajectory_header(f->in), params);
+    if (status == ISO_OK)
+        status = iso_conversion_create(f->ctx, params, iso_trajectory_header(f->in), o->to,
+                                       isnan(o->tolerance) ? 1e-14 : o->tolerance, &target, &f->conversion);
+    if (status != ISO_OK)
+        return status == ISO_BAD_ARGUMENT || status == ISO_FILE_TROUBLE ? status : name_the_file(f->ctx, o, status);
+    if (iso_trajectory_ignored(f->in) && !o->quiet)
+        complain("%s: passed over: %s", f->name, iso_trajectory_ignored(f->in));
+    stop_gently();
+    status = iso_trajectory_open(f->ctx, o->output, &f->out);
+    if (status == ISO_OK) iso_trajectory_set_digits(f->out, o->digits);
+    return status;
+}
+
 static int run(iso_context *ctx, const options *o)
 {
-    iso_record *in = NULL, *out = NULL;
+    filter f = {.ctx = ctx, .o = o, .name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file};
     iso_params params;
+    iso_conversion_summary summary = {.rows = 0};
     if ((int)o->to < 0) return complain("convert: --to ball or --to point is missing"), EXIT_USAGE;
-    iso_status status = iso_trajectory_read(ctx, o->file, &in);
-    if (status == ISO_OK) status = parameters_of_file(ctx, o, in, &params);
+    iso_status status = open_filter(&f, &params);
+    int result;
     if (status == ISO_OK)
-        status = iso_convert(ctx, &params, in, o->to, isnan(o->tolerance) ? 1e-14 : o->tolerance, &out);
-    if (status == ISO_OK) {
-        stop_gently(); /* no half file, and no temporary one, is left */
-        status = iso_trajectory_write(ctx, o->output, out);
-    } else if (status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE && in) {
-        status = name_the_file(ctx, o, status);
-    }
-    const int result = finish(ctx, status);
-    iso_record_free(in);
-    iso_record_free(out);
+        result = finish_filter(&f, take_rows(&f, &summary), &summary);
+    else
+        result = finish(ctx, status);
+    iso_conversion_free(f.conversion);
+    iso_trajectory_reader_close(f.in);
     return result;
 }
 
@@ -30,9 +182,15 @@ const command command_convert = {
     .name = "convert",
     .argument = "[FILE]",
     .doc = "a trajectory of one model in, the other model's out",
-    .options = " to output k J eps h tol ",
+    .options = " to output digits k J eps h scene columns tol max-defect strict quiet ",
     .more =
-        "States are mapped row by row. The other model's clock is integrated from row to row (--tol, default 1e-14), "
-        "from 0 at\nthe first row, unless the file has it. k, J and h or eps are read from the file's # lines.",
+        "Row by row, in constant memory; what others write is read, too (README). States are mapped through (18); "
+        "the "
+        "other\nmodel's clock, unless the file has it, is that of the rows by two-point Taylor quadrature, from 0 at "
+        "the "
+        "first row,\nto --tol (default 1e-14), or integrated where they are too far apart. k, J and h or eps are "
+        "read "
+        "from the file's\n# lines, from --scene, or from --k --J. A bad row becomes one of nan; then the exit status "
+        "is 1.",
     .run = run,
 };

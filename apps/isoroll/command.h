@@ -33,7 +33,11 @@ typedef struct options {
     const char *csv;       /* --csv                                                            */
     double want;           /* --want; NAN: not given                                           */
     double horizons;       /* --horizons; 0: not given                                         */
-    bool json, level, quick, verbose, help;
+    const char *scene;     /* --scene                                                          */
+    const char *columns;   /* --columns                                                        */
+    int digits;            /* --digits; ISO_HEXADECIMAL                                        */
+    double max_defect;     /* NAN: not given                                                   */
+    bool json, level, quick, quiet, strict, verbose, help;
 } options;
 
 typedef struct command {
@@ -46,7 +50,7 @@ typedef struct command {
 } command;
 
 extern const command command_run, command_convert, command_compare, command_cost, command_check, command_analogue,
-    command_explain, command_frequencies, command_list;
+    command_explain, command_frequencies, command_list, command_plot;
 
 /* Reads the options of `command`. False: wrong ones, a message has been given. */
 bool options_read(const command *c, int argc, char **argv, options *o);

@@ -16,7 +16,7 @@
 
 static const command *const commands[] = {&command_run,      &command_convert,     &command_compare,
                                           &command_cost,     &command_check,       &command_analogue,
-                                          &command_frequencies, &command_explain, &command_list};
+                                          &command_frequencies, &command_explain, &command_list, &command_plot};
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
 static volatile sig_atomic_t stop_asked;

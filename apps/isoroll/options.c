@@ -91,6 +91,14 @@ static bool set_method(void *at, const char *text)
     return set_text(at, text);
 }
 
+static bool set_digits(void *at, const char *text)
+{
+    double digits = ISO_HEXADECIMAL;
+    const bool set = strcmp(text, "hex") == 0 || (set_count(&digits, text) && digits <= 17);
+    *(int *)at = (int)digits;
+    return set;
+}
+
 static const struct row {
     const char *name, *argument, *expected, *doc;
     bool (*set)(void *at, const char *text);
@@ -134,6 +142,15 @@ static const struct row {
     {"mass", "M", "a positive number", "of the ball (default 1)", set_positive, AT(mass)},
     {"radius", "B", "a positive number", "of the ball (default 1)", set_positive, AT(radius)},
     {"max", "X", "a number from 0 on", "exit with 1 if any residual is larger", set_bound, AT(bound)},
+    {"digits", "N", "1 to 17, or hex", "significant digits of numbers, 1 to 17 (default), or hex (-p N)", set_digits,
+     AT(digits)},
+    {"scene", "FILE", "a file", "a scene that says k, J and the effects", set_text, AT(scene)},
+    {"columns", "NAMES", "names with commas between", "the file's columns from left to right, - for others", set_text,
+     AT(columns)},
+    {"max-defect", "X", "a number from 0 on", "exit with 1 if a row is farther off the orbit of the one before", set_bound,
+     AT(max_defect)},
+    {"strict", NULL, NULL, "stop at the first bad row", set_flag, AT(strict)},
+    {"quiet", NULL, NULL, "no summary on stderr", set_flag, AT(quiet)},
     {"verbose", NULL, NULL, "tell on stderr how it went, and the error", set_flag, AT(verbose)},
     {"help", NULL, NULL, "this text (-h)", set_flag, AT(help)},
 #undef AT
@@ -177,11 +194,12 @@ static bool unknown(const command *c, char **argv)
     return usage(c, "unknown or ambiguous option ", optopt > 0 && optopt < LONG ? letter : argv[optind - 1]);
 }
 
-/* The row of what getopt_long found: LONG + its index, -o or -h. */
+/* The row of what getopt_long found: LONG + its index, -o, -p or -h. */
 static const struct row *found_row(int found)
 {
     const struct row *r = &table[found < LONG ? 0 : found - LONG];
-    while (found < LONG && strcmp(r->name, found == 'o' ? "output" : "help") != 0) r++;
+    const char *name = found == 'o' ? "output" : found == 'p' ? "digits" : "help";
+    while (found < LONG && strcmp(r->name, name) != 0) r++;
     return r;
 }
 
@@ -252,10 +270,13 @@ bool options_read(const command *c, int argc, char **argv, options *o)
                    .rows = 6,
                    .turns = NAN,
                    .samples = NAN,
-                   .want = NAN};
+                   .want = NAN,
+                   .digits = 17,
+                   .max_defect = NAN};
     opterr = 0;
-    const bool has_output = strstr(c->options, " output ") != NULL;
-    while ((found = getopt_long(argc, argv, has_output ? ":ho:" : ":h", known, NULL)) != -1) {
+    const bool has_output = strstr(c->options, " output ") != NULL, has_digits = strstr(c->options, " digits ") != NULL;
+    const char *letters = has_digits ? ":ho:p:" : has_output ? ":ho:" : ":h";
+    while ((found = getopt_long(argc, argv, letters, known, NULL)) != -1) {
         if (found == ':') return usage(c, "an argument is missing after ", argv[optind - 1]);
         if (found == '?') return unknown(c, argv);
         if (!set_option(c, found_row(found), optarg, o)) return false;

@@ -18,10 +18,31 @@ static iso_status set_line(iso_context *ctx, iso_record *record, const char *key
     return iso_record_set_numbers(ctx, record, key, count, values);
 }
 
+/* What a scene says, where the file does not say it: k, J and D, the effects that act, a point's eps. */
+static iso_status set_scene(iso_context *ctx, const char *path, iso_record *record)
+{
+    iso_scene scene;
+    iso_status status = iso_scene_read(ctx, path, &scene);
+    if (status != ISO_OK) return status;
+    const iso_effects effects = iso_effects_acting(&scene.effects);
+    const double eps = scene.start.model == ISO_POINT ? scene.start.eps : NAN;
+    if (!iso_record_get(record, "k")) status = iso_record_set_numbers(ctx, record, "k", 1, &scene.params.k);
+    if (status == ISO_OK && !iso_record_get(record, "J"))
+        status = iso_record_set_numbers(ctx, record, "J", 3, scene.params.J);
+    if (status == ISO_OK && scene.params.D > 0 && !iso_record_get(record, "D"))
+        status = iso_record_set_numbers(ctx, record, "D", 1, &scene.params.D);
+    if (status == ISO_OK && !isnan(eps) && !iso_record_get(record, "eps") && !iso_record_get(record, "h"))
+        status = iso_record_set_numbers(ctx, record, "eps", 1, &eps);
+    if (status == ISO_OK && !iso_record_get(record, "effects"))
+        status = iso_record_describe_effects(ctx, record, &effects);
+    return status;
+}
+
 iso_status parameters_of_file(iso_context *ctx, const options *o, iso_record *record, iso_params *params)
 {
     iso_status status = set_line(ctx, record, "k", 1, &o->k);
     if (status == ISO_OK) status = set_line(ctx, record, "J", 3, o->J);
+    if (status == ISO_OK && o->scene) status = set_scene(ctx, o->scene, record);
     if (status == ISO_OK) status = set_line(ctx, record, "h", 1, &o->h);
     if (status == ISO_OK) status = set_line(ctx, record, "eps", 1, &o->eps);
     return status == ISO_OK ? iso_record_params(ctx, record, params) : status;

@@ -98,21 +98,22 @@ static void put_floor(FILE *f)
     fputs(" offset 0,0.6 right front tc rgb '#404040'\n", f);
 }
 
-/* Axes of the lower picture. A single time gets room on both sides. */
-static void put_axes(FILE *f, const iso_record *r, double top)
+/* Axes of a chart below the spheres. A single time gets room on both sides. */
+static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_chart *chart)
 {
     const double a = iso_record_const_row(r, 0)[0], b = iso_record_const_row(r, iso_record_rows(r) - 1)[0];
     const double room = a == b ? fmax(fabs(a), 1) / 2 : 0;
     fputs(
         "unset label; unset arrow; unset object; set size noratio; set border 3 lc rgb '#606060'; unset title\n"
-        "set lmargin at screen 0.095; set rmargin at screen 0.78\n"
         "set tmargin at screen 0.345; set bmargin at screen 0.085\n"
         "set logscale y; set format y '10^{%T}'; set xtics nomirror out scale 0.6; set ytics nomirror out scale 0.6\n"
         "set grid ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'\n"
-        "set key at screen 0.795,0.36 left top Left reverse vertical maxrows 16 samplen 3 spacing 1.2 noenhanced "
-        "title 'largest' left enhanced\n"
-        "set ylabel 'relative difference' offset 0.5,0\nset xrange [",
+        "set key left top Left reverse vertical maxrows 16 samplen 3 spacing 1.2 noenhanced title 'largest' left "
+        "enhanced\n",
         f);
+    fprintf(f, "set lmargin at screen 0.%03d; set rmargin at screen 0.%03d; set key at screen 0.%03d,0.36\n",
+            chart->left, chart->right, chart->right + 15);
+    fprintf(f, "set ylabel '%s' offset 0.5,0\nset xrange [", chart->ylabel);
     iso_gnuplot_number(f, fmin(a, b) - room);
     fputc(':', f);
     iso_gnuplot_number(f, fmax(a, b) + room);
@@ -120,7 +121,7 @@ static void put_axes(FILE *f, const iso_record *r, double top)
     iso_gnuplot_number(f, pow(10, ceil(log10(fmax(top, 1e-15)) + 0.3)));
     fputs("]\nset xlabel ", f);
     iso_gnuplot_text(f, symbol(iso_record_name(r, 0)), 31);
-    fputs(".' in the units of the scene' offset 0,0.3\n", f);
+    fprintf(f, ".' %s' offset 0,0.3\n", chart->units);
 }
 
 /* In the key: the column's symbol and its largest number. */
@@ -132,7 +133,20 @@ static void put_name(FILE *f, const char *name, double largest)
     iso_gnuplot_text(f, words, 60);
 }
 
-static void put_chart(FILE *f, const iso_record *r, double tolerance)
+/* A line for names that have no look of their own. */
+static const char *line_of(const char *name, int c)
+{
+    static const char *const lines[] = {
+        "dt 1 lw 1.5 lc rgb " ISO_PLOT_BLUE, "dt 1 lw 1.5 lc rgb " ISO_PLOT_VERMILLION,
+        "dt 1 lw 1.5 lc rgb '#009E73'",      "dt 1 lw 1.5 lc rgb '#CC79A7'",
+        "dt (8,4) lw 1.5 lc rgb '#56B4E9'",  "dt (8,4) lw 1.5 lc rgb '#E69F00'",
+        "dt (2,3) lw 1.5 lc rgb 'black'",
+    };
+    const look *l = find_look(name);
+    return l->name ? l->line : lines[c % (int)(sizeof lines / sizeof *lines)];
+}
+
+void iso_plot_differences(FILE *f, const iso_record *r, double tolerance, const iso_plot_chart *chart)
 {
     const int columns = (int)iso_record_columns(r);
     double top = tolerance, largest[MOST_DIFFERENCES + 1];
@@ -141,11 +155,11 @@ static void put_chart(FILE *f, const iso_record *r, double tolerance)
         largest[c] = put_differences(f, r, c, &has_floor);
         top = fmax(top, largest[c]);
     }
-    put_axes(f, r, top);
+    put_axes(f, r, top, chart);
     if (has_floor) put_floor(f);
     if (tolerance > 0) put_level(f, 2, tolerance);
     for (int c = 1; c < columns; c++) {
-        const char *name = iso_record_name(r, (size_t)c), *line = find_look(name)->line;
+        const char *name = iso_record_name(r, (size_t)c), *line = line_of(name, c - 1);
         fprintf(f, "%s $difference%d with ", c == 1 ? "plot" : ",", c);
         fprintf(f, iso_record_rows(r) > 1 ? "lines %s title " : "points pt 7 %s title ",
                 iso_record_rows(r) > 1 ? line : strstr(line, "lc"));
@@ -247,7 +261,8 @@ iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plo
           "set title 'point: its place γ'\n",
           f);
     iso_plot_sphere(f, plot->ball, gamma[0], plot->point, gamma[1], fine);
-    put_chart(f, plot->difference, plot->tolerance);
+    static const iso_plot_chart chart = {95, 780, "relative difference", "in the units of the scene"};
+    iso_plot_differences(f, plot->difference, plot->tolerance, &chart);
     fputs("unset multiplot\nunset output\n", f);
     return iso_gnuplot_close(ctx, g, true);
 }

@@ -33,6 +33,18 @@ iso_status iso_plot_check_format(iso_context *ctx, const char *path);
  * ISO_FILE_TROUBLE (no gnuplot, or what it said; the file cannot be written), ISO_NO_MEMORY. */
 iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot);
 
+/* One trajectory, in one model or both. */
+typedef struct iso_plot_orbit {
+    const char *title;
+    const iso_record *ball, *point; /* columns n1..3, and gamma1..3; NULL: not known                         */
+    const iso_record *drift;        /* a clock, then non-negative drifts of integrals; NULL: none            */
+    const iso_record *clocks;       /* a clock, then one other; NULL: only one is known                      */
+} iso_plot_orbit;
+
+/* Above: the paths n and gamma on their spheres, start and end marked. Below: the integrals' drift, and the one clock
+ * over the other. Errors: as iso_plot_comparison. */
+iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot);
+
 /* A map of kinds of motion over the energy h and a second integral F. */
 enum { ISO_PLOT_PARTS = 4, ISO_PLOT_LINES = 4 };
 typedef struct iso_plot_map {

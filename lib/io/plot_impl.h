@@ -21,7 +21,16 @@ enum { ISO_PLOT_ROWS = 5000 /* of a record that are drawn */ };
 /* A line of data. */
 void iso_plot_pair(FILE *script, double x, double y);
 
-/* A plot of the unit sphere with a path, `line`, and markers on it: three columns of unit vectors each. */
+/* A chart below the spheres: its sides in thousandths of the page, a key on the right of it. */
+typedef struct iso_plot_chart {
+    int left, right;
+    const char *ylabel, *units; /* units: said after the name of the clock */
+} iso_plot_chart;
+
+/* Column 0 is a clock, the others are drawn over it on a logarithmic axis. */
+void iso_plot_differences(FILE *script, const iso_record *record, double tolerance, const iso_plot_chart *chart);
+
+/* A plot of the unit sphere with a path, `line`, and markers on it (NULL: none): three columns of unit vectors each. */
 void iso_plot_sphere(FILE *script, const iso_record *line, int line_column, const iso_record *markers,
                      int marker_column, bool fine);
 

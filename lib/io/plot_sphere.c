@@ -197,7 +197,7 @@ void iso_plot_sphere(FILE *f, const iso_record *line, int line_column, const iso
     for (int near = 0; near < 2; near++) {
         put_graticule(f, near);
         put_path(f, line, line_column, near);
-        put_markers(f, markers, marker_column, near);
+        if (markers) put_markers(f, markers, marker_column, near);
     }
     fputs(setup, f);
     put_axes(f);
@@ -205,8 +205,8 @@ void iso_plot_sphere(FILE *f, const iso_record *line, int line_column, const iso
     put_end(f, drawn_row(line, drawn_rows(line) - 1) + line_column, ISO_PLOT_END);
     fputs("plot $grid0 w l lw 0.6 lc rgb '#DDE1E5',", f);
     fprintf(f, " $path0 w %s lc rgb " ISO_PLOT_FAR_BLUE ",", far_style);
-    fputs(" $marker0 w p pt 6 ps 0.8 lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION ", $grid1 w l lw 0.8 lc rgb '#B9C0C7',",
-          f);
-    fprintf(f, " $path1 w %s lc rgb " ISO_PLOT_BLUE ",", near_style);
-    fputs(" $marker1 w p pt 6 ps 0.85 lw 1.5 lc rgb " ISO_PLOT_VERMILLION "\n", f);
+    if (markers) fputs(" $marker0 w p pt 6 ps 0.8 lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION ",", f);
+    fprintf(f, " $grid1 w l lw 0.8 lc rgb '#B9C0C7', $path1 w %s lc rgb " ISO_PLOT_BLUE, near_style);
+    if (markers) fputs(", $marker1 w p pt 6 ps 0.85 lw 1.5 lc rgb " ISO_PLOT_VERMILLION, f);
+    fputs("\n", f);
 }

@@ -1,13 +1,46 @@
-/* trajectory_impl.h - what the reader and the writer of trajectory files share. */
+/* trajectory_impl.h - what trajectory.c asks of a format of trajectory files. */
 #ifndef ISO_IO_TRAJECTORY_IMPL_H
 #define ISO_IO_TRAJECTORY_IMPL_H
 
 #include "io/trajectory.h"
 
-#define ISO_TRAJECTORY_MAGIC "# isoroll trajectory "
+#define ISO_TRAJECTORY_MAGIC   "# isoroll trajectory "
 #define ISO_TRAJECTORY_VERSION "1"
 
-/* Refuses formats that are not built: ISO_BAD_ARGUMENT. */
-iso_status iso_trajectory_check_format(iso_context *ctx, const char *path);
+/* How a kind of file is read and written, in two halves; reader->data and writer->data are their own. */
+typedef struct iso_trajectory_reading {
+    iso_status (*open)(iso_context *ctx, iso_trajectory_reader *r, const char *columns); /* makes r->header */
+    iso_status (*next)(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more);
+    void (*close)(iso_trajectory_reader *r); /* also after a failing open */
+} iso_trajectory_reading;
+
+typedef struct iso_trajectory_writing {
+    iso_status (*open)(iso_context *ctx, iso_trajectory_writer *w, const char *path);
+    iso_status (*header)(iso_context *ctx, iso_trajectory_writer *w, const iso_record *header);
+    iso_status (*row)(iso_context *ctx, iso_trajectory_writer *w, const double row[]); /* NaNs: a mark */
+    iso_status (*line)(iso_context *ctx, iso_trajectory_writer *w, const char *key, const char *value);
+    iso_status (*close)(iso_context *ctx, iso_trajectory_writer *w, bool keep); /* also after a failing open */
+} iso_trajectory_writing;
+
+extern const iso_trajectory_reading iso_csv_reading, iso_hdf5_reading;
+extern const iso_trajectory_writing iso_csv_writing, iso_hdf5_writing; /* of HDF5: where the build has it */
+
+struct iso_trajectory_reader {
+    const iso_trajectory_reading *format;
+    const char *path, *name; /* name: what messages call it              */
+    iso_record *header;
+    size_t line; /* of the row read last                     */
+    char ignored[512]; /* "": nothing                              */
+    void *data;
+};
+
+struct iso_trajectory_writer {
+    const iso_trajectory_writing *format;
+    const char *name;   /* what messages call it */
+    iso_record *header; /* names of the columns, no rows; NULL before it is written */
+    size_t rows;
+    int digits;
+    void *data;
+};
 
 #endif

@@ -1,5 +1,4 @@
-/* taylor_form_impl.h - what a model is expanded as: its terms and numbers, states in and out, the length of a
- * step. */
+/* taylor_form_impl.h - what a model is expanded as: its terms and numbers, and the state it begins with. */
 #include "method/taylor_kernel_impl.h"
 #include "method/taylor_quadrature_impl.h"
 #include "model/model.h"
@@ -150,7 +149,7 @@ static void set_numbers(form *T, int lane, const iso_model *m)
     for (int i = 0; i < T->clocks; i++) set_clock(T, lane, &f->p, T->clock_of[i], factor);
 }
 
-/* --- states: in, along the series, out -------------------------------------------------------------------------- */
+/* --- states: in -------------------------------------------------------------------------- */
 
 static void cross_product(const real a[], const real b[], real c[])
 {
@@ -196,28 +195,6 @@ static void load(form *T, int lane, const double y[])
     for (int i = 0; i < m->carried; i++) LANE(s->clock[m->carry[i]], lane) = y[m->moving + i];
 }
 
-static void store(const form *T, int lane, const state *s, double y[])
-{
-    const iso_model *m = &T->shape;
-    const int *at = m->field.at;
-    (void)lane;
-    for (int i = 0; i < 3; i++) {
-        y[i] = (double)LANE(s->w[i], lane);
-        y[3 + i] = (double)LANE(s->n[i], lane);
-        if (at[ISO_GRAVITY]) y[at[ISO_GRAVITY] + i] = (double)LANE(s->e[i], lane);
-        if (T->rolls) y[at[ISO_ATTITUDE] + 4 + i] = (double)LANE(s->way[i], lane);
-    }
-    if (T->is_point) {
-        const real speed = pace(T, s->n);
-        real M[3];
-        cross_product(s->w, s->n, M);
-        for (int i = 0; i < 3; i++) y[i] = (double)(LANE(M[i], lane) * LANE(speed, lane));
-    }
-    if (at[ISO_TWIST]) y[at[ISO_TWIST]] = -(double)LANE(T->S.twist, lane) * (y[0] * y[3] + y[1] * y[4] + y[2] * y[5]);
-    for (int i = 0; at[ISO_ATTITUDE] && i < 4; i++) y[at[ISO_ATTITUDE] + i] = (double)LANE(s->Q[(i + 3) % 4], lane);
-    for (int i = 0; i < m->carried; i++) y[m->moving + i] = (double)LANE(s->clock[m->carry[i]], lane);
-}
-
 static vector packed(const real a[3])
 {
     vector v = nought;
@@ -239,150 +216,4 @@ static void begin(form *T)
         S->way[0] = packed(s->way);
     }
     memcpy(T->clock, s->clock, sizeof T->clock);
-}
-
-/* p(x), or p'(x), of a vector's series, or of a number's */
-static inline void value(const vector a[], int order, real x, real out[3])
-{
-    vector p = nought;
-    for (int n = order; n >= 0; n--) p = plus(times(x, p), a[n]);
-    for (int i = 0; i < 3; i++) out[i] = AT(p, i);
-}
-
-static inline void rate(const vector a[], const real count[], int order, real x, real out[3])
-{
-    vector p = nought;
-    for (int n = order; n >= 1; n--) p = plus(times(x, p), times(count[n], a[n]));
-    for (int i = 0; i < 3; i++) out[i] = AT(p, i);
-}
-
-static inline real number(const real a[], int order, real x)
-{
-    real p = zero;
-    for (int n = order; n >= 0; n--) p = p * x + a[n];
-    return p;
-}
-
-/* How far the clocks go on from 0 to x; gives the relative error of that, estimated. */
-static inline real pass_time(const form *T, real x, real gained[ISO_CLOCKS])
-{
-    real doubt = zero;
-    gained[T->own] = x;
-    for (int i = 0; i < T->clocks; i++) {
-        const iso_clock c = T->clock_of[i];
-        gained[c] = integral_of_power(&T->rule, T->S.base, T->S.order - 1, T->power[c], x, &doubt) * T->rate[c];
-    }
-    return doubt;
-}
-
-static void state_at(const form *T, real x, state *s)
-{
-    const series *S = &T->S;
-    const iso_model *m = &T->shape;
-    value(S->n, S->order + T->is_point, x, s->n); /* of gamma one more is known, which gamma' needs */
-    if (T->is_point)
-        rate(S->n, S->count, S->order + 1, x, s->w);
-    else
-        value(S->w, S->order, x, s->w);
-    if (m->field.at[ISO_GRAVITY]) value(S->e, S->order, x, s->e);
-    if (m->field.at[ISO_ATTITUDE]) {
-        s->Q[3] = number(S->Q0, S->order, x);
-        value(S->Q, S->order, x, s->Q);
-        if (T->rolls) value(S->way, S->order, x, s->way);
-    }
-    if (m->carried == 0) return;
-    real gained[ISO_CLOCKS];
-    pass_time(T, x, gained);
-    for (int i = 0; i < m->carried; i++) s->clock[m->carry[i]] = T->clock[m->carry[i]] + gained[m->carry[i]];
-}
-
-/* --- steps ------------------------------------------------------------------------------------------------------ */
-
-static inline real largest(vector a)
-{
-    return larger(larger(magnitude(AT(a, 0)), magnitude(AT(a, 1))), magnitude(AT(a, 2)));
-}
-
-/* The largest coefficient n of the states, in units of their sizes. */
-static real coefficient(const form *T, int n)
-{
-    const series *S = &T->S;
-    real most = largest(S->n[n]);
-    const vector rest = T->is_point ? times(S->count[n + 1], S->n[n + 1]) : S->w[n]; /* of gamma', or w */
-    const real speed = largest(T->is_point ? S->n[1] : S->w[0]);
-    most = larger(most, largest(rest) / (speed + spread((NUMBER)ISO_REST)));
-    if (T->shape.field.at[ISO_GRAVITY]) most = larger(most, largest(S->e[n]));
-    if (T->shape.field.at[ISO_ATTITUDE]) most = larger(most, largest(S->Q[n]));
-    return most;
-}
-
-/* x^(1/n), 4 % too small to 3 % too large: the bits of a double are about its logarithm. */
-static inline real rough_root(real x, int n)
-{
-    const double one = 1, part = one / n;
-    double y[LANES];
-    int64_t bits[LANES], of_one;
-    for (int i = 0; i < LANES; i++) y[i] = (double)LANE(x, i);
-    memcpy(bits, y, sizeof bits);
-    memcpy(&of_one, &one, sizeof of_one);
-    for (int i = 0; i < LANES; i++) bits[i] = of_one + (int64_t)((double)(bits[i] - of_one) * part);
-    memcpy(y, bits, sizeof bits);
-    for (int i = 0; i < LANES; i++) LANE(x, i) = y[i];
-    return 0.97 * x;
-}
-
-/* The time in which the unit vector moves by about 1000, which may be anything in own units of s: for k = 1e6, 1e15. */
-static real longest_step(const series *S)
-{
-    const real pace = larger(largest(S->n[1]), root(largest(S->n[2])));
-    return 1000 / choose(pace > spread((NUMBER)1e-100), pace, spread(1));
-}
-
-/* A ball that rolls in a principal plane turns evenly, an entire function of t, in steps of any length; but how it
- * leaves the plane, by however little, follows an equation with the poles of 1/g, and a series beyond them is wrong
- * by many decades. So the terms of 1/g are kept small as well: as small as the state's would cost other orbits a
- * fifth more steps, 3/4 of the digits 2 %. */
-static real for_poles(const form *T, int n)
-{
-    return rough_root(T->at_poles * magnitude(T->S.pole[0]) / larger(magnitude(T->S.pole[n]), spread((NUMBER)1e-290)),
-                      n);
-}
-
-/* The step whose last three terms are as small as the tolerance, or the longest; shorter where the clocks need it. Two
- * may be small by chance: coefficients next to a pair of conjugate poles go like a cosine of n. */
-static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
-{
-    const real least = spread((NUMBER)1e-290), tolerance = spread(T->tolerance);
-    real h = longest_step(&T->S);
-    for (int n = T->S.order - 2; n <= T->S.order; n++) {
-        const real longest = rough_root(T->tolerance / larger(coefficient(T, n), least), n);
-        h = choose(longest < h, longest, h);
-        if (T->is_point || T->is_point_t) continue;
-        const real near = for_poles(T, n - 1);
-        h = choose(near < h, near, h);
-    }
-    for (int i = 0;; i++) {
-        const real doubt = pass_time(T, direction * h, gained); /* NaN where the polynomial is no rate any more */
-        const mask good = doubt <= tolerance, close = doubt < spread((NUMBER)1e10);
-        if (i == 40 || !any(other(good))) return direction * h;
-        const real less = rough_root(tolerance / larger(doubt, least), 2 * NODES);
-        h = choose(good, h, h * (NUMBER)0.9 * choose(close, less, spread((NUMBER)0.5)));
-    }
-}
-
-/* The x at which the model's clock has gone on by dt: Newton's method. */
-static real find(const form *T, real dt, real guess)
-{
-    const iso_clock c = T->shape.clock;
-    if (c == T->own) return dt;
-    real x = guess, gained[ISO_CLOCKS];
-    mask far = everywhere();
-    for (int i = 0; i < 20 && any(far); i++) {
-        pass_time(T, x, gained);
-        const real q = number(T->S.base, T->S.order - 1, x);
-        const real step = (gained[c] - dt) / (T->rate[c] * raised(q, T->power[c]));
-        x = choose(far, x - step, x);
-        far = both(far, magnitude(step) > 4 * (NUMBER)EPSILON * magnitude(x));
-    }
-    return x;
 }

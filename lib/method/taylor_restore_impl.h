@@ -3,7 +3,7 @@
  * Corrections are small, and their defects computed exactly: a projection that rounds its defect turns each step the
  * same way, and the phase drifts like t^2.
  */
-#include "method/taylor_form_impl.h"
+#include "method/taylor_step_impl.h"
 
 /* (a,b) - target with the rounding of one number only (Dot2 of Ogita, Rump and Oishi). */
 static inline real defect_of(const real a[], const real b[], int count, real target)

@@ -171,34 +171,39 @@ static iso_status turn_effects(iso_context *ctx, const iso_record *r, size_t row
     return ISO_OK;
 }
 
+/* How far a row may be from a state: the rounding of five digits. */
+static const double row_rounding = 1e-5;
+
+iso_status iso_start_from_row(iso_context *ctx, iso_picture model, const double y[ISO_STATE], const double *eps,
+                              bool twists, iso_start *start)
+{
+    double unit[3];
+    copy(y + 3, unit, 3);
+    const double size = largest(y), length = norm(unit);
+    if (fabs(length - 1) <= row_rounding) scale(unit, 1 / length);
+    const double along = size > 0 ? y[0] / size * unit[0] + y[1] / size * unit[1] + y[2] / size * unit[2] : 0;
+    const iso_status status =
+        model == ISO_BALL ? iso_start_ball(ctx, y, unit, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start)
+                          : iso_start_point(ctx, y, unit, eps, true, start);
+    if (status != ISO_OK || twists || fabs(along) <= row_rounding) return status;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s has a part %.3g of its size along %s: this is no %s",
+                            model == ISO_BALL ? "omega" : "M", along, model == ISO_BALL ? "n" : "gamma",
+                            model == ISO_BALL ? "rubber ball's motion" : "point on a sphere");
+}
+
 iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_picture model, size_t row,
                             iso_start *start, iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
     int columns[ISO_STATE];
-    const bool twists = effects->on[ISO_TWIST];
+    double y[ISO_STATE], eps;
     iso_status status = iso_record_find_state(ctx, r, model, columns);
     if (status == ISO_OK) status = turn_effects(ctx, r, row, effects);
     if (status != ISO_OK) return status;
-    const double *x = iso_record_const_row(r, row);
-    double v[3], unit[3];
-    for (int i = 0; i < 3; i++) {
-        v[i] = x[columns[i]];
-        unit[i] = x[columns[3 + i]];
-    }
-    double eps;
+    for (int i = 0; i < ISO_STATE; i++) y[i] = iso_record_const_row(r, row)[columns[i]];
     const bool states_eps = model == ISO_POINT && iso_record_coupling(ctx, r, p, &eps, &status);
     if (status != ISO_OK) return status;
-    const double size = largest(v);
-    const double along = size > 0 ? v[0] / size * unit[0] + v[1] / size * unit[1] + v[2] / size * unit[2] : 0;
-    if (model == ISO_BALL)
-        status = iso_start_ball(ctx, v, unit, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start);
-    else
-        status = iso_start_point(ctx, v, unit, states_eps ? &eps : NULL, true, start);
-    if (status == ISO_OK && !twists && fabs(along) > 1e-6)
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s has a part %.3g of its size along %s: this is no %s",
-                                  model == ISO_BALL ? "omega" : "M", along, model == ISO_BALL ? "n" : "gamma",
-                                  model == ISO_BALL ? "rubber ball's motion" : "point on a sphere");
+    status = iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, effects->on[ISO_TWIST], start);
     if (status == ISO_OK) return ISO_OK;
     return iso_context_fail(ctx, status, "", "row %zu: %s", row + 1, iso_context_message(ctx));
 }

@@ -84,30 +84,57 @@ static iso_effects effects_of(const checker *c, iso_picture model)
 
 /* --- constraints and integrals, in the units of the first row ----------------------------------------------------- */
 
-static void check_integrals(checker *c, iso_picture model, const iso_orbit *first)
+/* The integrals that hold for a model, and the value each should have. */
+typedef struct expectations {
+    const iso_system *system;
+    const iso_orbit *first;
+    int count;
+    const iso_integral *integral[ISO_MAX_INTEGRALS];
+    double value[ISO_MAX_INTEGRALS];
+} expectations;
+
+static double integral_value(const checker *c, const expectations *e, int i, size_t row, double *size)
 {
-    const iso_system *system = system_of(model);
+    iso_sample sample;
+    read_sample(c, row, &sample);
+    return iso_orbit_integral(e->first, e->system, e->integral[i], &sample, size);
+}
+
+/* Relative, to the size of its terms. */
+static double integral_drift(const checker *c, const expectations *e, int i, size_t row)
+{
+    double size;
+    const double value = integral_value(c, e, i, row, &size);
+    return value == e->value[i] ? 0 : (value - e->value[i]) / size;
+}
+
+/* The first row's value, but for constraints, and for H: a point has the ball the record claims only on H = 0, or on the
+ * level the record names. */
+static void expect_integrals(const checker *c, iso_picture model, const iso_orbit *first, expectations *e)
+{
     const iso_params *own = &iso_orbit_units(first)->own;
     const double unit = iso_unit(iso_orbit_units(first), iso_effect_list[ISO_LEVEL]->numbers->dimension);
     const double claimed = c->effects.on[ISO_LEVEL] ? iso_coupling(own, c->effects.level / unit) : 0;
     const bool twin = c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || has_model(c, ISO_BALL);
+    *e = (expectations){.system = system_of(model), .first = first};
+    e->count = iso_integrals_holding(e->system, &iso_orbit_model(first)->field, e->integral, ISO_MAX_INTEGRALS);
+    for (int i = 0; i < e->count; i++) {
+        double size;
+        const bool level = twin && strcmp(e->integral[i]->name, "H") == 0;
+        e->value[i] = e->integral[i]->known == ISO_ONE ? 1 : level ? claimed : 0;
+        if (e->integral[i]->known == ISO_ANY_VALUE && !level) e->value[i] = integral_value(c, e, i, 0, &size);
+    }
+}
+
+static void check_integrals(checker *c, iso_picture model, const iso_orbit *first)
+{
     char name[sizeof c->out->residual[0].name];
-    const iso_integral *list[ISO_MAX_INTEGRALS];
-    const int count = iso_integrals_holding(system, &iso_orbit_model(first)->field, list, ISO_MAX_INTEGRALS);
-    for (int n = 0; n < count; n++) {
-        const iso_integral *i = list[n];
-        /* a point has the ball the record claims only on H = 0, or on the level the record names */
-        const bool level = twin && strcmp(i->name, "H") == 0;
-        double expected = i->known == ISO_ONE ? 1 : level ? claimed : 0;
-        snprintf(name, sizeof name, "%s %s", system->name, i->name);
-        for (size_t row = 0; row < iso_record_rows(c->record); row++) {
-            iso_sample sample;
-            double size;
-            read_sample(c, row, &sample);
-            const double value = iso_orbit_integral(first, system, i, &sample, &size);
-            if (row == 0 && i->known == ISO_ANY_VALUE && !level) expected = value;
-            note(c, name, i->doc, value == expected ? 0 : (value - expected) / size, row);
-        }
+    expectations e;
+    expect_integrals(c, model, first, &e);
+    for (int i = 0; i < e.count; i++) {
+        snprintf(name, sizeof name, "%s %s", e.system->name, e.integral[i]->name);
+        for (size_t row = 0; row < iso_record_rows(c->record); row++)
+            note(c, name, e.integral[i]->doc, integral_drift(c, &e, i, row), row);
     }
 }
 
@@ -168,14 +195,10 @@ static const struct {
     int first, count;
     bool moves;
 } groups[] = {
-    {"e flow", ISO_COLUMN_GRAVITY, 3, false},
-    {"q flow", ISO_COLUMN_ATTITUDE, 4, false},
-    {"contact flow", ISO_COLUMN_ATTITUDE + 4, 3, true},
-    {"trace flow", ISO_COLUMN_ATTITUDE + 7, 3, false},
-    {"centre flow", ISO_COLUMN_ATTITUDE + 10, 3, true},
-    {"N flow", ISO_COLUMN_REACTIONS, 3, false},
-    {"force flow", ISO_COLUMN_REACTIONS + 3, 2, false},
-    {"lambda flow", ISO_COLUMN_REACTIONS + 6, 1, false},
+    {"e flow", ISO_COLUMN_GRAVITY, 3, false},           {"q flow", ISO_COLUMN_ATTITUDE, 4, false},
+    {"contact flow", ISO_COLUMN_ATTITUDE + 4, 3, true}, {"trace flow", ISO_COLUMN_ATTITUDE + 7, 3, false},
+    {"centre flow", ISO_COLUMN_ATTITUDE + 10, 3, true}, {"N flow", ISO_COLUMN_REACTIONS, 3, false},
+    {"force flow", ISO_COLUMN_REACTIONS + 3, 2, false}, {"lambda flow", ISO_COLUMN_REACTIONS + 6, 1, false},
 };
 enum { GROUPS = sizeof groups / sizeof *groups };
 
@@ -257,19 +280,26 @@ static void check_map(checker *c)
     }
 }
 
-static iso_status check_model(checker *c, iso_picture model)
+/* The orbit of the first row, after a look at all. */
+static iso_status open_first(checker *c, iso_picture model, iso_orbit **first)
 {
     iso_start start;
     iso_effects effects = effects_of(c, model);
-    iso_orbit *first;
     iso_status status = ISO_OK;
+    *first = NULL;
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(c->record); row++)
         status = iso_record_start(c->ctx, c->record, c->params, model, row, &start, &effects);
     if (status == ISO_OK) status = iso_record_start(c->ctx, c->record, c->params, model, 0, &start, &effects);
     if (status != ISO_OK) return status;
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &effects;
-    status = iso_orbit_create(c->ctx, c->params, &start, &o, &first);
+    return iso_orbit_create(c->ctx, c->params, &start, &o, first);
+}
+
+static iso_status check_model(checker *c, iso_picture model)
+{
+    iso_orbit *first;
+    const iso_status status = open_first(c, model, &first);
     if (status != ISO_OK) return status;
     check_integrals(c, model, first);
     iso_orbit_free(first);
@@ -289,27 +319,74 @@ static iso_status measure_clocks(checker *c)
     return ISO_OK;
 }
 
+/* Columns, clocks and effects of a record; which models it has. */
+static iso_status begin(checker *c, bool has[2])
+{
+    const iso_record *r = c->record;
+    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++) c->columns[i] = iso_record_find(r, iso_trajectory_columns[i]);
+    c->out->rows = iso_record_rows(r);
+    iso_status status = measure_clocks(c);
+    if (status == ISO_OK) status = iso_record_effects(c->ctx, r, &c->effects);
+    c->effects.on[ISO_ATTITUDE] = c->effects.on[ISO_ATTITUDE] && has_attitude(c); /* they act on nothing */
+    if (c->params->D > 0 && c->columns[ISO_COLUMN_REACTIONS] >= 0) c->effects.on[ISO_REACTIONS] = true;
+    if (status != ISO_OK) return status;
+    for (int m = 0; m < 2; m++) has[m] = has_model(c, m ? ISO_POINT : ISO_BALL);
+    if (!has[0] && !has[1])
+        return iso_context_fail(c->ctx, ISO_BAD_INPUT, "columns",
+                                "the trajectory has neither a ball's six columns "
+                                "(omega1 ... n3) nor a point's (M1 ... gamma3)");
+    if (c->out->rows == 0) return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
+    return ISO_OK;
+}
+
 iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
                      iso_residuals *residuals)
 {
     ISO_DEFAULT_ARITHMETIC;
     checker c = {.ctx = ctx, .params = params, .record = record, .tolerance = tolerance, .out = residuals};
-    *residuals = (iso_residuals){.rows = iso_record_rows(record)};
-    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
-        c.columns[i] = iso_record_find(record, iso_trajectory_columns[i]);
-    iso_status status = measure_clocks(&c);
-    if (status == ISO_OK) status = iso_record_effects(ctx, record, &c.effects);
-    c.effects.on[ISO_ATTITUDE] = c.effects.on[ISO_ATTITUDE] && has_attitude(&c); /* they act on nothing */
-    if (params->D > 0 && c.columns[ISO_COLUMN_REACTIONS] >= 0) c.effects.on[ISO_REACTIONS] = true;
-    if (status != ISO_OK) return status;
-    const bool ball = has_model(&c, ISO_BALL), point = has_model(&c, ISO_POINT);
-    if (!ball && !point)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
-                                "the trajectory has neither a ball's six columns "
-                                "(omega1 ... n3) nor a point's (M1 ... gamma3)");
-    if (residuals->rows == 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
-    if (ball) status = check_model(&c, ISO_BALL);
-    if (status == ISO_OK && point) status = check_model(&c, ISO_POINT);
-    if (status == ISO_OK && ball && point) check_map(&c);
+    bool has[2];
+    *residuals = (iso_residuals){.rows = 0};
+    iso_status status = begin(&c, has);
+    if (status == ISO_OK && has[0]) status = check_model(&c, ISO_BALL);
+    if (status == ISO_OK && has[1]) status = check_model(&c, ISO_POINT);
+    if (status == ISO_OK && has[0] && has[1]) check_map(&c);
+    return status;
+}
+
+/* --- drifts over time --------------------------------------------------------------------------------------------- */
+
+static iso_status record_drifts(const checker *c, const expectations *e, int clock, iso_record **drifts)
+{
+    const char *names[1 + ISO_MAX_INTEGRALS] = {clock < 0 ? "row" : iso_clock_name((iso_clock)clock)};
+    for (int i = 0; i < e->count; i++) names[1 + i] = e->integral[i]->name;
+    iso_status status = iso_record_create(c->ctx, (size_t)(1 + e->count), names, drifts);
+    for (size_t row = 0; status == ISO_OK && row < c->out->rows; row++) {
+        double *to;
+        status = iso_record_append(c->ctx, *drifts, &to);
+        if (status != ISO_OK) break;
+        to[0] = clock < 0 ? (double)row + 1 : read_clock(c, clock, row);
+        for (int i = 0; i < e->count; i++) to[1 + i] = fabs(integral_drift(c, e, i, row));
+    }
+    return status;
+}
+
+iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, iso_record **drifts)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_residuals unused = {.rows = 0};
+    checker c = {.ctx = ctx, .params = params, .record = record, .out = &unused};
+    iso_orbit *first = NULL;
+    expectations e;
+    bool has[2];
+    *drifts = NULL;
+    iso_status status = begin(&c, has);
+    const iso_picture model = has[0] ? ISO_BALL : ISO_POINT;
+    if (status == ISO_OK) status = open_first(&c, model, &first);
+    if (status == ISO_OK) {
+        expect_integrals(&c, model, first, &e);
+        status = record_drifts(&c, &e, clock_to_follow(&c, model), drifts);
+    }
+    iso_orbit_free(first);
+    if (status != ISO_OK) iso_record_free(*drifts), *drifts = NULL;
     return status;
 }

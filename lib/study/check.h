@@ -36,4 +36,9 @@ typedef struct iso_residuals {
 iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
                      iso_residuals *residuals);
 
+/* The drifts of the integrals that hold, over the rows: a new record with the model's first clock (or the row's number,
+ * "row"), then |I(row) - I(first row)| / size, or for constraints that from their value, in columns "h", "F_shell", ...
+ * Errors: as iso_check. */
+iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, iso_record **drifts);
+
 #endif

@@ -14,10 +14,10 @@ states() {
 round_trip() {
     case $4 in ball) other=point ;; *) other=ball ;; esac
     run 0 run "$3" --as "$4" -o a.csv
-    run 0 convert --to "$other" a.csv -o b.csv
+    run 0 convert --quiet --to "$other" a.csv -o b.csv
     silent
     run 0 convert --to "$4" b.csv -o c.csv
-    "$isoroll" convert --to "$other" <a.csv | "$isoroll" convert --to "$4" - >piped.csv
+    "$isoroll" convert --quiet --to "$other" <a.csv | "$isoroll" convert --quiet --to "$4" - >piped.csv
     check "$1: files and pipes" cmp c.csv piped.csv
     check "$1: the same columns and clock" test "$(columns a.csv)" = "$(columns c.csv)"
     check "$1: the same lines" test "$(grep '^# [kJhe]' a.csv)" = "$(grep '^# [kJhe]' c.csv)"
@@ -111,21 +111,42 @@ refuses 3 "already" convert --to point point.csv
 sed -e 's/^# h: .*/# h: 5/' -e 's/^# eps: .*/# eps: 7/' ball.csv >wrong.csv
 check "wrong h and eps" "$isoroll" convert --to point wrong.csv -o wrong_point.csv
 check "do not travel on" "$isoroll" convert --to ball wrong_point.csv
-refuses 3 "row 2: the energy of this point is not that of the rows before" convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3
+refuses 3 "bare_point.csv:3: the energy of this point is not that of the rows before" convert --strict --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3 -o none.csv
+run 3 convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3 -o none.csv
+check_not "an eps of another orbit leaves no file" test -e none.csv
 refuses 5 "cannot open" convert --to ball absent.csv
 refuses 5 "cannot read" convert --to ball .
 sed 's/^[0-9].*/0,0,0,0,0.6,0,0.8/' ball.csv | awk '!/^0/ || !n++' >rest.csv
-refuses 3 "at rest" convert --to point rest.csv
+refuses 3 "at rest" convert --strict --to point rest.csv
+run 3 convert --to point rest.csv
+# bad WORDS: damaged.csv is refused under --strict; else one row is marked, the others are converted, and the exit status is 1
+bad() {
+    refuses 3 "damaged.csv:$1" convert --strict --to point damaged.csv -o none.csv
+    check_not "$1: no file" test -e none.csv
+    run 1 convert --to point damaged.csv -o damaged_point.csv
+    check "$1: is named" grep -q "^isoroll: damaged.csv:$1" err
+    check "$1: one row is marked" test "$(grep -c '^nan,nan' damaged_point.csv)" -eq 1
+    rows damaged_point.csv | grep -v '^#' | grep -v nan >others
+    rows point.csv | grep -v '^#' | sed "$2d" >wanted
+    check "$1: the others" test "$(cut -d, -f2- others)" = "$(cut -d, -f2- wanted)"
+    at_most "$1: the clock of the others" "$(paste -d, others wanted | awk -F, '{ d = $1 - $8; if (d < 0) d = -d; if (d > w) w = d } END { print w + 0 }')" 1e-13
+}
 damage 3 5 0.5 ball.csv
-refuses 3 "row 3" convert --to point damaged.csv
+bad "14: normal has length" 3
 damage 4 1 0.1 ball.csv
-refuses 3 "row 4" convert --to point damaged.csv # the time turns back
+bad "15: t turns back" 4
+damage 4 1 1000 ball.csv
+bad "15: this row is damaged" 4
 damage 4 3 1 ball.csv
-refuses 3 "row 4" convert --to point damaged.csv # spins about n
+bad "15: omega has a part" 4
 damage 4 3 nan ball.csv
-refuses 3 "damaged.csv:15:26: expected a finite number for omega2" convert --to point damaged.csv
+bad "15:26: expected a finite number for omega2" 4
 damage 4 3 1,2 ball.csv
-refuses 3 "damaged.csv:15:" convert --to point damaged.csv
+bad "15:" 4
+damage 21 3 x ball.csv
+bad "32:" 21
+awk -F, -v OFS=, '/^[0-9]/ && ++row == 4 { $2 = -$2; $3 = -$3; $4 = -$4 } { print }' ball.csv >damaged.csv
+bad "15: this row is damaged" 4
 grep '^#' ball.csv >empty.csv
 refuses 3 "empty.csv:10:1" convert --to point empty.csv
 columns ball.csv >>empty.csv

@@ -1,0 +1,94 @@
+/* isoroll plot - a picture of a trajectory: paths on the spheres, integrals, clocks. */
+#include <stdio.h>
+#include <string.h>
+
+#include "parameters.h"
+
+/* What is drawn, of the file and of its conversion. */
+typedef struct parts {
+    iso_record *file, *twin, *drifts, *clocks;
+} parts;
+
+/* The model the file has, the ball if both. */
+static iso_picture model_of(const iso_record *record)
+{
+    return iso_record_find(record, "n1") >= 0 && iso_record_find(record, "omega1") >= 0 ? ISO_BALL : ISO_POINT;
+}
+
+/* The file's own clock, and the other one: from the file, or computed with its twin. */
+static iso_status pair_clocks(iso_context *ctx, parts *p)
+{
+    const iso_picture model = model_of(p->file);
+    const char *names[] = {model == ISO_BALL ? "t" : "s", model == ISO_BALL ? "s" : "t"};
+    const int own = iso_record_find(p->file, names[0]), here = iso_record_find(p->file, names[1]);
+    const int there = p->twin ? iso_record_find(p->twin, names[1]) : -1;
+    if (own < 0 || (here < 0 && there < 0)) return ISO_OK;
+    iso_status status = iso_record_create(ctx, 2, names, &p->clocks);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(p->file); i++) {
+        double *row;
+        status = iso_record_append(ctx, p->clocks, &row);
+        if (status != ISO_OK) break;
+        row[0] = iso_record_const_row(p->file, i)[own];
+        row[1] = here >= 0 ? iso_record_const_row(p->file, i)[here] : iso_record_const_row(p->twin, i)[there];
+    }
+    return status;
+}
+
+/* Only one model is drawn where the other does not exist: at rest, or with effects that break the isomorphism. */
+static iso_status find_twin(iso_context *ctx, const iso_params *params, parts *p)
+{
+    if (iso_record_find(p->file, "n1") >= 0 && iso_record_find(p->file, "gamma1") >= 0) return ISO_OK;
+    const iso_picture to = model_of(p->file) == ISO_BALL ? ISO_POINT : ISO_BALL;
+    const iso_status status = iso_convert(ctx, params, p->file, to, 1e-12, &p->twin);
+    if (status != ISO_NOT_MAPPED) return status;
+    complain("%s is drawn alone: %s", to == ISO_POINT ? "the ball" : "the point", iso_context_message(ctx));
+    return ISO_OK;
+}
+
+static iso_status draw(iso_context *ctx, const options *o, const iso_params *params, parts *p)
+{
+    char title[160];
+    iso_status status = find_twin(ctx, params, p);
+    if (status == ISO_OK) status = pair_clocks(ctx, p);
+    if (status == ISO_OK) status = iso_check_drifts(ctx, params, p->file, &p->drifts);
+    if (status != ISO_OK) return status;
+    const bool ball = iso_record_find(p->file, "n1") >= 0, point = iso_record_find(p->file, "gamma1") >= 0;
+    const char *name = strrchr(o->file, '/') ? strrchr(o->file, '/') + 1 : o->file;
+    snprintf(title, sizeof title, "%.60s: k = %.6g, J = %.6g, %.6g, %.6g, %zu rows",
+             strcmp(o->file, "-") == 0 ? "<stdin>" : name, params->k, params->J[0], params->J[1], params->J[2],
+             iso_record_rows(p->file));
+    const iso_plot_orbit plot = {.title = title,
+                                 .ball = ball ? p->file : p->twin,
+                                 .point = point ? p->file : p->twin,
+                                 .drift = p->drifts,
+                                 .clocks = p->clocks};
+    return iso_plot_trajectory(ctx, o->output, &plot);
+}
+
+static int run(iso_context *ctx, const options *o)
+{
+    parts p = {NULL, NULL, NULL, NULL};
+    iso_params params;
+    if (strcmp(o->output, "-") == 0) return complain("plot: -o FILE is missing: .svg, .png or .pdf"), EXIT_USAGE;
+    iso_status status = iso_plot_check_format(ctx, o->output);
+    if (status == ISO_OK) status = iso_trajectory_read(ctx, o->file, o->columns, &p.file);
+    if (status == ISO_OK) status = parameters_of_file(ctx, o, p.file, &params);
+    if (status == ISO_OK) status = draw(ctx, o, &params, &p);
+    if (status != ISO_OK && status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
+        status = name_the_file(ctx, o, status);
+    iso_record_free(p.file);
+    iso_record_free(p.twin);
+    iso_record_free(p.drifts);
+    iso_record_free(p.clocks);
+    return finish(ctx, status);
+}
+
+const command command_plot = {
+    .name = "plot",
+    .argument = "[FILE]",
+    .doc = "a picture of a trajectory: paths on the spheres, integrals, clocks",
+    .options = " output k J eps h scene columns ",
+    .more = "-o FILE names the picture: .svg, .png or .pdf. The other model's path and clock are computed, where it "
+            "has one.",
+    .run = run,
+};

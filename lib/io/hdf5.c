@@ -1,0 +1,95 @@
+/* hdf5.c - what the reader and the writer of trajectories as HDF5 share. */
+#include "io/hdf5_impl.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const iso_hdf5_part iso_hdf5_parts[ISO_HDF5_PARTS] = {
+    {"clock", "t", ISO_CLOCK_T, 1},
+    {"clock", "tau", ISO_CLOCK_TAU, 1},
+    {"clock", "s", ISO_CLOCK_S, 1},
+    {"ball", "omega", ISO_COLUMN_BALL, 3},
+    {"ball", "n", ISO_COLUMN_BALL + 3, 3},
+    {"point", "M", ISO_COLUMN_POINT, 3},
+    {"point", "gamma", ISO_COLUMN_POINT + 3, 3},
+    {"ball", "e", ISO_COLUMN_GRAVITY, 3},
+    {"ball", "q", ISO_COLUMN_ATTITUDE, 4},
+    {"ball", "contact", ISO_COLUMN_ATTITUDE + 4, 3},
+    {"ball", "trace", ISO_COLUMN_ATTITUDE + 7, 3},
+    {"ball", "centre", ISO_COLUMN_ATTITUDE + 10, 3},
+    {"ball", "N", ISO_COLUMN_REACTIONS, 3},
+    {"ball", "pressure", ISO_COLUMN_REACTIONS + 3, 1},
+    {"ball", "friction", ISO_COLUMN_REACTIONS + 4, 1},
+    {"ball", "mu", ISO_COLUMN_REACTIONS + 5, 1},
+    {"ball", "lambda", ISO_COLUMN_REACTIONS + 6, 1},
+};
+
+iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name)
+{
+    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot %s '%s': HDF5 cannot", what, name);
+}
+
+iso_hdf5_store *iso_hdf5_store_create(void)
+{
+    iso_hdf5_store *s = calloc(1, sizeof *s);
+    if (!s) return NULL;
+    s->file = -1;
+    s->descriptor = -1;
+    return s;
+}
+
+bool iso_hdf5_store_room(iso_hdf5_store *s, size_t columns)
+{
+    s->columns = columns;
+    s->block = malloc(ISO_HDF5_BLOCK * (columns + 1) * sizeof *s->block);
+    s->packed = malloc(ISO_HDF5_BLOCK * 4 * sizeof *s->packed);
+    return s->block && s->packed;
+}
+
+bool iso_hdf5_store_free(iso_hdf5_store *s)
+{
+    bool good = true;
+    if (!s) return true;
+    for (int i = 0; i < s->sets; i++) good = H5Dclose(s->set[i].id) >= 0 && good;
+    if (s->file >= 0) good = H5Fclose(s->file) >= 0 && good;
+    free(s->block);
+    free(s->packed);
+    free(s);
+    return good;
+}
+
+hid_t iso_hdf5_access(void)
+{
+    const hid_t plan = H5Pcreate(H5P_DATASET_ACCESS);
+    H5Pset_chunk_cache(plan, 1, 4 * ISO_HDF5_BLOCK * sizeof(double), 1);
+    return plan;
+}
+
+/* One dataset's part, in s->packed. */
+static bool transfer_set(const iso_hdf5_store *s, const iso_hdf5_set *d, hsize_t first, bool write)
+{
+    const hsize_t start[2] = {first, 0}, size[2] = {s->filled, (hsize_t)d->count};
+    const hsize_t end[2] = {first + s->filled, size[1]};
+    if (write && H5Dset_extent(d->id, end) < 0) return false;
+    const hid_t there = H5Dget_space(d->id), here = H5Screate_simple(d->count > 1 ? 2 : 1, size, NULL);
+    bool good = H5Sselect_hyperslab(there, H5S_SELECT_SET, start, NULL, size, NULL) >= 0;
+    if (good && write) good = H5Dwrite(d->id, H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, s->packed) >= 0;
+    if (good && !write) good = H5Dread(d->id, H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, s->packed) >= 0;
+    H5Sclose(here);
+    H5Sclose(there);
+    return good;
+}
+
+bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write)
+{
+    for (int i = 0; i < s->sets && s->filled > 0; i++) {
+        const iso_hdf5_set *d = &s->set[i];
+        const size_t width = (size_t)d->count;
+        for (size_t row = 0; write && row < s->filled; row++)
+            memcpy(s->packed + row * width, s->block + row * s->columns + d->first, width * sizeof *s->packed);
+        if (!transfer_set(s, d, first, write)) return false;
+        for (size_t row = 0; !write && row < s->filled; row++)
+            memcpy(s->block + row * s->columns + d->first, s->packed + row * width, width * sizeof *s->packed);
+    }
+    return true;
+}

@@ -1,0 +1,68 @@
+/* hdf5_impl.h - trajectories as HDF5: the layout of a file, and what its reader and its writer share. All three are
+ * compiled where the build has HDF5 (ISO_HDF5).
+ *
+ *     /             attributes: "format" = "isoroll trajectory 1"; a line "# key: value" each, as numbers where it is
+ *                   numbers, else as text
+ *     /clock        t, tau, s                 rows
+ *     /ball         omega, n, e, q, ...       rows x 3 (q: 4), where all their columns are there, else omega1 ...
+ *     /point        M, gamma                  rows x 3
+ *
+ * Doubles, in chunks of ISO_HDF5_BLOCK rows. Such names at the root are read as well.
+ */
+#ifndef ISO_IO_HDF5_IMPL_H
+#define ISO_IO_HDF5_IMPL_H
+
+#include <hdf5.h>
+
+#include "io/replacement_impl.h"
+#include "io/trajectory_impl.h"
+#include "orbit/scene.h"
+
+enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */, ISO_HDF5_PARTS = 17 };
+#define ISO_HDF5_FORMAT "isoroll trajectory 1"
+
+/* What has a dataset of its own: columns first ... first + count - 1 of iso_trajectory_columns. */
+typedef struct iso_hdf5_part {
+    const char *group, *name;
+    int first, count;
+} iso_hdf5_part;
+extern const iso_hdf5_part iso_hdf5_parts[ISO_HDF5_PARTS];
+
+/* One dataset and the columns of the record it holds. */
+typedef struct iso_hdf5_set {
+    hid_t id;
+    int first, count; /* count adjacent columns of the record */
+} iso_hdf5_set;
+
+/* A file, and a block of its rows. */
+typedef struct iso_hdf5_store {
+    hid_t file;
+    int sets;
+    iso_hdf5_set set[ISO_TRAJECTORY_COLUMNS];
+    size_t columns, filled, next; /* rows in the block; the one read next       */
+    hsize_t rows;                 /* in the file: to be read, or written so far */
+    hsize_t begun;                /* of the block that is being read            */
+    double *block, *packed;       /* rows; a dataset's part of them             */
+    iso_replacement replacement;  /* of a writer                                */
+    int descriptor;
+} iso_hdf5_store;
+
+/* NULL: no memory. */
+iso_hdf5_store *iso_hdf5_store_create(void);
+
+/* For so many columns; false: no memory. */
+bool iso_hdf5_store_room(iso_hdf5_store *s, size_t columns);
+
+/* Closes what is open; false if that fails. */
+bool iso_hdf5_store_free(iso_hdf5_store *s);
+
+/* The block's rows from row `first` of the file on, between the block and every dataset. */
+bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write);
+
+/* How datasets are accessed: chunk by chunk, of which none need be kept. */
+hid_t iso_hdf5_access(void);
+
+/* ISO_FILE_TROUBLE: HDF5 does not say why. */
+iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name);
+
+#endif

@@ -1,0 +1,48 @@
+/* between.h - from one sample of an orbit to the next, by what the equations of motion say at the two of them.
+ *
+ *     iso_between *b;
+ *     iso_between_create(ctx, &model, 1e-14, &b);
+ *     iso_between_take(b, y0);
+ *     iso_between_take(b, y1);
+ *     if (iso_between_measure(b, h, 0, &gap)) s += gap.gained[ISO_CLOCK_S];
+ *     iso_between_free(b);
+ *
+ * The equations give every derivative of the state, and of the clocks' rates, at both samples. With the Taylor
+ * coefficients f_j at the left one and g_j at the right one
+ *
+ *     int_0^h f dt = sum_(j=0)^p c_j h^(j+1) (f_j + (-1)^j g_j),   c_j = (p+1)! (2p+1-j)! j! / ((2p+2)! (j+1)! (p-j)!)
+ *
+ * is exact for polynomials of degree 2p+1: two-point Taylor, Hermite's or Obreshkov's quadrature. Of a clock's rate it
+ * is how far the clock goes on; of y' it is y1 - y0 if the samples lie on one orbit, and what is left is the defect.
+ */
+#ifndef ISO_METHOD_BETWEEN_H
+#define ISO_METHOD_BETWEEN_H
+
+#include "../model/model.h"
+
+typedef struct iso_between iso_between;
+
+typedef struct iso_gap {
+    double gained[ISO_CLOCKS]; /* by the clocks that the model carries, 0 for others                       */
+    double error[ISO_CLOCKS];  /* of these, estimated: what the last derivative contributes                */
+    double defect;             /* the largest of (y1 - y0 - int y' dt), relative to each vector's length   */
+    double motion[ISO_STATE];  /* y1 - y0 - int y' dt itself, likewise                                     */
+} iso_gap;
+
+/* For samples of that model, whose states are those of its system alone. tolerance: relative error that a clock's gain
+ * may have. Errors: ISO_NO_MEMORY. */
+iso_status iso_between_create(iso_context *ctx, const iso_model *model, double tolerance, iso_between **between);
+void iso_between_free(iso_between *between);
+
+/* The next sample, six numbers; the one before becomes the left one. */
+void iso_between_take(iso_between *between, const double y[ISO_STATE]);
+
+/* Puts the last sample aside: the one before it is the last again. */
+void iso_between_drop(iso_between *between);
+
+/* From the left sample to the right one, h of the model's clock later, as exactly as the tolerance wants or the noise
+ * of the samples allows (what defects they have as a rule, 0 or more). False: they are too far apart for that, or the
+ * series diverge. */
+bool iso_between_measure(iso_between *between, double h, double noise, iso_gap *gap);
+
+#endif

@@ -1,0 +1,161 @@
+/* taylor_between.c - the quadrature of between.h on the series of taylor_kernel_impl.h. */
+#include "method/between.h"
+
+#include "method/taylor_double_impl.h"
+
+#define LANES 1
+
+#include "method/taylor_form_impl.h"
+
+enum { LEAST = 2, HIGHEST = 14 }; /* p; where more is needed, steps are cheaper */
+
+/* What is known at a sample: coefficients of the two vectors' derivatives, and of the carried clocks' rates. */
+typedef struct sample {
+    double y[ISO_STATE];
+    double value[ISO_STATE]; /* omega and n, or gamma' and gamma */
+    int known;               /* coefficients 0 to known; -1: none */
+    real slope[HIGHEST + 1][ISO_STATE], rate[ISO_CLOCKS][HIGHEST + 1];
+} sample;
+
+struct iso_between {
+    form T;
+    sample at[3], *left, *right, *before;
+    double tolerance;
+    double weight[HIGHEST + 1][HIGHEST + 1], change[HIGHEST + 1][HIGHEST + 1]; /* c_j at [p][j], less that at [p-1] */
+    int p, easy;   /* easy: measurements that could have done with less */
+    bool declines; /* what is no state of the ball or the point of the table is left to steps */
+};
+
+/* c_0 = 1/2, c_j/c_(j-1) = (p-j+1) j / ((2p+2-j) (j+1)) */
+static void set_weights(iso_between *b)
+{
+    for (int p = 0; p <= HIGHEST; p++) {
+        b->weight[p][0] = 0.5;
+        for (int j = 1; j <= p; j++)
+            b->weight[p][j] = b->weight[p][j - 1] * (p - j + 1) * j / ((double)(2 * p + 2 - j) * (j + 1));
+        for (int j = 0; p > 0 && j <= p; j++) b->change[p][j] = b->weight[p][j] - b->weight[p - 1][j];
+    }
+}
+
+iso_status iso_between_create(iso_context *ctx, const iso_model *model, double tolerance, iso_between **between)
+{
+    iso_between *b = *between = calloc(1, sizeof *b);
+    if (!b) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the way between samples");
+    set_shape(&b->T, model, tolerance);
+    set_numbers(&b->T, 0, model);
+    set_weights(b);
+    b->tolerance = tolerance;
+    b->declines = model->system != &iso_system_ball && model->system != &iso_system_point;
+    b->p = LEAST;
+    b->left = &b->at[0], b->right = &b->at[1], b->before = &b->at[2];
+    return ISO_OK;
+}
+
+void iso_between_free(iso_between *b)
+{
+    free(b);
+}
+
+void iso_between_take(iso_between *b, const double y[ISO_STATE])
+{
+    sample *const oldest = b->before;
+    b->before = b->left, b->left = b->right, b->right = oldest;
+    memcpy(b->right->y, y, sizeof b->right->y);
+    b->right->known = -1;
+}
+
+void iso_between_drop(iso_between *b)
+{
+    sample *const dropped = b->right;
+    b->right = b->left, b->left = b->before, b->before = dropped;
+}
+
+/* The coefficients at a sample, up to p. */
+static void know(iso_between *b, sample *s, int p)
+{
+    form *T = &b->T;
+    series *S = &T->S;
+    if (s->known >= p) return;
+    load(T, 0, s->y);
+    begin(T);
+    S->order = p + 1;
+    expand(S);
+    s->known = p;
+    const vector *fast = T->is_point ? S->n + 1 : S->w;
+    for (int j = 0; j <= p; j++)
+        for (int i = 0; i < 3; i++) {
+            s->slope[j][i] = AT(fast[j + 1], i) * (j + 1) * (T->is_point ? j + 2 : 1);
+            s->slope[j][3 + i] = AT(S->n[j + 1], i) * (j + 1);
+        }
+    for (int i = 0; i < 3; i++) s->value[i] = AT(fast[0], i), s->value[3 + i] = AT(S->n[0], i);
+    for (int c = 0; c < T->clocks; c++) {
+        const iso_clock clock = T->clock_of[c];
+        for (int j = 0; j <= p; j++) s->rate[clock][j] = power(S, T->power[clock], s->rate[clock], j);
+    }
+}
+
+/* sum_j weight_j h^(j+1) (f_j + (-1)^j g_j), f and g being `stride` apart; *last: what p added. */
+static inline double integral(const iso_between *b, const double power[], const double f[], const double g[],
+                              int stride, double *last)
+{
+    double sum = 0, change = 0;
+    for (int j = b->p; j >= 0; j--) {
+        const double term = power[j] * (j % 2 == 0 ? f[j * stride] + g[j * stride] : f[j * stride] - g[j * stride]);
+        sum += b->weight[b->p][j] * term;
+        change += b->change[b->p][j] * term;
+    }
+    *last = fabs(change);
+    return sum;
+}
+
+static double length(const double a[3])
+{
+    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
+
+/* By the coefficients up to b->p; *left: what is still missing, in units of what may be. */
+static void measure(iso_between *b, double h, double noise, iso_gap *gap, double *left)
+{
+    const sample *f = b->left, *g = b->right;
+    const double of_state = 1e-12 + noise, of_clock = larger(b->tolerance, 4 * DBL_EPSILON) + noise;
+    double power[HIGHEST + 1] = {h}, last;
+    *gap = (iso_gap){.defect = 0};
+    *left = 0;
+    for (int j = 1; j <= b->p; j++) power[j] = power[j - 1] * h;
+    for (int c = 0; c < b->T.clocks; c++) {
+        const iso_clock clock = b->T.clock_of[c];
+        gap->gained[clock] = integral(b, power, f->rate[clock], g->rate[clock], 1, &last) * b->T.rate[clock];
+        gap->error[clock] = last * fabs(b->T.rate[clock]);
+        *left = larger(*left, gap->error[clock] / (of_clock * fabs(gap->gained[clock]) + DBL_MIN));
+        if (gap->gained[clock] != gap->gained[clock]) *left = INFINITY;
+    }
+    for (int v = 0; v < ISO_STATE; v += 3) {
+        const double size = larger(length(f->value + v), length(g->value + v));
+        for (int i = v; i < v + 3; i++) {
+            const double way = integral(b, power, f->slope[0] + i, g->slope[0] + i, ISO_STATE, &last);
+            gap->motion[i] = size > 0 ? (g->value[i] - f->value[i] - way) / size : 0;
+            if (size > 0) *left = larger(*left, last / (of_state * size));
+        }
+        gap->defect = larger(gap->defect, length(gap->motion + v));
+    }
+    if (!(gap->defect < 1e100)) *left = INFINITY;
+}
+
+bool iso_between_measure(iso_between *b, double h, double noise, iso_gap *gap)
+{
+    enum { EASY = 32 };
+    double left;
+    if (b->declines) return false;
+    for (;; b->p++, b->easy = 0) {
+        know(b, b->left, b->p);
+        know(b, b->right, b->p);
+        measure(b, h, noise, gap, &left);
+        if (left <= 1) break;
+        if (b->p == HIGHEST || !(left < 1e100)) return false;
+    }
+    b->easy = left < 1e-4 ? b->easy + 1 : 0;
+    if (b->easy < EASY || b->p == LEAST) return true;
+    b->p--;
+    b->easy = 0;
+    return true;
+}

@@ -1,0 +1,75 @@
+/* convert_impl.h - what a conversion is made of, for convert.c, convert_clock.c and convert_lines.c. */
+#ifndef ISO_ORBIT_CONVERT_IMPL_H
+#define ISO_ORBIT_CONVERT_IMPL_H
+
+#include "method/between.h"
+#include "orbit/convert.h"
+
+/* A good row. */
+typedef struct conversion_row {
+    size_t line;
+    double time;               /* of its own clock, the caller's units; 0 without one          */
+    double y[ISO_STATE];       /* its own model, the caller's units: as it stands              */
+    double own[ISO_STATE];     /* the same in own units                                        */
+    double out[1 + ISO_STATE]; /* the clock (if there is one) and the other model              */
+} conversion_row;
+
+struct iso_conversion {
+    iso_context *ctx;
+    const iso_params *params;
+    const iso_record *in;
+    iso_conversion_target target;
+    iso_picture from;
+    double tolerance;
+    int state[ISO_STATE];         /* columns of the model converted from                                 */
+    iso_clock own, other;         /* the clocks of the two models                                        */
+    int own_column, other_column; /* their columns in `in`, -1: not there                                */
+    double stated_eps;            /* by the lines; NAN: not                                              */
+    iso_effects effects;          /* of the lines, and the level of a point off H = 0; the caller's units */
+
+    /* from the first good row on, which has begun the result */
+    bool begun;
+    size_t good;                     /* rows so far                                        */
+    int strangers;                   /* behind the first, and before the next, of another energy */
+    iso_orbit *first;
+    iso_units units;
+    double unit_from, unit_to;       /* of the fast vectors   */
+    double unit_own, unit_other;     /* of the clocks         */
+    double energy;                   /* of the first row      */
+    iso_between *between;            /* NULL without own clock */
+    conversion_row last, held;       /* the last accepted; one that breaks off from it */
+    bool has_last, is_held;
+    size_t marks;                    /* bad rows behind the held one, or before the first good one */
+    double direction, typical;       /* of time; size of defects                                   */
+    double drift[ISO_STATE], moved;  /* see iso_conversion_summary.drift                            */
+    double sum, lost;                /* the other clock, compensated (Neumaier)                     */
+    iso_status first_failure;
+    char *first_words;
+    iso_conversion_summary summary;
+};
+
+/* A row cannot be converted, in the context's words. */
+iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why);
+
+/* Writes a good row. */
+iso_status iso_conversion_emit(iso_conversion *c, conversion_row *row);
+
+/* Puts a row behind the last one: accepts it, with the clock's way and the defect, or holds it. */
+iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row);
+
+/* No row comes behind the held one. */
+iso_status iso_conversion_settle(iso_conversion *c);
+
+/* Notes a value at a line. */
+void iso_worst_note(iso_worst *worst, double value, size_t line);
+
+/* The columns and lines of the result. */
+iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record **header);
+
+/* A row as a start of c->from. `effects` get what turns. */
+iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start);
+
+/* An orbit of the record's own model from a row on, with the other clock. */
+iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *start, bool clock, iso_orbit **orbit);
+
+#endif

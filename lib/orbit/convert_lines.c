@@ -1,0 +1,71 @@
+/* convert_lines.c - what the result of a conversion says of itself. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "orbit/convert_impl.h"
+
+/* Lines that say where a clock began which the record has lost. */
+static const char *const origin_line[] = {[ISO_CLOCK_T] = "t0", [ISO_CLOCK_S] = "s0"};
+
+/* h and eps: what the record states, if its first row agrees to 1e-6 (a point's rows have been held to it, a ball needs
+ * neither to be carried over), else those of the first row. */
+static iso_status describe_energy(const iso_conversion *c, iso_picture to, iso_record *out)
+{
+    double stated;
+    iso_status status = ISO_OK;
+    const double eps = iso_orbit_coupling(c->first);
+    const bool agrees =
+        iso_record_coupling(c->ctx, out, c->params, &stated, &status) && fabs(stated - eps) <= 1e-6 * fabs(eps);
+    if (status != ISO_OK) return status;
+    const bool named = !c->effects.on[ISO_LEVEL] || iso_record_get(out, "level.c");
+    return iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, agrees && named ? NULL : c->first);
+}
+
+/* Of the ball's columns, or of how a clock was computed: not so here. */
+static bool is_left_behind(const char *key)
+{
+    static const char *const keys[] = {"effects", "s.from", "s.error", "t.from", "t.error", "radius"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (strcmp(key, keys[i]) == 0) return true;
+    return strncmp(key, "attitude.", 9) == 0;
+}
+
+static iso_status set_lines(const iso_conversion *c, iso_picture to, double begin, iso_record *out)
+{
+    const char *key, *value, *origin = origin_line[c->own];
+    iso_status status = ISO_OK;
+    for (size_t i = 0; status == ISO_OK && iso_record_line(c->in, i, &key, &value); i++)
+        if (!is_left_behind(key)) status = iso_record_set(c->ctx, out, key, value);
+    if (status == ISO_OK) status = iso_record_describe_effects(c->ctx, out, &c->effects);
+    if (status == ISO_OK) status = describe_energy(c, to, out);
+    if (status == ISO_OK && c->own_column >= 0 && (begin != 0 || iso_record_get(out, origin)))
+        status = iso_record_set_numbers(c->ctx, out, origin, 1, &begin);
+    return status;
+}
+
+/* Where the computed clock begins. */
+static iso_status find_origin(iso_conversion *c)
+{
+    iso_status status = ISO_OK;
+    c->sum = 0;
+    iso_record_get_numbers(c->ctx, c->in, origin_line[c->other], 1, &c->sum, &status);
+    return status;
+}
+
+iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record **header)
+{
+    const iso_picture to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
+    const iso_system *target = to == ISO_BALL ? &iso_system_ball : &iso_system_point;
+    const int has_clock = c->own_column >= 0 || c->other_column >= 0;
+    const char *names[1 + ISO_STATE] = {iso_clock_name(c->other)};
+    for (int i = 0; i < ISO_STATE; i++) names[has_clock + i] = target->state[i];
+    iso_status status = iso_record_create(c->ctx, (size_t)(has_clock + ISO_STATE), names, header);
+    if (status == ISO_OK) status = set_lines(c, to, begin, *header);
+    if (status == ISO_OK) status = find_origin(c);
+    if (status == ISO_OK) return ISO_OK;
+    iso_record_free(*header);
+    *header = NULL;
+    return status;
+}

@@ -1,0 +1,132 @@
+#!/bin/sh
+# convert_foreign.sh ISOROLL - files of others, damaged files, files that are not what they say, and HDF5.
+. "$(dirname "$0")/lib.sh"
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 50 0.05 >scene.yaml
+run 0 run scene.yaml -o ball.csv
+run 0 convert --quiet --to point ball.csv -o point.csv
+grep -v '^#' ball.csv >bare.csv
+ball="--k=-1 --J 1.4,2.1,3"
+
+# foreign NAME FILE [OPTION...]: is converted to what ball.csv is
+foreign() {
+    name=$1 file=$2
+    shift 2
+    # shellcheck disable=SC2086 # $ball is options
+    run 0 convert --quiet --to point "$file" $ball "$@"
+    silent
+    at_most "$name" "$(difference point.csv out)" 1e-13
+}
+tr , ';' <bare.csv >semicolon.csv
+foreign "semicolons" semicolon.csv
+sed 's/,/   /g; s/^/  /' bare.csv >blank.txt
+foreign "blanks" blank.txt
+tr , '\t' <bare.csv >tabs.txt
+foreign "tabs" tabs.txt
+sed 's/$/\r/' bare.csv | sed '3,5{G;G;}' >crlf.csv
+foreign "CRLF and blank lines" crlf.csv
+sed '2,$s/\([0-9]\)e\([-+]\)/\1D\2/g; 2,$s/,/,+/2; s/,+-/,-/g' bare.csv >fortran.csv
+foreign "exponents in D" fortran.csv
+awk -F, -v OFS=, '{ print $7, $5, $6, $4, $3, $2, $1 }' bare.csv >reversed.csv
+foreign "columns in another order" reversed.csv
+sed '1s/[a-z0-9]*/"&"/g' bare.csv >quoted.csv
+foreign "quoted names" quoted.csv
+sed '1s/^/# /; 1s/,/ /g; s/,/ /g' bare.csv >numpy.txt
+foreign "names in a line of #" numpy.txt
+tail -n +2 bare.csv >nameless.csv
+foreign "no names" nameless.csv --columns t,omega1,omega2,omega3,n1,n2,n3
+awk -F, -v OFS=, '{ print "x" NR, $0, NR == 1 ? "kind" : "solid" }' bare.csv | sed '1s/.*/id,T,wx,wy,wz,nx,ny,nz,kind/' >renamed.csv
+foreign "other names and columns" renamed.csv --columns -,t,omega1,omega2,omega3,n1,n2,n3,-
+# shellcheck disable=SC2086
+awk -F, -v OFS=, 'NR == 1 { print $0, "energy", "omgea4"; next } { print $0, 1, 2 }' bare.csv >more.csv
+foreign "columns that are none of ours" more.csv
+# shellcheck disable=SC2086
+run 0 convert --to point more.csv $ball -o /dev/null
+check "are named" grep -q "passed over: 'energy', 'omgea4' (did you mean 'omega1'?)" err
+run 0 convert --quiet --to point -p hex ball.csv -o hex.csv
+check "hexadecimal numbers" grep -q '^0x1' hex.csv
+run 0 convert --quiet --to ball hex.csv -o from_hex.csv
+run 0 convert --quiet --to ball point.csv -o from_point.csv
+check "read back exactly" cmp from_hex.csv from_point.csv
+run 0 convert --quiet --to point -p 6 ball.csv
+at_most "six digits" "$(difference point.csv out)" 1e-5
+check "six digits are six" awk -F, '/^[-0-9]/ { for (i = 1; i <= NF; i++) if (sprintf("%.6g", $i) != $i "") exit 1 }' out
+run 0 convert --quiet --to point bare.csv --scene scene.yaml
+at_most "parameters from a scene" "$(difference point.csv out)" 1e-13
+refuses 2 "expected 1 to 17, or hex" convert --to point -p 18 ball.csv
+refuses 2 "unknown column 'omega4'" convert --to point bare.csv --k=-1 --J 1,2,3 --columns t,omega4
+refuses 3 "has no column 'n3'" convert --to point bare.csv --k=-1 --J 1,2,3 --columns t,omega1,omega2,omega3,n1,n2,-
+refuses 3 "contradicts" convert --to point ball.csv --k 1
+
+# --- one row in a hundred is damaged: text, missing and added fields, numbers that are none, jumps, wrong signs
+awk -F, -v OFS=, '/^#/ || /^t/ { print; next } ++n % 100 != 50 { print; next }
+    { kind = int(n / 100) % 9 }
+    kind == 0 { $0 = "no row at all" }
+    kind == 1 { $7 = ""; sub(/,$/, "") }
+    kind == 2 { $3 = "nan" }
+    kind == 3 { $4 = $4 "x" }
+    kind == 4 { $1 = $1 * 10 + 5 }
+    kind == 5 { $1 = $1 / 3 - 1 }
+    kind == 6 { $5 = 0.123 }
+    kind == 7 { x = $2; $2 = $3; $3 = x }
+    kind == 8 { $2 = -$2; $3 = -$3; $4 = -$4 }
+    { print; print NR >"damaged_lines" }' ball.csv >damaged.csv
+check "ten damaged lines" test "$(wc -l <damaged_lines)" -eq 10
+run 1 convert --to point damaged.csv -o damaged_point.csv
+sed -n 's/^isoroll: damaged.csv:\([0-9]*\):.*/\1/p' err | sort -n >named
+check "all are named, and no others" cmp named damaged_lines
+check "marked in place" test "$(rows damaged_point.csv | grep -v '^#' | grep -c '^nan')" -eq 10
+paste -d, damaged_point.csv point.csv | grep -v -e '^#' -e '^s' -e '^nan' |
+    awk -F, '{ for (i = 1; i <= 7; i++) { d = $i - $(i + 7); if (d < 0) d = -d; if (d > w) w = d } n++ } END { print w + 0, n }' >result
+read -r error count <result
+check "the others are converted" test "$count" -eq 991
+at_most "the others" "$error" 1e-13
+run 1 convert --quiet --to ball damaged_point.csv -o again.csv
+check "marks are bad rows again" test "$(rows again.csv | grep -c '^nan')" -eq 10
+run 3 convert --strict --to point damaged.csv -o strict.csv
+check_not "--strict leaves no file" test -e strict.csv
+
+# --- not what it says: the equations of another ball
+refused_as_other() {
+    run 1 convert --to point bare.csv "$@" -o other.csv
+    check "$*: is told" grep -q "do not solve the equations of the ball that the file or the options state" err
+}
+refused_as_other --k 1 --J 1.4,2.1,3
+refused_as_other --k=-1.001 --J 1.4,2.1,3
+refused_as_other --k=-1 --J 1.4,2.1,3.1
+run 0 convert --quiet --to point bare.csv --k=-1 --J 2.8,4.2,6 -o other.csv # a common factor of J is a unit
+run 0 convert --quiet --max-defect 1e-10 --to point ball.csv
+run 1 convert --max-defect 1e-16 --to point ball.csv -o other.csv
+check "--max-defect names the row" grep -q "ball.csv:[0-9]*: the defect .* is above 1e-16" err
+run 0 run scene.yaml --tol 1e-3 -o loose.csv
+run 0 convert --quiet --max-defect 1e-2 --to point loose.csv
+run 1 convert --max-defect 1e-9 --to point loose.csv -o other.csv
+
+# --- HDF5
+if "$isoroll" run scene.yaml -o ball.h5 2>/dev/null; then
+    run 0 convert --quiet --to point ball.h5 -o point.h5
+    run 0 convert --quiet --to point ball.csv -o point.csv
+    run 0 convert --quiet --to ball point.h5 -o from_h5.csv
+    run 0 convert --quiet --to ball point.csv -o from_csv.csv
+    rows from_h5.csv >a && rows from_csv.csv >b
+    check "HDF5 and CSV hold the same rows" cmp a b
+    grep -v 't.from\|t.error' from_h5.csv | grep '^#' | sort >a
+    grep -v 't.from\|t.error' from_csv.csv | grep '^#' | sort >b
+    check "and the same lines" cmp a b
+    run 0 check point.h5 --max 1e-9
+    run 1 convert --quiet --to point damaged.csv -o damaged.h5
+    run 1 convert --quiet --to ball damaged.h5 -o from_damaged.csv
+    check "marks in HDF5" test "$(rows from_damaged.csv | grep -c '^nan')" -eq 10
+    head -c 1000 ball.h5 >torn.h5
+    refuses 3 "torn.h5" convert --to point torn.h5
+    refuses 5 "cannot open" convert --to point absent.h5
+    check "an older file stays where a conversion fails" cp point.h5 older.h5
+    run 3 convert --strict --to point damaged.csv -o older.h5
+    check "as it was" cmp point.h5 older.h5
+    if command -v h5dump >/dev/null; then
+        check "h5dump reads it" sh -c 'h5dump -d /point/gamma point.h5 | grep -q "(0,0): 0.4719"'
+    fi
+else
+    refuses 2 "no HDF5" run scene.yaml -o ball.h5
+    echo "this build has no HDF5: left out"
+fi
+finish
