@@ -49,7 +49,7 @@ static iso_status take_row(filter *f, double row[], bool *more)
     if (status == ISO_OK) return *more ? iso_conversion_put(f->conversion, row, iso_trajectory_line(f->in)) : ISO_OK;
     if (status != ISO_BAD_INPUT || f->o->strict) return status;
     complain("%s", iso_context_message(f->ctx));
-    return iso_conversion_skip(f->conversion, iso_trajectory_line(f->in));
+    return iso_conversion_skip(f->conversion);
 }
 
 static bool not_interrupted(void *data)

@@ -143,7 +143,7 @@ static iso_status hdf5_header(iso_context *ctx, iso_trajectory_writer *w, const 
     H5E_END_TRY
     iso_status status = good ? ISO_OK : iso_hdf5_trouble(ctx, "write", w->name);
     for (size_t i = 0; status == ISO_OK && iso_record_line(header, i, &key, &value); i++)
-        status = hdf5_line(ctx, w, key, value);
+        if (strcmp(key, "format") != 0) status = hdf5_line(ctx, w, key, value);
     return status;
 }
 

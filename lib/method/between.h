@@ -37,9 +37,6 @@ void iso_between_free(iso_between *between);
 /* The next sample, six numbers; the one before becomes the left one. */
 void iso_between_take(iso_between *between, const double y[ISO_STATE]);
 
-/* Puts the last sample aside: the one before it is the last again. */
-void iso_between_drop(iso_between *between);
-
 /* From the left sample to the right one, h of the model's clock later, as exactly as the tolerance wants or the noise
  * of the samples allows (what defects they have as a rule, 0 or more). False: they are too far apart for that, or the
  * series diverge. */

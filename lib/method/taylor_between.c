@@ -19,7 +19,7 @@ typedef struct sample {
 
 struct iso_between {
     form T;
-    sample at[3], *left, *right, *before;
+    sample at[2], *left, *right;
     double tolerance;
     double weight[HIGHEST + 1][HIGHEST + 1], change[HIGHEST + 1][HIGHEST + 1]; /* c_j at [p][j], less that at [p-1] */
     int p, easy;   /* easy: measurements that could have done with less */
@@ -47,7 +47,7 @@ iso_status iso_between_create(iso_context *ctx, const iso_model *model, double t
     b->tolerance = tolerance;
     b->declines = model->system != &iso_system_ball && model->system != &iso_system_point;
     b->p = LEAST;
-    b->left = &b->at[0], b->right = &b->at[1], b->before = &b->at[2];
+    b->left = &b->at[0], b->right = &b->at[1];
     return ISO_OK;
 }
 
@@ -58,16 +58,10 @@ void iso_between_free(iso_between *b)
 
 void iso_between_take(iso_between *b, const double y[ISO_STATE])
 {
-    sample *const oldest = b->before;
-    b->before = b->left, b->left = b->right, b->right = oldest;
+    sample *const older = b->left;
+    b->left = b->right, b->right = older;
     memcpy(b->right->y, y, sizeof b->right->y);
     b->right->known = -1;
-}
-
-void iso_between_drop(iso_between *b)
-{
-    sample *const dropped = b->right;
-    b->right = b->left, b->left = b->before, b->before = dropped;
 }
 
 /* The coefficients at a sample, up to p. */

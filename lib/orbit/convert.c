@@ -33,9 +33,8 @@ iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why)
     return status == ISO_OK ? write_mark(c) : status;
 }
 
-iso_status iso_conversion_skip(iso_conversion *c, size_t line)
+iso_status iso_conversion_skip(iso_conversion *c)
 {
-    (void)line;
     c->summary.rows++;
     c->summary.bad++;
     return write_mark(c);

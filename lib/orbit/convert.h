@@ -69,7 +69,7 @@ void iso_conversion_free(iso_conversion *conversion);
 iso_status iso_conversion_put(iso_conversion *conversion, const double row[], size_t line);
 
 /* In the place of a row that could not even be read. */
-iso_status iso_conversion_skip(iso_conversion *conversion, size_t line);
+iso_status iso_conversion_skip(iso_conversion *conversion);
 
 /* After the last row. summary may be NULL. Errors: as for a row; where not one row could be converted, the reason why
  * the first could not. */

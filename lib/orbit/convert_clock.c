@@ -85,15 +85,23 @@ static double sensitivity(const iso_conversion *c)
     return 2 * fabs(e) * sqrt(fmax(J[0], fmax(J[1], J[2])) / fmin(J[0], fmin(J[1], J[2])));
 }
 
+/* What the rows' equations make of the clock, if they are others than those stated: about as wrong as the drift. */
+static void close_drift(iso_conversion *c)
+{
+    const double drift = fmax(norm(c->drift), norm(c->drift + 3));
+    if (c->moved > 0) c->summary.error += (3 + sensitivity(c)) * drift / c->moved * fabs(c->gained);
+    for (int i = 0; i < ISO_STATE; i++) c->drift[i] = 0;
+    c->moved = c->gained = 0;
+}
+
 static void add_drift(iso_conversion *c, const conversion_row *row, const iso_gap *gap)
 {
     const double *n = row->y + 3, *m = c->last.y + 3;
     for (int i = 0; i < ISO_STATE; i++) c->drift[i] += gap->motion[i];
     c->moved += norm((double[]){n[0] - m[0], n[1] - m[1], n[2] - m[2]});
+    c->gained += gap->gained[c->other];
     iso_worst_note(&c->summary.drift, fmax(norm(c->drift), norm(c->drift + 3)), row->line);
-    if (c->moved < 0.5) return;
-    for (int i = 0; i < ISO_STATE; i++) c->drift[i] = 0;
-    c->moved = 0;
+    if (c->moved >= 0.5) close_drift(c);
 }
 
 /* The row follows the last one, and becomes it. */
@@ -101,6 +109,12 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
 {
     const double there = gap->gained[c->other], next = c->sum + there, step = row->time - c->last.time;
     iso_conversion_summary *s = &c->summary;
+    if (c->unwritten) {
+        const iso_status status = iso_conversion_emit(c, &c->last);
+        if (status != ISO_OK) return status;
+    }
+    c->unwritten = false;
+    c->doubted = 0;
     by_steps ? s->integrated++ : s->between++;
     iso_worst_note(&s->defect, gap->defect, row->line);
     add_drift(c, row, gap);
@@ -129,7 +143,7 @@ static iso_status refuse_time(iso_conversion *c, const conversion_row *row)
 static iso_status refuse_defect(iso_conversion *c, const conversion_row *row)
 {
     iso_context_fail(c->ctx, ISO_BAD_INPUT, "",
-                     "this row is damaged: the rows before and after it lie on one orbit, and it does not");
+                     "this row is damaged: it does not lie on the orbit of the rows beside it");
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 
@@ -139,6 +153,34 @@ static iso_status release_marks(iso_conversion *c)
     iso_status status = ISO_OK;
     for (; status == ISO_OK && c->marks > 0; c->marks--) status = c->target.row(c->target.data, NULL);
     return status;
+}
+
+/* Whether a row and the next lie on one orbit, as far as others of the file do. */
+static bool agree(iso_conversion *c, const conversion_row *a, const conversion_row *b)
+{
+    iso_gap gap;
+    bool by_steps;
+    return in_order(c, a, b) && a->time != b->time && judge(c, a, b, &gap, &by_steps) == ISO_OK &&
+           !breaks_off(c, gap.defect);
+}
+
+/* The first row is damaged: the held one takes its place. */
+static iso_status replace_first(iso_conversion *c, const conversion_row *held)
+{
+    const iso_status status = refuse_defect(c, &c->last);
+    c->last = *held;
+    if (c->summary.computed) c->last.out[0] = c->sum;
+    return status;
+}
+
+/* A row that breaks off both from the last and from the next: damaged, where the file has been better so far. */
+static bool is_doubtful(iso_conversion *c, const conversion_row *held, const conversion_row *next)
+{
+    enum { KNOWN = 10, MOST = 8 };
+    if (c->summary.between + c->summary.integrated < KNOWN || c->doubted == MOST) return false;
+    if (next && agree(c, held, next)) return false;
+    c->doubted++;
+    return true;
 }
 
 /* The held row is accepted, or (damaged) refused; c->is_held falls first, so that its own mark is written at once. */
@@ -155,13 +197,17 @@ static iso_status decide(iso_conversion *c, const conversion_row *next)
     iso_status status = ISO_OK, reach = ISO_BAD_INPUT;
     const bool jumps = next && (!behind || !in_order(c, &held, next));
     if (behind && !(jumps && before)) reach = judge(c, &c->last, &held, &gap, &by_steps);
-    if (reach == ISO_OK && (!breaks_off(c, gap.defect) || !before)) {
+    if (reach == ISO_OK && !breaks_off(c, gap.defect)) {
         status = accept(c, &held, &gap, by_steps);
     } else if (before && judge(c, &c->last, next, &over, &steps_over) == ISO_OK && over.defect < gap.defect / 10 &&
                !breaks_off(c, over.defect)) {
         status = behind ? refuse_defect(c, &held) : refuse_time(c, &held);
+    } else if (c->unwritten && next && agree(c, &held, next)) {
+        status = replace_first(c, &held);
     } else if (!behind) {
         status = refuse_time(c, &held);
+    } else if (is_doubtful(c, &held, next)) {
+        status = refuse_defect(c, &held);
     } else {
         if (reach != ISO_OK) reach = judge(c, &c->last, &held, &gap, &by_steps);
         status = reach == ISO_OK ? accept(c, &held, &gap, by_steps) : iso_conversion_bad(c, held.line, reach);
@@ -180,8 +226,9 @@ iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row)
         c->has_last = true;
         c->last = *row;
         iso_between_take(c->between, row->own);
+        c->unwritten = true;
         if (c->summary.computed) c->last.out[0] = c->sum;
-        return iso_conversion_emit(c, &c->last);
+        return ISO_OK;
     }
     iso_between_take(c->between, row->own);
     if (in_order(c, &c->last, row) && measure(c, &c->last, row, &gap) && !breaks_off(c, gap.defect))
@@ -193,7 +240,9 @@ iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row)
 
 iso_status iso_conversion_settle(iso_conversion *c)
 {
-    const iso_status status = c->is_held ? decide(c, NULL) : ISO_OK;
+    iso_status status = c->is_held ? decide(c, NULL) : ISO_OK;
+    if (status == ISO_OK && c->unwritten) status = iso_conversion_emit(c, &c->last);
+    close_drift(c);
     c->summary.error += 2 * DBL_EPSILON * fabs(c->sum + c->lost);
     c->summary.end = c->sum + c->lost;
     return status;

@@ -39,9 +39,12 @@ struct iso_conversion {
     iso_between *between;            /* NULL without own clock */
     conversion_row last, held;       /* the last accepted; one that breaks off from it */
     bool has_last, is_held;
+    bool unwritten;                  /* the last is the first, which may still prove damaged           */
+    int doubted;                     /* rows taken for damaged, one after the other                     */
     size_t marks;                    /* bad rows behind the held one, or before the first good one */
     double direction, typical;       /* of time; size of defects                                   */
     double drift[ISO_STATE], moved;  /* see iso_conversion_summary.drift                            */
+    double gained;                   /* by the other clock meanwhile                                */
     double sum, lost;                /* the other clock, compensated (Neumaier)                     */
     iso_status first_failure;
     char *first_words;
