@@ -86,9 +86,11 @@ static iso_status check_energy(iso_conversion *c, const conversion_row *r)
         iso_worst_note(&c->summary.energy, h == c->energy ? 0 : (h - c->energy) / size, r->line);
         return ISO_OK;
     }
-    if (isnan(c->stated_eps)) return ISO_OK;
-    const double off = off_level(c, r->own, c->stated_eps / iso_unit(&c->units, iso_dimension_eps));
-    if (!(fabs(off) <= 1e-3)) /* a method of low order keeps its energy no better */
+    const bool stated = !isnan(c->stated_eps);
+    const double eps = stated ? c->stated_eps / iso_unit(&c->units, iso_dimension_eps)
+                              : iso_orbit_model(c->first)->field.eps; /* the first row's */
+    const double off = off_level(c, r->own, eps);
+    if (stated && !(fabs(off) <= 1e-3)) /* a method of low order keeps its energy no better */
         return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "eps",
                                 "the energy of this point is not that of the rows before: its M does not belong to "
                                 "eps = %.10g (leave --eps and --h out, and the first row says them)",
@@ -141,23 +143,34 @@ static iso_status create_first(iso_conversion *c, const iso_start *start, bool c
     return status;
 }
 
-/* The orbit of the first row; off the level H = 0 by more than the digits a record may be written with, it has a level. */
+/* How far the first row is off the level stated, or 0, by the coupling eps in own units. */
+static double first_off_level(const iso_conversion *c, const iso_start *start, double eps)
+{
+    double own[ISO_STATE];
+    copy(start->y, own, ISO_STATE);
+    for (int i = 0; i < 3; i++) own[i] /= iso_unit(&c->units, iso_system_point.fast_dimension);
+    return off_level(c, own, eps);
+}
+
+/* The orbit of the first row. A point may be off the level stated, or off H = 0 where none is, by the digits a record
+ * is written with: its own coupling is then the one of that level. Farther off, it has a level if none is stated. */
 static iso_status open_first(iso_conversion *c, const conversion_row *r)
 {
+    static const double digits = 1e-6;
     iso_start start;
-    const bool clock = c->summary.computed;
+    const bool clock = c->summary.computed, stated = c->effects.on[ISO_LEVEL];
     iso_status status = iso_conversion_start(c, r->y, &start);
+    const double eps = start.eps;
+    if (stated) start.eps = NAN;
     if (status == ISO_OK) status = create_first(c, &start, clock);
-    if (status != ISO_OK || !iso_orbit_effects(c->first).on[ISO_LEVEL] || c->effects.on[ISO_LEVEL]) return status;
-    double own[ISO_STATE];
-    copy(start.y, own, ISO_STATE);
-    for (int i = 0; i < 3; i++) own[i] /= iso_unit(&c->units, iso_system_point.fast_dimension);
-    if (fabs(off_level(c, own, iso_orbit_model(c->first)->field.eps)) > 1e-6) {
-        c->effects = iso_orbit_effects(c->first);
-        return ISO_OK;
-    }
-    start.eps = NAN;
-    return create_first(c, &start, clock);
+    if (status != ISO_OK || !iso_orbit_effects(c->first).on[ISO_LEVEL] || isnan(c->stated_eps)) return status;
+    const double own_eps = c->stated_eps / iso_unit(&c->units, iso_dimension_eps);
+    const bool agrees = fabs(first_off_level(c, &start, own_eps)) <= digits;
+    if (agrees && stated) return ISO_OK;
+    start.eps = agrees ? NAN : eps; /* a level stated that is another one is refused there */
+    if (agrees || stated) return create_first(c, &start, clock);
+    c->effects = iso_orbit_effects(c->first);
+    return ISO_OK;
 }
 
 static iso_status open_units(iso_conversion *c, const conversion_row *r)
