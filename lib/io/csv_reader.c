@@ -1,4 +1,5 @@
 /* csv_reader.c - trajectories as text: ours, and what others write. Writing is in csv_writer.c. */
+#include <ctype.h>
 #include <errno.h>
 #include <locale.h>
 #include <math.h>
@@ -234,7 +235,7 @@ static bool begins_with_number(csv *c)
     if (f.length == 0 || f.length >= sizeof copy) return false;
     memcpy(copy, f.text, f.length);
     strtod_l(copy, &end, c->plain);
-    return end > copy;
+    return end > copy && (*end == '\0' || !isalpha((unsigned char)*copy)); /* "nan" is one, "info" none */
 }
 
 /* The failure is about the caller's names, not about a place in the file. */

@@ -129,4 +129,15 @@ else
     refuses 2 "no HDF5" run scene.yaml -o ball.h5
     echo "this build has no HDF5: left out"
 fi
+# a point on a level, written with few digits, is still on it; a name that begins like a number is a name
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.1 >scene.yaml
+echo 'effects: {level: {c: 0.1}}' >>scene.yaml
+run 0 run scene.yaml -o level.csv
+run 0 convert --quiet -p 7 --to point level.csv -o point.csv
+run 0 convert --quiet --to ball point.csv -o back.csv
+check "seven digits on a level: all rows" test "$(rows back.csv | grep -c nan)" -eq 0
+sed 's/^# level.c: .*/# level.c: 0.1001/' point.csv >other.csv
+run 3 convert --quiet --to ball other.csv
+sed 's/^t,/info,/' level.csv | sed 's/^# isoroll trajectory.*//' >info.csv
+run 0 convert --quiet --to point info.csv
 finish
