@@ -116,8 +116,9 @@ static bool judge(const filter *f, const iso_conversion_summary *s)
     }
     if (s->checked && !(s->drift.value <= other_equations) && isnan(f->o->max_defect)) {
         complain(
-            "%s:%zu: these rows do not solve the equations of the ball that the file or the options state (k, J): "
-            "they drift off by %.2g within half a radian (--max-defect X sets another bound)",
+            "%s:%zu: these rows do not solve the equations of the ball that the file or the options state (k, J), or "
+            "have too few digits: they drift off by %.2g in half a radian, or one interval if that is longer "
+            "(--max-defect X sets another bound)",
             f->name, s->drift.line, s->drift.value);
         good = false;
     }

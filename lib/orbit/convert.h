@@ -48,8 +48,9 @@ typedef struct iso_conversion_summary {
     size_t between, integrated; /* intervals by quadrature, and by integration                               */
     bool computed;         /* the other clock was                                                            */
     iso_clock clock;       /* that clock,                                                                    */
-    double end, error;     /* where it ended, and its error there, estimated from the quadratures, the
-                              defects and the rounding of the sums                                           */
+    double end, error;     /* where it ended, and its error there for the k and J stated, estimated from the
+                              quadratures, the defects and the rounding of the sums: what a wrong k or J does
+                              to it is not in it, but shows as drift                                        */
 } iso_conversion_summary;
 
 typedef struct iso_conversion iso_conversion;
