@@ -5,10 +5,6 @@
 #include "command.h"
 #include "parameters.h"
 
-/* Rows that follow other equations than the stated ones drift by this or more while n moves by half a radian; rows
- * that are unit vectors to 1e-6, as they must be, drift by less. */
-static const double other_equations = 1e-4;
-
 typedef struct filter {
     iso_context *ctx;
     const options *o;
@@ -104,6 +100,16 @@ static void tell(const filter *f, const iso_conversion_summary *s)
                  f->name, iso_clock_name(s->clock), s->end, s->error, s->between, s->integrated);
 }
 
+/* The drift that the rows of an orbit may have: what six digits make of it, or a hundred times the tolerance with which
+ * the file says it was made. Rows of other equations, a thousandth beside the stated ones, drift by more. */
+static double largest_drift(const filter *f)
+{
+    double tolerance = 0;
+    iso_status unused;
+    iso_record_get_numbers(f->ctx, iso_trajectory_header(f->in), "tolerance", 1, &tolerance, &unused);
+    return fmax(1e-5, 100 * tolerance);
+}
+
 /* Whether the rows are what the file says they are. */
 static bool judge(const filter *f, const iso_conversion_summary *s)
 {
@@ -114,7 +120,7 @@ static bool judge(const filter *f, const iso_conversion_summary *s)
         complain("%s:%zu: the defect %.2g is above %g", f->name, s->defect.line, s->defect.value, f->o->max_defect);
         good = false;
     }
-    if (s->checked && !(s->drift.value <= other_equations) && isnan(f->o->max_defect)) {
+    if (s->checked && isnan(f->o->max_defect) && !(s->drift.value <= largest_drift(f))) {
         complain(
             "%s:%zu: these rows do not solve the equations of the ball that the file or the options state (k, J), or "
             "have too few digits: they drift off by %.2g in half a radian, or one interval if that is longer "

@@ -26,7 +26,7 @@ folder=$source/examples/14_from_python
 run 0 convert --to point --scene "$folder/scene.yaml" "$folder/orbit.txt" -o point.csv
 run 0 check --max 1e-9 point.csv
 run 0 check --max 1e-9 --scene "$folder/scene.yaml" "$folder/orbit.txt"
-run 0 convert --to ball --k=-1 --J 6,4,2 --eps 0.5 --columns -,s,gamma1,gamma2,gamma3,M1,M2,M3 "$folder/leapfrog.csv" -o ball.csv
+run 0 convert --to ball --max-defect 1e-4 --k=-1 --J 6,4,2 --eps 0.5 --columns -,s,gamma1,gamma2,gamma3,M1,M2,M3 "$folder/leapfrog.csv" -o ball.csv
 run 0 check --max 1e-3 ball.csv
 run 0 plot --scene "$folder/scene.yaml" "$folder/orbit.txt" -o orbit.svg
 check "a picture" grep -q '</svg>' orbit.svg

@@ -123,7 +123,7 @@ static void check_output(const char *out, size_t size)
     iso_record *record = NULL;
     char path[32];
     fuzz_file((const uint8_t *)out, size, path);
-    const iso_status status = iso_trajectory_read(ctx, path, &record);
+    const iso_status status = iso_trajectory_read(ctx, path, NULL, &record);
     FUZZ_REQUIRE(status == ISO_OK, "%s\n", iso_context_message(ctx));
     iso_record_free(record);
     iso_context_free(ctx);
