@@ -153,11 +153,12 @@ static iso_status open_filter(filter *f, iso_params *params)
 {
     const options *o = f->o;
     const iso_conversion_target target = {put_header, put_row, put_bad, f};
+    const iso_conversion_options how = {isnan(o->tolerance) ? 1e-14 : o->tolerance, o->shift_J};
     iso_status status = iso_trajectory_reader_open(f->ctx, o->file, o->columns, &f->in);
     if (status == ISO_OK) status = parameters_of_file(f->ctx, o, iso_trajectory_header(f->in), params);
     if (status == ISO_OK)
-        status = iso_conversion_create(f->ctx, params, iso_trajectory_header(f->in), o->to,
-                                       isnan(o->tolerance) ? 1e-14 : o->tolerance, &target, &f->conversion);
+        status =
+            iso_conversion_create(f->ctx, params, iso_trajectory_header(f->in), o->to, &how, &target, &f->conversion);
     if (status != ISO_OK)
         return status == ISO_BAD_ARGUMENT || status == ISO_FILE_TROUBLE ? status : name_the_file(f->ctx, o, status);
     if (iso_trajectory_ignored(f->in) && !o->quiet)
@@ -189,7 +190,7 @@ const command command_convert = {
     .name = "convert",
     .argument = "[FILE]",
     .doc = "a trajectory of one model in, the other model's out",
-    .options = " to output digits k J eps h scene columns tol max-defect strict quiet ",
+    .options = " to output digits k J eps h scene columns tol max-defect shift-J strict quiet ",
     .more =
         "Row by row, in constant memory; what others write is read, too (README). States are mapped through (18); "
         "the "
@@ -198,6 +199,8 @@ const command command_convert = {
         "first row,\nto --tol (default 1e-14), or integrated where they are too far apart. k, J and h or eps are "
         "read "
         "from the file's\n# lines, from --scene, or from --k --J. A bad row becomes one of nan; then the exit status "
-        "is 1.",
+        "is 1.\nA point off the level H = 0 becomes a ball in the potential of the effect level; with --shift-J a "
+        "free "
+        "one.",
     .run = run,
 };

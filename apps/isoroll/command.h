@@ -37,7 +37,7 @@ typedef struct options {
     const char *columns;   /* --columns                                                        */
     int digits;            /* --digits; ISO_HEXADECIMAL                                        */
     double max_defect;     /* NAN: not given                                                   */
-    bool json, level, quick, quiet, strict, verbose, help;
+    bool json, level, quick, quiet, shift_J, strict, verbose, help;
 } options;
 
 typedef struct command {

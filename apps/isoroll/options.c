@@ -149,6 +149,7 @@ static const struct row {
      AT(columns)},
     {"max-defect", "X", "a number from 0 on", "exit with 1 if a row is farther off the orbit of the one before", set_bound,
      AT(max_defect)},
+    {"shift-J", NULL, NULL, "k = -1: a point off H = 0 becomes a free ball, of moments J + E/eps", set_flag, AT(shift_J)},
     {"strict", NULL, NULL, "stop at the first bad row", set_flag, AT(strict)},
     {"quiet", NULL, NULL, "no summary on stderr", set_flag, AT(quiet)},
     {"verbose", NULL, NULL, "tell on stderr how it went, and the error", set_flag, AT(verbose)},
@@ -169,7 +170,7 @@ void options_help(const command *c, FILE *to)
     fprintf(to, "usage: isoroll %s [options] %s\n%s\n\n", c->name, c->argument, c->doc);
     for (int i = 0; i < ROWS; i++)
         if (takes(c, &table[i]))
-            fprintf(to, "  --%-8s %-9s %s\n", table[i].name, table[i].argument ? table[i].argument : "",
+            fprintf(to, "  --%-10s %-9s %s\n", table[i].name, table[i].argument ? table[i].argument : "",
                     table[i].doc);
     if (c->more) fprintf(to, "\n%s\n", c->more);
 }

@@ -173,9 +173,26 @@ static iso_status open_first(iso_conversion *c, const conversion_row *r)
     return ISO_OK;
 }
 
+/* On |gamma| = 1, eps (gamma,J gamma) + E = eps (gamma,(J + E/eps) gamma): the energy becomes a part of J. */
+static iso_status shift_moments(iso_conversion *c, const conversion_row *r)
+{
+    const double eps = c->stated_eps, *J = c->params->J, kinetic = dot(r->y, r->y) / 2;
+    const double E = kinetic - eps * dot_diag(r->y + 3, J, r->y + 3);
+    if (!c->shift_J || isnan(eps) || fabs(E) <= 1e-6 * kinetic) return ISO_OK;
+    const iso_status status =
+        iso_params_reduced(c->ctx, -1, (double[]){J[0] + E / eps, J[1] + E / eps, J[2] + E / eps}, &c->shifted);
+    if (status == ISO_OK) c->params = &c->shifted;
+    if (status == ISO_OK) return ISO_OK;
+    return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "",
+                            "no free ball has this energy, J + E/eps: %s; without a shift "
+                            "there is one in the potential of a level",
+                            iso_context_message(c->ctx));
+}
+
 static iso_status open_units(iso_conversion *c, const conversion_row *r)
 {
-    const iso_status status = open_first(c, r);
+    iso_status status = shift_moments(c, r);
+    if (status == ISO_OK) status = open_first(c, r);
     if (status != ISO_OK) return status;
     const double unit_M = iso_unit(&c->units, iso_system_point.fast_dimension);
     c->unit_from = c->from == ISO_BALL ? c->units.w : unit_M;
@@ -304,7 +321,8 @@ static iso_status read_lines(iso_conversion *c)
 }
 
 iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header, iso_picture to,
-                                 double tolerance, const iso_conversion_target *target, iso_conversion **conversion)
+                                 const iso_conversion_options *options, const iso_conversion_target *target,
+                                 iso_conversion **conversion)
 {
     iso_conversion *c = *conversion = calloc(1, sizeof *c);
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a conversion");
@@ -313,8 +331,12 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
     c->in = header;
     c->target = *target;
     c->from = to == ISO_BALL ? ISO_POINT : ISO_BALL;
-    c->tolerance = tolerance;
+    c->tolerance = options->tolerance;
+    c->shift_J = options->shift_J;
     iso_status status = find_columns(c);
+    if (status == ISO_OK && c->shift_J && (c->from != ISO_POINT || params->k != -1))
+        status =
+            iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shift-J", "energy can shift J for a point with k = -1 alone");
     if (status == ISO_OK) status = read_lines(c);
     if (status == ISO_OK) return ISO_OK;
     iso_conversion_free(c);
@@ -371,7 +393,8 @@ iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_rec
     const iso_conversion_target target = {keep_header, keep_row, stop_at, &w};
     iso_conversion *c;
     *out = NULL;
-    iso_status status = iso_conversion_create(ctx, params, in, to, tolerance, &target, &c);
+    const iso_conversion_options options = {.tolerance = tolerance};
+    iso_status status = iso_conversion_create(ctx, params, in, to, &options, &target, &c);
     if (status != ISO_OK) return status;
     for (size_t row = 0; status == ISO_OK && row < iso_record_rows(in); row++)
         status = iso_conversion_put(c, iso_record_const_row(in, row), row + 1);

@@ -55,13 +55,20 @@ typedef struct iso_conversion_summary {
 
 typedef struct iso_conversion iso_conversion;
 
+typedef struct iso_conversion_options {
+    double tolerance; /* relative, of the other clock's gain from row to row                                  */
+    bool shift_J;     /* k = -1: a point off H = 0, of energy E by its first row, becomes the free ball with
+                         moments J + E/eps, the same motion; else a ball in the potential of the effect level */
+} iso_conversion_options;
+
 /* header: columns and lines of what is converted; it must outlive the conversion and may gain lines. Its columns hold one
  * model's six. A clock of the other model that is there already is taken as it is; else it begins at 0 (or where
  * the line `t0` or `s0`, left by an earlier conversion, says); without any clock there is none in the result.
  * Errors: ISO_BAD_INPUT about columns or lines, ISO_NOT_MAPPED about an effect that breaks the isomorphism,
- * ISO_NO_MEMORY. */
+ * ISO_BAD_ARGUMENT (J cannot be shifted: k is not -1, or it is no point's), ISO_NO_MEMORY. */
 iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header, iso_picture to,
-                                 double tolerance, const iso_conversion_target *target, iso_conversion **conversion);
+                                 const iso_conversion_options *options, const iso_conversion_target *target,
+                                 iso_conversion **conversion);
 void iso_conversion_free(iso_conversion *conversion);
 
 /* The next row. A point whose rows have one energy H off 0 becomes a ball in the potential of the effect `level`, which

@@ -21,6 +21,8 @@ struct iso_conversion {
     iso_conversion_target target;
     iso_picture from;
     double tolerance;
+    bool shift_J;
+    iso_params shifted;           /* what params then points to                                          */
     int state[ISO_STATE];         /* columns of the model converted from                                 */
     iso_clock own, other;         /* the clocks of the two models                                        */
     int own_column, other_column; /* their columns in `in`, -1: not there                                */

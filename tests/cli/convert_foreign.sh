@@ -101,6 +101,24 @@ run 0 run scene.yaml --tol 1e-3 -o loose.csv
 run 0 convert --quiet --max-defect 1e-2 --to point loose.csv
 run 1 convert --max-defect 1e-9 --to point loose.csv -o other.csv
 
+# --- off the zero level: a ball in a potential, or for k = -1 a free one of other moments
+cat >off.yaml <<'END'
+point: {k: -1, J: [1.0, 1.5, 2.0], eps: 0.5}
+initial: {gamma: [0.36, 0.48, 0.8], M: [1.6, -1.2, 0]}
+time: {end: 20, step: 0.05}
+END
+run 0 run off.yaml -o off.csv
+run 0 convert --quiet --to ball off.csv -o level.csv
+check "a level" grep -q '^# effects: level' level.csv
+run 0 convert --quiet --to ball --shift-J off.csv -o free.csv
+check_not "no level" grep -q '^# effects' free.csv
+run 0 check free.csv --max 1e-9
+run 0 convert --quiet --to point free.csv -o off_again.csv
+at_most "and back: the same point" "$(difference off.csv off_again.csv)" 1e-12
+run 0 run "$source/examples/12_neumann_off_level/scene.yaml" -o low.csv
+refuses 3 "no free ball has this energy" convert --strict --to ball --shift-J low.csv -o none.csv
+refuses 2 "for a point with k = -1 alone" convert --to point --shift-J ball.csv
+
 # --- HDF5
 if "$isoroll" run scene.yaml -o ball.h5 2>/dev/null; then
     run 0 convert --quiet --to point ball.h5 -o point.h5
