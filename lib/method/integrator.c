@@ -134,7 +134,8 @@ static bool spins_up(const iso_integrator *it, const double y[])
 static bool has_lost_spin(const iso_integrator *it, const double y[])
 {
     const iso_field *f = &it->model.field;
-    if (it->method->projects || it->model.system != &iso_system_ball) return false;
+    const bool projects = it->method->projects && !it->options.no_projection;
+    if (projects || it->model.system != &iso_system_ball) return false;
     const bool twists = f->effects.on[ISO_TWIST], stiff = f->at[ISO_TWIST] > 0;
     if ((twists && !stiff) || !(iso_effects_stiffness(f) > 0)) return false;
     const double lost = dot(y, y + 3) + (stiff ? y[f->at[ISO_TWIST]] / f->effects.twist : 0);
