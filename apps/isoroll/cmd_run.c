@@ -69,7 +69,8 @@ static iso_status watch_contact(const iso_scene *scene, iso_orbit *orbit, contac
     const iso_status status = iso_orbit_at(orbit, 0, &sample);
     if (status != ISO_OK) return status;
     c->watched = sample.pressure > 0;
-    if (sample.pressure == 0 && scene->effects.on[ISO_GRAVITY] && scene->params.k != 1) return look_both_ways(scene, orbit, c);
+    if (sample.pressure == 0 && scene->effects.on[ISO_GRAVITY] && scene->params.k != 1)
+        return look_both_ways(scene, orbit, c);
     if (sample.pressure < 0)
         complain("the support would have to pull the ball from the start (pressure %.3g): this is the motion of a "
                  "two-sided contact",

@@ -8,7 +8,8 @@
  * It exists where there are as many integrals as it takes:
  * - k = 1 on H = 0, and k = -1 on every level: in sphero-conical coordinates of gamma the problem separates into two
  *   oscillations with a clock sigma of their own (theory: section 5 of the paper);
- * - two moments of inertia equal to 4 units in the last place, every k: gamma along the axis swings, the angle about the axis follows;
+ * - two moments of inertia equal to 4 units in the last place, every k: gamma along the axis swings, the angle about
+ *   the axis follows;
  * - a start in a principal plane, every k: gamma never leaves it.
  * The last two hold on every level. An orbit on a separatrix is followed from the unstable rotation that it leaves to
  * the one that it comes to; beyond, where it is the rotation to all digits, it is the rotation.

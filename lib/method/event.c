@@ -46,7 +46,8 @@ static double g_moved(search *s, const double y[], const double f[], double time
     return g_of(s, moved);
 }
 
-/* g a moment after dt on the way, on the orbit: the straight way leads off it, on which a g that only touches 0 passes it. */
+/* g a moment after dt on the way, on the orbit: the straight way leads off it, on which a g that only touches 0 passes
+ * it. */
 static double g_beyond(search *s, double dt, double straight)
 {
     iso_integrator *it = s->it;

@@ -6,8 +6,8 @@
 
 #include "method/integrator_impl.h"
 
-/* An implicit method sees y_i/unit_i, of order one: its LU decomposition picks pivots by size, and loses the digits of a small
- * component beside a large one. Units are powers of two, and round nothing. */
+/* An implicit method sees y_i/unit_i, of order one: its LU decomposition picks pivots by size, and loses the digits of
+ * a small component beside a large one. Units are powers of two, and round nothing. */
 typedef struct iso_gsl {
     iso_integrator *it;
     bool implicit;

@@ -11,8 +11,9 @@
  * Another clock c with dc/ds = r(gamma) comes along as the coordinate of a momentum p_c = 0: V + p_c r is again a
  * potential of the positions, its kick adds h r(gamma) to c, and the composition has its order for c too.
  *
- * Steps are fixed in s, which suits no potential that spans many decades. A run in another clock finds the s where that clock shows a time by Newton's method. Sums
- * over steps are compensated: that divides the rounding errors by the angle of a stage, ten or more.
+ * Steps are fixed in s, which suits no potential that spans many decades. A run in another clock finds the s where that
+ * clock shows a time by Newton's method. Sums over steps are compensated: that divides the rounding errors by the angle
+ * of a stage, ten or more.
  */
 #include <float.h>
 #include <math.h>
@@ -270,8 +271,8 @@ static iso_status create(iso_integrator *it)
             it->method->name);
     if (iso_params_steep(&m->field.p) && m->field.p.k != -1)
         return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "method",
-                                "the steps of %s are fixed in s, and for this k one radian of the way may take 1e10 times as "
-                                "long as another: take a method that chooses its steps",
+                                "the steps of %s are fixed in s, and for this k one radian of the way may take 1e10 "
+                                "times as long as another: take a method that chooses its steps",
                                 it->method->name);
     if (it->options.fixed_step > 0 && m->clock != ISO_CLOCK_S)
         return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "method",
