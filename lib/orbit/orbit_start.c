@@ -238,7 +238,11 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     else
         status = start_point(o, p, start, y);
     if (status != ISO_OK) return status;
-    if (start->model == ISO_BALL && o->h == 0 && need.point && !iso_orbit_has_twin(o))
+    /* where the normal is to turn once in a unit of time, h goes like k^-2 and eps like k^-4 */
+    const bool still = start->model == ISO_BALL && o->h == 0 && !iso_orbit_has_twin(o);
+    if (need.point && (still ? largest(y) > 0 : o->h != 0 && !(isnormal(o->h) && isnormal(o->eps))))
+        return iso_orbit_too_extreme(o, "the point", "take backend ball, and no more than omega and n");
+    if (need.point && still)
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, "angular_velocity",
                                 "a ball at rest (h = 0) has no twin: the point's potential would vanish");
     status = check_units(o, start);
