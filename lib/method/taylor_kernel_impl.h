@@ -339,8 +339,6 @@ static void point_p(series *S, int n)
 {
     S->u[n] = by(S->J, S->n[n]);
     S->base[n] = dot(S->n, S->u, n);
-    S->slope[n] = S->count[n] * S->base[n];
-    if (n == 0) S->over_base = 1 / S->base[0];
     S->c[n] = cross(S->n, S->u, n);
     S->z[n] = cross(S->n, S->w, n);
     S->r[n] = dot(S->c, S->w, n);
