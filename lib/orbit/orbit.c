@@ -124,7 +124,7 @@ static iso_status to_users_units(const iso_orbit *o, const char *name, double un
         after = fmax(after, fabs(x[i]));
         finite = finite && isfinite(x[i]);
     }
-    if (finite && (before == 0 || vanishes || after >= DBL_MIN)) return ISO_OK;
+    if (finite && (before == 0 || vanishes || fmin(before, after) >= DBL_MIN)) return ISO_OK;
     return iso_context_fail(
         o->ctx, ISO_NUMERICAL, "",
         "%s is out of the range of doubles in these units: use other units of mass, length or time", name);
@@ -152,14 +152,14 @@ static void as_point(const iso_orbit *o, const double y[], double point[ISO_STAT
     if (o->system == &iso_system_point_t) iso_point_t_to_point(own, y, point);
 }
 
-/* Powers q^(1/(2k)) may leave the range of doubles even in own units. In a moment that is hardly a number itself, a clock
- * may be none. */
+/* Powers q^(1/(2k)) may leave the range of doubles even in own units, where they are steep; where they are not, a clock
+ * is as small as the time. */
 static iso_status sample_clock(const iso_orbit *o, double time, iso_clock c, double own, iso_sample *s)
 {
-    const bool moment = fabs(time / o->unit_clock[o->model.clock]) < 1e-200;
+    const bool vanishes = fabs(time) < DBL_MIN; /* such a time has no digits itself */
     s->clock[c] = own;
-    if (isnormal(own) || moment)
-        return to_users_units(o, iso_clock_name(c), o->unit_clock[c], moment, &s->clock[c], 1);
+    if (isnormal(own) || time == 0 || !iso_params_steep(&o->units.own))
+        return to_users_units(o, iso_clock_name(c), o->unit_clock[c], vanishes, &s->clock[c], 1);
     return iso_orbit_too_extreme(o, iso_clock_name(c), "ask for t alone");
 }
 
