@@ -29,8 +29,10 @@ iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot %s '%s': HDF5 cannot", what, name);
 }
 
+/* HDF5 would close at exit what it could not close before, a file on a full disk, and crash on it (1.10). */
 iso_hdf5_store *iso_hdf5_store_create(void)
 {
+    H5dont_atexit();
     iso_hdf5_store *s = calloc(1, sizeof *s);
     if (!s) return NULL;
     s->file = -1;
