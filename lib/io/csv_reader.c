@@ -64,6 +64,20 @@ static iso_status fill(csv *c)
     }
 }
 
+/* Reads on to the end of a line of which the buffer holds the beginning. */
+static iso_status pass_line(csv *c)
+{
+    const char *end = NULL;
+    iso_status status = ISO_OK;
+    while (!c->ended && !end && status == ISO_OK) {
+        c->begin = c->end;
+        status = fill(c);
+        end = memchr(c->buffer, '\n', c->end);
+    }
+    c->begin = end ? (size_t)(end - c->buffer) + 1 : c->end;
+    return status;
+}
+
 /* The next line, without its end; false at the end of the file. */
 static iso_status next_line(csv *c, bool *more)
 {
@@ -81,7 +95,11 @@ static iso_status next_line(csv *c, bool *more)
     *more = end || c->length > 0;
     c->line[c->length] = '\0';
     c->number += *more;
-    if (c->length >= LONGEST_LINE) return fail(c, c->line, "this line is too long: is it a trajectory file?", "");
+    if (c->length >= LONGEST_LINE) {
+        const iso_status status = end ? ISO_OK : pass_line(c);
+        if (status != ISO_OK) return status;
+        return fail(c, c->line, "this line is too long: is it a trajectory file?", "");
+    }
     if (c->number == 1 && strncmp(c->line, "\xEF\xBB\xBF", 3) == 0) c->line += 3, c->length -= 3; /* byte order */
     const char *nul = memchr(c->line, '\0', c->length);
     if (nul) return fail(c, nul, "a NUL byte: this is no text file", "");
@@ -307,6 +325,12 @@ static iso_status fail_number(const csv *c, char *start, size_t i)
     return fail(c, f.text, "expected a finite number for ", detail);
 }
 
+/* The quote that a field begins with, and ends. */
+static char quote_of(const char *at)
+{
+    return (*at == '"' || *at == '\'') && strchr(at + 1, *at) ? *at : '\0';
+}
+
 static iso_status read_row(const csv *c, double row[])
 {
     char *at = c->line;
@@ -316,10 +340,14 @@ static iso_status read_row(const csv *c, double row[])
         if (separator == ' ' && !*at) return i == c->fields ? ISO_OK : fail_count(c, NULL, i);
         if (i == c->fields) return fail_count(c, at, c->fields);
         char *const start = at;
-        if (c->column[i] < 0)
+        const char quote = quote_of(at);
+        at += quote != '\0';
+        if (c->column[i] < 0) {
+            if (quote) at = strchr(at, quote);
             at += strcspn(at, separator == ' ' ? " \t" : (char[]){separator, '\0'});
-        else if (!read_number(c, &at, &row[c->column[i]]))
+        } else if (!read_number(c, &at, &row[c->column[i]]) || (quote && *at++ != quote)) {
             return fail_number(c, start, i);
+        }
         const char *number_end = at;
         while (is_blank(*at)) at++;
         if (separator == ' ' ? at == number_end && *at : *at != separator && *at) return fail_number(c, start, i);
