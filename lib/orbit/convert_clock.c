@@ -5,8 +5,9 @@
 #include "base/vec3_impl.h"
 #include "orbit/convert_impl.h"
 
-/* Defects up to here are nobody's damage: numbers written with ten digits. */
+/* Defects up to here are nobody's damage: numbers written with ten digits; above, those this many times the usual. */
 #define SMALL_DEFECT 1e-9
+#define UNUSUAL 100
 
 void iso_worst_note(iso_worst *worst, double value, size_t line)
 {
@@ -25,7 +26,7 @@ static bool in_order(const iso_conversion *c, const conversion_row *a, const con
 /* What would be no rows of the same orbit. */
 static bool breaks_off(const iso_conversion *c, double defect)
 {
-    return !(defect <= fmax(SMALL_DEFECT, 100 * c->typical));
+    return !(defect <= fmax(SMALL_DEFECT, UNUSUAL * c->typical));
 }
 
 /* From a to b by integration. */
@@ -104,6 +105,13 @@ static void add_drift(iso_conversion *c, const conversion_row *row, const iso_ga
     if (c->moved >= 0.5) close_drift(c);
 }
 
+/* One row that breaks off must not hide the next, many make it usual: a defect counts up to ten times the usual. */
+static double usual(const iso_conversion *c, double defect)
+{
+    const double most = 10 * fmax(SMALL_DEFECT / UNUSUAL, c->typical);
+    return 0.9 * c->typical + 0.1 * fmin(defect, most);
+}
+
 /* The row follows the last one, and becomes it. */
 static iso_status accept(iso_conversion *c, const conversion_row *row, const iso_gap *gap, bool by_steps)
 {
@@ -118,7 +126,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
     by_steps ? s->integrated++ : s->between++;
     iso_worst_note(&s->defect, gap->defect, row->line);
     add_drift(c, row, gap);
-    c->typical = s->between + s->integrated == 1 ? gap->defect : 0.9 * c->typical + 0.1 * gap->defect;
+    c->typical = usual(c, gap->defect);
     if (c->direction == 0 && step != 0) c->direction = step > 0 ? 1 : -1;
     c->lost += fabs(c->sum) >= fabs(there) ? (c->sum - next) + there : (there - next) + c->sum;
     c->sum = next;
