@@ -158,7 +158,7 @@ static iso_status open_first(iso_conversion *c, const conversion_row *r)
 {
     static const double digits = 1e-6;
     iso_start start;
-    const bool clock = c->summary.computed, stated = c->effects.on[ISO_LEVEL];
+    const bool clock = c->own_column >= 0, stated = c->effects.on[ISO_LEVEL];
     iso_status status = iso_conversion_start(c, r->y, &start);
     const double eps = start.eps;
     if (stated) start.eps = NAN;

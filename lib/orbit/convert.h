@@ -41,7 +41,8 @@ typedef struct iso_conversion_summary {
     iso_worst constraint;  /* | |n| - 1 |, (omega,n)/|omega| of a ball, and likewise of a point              */
     iso_worst energy;      /* |h - h of the first row|/(size of its terms); of a point H, from its level     */
     iso_worst defect;      /* from one row to the next: the orbit through the one against the other,
-                              relative to each vector's length                                              */
+                              relative to each vector's length; of the other clock, if the record has it, the
+                              way that the unit vector makes in the time by which it is wrong               */
     iso_worst drift;       /* the same, added up while the unit vector moves by half a radian: it grows where
                               the rows follow other equations, and averages where they are only rounded     */
     bool checked;          /* there was a clock to see defect and drift by                                   */

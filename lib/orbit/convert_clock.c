@@ -5,9 +5,8 @@
 #include "base/vec3_impl.h"
 #include "orbit/convert_impl.h"
 
-/* Defects up to here are nobody's damage: numbers written with ten digits; above, those this many times the usual. */
+/* Defects up to here are nobody's damage: numbers written with ten digits. */
 #define SMALL_DEFECT 1e-9
-#define UNUSUAL 100
 
 void iso_worst_note(iso_worst *worst, double value, size_t line)
 {
@@ -24,9 +23,22 @@ static bool in_order(const iso_conversion *c, const conversion_row *a, const con
 }
 
 /* What would be no rows of the same orbit. */
+static double unusual(const iso_conversion *c)
+{
+    return fmax(SMALL_DEFECT, 100 * c->typical);
+}
+
 static bool breaks_off(const iso_conversion *c, double defect)
 {
-    return !(defect <= fmax(SMALL_DEFECT, UNUSUAL * c->typical));
+    return !(defect <= unusual(c));
+}
+
+/* How far n moves in the time by which the file's other clock, if it has one, is wrong from a to b. */
+static double late(const iso_conversion *c, const conversion_row *a, const conversion_row *b, const iso_gap *gap)
+{
+    const double there = gap->gained[c->other], *n = b->y + 3, *m = a->y + 3;
+    if (c->other_column < 0 || there == 0) return 0;
+    return ((b->out[0] - a->out[0]) / there - 1) * norm((double[]){n[0] - m[0], n[1] - m[1], n[2] - m[2]});
 }
 
 /* From a to b by integration. */
@@ -37,7 +49,7 @@ static iso_status integrate(const iso_conversion *c, const conversion_row *a, co
     iso_sample sample;
     *gap = (iso_gap){.defect = 0};
     iso_status status = iso_conversion_start(c, a->y, &start);
-    if (status == ISO_OK) status = iso_conversion_orbit(c, &start, c->summary.computed, &orbit);
+    if (status == ISO_OK) status = iso_conversion_orbit(c, &start, true, &orbit);
     if (status == ISO_OK) status = iso_orbit_at(orbit, b->time - a->time, &sample);
     iso_orbit_free(orbit);
     if (status != ISO_OK) return status;
@@ -47,8 +59,8 @@ static iso_status integrate(const iso_conversion *c, const conversion_row *a, co
         for (int i = v; i < v + 3; i++) gap->motion[i] = size > 0 ? b->y[i] / size - y[i] / size : 0;
         gap->defect = fmax(gap->defect, norm(gap->motion + v));
     }
-    if (!c->summary.computed) return ISO_OK;
     gap->gained[c->other] = sample.clock[c->other];
+    gap->defect = fmax(gap->defect, fabs(late(c, a, b, gap)));
     gap->error[c->other] = fmax(c->tolerance, 4 * DBL_EPSILON) * fabs(sample.clock[c->other]);
     return ISO_OK;
 }
@@ -59,6 +71,7 @@ static bool measure(iso_conversion *c, const conversion_row *a, const conversion
     if (!iso_between_measure(c->between, (b->time - a->time) / c->unit_own, c->typical, gap)) return false;
     gap->gained[c->other] *= c->unit_other;
     gap->error[c->other] *= c->unit_other;
+    gap->defect = fmax(gap->defect, fabs(late(c, a, b, gap)));
     return true;
 }
 
@@ -92,24 +105,18 @@ static void close_drift(iso_conversion *c)
     const double drift = fmax(norm(c->drift), norm(c->drift + 3));
     if (c->moved > 0) c->summary.error += (3 + sensitivity(c)) * drift / c->moved * fabs(c->gained);
     for (int i = 0; i < ISO_STATE; i++) c->drift[i] = 0;
-    c->moved = c->gained = 0;
+    c->moved = c->gained = c->late = 0;
 }
 
 static void add_drift(iso_conversion *c, const conversion_row *row, const iso_gap *gap)
 {
     const double *n = row->y + 3, *m = c->last.y + 3;
     for (int i = 0; i < ISO_STATE; i++) c->drift[i] += gap->motion[i];
+    c->late += late(c, &c->last, row, gap);
     c->moved += norm((double[]){n[0] - m[0], n[1] - m[1], n[2] - m[2]});
     c->gained += gap->gained[c->other];
-    iso_worst_note(&c->summary.drift, fmax(norm(c->drift), norm(c->drift + 3)), row->line);
+    iso_worst_note(&c->summary.drift, fmax(fabs(c->late), fmax(norm(c->drift), norm(c->drift + 3))), row->line);
     if (c->moved >= 0.5) close_drift(c);
-}
-
-/* One row that breaks off must not hide the next, many make it usual: a defect counts up to ten times the usual. */
-static double usual(const iso_conversion *c, double defect)
-{
-    const double most = 10 * fmax(SMALL_DEFECT / UNUSUAL, c->typical);
-    return 0.9 * c->typical + 0.1 * fmin(defect, most);
 }
 
 /* The row follows the last one, and becomes it. */
@@ -126,7 +133,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
     by_steps ? s->integrated++ : s->between++;
     iso_worst_note(&s->defect, gap->defect, row->line);
     add_drift(c, row, gap);
-    c->typical = usual(c, gap->defect);
+    c->typical = 0.9 * c->typical + 0.1 * fmin(gap->defect, unusual(c)); /* one that breaks off hides no others */
     if (c->direction == 0 && step != 0) c->direction = step > 0 ? 1 : -1;
     c->lost += fabs(c->sum) >= fabs(there) ? (c->sum - next) + there : (there - next) + c->sum;
     c->sum = next;

@@ -45,7 +45,7 @@ struct iso_conversion {
     int doubted;                     /* rows taken for damaged, one after the other                     */
     size_t marks;                    /* bad rows behind the held one, or before the first good one */
     double direction, typical;       /* of time; size of defects                                   */
-    double drift[ISO_STATE], moved;  /* see iso_conversion_summary.drift                            */
+    double drift[ISO_STATE], late, moved;  /* see iso_conversion_summary.drift                            */
     double gained;                   /* by the other clock meanwhile                                */
     double sum, lost;                /* the other clock, compensated (Neumaier)                     */
     iso_status first_failure;

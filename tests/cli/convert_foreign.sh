@@ -30,6 +30,8 @@ awk -F, -v OFS=, '{ print $7, $5, $6, $4, $3, $2, $1 }' bare.csv >reversed.csv
 foreign "columns in another order" reversed.csv
 sed '1s/[a-z0-9]*/"&"/g' bare.csv >quoted.csv
 foreign "quoted names" quoted.csv
+sed 's/[^,]*/"&"/g' bare.csv >spreadsheet.csv
+foreign "quoted numbers" spreadsheet.csv
 sed '1s/^/# /; 1s/,/ /g; s/,/ /g' bare.csv >numpy.txt
 foreign "names in a line of #" numpy.txt
 tail -n +2 bare.csv >nameless.csv
@@ -85,10 +87,33 @@ check "marks are bad rows again" test "$(rows again.csv | grep -c '^nan')" -eq 1
 run 3 convert --strict --to point damaged.csv -o strict.csv
 check_not "--strict leaves no file" test -e strict.csv
 
+# --- a line of a megabyte is one row, and those behind it keep their numbers
+awk 'NR == 20 { for (i = 0; i < 250000; i++) printf "0.5,"; print ""; next } NR == 30 { $0 = "no row" } { print }' ball.csv >long.csv
+run 1 convert --quiet --to point long.csv -o /dev/null
+sed -n 's/^isoroll: long.csv:\([0-9]*\):.*/\1/p' err >named
+check "an overlong line" test "$(tr '\n' ' ' <named)" = "20 30 "
+
+# --- two neighbours damaged alike pass for an orbit of their own; they hide nothing behind them
+scaled='{ for (i = 2; i <= 4; i++) $i *= 1.5 }'
+awk -F, -v OFS=, -v OFMT=%.17g -v CONVFMT=%.17g "NR == 100 || NR == 101 || NR == 110 $scaled { print }" ball.csv >pair.csv
+run 1 convert --quiet --to point pair.csv -o /dev/null
+check "one behind a damaged pair" grep -q "pair.csv:110: this row is damaged" err
+
+# --- the other clock, where the file has it, is that of the rows
+run 0 run scene.yaml --as both -o both.csv
+run 0 convert --quiet --to point both.csv
+run 0 convert --quiet --to ball both.csv
+awk -F, -v OFS=, '/^#/ || /^t/ { print; next } NR == 100 { $3 += 1e-3 } { print }' both.csv >late.csv
+run 1 convert --quiet --to point late.csv -o /dev/null
+check "a wrong clock" grep -q "late.csv:100: this row is damaged" err
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^#/ || /^t/ { print; next } { $3 *= 1.01; print }' both.csv >slow.csv
+run 1 convert --quiet --to point slow.csv -o /dev/null
+check "a clock that is slow" grep -q "do not solve the equations" err
+
 # --- not what it says: the equations of another ball
 refused_as_other() {
     run 1 convert --to point bare.csv "$@" -o other.csv
-    check "$*: is told" grep -q "do not solve the equations of the ball that the file or the options state" err
+    check "$*: is told" grep -q "do not solve the equations that the file or the options state" err
 }
 refused_as_other --k 1 --J 1.4,2.1,3
 refused_as_other --k=-1.001 --J 1.4,2.1,3
@@ -140,6 +165,12 @@ if "$isoroll" run scene.yaml -o ball.h5 2>/dev/null; then
     check "an older file stays where a conversion fails" cp point.h5 older.h5
     run 3 convert --strict --to point damaged.csv -o older.h5
     check "as it was" cmp point.h5 older.h5
+    if [ -e /proc/self/limits ]; then # a full disk
+        (ulimit -f 60 && "$isoroll" convert --quiet --to point ball.csv -o full.h5) 2>err
+        status=$?
+        check "a full disk" test "$status" -eq 5
+        check_not "leaves no file" test -e full.h5
+    fi
     if command -v h5dump >/dev/null; then
         check "h5dump reads it" sh -c 'h5dump -d /point/gamma point.h5 | grep -q "(0,0): 0.4719"'
     fi
