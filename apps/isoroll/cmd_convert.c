@@ -122,8 +122,8 @@ static bool judge(const filter *f, const iso_conversion_summary *s)
     }
     if (s->checked && isnan(f->o->max_defect) && !(s->drift.value <= largest_drift(f))) {
         complain(
-            "%s:%zu: these rows do not solve the equations that the file or the options state (k, J, clocks), or "
-            "have too few digits: they drift off by %.2g in half a radian, or one interval if that is longer "
+            "%s:%zu: these rows do not solve the equations that the file or the options state (k, J, eps, clocks), "
+            "or have too few digits: they drift off by %.2g in half a radian, or one interval if that is longer "
             "(--max-defect X sets another bound)",
             f->name, s->drift.line, s->drift.value);
         good = false;

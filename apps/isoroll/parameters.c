@@ -40,6 +40,8 @@ static iso_status set_scene(iso_context *ctx, const char *path, iso_record *reco
 
 iso_status parameters_of_file(iso_context *ctx, const options *o, iso_record *record, iso_params *params)
 {
+    if (!isnan(o->h) && !isnan(o->eps))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "--h says what --eps says: leave one of them out");
     iso_status status = set_line(ctx, record, "k", 1, &o->k);
     if (status == ISO_OK) status = set_line(ctx, record, "J", 3, o->J);
     if (status == ISO_OK && o->scene) status = set_scene(ctx, o->scene, record);

@@ -57,6 +57,7 @@ at_most "parameters from a scene" "$(difference point.csv out)" 1e-13
 refuses 2 "expected 1 to 17, or hex" convert --to point -p 18 ball.csv
 refuses 2 "unknown column 'omega4'" convert --to point bare.csv --k=-1 --J 1,2,3 --columns t,omega4
 refuses 3 "has no column 'n3'" convert --to point bare.csv --k=-1 --J 1,2,3 --columns t,omega1,omega2,omega3,n1,n2,-
+refuses 2 "leave one of them out" convert --to ball point.csv --eps 1 --h 1
 refuses 3 "contradicts" convert --to point ball.csv --k 1
 
 # --- one row in a hundred is damaged: text, missing and added fields, numbers that are none, jumps, wrong signs
