@@ -221,7 +221,7 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
         c->column[c->fields] = -1;
         const int known = known_column(f.text);
         if (named && strcmp(f.text, "-") == 0) continue;
-        if (iso_number_read(f.text, f.length, &number))
+        if (c->again && iso_number_read(f.text, f.length, &number))
             return fail(c, f.text, "expected a line of column names such as t,omega1,omega2,... before the numbers",
                         "");
         if (known < 0) {
@@ -273,7 +273,7 @@ static iso_status read_header(csv *c, const char *columns)
         return fail(c, NULL, "expected a line of column names such as t,omega1,omega2,..., found the end of the file",
                     "");
     char *const line = c->line, *names = columns ? strdup(columns) : NULL;
-    const bool numbers = begins_with_number(c);
+    const bool numbers = c->again = begins_with_number(c);
     c->separator = separator_of(line);
     if (columns && !names) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for column names");
     const bool above = !columns && numbers && !c->ours && *c->comment;
@@ -282,7 +282,6 @@ static iso_status read_header(csv *c, const char *columns)
     if (status == ISO_BAD_INPUT && columns) status = blame_columns(c);
     free(names);
     c->line = line;
-    c->again = numbers;
     return status;
 }
 
