@@ -15,8 +15,8 @@
 
 static iso_status write_mark(iso_conversion *c)
 {
-    if (c->begun && !c->is_held) return c->target.row(c->target.data, NULL);
-    c->marks++;
+    if (c->begun && !c->is_held && !c->unwritten) return c->target.row(c->target.data, NULL);
+    ++*(c->unwritten && !c->is_held ? &c->first_marks : &c->marks);
     return ISO_OK;
 }
 

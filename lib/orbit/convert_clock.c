@@ -119,16 +119,39 @@ static void add_drift(iso_conversion *c, const conversion_row *row, const iso_ga
     if (c->moved >= 0.5) close_drift(c);
 }
 
+static iso_status write_marks(iso_conversion *c, size_t *marks)
+{
+    iso_status status = ISO_OK;
+    for (; status == ISO_OK && *marks > 0; --*marks) status = c->target.row(c->target.data, NULL);
+    return status;
+}
+
+/* The marks that waited for the held row; they wait on where the first one does. */
+static iso_status release_marks(iso_conversion *c)
+{
+    if (!c->unwritten) return write_marks(c, &c->marks);
+    c->first_marks += c->marks;
+    c->marks = 0;
+    return ISO_OK;
+}
+
+/* The first row is good: it is written, with the marks behind it. */
+static iso_status write_first(iso_conversion *c)
+{
+    c->unwritten = false;
+    const iso_status status = iso_conversion_emit(c, &c->last);
+    return status == ISO_OK ? write_marks(c, &c->first_marks) : status;
+}
+
 /* The row follows the last one, and becomes it. */
 static iso_status accept(iso_conversion *c, const conversion_row *row, const iso_gap *gap, bool by_steps)
 {
     const double there = gap->gained[c->other], next = c->sum + there, step = row->time - c->last.time;
     iso_conversion_summary *s = &c->summary;
     if (c->unwritten) {
-        const iso_status status = iso_conversion_emit(c, &c->last);
+        const iso_status status = write_first(c);
         if (status != ISO_OK) return status;
     }
-    c->unwritten = false;
     c->doubted = 0;
     by_steps ? s->integrated++ : s->between++;
     iso_worst_note(&s->defect, gap->defect, row->line);
@@ -162,14 +185,6 @@ static iso_status refuse_defect(iso_conversion *c, const conversion_row *row)
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 
-/* The marks that waited for the held row. */
-static iso_status release_marks(iso_conversion *c)
-{
-    iso_status status = ISO_OK;
-    for (; status == ISO_OK && c->marks > 0; c->marks--) status = c->target.row(c->target.data, NULL);
-    return status;
-}
-
 /* Whether a row and the next lie on one orbit, as far as others of the file do. */
 static bool agree(iso_conversion *c, const conversion_row *a, const conversion_row *b)
 {
@@ -185,7 +200,7 @@ static iso_status replace_first(iso_conversion *c, const conversion_row *held)
     const iso_status status = refuse_defect(c, &c->last);
     c->last = *held;
     if (c->summary.computed) c->last.out[0] = c->sum;
-    return status;
+    return status == ISO_OK ? write_marks(c, &c->first_marks) : status;
 }
 
 /* A row that breaks off both from the last and from the next: damaged, where the file has been better so far. */
@@ -256,7 +271,7 @@ iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row)
 iso_status iso_conversion_settle(iso_conversion *c)
 {
     iso_status status = c->is_held ? decide(c, NULL) : ISO_OK;
-    if (status == ISO_OK && c->unwritten) status = iso_conversion_emit(c, &c->last);
+    if (status == ISO_OK && c->unwritten) status = write_first(c);
     close_drift(c);
     c->summary.error += 2 * DBL_EPSILON * fabs(c->sum + c->lost);
     c->summary.end = c->sum + c->lost;

@@ -88,6 +88,11 @@ check "marks are bad rows again" test "$(rows again.csv | grep -c '^nan')" -eq 1
 run 3 convert --strict --to point damaged.csv -o strict.csv
 check_not "--strict leaves no file" test -e strict.csv
 
+# --- marks stand where the bad rows were, behind the first row, too
+awk '/^t/ { head = NR } head && (NR == head + 2 || NR == head + 3) { $0 = "no row" } { print }' ball.csv >second.csv
+run 1 convert --quiet --to point second.csv -o second_point.csv
+check "in place" test "$(rows second_point.csv | sed -n '/^#/d; s/^nan.*/nan/; s/^[0-9].*/good/; p' | sed -n 1,4p | tr '\n' ' ')" = "good nan nan good "
+
 # --- a line of a megabyte is one row, and those behind it keep their numbers
 awk 'NR == 20 { for (i = 0; i < 250000; i++) printf "0.5,"; print ""; next } NR == 30 { $0 = "no row" } { print }' ball.csv >long.csv
 run 1 convert --quiet --to point long.csv -o /dev/null
