@@ -107,6 +107,32 @@ static bool stop_at(double part, void *data)
     return part < *(double *)data - 1e-9;
 }
 
+static bool some_times(void *data)
+{
+    return (*(int *)data)-- > 0;
+}
+
+/* Interrupted while any of the backends looks for a row: there is no row that only some of them have. */
+static void check_interruptions(void)
+{
+    const iso_scene scene = scene_of(-1, (const double[]){1.4, 2.1, 3.0}, 100, 5);
+    bool whole = false;
+    for (int asked = 0; asked < 100000 && !whole; asked += 1 + asked / 50) {
+        iso_comparison *c;
+        int left = asked;
+        iso_context_watch(ctx, some_times, &left);
+        const iso_status status = iso_compare(ctx, &scene, NULL, NULL, &c);
+        iso_context_watch(ctx, NULL, NULL);
+        whole = status == ISO_OK;
+        gsl_test(!whole && status != ISO_STOPPED, "interrupted: %s", iso_context_message(ctx));
+        for (int b = 0; c && b < c->runs; b++)
+            gsl_test_int((int)iso_record_rows(c->run[b].trajectory), (int)iso_record_rows(c->difference),
+                         "rows of a backend when interrupted after %d steps", asked);
+        iso_comparison_free(c);
+    }
+    gsl_test(!whole, "a comparison of few steps");
+}
+
 static void check_stops(void)
 {
     static const double J[3] = {1.4, 2.1, 3.0};
@@ -160,6 +186,7 @@ static void check_compare(void)
     check_scene(&still, NULL);
     check_drift();
     check_stops();
+    check_interruptions();
     check_numerical_failure();
 }
 

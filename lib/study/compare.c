@@ -105,32 +105,43 @@ static iso_status open_exact(runner *r)
     return ISO_OK;
 }
 
-static iso_status take_row(runner *r, int which, size_t i)
+static iso_status find(runner *r, int which, size_t i, iso_sample *sample)
 {
     iso_backend_run *run = &r->out->run[which];
-    iso_sample sample;
-    double *row;
     const double begin = processor_seconds();
-    iso_status status = iso_orbit_at(r->orbit[which], iso_scene_time(r->scene, i), &sample);
+    const iso_status status = iso_orbit_at(r->orbit[which], iso_scene_time(r->scene, i), sample);
     run->seconds += processor_seconds() - begin;
     run->statistics = iso_orbit_statistics(r->orbit[which]);
-    if (status == ISO_OK) status = iso_record_append(r->ctx, run->trajectory, &row);
+    return status;
+}
+
+static iso_status keep(runner *r, int which, size_t i, const iso_sample *sample)
+{
+    double *row;
+    const iso_status status = iso_record_append(r->ctx, r->out->run[which].trajectory, &row);
     if (status != ISO_OK) return status;
-    for (int c = 0; c < ISO_COLUMN_EFFECTS; c++) row[c] = iso_sample_column(&sample, c);
-    if (i == 0) list_drifts(r, which, &sample);
-    follow_drifts(r, which, &sample);
+    for (int c = 0; c < ISO_COLUMN_EFFECTS; c++) row[c] = iso_sample_column(sample, c);
+    if (i == 0) list_drifts(r, which, sample);
+    follow_drifts(r, which, sample);
     return ISO_OK;
 }
 
-/* All backends row by row, so that what there is when it ends early is of all. */
+/* A row by all backends, or by none: what there is when it ends early, at whichever, is of all. */
+static iso_status take_row(runner *r, size_t i)
+{
+    iso_sample sample[ISO_BACKENDS];
+    iso_status status = ISO_OK;
+    for (int which = 0; status == ISO_OK && which < r->out->runs; which++) status = find(r, which, i, &sample[which]);
+    for (int which = 0; status == ISO_OK && which < r->out->runs; which++) status = keep(r, which, i, &sample[which]);
+    return status;
+}
+
 static iso_status take_rows(runner *r, bool (*progress)(double part, void *data), void *data)
 {
     const size_t rows = iso_scene_rows(r->scene);
     for (size_t i = 0; i < rows; i++) {
-        for (int which = 0; which < r->out->runs; which++) {
-            const iso_status status = take_row(r, which, i);
-            if (status != ISO_OK) return status;
-        }
+        const iso_status status = take_row(r, i);
+        if (status != ISO_OK) return status;
         if (progress && !progress((double)(i + 1) / (double)rows, data)) break;
     }
     return ISO_OK;
