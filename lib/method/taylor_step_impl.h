@@ -98,10 +98,13 @@ static real coefficient(const form *T, int n)
     return most;
 }
 
-/* x^(1/n), 4 % too small to 3 % too large: the bits of a double are about its logarithm. */
-static inline real rough_root(real x, int n)
+/* x^part, 0 < part <= 1, 4 % too small to 3 % too large: the bits of a double are about its logarithm. Numbers of a
+ * wider range are brought into that of doubles first: terms there go to 1e-4932, where passes by a pole are quick. */
+static inline real rough_power(real x, double part)
 {
-    const double one = 1, part = one / n;
+    if (sizeof(NUMBER) > sizeof(double) && LANE(x, 0) > 0 && LANE(x, 0) < (NUMBER)DBL_MIN)
+        return rough_power(root(x), 2 * part);
+    const double one = 1;
     double y[LANES];
     int64_t bits[LANES], of_one;
     for (int i = 0; i < LANES; i++) y[i] = (double)LANE(x, i);
@@ -111,6 +114,11 @@ static inline real rough_root(real x, int n)
     memcpy(y, bits, sizeof bits);
     for (int i = 0; i < LANES; i++) LANE(x, i) = y[i];
     return 0.97 * x;
+}
+
+static inline real rough_root(real x, int n)
+{
+    return rough_power(x, 1.0 / n);
 }
 
 /* The time in which the unit vector moves by about 1000, which may be anything in own units of s: for k = 1e6, 1e15. */
