@@ -13,8 +13,19 @@
 
 /* --- bad rows, good rows ----------------------------------------------------------------------------------------- */
 
+/* A file of which nothing can be used is not complained of row by row. */
+enum { HOPELESS = 20 };
+
+static iso_status give_up(const iso_conversion *c)
+{
+    const char *words = c->first_words ? c->first_words : "none can be read";
+    return iso_context_fail(c->ctx, c->first_words ? c->first_failure : ISO_BAD_INPUT, "",
+                            "not one of the first %d rows can be converted: %s", HOPELESS, words);
+}
+
 static iso_status write_mark(iso_conversion *c)
 {
+    if (!c->begun && c->summary.bad == HOPELESS) return give_up(c);
     if (c->begun && !c->is_held && !c->unwritten) return c->target.row(c->target.data, NULL);
     ++*(c->unwritten && !c->is_held ? &c->first_marks : &c->marks);
     return ISO_OK;
@@ -181,8 +192,11 @@ static iso_status shift_moments(iso_conversion *c, const conversion_row *r)
     if (!c->shift_J || isnan(eps) || fabs(E) <= 1e-6 * kinetic) return ISO_OK;
     const iso_status status =
         iso_params_reduced(c->ctx, -1, (double[]){J[0] + E / eps, J[1] + E / eps, J[2] + E / eps}, &c->shifted);
-    if (status == ISO_OK) c->params = &c->shifted;
-    if (status == ISO_OK) return ISO_OK;
+    if (status == ISO_OK) {
+        c->params = &c->shifted;
+        c->effects.on[ISO_LEVEL] = false;
+        return ISO_OK;
+    }
     return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "",
                             "no free ball has this energy, J + E/eps: %s; without a shift "
                             "there is one in the potential of a level",

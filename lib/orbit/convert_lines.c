@@ -29,7 +29,7 @@ static bool is_left_behind(const char *key)
     static const char *const keys[] = {"effects", "s.from", "s.error", "t.from", "t.error", "radius"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (strcmp(key, keys[i]) == 0) return true;
-    return strncmp(key, "attitude.", 9) == 0;
+    return strncmp(key, "attitude.", 9) == 0 || strncmp(key, "level.", 6) == 0;
 }
 
 static iso_status set_lines(const iso_conversion *c, iso_picture to, double begin, iso_record *out)
