@@ -240,7 +240,8 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     if (status != ISO_OK) return status;
     /* where the normal is to turn once in a unit of time, h goes like k^-2 and eps like k^-4 */
     const bool still = start->model == ISO_BALL && o->h == 0 && !iso_orbit_has_twin(o);
-    if (need.point && (still ? largest(y) > 0 : o->h != 0 && !(isnormal(o->h) && isnormal(o->eps))))
+    const bool lost = start->model == ISO_BALL && o->h != 0 && !(isnormal(o->h) && isnormal(o->eps));
+    if (need.point && (still ? largest(y) > 0 : lost))
         return iso_orbit_too_extreme(o, "the point", "take backend ball, and no more than omega and n");
     if (need.point && still)
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, "angular_velocity",
