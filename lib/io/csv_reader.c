@@ -319,7 +319,8 @@ static iso_status fail_number(const csv *c, char *start, size_t i)
 {
     char quoted[ISO_QUOTE_SIZE], detail[2 * ISO_QUOTE_SIZE], *rest = start;
     const field f = next_field(c->separator, &rest);
-    snprintf(detail, sizeof detail, "%s, not '%s'", iso_record_name(c->r->header, (size_t)c->column[i]),
+    const bool comma = c->separator != ',' && memchr(f.text, ',', f.length);
+    snprintf(detail, sizeof detail, comma ? "%s, with a decimal point, not '%s'" : "%s, not '%s'", iso_record_name(c->r->header, (size_t)c->column[i]),
              iso_text_quote(quoted, f.text, f.length));
     return fail(c, f.text, "expected a finite number for ", detail);
 }

@@ -31,7 +31,9 @@ static iso_status arrive_at(iso_integrator *it, real x, state *s, double y[])
     single *own = it->data;
     it->statistics.correction = fmax(it->statistics.correction, (double)arrive(&own->T, x, s));
     store(&own->T, 0, s, y);
-    return all_finite(y, it->model.dim) ? ISO_OK : iso_integrator_stopped(it, "the series diverges");
+    if (all_finite(y, it->model.dim)) return ISO_OK;
+    return iso_integrator_stopped(it, "the series diverges; taylor_extended has numbers of a wider range, the other "
+                                      "backend other terms");
 }
 
 static iso_status step(iso_integrator *it, double y[], double *h)
