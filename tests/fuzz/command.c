@@ -108,9 +108,10 @@ static void make_folder(void)
 
 /* --- the command ---------------------------------------------------------------------------------------------- */
 
-/* Whatever was printed as a trajectory or as JSON is one, and has no NaN. */
-static void check_output(const char *out, size_t size)
+/* Whatever was printed as a trajectory or as JSON is one, and has no NaN, but where some rows failed. */
+static void check_output(int status, const char *out, size_t size)
 {
+    if (status == 1) return;
     FUZZ_REQUIRE(!strstr(out, " nan") && !strstr(out, "-nan") && !strstr(out, ",nan"), "%s\n", out);
     if (out[0] == '{') {
         json_error_t error;
@@ -123,8 +124,8 @@ static void check_output(const char *out, size_t size)
     iso_record *record = NULL;
     char path[32];
     fuzz_file((const uint8_t *)out, size, path);
-    const iso_status status = iso_trajectory_read(ctx, path, NULL, &record);
-    FUZZ_REQUIRE(status == ISO_OK, "%s\n", iso_context_message(ctx));
+    const iso_status read = iso_trajectory_read(ctx, path, NULL, &record);
+    FUZZ_REQUIRE(read == ISO_OK, "%s\n", iso_context_message(ctx));
     iso_record_free(record);
     iso_context_free(ctx);
 }
@@ -151,7 +152,7 @@ static void command(int argc, char **argv)
     steps = LONG_MAX;
     fclose(stdout), fclose(stderr);
     stdout = old_out, stderr = old_err;
-    check_output(out, out_size);
+    check_output(status, out, out_size);
     if (argc > 1) check_messages(status, err);
     free(out);
     free(err);
