@@ -36,7 +36,6 @@ static int print(char *text, size_t size, int digits, double value)
 
 int iso_number_print_as(char text[ISO_NUMBER_SIZE], double value, int digits)
 {
-    ISO_DEFAULT_ARITHMETIC;
     /* In any locale: whatever stands where the decimal point should, one character or several, is made a point. */
     static const char plain[] = "0123456789abcdefpx+-";
     char local[ISO_NUMBER_SIZE + MB_LEN_MAX];
@@ -51,5 +50,6 @@ int iso_number_print_as(char text[ISO_NUMBER_SIZE], double value, int digits)
 
 int iso_number_print(char text[ISO_NUMBER_SIZE], double value)
 {
+    ISO_DEFAULT_ARITHMETIC;
     return iso_number_print_as(text, value, 17);
 }

@@ -150,6 +150,7 @@ iso_status iso_trajectory_write_header(iso_context *ctx, iso_trajectory_writer *
 
 iso_status iso_trajectory_write_row(iso_context *ctx, iso_trajectory_writer *w, const double *row, size_t count)
 {
+    ISO_DEFAULT_ARITHMETIC;
     if (!w->header || count != iso_record_columns(w->header))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a row of %zu numbers under %zu columns", count,
                                 w->header ? iso_record_columns(w->header) : 0);
