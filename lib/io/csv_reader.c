@@ -210,7 +210,7 @@ static iso_status pass_over(csv *c, const field *f, bool named)
 /* Columns from a line of names: the file's, or (named) the caller's. */
 static iso_status read_names(csv *c, char *line, char separator, bool named)
 {
-    const char *names[ISO_TRAJECTORY_COLUMNS], *key, *value;
+    const char *names[ISO_TRAJECTORY_COLUMNS];
     size_t count = 0;
     double number;
     iso_status status = ISO_OK;
@@ -233,16 +233,10 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
         c->column[c->fields] = (short)count;
         names[count++] = iso_trajectory_columns[known];
     }
-    iso_record *const lines = c->r->header;
     char *first = line;
     const field f = next_field(separator, &first);
     if (status == ISO_OK && count == 0) status = pass_over(c, &f, true);
-    if (status == ISO_OK) status = iso_record_create(c->ctx, count, names, &c->r->header);
-    if (status != ISO_OK) return status;
-    for (size_t i = 0; status == ISO_OK && iso_record_line(lines, i, &key, &value); i++)
-        status = iso_record_set(c->ctx, c->r->header, key, value);
-    iso_record_free(lines);
-    return status;
+    return status == ISO_OK ? iso_trajectory_name_columns(c->ctx, c->r, count, names) : status;
 }
 
 static bool begins_with_number(csv *c)
@@ -320,8 +314,8 @@ static iso_status fail_number(const csv *c, char *start, size_t i)
     char quoted[ISO_QUOTE_SIZE], detail[2 * ISO_QUOTE_SIZE], *rest = start;
     const field f = next_field(c->separator, &rest);
     const bool comma = c->separator != ',' && memchr(f.text, ',', f.length);
-    snprintf(detail, sizeof detail, comma ? "%s, with a decimal point, not '%s'" : "%s, not '%s'", iso_record_name(c->r->header, (size_t)c->column[i]),
-             iso_text_quote(quoted, f.text, f.length));
+    snprintf(detail, sizeof detail, comma ? "%s, with a decimal point, not '%s'" : "%s, not '%s'",
+             iso_record_name(c->r->header, (size_t)c->column[i]), iso_text_quote(quoted, f.text, f.length));
     return fail(c, f.text, "expected a finite number for ", detail);
 }
 

@@ -96,7 +96,7 @@ static iso_status take_set(iso_context *ctx, iso_trajectory_reader *r, hid_t id,
 static iso_status find_sets(iso_context *ctx, iso_trajectory_reader *r)
 {
     iso_hdf5_store *s = r->data;
-    const char *names[ISO_TRAJECTORY_COLUMNS], *key, *value;
+    const char *names[ISO_TRAJECTORY_COLUMNS];
     size_t columns = 0;
     iso_status status = ISO_OK;
     for (int p = 0; status == ISO_OK && p < ISO_HDF5_PARTS; p++) {
@@ -112,11 +112,7 @@ static iso_status find_sets(iso_context *ctx, iso_trajectory_reader *r)
     if (status == ISO_OK && columns == 0)
         status = bad_file(ctx, r, "no dataset of a trajectory, such as /clock/t or /ball/omega", "");
     if (status != ISO_OK) return status;
-    iso_record *const lines = r->header;
-    status = iso_record_create(ctx, columns, names, &r->header);
-    for (size_t i = 0; status == ISO_OK && iso_record_line(lines, i, &key, &value); i++)
-        status = iso_record_set(ctx, r->header, key, value);
-    iso_record_free(lines);
+    status = iso_trajectory_name_columns(ctx, r, columns, names);
     if (status == ISO_OK && !iso_hdf5_store_room(s, columns))
         status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
     return status;

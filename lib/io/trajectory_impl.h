@@ -34,6 +34,10 @@ struct iso_trajectory_reader {
     void *data;
 };
 
+/* The reader's header gets columns, and keeps its lines. */
+iso_status iso_trajectory_name_columns(iso_context *ctx, iso_trajectory_reader *r, size_t count,
+                                       const char *const names[]);
+
 struct iso_trajectory_writer {
     const iso_trajectory_writing *format;
     const char *name;   /* what messages call it */

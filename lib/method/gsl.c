@@ -208,12 +208,14 @@ static iso_status check_room(iso_integrator *it, const iso_gsl *g)
 }
 
 /* bsimp measures each component by what it is when a step begins, 1 where it is 0: its steps shrink until they are as
- * small as the least of them, and where their squares underflow it has no result. Beside the rest of its vector what is
- * this small is 0. */
-static void drop_traces(const gsl_odeiv2_step *s, double y[ISO_STATE])
+ * small as the least of them, and where their squares underflow it has no result. At the start what is this small in the
+ * ball's own units is 0, later (a ball may come to rest) what is so beside the rest of its vector. */
+static void drop_traces(const iso_integrator *it, const gsl_odeiv2_step *s, double y[ISO_STATE])
 {
-    for (int i = 0; s->type == gsl_odeiv2_step_bsimp && i < ISO_STATE; i++)
-        if (fabs(y[i]) < 1e-130 * largest(y + i / 3 * 3)) y[i] = copysign(0, y[i]);
+    for (int i = 0; s->type == gsl_odeiv2_step_bsimp && i < ISO_STATE; i++) {
+        const double size = it->statistics.steps == 0 ? 1 : largest(y + i / 3 * 3);
+        if (fabs(y[i]) < 1e-130 * size) y[i] = copysign(0, y[i]);
+    }
 }
 
 /* It keeps four digits of the 1 in 1 - h J. Never less than 1, about the time in which the ball turns. */
@@ -231,7 +233,7 @@ iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[]
     const unsigned long failed = e->failed_steps;
     if (g->implicit) to_units(g, y, y);
     if (g->implicit && fabs(g->h) > 1) g->h = copysign(fmin(fabs(g->h), longest_step(g, y)), g->h);
-    drop_traces(g->driver->s, y);
+    drop_traces(it, g->driver->s, y);
     const int status = gsl_odeiv2_evolve_apply(e, g->driver->c, g->driver->s, &g->system, &g->t, limit, &g->h, y);
     if (g->implicit) from_units(g, y, y);
     it->statistics.rejected += (long)(e->failed_steps - failed);

@@ -87,7 +87,9 @@ static iso_status judge(iso_conversion *c, const conversion_row *a, const conver
                         bool *by_steps)
 {
     *by_steps = !measure_anew(c, a, b, gap);
-    return *by_steps ? integrate(c, a, b, gap) : ISO_OK;
+    const iso_status status = *by_steps ? integrate(c, a, b, gap) : ISO_OK;
+    if (status == ISO_NO_MEMORY || status == ISO_STOPPED) c->trouble = status;
+    return status;
 }
 
 /* How much a relative error of the state changes the clock's rate, q^e with |grad q| <= 2 sqrt(max J/min J) q. */
@@ -148,6 +150,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
 {
     const double there = gap->gained[c->other], next = c->sum + there, step = row->time - c->last.time;
     iso_conversion_summary *s = &c->summary;
+    if (c->trouble != ISO_OK) return c->trouble;
     if (c->unwritten) {
         const iso_status status = write_first(c);
         if (status != ISO_OK) return status;
@@ -174,12 +177,14 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
 
 static iso_status refuse_time(iso_conversion *c, const conversion_row *row)
 {
+    if (c->trouble != ISO_OK) return c->trouble;
     iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s turns back; sort the rows by time", iso_clock_name(c->own));
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 
 static iso_status refuse_defect(iso_conversion *c, const conversion_row *row)
 {
+    if (c->trouble != ISO_OK) return c->trouble;
     iso_context_fail(c->ctx, ISO_BAD_INPUT, "",
                      "this row is damaged: it does not lie on the orbit of the rows beside it");
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);

@@ -31,6 +31,7 @@ struct iso_conversion {
 
     /* from the first good row on, which has begun the result */
     bool begun;
+    iso_status trouble;              /* no memory, or stopped, in the middle of a decision */
     size_t good;                     /* rows so far                                        */
     int strangers;                   /* behind the first, and before the next, of another energy */
     iso_orbit *first;

@@ -204,9 +204,9 @@ round_trip() {
     at_most "$1: backends" "$error" 1e-9
     worst_backends=$(larger "$worst_backends" "$error")
     run 0 run scene.yaml --as "$3" -o a.csv
-    run 0 convert --to $other a.csv -o b.csv
+    run 0 convert --quiet --to $other a.csv -o b.csv
     silent
-    run 0 convert --to "$3" b.csv -o c.csv
+    run 0 convert --quiet --to "$3" b.csv -o c.csv
     check "$1: the same columns" test "$(columns a.csv)" = "$(columns c.csv)"
     check "$1: the same lines" test "$(grep '^# [kJhefl]' a.csv)" = "$(grep '^# [kJhefl]' c.csv)"
     states a.csv >a

@@ -196,7 +196,7 @@ esac
 hard_case "closed streams" "commands that succeed, crash or talk where standard output is full, closed, or a pipe that nobody reads" \
     "what is printed last is written when the program ends"
 wrong=0
-for arguments in "run scene.yaml --step 0.002" "convert --to point ball.csv" "compare scene.yaml --json" list --help --version \
+for arguments in "run scene.yaml --step 0.002" "convert --quiet --to point ball.csv" "compare scene.yaml --json" list --help --version \
     "check ball.csv" "explain scene.yaml" "frequencies scene.yaml" "frequencies scene.yaml --json" \
     "analogue $source/examples/07_neumann_point/scene.yaml" "cost scene.yaml --quick --method taylor --tol 1e-9"; do
     # shellcheck disable=SC2086 # a list

@@ -138,7 +138,6 @@ mkdir folder
 cp scene.yaml folder
 refuses 5 "cannot write" run scene.yaml -o folder/absent/out.csv
 refuses 2 "would overwrite" run folder/scene.yaml -o ./folder/scene.yaml
-refuses 2 "HDF5" run scene.yaml -o folder/out.h5
 check "nothing is left of them" test "$(ls -A folder)" = scene.yaml
 check "the scene is as it was" cmp scene.yaml folder/scene.yaml
 long=folder/$(printf '%0150d' 1)$(printf '\303\251\377').csv # a long name that is not UTF-8

@@ -91,7 +91,7 @@ done
 check "list methods" grep -q '^  rk8pd ' list
 
 # --- closed pipes and full disks
-for arguments in "run scene.yaml --step 1e-4" "compare scene.yaml --json --step 1e-2" "list" "explain scene.yaml" "convert --to point ball.csv"; do
+for arguments in "run scene.yaml --step 1e-4" "compare scene.yaml --json --step 1e-2" "list" "explain scene.yaml" "convert --quiet --to point ball.csv"; do
     # shellcheck disable=SC2086 # a list
     first=$("$isoroll" $arguments 2>err | head -n 1)
     check "isoroll $arguments | head -1: a line" test -n "$first"
