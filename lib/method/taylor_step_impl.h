@@ -107,7 +107,7 @@ static inline real rough_power(real x, double part)
     const double one = 1;
     double y[LANES];
     int64_t bits[LANES], of_one;
-    for (int i = 0; i < LANES; i++) y[i] = (double)LANE(x, i);
+    for (int i = 0; i < LANES; i++) y[i] = fabs((double)LANE(x, i)); /* of -0, too */
     memcpy(bits, y, sizeof bits);
     memcpy(&of_one, &one, sizeof of_one);
     for (int i = 0; i < LANES; i++) bits[i] = of_one + (int64_t)((double)(bits[i] - of_one) * part);
