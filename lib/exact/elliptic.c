@@ -24,7 +24,7 @@ void iso_elliptic_set(elliptic *e, real m1)
 static void sine_and_cosine(real x, real *sine, real *cosine)
 {
     const real quarters = rintl(x / (ISO_PI / 2)), rest = x - quarters * (ISO_PI / 2), s = sinl(rest), c = cosl(rest);
-    const int quarter = (int)quarters & 3;
+    const int quarter = (fabsl(quarters) < 1e9L ? (int)quarters : 0) & 3; /* of NaN none, and xi is a turn at most */
     *sine = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
     *cosine = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
 }
