@@ -2,7 +2,7 @@
  *
  * ERKStep 6.4.1 re-uses the last stage of a step as the first of the next, which is wrong for tables that are not
  * "first same as last" (sundials#311): Verner's 6th order measures 3.0. A post-processing function, which our
- * projection is anyway, makes it evaluate anew; tests/test_order.c measures every table.
+ * projection is anyway, makes it evaluate anew; tests/method/test_order.c measures every table.
  */
 #include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>

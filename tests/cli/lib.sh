@@ -155,7 +155,7 @@ time: {end: $5, step: $6}
 END
 }
 
-# The book of the hard cases, as tests/hard.h keeps it, for scripts that begin with hard_topic TITLE.
+# The book of the hard cases, as shared/hard.h keeps it, for scripts that begin with hard_topic TITLE.
 hard_topic() {
     topic=$1
     table=${ISO_BUILD:-$work}/tests/$(basename "$0" .sh).tsv

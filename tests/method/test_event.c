@@ -30,7 +30,7 @@ static double tolerance_for(const iso_method *m)
     return m->order == 2 ? 1e-7 : m->order == 3 ? 1e-9 : 1e-10;
 }
 
-/* The error such orbits may have, see tests/test_order.c. */
+/* The error such orbits may have, see tests/method/test_order.c. */
 static double allowed(const iso_method *m)
 {
     return (m->order ? 300 : 1e4) * tolerance_for(m);

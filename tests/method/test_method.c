@@ -30,7 +30,7 @@ static iso_method_options options_for(const iso_method *m)
 
 enum { TURN = 5 }; /* how far orbits are followed, in units; */
 
-/* and the error they may have then: the C of tests/test_order.c for a quarter of its way */
+/* and the error they may have then: the C of tests/method/test_order.c for a quarter of its way */
 static double allowed(const iso_method *m)
 {
     return (m->order ? 75 : 2500) * options_for(m).tolerance;
