@@ -44,33 +44,6 @@ static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STA
     }
 }
 
-/* With a = (n,Jw)/(g det J), w' = a n x Jw:
- *     dw'/dw_j = J_j a n x e_j + (J_j - min J) n_j n x Jw/(g det J)
- *     dw'/dn_j = a e_j x Jw + (J_j - min J) w_j n x Jw/(g det J) - 2 (u_j/g) w' */
-static void jacobian(const iso_field *f, const double y[ISO_STATE], double jac[ISO_STATE * ISO_STATE])
-{
-    const iso_params *p = &f->p;
-    const double *w = y, *n = y + 3;
-    double Jw[3], n_Jw[3];
-    diag(p->J, w, Jw);
-    cross(n, Jw, n_Jw);
-    const double g = dot_diag(n, p->inv_J, n), over = 1 / (g * p->det_J), a = along_normal(p, y) * over;
-    for (int j = 0; j < 3; j++) {
-        const double e[3] = {j == 0, j == 1, j == 2};
-        double e_w[3], e_Jw[3], n_e[3];
-        cross(e, w, e_w);
-        cross(e, Jw, e_Jw);
-        cross(n, e, n_e);
-        const double past = (p->J[j] - min3(p->J)) * over, by_n = past * w[j] - 2 * a * p->inv_J[j] * n[j] / g;
-        for (int i = 0; i < 3; i++) {
-            jac[6 * i + j] = p->J[j] * a * n_e[i] + past * n[j] * n_Jw[i];
-            jac[6 * i + 3 + j] = by_n * n_Jw[i] + a * e_Jw[i];
-            jac[6 * (3 + i) + j] = p->k * n_e[i];
-            jac[6 * (3 + i) + 3 + j] = p->k * e_w[i];
-        }
-    }
-}
-
 /* q = (gamma, J gamma) = 1/(n, J^-1 n), taken at the direction of n */
 static double ball_q(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE])
 {
@@ -87,7 +60,7 @@ static double ball_q(const iso_params *p, const double y[ISO_STATE], double grad
 static inline double kinetic(const iso_field *f, const double y[])
 {
     const double T = dot_diag(y, f->p.J, y) / 2;
-    if (!f->effects.on[ISO_TWIST]) return T;
+    if (!iso_effects_twist(&f->effects)) return T;
     const double spin = dot(y, y + 3);
     return T - f->p.D * spin * spin / 2;
 }
@@ -101,7 +74,7 @@ static double energy(const iso_field *f, const double y[], double *size)
 
 static bool is_rigid(const iso_field *f)
 {
-    return !f->effects.on[ISO_TWIST];
+    return !iso_effects_twist(&f->effects);
 }
 
 static double spin(const iso_field *f, const double y[], double *size)
@@ -125,9 +98,9 @@ static double f_plane(const iso_field *f, const double y[], double *size)
     diag(f->p.J, y, Jw);
     cross(Jw, y + 3, K);
     *size = dot(Jw, Jw);
-    if (!f->effects.on[ISO_LEVEL]) return dot(K, K);
+    if (!iso_effects_have_level(&f->effects)) return dot(K, K);
     diag(f->p.inv_J, y + 3, u);
-    const double rest = 2 * f->effects.level * f->p.det_J * dot(u, u) / dot(y + 3, u);
+    const double rest = 2 * iso_effects_level(&f->effects) * f->p.det_J * dot(u, u) / dot(y + 3, u);
     *size += fabs(rest);
     return dot(K, K) + rest;
 }
@@ -185,7 +158,7 @@ static double project(const iso_field *f, double y[])
     const double length_error = make_unit(y + 3) - 1, moving = fmax(norm(y), largest(y));
     double correction = fabs(length_error);
     if (moving == 0) return correction;
-    if (!f->effects.on[ISO_TWIST]) correction = fmax(correction, fabs(remove_spin(&f->p, y)) / moving);
+    if (!iso_effects_twist(&f->effects)) correction = fmax(correction, fabs(remove_spin(&f->p, y)) / moving);
     const bool is_free = iso_effects_none(&f->effects);
     if (!is_free && !iso_effects_keep_energy(f)) return correction;
     const double T = kinetic(f, y), U = is_free ? 0 : iso_effects_potential(f, y);
@@ -265,7 +238,6 @@ const iso_system iso_system_ball = {
     .fast_dimension = {0, 0, 1},
     .integrals = integrals,
     .rhs = rhs,
-    .jacobian = jacobian,
     .q = ball_q,
     .project = project,
     .speed = speed,

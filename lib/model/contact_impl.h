@@ -3,9 +3,8 @@
  *     rigid   J w' = J w x w + T + lambda n,  (w,n) = 0                                                    (9)
  *     loose   K' = K x w + T,  K = J w - D (w,n) n        (T has the twist resistance in it)
  *
- * Both give dy[0..5] = (w', n'), n' = k n x w. `slope`: on entry column j of the first three rows of jac (row-major, dim
- * columns) is dT/dy_j; on return the first six rows are those of the Jacobian. `twist`: lambda of the contact's
- * torque lambda n, (9)'s or -c (w,n), which is a state where it is stiff.
+ * Both give dy[0..5] = (w', n'), n' = k n x w. `twist`: lambda of the contact's torque lambda n, (9)'s or that of the
+ * effect that resists twisting. The Jacobian is in slopes.c.
  */
 #ifndef ISO_MODEL_CONTACT_IMPL_H
 #define ISO_MODEL_CONTACT_IMPL_H
@@ -15,7 +14,6 @@
 
 typedef struct iso_contact {
     void (*solve)(const iso_field *f, const double y[], const double T[3], double dy[]);
-    void (*slope)(const iso_field *f, const double y[], const double T[3], int dim, double jac[]);
     double (*twist)(const iso_field *f, const double y[], const double T[3]);
 } iso_contact;
 

@@ -1,3 +1,4 @@
+/* effect.c - the effects of one orbit taken together: loops over the rows of the table. */
 #include "model/effect.h"
 
 #include <float.h>
@@ -7,35 +8,128 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
+#include "model/model.h"
 
 const iso_effect *const iso_effect_list[ISO_EFFECTS] = {
-    [ISO_GRAVITY] = &iso_effect_gravity,
-    [ISO_FIELD] = &iso_effect_field,
-    [ISO_LEVEL] = &iso_effect_level,
-    [ISO_TWIST] = &iso_effect_twist,
-    [ISO_ROLLING_RESISTANCE] = &iso_effect_rolling_resistance,
-    [ISO_ATTITUDE] = &iso_effect_attitude,
-    [ISO_REACTIONS] = &iso_effect_reactions,
-    [ISO_CLOCK] = &iso_effect_clock,
+#define ISO_EFFECT_ENTRY(ID, name) [ISO_##ID] = &iso_effect_##name,
+    ISO_EFFECT_LIST(ISO_EFFECT_ENTRY)
+#undef ISO_EFFECT_ENTRY
 };
 
-double *iso_effect_values(const iso_effects *effects, const iso_effect_number *number)
+iso_effect_id iso_effect_find(const char *name)
 {
-    return (double *)((char *)effects + number->offset);
+    int e = 0;
+    while (e < ISO_EFFECTS && strcmp(iso_effect_list[e]->name, name) != 0) e++;
+    return (iso_effect_id)e;
 }
 
-/* --- do the numbers make sense ------------------------------------------------------------------------------------- */
-
-static iso_status check_finite(iso_context *ctx, const iso_effect *effect, const iso_effects *e)
+bool iso_is_plane(const iso_field *f)
 {
-    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
-        const double *x = iso_effect_values(e, n);
-        for (int i = 0; i < n->count; i++)
-            if (!isfinite(x[i]))
-                return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is not finite", effect->name, n->name);
+    return f->p.k == 1;
+}
+
+iso_work iso_no_work(const iso_field *f)
+{
+    (void)f;
+    return ISO_WORK_NONE;
+}
+
+iso_work iso_work_lost(const iso_field *f)
+{
+    (void)f;
+    return ISO_WORK_LOST;
+}
+
+/* The next row of an effect that is on, from *e on; NULL: there is none. *e is behind it. */
+static const iso_effect *next_on(const iso_effects *effects, int *e)
+{
+    while (*e < ISO_EFFECTS && !effects->on[*e]) ++*e;
+    return *e < ISO_EFFECTS ? iso_effect_list[(*e)++] : NULL;
+}
+
+/* --- numbers -------------------------------------------------------------------------------------------------------- */
+
+double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number)
+{
+    return (double *)effects->number[id] + number->at;
+}
+
+iso_effects iso_effects_default(void)
+{
+    iso_effects effects = {.on = {false}};
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++)
+            if (n->initially) copy(n->initially, iso_effect_values(&effects, e, n), n->count);
+    return effects;
+}
+
+iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *effect, const char *name, int count,
+                           const double values[])
+{
+    const iso_effect_id e = iso_effect_find(effect);
+    if (e == ISO_EFFECTS)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect, "there is no effect '%s'", effect);
+    effects->on[e] = true;
+    if (!name) return ISO_OK;
+    for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
+        if (strcmp(n->name, name) != 0) continue;
+        if (n->count != count)
+            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "'%s' of '%s' has %d numbers, not %d", name, effect,
+                                    n->count, count);
+        copy(values, iso_effect_values(effects, e, n), count);
+        return ISO_OK;
     }
-    return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "the effect '%s' has no number '%s'", effect, name);
 }
+
+iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power)
+{
+    iso_effects scaled = *effects;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; scaled.on[e] && n && n->name; n++) {
+            double *x = iso_effect_values(&scaled, e, n);
+            const double unit = iso_unit(units, n->dimension);
+            for (int i = 0; i < n->count; i++) x[i] = x[i] == 0 ? 0 : power > 0 ? x[i] * unit : x[i] / unit;
+        }
+    return scaled;
+}
+
+/* --- the level: an effect that is the energy of the point ------------------------------------------------------------- */
+
+static iso_effect_id level_id(void)
+{
+    int e = 0;
+    while (e < ISO_EFFECTS && !iso_effect_list[e]->is_level) e++;
+    return (iso_effect_id)e;
+}
+
+bool iso_effects_have_level(const iso_effects *effects)
+{
+    return effects->on[level_id()];
+}
+
+double iso_effects_level(const iso_effects *effects)
+{
+    return effects->number[level_id()][0];
+}
+
+void iso_effects_set_level(iso_effects *effects, bool there, double c)
+{
+    effects->on[level_id()] = there;
+    effects->number[level_id()][0] = c;
+}
+
+const char *iso_level_name(void)
+{
+    return iso_effect_list[level_id()]->name;
+}
+
+iso_dimension iso_level_dimension(void)
+{
+    return iso_effect_list[level_id()]->numbers->dimension;
+}
+
+/* --- do the numbers make sense ---------------------------------------------------------------------------------------- */
 
 static iso_status check_unit(iso_context *ctx, const char *name, int count, double x[])
 {
@@ -54,60 +148,22 @@ static iso_status check_unit(iso_context *ctx, const char *name, int count, doub
     return ISO_OK;
 }
 
-bool iso_effects_on_level_plane(const iso_params *p, const double normal[3], const iso_effects *e)
+static iso_status check_number(iso_context *ctx, const char *effect, const iso_effect_number *n, double x[])
 {
-    double e_n[3];
-    cross(e->up, normal, e_n);
-    return e->on[ISO_GRAVITY] && p->k == 1 && norm(e_n) <= 4 * DBL_EPSILON;
+    for (int i = 0; i < n->count; i++)
+        if (!isfinite(x[i]))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is not finite", effect, n->name);
+    const bool resists = n->kind == ISO_NUMBER_POSITIVE || n->kind == ISO_NUMBER_NOT_NEGATIVE;
+    if (n->kind == ISO_NUMBER_UNIT) return check_unit(ctx, n->name, n->count, x);
+    if (resists && x[0] < 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is negative, it must resist", effect, n->name);
+    if ((n->kind == ISO_NUMBER_POSITIVE || n->kind == ISO_NUMBER_NOT_ZERO) && x[0] == 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is 0 and changes nothing: take it out", effect,
+                                n->name);
+    return ISO_OK;
 }
 
-static iso_status check_gravity(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *e)
-{
-    if (e->mgb == 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "gravity", "gravity of 0 changes nothing: take it out");
-    const iso_status status = check_unit(ctx, "up", 3, e->up);
-    if (status != ISO_OK || e->on[ISO_REACTIONS] || !iso_effects_on_level_plane(p, n, e)) return status;
-    return iso_context_fail(
-        ctx, ISO_BAD_INPUT, "gravity",
-        "on a level plane (up along the normal) gravity has no torque and changes nothing: take it "
-        "out, tilt the plane, or ask for 'reactions'");
-}
-
-static iso_status check_field(iso_context *ctx, iso_effects *e)
-{
-    double *C = e->quadratic, most = 0, varies = largest(e->linear);
-    for (int i = 0; i < 9; i++) most = fmax(most, fabs(C[i]));
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < i; j++) {
-            if (!(fabs(C[3 * i + j] - C[3 * j + i]) <= 1e-12 * most))
-                return iso_context_fail(ctx, ISO_BAD_INPUT, "quadratic",
-                                        "the matrix of a quadratic form is symmetric: C%d%d = %.17g is not C%d%d = "
-                                        "%.17g",
-                                        i + 1, j + 1, C[3 * i + j], j + 1, i + 1, C[3 * j + i]);
-            C[3 * j + i] = C[3 * i + j];
-            varies = fmax(varies, fmax(fabs(C[3 * i + j]), fabs(C[4 * i] - C[4 * j])));
-        }
-    if (varies > 0 && varies < 1e-10 * most)
-        return iso_context_fail(
-            ctx, ISO_BAD_INPUT, "quadratic",
-            "all but %.1g of this matrix is a constant on the unit sphere, which does nothing but "
-            "cost digits: subtract it from the diagonal",
-            varies / most);
-    if (varies > 0) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "field",
-                            "this potential is a constant on the unit sphere and changes nothing: take it out");
-}
-
-static iso_status check_positive(iso_context *ctx, const char *effect, const char *name, double x, bool zero)
-{
-    if (x > 0 || (zero && x == 0)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, name,
-                            x == 0 ? "%s: '%s' is 0 and changes nothing: take it out"
-                                   : "%s: '%s' is negative, it must resist",
-                            effect, name);
-}
-
-static iso_status check_mass(iso_context *ctx, const iso_params *p, const char *effect)
+static iso_status check_D(iso_context *ctx, const iso_params *p, const char *effect)
 {
     const bool body = p->body.surface != ISO_REDUCED;
     if (body && !isnormal(p->D))
@@ -125,120 +181,291 @@ static iso_status check_mass(iso_context *ctx, const iso_params *p, const char *
                             effect, effect);
 }
 
-iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double normal[3], iso_effects *e)
+/* A row that acts states its equations; what it leaves out of them nobody may guess. */
+static iso_status check_row(iso_context *ctx, const iso_effect *effect)
+{
+    if (effect->observes || effect->motion || effect->torque) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
+                            "the row of '%s' is not complete: it acts, but has no equations of motion", effect->name);
+}
+
+iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double normal[3], iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_status status = ISO_OK;
-    for (int i = 0; status == ISO_OK && i < ISO_EFFECTS; i++)
-        if (e->on[i]) status = check_finite(ctx, iso_effect_list[i], e);
-    if (status == ISO_OK && e->on[ISO_GRAVITY]) status = check_gravity(ctx, p, normal, e);
-    if (status == ISO_OK && e->on[ISO_FIELD]) status = check_field(ctx, e);
-    if (status == ISO_OK && e->on[ISO_LEVEL] && e->level == 0)
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "c", "level: 'c' is 0 and changes nothing: take it out");
-    if (status == ISO_OK && e->on[ISO_LEVEL] && p->J[0] == p->J[1] && p->J[1] == p->J[2])
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "level",
-                                  "with equal moments this potential is a constant and changes nothing: take it out");
-    if (status == ISO_OK && e->on[ISO_TWIST]) status = check_positive(ctx, "twist", "resistance", e->twist, true);
-    if (status == ISO_OK && e->on[ISO_TWIST]) status = check_mass(ctx, p, "twist");
-    if (status == ISO_OK && e->on[ISO_ROLLING_RESISTANCE])
-        status = check_positive(ctx, "rolling_resistance", "coefficient", e->resistance, false);
-    if (status == ISO_OK && e->on[ISO_ATTITUDE]) status = check_unit(ctx, "quaternion", 4, e->quaternion);
-    if (status == ISO_OK && e->on[ISO_REACTIONS]) status = check_mass(ctx, p, "reactions");
+    for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        if (!effects->on[e]) continue;
+        status = check_row(ctx, effect);
+        for (const iso_effect_number *n = effect->numbers; status == ISO_OK && n && n->name; n++)
+            status = check_number(ctx, effect->name, n, iso_effect_values(effects, e, n));
+        if (status == ISO_OK && effect->check) status = effect->check(ctx, p, normal, effects);
+        if (status == ISO_OK && effect->needs_D) status = check_D(ctx, p, effect->name);
+    }
     return status;
 }
 
-/* --- all of them ---------------------------------------------------------------------------------------------------- */
-
-iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power)
-{
-    iso_effects scaled = *effects;
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; scaled.on[e] && n && n->name; n++) {
-            double *x = iso_effect_values(&scaled, n);
-            const double unit = iso_unit(units, n->dimension);
-            for (int i = 0; i < n->count; i++) x[i] = x[i] == 0 ? 0 : power > 0 ? x[i] * unit : x[i] / unit;
-        }
-    return scaled;
-}
+/* --- what they are --------------------------------------------------------------------------------------------------- */
 
 iso_effects iso_effects_acting(const iso_effects *effects)
 {
     iso_effects acting = *effects;
-    for (int e = ISO_ATTITUDE; e < ISO_EFFECTS; e++) acting.on[e] = false;
+    for (int e = 0; e < ISO_EFFECTS; e++) acting.on[e] = acting.on[e] && !iso_effect_list[e]->observes;
     return acting;
+}
+
+const char *iso_effect_why_broken(const iso_effect *effect)
+{
+    if (effect->breaks) return effect->breaks;
+    if (effect->observes || effect->is_level || effect->image) return NULL;
+    return "its row states no image of it on the point";
 }
 
 const iso_effect *iso_effects_breaking(const iso_effects *effects)
 {
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        if (effects->on[e] && iso_effect_list[e]->breaks) return iso_effect_list[e];
-    return NULL;
+    int e = 0;
+    const iso_effect *effect;
+    while ((effect = next_on(effects, &e)) && !iso_effect_why_broken(effect)) {
+    }
+    return effect;
+}
+
+const iso_effect *iso_effects_ball_only(const iso_effects *effects)
+{
+    int e = 0;
+    const iso_effect *effect;
+    while ((effect = next_on(effects, &e)) && !effect->ball_only) {
+    }
+    return effect;
+}
+
+bool iso_effects_twist(const iso_effects *effects)
+{
+    const iso_effect *effect;
+    bool found = false;
+    if (iso_effects_none(effects)) return false;
+    for (int e = 0; (effect = next_on(effects, &e));) found = found || effect->twists;
+    return found;
+}
+
+bool iso_effects_clocks(const iso_effects *effects)
+{
+    const iso_effect *effect;
+    bool found = false;
+    for (int e = 0; (effect = next_on(effects, &e));) found = found || effect->clocks;
+    return found;
+}
+
+bool iso_effects_need_D(const iso_effects *effects)
+{
+    const iso_effect *effect;
+    bool found = false;
+    for (int e = 0; (effect = next_on(effects, &e));) found = found || effect->needs_D;
+    return found;
+}
+
+bool iso_effects_need_radius(const iso_effects *effects)
+{
+    const iso_effect *effect;
+    bool found = false;
+    for (int e = 0; (effect = next_on(effects, &e));) found = found || effect->needs_radius;
+    return found;
+}
+
+bool iso_effects_are_free(const iso_effects *effects)
+{
+    const iso_effect *effect;
+    bool acts = false;
+    for (int e = 0; (effect = next_on(effects, &e));) acts = acts || !(effect->observes || effect->is_level);
+    return !acts;
+}
+
+bool iso_effects_pull(const iso_effects *effects)
+{
+    const iso_effect *effect;
+    bool pulls = false;
+    for (int e = 0; (effect = next_on(effects, &e));) pulls = pulls || effect->potential;
+    return pulls;
+}
+
+bool iso_effects_keep(const iso_field *f, iso_further integral)
+{
+    const iso_effect *effect;
+    bool keep = true;
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        keep = keep && (effect->observes || (effect->keeps && effect->keeps(f, integral)));
+    return keep;
+}
+
+static iso_work work_of(const iso_field *f, const iso_effect *effect)
+{
+    if (effect->work) return effect->work(f);
+    return effect->observes ? ISO_WORK_NONE : ISO_WORK_UNKNOWN;
+}
+
+bool iso_effects_keep_energy(const iso_field *f)
+{
+    const iso_effect *effect;
+    bool keep = true;
+    for (int e = 0; (effect = next_on(&f->effects, &e));) keep = keep && work_of(f, effect) == ISO_WORK_NONE;
+    return keep;
+}
+
+const iso_effect *iso_effects_taking_energy(const iso_field *f)
+{
+    int e = 0;
+    const iso_effect *effect;
+    while ((effect = next_on(&f->effects, &e)) && work_of(f, effect) != ISO_WORK_LOST) {
+    }
+    return effect;
+}
+
+/* --- writing their equations down --------------------------------------------------------------------------------------- */
+
+int iso_effect_states(const iso_effect *effect, const iso_field *f)
+{
+    int count = 0;
+    for (const iso_effect_state *s = effect->states; s && s->name; s++)
+        if (!s->there || s->there(f)) count += s->count;
+    return count;
+}
+
+/* What kind of state stands at y[at]. */
+static uint8_t kind_at(const iso_field *f, int at)
+{
+    for (int e = 0; e < ISO_EFFECTS; e++) {
+        int here = f->at[e];
+        for (const iso_effect_state *s = iso_effect_list[e]->states; here > 0 && s && s->name; s++) {
+            if (s->there && !s->there(f)) continue;
+            if (at >= here && at < here + s->count) return (uint8_t)s->kind;
+            here += s->count;
+        }
+    }
+    return ISO_STATE_ANY;
+}
+
+static void finish_formula(const iso_field *f, iso_formula *F)
+{
+    for (int i = 0; i < F->states; i++) F->state[i].kind = kind_at(f, F->state[i].at);
+    iso_formula_finish(F, &f->p);
+}
+
+void iso_effects_record_motion(const iso_field *f, bool series, iso_formula *F)
+{
+    const iso_effect *effect;
+    iso_formula_begin(F, ISO_FORMULA_MOTION, series);
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        if (effect->motion) effect->motion(F, f);
+    finish_formula(f, F);
+}
+
+void iso_effects_record_energy(const iso_field *f, iso_formula *F)
+{
+    const iso_effect *effect;
+    iso_formula_begin(F, ISO_FORMULA_ENERGY, false);
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        if (effect->potential) effect->potential(F, f);
+    finish_formula(f, F);
+}
+
+void iso_effects_record_image(const iso_field *f, iso_formula *F)
+{
+    const iso_effect *effect;
+    iso_formula_begin(F, ISO_FORMULA_IMAGE, false);
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        if (effect->image) effect->image(F, f);
+    finish_formula(f, F);
+}
+
+/* --- sums ----------------------------------------------------------------------------------------------------------- */
+
+void iso_effects_torque(const iso_field *f, const double y[], double T[3], double dy[])
+{
+    const iso_effect *effect;
+    T[0] = T[1] = T[2] = 0;
+    if (f->motion.kind == ISO_FORMULA_MOTION && f->motion.lines > 0) iso_formula_rates(&f->motion, &f->p, y, T, dy);
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        if (effect->torque) effect->torque(f, y, T);
+}
+
+double iso_effects_twist_torque(const iso_field *f, const double y[])
+{
+    iso_field twisting = *f;
+    double T[3], dy[ISO_MAX_STATE];
+    for (int e = 0; e < ISO_EFFECTS; e++) twisting.effects.on[e] = f->effects.on[e] && iso_effect_list[e]->twists;
+    iso_effects_record_motion(&twisting, false, &twisting.motion);
+    iso_effects_torque(&twisting, y, T, dy);
+    return dot(T, y + 3) / dot(y + 3, y + 3);
 }
 
 double iso_effects_potential(const iso_field *f, const double y[])
 {
-    double U = 0;
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        if (f->effects.on[e] && iso_effect_list[e]->potential) U += iso_effect_list[e]->potential(f, y);
-    return U;
+    if (iso_effects_none(&f->effects)) return 0;
+    if (f->energy_formula.kind == ISO_FORMULA_ENERGY) return iso_formula_energy(&f->energy_formula, &f->p, y);
+    iso_formula F;
+    iso_effects_record_energy(f, &F);
+    return iso_formula_energy(&F, &f->p, y);
 }
 
 double iso_effects_image(const iso_field *f, const double y[])
 {
-    double V = 0;
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        if (f->effects.on[e] && iso_effect_list[e]->image_potential) V += iso_effect_list[e]->image_potential(f, y);
-    return V;
+    if (iso_effects_none(&f->effects)) return 0;
+    if (f->energy_formula.kind == ISO_FORMULA_IMAGE) return iso_formula_image(&f->energy_formula, &f->p, y, NULL);
+    iso_formula F;
+    iso_effects_record_image(f, &F);
+    return iso_formula_image(&F, &f->p, y, NULL);
 }
 
 double iso_effects_strength(const iso_field *f, const double y[])
 {
+    const iso_effect *effect;
     double most = 0;
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        if (f->effects.on[e] && iso_effect_list[e]->strength) most = fmax(most, iso_effect_list[e]->strength(f, y));
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        if (effect->strength) most = fmax(most, effect->strength(f, y));
+    return most;
+}
+
+double iso_effects_largest(const iso_field *f, const double y[])
+{
+    const iso_effect *effect;
+    double most = 0;
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        if (effect->range) most = fmax(most, effect->range(f, y));
     return most;
 }
 
 double iso_effects_range(const iso_field *f, const double y[])
 {
-    double most = iso_effects_strength(f, y);
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        if (f->effects.on[e] && iso_effect_list[e]->range) most = fmax(most, iso_effect_list[e]->range(f, y));
-    return most;
+    return fmax(iso_effects_strength(f, y), iso_effects_largest(f, y));
 }
 
 double iso_effects_stiffness(const iso_field *f)
 {
+    const iso_effect *effect;
     double most = 0;
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        if (f->effects.on[e] && iso_effect_list[e]->stiffness) most = fmax(most, iso_effect_list[e]->stiffness(f));
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        if (effect->stiffness) most = fmax(most, effect->stiffness(f));
     return most;
 }
 
-bool iso_effects_free(const iso_effects *effects)
-{
-    return !effects->on[ISO_GRAVITY] && !effects->on[ISO_FIELD] && !effects->on[ISO_TWIST] &&
-           !effects->on[ISO_ROLLING_RESISTANCE];
-}
-
-bool iso_effects_keep_energy(const iso_field *f)
-{
-    const iso_effects *e = &f->effects;
-    if (e->on[ISO_ROLLING_RESISTANCE] || (e->on[ISO_TWIST] && e->twist > 0)) return false;
-    return !e->on[ISO_GRAVITY] || f->p.k != 1 || e->on[ISO_ATTITUDE];
-}
-
-/* No potential moves the ball. */
+/* Everything that acts takes motion away, and something does. */
 static bool only_resisted(const iso_field *f)
 {
-    const bool *on = f->effects.on;
-    return !on[ISO_GRAVITY] && !on[ISO_FIELD] && !on[ISO_LEVEL] && iso_effects_stiffness(f) > 0;
+    const iso_effect *effect;
+    bool only = true;
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        only = only && !effect->potential && work_of(f, effect) != ISO_WORK_UNKNOWN;
+    return only && iso_effects_stiffness(f) > 0;
 }
 
 double iso_effects_moving(const iso_field *f)
 {
-    if (!only_resisted(f) || !f->effects.on[ISO_ROLLING_RESISTANCE]) return INFINITY;
-    return -log(ISO_REST) * max3(f->p.J) / f->effects.resistance * fmax(1, fabs(f->p.k));
+    const iso_effect *effect;
+    double least = INFINITY;
+    if (!only_resisted(f)) return INFINITY;
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        if (effect->time_to_rest) least = fmin(least, effect->time_to_rest(f));
+    return least;
 }
 
 bool iso_effects_at_rest(const iso_field *f, const double y[])
@@ -248,12 +475,43 @@ bool iso_effects_at_rest(const iso_field *f, const double y[])
 
 int iso_integrals_holding(const iso_system *system, const iso_field *f, const iso_integral *list[], int most)
 {
+    const iso_effect *effect;
     int count = 0;
     for (const iso_integral *i = system->integrals; i->name && count < most; i++)
         if (!i->holds || i->holds(f)) list[count++] = i;
     if (system != &iso_system_ball) return count;
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_integral *i = iso_effect_list[e]->integrals; f->effects.on[e] && i && i->name; i++)
+    for (int e = 0; (effect = next_on(&f->effects, &e));)
+        for (const iso_integral *i = effect->integrals; i && i->name; i++)
             if ((!i->holds || i->holds(f)) && count < most) list[count++] = i;
+    return count;
+}
+
+/* --- columns --------------------------------------------------------------------------------------------------------- */
+
+const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group, int *in_group)
+{
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_column *c = iso_effect_list[e]->columns; c && c->name; c++) {
+            if (i < c->count) {
+                if (effect) *effect = e;
+                if (group) *group = c;
+                if (in_group) *in_group = i;
+                return c->column[i];
+            }
+            i -= c->count;
+        }
+    return NULL;
+}
+
+int iso_effect_columns(void)
+{
+    return iso_effect_first_column(ISO_EFFECTS);
+}
+
+int iso_effect_first_column(iso_effect_id id)
+{
+    int count = 0;
+    for (iso_effect_id e = 0; e < id; e++)
+        for (const iso_effect_column *c = iso_effect_list[e]->columns; c && c->name; c++) count += c->count;
     return count;
 }

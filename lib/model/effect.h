@@ -1,8 +1,9 @@
 /* effect.h - what can act on the ball beyond (9), or be asked of it: the third table of the library.
  *
- * A row is everything the rest of the library knows of an effect. Adding one is one file, its numbers in field.h and
- * one line in effect.c. A function that is NULL is a thing the effect does not do. States y are those of the whole
- * model (model.h): omega, n, then the states of the effects, those of effect e from y[f->at[e]] on.
+ * A row holds everything that the library knows of an effect. Nothing else names it. To add an effect, write one file,
+ * effect_<name>.c, and one line in effect_list.h. What a row leaves out is either something the effect does not have, or
+ * it is refused by name by whoever needs it. The defaults are safe: an effect that does not say so keeps no energy, no
+ * integral and no isomorphism.
  *
  *     effect              torque MQ on the ball                 states          isomorphism
  *     gravity             mgb e x n                             e (3)           lost
@@ -12,63 +13,158 @@
  *     rolling_resistance  -c_r omega                            none            lost
  *     attitude            none                                  Q (4), x (3)    kept
  *     reactions           none                                  none            kept
- *     clock               none                                  tau, s          kept
+ *     clock               none                                  none            kept
+ *
+ * States y are those of the whole model (model.h): omega, n, then the states of the effects, those of effect e from
+ * y[f->at[e]] on. Functions of a row work in the ball's own units, in which everything is of order one.
  */
 #ifndef ISO_MODEL_EFFECT_H
 #define ISO_MODEL_EFFECT_H
 
 #include "system.h"
 
-/* A number that a scene or a trajectory file states of an effect, and where it stands in iso_effects. */
+/* A number, vector or matrix of an effect: a key of the scene, and a line "# effect.name" of a trajectory file. */
 typedef struct iso_effect_number {
     const char *name;
-    size_t offset;
-    int count;
-    iso_dimension dimension;
+    int at, count;           /* numbers at ... at + count - 1 of iso_effects.number; 9 make a matrix, by rows      */
+    iso_dimension dimension; /* in which units they are measured                                                    */
+    enum {
+        ISO_NUMBER_ANY,          /* finite                                                                          */
+        ISO_NUMBER_POSITIVE,     /* a resistance > 0                                                                */
+        ISO_NUMBER_NOT_NEGATIVE, /* a resistance >= 0                                                               */
+        ISO_NUMBER_NOT_ZERO,     /* 0 would change nothing                                                          */
+        ISO_NUMBER_UNIT,         /* a unit vector, to 1e-6                                                          */
+        ISO_NUMBER_FLAG          /* 0 or 1; true or false in a scene                                                */
+    } kind;
+    bool required;           /* a scene must have the key                                                           */
+    bool scene_only;         /* not a line of trajectory files: the row's `complete` uses it, or only a run does    */
+    const double *initially; /* count numbers, where a scene has no such key; NULL: zeros                           */
+    const char *turns_with;  /* the group of columns that holds these numbers at later times; NULL: they are fixed  */
 } iso_effect_number;
+
+/* Columns that an effect adds to a trajectory: one group is one number or vector, one dataset of HDF5 files. */
+typedef struct iso_effect_column {
+    const char *name;          /* of the group                                                                      */
+    const char *const *column; /* the names of its columns                                                          */
+    int count;
+    iso_dimension dimension;   /* of its numbers ...                                                                */
+    int length;                /* ... times the ball's radius to this power                                         */
+    const char *checked_as;    /* `check` reports "<this> flow"; NULL: it is not compared                           */
+    const char *sized_by;      /* the group whose size errors are measured by as well; NULL: its own size alone     */
+    bool moves;                /* on a plane it goes on from where the ball was                                     */
+} iso_effect_column;
+
+/* States that an effect adds: one group is one number or vector. */
+typedef struct iso_effect_state {
+    const char *const *name;
+    int count;
+    enum {
+        ISO_STATE_ANY,      /* of order one in own units                                                            */
+        ISO_STATE_UNIT,     /* a unit vector: its length is restored after each step                                */
+        ISO_STATE_INTEGRAL, /* no other rate depends on it                                                          */
+        ISO_STATE_DERIVED   /* `begin` gives it at any time, from omega and n                                       */
+    } kind;
+    bool (*there)(const iso_field *f); /* whether the effect has them here; NULL: always                            */
+} iso_effect_state;
+
+/* What the effect does to the ball's energy. */
+typedef enum iso_work {
+    ISO_WORK_UNKNOWN, /* nobody may take the energy for conserved */
+    ISO_WORK_NONE,    /* it is conserved, with the effect's potential */
+    ISO_WORK_LOST     /* it only decreases */
+} iso_work;
+
+/* The further integrals of the two systems (ball.c, point.c). */
+typedef enum iso_further { ISO_F_PLANE, ISO_F_SHELL, ISO_F_AXIS1, ISO_F_AXIS2, ISO_F_AXIS3 } iso_further;
 
 typedef struct iso_effect {
     const char *name, *doc;
-    const char *breaks;               /* why no isomorphism survives it; NULL: it does                           */
-    const iso_effect_number *numbers; /* ended by a row without a name                                           */
 
-    /* Its own states: names, what they are, how many there are here, where they begin; y' (in dy the system's is
-     * there already) and its slope d y'_i/d y_j at jac[dim i + j] (likewise); sizes for error control; what brings
-     * them back to their constraints, and the relative correction. */
-    const char *const *state, *states_doc;
-    int (*states)(const iso_field *f);
-    void (*begin)(const iso_field *f, double y[]);
-    void (*rates)(const iso_field *f, const double y[], double dy[]);
-    void (*rates_slope)(const iso_field *f, const double y[], const double dy[], int dim, double jac[]);
-    void (*size)(const iso_field *f, const double y[], double size[]);
-    double (*restore)(const iso_field *f, double y[]);
+    /* --- what it means --- */
+    bool observes;            /* it changes nothing in the motion: it is only asked of it                           */
+    bool ball_only;           /* an observer whose states or columns only backend ball has                          */
+    const char *breaks;       /* why no isomorphism survives it; NULL: it has an image, or it observes              */
+    bool needs_D;             /* it needs D = m b^2                                                                 */
+    bool needs_radius;        /* its columns are lengths or forces                                                  */
+    bool twists;              /* the contact is not rigid: (omega,n) is free                                        */
+    bool clocks;              /* it asks for the clocks as columns, and for nothing else                            */
+    bool is_level;            /* its potential is the energy level of the point: no force on the point              */
+    iso_work (*work)(const iso_field *f);                        /* NULL: unknown, of an observer none              */
+    bool (*keeps)(const iso_field *f, iso_further integral);     /* NULL: none, of an observer all                  */
+    const char *(*no_frequencies)(const iso_field *f);           /* why n(t) is not quasi-periodic; NULL: it may be */
 
-    /* On the ball: MQ, added to T; its slope, added to slope[dim i + j] for i < 3; potential energy; and how large the
-     * potential is made, for the speed it can give. */
+    /* --- its numbers and columns --- */
+    const iso_effect_number *numbers; /* ended by a row without a name; NULL: none                                  */
+    const iso_effect_column *columns; /* likewise                                                                   */
+    /* Computes numbers from others that a scene states. model: 0 of a ball's scene, 1 of a point's. given(name) tells
+     * whether the scene has the key. Errors: ISO_BAD_INPUT about the key, or the effect's name. */
+    iso_status (*complete)(iso_context *ctx, const iso_params *p, int model, double number[],
+                           bool (*given)(const void *scene, const char *key), const void *scene);
+    /* What else must hold. n: the normal at the start. Errors: ISO_BAD_INPUT about a number's or the effect's name. */
+    iso_status (*check)(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *effects);
+    /* Why a scene leaves one of its columns empty; NULL, or answering NULL: it does not. */
+    const char *(*empty)(const iso_params *p, const iso_effects *effects, const char *column);
+    /* Its columns, one after the other, in own units; and back: the states from the columns. */
+    void (*show)(const iso_field *f, const double y[], double columns[]);
+    void (*recall)(const iso_field *f, const double columns[], double y[]);
+
+    /* --- its equations, see formula.h --- */
+    void (*motion)(iso_formula *F, const iso_field *f);    /* torque on the ball, rates of its states        */
+    void (*potential)(iso_formula *F, const iso_field *f); /* U                                              */
+    void (*image)(iso_formula *F, const iso_field *f);     /* V and dV/dgamma of the point                   */
+    /* In place of `motion`, where the formulas do not have what it takes: adds MQ to T. Then only methods that need
+     * nothing but y' take the effect; others refuse it by name. */
     void (*torque)(const iso_field *f, const double y[], double T[3]);
-    void (*torque_slope)(const iso_field *f, const double y[], int dim, double slope[]);
-    double (*potential)(const iso_field *f, const double y[]);
-    double (*strength)(const iso_field *f, const double y[]);
-    double (*range)(const iso_field *f, const double y[]); /* how large U can be, if more than that */
-    double (*stiffness)(const iso_field *f);               /* see iso_effects_stiffness             */
 
-    /* Its image on the point: gamma x dV/dgamma, its slope, and V. */
-    void (*image)(const iso_field *f, const double y[], double T[3]);
-    void (*image_slope)(const iso_field *f, const double y[], int dim, double slope[]);
-    double (*image_potential)(const iso_field *f, const double y[]);
+    /* --- its states --- */
+    const iso_effect_state *states;                 /* ended by a row without a name; NULL: none                    */
+    const char *states_doc;                         /* why they are there                                           */
+    void (*begin)(const iso_field *f, double y[]);  /* at the start                                                 */
+    void (*size)(const iso_field *f, const double y[], double size[]);  /* for error control                        */
+    double (*restore)(const iso_field *f, double y[]); /* constraints that are no unit vectors; the relative correction */
 
-    const iso_integral *integrals; /* that come with it, ended by a row without a name; NULL: none               */
+    /* --- sizes --- */
+    double (*strength)(const iso_field *f, const double y[]); /* how large U is made, for the speed it can give     */
+    double (*range)(const iso_field *f, const double y[]);    /* how large U can be, if more than that              */
+    double (*stiffness)(const iso_field *f);    /* how many times faster than the ball turns it makes motion die away */
+    double (*time_to_rest)(const iso_field *f); /* until motion is less than ISO_REST; NULL: it does not end it     */
+
+    const iso_integral *integrals; /* that come with it, ended by a row without a name; NULL: none                  */
 } iso_effect;
 
 /* The registry, in the order of iso_effect_id. */
 extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
 
+/* The effect called `name`; ISO_EFFECTS: there is none. */
+iso_effect_id iso_effect_find(const char *name);
+
+/* --- numbers ------------------------------------------------------------------------------------------------------ */
+
 /* Where an effect's number stands: number->count doubles, as const as `effects` is. */
-double *iso_effect_values(const iso_effects *effects, const iso_effect_number *number);
+double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number);
+
+/* No effects; every number as it is where a scene does not state it. */
+iso_effects iso_effects_default(void);
+
+/* Switches an effect on and sets one of its numbers (name NULL: none): "gravity", "up", 3 numbers.
+ * Errors: ISO_BAD_ARGUMENT about the name: no such effect, no such number, not so many numbers. */
+iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *effect, const char *name, int count,
+                           const double values[]);
+
+/* The energy level of the point that an effect states, c of U = -c (n,J^-1 n)^(-1/k), and whether there is one. */
+bool iso_effects_have_level(const iso_effects *effects);
+double iso_effects_level(const iso_effects *effects);
+
+/* Sets it: `there` false takes it away. */
+void iso_effects_set_level(iso_effects *effects, bool there, double c);
+
+/* The name of the effect that states it, and the dimension of c. */
+const char *iso_level_name(void);
+iso_dimension iso_level_dimension(void);
 
 /* What is wrong with numbers or combinations, as the physics sees it: an effect that cannot matter here (gravity on a
- * level plane, a constant field), numbers that are none. `normal` is n at the start. Makes `up` and `quaternion` unit
- * vectors (to 1e-6). Errors: ISO_BAD_INPUT about the effect's name or its number's. */
+ * level plane, a constant field), numbers that are none. `normal` is n at the start. Makes unit vectors of those that
+ * are (to 1e-6). Errors: ISO_BAD_INPUT about the effect's name or its number's. */
 iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3], iso_effects *effects);
 
 /* Whether gravity has no torque, up to rounding: on a plane with `up`, a unit vector, along the normal the weight
@@ -78,11 +174,23 @@ bool iso_effects_on_level_plane(const iso_params *params, const double normal[3]
 /* The effects carried from the caller's units to own ones (power -1), or back (power 1). */
 iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power);
 
-/* Those that act on the motion: without attitude, reactions and clock, which are only asked of it. */
+/* --- what they do to the motion ------------------------------------------------------------------------------------ */
+
+/* Those that act: without observers. */
 iso_effects iso_effects_acting(const iso_effects *effects);
 
-/* The first effect that breaks the isomorphism; NULL: none. */
+/* The first effect that breaks the isomorphism, and why; NULL: none. */
 const iso_effect *iso_effects_breaking(const iso_effects *effects);
+const char *iso_effect_why_broken(const iso_effect *effect);
+
+/* The first observer that only backend ball has; NULL: none. */
+const iso_effect *iso_effects_ball_only(const iso_effects *effects);
+
+/* Whether an effect that is on has the property. */
+bool iso_effects_twist(const iso_effects *effects);  /* the contact is not rigid      */
+bool iso_effects_clocks(const iso_effects *effects); /* the clocks are asked for      */
+bool iso_effects_need_D(const iso_effects *effects);
+bool iso_effects_need_radius(const iso_effects *effects);
 
 /* Sums over the effects of a field: potential energy of the ball, and of the image of a point; the size of what makes
  * them, for error control. */
@@ -90,12 +198,28 @@ double iso_effects_potential(const iso_field *f, const double y[]);
 double iso_effects_image(const iso_field *f, const double y[]);
 double iso_effects_strength(const iso_field *f, const double y[]);
 double iso_effects_range(const iso_field *f, const double y[]);
+double iso_effects_largest(const iso_field *f, const double y[]); /* that of `range` alone */
 
-/* Whether no torque acts but that of `level`, which the isomorphism turns into a constant. */
-bool iso_effects_free(const iso_effects *effects);
+/* Whether nothing acts but a level, which the isomorphism turns into a constant. */
+bool iso_effects_are_free(const iso_effects *effects);
+
+/* Whether the effects have potentials, which move a ball that is at rest. */
+bool iso_effects_pull(const iso_effects *effects);
+
+/* Whether one of the further integrals survives all effects. */
+bool iso_effects_keep(const iso_field *f, iso_further integral);
 
 /* Whether the energy is conserved, and known from the state: on a plane the height is a state of `attitude`. */
 bool iso_effects_keep_energy(const iso_field *f);
+
+/* All torques on the ball but the contact's; the rates of effects' states in dy. */
+void iso_effects_torque(const iso_field *f, const double y[], double T[3], double dy[]);
+
+/* lambda of the torque lambda n by which a contact that is not rigid resists twisting. */
+double iso_effects_twist_torque(const iso_field *f, const double y[]);
+
+/* The first effect that takes energy away; NULL: none. */
+const iso_effect *iso_effects_taking_energy(const iso_field *f);
 
 /* How many times faster than the ball turns, in its own units, the effects make motion die away: the largest of them.
  * Above ISO_STIFF explicit methods are held up; the torque of a contact that alone is as stiff is a state, lambda. */
@@ -110,6 +234,22 @@ double iso_effects_moving(const iso_field *f);
  * normal double. */
 #define ISO_REST 1e-290
 bool iso_effects_at_rest(const iso_field *f, const double y[]);
+
+/* --- columns ------------------------------------------------------------------------------------------------------- */
+
+enum { ISO_EFFECT_COLUMNS = 28 }; /* room for the columns of all effects */
+
+/* The columns of all effects, in the order of the registry: column i, from 0; its effect, its group and which of the
+ * group it is (each may be NULL). NULL past the last. */
+const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group, int *in_group);
+
+/* How many there are. */
+int iso_effect_columns(void);
+
+/* Of effect `id`: its first column. */
+int iso_effect_first_column(iso_effect_id id);
+
+/* --- integrals ----------------------------------------------------------------------------------------------------- */
 
 enum { ISO_MAX_INTEGRALS = 24 };
 

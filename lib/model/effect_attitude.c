@@ -5,6 +5,8 @@
  *
  * On a sphere no way has to be integrated: the contact is at a R n, the centre at (a+b) R n.
  */
+#include <math.h>
+
 #include "base/vec3_impl.h"
 #include "model/attitude_impl.h"
 #include "model/effects_impl.h"
@@ -19,112 +21,104 @@ void iso_turn_to_space(const double Q[4], const double v[3], double in_space[3])
         in_space[i] = (Q[0] * Q[0] - dot(q, q)) * v[i] + 2 * dot(q, v) * q[i] + 2 * Q[0] * q_v[i];
 }
 
+iso_vector iso_in_space(iso_formula *F, const iso_field *f, iso_vector v)
+{
+    const iso_scalar q0 = scalar_state(F, f->at[ISO_ATTITUDE]);
+    const iso_vector q = vector_state(F, f->at[ISO_ATTITUDE] + 1), b = cross_of(F, q, v);
+    const iso_vector turned = add_v(F, scale_v(F, q0, b), cross_of(F, q, b));
+    return add_v(F, v, times_v(F, constant(F, 2), turned));
+}
+
 const double *iso_way(const iso_field *f, const double y[])
 {
     return y + f->at[ISO_ATTITUDE] + 4;
 }
 
-static int states(const iso_field *f)
+/* q0' = -(q,w)/2,  q' = (q0 w + q x w)/2 */
+static void motion(iso_formula *F, const iso_field *f)
 {
-    return f->p.k == 1 ? 7 : 4;
+    const int at = f->at[ISO_ATTITUDE];
+    const iso_vector omega = formula_omega(F), q = vector_state(F, at + 1);
+    const iso_scalar q0 = scalar_state(F, at);
+    set_rate(F, q0, constant(F, -0.5), dot_of(F, q, omega));
+    set_rate_v(F, q, constant(F, 0.5), add_v(F, scale_v(F, q0, omega), cross_of(F, q, omega)));
+    if (!iso_is_plane(f)) return;
+    const iso_vector way = vector_state(F, at + 4);
+    set_rate_v(F, way, constant(F, 1), iso_in_space(F, f, cross_of(F, omega, formula_n(F))));
 }
 
 static void begin(const iso_field *f, double y[])
 {
     double *Q = y + f->at[ISO_ATTITUDE];
-    copy(f->effects.quaternion, Q, 4);
-    for (int i = 4; i < states(f); i++) Q[i] = 0;
-}
-
-static void rates(const iso_field *f, const double y[], double dy[])
-{
-    const double *w = y, *n = y + 3, *Q = y + f->at[ISO_ATTITUDE], *q = Q + 1;
-    double *dQ = dy + f->at[ISO_ATTITUDE], q_w[3], w_n[3];
-    cross(q, w, q_w);
-    dQ[0] = -dot(q, w) / 2;
-    for (int i = 0; i < 3; i++) dQ[1 + i] = (Q[0] * w[i] + q_w[i]) / 2;
-    if (f->p.k != 1) return;
-    cross(w, n, w_n);
-    iso_turn_to_space(Q, w_n, dQ + 4);
-}
-
-/* d(R v)/dQ, v held, and R applied to dv/dw_j = e_j x n, dv/dn_j = w x e_j */
-static void way_slope(const iso_field *f, const double y[], int dim, double jac[])
-{
-    const int at = f->at[ISO_ATTITUDE];
-    const double *w = y, *n = y + 3, *Q = y + at, *q = Q + 1;
-    double v[3], q_v[3];
-    cross(w, n, v);
-    cross(q, v, q_v);
-    double *rows = jac + dim * (at + 4);
-    for (int i = 0; i < 3; i++) rows[dim * i + at] = 2 * Q[0] * v[i] + 2 * q_v[i];
-    for (int j = 0; j < 3; j++) {
-        const double unit[3] = {j == 0, j == 1, j == 2};
-        double unit_v[3], unit_n[3], w_unit[3], by_w[3], by_n[3];
-        cross(unit, v, unit_v);
-        cross(unit, n, unit_n);
-        cross(w, unit, w_unit);
-        iso_turn_to_space(Q, unit_n, by_w);
-        iso_turn_to_space(Q, w_unit, by_n);
-        for (int i = 0; i < 3; i++) {
-            rows[dim * i + at + 1 + j] = 2 * (-q[j] * v[i] + v[j] * q[i] + dot(q, v) * unit[i] + Q[0] * unit_v[i]);
-            rows[dim * i + j] = by_w[i];
-            rows[dim * i + 3 + j] = by_n[i];
-        }
-    }
-}
-
-static void rates_slope(const iso_field *f, const double y[], const double dy[], int dim, double jac[])
-{
-    (void)dy;
-    const int at = f->at[ISO_ATTITUDE];
-    const double *w = y, *Q = y + at, *q = Q + 1;
-    for (int j = 0; j < 3; j++) {
-        const double unit[3] = {j == 0, j == 1, j == 2};
-        double q_unit[3], unit_w[3];
-        cross(q, unit, q_unit);
-        cross(unit, w, unit_w);
-        jac[dim * at + j] = -q[j] / 2;
-        jac[dim * at + at + 1 + j] = -w[j] / 2;
-        jac[dim * (at + 1 + j) + at] = w[j] / 2;
-        for (int i = 0; i < 3; i++) {
-            jac[dim * (at + 1 + i) + j] = (Q[0] * unit[i] + q_unit[i]) / 2;
-            jac[dim * (at + 1 + i) + at + 1 + j] = unit_w[i] / 2;
-        }
-    }
-    if (f->p.k == 1) way_slope(f, y, dim, jac);
+    copy(f->effects.number[ISO_ATTITUDE], Q, 4);
+    for (int i = 4; iso_is_plane(f) && i < 7; i++) Q[i] = 0;
 }
 
 static void size(const iso_field *f, const double y[], double size[])
 {
     const int at = f->at[ISO_ATTITUDE];
     for (int i = 0; i < 4; i++) size[at + i] = 1;
-    for (int i = 4; i < states(f); i++) size[at + i] = 1 + norm(iso_way(f, y));
-}
-
-static double quaternion_length(const double Q[4])
-{
-    return sqrt(Q[0] * Q[0] + dot(Q + 1, Q + 1));
-}
-
-static double restore(const iso_field *f, double y[])
-{
-    double *Q = y + f->at[ISO_ATTITUDE];
-    const double length = quaternion_length(Q);
-    for (int i = 0; i < 4; i++) Q[i] /= length;
-    return fabs(length - 1);
+    for (int i = 4; iso_is_plane(f) && i < 7; i++) size[at + i] = 1 + norm(iso_way(f, y));
 }
 
 static double unit_quaternion(const iso_field *f, const double y[], double *value_size)
 {
+    const double *Q = y + f->at[ISO_ATTITUDE];
     *value_size = 1;
-    return quaternion_length(y + f->at[ISO_ATTITUDE]);
+    return sqrt(Q[0] * Q[0] + dot(Q + 1, Q + 1));
 }
 
-static const char *const state_names[] = {"q0", "q1", "q2", "q3", "x1", "x2", "x3"};
+/* The radius of the fixed sphere in units of |b|, never negative. */
+static double radius_a(const iso_params *p)
+{
+    return iso_params_sign_of_radius(p) * p->k / (1 - p->k);
+}
+
+/* Quaternion, contact in space, contact on the ball, centre. The contact goes round the fixed sphere at a R n; on a plane
+ * it goes with the centre, b x. */
+static void show(const iso_field *f, const double y[], double columns[])
+{
+    const double *n = y + 3, *Q = y + f->at[ISO_ATTITUDE], b = iso_params_sign_of_radius(&f->p);
+    double *contact = columns + 4, *trace = columns + 7, *centre = columns + 10, space_n[3];
+    copy(Q, columns, 4);
+    iso_turn_to_space(Q, n, space_n);
+    for (int i = 0; i < 3; i++) {
+        contact[i] = iso_is_plane(f) ? iso_way(f, y)[i] : radius_a(&f->p) * space_n[i];
+        trace[i] = -b * n[i];
+        centre[i] = contact[i] + b * space_n[i];
+    }
+}
+
+static void recall(const iso_field *f, const double columns[], double y[])
+{
+    double *Q = y + f->at[ISO_ATTITUDE];
+    copy(columns, Q, 4);
+    if (iso_is_plane(f)) copy(columns + 4, Q + 4, 3);
+}
+
+static const char *const q_names[] = {"q0", "q1", "q2", "q3"}, *const x_names[] = {"x1", "x2", "x3"},
+                         *const contact_names[] = {"contact1", "contact2", "contact3"},
+                         *const trace_names[] = {"trace1", "trace2", "trace3"},
+                         *const centre_names[] = {"centre1", "centre2", "centre3"};
+
+static const double upright[] = {1, 0, 0, 0};
 
 static const iso_effect_number numbers[] = {
-    {"quaternion", offsetof(iso_effects, quaternion), 4, {0, 0, 0}},
+    {.name = "quaternion", .count = 4, .kind = ISO_NUMBER_UNIT, .initially = upright, .turns_with = "q"},
+    {0},
+};
+
+static const iso_effect_column columns[] = {
+    {.name = "q", .column = q_names, .count = 4, .checked_as = "q"},
+    {.name = "contact", .column = contact_names, .count = 3, .length = 1, .checked_as = "contact", .moves = true},
+    {.name = "trace", .column = trace_names, .count = 3, .length = 1, .checked_as = "trace"},
+    {.name = "centre", .column = centre_names, .count = 3, .length = 1, .checked_as = "centre", .moves = true},
+    {0},
+};
+
+static const iso_effect_state states[] = {
+    {.name = q_names, .count = 4, .kind = ISO_STATE_UNIT},
+    {.name = x_names, .count = 3, .kind = ISO_STATE_INTEGRAL, .there = iso_is_plane},
     {0},
 };
 
@@ -136,14 +130,17 @@ static const iso_integral integrals[] = {
 const iso_effect iso_effect_attitude = {
     .name = "attitude",
     .doc = "how the ball stands in space: quaternion, both contact curves, path of the centre",
+    .observes = true,
+    .ball_only = true,
+    .needs_radius = true,
     .numbers = numbers,
-    .state = state_names,
-    .states_doc = "how the ball stands, from body to space axes (q), and on a plane the way of the centre (x, in units of b)",
+    .columns = columns,
+    .show = show,
+    .recall = recall,
+    .motion = motion,
     .states = states,
+    .states_doc = "how the ball stands, from body to space axes (q), and on a plane the way of the centre (x, in units of b)",
     .begin = begin,
-    .rates = rates,
-    .rates_slope = rates_slope,
     .size = size,
-    .restore = restore,
     .integrals = integrals,
 };

@@ -2,155 +2,144 @@
  *
  *     MQ = k n x dU/dn = k n x (C n + l)
  *
- * Its image on the point (section 5 of the paper) is V = U/G with 1/G = (det J/k^2) q^(-1/k). With n = J^(1/2) gamma/sqrt(q),
- * B = J^(1/2) C J^(1/2), m = J^(1/2) l:
+ * Its image on the point (section 5 of the paper) is V = U/G with 1/G = (det J/k^2) q^(-1/k). With z = J^(1/2) gamma
+ * the normal is n = z/sqrt(q), so that
  *
- *     V = (det J/k^2) [ q^a (gamma,B gamma)/2 + q^b (m,gamma) ],     a = -1/k - 1,   b = -1/k - 1/2
+ *     V = (det J/k^2) [ q^a (z,Cz)/2 + q^b (l,z) ],     a = -1/k - 1,   b = -1/k - 1/2
+ *     dV/dgamma = (det J/k^2) [ J^(1/2) (q^a C z + q^b l) + (a q^a (z,Cz)/2 + b q^b (l,z))/q 2 J gamma ]
  */
+#include <math.h>
+
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 
-/* dU/dn = C n + l */
-static void gradient(const iso_effects *e, const double n[3], double dU[3])
+/* Where its numbers are: C by rows, and l. */
+enum { QUADRATIC = 0, LINEAR = 9 };
+
+static const double *quadratic(const iso_field *f)
 {
-    for (int i = 0; i < 3; i++) dU[i] = dot(e->quadratic + 3 * i, n) + e->linear[i];
+    return f->effects.number[ISO_FIELD] + QUADRATIC;
 }
 
-static void torque(const iso_field *f, const double y[], double T[3])
+static const double *linear(const iso_field *f)
 {
-    double dU[3], n_dU[3];
-    gradient(&f->effects, y + 3, dU);
-    cross(y + 3, dU, n_dU);
-    add_scaled(T, f->p.k, n_dU);
+    return f->effects.number[ISO_FIELD] + LINEAR;
 }
 
-static void torque_slope(const iso_field *f, const double y[], int dim, double slope[])
+static void motion(iso_formula *F, const iso_field *f)
 {
-    double dU[3];
-    gradient(&f->effects, y + 3, dU);
-    for (int j = 0; j < 3; j++) {
-        const double unit[3] = {j == 0, j == 1, j == 2};
-        double unit_dU[3], n_C[3];
-        cross(unit, dU, unit_dU);
-        cross(y + 3, f->effects.quadratic + 3 * j, n_C); /* C is symmetric: row j is column j */
-        add_column(slope, dim, 3 + j, f->p.k, unit_dU);
-        add_column(slope, dim, 3 + j, f->p.k, n_C);
-    }
+    const iso_vector n = formula_n(F), C_n = matrix_c(F, constants(F, 9, quadratic(f)), n);
+    add_torque(F, constant_k(F), cross_of(F, n, plus_v(F, constants(F, 3, linear(f)), C_n)));
 }
 
-static double potential(const iso_field *f, const double y[])
+static void potential(iso_formula *F, const iso_field *f)
 {
-    double Cn[3];
-    const double *n = y + 3;
-    for (int i = 0; i < 3; i++) Cn[i] = dot(f->effects.quadratic + 3 * i, n);
-    return dot(n, Cn) / 2 + dot(f->effects.linear, n);
+    const iso_vector n = formula_n(F), C_n = matrix_c(F, constants(F, 9, quadratic(f)), n);
+    add_energy(F, constant(F, 0.5), dot_of(F, n, C_n));
+    add_energy(F, constant(F, 1), dot_c(F, constants(F, 3, linear(f)), n));
+}
+
+/* det J/k^2 */
+static iso_constant over_G(iso_formula *F)
+{
+    const iso_constant J = constant_J(F), k = constant_k(F), J2 = {J.at + 1}, J3 = {J.at + 2};
+    return div_c(F, mul_c(F, mul_c(F, J, J2), J3), mul_c(F, k, k));
+}
+
+static void image(iso_formula *F, const iso_field *f)
+{
+    const iso_constant C = constants(F, 9, quadratic(f)), l = constants(F, 3, linear(f)), root_J = constant_root_J(F);
+    const iso_constant scale = over_G(F), exponent = div_c(F, constant(F, -1), constant_k(F));
+    const iso_constant a = sub_c(F, exponent, constant(F, 1)), b = sub_c(F, exponent, constant(F, 0.5));
+    const iso_scalar q = formula_q(F), q_a = power_of(F, q, a), q_b = power_of(F, q, b);
+    const iso_vector z = by_c(F, root_J, formula_gamma(F)), C_z = matrix_c(F, C, z);
+    const iso_scalar P = times_c(F, constant(F, 0.5), dot_of(F, z, C_z)), L = dot_c(F, l, z);
+    const iso_scalar V_P = mul(F, q_a, P), V_L = mul(F, q_b, L);
+    const iso_scalar along = quotient_of(F, add(F, times_c(F, a, V_P), times_c(F, b, V_L)), q);
+    const iso_vector J_gamma = by_c(F, constant_J(F), formula_gamma(F));
+    add_potential(F, scale, V_P);
+    add_potential(F, scale, V_L);
+    add_gradient(F, scale, by_c(F, root_J, scale_v(F, q_a, C_z)));
+    add_gradient(F, scale, by_c(F, root_J, scale_c(F, q_b, l)));
+    add_gradient(F, mul_c(F, constant(F, 2), scale), scale_v(F, along, J_gamma));
 }
 
 static double strength(const iso_field *f, const double y[])
 {
-    double most = largest(f->effects.linear);
+    double most = largest(linear(f));
     (void)y;
-    for (int i = 0; i < 9; i++) most = fmax(most, fabs(f->effects.quadratic[i]));
+    for (int i = 0; i < 9; i++) most = fmax(most, fabs(quadratic(f)[i]));
     return most;
 }
 
-/* --- on the point ------------------------------------------------------------------------------------------------- */
-
-/* V and its parts at gamma: P = (gamma,B gamma)/2, L = (m,gamma), times their powers of q */
-typedef struct image_parts {
-    double Bgamma[3], m[3], dq[3], P, L, q, a, b, factor_a, factor_b;
-} image_parts;
-
-static image_parts parts_at(const iso_field *f, const double y[])
+/* Symmetric about an axis: C = diag with two equal entries, l along the axis. */
+static bool is_symmetric(const iso_field *f, int axis)
 {
-    const iso_params *p = &f->p;
-    const double *gamma = y + 3;
-    image_parts v = {.q = dot_diag(gamma, p->J, gamma), .a = -1 / p->k - 1, .b = -1 / p->k - 0.5};
-    double x[3];
-    for (int i = 0; i < 3; i++) {
-        x[i] = p->root_J[i] * gamma[i];
-        v.m[i] = p->root_J[i] * f->effects.linear[i];
-        v.dq[i] = 2 * p->J[i] * gamma[i];
-    }
-    for (int i = 0; i < 3; i++) v.Bgamma[i] = p->root_J[i] * dot(f->effects.quadratic + 3 * i, x);
-    v.P = dot(gamma, v.Bgamma) / 2;
-    v.L = dot(v.m, gamma);
-    const double scale = p->det_J / (p->k * p->k) * pow(v.q, -1 / p->k);
-    v.factor_a = scale / v.q;
-    v.factor_b = scale / sqrt(v.q);
-    return v;
+    const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    const double *C = quadratic(f), *l = linear(f);
+    return C[4 * j] == C[4 * k] && C[3 * j + k] == 0 && C[3 * axis + j] == 0 && C[3 * axis + k] == 0 && l[j] == 0 &&
+           l[k] == 0;
 }
 
-/* dV/dgamma = f_a (B gamma + a P dq/q) + f_b (m + b L dq/q) */
-static void image_gradient(const image_parts *v, double dV[3])
+static bool keeps(const iso_field *f, iso_further integral)
 {
+    return integral >= ISO_F_AXIS1 && is_symmetric(f, (int)integral - ISO_F_AXIS1);
+}
+
+/* Makes the matrix exactly symmetric, and refuses a potential that is constant on the sphere. */
+static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *e)
+{
+    double *C = e->number[ISO_FIELD] + QUADRATIC, most = 0, varies = largest(e->number[ISO_FIELD] + LINEAR);
+    (void)p;
+    (void)n;
+    for (int i = 0; i < 9; i++) most = fmax(most, fabs(C[i]));
     for (int i = 0; i < 3; i++)
-        dV[i] = v->factor_a * (v->Bgamma[i] + v->a * v->P / v->q * v->dq[i]) +
-                v->factor_b * (v->m[i] + v->b * v->L / v->q * v->dq[i]);
+        for (int j = 0; j < i; j++) {
+            if (!(fabs(C[3 * i + j] - C[3 * j + i]) <= 1e-12 * most))
+                return iso_context_fail(ctx, ISO_BAD_INPUT, "quadratic",
+                                        "the matrix of a quadratic form is symmetric: C%d%d = %.17g is not C%d%d = "
+                                        "%.17g",
+                                        i + 1, j + 1, C[3 * i + j], j + 1, i + 1, C[3 * j + i]);
+            C[3 * j + i] = C[3 * i + j];
+            varies = fmax(varies, fmax(fabs(C[3 * i + j]), fabs(C[4 * i] - C[4 * j])));
+        }
+    if (varies > 0 && varies < 1e-10 * most)
+        return iso_context_fail(
+            ctx, ISO_BAD_INPUT, "quadratic",
+            "all but %.1g of this matrix is a constant on the unit sphere, which does nothing but "
+            "cost digits: subtract it from the diagonal",
+            varies / most);
+    if (varies > 0) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "field",
+                            "this potential is a constant on the unit sphere and changes nothing: take it out");
 }
 
-static void image(const iso_field *f, const double y[], double T[3])
+static iso_status complete(iso_context *ctx, const iso_params *p, int model, double number[],
+                           bool (*given)(const void *scene, const char *key), const void *scene)
 {
-    const image_parts v = parts_at(f, y);
-    double dV[3], gamma_dV[3];
-    image_gradient(&v, dV);
-    cross(y + 3, dV, gamma_dV);
-    add_scaled(T, 1, gamma_dV);
-}
-
-/* The second derivatives of q^a P and q^b L, row j, with q_ij = 2 J_i delta_ij:
- *     q^a [B_ij + (a/q)(Bg_i q_j + q_i Bg_j + P q_ij) + (a (a-1)/q^2) P q_i q_j], likewise with B = 0 for L. */
-static void image_hessian(const iso_field *f, const image_parts *v, int j, double row[3])
-{
-    const iso_params *p = &f->p;
-    const double ca = v->a / v->q, cb = v->b / v->q;
-    for (int i = 0; i < 3; i++) {
-        const double B = p->root_J[i] * f->effects.quadratic[3 * i + j] * p->root_J[j];
-        const double qq = v->dq[i] * v->dq[j], q_ij = i == j ? 2 * p->J[i] : 0;
-        row[i] = v->factor_a * (B + ca * (v->Bgamma[i] * v->dq[j] + v->dq[i] * v->Bgamma[j] + v->P * q_ij) +
-                                ca * (v->a - 1) / v->q * v->P * qq) +
-                 v->factor_b * (cb * (v->m[i] * v->dq[j] + v->dq[i] * v->m[j] + v->L * q_ij) +
-                                cb * (v->b - 1) / v->q * v->L * qq);
-    }
-}
-
-static void image_slope(const iso_field *f, const double y[], int dim, double slope[])
-{
-    const image_parts v = parts_at(f, y);
-    double dV[3];
-    image_gradient(&v, dV);
-    for (int j = 0; j < 3; j++) {
-        const double unit[3] = {j == 0, j == 1, j == 2};
-        double row[3], unit_dV[3], gamma_row[3];
-        image_hessian(f, &v, j, row);
-        cross(unit, dV, unit_dV);
-        cross(y + 3, row, gamma_row);
-        add_column(slope, dim, 3 + j, 1, unit_dV);
-        add_column(slope, dim, 3 + j, 1, gamma_row);
-    }
-}
-
-static double image_potential(const iso_field *f, const double y[])
-{
-    const image_parts v = parts_at(f, y);
-    return v.factor_a * v.P + v.factor_b * v.L;
+    (void)p;
+    (void)model;
+    (void)number;
+    if (given(scene, "quadratic") || given(scene, "linear")) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "field", "missing 'quadratic' or 'linear' in 'field'");
 }
 
 static const iso_effect_number numbers[] = {
-    {"quadratic", offsetof(iso_effects, quadratic), 9, {1, 0, 2}},
-    {"linear", offsetof(iso_effects, linear), 3, {1, 0, 2}},
+    {.name = "quadratic", .at = QUADRATIC, .count = 9, .dimension = {1, 0, 2}},
+    {.name = "linear", .at = LINEAR, .count = 3, .dimension = {1, 0, 2}},
     {0},
 };
 
 const iso_effect iso_effect_field = {
     .name = "field",
     .doc = "body-fixed potential U = (n,Cn)/2 + (l,n): torque k n x dU/dn",
+    .work = iso_no_work,
+    .keeps = keeps,
     .numbers = numbers,
-    .torque = torque,
-    .torque_slope = torque_slope,
+    .complete = complete,
+    .check = check,
+    .motion = motion,
     .potential = potential,
-    .strength = strength,
     .image = image,
-    .image_slope = image_slope,
-    .image_potential = image_potential,
+    .strength = strength,
 };

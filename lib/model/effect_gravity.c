@@ -6,45 +6,59 @@
  * the potential energy is m g (a+b)(n,e) = mgb/(1-k) (n,e). On a plane (k = 1) it is the height of the centre, m g (E,x),
  * with the vertical E in space and the way x, which only `attitude` knows.
  */
+#include <float.h>
+#include <math.h>
+
 #include "base/vec3_impl.h"
 #include "model/attitude_impl.h"
 #include "model/effects_impl.h"
+
+/* Where its numbers are. A scene states g of a body, or mgb of a reduced ball. */
+enum { MGB, UP, G = UP + 3 };
+
+static double mgb(const iso_field *f)
+{
+    return f->effects.number[ISO_GRAVITY][MGB];
+}
 
 static const double *vertical(const iso_field *f, const double y[])
 {
     return y + f->at[ISO_GRAVITY];
 }
 
-static int states(const iso_field *f)
+static void motion(iso_formula *F, const iso_field *f)
 {
-    (void)f;
-    return 3;
+    const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]);
+    add_torque(F, constant(F, mgb(f)), cross_of(F, e, formula_n(F)));
+    set_rate_v(F, e, constant(F, 1), cross_of(F, e, formula_omega(F)));
+}
+
+static void potential(iso_formula *F, const iso_field *f)
+{
+    const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]);
+    if (!iso_is_plane(f)) {
+        const iso_constant less = sub_c(F, constant(F, 1), constant_k(F));
+        add_energy(F, div_c(F, constant(F, mgb(f)), less), dot_of(F, formula_n(F), e));
+    } else if (f->at[ISO_ATTITUDE] > 0) {
+        const iso_vector way = vector_state(F, f->at[ISO_ATTITUDE] + 4);
+        add_energy(F, constant(F, mgb(f)), dot_of(F, iso_in_space(F, f, e), way));
+    }
+}
+
+/* On a plane the height is a state of `attitude`. */
+static iso_work work(const iso_field *f)
+{
+    return iso_is_plane(f) && !f->effects.on[ISO_ATTITUDE] ? ISO_WORK_UNKNOWN : ISO_WORK_NONE;
+}
+
+static const char *no_frequencies(const iso_field *f)
+{
+    return iso_is_plane(f) ? "on a tilted plane the ball rolls away ever faster: its motion has no frequencies" : NULL;
 }
 
 static void begin(const iso_field *f, double y[])
 {
-    copy(f->effects.up, y + f->at[ISO_GRAVITY], 3);
-}
-
-static void rates(const iso_field *f, const double y[], double dy[])
-{
-    cross(vertical(f, y), y, dy + f->at[ISO_GRAVITY]);
-}
-
-static void rates_slope(const iso_field *f, const double y[], const double dy[], int dim, double jac[])
-{
-    (void)dy;
-    const int at = f->at[ISO_GRAVITY];
-    for (int j = 0; j < 3; j++) {
-        const double unit[3] = {j == 0, j == 1, j == 2};
-        double e_unit[3], unit_w[3];
-        cross(vertical(f, y), unit, e_unit);
-        cross(unit, y, unit_w);
-        for (int i = 0; i < 3; i++) {
-            jac[dim * (at + i) + j] = e_unit[i];
-            jac[dim * (at + i) + at + j] = unit_w[i];
-        }
-    }
+    copy(f->effects.number[ISO_GRAVITY] + UP, y + f->at[ISO_GRAVITY], 3);
 }
 
 static void size(const iso_field *f, const double y[], double size[])
@@ -53,50 +67,17 @@ static void size(const iso_field *f, const double y[], double size[])
     for (int i = 0; i < 3; i++) size[f->at[ISO_GRAVITY] + i] = 1;
 }
 
-static double restore(const iso_field *f, double y[])
-{
-    return fabs(make_unit(y + f->at[ISO_GRAVITY]) - 1);
-}
-
-static void torque(const iso_field *f, const double y[], double T[3])
-{
-    double e_n[3];
-    cross(vertical(f, y), y + 3, e_n);
-    add_scaled(T, f->effects.mgb, e_n);
-}
-
-static void torque_slope(const iso_field *f, const double y[], int dim, double slope[])
-{
-    for (int j = 0; j < 3; j++) {
-        const double unit[3] = {j == 0, j == 1, j == 2};
-        double e_unit[3], unit_n[3];
-        cross(vertical(f, y), unit, e_unit);
-        cross(unit, y + 3, unit_n);
-        add_column(slope, dim, 3 + j, f->effects.mgb, e_unit);
-        add_column(slope, dim, f->at[ISO_GRAVITY] + j, f->effects.mgb, unit_n);
-    }
-}
-
-static double potential(const iso_field *f, const double y[])
-{
-    if (f->p.k != 1) return f->effects.mgb / (1 - f->p.k) * dot(y + 3, vertical(f, y));
-    if (f->at[ISO_ATTITUDE] == 0) return 0;
-    double up[3];
-    iso_turn_to_space(y + f->at[ISO_ATTITUDE], vertical(f, y), up);
-    return f->effects.mgb * dot(up, iso_way(f, y));
-}
-
 static double strength(const iso_field *f, const double y[])
 {
     (void)y;
-    return fabs(f->effects.mgb);
+    return fabs(mgb(f));
 }
 
 /* next to k = 1 the potential is a large constant, and its changes are lost in it */
 static double range(const iso_field *f, const double y[])
 {
     (void)y;
-    return f->p.k == 1 ? fabs(f->effects.mgb) : fabs(f->effects.mgb / (1 - f->p.k));
+    return iso_is_plane(f) ? fabs(mgb(f)) : fabs(mgb(f) / (1 - f->p.k));
 }
 
 static double vertical_length(const iso_field *f, const double y[], double *value_size)
@@ -111,22 +92,77 @@ static double slope_of_plane(const iso_field *f, const double y[], double *value
     return dot(vertical(f, y), y + 3);
 }
 
-static bool on_plane(const iso_field *f)
+static void show(const iso_field *f, const double y[], double columns[])
 {
-    return f->p.k == 1;
+    copy(vertical(f, y), columns, 3);
 }
 
-static const char *const state_names[] = {"e1", "e2", "e3"};
+static void recall(const iso_field *f, const double columns[], double y[])
+{
+    copy(columns, y + f->at[ISO_GRAVITY], 3);
+}
+
+/* --- its numbers ---------------------------------------------------------------------------------------------------- */
+
+bool iso_effects_on_level_plane(const iso_params *p, const double normal[3], const iso_effects *e)
+{
+    double e_n[3];
+    cross(e->number[ISO_GRAVITY] + UP, normal, e_n);
+    return e->on[ISO_GRAVITY] && p->k == 1 && norm(e_n) <= 4 * DBL_EPSILON;
+}
+
+static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *e)
+{
+    if (e->number[ISO_GRAVITY][MGB] == 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "gravity", "gravity of 0 changes nothing: take it out");
+    if (e->on[ISO_REACTIONS] || !iso_effects_on_level_plane(p, n, e)) return ISO_OK;
+    return iso_context_fail(
+        ctx, ISO_BAD_INPUT, "gravity",
+        "on a level plane (up along the normal) gravity has no torque and changes nothing: take it "
+        "out, tilt the plane, or ask for 'reactions'");
+}
+
+/* g of a body gives mgb, the weight times the signed radius. */
+static iso_status complete(iso_context *ctx, const iso_params *p, int model, double number[],
+                           bool (*given)(const void *scene, const char *key), const void *scene)
+{
+    const bool body = p->body.surface != ISO_REDUCED;
+    const char *wanted = body ? "g" : "mgb", *other = body ? "mgb" : "g";
+    (void)model;
+    if (given(scene, other))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, other, "'%s' does not belong here: %s, give '%s'", other,
+                                body ? "the ball's mass and radius are known" : "k and J know no mass", wanted);
+    if (!given(scene, wanted))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "gravity", "missing '%s' in 'gravity'", wanted);
+    if (body) number[MGB] = p->body.mass * number[G] * (iso_params_sign_of_radius(p) * p->body.radius);
+    number[G] = 0;
+    if (isfinite(number[MGB])) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, wanted,
+                            "the weight m g times the radius b does not fit a double");
+}
+
+static const char *const e_names[] = {"e1", "e2", "e3"};
 
 static const iso_effect_number numbers[] = {
-    {"mgb", offsetof(iso_effects, mgb), 1, {1, 0, 2}},
-    {"up", offsetof(iso_effects, up), 3, {0, 0, 0}},
+    {.name = "g", .at = G, .count = 1, .scene_only = true},
+    {.name = "mgb", .at = MGB, .count = 1, .dimension = {1, 0, 2}},
+    {.name = "up", .at = UP, .count = 3, .kind = ISO_NUMBER_UNIT, .required = true, .turns_with = "e"},
+    {0},
+};
+
+static const iso_effect_column columns[] = {
+    {.name = "e", .column = e_names, .count = 3, .checked_as = "e"},
+    {0},
+};
+
+static const iso_effect_state states[] = {
+    {.name = e_names, .count = 3, .kind = ISO_STATE_UNIT},
     {0},
 };
 
 static const iso_integral integrals[] = {
     {.name = "|e|", .known = ISO_ONE, .doc = "unit vertical: 1", .value = vertical_length},
-    {.name = "e.n", .doc = "(e,n), the slope of a plane", .holds = on_plane, .value = slope_of_plane},
+    {.name = "e.n", .doc = "(e,n), the slope of a plane", .holds = iso_is_plane, .value = slope_of_plane},
     {0},
 };
 
@@ -134,18 +170,20 @@ const iso_effect iso_effect_gravity = {
     .name = "gravity",
     .doc = "weight: torque mgb e x n, potential m g (a+b)(n,e)",
     .breaks = "its torque depends on the vertical, which turns in the body: it is no potential of n",
+    .work = work,
+    .no_frequencies = no_frequencies,
     .numbers = numbers,
-    .state = state_names,
-    .states_doc = "vertical in body axes, e' = e x omega, for the torque of the weight",
-    .states = states,
-    .begin = begin,
-    .rates = rates,
-    .rates_slope = rates_slope,
-    .size = size,
-    .restore = restore,
-    .torque = torque,
-    .torque_slope = torque_slope,
+    .columns = columns,
+    .complete = complete,
+    .check = check,
+    .show = show,
+    .recall = recall,
+    .motion = motion,
     .potential = potential,
+    .states = states,
+    .states_doc = "vertical in body axes, e' = e x omega, for the torque of the weight",
+    .begin = begin,
+    .size = size,
     .strength = strength,
     .range = range,
     .integrals = integrals,

@@ -5,57 +5,82 @@
  * On the point U/G = -c det J/k^2 is a constant. No force comes of it: the point's equations are those of the free ball's
  * twin, on the level H = c det J/k^2 in place of 0. That level is the field's `energy`; nothing else is simulated.
  */
+#include <math.h>
+
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 
-static void torque(const iso_field *f, const double y[], double T[3])
+static double c_of(const iso_field *f)
 {
-    const double *n = y + 3, g = dot_diag(n, f->p.inv_J, n);
-    double u[3], n_u[3];
-    diag(f->p.inv_J, n, u);
-    cross(n, u, n_u);
-    add_scaled(T, 2 * f->effects.level * pow(g, -1 / f->p.k - 1), n_u);
+    return f->effects.number[ISO_LEVEL][0];
 }
 
-static void torque_slope(const iso_field *f, const double y[], int dim, double slope[])
+/* -1/k */
+static iso_constant exponent(iso_formula *F)
 {
-    const double *n = y + 3, g = dot_diag(n, f->p.inv_J, n), power = -1 / f->p.k - 1;
-    const double factor = 2 * f->effects.level * pow(g, power);
-    double u[3], n_u[3];
-    diag(f->p.inv_J, n, u);
-    cross(n, u, n_u);
-    for (int j = 0; j < 3; j++) {
-        const double unit[3] = {j == 0, j == 1, j == 2};
-        double unit_u[3], n_unit[3];
-        cross(unit, u, unit_u);
-        cross(n, unit, n_unit);
-        add_column(slope, dim, 3 + j, factor * power * 2 * u[j] / g, n_u);
-        add_column(slope, dim, 3 + j, factor, unit_u);
-        add_column(slope, dim, 3 + j, factor * f->p.inv_J[j], n_unit);
-    }
+    return div_c(F, constant(F, -1), constant_k(F));
 }
 
-static double potential(const iso_field *f, const double y[])
+static void motion(iso_formula *F, const iso_field *f)
 {
-    return -f->effects.level * pow(dot_diag(y + 3, f->p.inv_J, y + 3), -1 / f->p.k);
+    const iso_scalar power = power_of(F, formula_g(F), sub_c(F, exponent(F), constant(F, 1)));
+    const iso_vector n_u = cross_of(F, formula_n(F), formula_u(F));
+    add_torque(F, constant(F, 2 * c_of(f)), scale_v(F, power, n_u));
+}
+
+static void potential(iso_formula *F, const iso_field *f)
+{
+    add_energy(F, constant(F, -c_of(f)), power_of(F, formula_g(F), exponent(F)));
 }
 
 static double strength(const iso_field *f, const double y[])
 {
-    return fabs(potential(f, y));
+    return fabs(c_of(f)) * pow(dot_diag(y + 3, f->p.inv_J, y + 3), -1 / f->p.k);
 }
 
+static bool keeps(const iso_field *f, iso_further integral)
+{
+    (void)f;
+    (void)integral;
+    return true;
+}
+
+static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *effects)
+{
+    (void)n;
+    (void)effects;
+    if (p->J[0] != p->J[1] || p->J[1] != p->J[2]) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "level",
+                            "with equal moments this potential is a constant and changes nothing: take it out");
+}
+
+/* The energy of a point tells c, that of a ball does not. */
+static iso_status complete(iso_context *ctx, const iso_params *p, int model, double number[],
+                           bool (*given)(const void *scene, const char *key), const void *scene)
+{
+    (void)p;
+    (void)number;
+    if (model != 0 || given(scene, "c")) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "level", "missing 'c' in 'level': a ball's energy does not tell it");
+}
+
+static const double unknown[] = {NAN};
+
 static const iso_effect_number numbers[] = {
-    {"c", offsetof(iso_effects, level), 1, {1, -2, 2}},
+    {.name = "c", .count = 1, .dimension = {1, -2, 2}, .kind = ISO_NUMBER_NOT_ZERO, .initially = unknown},
     {0},
 };
 
 const iso_effect iso_effect_level = {
     .name = "level",
     .doc = "potential U = -c (n,J^-1 n)^(-1/k): the ball of a point at the energy H = c det J/k^2",
+    .is_level = true,
+    .work = iso_no_work,
+    .keeps = keeps,
     .numbers = numbers,
-    .torque = torque,
-    .torque_slope = torque_slope,
+    .complete = complete,
+    .check = check,
+    .motion = motion,
     .potential = potential,
     .strength = strength,
 };

@@ -4,17 +4,8 @@
 #include "base/vec3_impl.h"
 #include "model/contact_impl.h"
 #include "model/effects_impl.h"
+#include "model/model.h"
 #include "model/reactions.h"
-
-/* All torques but the reaction's own. */
-static void torques(const iso_field *f, const double y[], double T[3])
-{
-    for (int i = 0; i < 3; i++) T[i] = 0;
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
-        const iso_effect *effect = iso_effect_row(f, e);
-        if (f->effects.on[e] && effect->torque) effect->torque(f, y, T);
-    }
-}
 
 /* Of the pressure, relative to its terms: what is less is none. Else a ball that grazes weightlessness, or rolls down a
  * wall, would leave its support where rounding says so. */
@@ -28,18 +19,18 @@ iso_reactions iso_reactions_at(const iso_field *f, const double y[])
     const double side = k > 1 ? -1 : 1; /* inside a sphere the support is on the other side of the centre */
     const double b = iso_params_sign_of_radius(&f->p);
     const iso_contact *contact = iso_contact_of(f);
-    double T[3], dy[ISO_STATE], across[3];
-    torques(f, y, T);
+    double T[3], dy[ISO_MAX_STATE], across[3];
+    iso_effects_torque(f, y, T, dy);
     contact->solve(f, y, T, dy);
     cross(dy, n, across);
     add_scaled(across, (1 - k) * spin, w);
     scale(across, D);
     double normal = -D * (1 - k) * dot(w, w), size = fabs(normal);
     if (f->effects.on[ISO_GRAVITY]) {
-        const double *e = y + f->at[ISO_GRAVITY];
-        add_scaled(across, f->effects.mgb, e);
-        normal += f->effects.mgb * dot(e, n);
-        size += fabs(f->effects.mgb);
+        const double *e = y + f->at[ISO_GRAVITY], mgb = f->effects.number[ISO_GRAVITY][0];
+        add_scaled(across, mgb, e);
+        normal += mgb * dot(e, n);
+        size += fabs(mgb);
     }
     normal += D * (1 - k) * spin * spin;
     if (fabs(normal) <= ROUNDING * size) normal = 0;
@@ -50,12 +41,54 @@ iso_reactions iso_reactions_at(const iso_field *f, const double y[])
     return r;
 }
 
+static void show(const iso_field *f, const double y[], double columns[])
+{
+    const iso_reactions r = iso_reactions_at(f, y);
+    copy(r.force, columns, 3);
+    columns[3] = r.pressure;
+    columns[4] = r.friction;
+    columns[5] = fmin(r.needed, DBL_MAX); /* where contact is lost the pressure may be 0 */
+    columns[6] = r.twist;
+}
+
+/* mu only where something presses the ball to the support. */
+static const char *empty(const iso_params *p, const iso_effects *effects, const char *column)
+{
+    const bool weightless = p->k == 1 && !effects->on[ISO_GRAVITY];
+    return weightless && strcmp(column, "mu") == 0 ? "without gravity nothing presses the ball to the plane" : NULL;
+}
+
+static const char *const N_names[] = {"N1", "N2", "N3"}, *const pressure_name[] = {"pressure"},
+                         *const friction_name[] = {"friction"}, *const mu_name[] = {"mu"},
+                         *const lambda_name[] = {"lambda"};
+
+/* Forces are energies over the radius. lambda is a torque. */
+static const iso_effect_column columns[] = {
+    {.name = "N", .column = N_names, .count = 3, .dimension = {1, 0, 2}, .length = -1, .checked_as = "N"},
+    {.name = "pressure", .column = pressure_name, .count = 1, .dimension = {1, 0, 2}, .length = -1,
+     .checked_as = "force", .sized_by = "N"},
+    {.name = "friction", .column = friction_name, .count = 1, .dimension = {1, 0, 2}, .length = -1,
+     .checked_as = "force", .sized_by = "N"},
+    {.name = "mu", .column = mu_name, .count = 1},
+    {.name = "lambda", .column = lambda_name, .count = 1, .dimension = {1, 0, 2}, .checked_as = "lambda",
+     .sized_by = "N"},
+    {0},
+};
+
+static const iso_effect_number numbers[] = {
+    {.name = "two_sided", .count = 1, .kind = ISO_NUMBER_FLAG, .scene_only = true},
+    {0},
+};
+
 const iso_effect iso_effect_reactions = {
     .name = "reactions",
     .doc = "contact force, twist torque, friction coefficient needed; a run ends where contact is lost",
-};
-
-const iso_effect iso_effect_clock = {
-    .name = "clock",
-    .doc = "the other clocks as states and columns; a column asks for one of them",
+    .observes = true,
+    .ball_only = true,
+    .needs_D = true,
+    .needs_radius = true,
+    .numbers = numbers,
+    .columns = columns,
+    .empty = empty,
+    .show = show,
 };

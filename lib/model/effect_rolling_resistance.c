@@ -1,26 +1,33 @@
 /* effect_rolling_resistance.c - torque -c_r w against the rolling: dh/dt = -c_r (w,w). */
+#include <math.h>
+
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 
-static void torque(const iso_field *f, const double y[], double T[3])
+static double coefficient(const iso_field *f)
 {
-    add_scaled(T, -f->effects.resistance, y);
+    return f->effects.number[ISO_ROLLING_RESISTANCE][0];
 }
 
-static void torque_slope(const iso_field *f, const double y[], int dim, double slope[])
+static void motion(iso_formula *F, const iso_field *f)
 {
-    (void)y;
-    for (int j = 0; j < 3; j++) slope[dim * j + j] -= f->effects.resistance;
+    add_torque(F, constant(F, -coefficient(f)), formula_omega(F));
 }
 
 /* (J w)' = -c_r w + ... */
 static double stiffness(const iso_field *f)
 {
-    return f->effects.resistance / min3(f->p.J);
+    return coefficient(f) / min3(f->p.J);
+}
+
+/* The slowest direction has the largest moment. */
+static double time_to_rest(const iso_field *f)
+{
+    return -log(ISO_REST) * max3(f->p.J) / coefficient(f) * fmax(1, fabs(f->p.k));
 }
 
 static const iso_effect_number numbers[] = {
-    {"coefficient", offsetof(iso_effects, resistance), 1, {1, 0, 1}},
+    {.name = "coefficient", .count = 1, .dimension = {1, 0, 1}, .kind = ISO_NUMBER_POSITIVE, .required = true},
     {0},
 };
 
@@ -28,8 +35,9 @@ const iso_effect iso_effect_rolling_resistance = {
     .name = "rolling_resistance",
     .doc = "torque -c_r omega against the rolling",
     .breaks = "energy is lost, and an orbit of the point keeps its own",
+    .work = iso_work_lost,
     .numbers = numbers,
-    .torque = torque,
-    .torque_slope = torque_slope,
+    .motion = motion,
     .stiffness = stiffness,
+    .time_to_rest = time_to_rest,
 };

@@ -12,94 +12,79 @@
  *     lambda' = -c (w',n),     (w,n) = -lambda/c restored after each step           since (w,n') = 0
  *
  * Then the fast direction is that of one component, for which alone implicit methods have to be implicit (measured: bdf
- * needs as many steps at c = 1e8 as at 1e2).
+ * needs as many steps at c = 1e8 as at 1e2). Series take lambda = -c (w,n) as it stands.
  */
+#include <math.h>
+
 #include "base/vec3_impl.h"
 #include "model/contact_impl.h"
 #include "model/effects_impl.h"
 
-static void torque(const iso_field *f, const double y[], double T[3])
+static double c_of(const iso_field *f)
 {
-    add_scaled(T, -f->effects.twist * dot(y, y + 3), y + 3);
-}
-
-static void torque_slope(const iso_field *f, const double y[], int dim, double slope[])
-{
-    const double *w = y, *n = y + 3, c = f->effects.twist, spin = dot(w, n);
-    for (int j = 0; j < 3; j++) {
-        add_column(slope, dim, j, -c * n[j], n);
-        add_column(slope, dim, 3 + j, -c * w[j], n);
-        slope[dim * j + 3 + j] -= c * spin;
-    }
+    return f->effects.number[ISO_TWIST][0];
 }
 
 /* (w,n)' = -c (n, A^-1 n) (w,n) + ..., A = J - D n n^T: spin dies away at the rate c g/(1 - D g), g = (n, J^-1 n) */
 static double stiffness(const iso_field *f)
 {
     const double g = 1 / min3(f->p.J);
-    return f->effects.twist * g / (1 - f->p.D * g) / fmax(1, fabs(f->p.k));
+    return c_of(f) * g / (1 - f->p.D * g) / fmax(1, fabs(f->p.k));
 }
 
-const iso_effect *iso_effect_row(const iso_field *f, iso_effect_id id)
+static bool is_stiff(const iso_field *f)
 {
-    if (id != ISO_TWIST) return iso_effect_list[id];
-    if (f->effects.twist == 0) return &iso_effect_free_twist;
-    return stiffness(f) > ISO_STIFF ? &iso_effect_stiff_twist : &iso_effect_twist;
+    return stiffness(f) > ISO_STIFF;
 }
 
-/* --- stiff: lambda is a state -------------------------------------------------------------------------------------- */
-
-static int states(const iso_field *f)
+static void motion(iso_formula *F, const iso_field *f)
 {
-    (void)f;
-    return 1;
+    const iso_vector n = formula_n(F);
+    if (c_of(f) == 0) return; /* the classical ball twists freely */
+    const iso_constant resistance = constant(F, -c_of(f));
+    if (F->series || !is_stiff(f)) {
+        add_torque(F, resistance, scale_v(F, formula_spin(F), n));
+        return;
+    }
+    const iso_scalar lambda = scalar_state(F, f->at[ISO_TWIST]);
+    add_torque(F, constant(F, 1), scale_v(F, lambda, n));
+    set_rate(F, lambda, resistance, dot_of(F, formula_omega_dot(F), n));
 }
 
+/* lambda, which omega and n give at any time */
 static void begin(const iso_field *f, double y[])
 {
-    y[f->at[ISO_TWIST]] = -f->effects.twist * dot(y, y + 3);
+    if (f->at[ISO_TWIST] > 0) y[f->at[ISO_TWIST]] = -c_of(f) * dot(y, y + 3);
 }
 
-static void rates(const iso_field *f, const double y[], double dy[])
-{
-    dy[f->at[ISO_TWIST]] = -f->effects.twist * dot(dy, y + 3);
-}
-
-/* The rows of w' are there already. */
-static void rates_slope(const iso_field *f, const double y[], const double dy[], int dim, double jac[])
-{
-    double *row = jac + dim * f->at[ISO_TWIST];
-    for (int j = 0; j < dim; j++)
-        row[j] = -f->effects.twist * (y[3] * jac[j] + y[4] * jac[dim + j] + y[5] * jac[2 * dim + j]);
-    for (int j = 0; j < 3; j++) row[3 + j] -= f->effects.twist * dy[j];
-}
-
-/* That of the torques of the motion, (Jw,w), or of rolling resistance, which are more when little motion is left. */
+/* That of the torques of the motion, (Jw,w), or of other resistance, which are more when little motion is left. */
 static void size(const iso_field *f, const double y[], double size[])
 {
-    const double resists = f->effects.on[ISO_ROLLING_RESISTANCE] ? f->effects.resistance : 0;
+    iso_field others = *f;
+    others.effects.on[ISO_TWIST] = false;
+    const double resists = iso_effects_stiffness(&others) * min3(f->p.J);
     const double moves = dot_diag(y, f->p.J, y) + resists * largest(y);
     size[f->at[ISO_TWIST]] = fmax(fabs(y[f->at[ISO_TWIST]]) + moves, ISO_REST);
 }
 
 static double restore(const iso_field *f, double y[])
 {
+    if (f->at[ISO_TWIST] == 0) return 0;
     const double length = norm(y + 3), speed = norm(y); /* n is made a unit vector after this */
-    const double error = dot(y, y + 3) / length + y[f->at[ISO_TWIST]] / f->effects.twist;
+    const double error = dot(y, y + 3) / length + y[f->at[ISO_TWIST]] / c_of(f);
     add_scaled(y, -error / length, y + 3);
     return speed > 0 ? fabs(error) / speed : 0;
 }
 
-static void stiff_torque(const iso_field *f, const double y[], double T[3])
+static iso_work work(const iso_field *f)
 {
-    add_scaled(T, y[f->at[ISO_TWIST]], y + 3);
+    return c_of(f) > 0 ? ISO_WORK_LOST : ISO_WORK_NONE;
 }
 
-static void stiff_torque_slope(const iso_field *f, const double y[], int dim, double slope[])
+/* On a plane the torque along n leaves Jw x n alone; a level's part of F_plane changes with it. */
+static bool keeps(const iso_field *f, iso_further integral)
 {
-    const int at = f->at[ISO_TWIST];
-    add_column(slope, dim, at, 1, y + 3);
-    for (int j = 0; j < 3; j++) slope[dim * j + 3 + j] += y[at];
+    return integral == ISO_F_PLANE && !iso_effects_have_level(&f->effects);
 }
 
 /* --- integrals of the classical ball, whose momentum about the contact stands still in space ------------------------- */
@@ -138,8 +123,11 @@ static double momentum_up(const iso_field *f, const double y[], double *value_si
 /* No torque acts, or only the weight's. */
 static bool is_classical(const iso_field *f)
 {
-    const bool *on = f->effects.on;
-    return f->effects.twist == 0 && !on[ISO_FIELD] && !on[ISO_LEVEL] && !on[ISO_ROLLING_RESISTANCE];
+    iso_effects others = iso_effects_acting(&f->effects);
+    others.on[ISO_TWIST] = others.on[ISO_GRAVITY] = false;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (others.on[e]) return false;
+    return c_of(f) == 0;
 }
 
 static bool keeps_square(const iso_field *f)
@@ -147,20 +135,21 @@ static bool keeps_square(const iso_field *f)
     return is_classical(f) && !f->effects.on[ISO_GRAVITY];
 }
 
+/* (K,n)' = (MQ,n) where k = 1: the torques of potentials are orthogonal to n. */
 static bool keeps_normal(const iso_field *f)
 {
-    return f->p.k == 1 && f->effects.twist == 0 && !f->effects.on[ISO_ROLLING_RESISTANCE];
+    bool orthogonal = true;
+    for (int e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        if (f->effects.on[e] && e != ISO_TWIST) orthogonal = orthogonal && (effect->observes || effect->potential);
+    }
+    return f->p.k == 1 && c_of(f) == 0 && orthogonal;
 }
 
 static bool keeps_up(const iso_field *f)
 {
     return is_classical(f) && f->effects.on[ISO_GRAVITY];
 }
-
-static const iso_effect_number numbers[] = {
-    {"resistance", offsetof(iso_effects, twist), 1, {1, 0, 1}},
-    {0},
-};
 
 static const iso_integral integrals[] = {
     {.name = "K.K",
@@ -181,28 +170,33 @@ static const iso_integral integrals[] = {
     {0},
 };
 
-#define TWIST \
-    .name = "twist", \
-    .doc = "finite resistance of the contact against twisting: torque -c (omega,n) n; c = 0: classical ball", \
-    .breaks = "the ball is free to twist: (omega,n) is not 0", .numbers = numbers, .integrals = integrals, \
-    .stiffness = stiffness
-
-const iso_effect iso_effect_twist = {TWIST, .torque = torque, .torque_slope = torque_slope};
-
-const iso_effect iso_effect_free_twist = {TWIST};
+static const iso_effect_number numbers[] = {
+    {.name = "resistance", .count = 1, .dimension = {1, 0, 1}, .kind = ISO_NUMBER_NOT_NEGATIVE, .required = true},
+    {0},
+};
 
 static const char *const state_names[] = {"lambda"};
 
-const iso_effect iso_effect_stiff_twist = {
-    TWIST,
-    .state = state_names,
-    .states_doc = "torque of the contact against twisting, which is stiff",
+static const iso_effect_state states[] = {
+    {.name = state_names, .count = 1, .kind = ISO_STATE_DERIVED, .there = is_stiff},
+    {0},
+};
+
+const iso_effect iso_effect_twist = {
+    .name = "twist",
+    .doc = "finite resistance of the contact against twisting: torque -c (omega,n) n; c = 0: classical ball",
+    .breaks = "the ball is free to twist: (omega,n) is not 0",
+    .needs_D = true,
+    .twists = true,
+    .work = work,
+    .keeps = keeps,
+    .numbers = numbers,
+    .motion = motion,
     .states = states,
+    .states_doc = "torque of the contact against twisting, which is stiff",
     .begin = begin,
-    .rates = rates,
-    .rates_slope = rates_slope,
     .size = size,
     .restore = restore,
-    .torque = stiff_torque,
-    .torque_slope = stiff_torque_slope,
+    .stiffness = stiffness,
+    .integrals = integrals,
 };

@@ -6,9 +6,9 @@
 
 #include "model/effect.h"
 
-extern const iso_effect iso_effect_gravity, iso_effect_field, iso_effect_level, iso_effect_twist,
-    iso_effect_free_twist, iso_effect_stiff_twist, iso_effect_rolling_resistance, iso_effect_attitude,
-    iso_effect_reactions, iso_effect_clock;
+#define ISO_EFFECT_ROW(ID, name) extern const iso_effect iso_effect_##name;
+ISO_EFFECT_LIST(ISO_EFFECT_ROW)
+#undef ISO_EFFECT_ROW
 
 /* Whether there are none: the free ball asks at each step, and should not look through the table. */
 static inline bool iso_effects_none(const iso_effects *effects)
@@ -17,13 +17,18 @@ static inline bool iso_effects_none(const iso_effects *effects)
     return memcmp(effects->on, off, sizeof off) == 0;
 }
 
-/* The row of an effect here: its own, or that of a contact that twists freely (the classical ball) or is stiff. */
-const iso_effect *iso_effect_row(const iso_field *f, iso_effect_id id);
+/* How many states an effect has here. */
+int iso_effect_states(const iso_effect *effect, const iso_field *f);
 
-/* Adds column j, the derivative by y[j], of a torque to its slope. */
-static inline void add_column(double slope[], int dim, int j, double factor, const double column[3])
-{
-    for (int i = 0; i < 3; i++) slope[dim * i + j] += factor * column[i];
-}
+/* Writes down the equations of all effects: the ball's motion (`series`: derived states are formulas) and energy, or the
+ * image on the point. field->at must be set. */
+void iso_effects_record_motion(const iso_field *f, bool series, iso_formula *F);
+void iso_effects_record_energy(const iso_field *f, iso_formula *F);
+void iso_effects_record_image(const iso_field *f, iso_formula *F);
+
+/* For the rows: states that are there on a plane alone, and what many of them answer. */
+bool iso_is_plane(const iso_field *f);
+iso_work iso_no_work(const iso_field *f);
+iso_work iso_work_lost(const iso_field *f);
 
 #endif

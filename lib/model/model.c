@@ -13,68 +13,29 @@ static void free_rhs(const iso_model *m, const double y[], double dy[])
     m->system->rhs(&m->field, y, dy);
 }
 
-static void free_jacobian(const iso_model *m, const double y[], double jac[])
-{
-    m->system->jacobian(&m->field, y, jac);
-}
-
-static void follow(const iso_model *m, const double y[], double dy[])
-{
-    for (int i = 0; i < m->followers; i++) m->follower[i]->rates(&m->field, y, dy);
-}
-
+/* Effects that have states, but no torques. */
 static void free_rhs_followed(const iso_model *m, const double y[], double dy[])
 {
+    double T[3];
     m->system->rhs(&m->field, y, dy);
-    follow(m, y, dy);
+    iso_effects_torque(&m->field, y, T, dy);
 }
 
 static void ball_rhs(const iso_model *m, const double y[], double dy[])
 {
-    double T[3] = {0, 0, 0};
-    for (int i = 0; i < m->forces; i++) m->force[i]->torque(&m->field, y, T);
+    double T[3];
+    iso_effects_torque(&m->field, y, T, dy);
     m->contact->solve(&m->field, y, T, dy);
-    follow(m, y, dy);
+    if (m->field.motion.late) iso_formula_late_rates(&m->field.motion, &m->field.p, y, dy);
 }
 
 static void point_rhs(const iso_model *m, const double y[], double dy[])
 {
+    double dV[3], gamma_dV[3];
     m->system->rhs(&m->field, y, dy);
-    for (int i = 0; i < m->forces; i++) m->force[i]->image(&m->field, y, dy);
-}
-
-static void set_zero(const iso_model *m, double jac[])
-{
-    for (int i = 0; i < m->moving * m->moving; i++) jac[i] = 0;
-}
-
-static void ball_jacobian(const iso_model *m, const double y[], double jac[])
-{
-    double T[3] = {0, 0, 0}, dy[ISO_MAX_STATE];
-    set_zero(m, jac);
-    for (int i = 0; i < m->forces; i++) {
-        m->force[i]->torque(&m->field, y, T);
-        m->force[i]->torque_slope(&m->field, y, m->moving, jac);
-    }
-    m->contact->solve(&m->field, y, T, dy);
-    m->contact->slope(&m->field, y, T, m->moving, jac);
-    for (int i = 0; i < m->followers; i++) m->follower[i]->rates_slope(&m->field, y, dy, m->moving, jac);
-}
-
-static void free_jacobian_followed(const iso_model *m, const double y[], double jac[])
-{
-    double six[ISO_STATE * ISO_STATE], dy[ISO_MAX_STATE];
-    set_zero(m, jac);
-    m->system->rhs(&m->field, y, dy);
-    m->system->jacobian(&m->field, y, six);
-    for (int i = 0; i < ISO_STATE; i++) copy(six + ISO_STATE * i, jac + m->moving * i, ISO_STATE);
-    for (int i = 0; i < m->followers; i++) m->follower[i]->rates_slope(&m->field, y, dy, m->moving, jac);
-}
-
-static void point_jacobian(const iso_model *m, const double y[], double jac[])
-{
-    m->system->jacobian(&m->field, y, jac);
-    for (int i = 0; i < m->forces; i++) m->force[i]->image_slope(&m->field, y, m->moving, jac);
+    iso_formula_image(&m->field.energy_formula, &m->field.p, y, dV);
+    cross(y + 3, dV, gamma_dV);
+    add_scaled(dy, 1, gamma_dV);
 }
 
 /* --- in another clock, with clocks carried ------------------------------------------------------------------------- */
@@ -101,13 +62,18 @@ static void rhs_clocks(const iso_model *m, const double y[], double dy[])
     for (int c = 0; c < m->carried; c++) dy[m->moving + c] = rate(m, m->carry[c], q, &exponent);
 }
 
+static void own_jacobian(const iso_model *m, const double y[], double jac[])
+{
+    iso_model_slopes(m, y, jac);
+}
+
 /* With r = r(q) ~ q^e:  d(r f_i)/dy_j = r df_i/dy_j + f_i (e r/q) dq/dy_j, and the last term alone for a clock. */
 static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
 {
     double f[ISO_MAX_STATE], own[ISO_MAX_STATE * ISO_MAX_STATE], dq[ISO_MAX_STATE] = {0}, exponent;
     const double q = m->system->q(&m->field.p, y, dq);
     m->own_rhs(m, y, f);
-    m->own_jacobian(m, y, own);
+    iso_model_slopes(m, y, own);
     for (int i = 0; i < m->dim * m->dim; i++) jac[i] = 0;
     const double r = rate(m, m->system->clock, q, &exponent);
     for (int i = 0; i < m->moving; i++)
@@ -121,20 +87,39 @@ static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
 
 /* --- assembling ----------------------------------------------------------------------------------------------------- */
 
-/* The effects that act, and those that have states. */
-static void add_effects(iso_model *m)
+/* The effects that have states, and where. */
+static void add_states(iso_model *m)
 {
-    const bool ball = m->system == &iso_system_ball;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
-        const iso_effect *effect = iso_effect_row(&m->field, e);
+        const int states = iso_effect_states(iso_effect_list[e], &m->field);
         m->field.at[e] = 0;
-        if (!m->field.effects.on[e]) continue;
-        if (ball ? effect->torque != NULL : effect->image != NULL) m->force[m->forces++] = effect;
-        if (!ball || !effect->states) continue;
+        if (!m->field.effects.on[e] || states == 0 || m->system != &iso_system_ball) continue;
         m->field.at[e] = m->moving;
-        m->moving += effect->states(&m->field);
-        m->follower[m->followers++] = effect;
+        m->moving += states;
+        m->follower[m->followers++] = iso_effect_list[e];
     }
+}
+
+/* Writes down the equations of the effects that act, or have states. */
+static void record(iso_model *m)
+{
+    iso_field *f = &m->field;
+    f->motion.kind = f->energy_formula.kind = ISO_FORMULA_NONE;
+    f->motion.lines = f->energy_formula.lines = 0;
+    f->motion.late = f->motion.torques = f->motion.overrun = f->energy_formula.overrun = false;
+    if (iso_effects_none(&f->effects) || m->moving > ISO_STATE + ISO_MOST_EFFECT_STATES) return;
+    if (m->system == &iso_system_ball) {
+        iso_effects_record_motion(f, false, &f->motion);
+        iso_effects_record_energy(f, &f->energy_formula);
+    } else {
+        iso_effects_record_image(f, &f->energy_formula);
+    }
+}
+
+/* Whether an effect has a torque in the place of a formula. */
+static bool has_torques(const iso_model *m)
+{
+    return m->field.motion.torques || iso_model_without_formula(m) != NULL;
 }
 
 /* The plainest functions that do it. */
@@ -142,18 +127,34 @@ static void choose_equations(iso_model *m)
 {
     const bool ball = m->system == &iso_system_ball;
     m->own_rhs = free_rhs;
-    m->own_jacobian = free_jacobian;
-    if (ball && m->followers > 0) m->own_rhs = free_rhs_followed, m->own_jacobian = free_jacobian_followed;
-    if (ball && (m->forces > 0 || m->contact == &iso_contact_loose))
-        m->own_rhs = ball_rhs, m->own_jacobian = ball_jacobian;
-    if (!ball && m->forces > 0) m->own_rhs = point_rhs, m->own_jacobian = point_jacobian;
+    if (ball && m->followers > 0) m->own_rhs = free_rhs_followed;
+    if (ball && (has_torques(m) || m->contact == &iso_contact_loose)) m->own_rhs = ball_rhs;
+    if (!ball && m->field.energy_formula.lines > 0) m->own_rhs = point_rhs;
+}
+
+const char *iso_model_too_large(const iso_model *m)
+{
+    const iso_field *f = &m->field;
+    if (m->moving > ISO_STATE + ISO_MOST_EFFECT_STATES) return "the effects have more states than there is room for";
+    if (f->motion.overrun || f->energy_formula.overrun)
+        return "the equations of the effects have more lines than there is room for (formula.h)";
+    return NULL;
+}
+
+const iso_effect *iso_model_without_formula(const iso_model *m)
+{
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (m->field.effects.on[e] && m->system == &iso_system_ball && iso_effect_list[e]->torque)
+            return iso_effect_list[e];
+    return NULL;
 }
 
 iso_model iso_model_assemble(const iso_system *system, const iso_field *field, iso_clock clock,
                              const bool carry[ISO_CLOCKS])
 {
     iso_model m = {.system = system, .field = *field, .clock = clock, .moving = ISO_STATE};
-    add_effects(&m);
+    add_states(&m);
+    record(&m);
     m.contact = iso_contact_of(&m.field);
     choose_equations(&m);
     for (iso_clock c = 0; c < ISO_CLOCKS; c++)
@@ -161,14 +162,15 @@ iso_model iso_model_assemble(const iso_system *system, const iso_field *field, i
     m.dim = m.moving + m.carried;
     const bool plain = clock == system->clock && m.carried == 0;
     m.rhs = plain ? m.own_rhs : rhs_clocks;
-    m.jacobian = plain ? m.own_jacobian : jacobian_clocks;
+    m.jacobian = plain ? own_jacobian : jacobian_clocks;
     return m;
 }
 
 void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y[])
 {
     copy(start, y, ISO_STATE);
-    for (int i = 0; i < m->followers; i++) m->follower[i]->begin(&m->field, y);
+    for (int i = 0; i < m->followers; i++)
+        if (m->follower[i]->begin) m->follower[i]->begin(&m->field, y);
     for (int i = m->moving; i < m->dim; i++) y[i] = 0;
 }
 
@@ -178,22 +180,44 @@ const char *iso_model_state_name(const iso_model *m, int i, const char **reason)
     if (i < ISO_STATE) return m->system->state[i];
     *reason = "clock: a column, or the effect clock, asks for it";
     if (i >= m->moving) return iso_clock_name(m->carry[i - m->moving]);
-    iso_effect_id last = ISO_GRAVITY;
+    iso_effect_id last = ISO_EFFECTS;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         if (m->field.at[e] > 0 && m->field.at[e] <= i) last = e;
-    const iso_effect *effect = iso_effect_row(&m->field, last);
-    *reason = effect->states_doc;
-    return effect->state[i - m->field.at[last]];
+    *reason = iso_effect_list[last]->states_doc;
+    i -= m->field.at[last];
+    for (const iso_effect_state *s = iso_effect_list[last]->states; s->name; s++) {
+        if (s->there && !s->there(&m->field)) continue;
+        if (i < s->count) return s->name[i];
+        i -= s->count;
+    }
+    return NULL;
 }
 
 /* --- sizes ---------------------------------------------------------------------------------------------------------- */
+
+/* Makes unit vectors of the states that are, and restores the effect's other constraints; the largest correction. */
+static double restore_states(const iso_field *f, iso_effect_id id, double y[])
+{
+    const iso_effect *effect = iso_effect_list[id];
+    double correction = 0, *x = y + f->at[id];
+    for (const iso_effect_state *s = effect->states; s->name; s++) {
+        if (s->there && !s->there(f)) continue;
+        double square = 0;
+        for (int i = 0; i < s->count; i++) square += x[i] * x[i];
+        const double length = sqrt(square);
+        for (int i = 0; s->kind == ISO_STATE_UNIT && i < s->count; i++) x[i] /= length;
+        if (s->kind == ISO_STATE_UNIT) correction = fmax(correction, fabs(length - 1));
+        x += s->count;
+    }
+    return effect->restore ? fmax(correction, effect->restore(f, y)) : correction;
+}
 
 double iso_model_project(const iso_model *m, double y[])
 {
     double correction = 0;
     if (m->followers == 0) return m->system->project(&m->field, y);
-    for (int i = 0; i < m->followers; i++) /* first: the energy of the ball may ask for the vertical */
-        correction = fmax(correction, m->follower[i]->restore(&m->field, y));
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) /* first: the energy of the ball may ask for the vertical */
+        if (m->field.at[e] > 0) correction = fmax(correction, restore_states(&m->field, e, y));
     return fmax(correction, m->system->project(&m->field, y));
 }
 
@@ -206,7 +230,9 @@ void iso_model_size(const iso_model *m, const double y[], double size[])
         size[i] = speed;
         size[3 + i] = length;
     }
-    for (int i = 0; i < m->followers; i++) m->follower[i]->size(&m->field, y, size);
+    for (int i = ISO_STATE; i < m->moving; i++) size[i] = 1 + fabs(y[i]);
+    for (int i = 0; i < m->followers; i++)
+        if (m->follower[i]->size) m->follower[i]->size(&m->field, y, size);
     if (m->carried == 0) return;
     const double q = m->system->q(&m->field.p, y, NULL);
     for (int c = 0; c < m->carried; c++) {

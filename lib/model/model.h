@@ -12,7 +12,8 @@
 
 #include "effect.h"
 
-enum { ISO_MOST_EFFECT_STATES = 3 + 1 + 7, ISO_MAX_STATE = ISO_STATE + ISO_MOST_EFFECT_STATES + ISO_CLOCKS - 1 };
+/* Room for the states of effects; a model with more is refused. */
+enum { ISO_MOST_EFFECT_STATES = 16, ISO_MAX_STATE = ISO_STATE + ISO_MOST_EFFECT_STATES + ISO_CLOCKS - 1 };
 
 typedef struct iso_model iso_model;
 struct iso_model {
@@ -26,19 +27,23 @@ struct iso_model {
     void (*rhs)(const iso_model *m, const double y[], double dy[]);       /* y' = f(y)          */
     void (*jacobian)(const iso_model *m, const double y[], double jac[]); /* row-major dim x dim */
 
-    /* Of what `rhs` and `jacobian` are made: the equations in the system's own clock, and the effects with torques and
-     * with states. */
+    /* Of what `rhs` is made: the equations in the system's own clock; the contact; the effects with states. */
     void (*own_rhs)(const iso_model *m, const double y[], double dy[]);
-    void (*own_jacobian)(const iso_model *m, const double y[], double jac[]); /* moving x moving */
     const struct iso_contact *contact;
-    int forces, followers;
-    const iso_effect *force[ISO_EFFECTS], *follower[ISO_EFFECTS];
+    int followers;
+    const iso_effect *follower[ISO_EFFECTS];
 };
 
 /* Assembles. Of field->effects the point takes what has an image, the ball everything; field->at is filled in. carry[c]
  * asks for clock c as a state; the independent clock is never one. */
 iso_model iso_model_assemble(const iso_system *system, const iso_field *field, iso_clock clock,
                              const bool carry[ISO_CLOCKS]);
+
+/* Why the model cannot be simulated: more effects than there is room for; NULL: it can. */
+const char *iso_model_too_large(const iso_model *m);
+
+/* The first of its effects whose equations are no formula: only methods that need nothing but y' can take it. NULL: none. */
+const iso_effect *iso_model_without_formula(const iso_model *m);
 
 /* The state at the start: the system's six numbers as they are, effects at their beginnings, clocks at 0. */
 void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y[]);
@@ -53,5 +58,9 @@ double iso_model_project(const iso_model *m, double y[]);
 /* The size of each component for error control: of the vector of R^3 it belongs to; of the clock, and of its
  * progress in one unit of the independent variable. Errors of a step are measured in units of tolerance * size. */
 void iso_model_size(const iso_model *m, const double y[], double size[]);
+
+/* The Jacobian in the system's own clock, moving x moving, row-major: that of the formulas, iso_model_without_formula()
+ * must be NULL. */
+void iso_model_slopes(const iso_model *m, const double y[], double jac[]);
 
 #endif

@@ -40,31 +40,6 @@ static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STA
     cross(gamma, M, dy + 3);
 }
 
-/* dM'/dgamma_j = a [(-1 - 1/k) (2 J_j gamma_j/q) gamma x J gamma + e_j x J gamma + gamma x J_j e_j] */
-static void jacobian(const iso_field *f, const double y[ISO_STATE], double jac[ISO_STATE * ISO_STATE])
-{
-    const iso_params *p = &f->p;
-    const double *M = y, *gamma = y + 3;
-    double Jgamma[3], turn[3];
-    diag(p->J, gamma, Jgamma);
-    cross(gamma, Jgamma, turn);
-    const double q = dot(gamma, Jgamma), a = torque_factor(f, q);
-    for (int j = 0; j < 3; j++) {
-        const double e[3] = {j == 0, j == 1, j == 2};
-        double e_Jgamma[3], gamma_e[3], e_M[3];
-        cross(e, Jgamma, e_Jgamma);
-        cross(gamma, e, gamma_e);
-        cross(e, M, e_M);
-        const double dlog_a = (-1 - 1 / p->k) * 2 * Jgamma[j] / q;
-        for (int i = 0; i < 3; i++) {
-            jac[6 * i + j] = 0;
-            jac[6 * i + 3 + j] = a * (dlog_a * turn[i] + e_Jgamma[i] + p->J[j] * gamma_e[i]);
-            jac[6 * (3 + i) + j] = gamma_e[i];
-            jac[6 * (3 + i) + 3 + j] = e_M[i];
-        }
-    }
-}
-
 /* V, and the size of its terms, which may cancel */
 static double potential(const iso_field *f, const double y[], double *size)
 {
@@ -215,7 +190,6 @@ const iso_system iso_system_point = {
     .fast_dimension = {2, -1, 1},
     .integrals = integrals,
     .rhs = rhs,
-    .jacobian = jacobian,
     .q = point_q,
     .project = project,
     .speed = speed,

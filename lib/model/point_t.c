@@ -32,31 +32,6 @@ static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STA
     scale(dy + 3, f->p.k * r * dot(gamma, Jgamma));
 }
 
-/* dc/dgamma_j = e_j x J gamma + J_j gamma x e_j */
-static void jacobian(const iso_field *f, const double y[ISO_STATE], double jac[ISO_STATE * ISO_STATE])
-{
-    const double *p = y, *gamma = y + 3, r = 1 / sqrt(f->p.det_J), kr = f->p.k * r;
-    double Jgamma[3], c[3], turn[3];
-    diag(f->p.J, gamma, Jgamma);
-    cross(gamma, Jgamma, c);
-    cross(gamma, p, turn);
-    const double square = dot(p, p), along = dot(c, p), q = dot(gamma, Jgamma);
-    for (int j = 0; j < 3; j++) {
-        const double e[3] = {j == 0, j == 1, j == 2};
-        double e_Jgamma[3], gamma_e[3], e_p[3], dc[3];
-        cross(e, Jgamma, e_Jgamma);
-        cross(gamma, e, gamma_e);
-        cross(e, p, e_p);
-        for (int i = 0; i < 3; i++) dc[i] = e_Jgamma[i] + f->p.J[j] * gamma_e[i];
-        for (int i = 0; i < 3; i++) {
-            jac[6 * i + j] = r * (2 * p[j] * c[i] - c[j] * p[i] - along * e[i]);
-            jac[6 * i + 3 + j] = r * (square * dc[i] - dot(dc, p) * p[i]);
-            jac[6 * (3 + i) + j] = kr * q * gamma_e[i];
-            jac[6 * (3 + i) + 3 + j] = kr * (2 * Jgamma[j] * turn[i] + q * e_p[i]);
-        }
-    }
-}
-
 /* The ball's, from eps = h det J/k^2 */
 static double ball_energy(const iso_field *f)
 {
@@ -110,7 +85,6 @@ const iso_system iso_system_point_t = {
     .state = state_names,
     .integrals = integrals,
     .rhs = rhs,
-    .jacobian = jacobian,
     .q = point_q,
     .project = project,
     .speed = speed,

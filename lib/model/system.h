@@ -48,7 +48,6 @@ typedef struct iso_system {
     const iso_integral *integrals; /* ended by a row without a name                                        */
 
     void (*rhs)(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STATE]);
-    void (*jacobian)(const iso_field *f, const double y[ISO_STATE], double jac[ISO_STATE * ISO_STATE]); /* d dy_i / d y_j at [6 i + j]  */
 
     /* q = (gamma, J gamma), which fixes all clock rates, and its gradient (may be NULL). */
     double (*q)(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE]);

@@ -1,12 +1,12 @@
-/* taylor_number_impl.h - the numbers Taylor series are made of.
+/* number_impl.h - the numbers that power series are made of.
  *
  * Included with NUMBER, a kind of number, ROOT, POW and FMA of it, and LANES, how many orbits are computed side
  * by side. A `real` is one NUMBER of each orbit, a `mask` one decision for each, a `vector` three reals. With PACKED
  * (one orbit only) the three share a register of four. No operation mixes lanes: what an orbit gets does not depend
  * on its neighbours.
  */
-#ifndef ISO_METHOD_TAYLOR_NUMBER_IMPL_H
-#define ISO_METHOD_TAYLOR_NUMBER_IMPL_H
+#ifndef ISO_MODEL_SERIES_NUMBER_IMPL_H
+#define ISO_MODEL_SERIES_NUMBER_IMPL_H
 
 #include <float.h>
 #include <math.h>

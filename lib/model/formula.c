@@ -1,0 +1,128 @@
+/* formula.c - writing formulas down, line by line. What they mean is computed by series/evaluate_impl.h. */
+#include "model/formula.h"
+
+#include <math.h>
+#include <string.h>
+
+void iso_formula_begin(iso_formula *F, int kind, bool series)
+{
+    F->kind = kind;
+    F->series = series;
+    F->overrun = F->late = F->torques = false;
+    F->constants = F->lines = F->states = 0;
+    F->scalars = ISO_GIVEN_SCALARS;
+    F->vectors = ISO_GIVEN_VECTORS;
+    F->late_line = 0;
+    F->late_scalar = 0;
+    F->late_vector = (uint64_t)1 << ISO_GIVEN_OMEGA_DOT;
+}
+
+/* The place of the next of `count`, of which there is room for `most`; the last one again where there is none. */
+static int next_place(iso_formula *F, int *count, int most)
+{
+    if (*count < most) return (*count)++;
+    F->overrun = true;
+    return most - 1;
+}
+
+static iso_formula_line line_of(iso_operation operation, int to, int a, int b)
+{
+    return (iso_formula_line){(uint8_t)operation, (uint8_t)to, (uint8_t)a, (uint8_t)b};
+}
+
+int iso_formula_constant(iso_formula *F, iso_operation operation, int a, int b)
+{
+    const int at = next_place(F, &F->constants, ISO_FORMULA_CONSTANTS);
+    F->constant[at] = line_of(operation, at, a, b);
+    F->value[at] = 0;
+    return at;
+}
+
+int iso_formula_value(iso_formula *F, double x)
+{
+    const int at = iso_formula_constant(F, ISO_C_VALUE, 0, 0);
+    F->value[at] = x;
+    return at;
+}
+
+/* Whether the operation's first, or second, number is a scalar that is late, or a vector. */
+static bool is_late(const iso_formula *F, iso_operation operation, int a, int b)
+{
+    const bool scalar_a = F->late_scalar >> a & 1, scalar_b = F->late_scalar >> b & 1;
+    const bool vector_a = F->late_vector >> a & 1, vector_b = F->late_vector >> b & 1;
+    switch (operation) {
+    case ISO_S_ADD:
+    case ISO_S_SUB:
+    case ISO_S_MUL:
+    case ISO_S_DIV: return scalar_a || scalar_b;
+    case ISO_S_POWER: return scalar_a;
+    case ISO_S_TIMES:
+    case ISO_S_PLUS:
+    case ISO_V_SCALE_C:
+    case ISO_R_SCALAR_RATE:
+    case ISO_R_ENERGY:
+    case ISO_R_POTENTIAL: return scalar_b;
+    case ISO_S_DOT:
+    case ISO_V_ADD:
+    case ISO_V_SUB:
+    case ISO_V_CROSS: return vector_a || vector_b;
+    case ISO_V_SCALE: return scalar_a || vector_b;
+    default: return vector_b; /* a constant and a vector */
+    }
+}
+
+/* Writes the line; tells whether it is late. */
+static bool write_line(iso_formula *F, iso_operation operation, int to, int a, int b)
+{
+    const int at = next_place(F, &F->lines, ISO_FORMULA_LINES);
+    const bool late = is_late(F, operation, a, b);
+    F->line[at] = line_of(operation, to, a, b);
+    if (late) F->late_line |= (uint64_t)1 << at;
+    F->late = F->late || late;
+    return late;
+}
+
+int iso_formula_scalar(iso_formula *F, iso_operation operation, int a, int b)
+{
+    const int to = next_place(F, &F->scalars, ISO_FORMULA_SCALARS);
+    if (write_line(F, operation, to, a, b)) F->late_scalar |= (uint32_t)1 << to;
+    return to;
+}
+
+int iso_formula_vector(iso_formula *F, iso_operation operation, int a, int b)
+{
+    const int to = next_place(F, &F->vectors, ISO_FORMULA_VECTORS);
+    if (write_line(F, operation, to, a, b)) F->late_vector |= (uint64_t)1 << to;
+    return to;
+}
+
+void iso_formula_result(iso_formula *F, iso_operation operation, int to, int a, int b)
+{
+    const bool late = write_line(F, operation, to, a, b);
+    F->torques = F->torques || operation == ISO_R_TORQUE;
+    F->overrun = F->overrun || (late && operation == ISO_R_TORQUE); /* omega' follows from the torque */
+}
+
+int iso_formula_state(iso_formula *F, bool is_vector, int at)
+{
+    for (int i = 0; i < F->states; i++)
+        if (F->state[i].at == at && F->state[i].is_vector == is_vector) return F->state[i].node;
+    const int i = next_place(F, &F->states, ISO_FORMULA_STATES);
+    const int node = is_vector ? next_place(F, &F->vectors, ISO_FORMULA_VECTORS)
+                               : next_place(F, &F->scalars, ISO_FORMULA_SCALARS);
+    F->state[i].is_vector = is_vector;
+    F->state[i].node = (uint8_t)node;
+    F->state[i].at = (uint8_t)at;
+    F->state[i].kind = 0;
+    return node;
+}
+
+bool iso_formula_alike(const iso_formula *F, const iso_formula *G)
+{
+    if (F->kind != G->kind) return false;
+    if (F->kind == ISO_FORMULA_NONE) return true;
+    if (F->constants != G->constants || F->lines != G->lines || F->states != G->states) return false;
+    return memcmp(F->constant, G->constant, (size_t)F->constants * sizeof *F->constant) == 0 &&
+           memcmp(F->line, G->line, (size_t)F->lines * sizeof *F->line) == 0 &&
+           memcmp(F->state, G->state, (size_t)F->states * sizeof *F->state) == 0;
+}

@@ -1,0 +1,102 @@
+/* formula_values.c - the values of formulas at one state, in doubles. */
+#define NUMBER double
+#define ROOT sqrt
+#define POW pow
+#define FMA fma
+#define LANES 1
+
+#include "model/series/evaluate_impl.h"
+
+enum { KEPT = 2 }; /* the value, and the rate of a state */
+
+typedef struct values {
+    real scalar[ISO_FORMULA_SCALARS * KEPT];
+    vector vector[ISO_FORMULA_VECTORS * KEPT];
+    vector torque, gradient;
+    real potential;
+    nodes nodes;
+} values;
+
+static const real one[] = {0, 1};
+
+static vector vector_at(const double x[3])
+{
+    return (vector){{x[0], x[1], x[2]}};
+}
+
+/* What is given at y: of the ball base = g, of the point q. */
+static void set_given(values *v, const iso_formula *F, const iso_params *p, const double y[], bool point)
+{
+    const vector n = vector_at(y + 3), u = vector_at((const double[]){n.at[0] / p->J[0], n.at[1] / p->J[1], n.at[2] / p->J[2]});
+    v->vector[ISO_GIVEN_OMEGA * KEPT] = vector_at(y);
+    v->vector[ISO_GIVEN_N * KEPT] = n;
+    v->vector[ISO_GIVEN_U * KEPT] = u;
+    v->scalar[ISO_GIVEN_BASE * KEPT] = point ? total(by(n, by(vector_at(p->J), n))) : total(by(n, u));
+    v->scalar[ISO_GIVEN_SPIN * KEPT] = total(by(vector_at(y), n));
+    for (int i = 0; i < F->states; i++)
+        if (F->state[i].is_vector)
+            v->vector[F->state[i].node * KEPT] = vector_at(y + F->state[i].at);
+        else
+            v->scalar[F->state[i].node * KEPT] = y[F->state[i].at];
+    v->torque = v->gradient = nought;
+    v->potential = 0;
+    v->nodes = (nodes){.kept = KEPT, .c = F->value, .scalar = v->scalar, .vector = v->vector, .count = one, .inverse = one,
+                       .torque = &v->torque, .gradient = &v->gradient, .potential = &v->potential};
+}
+
+static void get_rates(const values *v, const iso_formula *F, bool late, double dy[])
+{
+    for (int i = 0; i < F->lines; i++) {
+        const iso_formula_line *l = &F->line[i];
+        if ((F->late_line >> i & 1) != late) continue;
+        if (l->operation != ISO_R_VECTOR_RATE && l->operation != ISO_R_SCALAR_RATE) continue;
+        for (int s = 0; s < F->states; s++) {
+            const bool is_vector = l->operation == ISO_R_VECTOR_RATE;
+            if (F->state[s].node != l->to || F->state[s].is_vector != is_vector) continue;
+            double *rate = dy + F->state[s].at;
+            for (int j = 0; is_vector && j < 3; j++) rate[j] = v->vector[l->to * KEPT + 1].at[j];
+            if (!is_vector) *rate = v->scalar[l->to * KEPT + 1];
+        }
+    }
+}
+
+void iso_formula_rates(const iso_formula *F, const iso_params *p, const double y[], double T[3], double dy[])
+{
+    values v;
+    set_given(&v, F, p, y, false);
+    evaluate(F, &v.nodes, false, 0);
+    for (int i = 0; i < 3; i++) T[i] += v.torque.at[i];
+    get_rates(&v, F, false, dy);
+}
+
+void iso_formula_late_rates(const iso_formula *F, const iso_params *p, const double y[], double dy[])
+{
+    values v;
+    set_given(&v, F, p, y, false);
+    v.vector[ISO_GIVEN_OMEGA_DOT * KEPT] = vector_at(dy);
+    evaluate(F, &v.nodes, false, 0);
+    evaluate(F, &v.nodes, true, 0);
+    get_rates(&v, F, true, dy);
+}
+
+double iso_formula_energy(const iso_formula *F, const iso_params *p, const double y[])
+{
+    values v;
+    set_given(&v, F, p, y, false);
+    evaluate(F, &v.nodes, false, 0);
+    return v.potential;
+}
+
+double iso_formula_image(const iso_formula *F, const iso_params *p, const double y[], double gradient[3])
+{
+    values v;
+    set_given(&v, F, p, y, true);
+    evaluate(F, &v.nodes, false, 0);
+    for (int i = 0; gradient && i < 3; i++) gradient[i] = v.gradient.at[i];
+    return v.potential;
+}
+
+void iso_formula_finish(iso_formula *F, const iso_params *p)
+{
+    find_constants(F, p, F->value);
+}

@@ -1,0 +1,131 @@
+/* evaluate_impl.h - the coefficients of a formula (model/formula.h), one after the other.
+ *
+ * The lines of a formula are products, sums and powers of series. Coefficient n of each follows from the coefficients up
+ * to n of what it is made of. With n = 0 alone this is the plain value.
+ */
+#include "model/formula.h"
+#include "model/series/products_impl.h"
+
+/* Where the coefficients are: of scalar (vector) i, number n at [i kept + n]; and where results go. */
+typedef struct nodes {
+    int kept;
+    const real *c; /* constants */
+    real *scalar;
+    vector *vector;
+    const real *count, *inverse; /* n, 1/n; not read for n = 0 */
+    vector *torque, *gradient;   /* coefficient n is added at [n] */
+    real *potential;             /* likewise: U of the ball, V of the point */
+    real *size;                  /* NULL, or: the sum of the sizes of the potential's terms, n = 0 */
+} nodes;
+
+/* The constants of one orbit, in the numbers of this compilation. */
+static inline void find_constants(const iso_formula *F, const iso_params *p, NUMBER c[])
+{
+    for (int i = 0; i < F->constants; i++) {
+        const iso_formula_line *l = &F->constant[i];
+        switch (l->operation) {
+        case ISO_C_K: c[i] = p->k; break;
+        case ISO_C_J: c[i] = p->J[l->a]; break;
+        case ISO_C_D: c[i] = p->D; break;
+        case ISO_C_ADD: c[i] = c[l->a] + c[l->b]; break;
+        case ISO_C_SUB: c[i] = c[l->a] - c[l->b]; break;
+        case ISO_C_MUL: c[i] = c[l->a] * c[l->b]; break;
+        case ISO_C_DIV: c[i] = c[l->a] / c[l->b]; break;
+        case ISO_C_ROOT: c[i] = ROOT(c[l->a]); break;
+        default: c[i] = F->value[i]; break;
+        }
+    }
+}
+
+static inline vector three(const real c[])
+{
+    vector v = nought;
+    for (int i = 0; i < 3; i++) AT(v, i) = c[i];
+    return v;
+}
+
+static inline vector matrix_times(const real M[9], vector a)
+{
+    vector v = nought;
+    for (int i = 0; i < 3; i++) AT(v, i) = total(by(three(M + 3 * i), a));
+    return v;
+}
+
+/* (a^p)_n */
+static inline real power_of_series(const nodes *t, const real a[], real p, const real v[], int n)
+{
+    if (n == 0) return raised(a[0], p);
+    real sum = zero;
+    for (int j = n; j > 0; j--) sum += ((p + 1) * t->count[j] - t->count[n]) * a[j] * v[n - j];
+    return sum * t->inverse[n] / a[0];
+}
+
+static inline real scalar_line(const iso_formula_line *l, const nodes *t, int n)
+{
+    const real *a = t->scalar + l->a * t->kept, *b = t->scalar + l->b * t->kept, *own = t->scalar + l->to * t->kept;
+    const real *with = t->scalar + l->b * t->kept; /* of ISO_S_TIMES and ISO_S_PLUS, whose a is a constant */
+    switch (l->operation) {
+    case ISO_S_ADD: return a[n] + b[n];
+    case ISO_S_SUB: return a[n] - b[n];
+    case ISO_S_MUL: return product(a, b, n);
+    case ISO_S_DIV: return quotient(a[n], b, 1 / b[0], own, n);
+    case ISO_S_TIMES: return t->c[l->a] * with[n];
+    case ISO_S_PLUS: return n == 0 ? t->c[l->a] + with[0] : with[n];
+    case ISO_S_POWER: return power_of_series(t, a, t->c[l->b], own, n);
+    case ISO_S_DOT: return dot(t->vector + l->a * t->kept, t->vector + l->b * t->kept, n);
+    default: return total(by(three(t->c + l->a), t->vector[l->b * t->kept + n])); /* ISO_S_DOT_C */
+    }
+}
+
+static inline vector vector_line(const iso_formula_line *l, const nodes *t, int n)
+{
+    const vector *a = t->vector + l->a * t->kept, *b = t->vector + l->b * t->kept;
+    switch (l->operation) {
+    case ISO_V_ADD: return plus(a[n], b[n]);
+    case ISO_V_SUB: return minus(a[n], b[n]);
+    case ISO_V_TIMES: return times(t->c[l->a], b[n]);
+    case ISO_V_SCALE: return scaled(t->scalar + l->a * t->kept, b, n);
+    case ISO_V_SCALE_C: return times(t->scalar[l->b * t->kept + n], three(t->c + l->a));
+    case ISO_V_CROSS: return cross(a, b, n);
+    case ISO_V_BY: return by(three(t->c + l->a), b[n]);
+    case ISO_V_MATRIX: return matrix_times(t->c + l->a, b[n]);
+    default: return n == 0 ? plus(three(t->c + l->a), b[0]) : b[n]; /* ISO_V_PLUS */
+    }
+}
+
+static inline void add_to_potential(const nodes *t, real x, int n)
+{
+    t->potential[n] += x;
+    if (t->size) *t->size += magnitude(x);
+}
+
+static inline void result_line(const iso_formula_line *l, const nodes *t, int n)
+{
+    const real c = t->c[l->a];
+    switch (l->operation) {
+    case ISO_R_TORQUE: t->torque[n] = plus(t->torque[n], times(c, t->vector[l->b * t->kept + n])); break;
+    case ISO_R_GRADIENT: t->gradient[n] = plus(t->gradient[n], times(c, t->vector[l->b * t->kept + n])); break;
+    case ISO_R_VECTOR_RATE:
+        t->vector[l->to * t->kept + n + 1] = times(c * t->inverse[n + 1], t->vector[l->b * t->kept + n]);
+        break;
+    case ISO_R_SCALAR_RATE:
+        t->scalar[l->to * t->kept + n + 1] = c * t->inverse[n + 1] * t->scalar[l->b * t->kept + n];
+        break;
+    default: add_to_potential(t, c * t->scalar[l->b * t->kept + n], n); break;
+    }
+}
+
+/* Coefficient n of all lines, but of those that need omega' only if `late`, and then only of these. */
+static inline void evaluate(const iso_formula *F, const nodes *t, bool late, int n)
+{
+    for (int i = 0; i < F->lines; i++) {
+        const iso_formula_line *l = &F->line[i];
+        if ((F->late_line >> i & 1) != late) continue;
+        if (l->operation < ISO_V_ADD)
+            t->scalar[l->to * t->kept + n] = scalar_line(l, t, n);
+        else if (l->operation < ISO_R_TORQUE)
+            t->vector[l->to * t->kept + n] = vector_line(l, t, n);
+        else
+            result_line(l, t, n);
+    }
+}

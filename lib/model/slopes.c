@@ -1,0 +1,85 @@
+/* slopes.c - the Jacobian of the equations of motion, from their own recurrences.
+ *
+ * Along y + x e_j the right-hand side is f(y) + x df/dy_j + ...: with the states' coefficients 0 and 1 set to y and e_j,
+ * coefficient 1 of the right-hand side is column j of the Jacobian. Several columns are computed side by side. Nothing of
+ * the equations is written down twice.
+ */
+#define NUMBER double
+#define ROOT sqrt
+#define POW pow
+#define FMA fma
+#define LANES 4
+
+enum { MOST = 1 };
+
+#include "model/effects_impl.h"
+#include "model/model.h"
+#include "model/series/recurrences_impl.h"
+
+static void call_system(series *S, const iso_model *m)
+{
+    const iso_field *f = &m->field;
+    S->terms = 0;
+    S->formula = NULL;
+    if (m->system == &iso_system_ball) {
+        call_ball(S, iso_effects_twist(&f->effects), f->motion.lines > 0 ? &f->motion : NULL);
+    } else if (m->system == &iso_system_point_t) {
+        call(S, point_p);
+    } else {
+        call(S, point_24);
+        S->formula = f->energy_formula.lines > 0 ? &f->energy_formula : NULL;
+        if (S->formula) call(S, point_24_effects);
+    }
+}
+
+static void set_numbers(series *S, const iso_model *m)
+{
+    const iso_params *p = &m->field.p;
+    const bool is_t = m->system == &iso_system_point_t;
+    for (int i = 0; i < KEPT; i++) S->count[i] = S->inverse[i] = spread(1); /* the terms then give plain rates */
+    for (int lane = 0; lane < LANES; lane++) set_ball(S, lane, p);
+    S->alpha = spread(is_t ? 1 / sqrt(p->det_J) : -1 - 1 / p->k);
+    S->coupling = spread(2 * m->field.eps / p->k);
+}
+
+/* Where the coefficients of state y[i] stand. */
+static real *coefficients(series *S, const iso_formula *F, int i, int n)
+{
+    if (i < 3) return &AT(S->w[n], i);
+    if (i < ISO_STATE) return &AT(S->n[n], i - 3);
+    for (int s = 0; s < F->states; s++) {
+        const int at = F->state[s].at, node = F->state[s].node * KEPT + n;
+        if (F->state[s].is_vector && i >= at && i < at + 3) return &AT(S->vector[node], i - at);
+        if (!F->state[s].is_vector && i == at) return &S->scalar[node];
+    }
+    return NULL;
+}
+
+/* y as coefficients 0, and the directions first, first + 1, ... as coefficients 1, one in each lane. */
+static void set_states(series *S, const iso_model *m, const double y[], int first)
+{
+    for (int i = 0; i < m->moving; i++) {
+        real *at = coefficients(S, &m->field.motion, i, 1);
+        if (!at) continue;
+        *coefficients(S, &m->field.motion, i, 0) = spread(y[i]);
+        for (int lane = 0; lane < LANES; lane++) LANE(*at, lane) = i == first + lane;
+    }
+}
+
+void iso_model_slopes(const iso_model *m, const double y[], double jac[])
+{
+    series S;
+    call_system(&S, m);
+    set_numbers(&S, m);
+    for (int first = 0; first < m->moving; first += LANES) {
+        set_states(&S, m, y, first);
+        for (int i = 0; i < S.terms; i++) S.term[i](&S, 0);
+        set_states(&S, m, y, first); /* a term of coefficient 0 has put the rates there */
+        for (int i = 0; i < S.terms; i++) S.term[i](&S, 1);
+        for (int i = 0; i < m->moving; i++) {
+            const real *slope = coefficients(&S, &m->field.motion, i, 2);
+            for (int lane = 0; lane < LANES && first + lane < m->moving; lane++)
+                jac[m->moving * i + first + lane] = slope ? LANE(*slope, lane) : 0;
+        }
+    }
+}
