@@ -138,7 +138,7 @@ static bool has_lost_spin(const iso_integrator *it, const double y[])
     if (projects || it->model.system != &iso_system_ball) return false;
     const bool twists = f->effects.on[ISO_TWIST], stiff = f->at[ISO_TWIST] > 0;
     if ((twists && !stiff) || !(iso_effects_stiffness(f) > 0)) return false;
-    const double lost = dot(y, y + 3) + (stiff ? y[f->at[ISO_TWIST]] / f->effects.twist : 0);
+    const double lost = dot(y, y + 3) + (stiff ? y[f->at[ISO_TWIST]] / f->effects.number[ISO_TWIST][0] : 0);
     return fabs(lost) > fmax(1e-3, 1e4 * it->options.tolerance) * iso_system_ball.speed(f, y);
 }
 

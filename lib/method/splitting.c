@@ -168,9 +168,10 @@ static inline void kick(const iso_model *m, bool clocks, double h, state *z)
     const double a = h * (2 * m->field.eps / k) * v_q;
     double push[3] = {a * ((J[2] - J[1]) * (gamma[1] * gamma[2])), a * ((J[0] - J[2]) * (gamma[2] * gamma[0])),
                       a * ((J[1] - J[0]) * (gamma[0] * gamma[1]))};
-    if (m->forces > 0) {
-        double T[3] = {0, 0, 0};
-        for (int i = 0; i < m->forces; i++) m->force[i]->image(&m->field, z->y, T);
+    if (m->field.energy_formula.lines > 0) {
+        double dV[3], T[3];
+        iso_formula_image(&m->field.energy_formula, p, z->y, dV);
+        cross(gamma, dV, T);
         add_scaled(push, h, T);
     }
     add3(z->y, z->rest, push);

@@ -12,6 +12,7 @@
 
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
+#include "model/formula_impl.h"
 
 /* Where its numbers are: C by rows, and l. */
 enum { QUADRATIC = 0, LINEAR = 9 };

@@ -3,6 +3,7 @@
 
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
+#include "model/formula_impl.h"
 
 static double coefficient(const iso_field *f)
 {

@@ -19,6 +19,7 @@
 #include "base/vec3_impl.h"
 #include "model/contact_impl.h"
 #include "model/effects_impl.h"
+#include "model/formula_impl.h"
 
 static double c_of(const iso_field *f)
 {

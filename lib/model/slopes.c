@@ -37,7 +37,7 @@ static void set_numbers(series *S, const iso_model *m)
     const iso_params *p = &m->field.p;
     const bool is_t = m->system == &iso_system_point_t;
     for (int i = 0; i < KEPT; i++) S->count[i] = S->inverse[i] = spread(1); /* the terms then give plain rates */
-    for (int lane = 0; lane < LANES; lane++) set_ball(S, lane, p);
+    for (int lane = 0; lane < LANES; lane++) set_ball(S, lane, p, S->formula);
     S->alpha = spread(is_t ? 1 / sqrt(p->det_J) : -1 - 1 / p->k);
     S->coupling = spread(2 * m->field.eps / p->k);
 }

@@ -12,7 +12,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "method/integrator_impl.h"
-#include "method/lanes_impl.h"
+#include "method/taylor/lanes_impl.h"
 #include "orbit/orbit_impl.h"
 
 /* Orbits that a thread takes at a time, if there are so many: enough to keep its lanes busy to the end. */

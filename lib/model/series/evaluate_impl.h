@@ -37,6 +37,15 @@ static inline void find_constants(const iso_formula *F, const iso_params *p, NUM
     }
 }
 
+/* The same into one lane. */
+static inline void set_constants(const iso_formula *F, const iso_params *p, int lane, real c[])
+{
+    NUMBER own[ISO_FORMULA_CONSTANTS];
+    (void)lane;
+    find_constants(F, p, own);
+    for (int i = 0; i < F->constants; i++) LANE(c[i], lane) = own[i];
+}
+
 static inline vector three(const real c[])
 {
     vector v = nought;

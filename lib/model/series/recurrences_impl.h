@@ -267,8 +267,8 @@ static inline void set_counts(series *S)
     for (int i = 1; i < KEPT; i++) S->count[i] = spread((NUMBER)i), S->inverse[i] = 1 / S->count[i];
 }
 
-/* The numbers of the ball (or of the point) in a lane, but alpha and coupling. */
-static inline void set_ball(series *S, int lane, const iso_params *p)
+/* The numbers of the ball (or of the point) in a lane, but alpha and coupling; F: its own formula, or NULL. */
+static inline void set_ball(series *S, int lane, const iso_params *p, const iso_formula *F)
 {
     (void)lane; /* where there is only one */
     const NUMBER k = p->k, J[3] = {p->J[0], p->J[1], p->J[2]};
@@ -282,8 +282,5 @@ static inline void set_ball(series *S, int lane, const iso_params *p)
         LANE(AT(S->inv_J, i), lane) = 1 / J[i];
         LANE(AT(S->excess, i), lane) = J[i] - least;
     }
-    if (!S->formula) return;
-    NUMBER c[ISO_FORMULA_CONSTANTS];
-    find_constants(S->formula, p, c);
-    for (int i = 0; i < S->formula->constants; i++) LANE(S->c[i], lane) = c[i];
+    if (F) set_constants(F, p, lane, S->c);
 }

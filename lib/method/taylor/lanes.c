@@ -1,8 +1,12 @@
-#include "method/lanes_impl.h"
+#include "method/taylor/lanes_impl.h"
 
 #include <string.h>
 
-const iso_lane_code *const iso_lane_codes[] = {&iso_lanes_avx512, &iso_lanes_avx2, &iso_lanes_plain, NULL};
+const iso_lane_code *const iso_lane_codes[] = {
+#ifdef ISO_TAYLOR_X86
+    &iso_lanes_avx512, &iso_lanes_avx2,
+#endif
+    &iso_lanes_plain, NULL};
 
 const iso_lane_code *iso_lane_code_find(const char *name)
 {
@@ -21,5 +25,5 @@ bool iso_lanes_alike(const iso_model *a, const iso_model *b)
     for (int i = 0; i < a->carried && alike; i++) alike = a->carry[i] == b->carry[i];
     for (int e = 0; e < ISO_EFFECTS && alike; e++)
         alike = f->effects.on[e] == g->effects.on[e] && f->at[e] == g->at[e];
-    return alike;
+    return alike && iso_formula_alike(&f->motion, &g->motion) && iso_formula_alike(&f->energy_formula, &g->energy_formula);
 }

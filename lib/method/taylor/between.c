@@ -1,11 +1,17 @@
-/* taylor_between.c - the quadrature of between.h on the series of taylor_kernel_impl.h. */
+/* between.c - the quadrature of between.h on the series of model/series. */
 #include "method/between.h"
 
-#include "method/taylor_double_impl.h"
+#define NUMBER       double
+#define ROOT         sqrt
+#define POW          pow
+#define FMA          fma
+#define EPSILON      DBL_EPSILON
+#define FINER        1
+#define FINEST_ORDER 28
+#define NODES        8
+#define LANES        1
 
-#define LANES 1
-
-#include "method/taylor_form_impl.h"
+#include "method/taylor/form_impl.h"
 
 enum { LEAST = 2, HIGHEST = 14 }; /* p; where more is needed, steps are cheaper */
 
@@ -84,7 +90,7 @@ static void know(iso_between *b, sample *s, int p)
     for (int i = 0; i < 3; i++) s->value[i] = AT(fast[0], i), s->value[3 + i] = AT(S->n[0], i);
     for (int c = 0; c < T->clocks; c++) {
         const iso_clock clock = T->clock_of[c];
-        for (int j = 0; j <= p; j++) s->rate[clock][j] = power(S, T->power[clock], s->rate[clock], j);
+        for (int j = 0; j <= p; j++) s->rate[clock][j] = power_of_base(S, T->power[clock], s->rate[clock], j);
     }
 }
 

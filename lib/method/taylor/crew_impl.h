@@ -1,8 +1,8 @@
-/* taylor_lanes_impl.h - the jobs of lanes_impl.h, LANES at a time. */
+/* lanes_impl.h - the jobs of lanes_impl.h, LANES at a time. */
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
-#include "method/lanes_impl.h"
-#include "method/taylor_restore_impl.h"
+#include "method/taylor/lanes_impl.h"
+#include "method/taylor/restore_impl.h"
 
 typedef struct crew {
     form T;
@@ -85,7 +85,8 @@ static void output(crew *c, real length, real dt)
 static real check(const state *s)
 {
     real sum = zero;
-    for (int i = 0; i < 3; i++) sum += s->n[i] + s->w[i] + s->e[i] + s->Q[i] + s->way[i];
+    for (int i = 0; i < 3; i++) sum += s->n[i] + s->w[i];
+    for (int i = 0; i < ISO_MOST_EFFECT_STATES; i++) sum += s->own[i];
     for (int i = 0; i < ISO_CLOCKS; i++) sum += s->clock[i];
     return sum - sum;
 }

@@ -1,8 +1,8 @@
-/* taylor_single_impl.h - one orbit by Taylor series, as an iso_integrator. */
+/* single_impl.h - one orbit by Taylor series, as an iso_integrator. */
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
-#include "method/taylor_impl.h"
-#include "method/taylor_restore_impl.h"
+#include "method/taylor/code_impl.h"
+#include "method/taylor/restore_impl.h"
 
 typedef struct single {
     const iso_taylor_code *code; /* set by taylor.c */

@@ -1,11 +1,15 @@
-/* taylor_form_impl.h - what a model is expanded as: its terms and numbers, and the state it begins with. */
-#include "method/taylor_kernel_impl.h"
-#include "method/taylor_quadrature_impl.h"
+/* form_impl.h - what a model is expanded as: its terms and numbers, and the state it begins with. */
+#include "method/taylor/quadrature_impl.h"
+#include "model/effects_impl.h"
 #include "model/model.h"
+
+enum { MOST = FINEST_ORDER }; /* the highest order, that of the least tolerance */
+#include "model/series/recurrences_impl.h"
 
 /* A state, in the own variable of a form: of a point n = gamma, w = gamma'. */
 typedef struct state {
-    real n[3], w[3], e[3], Q[4], way[3], clock[ISO_CLOCKS]; /* Q: q1 q2 q3 q0 */
+    real n[3], w[3], clock[ISO_CLOCKS];
+    real own[ISO_MOST_EFFECT_STATES]; /* of effects, as in y: own[i] is y[ISO_STATE + i] */
 } state;
 
 /* One orbit in each lane, all of the same shape: the same system, effects and clocks, and k = -1 or not. `own` is the
@@ -13,13 +17,16 @@ typedef struct state {
 typedef struct form {
     series S;
     iso_model shape;
+    iso_formula motion;                       /* of the ball's effects, as series need it      */
     iso_clock own;
-    bool is_point, is_point_t, in_t, is_neumann, rolls, unprojected;
+    bool is_point, is_point_t, in_t, in_field, is_neumann, twists, has_derived, unprojected;
     bool loaded;                              /* a ball with torques, or free to twist         */
     enum second_integral_of { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
     double tolerance;                /* of the last terms, in units of the state                             */
     double at_poles;                 /* the same of 1/g of a ball, see for_poles                             */
     real second;                     /* the second integral at the start                                     */
+    real c[ISO_FORMULA_CONSTANTS];   /* of the energy of the effects                                         */
+    real range;                      /* how large their potential can be, at least; see iso_effects_largest  */
     real twice_energy, keeps_energy; /* of a loaded ball at the start; 1 where it is conserved, else 0       */
     quadrature rule;
     int clocks; /* those that are not the own */
@@ -31,24 +38,14 @@ typedef struct form {
 
 /* --- which terms a model calls for ------------------------------------------------------------------------------ */
 
-static void call(series *S, recurrence *term)
+static void call_effective_ball(form *T)
 {
-    S->term[S->terms++] = term;
-}
-
-static void call_ball(form *T)
-{
-    series *S = &T->S;
-    const bool *on = T->shape.field.effects.on, twists = on[ISO_TWIST];
-    call(S, twists ? twisting_ball : ball);
-    if (on[ISO_GRAVITY]) call(S, gravity);
-    if (on[ISO_FIELD]) call(S, field);
-    if (on[ISO_LEVEL]) call(S, level);
-    if (on[ISO_ROLLING_RESISTANCE]) call(S, resistance);
-    call(S, twists ? loose : T->shape.forces > 0 ? forced : rigid);
-    call(S, twists ? poles_of_loose : poles_of_rigid);
-    if (on[ISO_ATTITUDE]) call(S, attitude);
-    if (T->rolls) call(S, roll);
+    const iso_field *f = &T->shape.field;
+    if (!iso_effects_none(&f->effects)) iso_effects_record_motion(f, true, &T->motion);
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        T->has_derived = T->has_derived || (f->at[e] > 0 && iso_effect_list[e]->states->kind == ISO_STATE_DERIVED);
+    call_ball(&T->S, T->twists, T->motion.lines > 0 ? &T->motion : NULL);
+    call(&T->S, T->twists ? poles_of_loose : poles_of_rigid);
 }
 
 /* In the ball's time the powers cancel, for free points on H = 0; k = -1 is polynomial in s. */
@@ -56,11 +53,11 @@ static void call_point(form *T)
 {
     series *S = &T->S;
     const iso_field *f = &T->shape.field;
-    S->in_field = f->effects.on[ISO_FIELD];
-    T->is_neumann = f->p.k == -1 && !S->in_field;
-    T->in_t = !S->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1;
+    S->formula = T->in_field ? &T->shape.field.energy_formula : NULL;
+    T->is_neumann = f->p.k == -1 && !T->in_field;
+    T->in_t = !T->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1;
     call(S, T->in_t ? point_t : T->is_neumann ? neumann : point_s);
-    if (S->in_field) call(S, point_field);
+    if (T->in_field) call(S, point_effects);
 }
 
 static void call_clock(form *T, iso_clock clock)
@@ -84,16 +81,17 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     T->is_point_t = m->system == &iso_system_point_t;
     T->at_poles = pow(T->tolerance, 0.75);
     T->is_point = m->system == &iso_system_point;
-    T->rolls = m->field.at[ISO_ATTITUDE] && m->field.p.k == 1;
-    T->loaded = !T->is_point && !T->is_point_t && (m->forces > 0 || m->field.effects.on[ISO_TWIST]);
-    if (T->is_point ? !m->field.effects.on[ISO_FIELD] : !T->is_point_t && !T->loaded)
+    T->in_field = T->is_point && m->field.energy_formula.lines > 0;
+    T->twists = !T->is_point && !T->is_point_t && iso_effects_twist(&m->field.effects);
+    T->loaded = !T->is_point && !T->is_point_t && (m->field.motion.torques || T->twists);
+    if (T->is_point ? !T->in_field : !T->is_point_t && !T->loaded)
         T->second_of = m->field.p.k == -1 ? SHELL : m->field.p.k == 1 ? PLANE : NONE;
     S->order = order_for(T->tolerance);
-    for (int i = 1; i < MOST + 3; i++) S->count[i] = spread((NUMBER)i), S->inverse[i] = 1 / S->count[i];
+    set_counts(S);
     if (T->is_point_t)
         call(S, point_p);
     else
-        T->is_point ? call_point(T) : call_ball(T);
+        T->is_point ? call_point(T) : call_effective_ball(T);
     T->own = T->is_point && !T->in_t ? ISO_CLOCK_S : ISO_CLOCK_T;
     call_clock(T, m->clock);
     for (int i = 0; i < m->carried; i++) call_clock(T, m->carry[i]);
@@ -116,37 +114,28 @@ static void set_clock(form *T, int lane, const iso_params *p, iso_clock clock, N
 static void set_numbers(form *T, int lane, const iso_model *m)
 {
     const iso_field *f = &m->field;
-    const iso_effects *e = &f->effects;
     series *S = &T->S;
-    (void)lane;
+    if (!S->formula) {
+        set_ball(S, lane, &f->p, NULL);
+    } else if (T->is_point) {
+        set_ball(S, lane, &f->p, &f->energy_formula);
+    } else {
+        iso_formula motion; /* the shape's, with the numbers of this orbit */
+        iso_effects_record_motion(f, true, &motion);
+        set_ball(S, lane, &f->p, &motion);
+    }
     const NUMBER k = f->p.k, eps = f->eps, J[3] = {f->p.J[0], f->p.J[1], f->p.J[2]};
-    const NUMBER least = J[0] < J[1] ? J[0] < J[2] ? J[0] : J[2] : J[1] < J[2] ? J[1] : J[2];
     const NUMBER factor = J[0] * J[1] * J[2] / (k * k);
-    LANE(S->k, lane) = k;
-    LANE(S->D, lane) = f->p.D;
-    LANE(S->factor, lane) = factor;
-    LANE(S->over_det, lane) = 1 / (J[0] * J[1] * J[2]);
     LANE(S->energy, lane) = f->energy;
-    LANE(S->mgb, lane) = e->mgb;
-    LANE(S->level, lane) = e->level;
-    LANE(S->twist, lane) = e->twist;
-    LANE(S->resistance, lane) = e->resistance;
     /* in t, with eps = h det J/k^2: B = 2 h k/det J */
     LANE(S->alpha, lane) = T->in_t ? 1 + 1 / (2 * k) : -1 - 1 / k;
     LANE(S->coupling, lane) = T->in_t ? 2 * eps / (k * factor * factor) : 2 * eps / k;
     if (T->is_point_t)
         LANE(S->alpha, lane) = 1 / ROOT(J[0] * J[1] * J[2]), LANE(S->coupling, lane) = 2 * eps / factor;
-    for (int i = 0; i < 3; i++) { /* of the point: B = J^(1/2) C J^(1/2), m = J^(1/2) l */
-        const NUMBER root_J = T->is_point ? ROOT(J[i]) : 1;
-        LANE(AT(S->J, i), lane) = J[i];
-        LANE(AT(S->inv_J, i), lane) = 1 / J[i];
-        LANE(AT(S->past, i), lane) = J[i] - least;
-        LANE(AT(S->l, i), lane) = root_J * e->linear[i];
-        for (int j = 0; j < 3; j++)
-            LANE(AT(S->C[j], i), lane) = root_J * e->quadratic[3 * i + j] * (T->is_point ? ROOT(J[j]) : 1);
-        if (T->is_neumann) LANE(AT(S->c[0], i), lane) = 2 * eps / k * J[i] + 2 * f->energy;
-    }
+    for (int i = 0; i < 3; i++)
+        if (T->is_neumann) LANE(AT(S->neumann_c, i), lane) = 2 * eps / k * J[i] + 2 * f->energy;
     for (int i = 0; i < T->clocks; i++) set_clock(T, lane, &f->p, T->clock_of[i], factor);
+    if (f->energy_formula.lines > 0) set_constants(&f->energy_formula, &f->p, lane, T->c);
 }
 
 /* --- states: in -------------------------------------------------------------------------- */
@@ -175,23 +164,20 @@ static real pace(const form *T, const real gamma[])
 /* gamma' = gamma x M in s */
 static void load(form *T, int lane, const double y[])
 {
-    const int *at = T->shape.field.at;
     const iso_model *m = &T->shape;
     state *s = &T->now;
     (void)lane;
     for (int i = 0; i < 3; i++) {
         LANE(s->w[i], lane) = y[i];
         LANE(s->n[i], lane) = y[3 + i];
-        if (at[ISO_GRAVITY]) LANE(s->e[i], lane) = y[at[ISO_GRAVITY] + i];
-        if (T->rolls) LANE(s->way[i], lane) = y[at[ISO_ATTITUDE] + 4 + i];
     }
+    for (int i = ISO_STATE; i < m->moving; i++) LANE(s->own[i - ISO_STATE], lane) = y[i];
     if (T->is_point) {
         const real speed = pace(T, s->n);
         real turned[3];
         cross_product(s->n, s->w, turned);
         for (int i = 0; i < 3; i++) LANE(s->w[i], lane) = LANE(turned[i], lane) / LANE(speed, lane);
     }
-    for (int i = 0; at[ISO_ATTITUDE] && i < 4; i++) LANE(s->Q[(i + 3) % 4], lane) = y[at[ISO_ATTITUDE] + i];
     for (int i = 0; i < m->carried; i++) LANE(s->clock[m->carry[i]], lane) = y[m->moving + i];
 }
 
@@ -209,11 +195,12 @@ static void begin(form *T)
     const state *s = &T->now;
     S->n[0] = packed(s->n);
     *(T->is_point ? &S->n[1] : &S->w[0]) = packed(s->w);
-    if (T->shape.field.at[ISO_GRAVITY]) S->e[0] = packed(s->e);
-    if (T->shape.field.at[ISO_ATTITUDE]) {
-        S->Q[0] = packed(s->Q);
-        S->Q0[0] = s->Q[3];
-        S->way[0] = packed(s->way);
+    for (int i = 0; i < T->motion.states; i++) {
+        const int node = T->motion.state[i].node * KEPT, at = T->motion.state[i].at - ISO_STATE;
+        if (T->motion.state[i].is_vector)
+            S->vector[node] = packed(s->own + at);
+        else
+            S->scalar[node] = s->own[at];
     }
     memcpy(T->clock, s->clock, sizeof T->clock);
 }

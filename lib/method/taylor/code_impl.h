@@ -1,4 +1,4 @@
-/* taylor_impl.h - the method `taylor` compiled several times: for processors, and for kinds of numbers. */
+/* impl.h - the method `taylor` compiled several times: for processors, and for kinds of numbers. */
 #ifndef ISO_METHOD_TAYLOR_IMPL_H
 #define ISO_METHOD_TAYLOR_IMPL_H
 
@@ -14,7 +14,7 @@ typedef struct iso_taylor_code {
 
 extern const iso_taylor_code iso_taylor_plain, iso_taylor_avx2, iso_taylor_extended, iso_taylor_quad;
 
-/* Whether this processor can run iso_taylor_avx2, and this build has it. */
+/* Whether this processor can run iso_taylor_avx2, which builds for x86 have. */
 bool iso_taylor_has_avx2(void);
 
 #endif

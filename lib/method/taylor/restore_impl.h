@@ -1,9 +1,9 @@
-/* taylor_restore_impl.h - what brings a state back to its constraints after a step.
+/* restore_impl.h - what brings a state back to its constraints after a step.
  *
  * Corrections are small, and their defects computed exactly: a projection that rounds its defect turns each step the
  * same way, and the phase drifts like t^2.
  */
-#include "method/taylor_step_impl.h"
+#include "method/taylor/step_impl.h"
 
 /* (a,b) - target with the rounding of one number only (Dot2 of Ogita, Rump and Oishi). */
 static inline real defect_of(const real a[], const real b[], int count, real target)
@@ -31,21 +31,45 @@ static inline real restore_length(real a[], int count, real target, mask wanted)
     return worst;
 }
 
-/* |gamma'|^2 on the level, 2 (E - V) in s, B k q^2 in t, and the size of the terms that it is the difference of. */
-static real square_of_speed(const form *T, const real gamma[3], real *terms)
+/* The potential of the effects at n (gamma), base g (q), and the sum of the sizes of its terms. */
+static real potential_at(const form *T, const real n[3], real base, const state *s, real *size)
 {
+    const iso_formula *F = &T->shape.field.energy_formula;
+    real scalar[ISO_FORMULA_SCALARS], potential = zero;
+    vector vectors[ISO_FORMULA_VECTORS], gradient = nought;
+    const nodes t = {.kept = 1, .c = T->c, .scalar = scalar, .vector = vectors, .gradient = &gradient,
+                     .potential = &potential, .size = size};
+    *size = zero;
+    scalar[ISO_GIVEN_BASE] = base;
+    vectors[ISO_GIVEN_N] = packed(n);
+    vectors[ISO_GIVEN_OMEGA] = packed(s->w);
+    vectors[ISO_GIVEN_U] = by(T->S.inv_J, vectors[ISO_GIVEN_N]);
+    for (int i = 0; i < F->states; i++) {
+        const real *own = s->own + F->state[i].at - ISO_STATE;
+        if (F->state[i].is_vector)
+            vectors[F->state[i].node] = packed(own);
+        else
+            scalar[F->state[i].node] = *own;
+    }
+    evaluate(F, &t, false, 0);
+    return potential;
+}
+
+/* |gamma'|^2 on the level, 2 (E - V) in s, B k q^2 in t, and the size of the terms that it is the difference of. */
+static real square_of_speed(const form *T, const state *s, real *terms)
+{
+    const real *gamma = s->n;
     const series *S = &T->S;
     const real q = q_of(S, gamma);
     *terms = zero;
     if (T->in_t) return S->coupling * S->k * q * q;
     const real fall = raised(q, -1 / S->k), own = S->coupling * S->k * fall;
     *terms = magnitude(2 * S->energy) + magnitude(own);
-    if (!S->in_field) return 2 * S->energy + own;
-    const vector n = packed(gamma);
-    const real P = S->factor * fall * total(by(n, matrix_times(S, n))) / q;
-    const real L = 2 * S->factor * fall * total(by(S->l, n)) / root(q);
-    *terms += magnitude(P) + magnitude(L);
-    return 2 * S->energy + own - P - L;
+    if (!T->in_field) return 2 * S->energy + own;
+    real size;
+    const real V = potential_at(T, gamma, q, s, &size);
+    *terms += 2 * size;
+    return 2 * S->energy + own - 2 * V;
 }
 
 /* The second integral F of a free orbit as sum_i a_i b_i = F divisor, and how the sum changes as w moves along
@@ -146,7 +170,7 @@ static real restore_point(const form *T, state *s)
     const real along = defect_of(s->n, s->w, 3, zero);
     for (int i = 0; i < 3; i++) s->w[i] -= along * s->n[i];
     real terms;
-    const real square = square_of_speed(T, s->n, &terms);
+    const real square = square_of_speed(T, s, &terms);
     const real now = s->w[0] * s->w[0] + s->w[1] * s->w[1] + s->w[2] * s->w[2];
     const mask fast = both(now > square / 2, now > (NUMBER)0.1 * terms); /* else rounding errors would grow */
     worst += restore_length(s->w, 3, square, both(square > zero, fast));
@@ -166,7 +190,7 @@ static real restore_point_t(const form *T, state *s)
  * units how large the potential is, or can be made. */
 typedef struct energy_sum {
     int count;
-    real a[16], b[16], sum, kinetic, range;
+    real a[5], b[5], sum, kinetic, range;
 } energy_sum;
 
 static void add(energy_sum *E, real a, real b)
@@ -176,45 +200,21 @@ static void add(energy_sum *E, real a, real b)
     E->sum += a * b;
 }
 
-/* v in space: v + 2 q0 c + 2 q x c, c = q x v */
-static void to_space(const state *s, const real v[3], real in_space[3])
-{
-    real c[3], d[3];
-    cross_product(s->Q, v, c);
-    cross_product(s->Q, c, d);
-    for (int i = 0; i < 3; i++) in_space[i] = v[i] + 2 * (s->Q[3] * c[i] + d[i]);
-}
-
-/* mgb/(1-k) (n,e); on a plane mgb (E,x), E the vertical in space */
-static void add_weight(const form *T, const state *s, energy_sum *E)
-{
-    const real factor = T->rolls ? 2 * T->S.mgb : 2 * T->S.mgb / (1 - T->S.k);
-    real up[3];
-    if (T->rolls) to_space(s, s->e, up);
-    for (int i = 0; i < 3; i++) add(E, factor * (T->rolls ? up[i] : s->e[i]), T->rolls ? s->way[i] : s->n[i]);
-    E->range = magnitude(factor);
-}
-
-/* with (w,Jw) - D (w,n)^2, (n,Cn) + 2 (l,n) and -2 c g^(-1/k) */
+/* (w,Jw) - D (w,n)^2 + 2 U */
 static void energy_of(const form *T, const state *s, energy_sum *E)
 {
     const series *S = &T->S;
-    const bool *on = T->shape.field.effects.on;
-    const real k = S->k;
-    real spin = zero, g = zero;
+    real spin = zero, g = zero, size;
     *E = (energy_sum){0};
     for (int i = 0; i < 3; i++) {
         add(E, s->w[i], AT(S->J, i) * s->w[i]);
         spin += s->w[i] * s->n[i];
         g += s->n[i] * AT(S->inv_J, i) * s->n[i];
     }
-    if (on[ISO_TWIST]) add(E, -S->D * spin, spin);
+    if (T->twists) add(E, -S->D * spin, spin);
     E->kinetic = E->sum;
-    if (on[ISO_GRAVITY]) add_weight(T, s, E);
-    const vector C_n = matrix_times(S, packed(s->n));
-    for (int i = 0; on[ISO_FIELD] && i < 3; i++) add(E, s->n[i], AT(C_n, i) + 2 * AT(S->l, i));
-    if (on[ISO_LEVEL]) add(E, -2 * S->level * raised(g, -1 / k), spread(1));
-    E->range = larger(E->range, magnitude(E->sum - E->kinetic));
+    add(E, 2 * potential_at(T, s->n, g, s, &size), spread(1));
+    E->range = larger(2 * T->range, magnitude(E->sum - E->kinetic));
 }
 
 /* Like the model's projection left out where the ball hardly moves: there a small error of h is a large one of w. */
@@ -238,7 +238,7 @@ static real restore_ball(const form *T, state *s)
     real worst = restore_length(s->n, 3, spread(1), everywhere()), K[3];
     real g = zero;
     for (int i = 0; i < 3; i++) g += s->n[i] * AT(S->inv_J, i) * s->n[i];
-    const real spin = T->shape.field.effects.on[ISO_TWIST] ? zero : defect_of(s->w, s->n, 3, zero) / g;
+    const real spin = T->twists ? zero : defect_of(s->w, s->n, 3, zero) / g;
     for (int i = 0; i < 3; i++) s->w[i] -= spin * AT(S->inv_J, i) * s->n[i];
     if (T->loaded) return worst + restore_energy(T, s);
     for (int i = 0; i < 3; i++) K[i] = AT(S->J, i) * s->w[i];
@@ -249,13 +249,28 @@ static real restore_ball(const form *T, state *s)
     return worst + magnitude(part);
 }
 
+/* The unit vectors among the states of effects. */
+static real restore_unit_states(const form *T, state *s)
+{
+    const iso_field *f = &T->shape.field;
+    real worst = zero;
+    for (int e = 0; e < ISO_EFFECTS; e++) {
+        real *own = s->own + f->at[e] - ISO_STATE;
+        for (const iso_effect_state *i = iso_effect_list[e]->states; f->at[e] > 0 && i->name; i++) {
+            if (i->there && !i->there(f)) continue;
+            if (i->kind == ISO_STATE_UNIT) worst += restore_length(own, i->count, spread(1), everywhere());
+            own += i->count;
+        }
+    }
+    return worst;
+}
+
 /* Gives the relative size of the corrections to lengths and energy, which asks for the vertical. */
 static real restore(const form *T, state *s)
 {
     if (T->unprojected && !T->is_point) return zero; /* off them a point's equations are unstable */
     real worst = zero;
-    if (T->shape.field.at[ISO_GRAVITY]) worst += restore_length(s->e, 3, spread(1), everywhere());
-    if (T->shape.field.at[ISO_ATTITUDE]) worst += restore_length(s->Q, 4, spread(1), everywhere());
+    if (T->motion.states > 0) worst += restore_unit_states(T, s);
     if (T->is_point_t) return worst + restore_point_t(T, s);
     return worst + (T->is_point ? restore_point(T, s) : restore_ball(T, s));
 }
@@ -264,6 +279,7 @@ static real restore(const form *T, state *s)
  * would not fit together. */
 static void set_integrals(form *T, int lane, const iso_model *m)
 {
+    double y[ISO_MAX_STATE];
     state start = T->now;
     const enum second_integral_of wanted = T->second_of;
     (void)lane;
@@ -282,6 +298,8 @@ static void set_integrals(form *T, int lane, const iso_model *m)
         const real twice = defect_of(E.a, E.b, E.count, zero);
         LANE(T->twice_energy, lane) = LANE(twice, lane);
         LANE(T->keeps_energy, lane) = iso_effects_keep_energy(&m->field);
+        for (int i = 0; i < m->dim; i++) y[i] = i < 3 ? (double)LANE(start.w[i], lane) : i < 6 ? (double)LANE(start.n[i - 3], lane) : 0;
+        LANE(T->range, lane) = iso_effects_largest(&m->field, y);
     }
 }
 

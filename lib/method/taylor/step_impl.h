@@ -1,5 +1,5 @@
-/* taylor_step_impl.h - along a series: states and clocks, and the length of a step. */
-#include "method/taylor_form_impl.h"
+/* step_impl.h - along a series: states and clocks, and the length of a step. */
+#include "method/taylor/form_impl.h"
 
 /* p(x), or p'(x), of a vector's series, or of a number's */
 static inline void value(const vector a[], int order, real x, real out[3])
@@ -26,22 +26,18 @@ static inline real number(const real a[], int order, real x)
 static void store(const form *T, int lane, const state *s, double y[])
 {
     const iso_model *m = &T->shape;
-    const int *at = m->field.at;
     (void)lane;
     for (int i = 0; i < 3; i++) {
         y[i] = (double)LANE(s->w[i], lane);
         y[3 + i] = (double)LANE(s->n[i], lane);
-        if (at[ISO_GRAVITY]) y[at[ISO_GRAVITY] + i] = (double)LANE(s->e[i], lane);
-        if (T->rolls) y[at[ISO_ATTITUDE] + 4 + i] = (double)LANE(s->way[i], lane);
     }
+    for (int i = ISO_STATE; i < m->moving; i++) y[i] = (double)LANE(s->own[i - ISO_STATE], lane);
     if (T->is_point) {
         const real speed = pace(T, s->n);
         real M[3];
         cross_product(s->w, s->n, M);
         for (int i = 0; i < 3; i++) y[i] = (double)(LANE(M[i], lane) * LANE(speed, lane));
     }
-    if (at[ISO_TWIST]) y[at[ISO_TWIST]] = -(double)LANE(T->S.twist, lane) * (y[0] * y[3] + y[1] * y[4] + y[2] * y[5]);
-    for (int i = 0; at[ISO_ATTITUDE] && i < 4; i++) y[at[ISO_ATTITUDE] + i] = (double)LANE(s->Q[(i + 3) % 4], lane);
     for (int i = 0; i < m->carried; i++) y[m->moving + i] = (double)LANE(s->clock[m->carry[i]], lane);
 }
 
@@ -57,6 +53,23 @@ static inline real pass_time(const form *T, real x, real gained[ISO_CLOCKS])
     return doubt;
 }
 
+/* States that omega and n give at any time, in doubles: no equation here reads them. */
+static void find_derived(const form *T, state *s)
+{
+    const iso_field *f = &T->shape.field;
+    for (int lane = 0; lane < LANES; lane++) {
+        double y[ISO_MAX_STATE] = {0};
+        for (int i = 0; i < 3; i++) y[i] = (double)LANE(s->w[i], lane), y[3 + i] = (double)LANE(s->n[i], lane);
+        for (int e = 0; e < ISO_EFFECTS; e++) {
+            const iso_effect *effect = iso_effect_list[e];
+            if (f->at[e] == 0 || effect->states->kind != ISO_STATE_DERIVED) continue;
+            effect->begin(f, y);
+            for (int i = 0; i < effect->states->count; i++)
+                LANE(s->own[f->at[e] - ISO_STATE + i], lane) = y[f->at[e] + i];
+        }
+    }
+}
+
 static void state_at(const form *T, real x, state *s)
 {
     const series *S = &T->S;
@@ -66,12 +79,14 @@ static void state_at(const form *T, real x, state *s)
         rate(S->n, S->count, S->order + 1, x, s->w);
     else
         value(S->w, S->order, x, s->w);
-    if (m->field.at[ISO_GRAVITY]) value(S->e, S->order, x, s->e);
-    if (m->field.at[ISO_ATTITUDE]) {
-        s->Q[3] = number(S->Q0, S->order, x);
-        value(S->Q, S->order, x, s->Q);
-        if (T->rolls) value(S->way, S->order, x, s->way);
+    for (int i = 0; i < T->motion.states; i++) {
+        const int node = T->motion.state[i].node * KEPT, at = T->motion.state[i].at - ISO_STATE;
+        if (T->motion.state[i].is_vector)
+            value(S->vector + node, S->order, x, s->own + at);
+        else
+            s->own[at] = number(S->scalar + node, S->order, x);
     }
+    if (T->has_derived) find_derived(T, s);
     if (m->carried == 0) return;
     real gained[ISO_CLOCKS];
     pass_time(T, x, gained);
@@ -93,8 +108,14 @@ static real coefficient(const form *T, int n)
     const vector rest = T->is_point ? times(S->count[n + 1], S->n[n + 1]) : S->w[n]; /* of gamma', or w */
     const real speed = largest(T->is_point ? S->n[1] : S->w[0]);
     most = larger(most, largest(rest) / (speed + spread((NUMBER)ISO_REST)));
-    if (T->shape.field.at[ISO_GRAVITY]) most = larger(most, largest(S->e[n]));
-    if (T->shape.field.at[ISO_ATTITUDE]) most = larger(most, largest(S->Q[n]));
+    for (int i = 0; i < T->motion.states; i++) {
+        const int node = T->motion.state[i].node * KEPT, kind = T->motion.state[i].kind;
+        if (kind == ISO_STATE_INTEGRAL) continue;
+        const bool is_vector = T->motion.state[i].is_vector;
+        const real size = is_vector ? largest(S->vector[node + n]) : magnitude(S->scalar[node + n]);
+        const real start = is_vector ? largest(S->vector[node]) : magnitude(S->scalar[node]);
+        most = larger(most, kind == ISO_STATE_UNIT ? size : size / (spread(1) + start));
+    }
     return most;
 }
 

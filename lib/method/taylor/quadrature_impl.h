@@ -1,4 +1,4 @@
-/* taylor_quadrature_impl.h - integrals of a power of a series, by the rule of Gauss and Legendre with NODES nodes.
+/* quadrature_impl.h - integrals of a power of a series, by the rule of Gauss and Legendre with NODES nodes.
  *
  * A clock's rate is a power of q or g, whose series is there already: the integral of that over a step needs a few
  * values of a polynomial, side by side, where a series of the clock itself would need two more products a
@@ -7,7 +7,7 @@
  * (one may be 0 by symmetry), and as coefficients fall geometrically, its error is of the order of c_n^2, relative to
  * f.
  */
-#include "method/taylor_number_impl.h"
+#include "model/series/number_impl.h"
 
 /* On [0,1]. */
 typedef struct quadrature {

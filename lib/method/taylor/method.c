@@ -1,19 +1,20 @@
-/* taylor.c - Taylor series of the equations themselves: the method, on the code for this processor.
+/* method.c - Taylor series of the equations themselves: the method, on the code for this processor.
  *
- * Each step expands the solution about its left end to a high order by the recurrences of taylor_kernel_impl.h, and
+ * Each step expands the solution about its left end to a high order by the recurrences of model/series, and
  * goes as far as the last terms allow: few long steps, about as many as half turns of the ball. A free point is
  * expanded in the form that needs fewest products (section 5b of the theory): in s for k = -1, where it is
  * polynomial, in the ball's own time for other k, where the powers of q cancel. Other clocks are integrals of a power
  * of q over the step. What stands between the steps is the series itself. Constraints, energy and, for k = 1 and -1,
  * the second integral are restored from defects computed exactly, so that their rounding has no bias.
  *
- * The source is one: numbers (taylor_number_impl.h), recurrences (kernel), quadrature, what a model is expanded as
- * (form), what is restored (restore); around them one orbit (single), or many in lanes (lanes, for batches).
+ * The source is one: numbers, products and recurrences (model/series), integrals of clocks (quadrature), what a model is
+ * expanded as (form), steps (step), what is restored (restore); around them one orbit (single), or many side by side
+ * (crew, for batches). variant.c compiles it for each kind of number.
  */
 #include <stdlib.h>
 
 #include "method/methods_impl.h"
-#include "method/taylor_impl.h"
+#include "method/taylor/code_impl.h"
 
 static const iso_taylor_code *code_of(const iso_integrator *it)
 {
@@ -29,7 +30,10 @@ static iso_status create_with(iso_integrator *it, const iso_taylor_code *code)
 
 static iso_status create(iso_integrator *it)
 {
-    return create_with(it, iso_taylor_has_avx2() ? &iso_taylor_avx2 : &iso_taylor_plain);
+    #ifdef ISO_TAYLOR_X86
+    if (iso_taylor_has_avx2()) return create_with(it, &iso_taylor_avx2);
+#endif
+    return create_with(it, &iso_taylor_plain);
 }
 
 static iso_status create_extended(iso_integrator *it)

@@ -1,0 +1,117 @@
+/* variant.c - the code of the Taylor methods, compiled once for each kind of number and vector.
+ *
+ * The build compiles this file with ISO_TAYLOR_VARIANT set to VARIANT_ and one of the names below (CMakeLists.txt). One orbit at a
+ * time gives an iso_taylor_code, for the method (method.c); several side by side, one in each lane of a vector, give an
+ * iso_lane_code, for batches (lanes.c).
+ *
+ *     variant       numbers                  orbits   for
+ *     plain         double                   1        any processor
+ *     avx2          double                   1        x86 with AVX2 and FMA: three components in one register of four
+ *     extended      long double              1        a reference: 64 bits of mantissa on x86
+ *     quad          128 bits                 1        a reference for references, where compiler and C library have it
+ *     lanes_plain   double                   2        any processor: all have vectors of two doubles, or do without
+ *     lanes_avx2    double                   4        x86 with AVX2 and FMA
+ *     lanes_avx512  double                   8        x86 with AVX-512
+ */
+#define VARIANT_PLAIN        1
+#define VARIANT_AVX2         2
+#define VARIANT_EXTENDED     3
+#define VARIANT_QUAD         4
+#define VARIANT_LANES_PLAIN  5
+#define VARIANT_LANES_AVX2   6
+#define VARIANT_LANES_AVX512 7
+
+#include "method/methods_impl.h"
+
+#if ISO_TAYLOR_VARIANT != VARIANT_QUAD || defined ISO_TAYLOR_HAS_QUAD
+
+/* --- the numbers ------------------------------------------------------------------------------------------------ */
+
+#if ISO_TAYLOR_VARIANT == VARIANT_EXTENDED
+#define NUMBER       long double
+#define ROOT         sqrtl
+#define POW          powl
+#define FMA          fmal
+#define EPSILON      LDBL_EPSILON
+#define FINER        1e-4 /* the tolerance is that of doubles: terms are kept to what is beyond them */
+#define FINEST_ORDER 34
+#define NODES        12
+#elif ISO_TAYLOR_VARIANT == VARIANT_QUAD
+__extension__ typedef _Float128 number_of_128_bits;
+#define NUMBER       number_of_128_bits
+#define ROOT         sqrtf128
+#define POW          powf128
+#define FMA          fmaf128
+#define EPSILON      0x1p-112
+#define FINER        1e-15
+#define FINEST_ORDER 52
+#define NODES        20
+#else
+#define NUMBER       double
+#define ROOT         sqrt
+#define POW          pow
+#define FMA          fma
+#define EPSILON      DBL_EPSILON
+#define FINER        1
+#define FINEST_ORDER 28
+#define NODES        8
+#endif
+
+#if ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX512
+#define LANES 8
+#elif ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX2
+#define LANES 4
+#elif ISO_TAYLOR_VARIANT == VARIANT_LANES_PLAIN
+#define LANES 2
+#else
+#define LANES 1
+#endif
+
+#if ISO_TAYLOR_VARIANT == VARIANT_PLAIN || ISO_TAYLOR_VARIANT == VARIANT_AVX2
+#define PACKED
+#endif
+
+/* --- the code --------------------------------------------------------------------------------------------------- */
+
+#if LANES == 1
+#include "method/taylor/single_impl.h"
+#else
+#include "method/taylor/crew_impl.h"
+#endif
+
+#if ISO_TAYLOR_VARIANT == VARIANT_PLAIN
+const iso_taylor_code iso_taylor_plain = {create, start, step, within};
+#elif ISO_TAYLOR_VARIANT == VARIANT_AVX2
+const iso_taylor_code iso_taylor_avx2 = {create, start, step, within};
+
+bool iso_taylor_has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+}
+#elif ISO_TAYLOR_VARIANT == VARIANT_EXTENDED
+const iso_taylor_code iso_taylor_extended = {create, start, step, within};
+#elif ISO_TAYLOR_VARIANT == VARIANT_QUAD
+const iso_taylor_code iso_taylor_quad = {create, start, step, within};
+#else
+
+static bool runs_here(void)
+{
+#if ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX512
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma");
+#elif ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX2
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+    return true;
+#endif
+}
+
+#if ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX512
+const iso_lane_code iso_lanes_avx512 = {"avx512", LANES, runs_here, solve};
+#elif ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX2
+const iso_lane_code iso_lanes_avx2 = {"avx2", LANES, runs_here, solve};
+#else
+const iso_lane_code iso_lanes_plain = {"plain", LANES, runs_here, solve};
+#endif
+#endif
+
+#endif
