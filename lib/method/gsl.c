@@ -49,6 +49,19 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     return iso_gsl_renew_slope(it, g, y);
 }
 
+/* It serves every model, and among the library's explicit methods needs the least time (the table in taylor.c). */
+static iso_suits rk8pd_suits(const iso_model *m)
+{
+    return iso_effects_stiffness(&m->field) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_WELL;
+}
+
+/* Of the methods for stiff models the most exact for its time; from ISO_VERY_STIFF on bdf needs fewer right-hand sides. */
+static iso_suits bsimp_suits(const iso_model *m)
+{
+    const double stiffness = iso_effects_stiffness(&m->field);
+    return stiffness > ISO_VERY_STIFF ? ISO_WELL : stiffness > ISO_STIFF ? ISO_BEST : ISO_NEVER;
+}
+
 #define GSL_METHOD .family = "gsl", .create = create, .start = start, .step = step, .free = release
 
 const iso_method iso_method_rk4 = {.name = "rk4",
@@ -75,6 +88,8 @@ const iso_method iso_method_rkck = {.name = "rkck",
 const iso_method iso_method_rk8pd = {.name = "rk8pd",
                                      .order = 8,
                                      .variant = RK8PD,
+                                     .suits = rk8pd_suits,
+                                     .witness = 1,
                                      .fixed = true,
                                      .projects = true,
                                      .doc = "Runge-Kutta Prince-Dormand 8(9)",
@@ -88,6 +103,8 @@ const iso_method iso_method_msbdf = {.name = "msbdf",
                                      GSL_METHOD};
 const iso_method iso_method_bsimp = {.name = "bsimp",
                                      .variant = BSIMP,
+                                     .suits = bsimp_suits,
+                                     .witness = 3,
                                      .implicit = true,
                                      .projects = true,
                                      .fixed = true,

@@ -23,9 +23,8 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     iso_method_options o = *options;
     if (!method) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "no such method");
     if (!(o.fixed_step >= 0 && isfinite(o.fixed_step)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a fixed step of %g is no step", o.fixed_step);
-    if (o.fixed_step > 0 && !method->fixed)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s does not take fixed steps", method->name);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a fixed step must be finite and >= 0, not %g", o.fixed_step);
+    if (iso_method_check(ctx, method, model, &o) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of leaps to times between the steps */
     if (iso_tolerance_check(ctx, o.tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
     iso_integrator *it = calloc(1, sizeof *it);
