@@ -38,8 +38,9 @@ static bool has_even_steps(const iso_method *method, const iso_model *model, cha
 {
     const iso_params *p = &model->field.p;
     if (!method->steps_in_s || !iso_params_steep(p) || p->k == -1) return true;
-    snprintf(why, ISO_WHY_SIZE,
-             "has steps that are fixed in s, and for this k one radian of the way may take 1e10 times as long as another");
+    snprintf(
+        why, ISO_WHY_SIZE,
+        "has steps that are fixed in s, and for this k one radian of the way may take 1e10 times as long as another");
     return false;
 }
 
@@ -59,7 +60,8 @@ iso_status iso_method_check(iso_context *ctx, const iso_method *method, const is
                                 iso_method_auto(model)->name);
     if (!(options->fixed_step > 0)) return ISO_OK;
     if (!method->fixed)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s takes no fixed steps: it chooses its own", method->name);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s takes no fixed steps: it chooses its own",
+                                method->name);
     if (!method->steps_in_s || model->clock == ISO_CLOCK_S) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "the steps of %s are fixed in s: they cannot be in %s",
                             method->name, iso_clock_name(model->clock));
