@@ -34,13 +34,13 @@ static void say_separated(const iso_momentum *m, const double J[3], iso_momentum
 {
     const int turning = part == ISO_TURNS_ABOUT_1 ? 1 : 0, axis = m->axis[turning == 1 ? 0 : 2];
     iso_angle *turns = &f->angle[turning], *swings = &f->angle[1 - turning];
-    snprintf(f->motion, sizeof f->motion, "turns about axis %d, of the %s moment, and swings %s the plane across it",
+    snprintf(f->motion, sizeof f->motion, "turns about axis %d (%s moment) and swings %s the plane perpendicular to it",
              axis + 1, rank(J, axis), part == ISO_ON_ONE_SIDE ? "on one side of" : "through");
     snprintf(turns->what, sizeof turns->what, "%c turns about axis %d", "uv"[turning], axis + 1);
     snprintf(swings->what, sizeof swings->what, "%c swings %s", "vu"[turning],
              part == ISO_ON_ONE_SIDE ? "towards the axis and back" : "along the axis");
     if (part != ISO_SWINGS_ABOUT_3) return;
-    snprintf(f->motion, sizeof f->motion, "swings about axis %d, of the %s moment, both ways", axis + 1,
+    snprintf(f->motion, sizeof f->motion, "swings about axis %d (%s moment), both ways", axis + 1,
              rank(J, axis));
     for (int i = 0; i < 2; i++)
         snprintf(f->angle[i].what, sizeof f->angle[i].what, "%c swings along axis %d", "uv"[i], m -> axis[i] + 1);
@@ -71,7 +71,7 @@ static void say_plane(const iso_field *field, const double M[3], iso_frequencies
     int axis = 0;
     for (int i = 1; i < 3; i++)
         if (fabs(M[i]) > fabs(M[axis])) axis = i;
-    snprintf(f->motion, sizeof f->motion, "rotation about axis %d, of the %s moment, in a principal plane%s",
+    snprintf(f->motion, sizeof f->motion, "rotation about axis %d (%s moment), in a principal plane%s",
              axis + 1, rank(field->p.J, axis), is_unstable(field, axis) ? ": unstable" : "");
     snprintf(f->angle[0].what, sizeof f->angle[0].what, "turns about axis %d", axis + 1);
 }
@@ -90,7 +90,7 @@ static void say(const iso_orbit *orbit, const iso_sample *start, const iso_exact
     case ISO_EXACT_SYMMETRIC: say_symmetric(&field->p, f); break;
     case ISO_EXACT_PLANE: say_plane(field, start->point, f); break;
     case ISO_EXACT_SEPARATRIX:
-        snprintf(f->motion, sizeof f->motion, "leaves an unstable rotation and comes back to it, once");
+        snprintf(f->motion, sizeof f->motion, "leaves an unstable rotation and comes back to it, once: the separatrix");
         break;
     case ISO_EXACT_REST: snprintf(f->motion, sizeof f->motion, "rests"); break;
     case ISO_EXACT_KINDS: break;
@@ -113,7 +113,7 @@ static void find_separatrices(const iso_orbit *orbit, const double point[ISO_STA
         iso_separatrix *s = &f->separatrix[f->separatrices++];
         for (int j = 0; j < 3; j++)
             if (at.axis[j] == axis) s->distance = excess[j] / fmax(fabs(c), fabs(list[i].c));
-        snprintf(s->what, sizeof s->what, "the rotation about axis %d, of the %s moment", axis + 1,
+        snprintf(s->what, sizeof s->what, "rotation about axis %d (%s moment)", axis + 1,
                  rank(field->p.J, axis));
     }
 }
