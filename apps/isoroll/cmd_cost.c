@@ -132,7 +132,7 @@ static int tell_choice(const cost_report *r)
     const iso_cost_cell *c = iso_cost_choose(r->cost, r->want);
     if (!c) return complain("nothing measured reaches an error of %g", r->want), EXIT_SOME_FAILED;
     printf("%s\n", cost_options_of(c, words));
-    complain("expected: error %.1e%s, time %s", c->error, c->below ? ", as far as the reference can tell" : "",
+    complain("expected: error %.1e%s, time %s", c->error, c->below ? ", or less: the reference is no better" : "",
              cost_seconds(c->total, seconds));
     return EXIT_DONE;
 }
@@ -207,7 +207,7 @@ static int run(iso_context *ctx, const options *o)
         cost_report r = {.scene = &scene, .cost = cost, .want = o->want};
         result = worse(result, report(ctx, o, &r, csv));
         if (status == ISO_OK && interrupted()) {
-            complain("interrupted: the rest of the growth is missing");
+            complain("interrupted: longer orbits are missing");
             result = worse(result, EXIT_SOME_FAILED);
         }
     } else {
@@ -224,14 +224,12 @@ const command command_cost = {
     .doc = "what accuracy costs in time: error against time by every backend, method and tolerance",
     .options = " backend method tol t-end quick want horizons plot csv json ",
     .more =
-        "The scene's own backend, method and tolerance are not read: all are measured, unless --backend, --method or "
-        "--tol names one.\n"
-        "Errors are those of (omega, n), relative, the largest of 20 times from the start to the end, against a "
-        "reference that is none of\nthe cells. Times are processor time, the median of repeats, set-up apart. "
-        "--want X prints the cheapest choice as options of 'run':\n  isoroll run SCENE $(isoroll cost SCENE --want "
-        "1e-9)\n"
-        "--horizons repeats the best cell of each backend over orbits 2, 4, ... times as long, and tells how error "
-        "and "
-        "time grow.\nInterrupted (Ctrl-C), what has been measured is printed.",
+        "All backends, methods and tolerances are measured, whatever the scene names; --backend, --method and --tol\n"
+        "restrict them. A cell is one of each. Its error is the largest relative error of (omega, n) at 20 times from the\n"
+        "start to the end, against a reference that is none of the cells. Its time is processor time, the median of\n"
+        "repeats, without set-up. --want X prints the cheapest choice as options of 'run':\n"
+        "  isoroll run SCENE $(isoroll cost SCENE --want 1e-9)\n"
+        "--horizons runs the best cell of each backend on orbits that are 2, 4, ... times as long, and says how error and\n"
+        "time grow. After Ctrl-C, what has been measured is printed.",
     .run = run,
 };

@@ -27,19 +27,20 @@ static void print_head(const iso_scene *scene, const iso_frequencies *f)
     printf("\n\n");
     if (!f->estimated) {
         printf("closed solution: %s\n", f->motion);
-        if (!isnan(f->c)) printf("  separated, c = %.15g\n", f->c);
+        if (!isnan(f->c)) printf("  it separates in coordinates u and v, with the constant c = %.15g\n", f->c);
         return;
     }
     printf("ESTIMATED from an orbit: %s\n  %s: %s\n", f->motion,
            f->unresolved ? "the closed solution was not resolved" : "no closed solution", f->why);
-    printf(
-        "  %.6g turns, to t = %.10g, %zu samples; halves of it differ in a frequency by %.1e (in its first quarter "
-        "by %.1e)\n",
-        f->estimate.turns, f->estimate.length, f->estimate.samples, f->estimate.drift, f->estimate.drift_before);
+    printf("  orbit: %.6g turns, to t = %.10g, %zu samples\n", f->estimate.turns, f->estimate.length,
+           f->estimate.samples);
+    printf("  a frequency differs between the halves of the orbit by %.1e, between the halves of its first quarter by "
+           "%.1e\n",
+           f->estimate.drift, f->estimate.drift_before);
     if (f->estimate.verdict == ISO_CHAOTIC)
-        printf("  what follows wanders: it is of this orbit, not of the motion\n");
+        printf("  a chaotic motion has no fixed frequencies: the numbers below hold for this orbit only\n");
     if (f->estimate.unexplained > 1e-4)
-        printf("  %.2g of the amplitudes are no combinations of two frequencies\n", f->estimate.unexplained);
+        printf("  part of the amplitudes that two frequencies do not explain: %.2g\n", f->estimate.unexplained);
 }
 
 static void print_separatrices(const iso_frequencies *f)
@@ -62,12 +63,12 @@ static void print_clocks(const char *what, const double x[ISO_CLOCKS])
 
 static void print_angles(const iso_frequencies *f)
 {
-    printf("\n  %-22s %22s %22s %22s\n", "per unit of the clock", "t", "tau", "s");
+    printf("\n  %-22s %22s %22s %22s\n", "clock; angles in rad", "t", "tau", "s");
     for (int i = 0; i < f->angles; i++) {
         const iso_angle *a = &f->angle[i];
         printf("angle %d: %s\n", i + 1, a->what);
         print_clocks("frequency", a->frequency);
-        if (f->estimated) print_clocks("  its error, about", a->error);
+        if (f->estimated) print_clocks("  estimated error", a->error);
         print_clocks("period", a->period);
         if (!isnan(a->action)) printf("  %-22s %22.15g\n", "action", a->action);
     }
@@ -76,14 +77,15 @@ static void print_angles(const iso_frequencies *f)
 static void print_resonances(const iso_frequencies *f)
 {
     if (!isnan(f->rotation))
-        printf("\nrotation number, frequency 1/frequency 2: %.15g\nnear resonances p:q, p frequency 1 = q frequency "
-               "2; the time t in which p angle 1 - q angle 2 turns once\n",
-               f->rotation);
+        printf("\nrotation number, frequency 1 / frequency 2: %.15g\n", f->rotation);
+    if (f->resonances > 0)
+        printf("near resonances: p times frequency 1 is almost q times frequency 2\n"
+               "    p:q    relative gap  p angle 1 - q angle 2 makes one turn in\n");
     for (int i = 0; i < f->resonances; i++) {
         const iso_resonance *r = &f->resonance[i];
-        printf("  %3d:%-3d  off by %.1e, ", r->p, r->q, r->gap);
+        printf("  %3d:%-3d  %14.1e  ", r->p, r->q, r->gap);
         if (r->met)
-            printf(f->estimated ? "which the estimate cannot tell from 0\n" : "resonant\n");
+            printf(f->estimated ? "- (the gap is within the error of the estimate)\n" : "- (resonant)\n");
         else
             printf("t = %.6g\n", r->beat[ISO_CLOCK_T]);
     }
@@ -96,7 +98,7 @@ static void print_resonances(const iso_frequencies *f)
 static void print_table(const iso_scene *scene, const iso_frequencies *f)
 {
     print_head(scene, f);
-    if (f->separatrices > 0) printf("\nrelative distance from the separatrix of\n");
+    if (f->separatrices > 0) printf("\nrelative distance from the separatrix of an unstable rotation\n");
     print_separatrices(f);
     if (f->angles > 0) print_angles(f);
     print_resonances(f);
@@ -295,10 +297,9 @@ const command command_frequencies = {
     .doc = "actions, frequencies, rotation number, near resonances; estimated where there is no closed solution",
     .options = " turns t-end samples plot json ",
     .more =
-        "Where there is a closed solution (k = 1, -1, equal moments, principal planes) the numbers are its own.\n"
-        "Elsewhere they are estimated from an orbit in the ball's time t, of --turns, or to --t-end (not the "
-        "scene's),\nby Laskar's frequency analysis. --plot draws the image of the momentum map (h, F) with the "
-        "orbit in it;\n"
-        "where there is none, the lines of n(t).",
+        "Where there is a closed solution (k = 1, k = -1, two equal moments, principal planes), it gives the numbers.\n"
+        "Elsewhere they are estimated by Laskar's frequency analysis of n(t), from an orbit in the ball's time t: --turns\n"
+        "or --t-end says how long. The end of the scene is not used. --plot draws the image of the momentum map (h, F)\n"
+        "with the orbit in it; where there is no map, the lines of n(t).",
     .run = run,
 };

@@ -6,7 +6,7 @@
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
-enum { MOST_DIGITS = 16 }; /* a double has no more, but an error may be 0 */
+enum { MOST_DIGITS = 16 }; /* that a double has; an error may be 0 */
 
 static const char *method_name(const iso_method *method)
 {
@@ -21,12 +21,12 @@ static void print_head(const cost_report *r)
            iso_surface_name((int)p->body.surface), p->J[0], p->J[1], p->J[2],
            r->scene->start.model == ISO_BALL ? "t" : "s", c->end, c->turns);
     if (r->scene->effects.on[ISO_REACTIONS])
-        printf("the motion is followed to the end, whether or not contact holds\n\n");
-    printf("errors: the largest relative error of (omega, n), from %s,\n", c->reference);
+        printf("the motion is followed to the end, also where contact is lost\n\n");
+    printf("error: the largest relative error of (omega, n), against a reference\nreference: %s\n", c->reference);
     if (isfinite(c->uncertainty))
-        printf("  known to %.1e: its distance from %s\n\n", c->uncertainty, c->second);
+        printf("  uncertain by %.1e: its distance from %s\n\n", c->uncertainty, c->second);
     else
-        printf("  how exact that is, is not known: there is no second reference\n\n");
+        printf("  of unknown uncertainty: there is no second reference to compare it with\n\n");
 }
 
 static void print_number(double x)
@@ -67,8 +67,9 @@ static void print_cells(const iso_cost *cost, const iso_cost_line *const line[])
     for (int l = 0; l < cost->lines; l++)
         for (int i = line[l]->first; i < line[l]->first + line[l]->count; i++)
             if (iso_cost_is_measured(&cost->cell[i])) print_cell(&cost->cell[i]);
-    printf("* on the Pareto front: nothing else is both more exact and faster   ~ too exact for the reference to "
-           "tell\n");
+    printf("* nothing else is both more exact and faster   ~ less than the uncertainty of the reference\n"
+           "clocks: error of another clock along the orbit   energy: its drift   rhs: evaluations of the equations\n"
+           "time: processor time, median of repeats   spread: slowest - fastest   set-up: time before the first step\n");
 }
 
 static void print_failed(const iso_cost *cost)
@@ -83,7 +84,7 @@ static void print_failed(const iso_cost *cost)
     }
 }
 
-/* What would take longer than its share: of each line the loosest tolerance of those. */
+/* Cells that were not run to the end for want of time: of each line the loosest tolerance of those. */
 static void print_left_out(const iso_cost *cost)
 {
     int lines = 0;
@@ -92,7 +93,7 @@ static void print_left_out(const iso_cost *cost)
         const iso_cost_cell *c = &cost->cell[line->first], *end = c + line->count;
         while (c < end && c->status != ISO_STOPPED) c++;
         if (c == end) continue;
-        if (lines++ == 0) printf("\nleft out for the time it would take\n");
+        if (lines++ == 0) printf("\nnot run, because it would take too long\n");
         printf(" ");
         print_name(c);
         printf(c->method ? " and tighter\n" : "\n");
@@ -110,9 +111,9 @@ static void print_time_to(const iso_cost *cost, const iso_cost_line *line, doubl
 
 static void print_lines(const iso_cost *cost, const iso_cost_line *const line[])
 {
-    printf("\nmethods, the fastest to an error of 1e-9 first: the time to an error, what one more digit costs, where "
-           "they "
-           "stop gaining\n  %-5s  %-22s %9s %9s %9s  %10s  %8s  %s\n",
+    printf("\nmethods, sorted by their time to an error of 1e-9: time to reach an error, factor in time for one more\n"
+           "digit, order (measured, and of the method), least error\n"
+           "  %-5s  %-22s %9s %9s %9s  %10s  %8s  %s\n",
            "", "", "to 1e-6", "to 1e-9", "to 1e-12", "a digit", "order", "least error");
     for (int l = 0; l < cost->lines; l++) {
         const iso_cost_line *m = line[l];
@@ -133,7 +134,7 @@ static void print_lines(const iso_cost *cost, const iso_cost_line *const line[])
         if (isnan(m->stops_at))
             printf("\n");
         else
-            printf(" from --tol %g on\n", m->stops_at);
+            printf(", no gain below --tol %g\n", m->stops_at);
     }
 }
 
@@ -146,14 +147,9 @@ static const iso_cost_cell *choose_steps(const iso_cost *cost, double want)
 
 static void print_choice(const iso_cost_cell *c, int digits)
 {
-    char words[COST_SECONDS];
-    printf("  for 1e-%-2d take ", digits);
-    if (c->method)
-        printf("%s/%s at --tol %g", iso_picture_name((int)c->backend), c->method->name, c->tolerance);
-    else
-        printf("the closed solution, --backend exact");
-    printf(": %s (error %.1e%s)\n", cost_seconds(c->total, words), c->error,
-           c->below ? ", as far as the reference can tell" : "");
+    char words[COST_OPTIONS], seconds[COST_SECONDS];
+    printf("  for 1e-%-2d %s: %s (error %.1e%s)\n", digits, cost_options_of(c, words), cost_seconds(c->total, seconds),
+           c->error, c->below ? ", or less: the reference is no better" : "");
 }
 
 typedef const iso_cost_cell *chooser(const iso_cost *cost, double want);
@@ -163,7 +159,8 @@ static const iso_cost_cell *choose_digits(const iso_cost *cost, chooser *choose,
     return digits <= MOST_DIGITS ? choose(cost, pow(10, -digits)) : NULL;
 }
 
-/* Each choice once, with the most digits that it is the choice for, from so many on. Gives the first without one. */
+/* Each choice once, with the most digits for which it is the choice, beginning with `digits`. Returns the first number of
+ * digits that nothing reaches. */
 static int print_choices(const iso_cost *cost, chooser *choose, int digits)
 {
     const iso_cost_cell *c = choose_digits(cost, choose, digits);
@@ -175,16 +172,16 @@ static int print_choices(const iso_cost *cost, chooser *choose, int digits)
     return digits;
 }
 
-/* Where the closed solution is the choice, the best of the others as well. */
+/* Where the closed solution is the choice, also the best of the methods that take steps. */
 static void print_answer(const iso_cost *cost)
 {
-    printf("\nwhat to take (times with set-up, on this machine; on others their ratios are much the same)\n");
+    printf("\nwhat to take for an error (times with set-up, on this machine; on others the ratios are similar)\n");
     const int beyond = print_choices(cost, iso_cost_choose, 1);
     if (beyond <= MOST_DIGITS) printf("  nothing measured reaches 1e-%d\n", beyond);
     for (int digits = 1; digits < beyond; digits++) {
         if (choose_digits(cost, iso_cost_choose, digits)->method) continue;
         if (!choose_digits(cost, choose_steps, digits)) return;
-        printf("of those that take steps\n");
+        printf("without the closed solution\n");
         print_choices(cost, choose_steps, digits);
         return;
     }
@@ -197,8 +194,8 @@ static void print_growth(const cost_growth *g)
     printf("\ngrowth with the length of the orbit: %s\n", cost_options_of(g->cell, words));
     if (*g->why || *x->why) printf("  ended early: %s\n", *g->why ? g->why : x->why);
     if (x->count == 0) return;
-    printf("  errors from %s\n", x->reference);
-    printf("  %14s %9s %12s %10s\n", "to", "error", "known to", "time");
+    printf("  errors against %s\n", x->reference);
+    printf("  %14s %9s %12s %10s\n", "to", "error", "uncertainty", "time");
     for (int i = 0; i < x->count; i++) {
         printf("  %14.8g %9.1e    ", x->end[i], x->error[i]);
         print_number(x->uncertainty[i]);
@@ -206,15 +203,15 @@ static void print_growth(const cost_growth *g)
     }
     printf("  ");
     if (x->chaotic)
-        printf("the error grows e-fold in %.3g, the Lyapunov time: the orbit is chaotic", x->lyapunov_time);
+        printf("the error grows e-fold in %.3g (Lyapunov time): the orbit is chaotic", x->lyapunov_time);
     else if (isnan(x->power))
-        printf("too little is known to tell how the error grows");
+        printf("too few errors are above the uncertainty to tell how the error grows");
     else
-        printf("the error grows as the length^%.2f", x->power);
+        printf("the error grows like length^%.2f", x->power);
     if (isnan(x->time_power))
         printf("\n");
     else
-        printf("; time as the length^%.2f\n", x->time_power);
+        printf(", the time like length^%.2f\n", x->time_power);
 }
 
 void cost_print(const cost_report *r, const iso_cost_line *const line[])

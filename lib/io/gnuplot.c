@@ -1,4 +1,4 @@
-/* Running gnuplot. The script is its standard input, the picture its standard output, its complaints go to a third
+/* gnuplot.c - runs gnuplot. The script is its standard input, the picture its standard output, its complaints go to a third
  * file. All three are files, not pipes: nothing can block or raise SIGPIPE, and no file name ever enters a script. */
 #include "io/gnuplot_impl.h"
 
@@ -117,6 +117,14 @@ void iso_gnuplot_number(FILE *script, double value)
     char text[ISO_NUMBER_SIZE];
     iso_number_print(text, value);
     fputs(text, script);
+}
+
+void iso_gnuplot_pair(FILE *script, double x, double y)
+{
+    iso_gnuplot_number(script, x);
+    fputc(' ', script);
+    iso_gnuplot_number(script, y);
+    fputc('\n', script);
 }
 
 /* The length of the character that begins text, 0 if it is none that XML and pango take (controls, broken UTF-8). */

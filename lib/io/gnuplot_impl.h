@@ -31,6 +31,7 @@ iso_status iso_gnuplot_close(iso_context *ctx, iso_gnuplot *g, bool keep);
 /* Numbers and texts as gnuplot takes them, whatever the locale and whatever the text: always one quoted string of one
  * line, valid UTF-8, cut after `longest` characters. It still needs `noenhanced`. */
 void iso_gnuplot_number(FILE *script, double value);
+void iso_gnuplot_pair(FILE *script, double x, double y); /* one line of a data block */
 void iso_gnuplot_text(FILE *script, const char *text, int longest);
 
 #endif

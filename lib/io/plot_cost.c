@@ -1,4 +1,4 @@
-/* The work-precision diagram: a panel for each backend, a line for each method. */
+/* plot_cost.c - the work-precision diagram: a panel for each backend, a line for each method. */
 #include <math.h>
 #include <string.h>
 
@@ -103,11 +103,11 @@ static void put_data(FILE *f, const iso_plot_work *w)
         const iso_plot_series *one = &w->series[s];
         fprintf(f, "$series%d << EOD\n", s);
         for (int i = 0; i < one->count; i++)
-            if (is_drawn(one, i)) iso_plot_pair(f, fmax(one->error[i], FLOOR), one->seconds[i]);
+            if (is_drawn(one, i)) iso_gnuplot_pair(f, fmax(one->error[i], FLOOR), one->seconds[i]);
         fputs("EOD\n", f);
     }
     fputs("$closed << EOD\n", f);
-    if (has_closed(w)) iso_plot_pair(f, fmax(w->closed[0], FLOOR), w->closed[1]);
+    if (has_closed(w)) iso_gnuplot_pair(f, fmax(w->closed[0], FLOOR), w->closed[1]);
     fputs("EOD\n", f);
 }
 

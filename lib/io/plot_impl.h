@@ -6,7 +6,10 @@
 
 #include "base/record.h"
 
-enum { ISO_PLOT_ROWS = 5000 /* of a record that are drawn */ };
+enum {
+    ISO_PLOT_ROWS = 5000,     /* rows of a record that are drawn, at most */
+    ISO_PLOT_DIFFERENCES = 16 /* lines of a chart, at most                */
+};
 
 /* Okabe & Ito's colours, for all kinds of sight, and paler twins for the far side of a sphere. */
 #define ISO_PLOT_BLUE "'#0072B2'"
@@ -17,9 +20,6 @@ enum { ISO_PLOT_ROWS = 5000 /* of a record that are drawn */ };
 /* The signs of the first and the last row. */
 #define ISO_PLOT_START "pt 7 ps 1.1"
 #define ISO_PLOT_END "pt 9 ps 1.3"
-
-/* A line of data. */
-void iso_plot_pair(FILE *script, double x, double y);
 
 /* A chart below the spheres: its sides in thousandths of the page, a key on the right of it. */
 typedef struct iso_plot_chart {

@@ -1,4 +1,4 @@
-/* Pictures of frequencies: the map of the kinds of motion, and the lines of a signal. */
+/* plot_map.c - pictures of frequencies: the map of the kinds of motion, and the lines of a signal. */
 #include <math.h>
 #include <string.h>
 
@@ -89,7 +89,7 @@ static void put_panel(FILE *f, const iso_plot_map *map, bool over_h, bool key)
     for (int i = 0; i < map->lines; i++)
         line[i] = put_block(f, map, "line", i, 1 + 2 * map->parts + i, 1 + 2 * map->parts + i, over_h);
     fputs("$orbit << EOD\n", f);
-    iso_plot_pair(f, map->at[0], over_h ? map->at[1] / map->at[0] : map->at[1]);
+    iso_gnuplot_pair(f, map->at[0], over_h ? map->at[1] / map->at[0] : map->at[1]);
     fputs("EOD\n", f);
     for (int i = 0; i < map->parts; i++) {
         if (!part[i]) continue;
@@ -156,7 +156,7 @@ static bool put_signal(FILE *f, const iso_record *r, int signal, double *least)
         if ((int)row[2] != signal || !(row[1] > 0)) continue;
         any = true;
         *least = fmin(*least, row[1]);
-        iso_plot_pair(f, row[0], row[1]);
+        iso_gnuplot_pair(f, row[0], row[1]);
     }
     fputs("EOD\n", f);
     return any;

@@ -1,4 +1,4 @@
-/* One sphere of a picture, with a path on it.
+/* plot_sphere.c - one sphere of a picture, with a path on it.
  *
  * Spheres are projected here and drawn in two dimensions: gnuplot's own 3D has no far side that shows through. Seen
  * from afar along d (orthographic), a point x of the unit sphere is at ((x,right), (x,up)), and on the near side where
@@ -73,8 +73,8 @@ static void put_arc(FILE *f, const double a[3], const double b[3], bool near, bo
         for (int j = 0; j < 3; j++) v[j] /= sqrt(length);
         const spot to = project(v);
         const bool seen = (from.depth + to.depth > 0) == near;
-        if (seen && !*open) iso_plot_pair(f, from.x, from.y);
-        if (seen) iso_plot_pair(f, to.x, to.y);
+        if (seen && !*open) iso_gnuplot_pair(f, from.x, from.y);
+        if (seen) iso_gnuplot_pair(f, to.x, to.y);
         if (!seen && *open) fputc('\n', f);
         *open = seen;
         from = to;
@@ -103,7 +103,7 @@ static void put_path(FILE *f, const iso_record *r, int column, bool near)
         const double *v = drawn_row(r, i) + column;
         const spot s = project(v);
         if (joined && i > 0) put_arc(f, drawn_row(r, i - 1) + column, v, near, &open);
-        if (!joined && (s.depth > 0) == near) iso_plot_pair(f, s.x, s.y);
+        if (!joined && (s.depth > 0) == near) iso_gnuplot_pair(f, s.x, s.y);
     }
     fputs("EOD\n", f);
 }
@@ -114,7 +114,7 @@ static void put_markers(FILE *f, const iso_record *r, int column, bool near)
     begin_block(f, "marker", near);
     for (size_t i = 0; i < count; i++) {
         const spot s = project(iso_record_const_row(r, (2 * i + 1) * rows / (2 * count)) + column);
-        if ((s.depth > 0) == near) iso_plot_pair(f, s.x, s.y);
+        if ((s.depth > 0) == near) iso_gnuplot_pair(f, s.x, s.y);
     }
     fputs("EOD\n", f);
 }

@@ -55,7 +55,7 @@ static void put_clocks(FILE *f, const iso_record *r)
     fputs("$clocks << EOD\n", f);
     for (size_t i = 0; i < drawn; i++) {
         const double *row = iso_record_const_row(r, drawn > 1 ? i * (rows - 1) / (drawn - 1) : 0);
-        iso_plot_pair(f, row[0], row[1]);
+        iso_gnuplot_pair(f, row[0], row[1]);
     }
     fputs(
         "EOD\nunset label; unset arrow; unset object; set size noratio; set border 3 lc rgb '#606060'; unset title\n"

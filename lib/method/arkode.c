@@ -1,8 +1,8 @@
 /* arkode.c - SUNDIALS ARKODE: the embedded explicit Runge-Kutta tables of ERKStep, orders 2 to 8.
  *
- * ERKStep 6.4.1 re-uses the last stage of a step as the first of the next, which is wrong for tables that are not
- * "first same as last" (sundials#311): Verner's 6th order measures 3.0. A post-processing function, which our
- * projection is anyway, makes it evaluate anew; tests/method/test_order.c measures every table.
+ * ERKStep 6.4.1 uses the last stage of a step again as the first of the next. That is wrong for tables that are not
+ * "first same as last" (sundials#311): Verner's 6th order then measures 3.0. With a post-processing function ERKStep
+ * evaluates anew; the projection is such a function, so it is always set. test_order measures every table.
  */
 #include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>
@@ -100,4 +100,10 @@ ERK(dormand_prince,   "dormand_prince_7_4_5",    5, DORMAND_PRINCE_7_4_5,   "ERK
 ERK(ark548,           "ark548l2sa_erk_8_4_5",    5, ARK548L2SA_ERK_8_4_5,   "ERKStep, explicit part of ARK5(4)8L[2]SA")
 ERK(ark548b,          "ark548l2sab_erk_8_4_5",   5, ARK548L2SAb_ERK_8_4_5,  "ERKStep, explicit part of ARK5(4)8L[2]SAb")
 ERK(verner,           "verner_8_5_6",            6, VERNER_8_5_6,           "ERKStep, Verner 6(5)")
-ERK(fehlberg78,       "fehlberg_13_7_8",         8, FEHLBERG_13_7_8,        "ERKStep, Fehlberg 8(7)")
+
+const iso_method iso_method_fehlberg78 = {.name = "fehlberg_13_7_8",
+                                          .order = 8,
+                                          .variant = ARKODE_FEHLBERG_13_7_8,
+                                          .witness = 2,
+                                          .doc = "ERKStep, Fehlberg 8(7)",
+                                          ARKODE_METHOD};

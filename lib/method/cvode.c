@@ -147,10 +147,18 @@ static iso_status within(iso_integrator *it, double dt, double y[])
     return ISO_OK;
 }
 
+/* For the stiffest models: see ISO_VERY_STIFF. */
+static iso_suits bdf_suits(const iso_model *m)
+{
+    const double stiffness = iso_effects_stiffness(&m->field);
+    return stiffness > ISO_VERY_STIFF ? ISO_BEST : stiffness > ISO_STIFF ? ISO_WELL : ISO_NEVER;
+}
+
 #define CVODE_METHOD .family = "cvode", .create = create, .start = start, .step = step, .free = release
 
 const iso_method iso_method_adams = {
     .name = "adams", .variant = CV_ADAMS, .doc = "CVODE, variable-order Adams-Moulton, orders 1-12", CVODE_METHOD};
 const iso_method iso_method_bdf = {
-    .name = "bdf", .variant = CV_BDF, .implicit = true, .projects = true, .within = within,
+    .name = "bdf", .variant = CV_BDF, .implicit = true, .projects = true, .suits = bdf_suits,
+    .witness = 4, .within = within,
     .doc = "CVODE, variable-order BDF, orders 1-5, analytic Jacobian, projection", CVODE_METHOD};

@@ -1,4 +1,4 @@
-/* gsl_impl.h - GSL's evolution loop over a model: shared by the methods of gsl.c and by leap.c. */
+/* gsl_impl.h - GSL's loop over the steps of a model (gsl_loop.c): the methods of gsl.c and leap.c use it. */
 #ifndef ISO_METHOD_GSL_IMPL_H
 #define ISO_METHOD_GSL_IMPL_H
 
@@ -6,8 +6,8 @@
 
 #include "method/integrator_impl.h"
 
-/* An implicit method sees y_i/unit_i, of order one: its LU decomposition picks pivots by size, and loses the digits of
- * a small component beside a large one. Units are powers of two, and round nothing. */
+/* An implicit method sees y_i/unit_i, numbers of order one. Its LU decomposition chooses pivots by size: without units a
+ * small component would lose its digits beside a large one. Units are powers of two, so that they cause no rounding. */
 typedef struct iso_gsl {
     iso_integrator *it;
     bool implicit;
@@ -27,5 +27,11 @@ void iso_gsl_start(iso_gsl *g, const double y[], double first_step);
 
 /* One accepted step of y towards `limit` (GSL's clock, not beyond it), its length in *h. */
 iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[], double *h);
+
+/* One step of y of the length options.fixed_step, whatever its error. */
+iso_status iso_gsl_fixed_step(iso_integrator *it, iso_gsl *g, double y[], double *h);
+
+/* After y was changed (projected): GSL begins its next step with the derivative it has kept, which must be that of y. */
+iso_status iso_gsl_renew_slope(iso_integrator *it, iso_gsl *g, const double y[]);
 
 #endif

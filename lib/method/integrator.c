@@ -1,58 +1,13 @@
+/* integrator.c - one contract for all methods, see method.h: it takes steps, keeps the exact time, and reaches any time
+ * within a step. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
-
-/* --- for the methods --------------------------------------------------------------------------------------------- */
-
-bool iso_integrator_rhs(iso_integrator *it, const double y[], double dy[])
-{
-    it->statistics.rhs++;
-    it->model.rhs(&it->model, y, dy);
-    return all_finite(dy, it->model.dim);
-}
-
-void iso_integrator_project(iso_integrator *it, double y[])
-{
-    if (it->options.no_projection) return;
-    const double correction = iso_model_project(&it->model, y);
-    it->statistics.correction = fmax(it->statistics.correction, correction);
-}
-
-iso_status iso_integrator_stopped(iso_integrator *it, const char *reason)
-{
-    const double unit = it->options.time_unit != 0 ? it->options.time_unit : 1;
-    double t, y[ISO_MAX_STATE];
-    iso_integrator_last(it, &t, y);
-    return iso_context_fail(it->ctx, ISO_NUMERICAL, "", "%s stopped after %ld steps: %s; last good %s = %.17g",
-                            it->method->name, it->statistics.steps, reason, iso_clock_name(it->model.clock), t * unit);
-}
-
-double iso_integrator_rate(iso_integrator *it, const double y[])
-{
-    double f[ISO_MAX_STATE], size[ISO_MAX_STATE], fastest = 0;
-    iso_integrator_rhs(it, y, f);
-    iso_model_size(&it->model, y, size);
-    for (int i = 0; i < it->model.dim; i++) fastest = fmax(fastest, fabs(f[i]) / size[i]);
-    return fastest;
-}
-
-double iso_integrator_first_step(iso_integrator *it, int order)
-{
-    const double h = pow(it->options.tolerance, 1.0 / (order + 1)) / 4, rate = iso_integrator_rate(it, it->at_right);
-    return it->direction * (rate > 0 && isfinite(rate) ? h / rate : 1);
-}
-
-double iso_integrator_since(const iso_integrator *it, double t)
-{
-    return iso_instant_since(it->left, t);
-}
-
-/* --- the front ---------------------------------------------------------------------------------------------------- */
+#include "model/rest_impl.h"
 
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance)
 {
@@ -68,9 +23,8 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     iso_method_options o = *options;
     if (!method) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "no such method");
     if (!(o.fixed_step >= 0 && isfinite(o.fixed_step)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a fixed step of %g is no step", o.fixed_step);
-    if (o.fixed_step > 0 && !method->fixed)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s does not take fixed steps", method->name);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a fixed step must be finite and >= 0, not %g", o.fixed_step);
+    if (iso_method_check(ctx, method, model, &o) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of leaps to times between the steps */
     if (iso_tolerance_check(ctx, o.tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
     iso_integrator *it = calloc(1, sizeof *it);
@@ -119,47 +73,28 @@ iso_status iso_integrator_start(iso_integrator *it, const double y0[])
     return it->method->at ? it->method->start(it) : ISO_OK;
 }
 
-/* Resistance that runs backwards drives the ball, faster and faster: some turns more are more steps than ever end. */
-enum { MOST_GROWTH = 10000 };
-
-static bool spins_up(const iso_integrator *it, const double y[])
-{
-    const iso_field *f = &it->model.field;
-    if (it->direction > 0 || it->model.system != &iso_system_ball || !(iso_effects_stiffness(f) > 0)) return false;
-    return !(iso_system_ball.speed(f, y) <= MOST_GROWTH * iso_system_ball.speed(f, it->y0));
-}
-
-/* What a method without projection has lost of (w,n) = 0, or of (w,n) = -lambda/c under a stiff contact, resistance does
- * not take out again: in the end it is all of w. */
-static bool has_lost_spin(const iso_integrator *it, const double y[])
-{
-    const iso_field *f = &it->model.field;
-    const bool projects = it->method->projects && !it->options.no_projection;
-    if (projects || it->model.system != &iso_system_ball) return false;
-    const bool twists = f->effects.on[ISO_TWIST], stiff = f->at[ISO_TWIST] > 0;
-    if ((twists && !stiff) || !(iso_effects_stiffness(f) > 0)) return false;
-    const double lost = dot(y, y + 3) + (stiff ? y[f->at[ISO_TWIST]] / f->effects.number[ISO_TWIST][0] : 0);
-    return fabs(lost) > fmax(1e-3, 1e4 * it->options.tolerance) * iso_system_ball.speed(f, y);
-}
-
-/* At rest only clocks go on, evenly: a state y becomes y + dt f(y). */
 static void rest(iso_integrator *it, double dt, double y[])
 {
-    double f[ISO_MAX_STATE];
-    const int lambda = it->model.field.at[ISO_TWIST];
-    for (int i = 0; i < 3; i++) y[i] = 0;
-    if (lambda > 0) y[lambda] = 0;
-    iso_integrator_rhs(it, y, f);
-    for (int i = 0; i < it->model.dim; i++) y[i] += dt * f[i];
+    it->statistics.rhs++;
+    iso_model_rest(&it->model, dt, y);
 }
 
 static iso_status take_step(iso_integrator *it, double y[], double *h)
 {
-    it->resting = it->direction > 0 && it->model.system == &iso_system_ball && iso_effects_at_rest(&it->model.field, y);
+    it->resting = it->direction > 0 && iso_model_at_rest(&it->model, y);
     if (!it->resting) return it->method->step(it, y, h);
-    *h = fmax(1e18, 1e3 * it->left.head); /* beyond most times that can be told apart */
+    *h = fmax(1e18, 1e3 * it->left.head); /* longer than any time that is asked, as a rule */
     rest(it, *h, y);
     return ISO_OK;
+}
+
+/* Why no further step makes sense after one that led to y; NULL: it does. */
+static const char *find_end(const iso_integrator *it, const double y[])
+{
+    const bool projects = it->method->projects && !it->options.no_projection;
+    const char *why = it->direction < 0 ? iso_model_speeds_up(&it->model, it->y0, y) : NULL;
+    if (!why && !projects) why = iso_model_lost(&it->model, y, it->options.tolerance);
+    return why;
 }
 
 iso_status iso_integrator_advance(iso_integrator *it)
@@ -167,19 +102,15 @@ iso_status iso_integrator_advance(iso_integrator *it)
     double y[ISO_MAX_STATE], h = 0;
     if (!iso_context_goes_on(it->ctx)) return iso_context_fail(it->ctx, ISO_STOPPED, "", "stopped on request");
     if (it->stopped) return iso_integrator_stopped(it, "it has failed before");
-    it->stopped = true; /* unless all goes well: what a method leaves behind after a failure is nothing to go on from */
+    it->stopped = true; /* until the step has succeeded: a method that has failed cannot go on from where it stands */
     if (it->options.max_steps > 0 && it->statistics.steps >= it->options.max_steps)
         return iso_integrator_stopped(it, "more steps than allowed");
     copy(it->at_right, y, it->model.dim);
     const iso_status status = take_step(it, y, &h);
     if (status != ISO_OK) return status;
-    if (spins_up(it, y))
-        return iso_integrator_stopped(it, "backwards in time resistance drives the ball, without end: it turns more "
-                                          "than 10000 times as fast as at the start");
-    if (has_lost_spin(it, y))
-        return iso_integrator_stopped(it, "it does not keep (omega,n) = 0, and little else is left of omega: take a "
-                                          "method with projection");
-    /* before a place they cannot pass, some methods go on for ever with steps that hardly move the clock */
+    const char *end = find_end(it, y);
+    if (end) return iso_integrator_stopped(it, end);
+    /* some methods never end before a place that they cannot pass: their steps hardly move the clock */
     if (fabs(h) <= 64 * DBL_EPSILON * fabs(it->left.head)) return iso_integrator_stopped(it, "steps shrink to nothing");
     it->stopped = false;
     it->statistics.steps++;
@@ -241,12 +172,6 @@ iso_status iso_integrator_at(iso_integrator *it, double t, double y[])
     const iso_status status = iso_integrator_reach(it, t > 0 ? 1 : t < 0 ? -1 : it->direction, t);
     if (status != ISO_OK) return status;
     return iso_integrator_within(it, since_end(it, t) == 0 ? it->h : iso_integrator_since(it, t), y);
-}
-
-void iso_integrator_last(const iso_integrator *it, double *t, double y[])
-{
-    *t = iso_instant_later(it->left, it->h).head;
-    copy(it->at_right, y, it->model.dim);
 }
 
 iso_statistics iso_integrator_statistics(const iso_integrator *it)

@@ -36,7 +36,7 @@ struct iso_integrator {
     double y0[ISO_MAX_STATE]; /* at time 0                                                            */
     int direction;            /* of the steps: 1, -1, or 0 before the first                           */
     bool stopped;             /* by a failure: no further steps before the next start from 0           */
-    bool resting;             /* in the current step resistance has brought the ball to rest           */
+    bool resting;             /* the current step is one of a model at rest                            */
     iso_instant left;         /* the current step runs from here ...                                  */
     double h;                 /* ... by this signed length                                            */
     double at_left[ISO_MAX_STATE], at_right[ISO_MAX_STATE];
@@ -67,6 +67,11 @@ double iso_integrator_first_step(iso_integrator *it, int order);
 
 /* Whether steps can be held to a tolerance. Errors: ISO_BAD_ARGUMENT about "tolerance". */
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance);
+
+/* serves.c: whether the method serves the model, and takes the fixed steps that options ask for. Errors: ISO_BAD_ARGUMENT
+ * about "method". */
+iso_status iso_method_check(iso_context *ctx, const iso_method *method, const iso_model *model,
+                            const iso_method_options *options);
 
 /* Takes one step. */
 iso_status iso_integrator_advance(iso_integrator *it);

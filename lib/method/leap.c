@@ -1,4 +1,5 @@
-/* leap.c - the state at a time within a step: from the step's left end, by rk8pd; for stiff models by bsimp. */
+/* leap.c - the state at a time within a step, for methods without `within`: from the step's left end by GSL's rk8pd, or
+ * by its bsimp where "auto" would take an implicit method. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -6,7 +7,7 @@
 #include "base/vec3_impl.h"
 #include "method/gsl_impl.h"
 
-enum { MOST_STEPS = 100000 }; /* a leap is one step as a rule */
+enum { MOST_STEPS = 100000 }; /* of one leap; as a rule it needs one */
 
 struct iso_leaper {
     iso_gsl gsl;

@@ -1,7 +1,7 @@
+/* method.c - the registry of methods: all of them, one by its name, one that suits a model. */
 #include "method/method.h"
 
 #include <ctype.h>
-#include <math.h>
 #include <string.h>
 
 #include "method/methods_impl.h"
@@ -45,23 +45,37 @@ const iso_method *iso_method_find(const char *name)
     return candidates == 1 ? candidate : NULL;
 }
 
-/* Taylor series need the least time for every error to within 1.2 times, of the library methods rk8pd: milliseconds for
- * k = -1, 1, 0.5, J = (1.4, 2.1, 3.0), n = (0.36, 0.48, 0.8), omega = (0.9, -0.3, -0.225), t = 1000 (`isoroll cost`):
- *
- *     error      point/taylor         ball/taylor         the best other
- *     1e-6       0.54  1.07  0.52     0.85  0.90  0.63    0.81  1.36  1.01   (blanes_moan6, blanes_moan4, rk8pd)
- *     1e-10      0.69  1.58  0.77     1.56  1.66  1.02    2.82  5.2   2.7    (blanes_moan6, rk8pd, rk8pd)
- *     1e-12      0.78  1.85  0.93     1.88  2.14  1.24    4.2   8.4   4.5    (sofroniou_spaletta10, rk8pd, rk8pd)
- *
- * At 1e-4 and looser splittings are up to 1.5 times cheaper, but do not keep to their tolerance. Of the methods for stiff
- * models bsimp is the most exact for its time up to VERY_STIFF, from where on bdf needs fewer right-hand sides. */
-enum { VERY_STIFF = 1000 };
-
 const iso_method *iso_method_auto(const iso_model *model)
 {
-    const double stiffness = iso_effects_stiffness(&model->field);
-    if (stiffness > VERY_STIFF) return &iso_method_bdf;
-    if (stiffness > ISO_STIFF) return &iso_method_bsimp;
-    const bool suits_series = model->system != &iso_system_point || !iso_params_steep(&model->field.p);
-    return suits_series ? &iso_method_taylor : &iso_method_rk8pd;
+    const iso_method *best = NULL;
+    iso_suits most = ISO_NEVER;
+    char why[ISO_WHY_SIZE];
+    for (int i = 0; iso_methods[i]; i++) {
+        const iso_method *method = iso_methods[i];
+        const iso_suits suits = method->suits ? method->suits(model) : ISO_NEVER;
+        if (suits > most && iso_method_serves(method, model, why)) best = method, most = suits;
+    }
+    return best;
+}
+
+static int digits_of(const iso_method *method)
+{
+    return method->digits > 0 ? method->digits : ISO_DOUBLE_DIGITS;
+}
+
+const iso_method *iso_method_with_more_digits(int digits)
+{
+    const iso_method *next = NULL;
+    for (int i = 0; iso_methods[i]; i++) {
+        const int here = digits_of(iso_methods[i]);
+        if (here > digits && (!next || here < digits_of(next))) next = iso_methods[i];
+    }
+    return next;
+}
+
+const iso_method *iso_method_witness(int place)
+{
+    for (int i = 0; iso_methods[i]; i++)
+        if (place > 0 && iso_methods[i]->witness == place) return iso_methods[i];
+    return NULL;
 }

@@ -7,20 +7,19 @@
  *     iso_integrator_free(it);
  *
  * Times are those of the model's independent clock. The contract:
- * - A method takes its own steps; what is asked between them is reached from the step's left end by the method itself
- *   where it can (`within`), else by a leap with GSL's rk8pd (bsimp for stiff models) at the same tolerance (13
- *   right-hand sides as a rule). So a state at time t depends on the method and the tolerance, never on which other
- *   times were asked.
- * - `tolerance` bounds the estimated error of one step in units of iso_model_size(): the largest component for
- *   GSL methods, the root mean square for SUNDIALS. Splittings keep one step in s, chosen by trial runs over the
- *   first two turns. The error of a long orbit is larger: it adds up.
- * - The elapsed time is the compensated sum of the steps taken, exact to 1e-30 relative: systems are autonomous, and
- *   the library's own uncompensated t += h would cost 1e-9 at t = 1000 (see SUNDIALS in the README).
- * - After each step the model's constraints and energy are restored where the method allows it (`projects`); the
- *   statistics hold the largest correction, because corrected integrals look perfect whatever the error.
- * - A method may know the state at any time without steps (`at`): then tolerance and max_steps mean nothing, only the
- *   search for events goes from part to part of the way.
- * - A failing call leaves the last good time and state to be read (iso_integrator_last). Times before it can still be
+ * - A method takes its own steps. A time between their ends is reached from the left end of the step: by the method
+ *   itself where it can (`within`), else by a leap with GSL's rk8pd (bsimp for stiff models) at the same tolerance, as a
+ *   rule 13 right-hand sides. So a state depends on the method and the tolerance, never on which other times were asked.
+ * - `tolerance` bounds the estimated error of one step in units of iso_model_size(): of the largest component for GSL's
+ *   methods, of the root mean square for SUNDIALS'. Splittings keep one step in s, which trial runs over the first two
+ *   turns choose. The error of a long orbit is larger, because the errors of its steps add up.
+ * - The elapsed time is the compensated sum of the steps taken, exact to 1e-30 relative. (The equations do not depend on
+ *   the time. The t += h of the other libraries would cost 1e-9 at t = 1000: see SUNDIALS in the README.)
+ * - After each step the constraints and the energy of the model are restored where the method allows it (`projects`).
+ *   The statistics hold the largest correction, because restored integrals look perfect whatever the error is.
+ * - A method may know the state at any time without steps (`at`). Then tolerance and max_steps mean nothing, and only a
+ *   search for events takes steps.
+ * - After a failing call the last good time and state can be read (iso_integrator_last). Times before it can still be
  *   asked; times behind it fail again.
  */
 #ifndef ISO_METHOD_METHOD_H
@@ -47,28 +46,49 @@ typedef struct iso_statistics {
     double correction;                    /* largest relative correction by projection                 */
 } iso_statistics;
 
+/* How well a method suits a model, for "auto". */
+typedef enum iso_suits {
+    ISO_NEVER,      /* auto does not take it                     */
+    ISO_IF_NEED_BE, /* only where nothing better serves          */
+    ISO_WELL,       /* where the best does not serve             */
+    ISO_BEST        /* the cheapest method that is exact enough  */
+} iso_suits;
+
+/* A row of the registry: everything that the library knows of a method. methods_impl.h tells how to add one. */
 typedef struct iso_method {
     const char *name, *family, *doc;
-    int order;     /* of the solution that is carried on; 0: varies from step to step                  */
-    bool implicit; /* solves with the Jacobian: for stiff models                                       */
-    bool projects; /* restores constraints after each step                                             */
-    bool fixed;    /* can take fixed steps                                                             */
-    int variant;   /* which of its family                                                              */
-    bool reference;           /* exact to the rounding of doubles at any tolerance, and slow             */
-    bool own_equations;       /* its own form of the equations of motion, not the model's rhs            */
-    const iso_system *system; /* the only one it serves; NULL: every model                              */
+    int variant;        /* which of its family                                                         */
+    int order;          /* of the solution that is carried on; 0: varies from step to step             */
+    bool projects;      /* restores constraints after each step                                        */
+    bool fixed;         /* can take fixed steps                                                        */
+    int digits;         /* of the numbers it computes with; 0: those of a double, ISO_DOUBLE_DIGITS    */
+    bool reference;     /* exact to the rounding of doubles at any tolerance, and slow                 */
+    int witness;        /* place among the methods that confirm a reference (iso_method_witness), 1 is
+                           asked first; 0: none                                                        */
+
+    /* What it needs of a model. iso_integrator_create refuses a model that lacks it, in words. */
+    bool implicit;            /* solves with the Jacobian, for stiff models: every effect must have its slopes        */
+    bool own_equations;       /* has the equations of motion in a form of its own, and does not call the model's rhs  */
+    bool steps_in_s;          /* all its steps have one length in the clock s, whatever the clock of the model        */
+    const iso_system *system; /* the only system it serves; NULL: every one                                           */
+    const char *system_why;   /* why only that one                                                                    */
+
+    /* How well it suits a model that it serves, for iso_method_auto; NULL: ISO_NEVER. */
+    iso_suits (*suits)(const iso_model *model);
 
     /* Make and release the method's own data; begin at it->right; take one step, see integrator_impl.h. */
     iso_status (*create)(iso_integrator *it);
     iso_status (*start)(iso_integrator *it);
     iso_status (*step)(iso_integrator *it, double y[], double *h);
-    /* The state at dt from the step's left end, |dt| < |h|, by the method's own; NULL: by a leap. */
+    /* The state at dt from the step's left end, |dt| < |h|, by the method itself; NULL: by a leap. */
     iso_status (*within)(iso_integrator *it, double dt, double y[]);
-    /* The state at any time t but 0, without steps; NULL: by steps. With it `start` is called once, by
-     * iso_integrator_start, and `step` only leads a search for events on. */
+    /* The state at any time t but 0, without steps; NULL: by steps. With it iso_integrator_start calls `start` once,
+     * and only a search for events calls `step`. */
     iso_status (*at)(iso_integrator *it, double t, double y[]);
     void (*free)(iso_integrator *it);
 } iso_method;
+
+enum { ISO_DOUBLE_DIGITS = 16 };
 
 /* The registry, ended by NULL. */
 extern const iso_method *const iso_methods[];
@@ -77,18 +97,34 @@ extern const iso_method *const iso_methods[];
  * ("gsl-rk8pd", "cvode_adams"), and a beginning that fits only one method is enough ("dormand_prince"). */
 const iso_method *iso_method_find(const char *name);
 
-/* What "auto" means for a model: the cheapest method that is exact enough. `taylor`; `rk8pd` for (24) with |k| so small
- * that (max J/min J)^(1/|k|) > 1e10; for stiff models (iso_effects_stiffness) `bsimp`, or `bdf`. */
+/* Whether the method can simulate the model. If not, `why` says what is missing, in words that follow the method's
+ * name. */
+enum { ISO_WHY_SIZE = 256 };
+bool iso_method_serves(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE]);
+
+/* What "auto" means for a model: of the methods that serve it the one that suits it best (iso_method.suits), the first
+ * in the registry of equals. As a rule:
+ * - stiff models (iso_effects_stiffness): `bsimp`, the stiffest `bdf`;
+ * - (24) with |k| so small that (max J/min J)^(1/|k|) > 1e10: `rk8pd`;
+ * - all others: `taylor`. */
 const iso_method *iso_method_auto(const iso_model *model);
 
-/* Errors: ISO_BAD_ARGUMENT (no method, one that does not serve the model, tolerance out of range, fixed steps with a
- * method that has none, or not in this clock), ISO_NO_MEMORY. */
+/* For references: the method with the least digits above `digits`; and the method asked as `place`-th whether another
+ * code confirms a result (iso_method.witness). NULL: there is none. */
+const iso_method *iso_method_with_more_digits(int digits);
+const iso_method *iso_method_witness(int place);
+
+/* Errors: ISO_NO_MEMORY; ISO_BAD_ARGUMENT:
+ * - about "method": there is none, or it does not serve the model, or its fixed steps are not those of this clock; the
+ *   message says what is missing and what to take instead;
+ * - about "tolerance": it is out of range;
+ * - else: a fixed step that is negative or not finite, or a method that takes no fixed steps. */
 iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
                                  const iso_method_options *options, iso_integrator **integrator);
 void iso_integrator_free(iso_integrator *it);
 
-/* Begins anew with state y0 (model.dim numbers) at time 0. Errors: ISO_BAD_ARGUMENT when y0 is not finite, or there is
- * no such orbit for a method with `at`. */
+/* Begins anew with state y0 (model.dim numbers) at time 0. Errors: ISO_BAD_ARGUMENT when y0 is not finite, or when a
+ * method with `at` knows no orbit that begins there. */
 iso_status iso_integrator_start(iso_integrator *it, const double y0[]);
 
 /* The state at time t, before or after 0. Cheap when times run away from 0; turning back starts again from 0.
@@ -102,10 +138,10 @@ typedef struct iso_event {
     int direction;
 } iso_event;
 
-/* The first event after `from`, at or before `to`, going away from 0 (0 <= from <= to, or 0 >= from >= to). Found:
- * *found = true with its time and state, good to rounding (at the end of a step: to the error of a step). Two zeros
- * between which the state changes by less than a quarter of its size are found if g turns round just once between
- * them; a zero that g only touches is no event, nor is one at `from` itself, or within 1e-9 steps of it.
+/* The first event after `from`, at or before `to`, going away from 0 (0 <= from <= to, or 0 >= from >= to). If there is
+ * one, *found is true and t and y are its time and state, good to rounding (at the end of a step: to the error of a
+ * step). Two zeros between which the state changes by less than a quarter of its size are found if g turns round just
+ * once between them. No events are: a zero that g only touches, a zero at `from` itself or within 1e-9 steps of it.
  * Errors: as iso_integrator_at, and ISO_NUMERICAL when g is not finite. */
 iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, double from, double to, bool *found,
                                 double *t, double y[]);

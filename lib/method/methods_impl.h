@@ -1,4 +1,16 @@
-/* methods_impl.h - the rows of the registry, one line each. */
+/* methods_impl.h - the registry of methods, and how to add one.
+ *
+ * 1. Write lib/method/NAME.c with one row, `const iso_method iso_method_NAME = {...}`. Every member is explained in
+ *    method.h, what `create`, `start` and `step` must do in integrator_impl.h. gsl.c is a short example.
+ * 2. Say in the row what the method needs of a model: `implicit`, `own_equations`, `steps_in_s`, `system`. A model that
+ *    lacks it is then refused by name (serves.c), and "auto" passes the method over. If the method needs something that
+ *    has no member yet, add the member to iso_method and the check to serves.c.
+ * 3. If "auto" may take it, write `suits`, with the measurement that says when it is the best.
+ * 4. Add X(NAME) to ISO_METHOD_LIST below. No other list names a method: commands, scenes, comparisons and tests go
+ *    through this one.
+ *
+ * The closed solution is a method too (orbit/exact_method.c), but no row of this list: it is a backend.
+ */
 #ifndef ISO_METHOD_METHODS_IMPL_H
 #define ISO_METHOD_METHODS_IMPL_H
 
@@ -13,6 +25,7 @@
 #define ISO_QUAD(X)
 #endif
 
+/* Every method of the library, in the order in which lists show them. */
 #define ISO_METHOD_LIST(X)                                                                                         \
     X(adams) X(bdf)                                                                           /* cvode.c  */       \
     X(heun_euler) X(bogacki_shampine) X(ark324) X(zonneveld) X(ark436) X(ark437) X(sayfy_aburub)                   \
@@ -20,6 +33,9 @@
     X(rk4) X(rkf45) X(rkck) X(rk8pd) X(msadams) X(msbdf) X(bsimp)                             /* gsl.c    */       \
     X(taylor) X(taylor_extended) ISO_QUAD(X)                                                  /* taylor.c */       \
     X(strang) X(blanes_moan4) X(blanes_moan6) X(kahan_li8) X(sofroniou_spaletta10)        /* splitting.c */
+
+/* From this stiffness on bdf needs less time than bsimp, which is more exact below it. */
+enum { ISO_VERY_STIFF = 1000 };
 
 #define ISO_METHOD_DECLARE(name) extern const iso_method iso_method_##name;
 ISO_METHOD_LIST(ISO_METHOD_DECLARE)

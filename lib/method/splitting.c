@@ -265,20 +265,6 @@ static void release(iso_integrator *it)
 static iso_status create(iso_integrator *it)
 {
     const iso_model *m = &it->model;
-    if (m->system != it->method->system)
-        return iso_context_fail(
-            it->ctx, ISO_BAD_ARGUMENT, "method",
-            "%s is for the point: the ball's equations do not split into flows that are known exactly",
-            it->method->name);
-    if (iso_params_steep(&m->field.p) && m->field.p.k != -1)
-        return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "method",
-                                "the steps of %s are fixed in s, and for this k one radian of the way may take 1e10 "
-                                "times as long as another: take a method that chooses its steps",
-                                it->method->name);
-    if (it->options.fixed_step > 0 && m->clock != ISO_CLOCK_S)
-        return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "method",
-                                "the steps of %s are fixed in s: they cannot be in %s", it->method->name,
-                                iso_clock_name(m->clock));
     splitting *d = it->data = calloc(1, sizeof *d);
     if (!d) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for %s", it->method->name);
     d->clocks = m->clock != ISO_CLOCK_S;
@@ -372,9 +358,9 @@ static iso_status within(iso_integrator *it, double dt, double y[])
 }
 
 #define SPLITTING                                                                                                    \
-    .family = "splitting", .own_equations = true, .system = &iso_system_point, .fixed = true, .create = create,     \
-    .start = start,                                                                                                \
-    .step = step, .within = within, .free = release
+    .family = "splitting", .own_equations = true, .system = &iso_system_point,                                       \
+    .system_why = "the ball's equations do not split into flows that are known exactly", .steps_in_s = true,         \
+    .fixed = true, .create = create, .start = start, .step = step, .within = within, .free = release
 
 const iso_method iso_method_strang = {
     .name = "strang", .order = 2, .variant = STRANG, .doc = "Strang's splitting", SPLITTING};

@@ -51,7 +51,8 @@ static iso_status choose_horizons(grower *g, int *horizons)
                    ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request")
                    : iso_context_fail(g->p.user, ISO_NUMERICAL, "", "the cell does not get to %g: %s", g->p.end,
                                       iso_context_message(g->p.ctx));
-    if (probe(g, g->p.scene->start.model, iso_method_find("taylor_extended"), 1e-15, &series) != ISO_OK) series = 0;
+    const iso_method *const fine = iso_method_with_more_digits(ISO_DOUBLE_DIGITS); /* as for a reference */
+    if (!fine || probe(g, g->p.scene->start.model, fine, 1e-15, &series) != ISO_OK) series = 0;
     const double unit = (c->method ? 8 * own : 0) + 2.5 * series, most = 1 + floor(log2(fmax(1, SECONDS / unit)));
     if (most >= *horizons) return ISO_OK;
     *horizons = (int)most;

@@ -4,7 +4,7 @@
 
 #include "study/cost_impl.h"
 
-/* Where the orbit may come from. */
+/* A run from which the reference may come. */
 typedef struct source {
     iso_picture backend;
     const iso_method *method;
@@ -41,22 +41,54 @@ static int best_source(cost_problem *p, const source list[], int count, double s
     return best;
 }
 
+/* --- where to look ---------------------------------------------------------------------------------------------- */
+
+enum { MOST_SOURCES = 16 };
+
+typedef struct sources {
+    int count;
+    source list[MOST_SOURCES];
+} sources;
+
+static void add(sources *s, iso_picture backend, const iso_method *method, double tolerance)
+{
+    if (s->count < MOST_SOURCES) s->list[s->count++] = (source){backend, method, tolerance};
+}
+
+/* Methods with more digits than a double has, the most first. */
+static void add_fine(sources *s, iso_picture backend)
+{
+    const iso_method *fine[MOST_SOURCES];
+    int count = 0, digits = ISO_DOUBLE_DIGITS;
+    for (const iso_method *m; count < MOST_SOURCES && (m = iso_method_with_more_digits(digits)); digits = m->digits)
+        fine[count++] = m;
+    while (count > 0) add(s, backend, fine[--count], 1e-15);
+}
+
+/* What stiff models need: the implicit witnesses, and the last of them, which goes farthest, at a looser tolerance. */
+static void add_implicit(sources *s, iso_picture backend)
+{
+    const iso_method *last = NULL;
+    for (int place = 1; iso_method_witness(place); place++)
+        if (iso_method_witness(place)->implicit) add(s, backend, last = iso_method_witness(place), 1e-14);
+    if (last) add(s, backend, last, 1e-12);
+}
+
+/* --- the reference, and what bears it out ----------------------------------------------------------------------- */
+
 static iso_status find_first(cost_problem *p, double seconds, bool may_fall_short, cost_reference *r, source *from)
 {
-    const iso_picture own = p->scene->start.model;
-    const source list[] = {{ISO_EXACT, NULL, 0},
-                           {own, iso_method_find("taylor_quad"), 1e-15},
-                           {own, iso_method_find("taylor_extended"), 1e-15},
-                           {ISO_BALL, iso_method_find("taylor_extended"), 1e-15},
-                           {ISO_BALL, iso_method_find("bsimp"), 1e-14},
-                           {ISO_BALL, iso_method_find("bdf"), 1e-14},
-                           {ISO_BALL, iso_method_find("bdf"), 1e-12}};
-    const int i = best_source(p, list, (int)(sizeof list / sizeof *list), seconds, &r->first);
+    sources s = {0};
+    add(&s, ISO_EXACT, NULL, 0);
+    add_fine(&s, p->scene->start.model);
+    add(&s, ISO_BALL, iso_method_with_more_digits(ISO_DOUBLE_DIGITS), 1e-15);
+    add_implicit(&s, ISO_BALL);
+    const int i = best_source(p, s.list, s.count, seconds, &r->first);
     if (iso_cost_is_stopped(p)) return iso_context_fail(p->user, ISO_STOPPED, "", "stopped on request");
     if (i < 0 || (r->first.reached < r->first.times && !may_fall_short))
         return iso_context_fail(p->user, ISO_NUMERICAL, "", "no reference gets to %s = %g in %.2g s: %s",
                                 iso_clock_name(p->clock), p->end, seconds, iso_context_message(p->ctx));
-    *from = list[i];
+    *from = s.list[i];
     r->exact = from->backend == ISO_EXACT;
     describe(from, r->what);
     return ISO_OK;
@@ -67,33 +99,31 @@ static bool find_by_series(cost_problem *p, const source *first, double seconds,
 {
     const iso_picture own = p->scene->start.model, other = own == ISO_BALL ? ISO_POINT : ISO_BALL;
     const iso_picture backend = first->backend == ISO_EXACT ? own : first->backend == own ? other : own;
-    const source list[] = {{backend, iso_method_find("taylor_quad"), 1e-15},
-                           {backend, iso_method_find("taylor_extended"), 1e-15}};
-    const int i = best_source(p, list, 2, seconds, &r->second);
+    sources s = {0};
+    add_fine(&s, backend);
+    const int i = best_source(p, s.list, s.count, seconds, &r->second);
     if (i < 0 || r->second.reached < r->first.reached) return false;
-    describe(&list[i], r->second_what);
+    describe(&s.list[i], r->second_what);
     return true;
 }
 
-/* Other codes in the same formulation: that which agrees best bears the first out. */
+/* Another method (iso_method.witness) for the same equations, the ball's: of all runs that come as far as the first, the
+ * one that is nearest to it. */
 static bool find_by_others(cost_problem *p, const source *first, double seconds, cost_reference *r)
 {
-    static const char *const names[] = {"rk8pd", "fehlberg_13_7_8", "bsimp", "bdf"};
     static const double tolerances[] = {1e-13, 1e-14, 1e-15};
     source best = {ISO_BALL, NULL, 0}, now = best;
     double least = INFINITY;
-    for (int i = 0; i < 12 && !iso_cost_is_stopped(p); i++) {
-        now.method = iso_method_find(names[i / 3]);
-        now.tolerance = tolerances[i % 3];
-        if (now.method == first->method && now.tolerance == first->tolerance) continue;
-        follow(p, &now, seconds, &r->second);
-        const double off = iso_cost_distance(&r->first, &r->second);
-        if (r->second.reached >= r->first.reached && off < least)
-            best = now, least = off;
-        else if (r->second.reached < r->first.reached)
-            i += 2 - i % 3; /* the tighter ones do not get there either */
-    }
-    if (!best.method || follow(p, &best, 2 * seconds, &r->second) != ISO_OK) return false; /* others are there now */
+    for (int place = 1; (now.method = iso_method_witness(place)); place++)
+        for (int i = 0; i < 3 && !iso_cost_is_stopped(p); i++) {
+            now.tolerance = tolerances[i];
+            if (now.method == first->method && now.tolerance == first->tolerance) continue;
+            follow(p, &now, seconds, &r->second);
+            if (r->second.reached < r->first.reached) break; /* tighter tolerances do not get there either */
+            const double off = iso_cost_distance(&r->first, &r->second);
+            if (off < least) best = now, least = off;
+        }
+    if (!best.method || follow(p, &best, 2 * seconds, &r->second) != ISO_OK) return false; /* r->second held the last run */
     describe(&best, r->second_what);
     return true;
 }

@@ -54,12 +54,12 @@ static const iso_sample *row_of(const iso_error_rows *rows, size_t i)
 /* Options of the finer orbit; false where there is none. */
 static bool make_finer(const iso_orbit *orbit, iso_orbit_options *o)
 {
-    const iso_method *own = iso_orbit_method(orbit), *extended = iso_method_find("taylor_extended");
+    const iso_method *own = iso_orbit_method(orbit);
     const bool exact = iso_orbit_exact(orbit) != NULL;
     o->backend = iso_orbit_model(orbit)->system == &iso_system_ball ? ISO_BALL : ISO_POINT;
     o->max_steps = exact ? MOST_STEPS : 20 * (iso_orbit_statistics(orbit).steps + 100);
     if (iso_method_auto(iso_orbit_model(orbit))->own_equations) {
-        o->method = own == extended ? iso_method_find("taylor_quad") : extended;
+        o->method = iso_method_with_more_digits(own->digits > 0 ? own->digits : ISO_DOUBLE_DIGITS);
         o->tolerance = ISO_LEAST_TOLERANCE;
         return o->method && !own->reference;
     }
@@ -162,11 +162,11 @@ static iso_status compare_row(finder *f, const iso_sample *row)
 }
 
 static iso_status open_orbits(iso_context *ctx, const iso_params *params, const iso_start *start,
-                              const iso_orbit_options *o, finder *f)
+                              const iso_orbit_options *o, const iso_orbit *orbit, finder *f)
 {
     iso_orbit_options moved = *o;
     iso_status status = iso_orbit_create(ctx, params, start, o, &f->finer);
-    if (o->method->own_equations) moved.method = iso_method_find("taylor"); /* exact enough, and faster */
+    if (o->method->own_equations) moved.method = iso_method_auto(iso_orbit_model(orbit)); /* exact enough, and faster */
     for (int m = 0; status == ISO_OK && m < MOVED; m++) {
         iso_params p = *params;
         iso_start s = *start;
@@ -195,7 +195,7 @@ iso_status iso_error_find(iso_context *ctx, const iso_params *params, const iso_
         for (size_t i = 0; i < error->rows; i++)
             f.largest_clock[c] = fmax(f.largest_clock[c], fabs(row_of(rows, i)->clock[c]));
     f.factor = o.method->own_equations ? 1 : 1 / (1 - SHARE);
-    iso_status status = open_orbits(ctx, params, start, &o, &f);
+    iso_status status = open_orbits(ctx, params, start, &o, orbit, &f);
     for (size_t i = 0; status == ISO_OK && i < error->rows; i++) status = compare_row(&f, row_of(rows, i));
     iso_orbit_free(f.finer);
     for (int m = 0; m < MOVED; m++) iso_orbit_free(f.moved[m]);

@@ -206,12 +206,12 @@ static void say(iso_frequencies *f)
     static const char *const motion[] = {
         [ISO_REGULAR] = "regular, as far as this orbit tells",
         [ISO_CHAOTIC] = "chaotic",
-        [ISO_UNDECIDED] = "not decided: a longer orbit would tell",
-        [ISO_INTEGRABLE] = "its frequencies are not settled on this orbit",
+        [ISO_UNDECIDED] = "not decided: a longer orbit may tell",
+        [ISO_INTEGRABLE] = "this orbit is too short to settle its frequencies",
     };
     const int axis = f->estimate.axis + 1;
     if (f->angles == 2)
-        snprintf(f->angle[0].what, sizeof f->angle[0].what, "strongest line of n%d that is no multiple", axis);
+        snprintf(f->angle[0].what, sizeof f->angle[0].what, "strongest line of n%d that is no multiple of frequency 2", axis);
     if (f->angles > 0)
         snprintf(f->angle[f->angles - 1].what, sizeof f->angle[0].what, "strongest line of n%d + i n%d", axis % 3 + 1,
                  (axis + 1) % 3 + 1);
@@ -282,7 +282,7 @@ static iso_status choose_length(estimator *e, double speed, const iso_frequencie
     if ((double)e->count >= 8 * length * fast) return ISO_OK;
     return iso_context_fail(
         e->ctx, ISO_BAD_ARGUMENT, "samples",
-        "%zu samples of %g turns of the ball, fewer than 8 each: take fewer turns, or more samples", e->count,
+        "%zu samples of %g turns of the ball are fewer than 8 for each turn: take fewer turns, or more samples", e->count,
         length * fast);
 }
 

@@ -24,13 +24,13 @@ cells() {
 run 0 cost scene.yaml --quick --csv table.csv
 silent
 cp out table
-check "against what" grep -q '^errors: .* from the closed solution,$' table
-check "its uncertainty" grep -qE '^  known to [0-9.]+e-1[4-9]: its distance from ' table
+check "against what" grep -q '^reference: the closed solution$' table
+check "its uncertainty" grep -qE '^  uncertain by [0-9.]+e-1[4-9]: its distance from ' table
 check "many cells" test "$(cells table)" -ge 70
 check "the closed solution" grep -qE '^[* ] exact  closed solution +- ' table
 check "what a digit costs" grep -qE '^  ball   rk8pd .* 1\.[0-9]+ times   [6-9]\.[0-9] of  8 ' table
 check "an end" grep -q '^  nothing measured reaches 1e-' table
-sed -n 's/^  for 1e-[0-9]* *take \([a-z]*\).\([a-z0-9_]*\) at --tol \([^:]*\): .*/\1 \2 \3/p' table >choices
+sed -n 's|^  for 1e-[0-9]* *--backend \([a-z]*\) --method \([a-z0-9_]*\) --tol \([^:]*\): .*|\1 \2 \3|p' table >choices
 check "choices in words" test "$(wc -l <choices)" -ge 2
 sed '/^of those that take steps/,$d' table | sed -n 's/^  for 1e-[0-9]* *take \([a-z]*\)\/\([a-z0-9_]*\) at --tol \([^:]*\): .*/\1 \2 \3/p' |
     while read -r backend method tolerance; do
@@ -85,19 +85,19 @@ run 0 cost scene.yaml --backend exact --csv -
 check "the closed solution alone, as CSV on standard output" test "$(fields /dev/stdin <out | wc -l)" -eq 2
 run 0 cost open.yaml --method taylor --quick --horizons=3
 check "three lengths of each backend" test "$(grep -cE '^ +(10|20|40) ' out)" -eq 6
-check "growth in words" grep -qE '^  the error grows |^  too little' out
+check "growth in words" grep -qE '^  the error grows |^  too few' out
 run 0 cost open.yaml --method taylor --backend point --quick --horizons=2 --json
 check "JSON of growth" is_json
 check "two lengths" test "$(grep -c '"uncertainty"' out)" -eq 3
 
 run 0 cost scene.yaml --backend exact --horizons=2
-check "the closed solution's error does not come from itself" grep -q '^  errors from taylor_' out
+check "the closed solution's error does not come from itself" grep -q '^  errors against taylor_' out
 
 # --- a ball at rest: no error is the least
 scene 0.7 "1.4, 2.1, 3.0" "0, 0, 0" "0.36, 0.48, 0.8" 10 0.5 >rest.yaml
 run 0 cost rest.yaml --quick
 silent
-check "its reference is borne out" grep -q '^  known to 0.0e+00: its distance from ' out
+check "its reference is borne out" grep -q '^  uncertain by 0.0e+00: its distance from ' out
 check "as many digits as there are, and an end of words" test "$(sed -n '/^what to take/,$p' out | grep -c ' for 1e-16 ')" -eq "$(sed -n '/^what to take/,$p' out | grep -c '^  ')"
 run 0 cost rest.yaml --want 1e-12
 says "expected: error 0.0e+00, time "
@@ -105,7 +105,7 @@ says "expected: error 0.0e+00, time "
 # --- a ball that hardly turns has no other clock
 scene 1e-12 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >slow.yaml
 run 0 cost slow.yaml --method taylor --horizons=2
-check "its reference is borne out by another code" grep -qE '^  known to .*: its distance from [a-z0-9_]+ at ' out
+check "its reference is borne out by another code" grep -qE '^  uncertain by .*: its distance from [a-z0-9_]+ at ' out
 check "its growth is told" test "$(grep -cE '^ +(10|20) ' out)" -eq 4
 
 # --- what fails is told, and the rest goes on

@@ -189,6 +189,94 @@ static void check_systems(void)
         }
 }
 
+/* A torque without slopes: an explicit method can simulate it, an implicit one cannot. */
+static void drag(const iso_field *f, const double y[], double T[3])
+{
+    (void)f;
+    for (int i = 0; i < 3; i++) T[i] -= 0.1 * y[i];
+}
+
+static void stand_still(const iso_field *f, const double y[], double dy[])
+{
+    (void)f, (void)y, (void)dy;
+}
+
+static const iso_effect unsloped_torque = {.name = "drag", .torque = drag};
+static const iso_effect unsloped_states = {.name = "memory", .rates = stand_still};
+
+static void check_slopes(const iso_effect *effect, bool acts, double twist)
+{
+    const orbit plain = orbit_rotation(ctx, 1, 1);
+    iso_field f = plain.model.field;
+    f.effects.on[ISO_TWIST] = twist > 0, f.effects.twist = twist, f.p.D = 0.5;
+    iso_model m = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
+    if (acts)
+        m.force[m.forces++] = effect;
+    else
+        m.follower[m.followers++] = effect;
+    const iso_method *best = iso_method_auto(&m);
+    gsl_test(!best || best->implicit, "%s: auto takes %s", effect->name, best ? best->name : "nothing");
+    for (int i = 0; best && iso_methods[i]; i++) {
+        const iso_method *method = iso_methods[i];
+        char why[ISO_WHY_SIZE] = "";
+        iso_integrator *it = (iso_integrator *)&beyond; /* must become NULL */
+        if (method->system) continue;
+        const bool serves = iso_method_serves(method, &m, why);
+        gsl_test(serves == method->implicit, "%s without slopes: %s %s", effect->name, method->name, why);
+        if (serves) continue;
+        const iso_status status =
+            iso_integrator_create(ctx, method, &m, &(iso_method_options){.tolerance = 1e-9}, &it);
+        const char *words = iso_context_message(ctx);
+        gsl_test(status != ISO_BAD_ARGUMENT || it || strcmp(iso_context_field(ctx), "method") != 0 ||
+                     !strstr(words, method->name) || !strstr(words, effect->name) || !strstr(words, best->name),
+                 "refused: %s", words);
+    }
+}
+
+/* What a row says it needs is what iso_integrator_create asks for, and auto takes nothing that would be refused. */
+static void check_needs(void)
+{
+    static const double k[] = {-1, 1, 0.5, 0.03, -0.03};
+    for (int s = 0; iso_systems[s]; s++)
+        for (size_t i = 0; i < sizeof k / sizeof *k; i++) {
+            const orbit o = orbit_sample(ctx, iso_systems[s], k[i], orbit_J, 3);
+            char why[ISO_WHY_SIZE];
+            gsl_test(!iso_method_serves(iso_method_auto(&o.model), &o.model, why), "auto serves: %s, k = %g",
+                     iso_systems[s]->name, k[i]);
+            for (int j = 0; iso_methods[j]; j++) {
+                const iso_method *m = iso_methods[j];
+                const bool serves = iso_method_serves(m, &o.model, why);
+                const bool wanted = orbit_served(m, iso_systems[s]) && !(m->steps_in_s && fabs(k[i]) < 0.04);
+                iso_integrator *it;
+                const iso_status status =
+                    iso_integrator_create(ctx, m, &o.model, &(iso_method_options){.tolerance = 1e-9}, &it);
+                gsl_test(serves != wanted || (status == ISO_OK) != serves, "%s serves the %s with k = %g: %d", m->name,
+                         iso_systems[s]->name, k[i], serves);
+                iso_integrator_free(it);
+            }
+        }
+    check_slopes(&unsloped_torque, true, 0);
+    check_slopes(&unsloped_torque, true, 1e4);
+    check_slopes(&unsloped_states, false, 0);
+    check_slopes(&unsloped_states, false, 1e4);
+}
+
+/* References: methods with more digits than a double, one after the other, and witnesses by their places. */
+static void check_references(void)
+{
+    int digits = ISO_DOUBLE_DIGITS, finer = 0, witnesses = 0;
+    for (const iso_method *m; (m = iso_method_with_more_digits(digits)); digits = m->digits, finer++)
+        gsl_test(!(m->digits > digits), "%s has %d digits", m->name, m->digits);
+    for (int i = 0; iso_methods[i]; i++) {
+        finer -= iso_methods[i]->digits > ISO_DOUBLE_DIGITS;
+        witnesses += iso_methods[i]->witness > 0;
+    }
+    gsl_test(finer != 0, "each method of more digits is met once: %d too many", finer);
+    for (int place = 1; place <= witnesses; place++)
+        gsl_test(!iso_method_witness(place), "witness %d of %d", place, witnesses);
+    gsl_test(iso_method_witness(witnesses + 1) || iso_method_witness(0), "and no other");
+}
+
 static void check_options(void)
 {
     const iso_method *const adams = iso_method_find("adams"), *const rk4 = iso_method_find("rk4");
@@ -367,6 +455,8 @@ int main(void)
         check_max_steps(iso_methods[i]);
     }
     check_systems();
+    check_needs();
+    check_references();
     check_options();
     check_times();
     check_silence();
