@@ -5,7 +5,6 @@
 #include "method/taylor/restore_impl.h"
 
 typedef struct crew {
-    form T;
     iso_lane_job *job[LANES]; /* NULL: idle, the lane goes on with its last orbit and nobody looks */
     iso_instant left[LANES];  /* the time at the step's left end */
     double row[LANES];        /* the time of the next row */
@@ -13,6 +12,7 @@ typedef struct crew {
     iso_lane_job *const *next; /* jobs still to be taken */
     size_t waiting;
     const iso_lane_options *options;
+    form T; /* last: set_shape clears what needs it */
 } crew;
 
 static void next_row(crew *c, int lane)
@@ -122,7 +122,7 @@ static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_optio
     crew *c = aligned_alloc(64, (sizeof *c + 63) / 64 * 64);
     if (!c) return false;
     bool going_on = true;
-    memset(c, 0, sizeof *c);
+    memset(c, 0, offsetof(crew, T));
     set_shape(&c->T, jobs[0]->model, options->tolerance);
     for (int i = 0; i < LANES; i++) set_out(&c->T, i, jobs[0]->model, jobs[0]->start); /* no lane without numbers */
     c->direction = spread(1);

@@ -15,7 +15,6 @@ typedef struct state {
 /* One orbit in each lane, all of the same shape: the same system, effects and clocks, and k = -1 or not. `own` is the
  * variable of the series; the model's clock is a series of it, if another. */
 typedef struct form {
-    series S;
     iso_model shape;
     iso_formula motion;                       /* of the ball's effects, as series need it      */
     iso_clock own;
@@ -34,6 +33,7 @@ typedef struct form {
     real rate[ISO_CLOCKS], power[ISO_CLOCKS]; /* clock' = rate base^power, base = q of a point, g of a ball */
     state now;                                /* at the end of the last step */
     real clock[ISO_CLOCKS];                   /* at its beginning */
+    series S;                                 /* last: its coefficients need not be cleared */
 } form;
 
 /* --- which terms a model calls for ------------------------------------------------------------------------------ */
@@ -75,7 +75,7 @@ static int order_for(double tolerance)
 static void set_shape(form *T, const iso_model *m, double tolerance)
 {
     series *S = &T->S;
-    memset(T, 0, sizeof *T);
+    memset(T, 0, offsetof(form, S) + offsetof(series, K));
     T->shape = *m;
     T->tolerance = tolerance * FINER;
     T->is_point_t = m->system == &iso_system_point_t;

@@ -23,7 +23,7 @@ struct series {
     real k, D, factor, over_det, energy;  /* factor: det J/k^2 */
     real alpha, coupling;                 /* each form's own: see its term */
     real count[KEPT], inverse[KEPT];      /* n, 1/n */
-    /* what terms hand on: vectors, then numbers */
+    /* coefficients: what terms hand on, vectors, then numbers */
     vector K[KEPT], x[KEPT], z[KEPT], a[KEPT], dV[KEPT]; /* x: the torque, or the point's acceleration factors */
     real slope[KEPT];         /* n base[n] */
     real over_base, over_gap; /* 1/base[0], 1/gap[0] */
