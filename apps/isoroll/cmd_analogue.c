@@ -113,8 +113,9 @@ static void print_scene(const iso_scene *s)
     print_number("\ntime:    {end: ", s->end);
     if (s->step > 0) print_number(", step: ", s->step);
     printf("}\n");
-    if (!s->effects.on[ISO_LEVEL]) return;
-    print_number("effects: {level: {c: ", s->effects.level);
+    if (!iso_effects_have_level(&s->effects)) return;
+    printf("effects: {%s: ", iso_level_name());
+    print_number("{c: ", iso_effects_level(&s->effects));
     printf("}}\n");
 }
 

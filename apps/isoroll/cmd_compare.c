@@ -55,7 +55,7 @@ static void print_model(const iso_comparison *c, iso_picture model, size_t shown
     const int first = model == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
     const int clock = model == ISO_BALL ? 0 : 2;
     printf("\n%s\n%12s  %-7s", titles[model], iso_clock_name((iso_clock)clock), "backend");
-    for (int i = 0; i < ISO_STATE; i++) printf(" %13s", iso_trajectory_columns[first + i]);
+    for (int i = 0; i < ISO_STATE; i++) printf(" %13s", iso_column_name(first + i));
     printf("  difference\n");
     for (size_t i = 0; i < shown; i++) {
         const size_t row = shown_row(i, shown, rows);
@@ -156,11 +156,12 @@ static json_t *backend_of(const iso_backend_run *r)
 static json_t *effects_of(const iso_effects *effects)
 {
     json_t *o = json_object();
-    for (int e = 0; e < ISO_EFFECTS; e++) {
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         if (!effects->on[e]) continue;
         json_t *numbers = json_object();
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
-            const double *x = iso_effect_values(effects, n);
+            const double *x = iso_effect_values(effects, e, n);
+            if (n->scene_only) continue;
             json_t *list = json_array();
             for (int i = 0; i < n->count; i++) json_array_append_new(list, number(x[i]));
             json_object_set_new(numbers, n->name, list);
@@ -275,8 +276,9 @@ static int run(iso_context *ctx, const options *o)
     int result = finish_scene(ctx, o, &scene, status);
     progress_end();
     if (!c) return result;
-    for (int e = ISO_ATTITUDE; e <= ISO_REACTIONS; e++)
-        if (scene.effects.on[e]) complain("'%s' acts on nothing and is not compared", iso_effect_list[e]->name);
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (scene.effects.on[e] && iso_effect_list[e]->ball_only)
+            complain("'%s' acts on nothing and is not compared", iso_effect_list[e]->name);
     if (status == ISO_STOPPED)
         complain("interrupted: %zu of %zu rows", iso_record_rows(c->difference), iso_scene_rows(&scene));
     if (o->json) {

@@ -49,16 +49,17 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
                                    : "no further integral is known";
     const iso_effects effects = iso_orbit_effects(orbit);
     const iso_effect *breaking = iso_effects_breaking(&effects);
+    const bool pulled = iso_effects_have_image(&effects);
     printf("isomorphism\n");
     if (!breaking)
         printf("  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s, %s\n", -1 / p->k,
-               effects.on[ISO_FIELD] ? " + U/G" : "",
-               effects.on[ISO_FIELD] ? "in a field: see the integrals below" : kind);
+               pulled ? " + U/G" : "",
+               pulled ? "in a field: see the integrals below" : kind);
     if (iso_orbit_has_twin(orbit))
         printf("  holds: this orbit has both models, (18) and the clocks t, tau, s%s\n",
-               effects.on[ISO_LEVEL] ? "; the point is off the level H = 0, at H = c det J/k^2" : "");
+               iso_effects_have_level(&effects) ? "; the point is off the level H = 0, at H = c det J/k^2" : "");
     else if (breaking)
-        printf("  does not hold: '%s' breaks it: %s\n", breaking->name, breaking->breaks);
+        printf("  does not hold: '%s' breaks it: %s\n", breaking->name, iso_effect_why_broken(breaking));
     else
         printf("  does not hold: a ball at rest (h = 0) has no twin\n");
     printf("\n");
@@ -119,7 +120,7 @@ static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const
         printf("  energy of the ball h = %.10g\n  coupling of the point eps = %.10g\n", iso_orbit_energy(orbit),
                iso_orbit_coupling(orbit));
     printf("written: %zu rows to %s = %g, columns", iso_scene_rows(scene), iso_clock_name(m->clock), scene->end);
-    for (int i = 0; i < count; i++) printf(" %s", iso_trajectory_columns[columns[i]]);
+    for (int i = 0; i < count; i++) printf(" %s", iso_column_name(columns[i]));
     printf("\n\n");
 }
 

@@ -35,14 +35,30 @@ static void list_integrals(void)
             printf("  %-18s %-10s %s\n", iso_effect_list[e]->name, i->name, i->doc);
 }
 
+/* A vector has its length behind its name, a key that may be left out is in brackets. */
+static void list_numbers(const iso_effect *effect)
+{
+    if (effect->numbers) printf("  %-22s numbers:", "");
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
+        printf(n->required ? " %s" : " [%s", n->name);
+        if (n->count == 9)
+            printf("(3x3)");
+        else if (n->count > 1)
+            printf("(%d)", n->count);
+        printf(n->required ? "" : "]");
+    }
+    if (effect->numbers) printf("\n");
+}
+
 static void list_effects(void)
 {
     for (int e = 0; e < ISO_EFFECTS; e++) {
         const iso_effect *effect = iso_effect_list[e];
         printf("  %-22s %s\n", effect->name, effect->doc);
-        if (effect->state) printf("  %-22s states: %s\n", "", effect->states_doc);
-        printf("  %-22s isomorphism: %s%s\n", "", effect->breaks ? "lost, " : "kept",
-               effect->breaks ? effect->breaks : "");
+        const char *broken = iso_effect_why_broken(effect);
+        list_numbers(effect);
+        if (effect->states) printf("  %-22s states: %s\n", "", effect->states_doc);
+        printf("  %-22s isomorphism: %s%s\n", "", broken ? "lost, " : "kept", broken ? broken : "");
     }
 }
 
@@ -82,7 +98,7 @@ static void list_clocks(void)
 
 static void list_columns(void)
 {
-    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++) printf("%s%s", i ? " " : "  ", iso_trajectory_columns[i]);
+    for (int i = 0; i < iso_columns_count(); i++) printf("%s%s", i ? " " : "  ", iso_column_name(i));
     printf("\n");
 }
 

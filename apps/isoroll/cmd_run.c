@@ -16,7 +16,7 @@ static iso_status describe(iso_context *ctx, const iso_scene *scene, const iso_o
                            int count, iso_record **header)
 {
     const char *names[ISO_TRAJECTORY_COLUMNS];
-    for (int i = 0; i < count; i++) names[i] = iso_trajectory_columns[columns[i]];
+    for (int i = 0; i < count; i++) names[i] = iso_column_name(columns[i]);
     const iso_picture as = scene->as == ISO_AUTO ? scene->start.model : scene->as;
     iso_status status = iso_record_create(ctx, (size_t)count, names, header);
     if (status == ISO_OK)
@@ -54,7 +54,7 @@ static iso_status look_both_ways(const iso_scene *scene, iso_orbit *orbit, conta
         const double moment = (side ? -1e-6 : 1e-6) * (scene->end != 0 ? fabs(scene->end) : 1);
         const iso_status status = iso_orbit_at(orbit, moment, &sample);
         if (status != ISO_OK) return status;
-        c->lost[side] = sample.pressure < 0;
+        c->lost[side] = iso_sample_get(&sample, "pressure") < 0;
     }
     if (c->lost[scene->end < 0]) complain("contact is lost at 0: there is a row there, and none beyond");
     return ISO_OK;
@@ -65,16 +65,17 @@ static iso_status watch_contact(const iso_scene *scene, iso_orbit *orbit, contac
 {
     iso_sample sample;
     *c = (contact){.watched = false};
-    if (!scene->effects.on[ISO_REACTIONS] || scene->effects.two_sided) return ISO_OK;
+    if (!iso_effects_watch_contact(&scene->effects)) return ISO_OK;
     const iso_status status = iso_orbit_at(orbit, 0, &sample);
     if (status != ISO_OK) return status;
-    c->watched = sample.pressure > 0;
-    if (sample.pressure == 0 && scene->effects.on[ISO_GRAVITY] && scene->params.k != 1)
+    const double pressure = iso_sample_get(&sample, "pressure");
+    c->watched = pressure > 0;
+    if (pressure == 0 && iso_effects_change_pressure(&scene->params, &scene->effects))
         return look_both_ways(scene, orbit, c);
-    if (sample.pressure < 0)
+    if (pressure < 0)
         complain("the support would have to pull the ball from the start (pressure %.3g): this is the motion of a "
                  "two-sided contact",
-                 sample.pressure);
+                 pressure);
     return ISO_OK;
 }
 

@@ -20,7 +20,7 @@ static void print_head(const cost_report *r)
     printf("k = %.10g (%s), J = %.10g %.10g %.10g; from 0 to %s = %.10g, about %.3g turns\n\n", p->k,
            iso_surface_name((int)p->body.surface), p->J[0], p->J[1], p->J[2],
            r->scene->start.model == ISO_BALL ? "t" : "s", c->end, c->turns);
-    if (r->scene->effects.on[ISO_REACTIONS])
+    if (iso_effects_watch_contact(&r->scene->effects))
         printf("the motion is followed to the end, also where contact is lost\n\n");
     printf("error: the largest relative error of (omega, n), against a reference\nreference: %s\n", c->reference);
     if (isfinite(c->uncertainty))

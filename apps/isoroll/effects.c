@@ -1,22 +1,28 @@
 /* effects.c - how commands show the effects of an orbit. */
 #include "command.h"
 
-static void print_number(const iso_effects *effects, const iso_effect_number *n)
+/* The numbers of an effect, on a line of their own or not; none that a scene alone states. */
+static void print_numbers(const iso_effects *effects, iso_effect_id id, const char *begin)
 {
-    const double *x = iso_effect_values(effects, n);
-    printf("  %s =", n->name);
-    for (int i = 0; i < n->count; i++) printf(" %.10g", x[i]);
+    for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++) {
+        if (n->scene_only) continue;
+        const double *x = iso_effect_values(effects, id, n);
+        printf("%s  %s =", begin, n->name);
+        for (int i = 0; i < n->count; i++) printf(" %.10g", x[i]);
+        begin = "";
+    }
 }
 
 void print_effects(const iso_effects *effects, bool docs)
 {
+    char line[32];
     int shown = 0;
-    for (int e = 0; e < ISO_EFFECTS; e++) {
+    snprintf(line, sizeof line, "\n  %-18s", "");
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         if (!effects->on[e]) continue;
         printf("%s  %-18s", shown++ ? "" : "effects\n", iso_effect_list[e]->name);
         if (docs) printf(" %s", iso_effect_list[e]->doc);
-        if (docs && iso_effect_list[e]->numbers) printf("\n  %-18s", "");
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) print_number(effects, n);
+        print_numbers(effects, e, docs ? line : "");
         printf("\n");
     }
     if (shown) printf("\n");

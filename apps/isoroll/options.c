@@ -308,21 +308,31 @@ int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso
     return finish(ctx, from_option ? status : iso_scene_blame(ctx, scene, name, status));
 }
 
+/* What acts on nothing has its states for its columns: without one of them it need not be followed. */
+static void leave_out_unseen(iso_effects *effects, const int columns[], int count)
+{
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        bool seen = !(effect->observes && effect->states && effect->columns);
+        for (int i = 0; i < count; i++) seen = seen || iso_column_effect(columns[i]) == e;
+        effects->on[e] = effects->on[e] && seen;
+    }
+}
+
 iso_orbit_options options_for_columns(const iso_scene *scene, const int columns[], int count, iso_effects *effects)
 {
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    bool ball = false, point = false, M = false, attitude = false;
+    bool ball = false, point = false, M = false;
     for (int i = 0; i < count; i++) {
-        attitude = attitude || iso_column_effect(columns[i]) == ISO_ATTITUDE;
         if (columns[i] < ISO_CLOCKS) o.carry[columns[i]] = true;
         ball = ball || (columns[i] >= ISO_COLUMN_BALL && columns[i] < ISO_COLUMN_POINT) ||
                columns[i] >= ISO_COLUMN_EFFECTS;
         point = point || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_EFFECTS);
         M = M || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_POINT + 3);
     }
-    ball = ball || scene->effects.on[ISO_REACTIONS]; /* loss of contact is looked for */
-    *effects = scene->effects; /* what acts on nothing is there for its columns */
-    effects->on[ISO_ATTITUDE] = effects->on[ISO_ATTITUDE] && attitude;
+    *effects = scene->effects;
+    leave_out_unseen(effects, columns, count);
+    ball = ball || iso_effects_ball_only(effects); /* loss of contact is looked for */
     o.effects = effects;
     o.show = ball && point ? ISO_BOTH : ball ? ISO_BALL : point ? ISO_POINT : scene->start.model;
     o.gamma_alone = point && !M;

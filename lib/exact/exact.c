@@ -39,17 +39,19 @@ static iso_status check_numbers(iso_context *ctx, const iso_field *f, const doub
     const double q = dot_diag(g, f->p.J, g) / square, fall = f->eps * pow(q, -1 / f->p.k), M2 = dot(point, point);
     const bool on_level = f->energy == 0 ? M2 > 0 : fabs(M2 / 2 - fall - f->energy) <= 1e-6 * (M2 / 2 + fall);
     if (isfinite(fall) && on_level) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[ISO_LEVEL]->name,
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_level_name(),
                             "this start is not on the level H = %g", f->energy);
 }
 
 static iso_status check(iso_context *ctx, const iso_field *f, const double point[ISO_STATE])
 {
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        if (f->effects.on[e] && e != ISO_CLOCK && e != ISO_LEVEL)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[e]->name,
-                                    "the closed solution is for a free motion, not one with '%s'",
-                                    iso_effect_list[e]->name);
+    for (int e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        const bool free = effect->is_level || (effect->observes && !effect->ball_only);
+        if (f->effects.on[e] && !free)
+            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect->name,
+                                    "the closed solution is for a free motion, not one with '%s'", effect->name);
+    }
     return check_numbers(ctx, f, point);
 }
 
@@ -72,7 +74,7 @@ static iso_status find_form(iso_context *ctx, const iso_field *f, double point[I
     *form = form_for(f, snapped);
     if (*form) return copy(snapped, point, ISO_STATE), ISO_OK;
     if (f->p.k == 1)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_effect_list[ISO_LEVEL]->name,
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_level_name(),
                                 "k = 1 has a closed solution on the level H = 0 alone");
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k",
                             "k = %.*g has a closed solution only where two moments of inertia are equal, or in a "

@@ -181,19 +181,14 @@ static field next_field(char separator, char **rest)
     return f;
 }
 
-static int known_column(const char *name)
-{
-    int i = 0;
-    while (i < ISO_TRAJECTORY_COLUMNS && strcmp(iso_trajectory_columns[i], name) != 0) i++;
-    return i < ISO_TRAJECTORY_COLUMNS ? i : -1;
-}
-
 /* A column that is none of ours: a mistake in a file of ours, nothing to us in one of others. */
 static iso_status pass_over(csv *c, const field *f, bool named)
 {
     char quoted[ISO_QUOTE_SIZE], suggested[ISO_SUGGEST_SIZE], detail[ISO_QUOTE_SIZE + ISO_SUGGEST_SIZE + 8];
     iso_text_quote(quoted, f->text, f->length);
-    iso_text_suggest(suggested, quoted, ISO_TRAJECTORY_COLUMNS, iso_trajectory_columns);
+    const char *names[ISO_TRAJECTORY_COLUMNS];
+    const int columns = iso_column_names(names);
+    iso_text_suggest(suggested, quoted, (size_t)columns, names);
     if (c->ours || named) {
         snprintf(detail, sizeof detail, "'%s'; %s", quoted, suggested);
         return fail(c, f->text, "unknown column ", detail);
@@ -219,7 +214,7 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
         if (c->fields == MOST_FIELDS) return fail(c, f.text, "more than 1024 columns", "");
         f.text[f.length] = '\0';
         c->column[c->fields] = -1;
-        const int known = known_column(f.text);
+        const int known = iso_column_find(f.text);
         if (named && strcmp(f.text, "-") == 0) continue;
         if (c->again && iso_number_read(f.text, f.length, &number))
             return fail(c, f.text, "expected a line of column names such as t,omega1,omega2,... before the numbers",
@@ -231,7 +226,7 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
         for (size_t i = 0; i < count; i++)
             if (strcmp(names[i], f.text) == 0) return fail(c, f.text, "duplicate column ", f.text);
         c->column[c->fields] = (short)count;
-        names[count++] = iso_trajectory_columns[known];
+        names[count++] = iso_column_name(known);
     }
     char *first = line;
     const field f = next_field(separator, &first);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const iso_hdf5_part iso_hdf5_parts[ISO_HDF5_PARTS] = {
+static const iso_hdf5_part own_parts[] = {
     {"clock", "t", ISO_CLOCK_T, 1},
     {"clock", "tau", ISO_CLOCK_TAU, 1},
     {"clock", "s", ISO_CLOCK_S, 1},
@@ -12,17 +12,21 @@ const iso_hdf5_part iso_hdf5_parts[ISO_HDF5_PARTS] = {
     {"ball", "n", ISO_COLUMN_BALL + 3, 3},
     {"point", "M", ISO_COLUMN_POINT, 3},
     {"point", "gamma", ISO_COLUMN_POINT + 3, 3},
-    {"ball", "e", ISO_COLUMN_GRAVITY, 3},
-    {"ball", "q", ISO_COLUMN_ATTITUDE, 4},
-    {"ball", "contact", ISO_COLUMN_ATTITUDE + 4, 3},
-    {"ball", "trace", ISO_COLUMN_ATTITUDE + 7, 3},
-    {"ball", "centre", ISO_COLUMN_ATTITUDE + 10, 3},
-    {"ball", "N", ISO_COLUMN_REACTIONS, 3},
-    {"ball", "pressure", ISO_COLUMN_REACTIONS + 3, 1},
-    {"ball", "friction", ISO_COLUMN_REACTIONS + 4, 1},
-    {"ball", "mu", ISO_COLUMN_REACTIONS + 5, 1},
-    {"ball", "lambda", ISO_COLUMN_REACTIONS + 6, 1},
 };
+
+int iso_hdf5_parts(iso_hdf5_part parts[ISO_HDF5_PARTS])
+{
+    int count = (int)(sizeof own_parts / sizeof *own_parts), column = ISO_COLUMN_EFFECTS;
+    const int end = iso_columns_count();
+    memcpy(parts, own_parts, sizeof own_parts);
+    while (column < end) {
+        const iso_effect_column *group;
+        iso_effect_column_name(column - ISO_COLUMN_EFFECTS, NULL, &group, NULL);
+        parts[count++] = (iso_hdf5_part){"ball", group->name, column, group->count};
+        column += group->count;
+    }
+    return count;
+}
 
 iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name)
 {
@@ -44,7 +48,7 @@ bool iso_hdf5_store_room(iso_hdf5_store *s, size_t columns)
 {
     s->columns = columns;
     s->block = malloc(ISO_HDF5_BLOCK * (columns + 1) * sizeof *s->block);
-    s->packed = malloc(ISO_HDF5_BLOCK * 4 * sizeof *s->packed);
+    s->packed = malloc(ISO_HDF5_BLOCK * (columns + 1) * sizeof *s->packed); /* at most all columns in one dataset */
     return s->block && s->packed;
 }
 

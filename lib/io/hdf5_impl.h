@@ -18,15 +18,18 @@
 #include "io/trajectory_impl.h"
 #include "orbit/scene.h"
 
-enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */, ISO_HDF5_PARTS = 17 };
+enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */ };
 #define ISO_HDF5_FORMAT "isoroll trajectory 1"
 
-/* What has a dataset of its own: columns first ... first + count - 1 of iso_trajectory_columns. */
+/* What has a dataset of its own: columns first ... first + count - 1 of a trajectory (iso_column_name). */
 typedef struct iso_hdf5_part {
     const char *group, *name;
     int first, count;
 } iso_hdf5_part;
-extern const iso_hdf5_part iso_hdf5_parts[ISO_HDF5_PARTS];
+enum { ISO_HDF5_PARTS = ISO_TRAJECTORY_COLUMNS }; /* room for them */
+
+/* Lists them, those of the effects last; gives how many there are. */
+int iso_hdf5_parts(iso_hdf5_part parts[ISO_HDF5_PARTS]);
 
 /* One dataset and the columns of the record it holds. */
 typedef struct iso_hdf5_set {

@@ -89,7 +89,7 @@ static iso_status take_set(iso_context *ctx, iso_trajectory_reader *r, hid_t id,
         return bad_file(ctx, r, "a dataset of another shape than rows x components: ", name);
     if (s->sets > 1 && size[0] != s->rows) return bad_file(ctx, r, "another number of rows than the others: ", name);
     s->rows = size[0];
-    for (int i = 0; i < count; i++) names[(*columns)++] = iso_trajectory_columns[first + i];
+    for (int i = 0; i < count; i++) names[(*columns)++] = iso_column_name(first + i);
     return ISO_OK;
 }
 
@@ -98,13 +98,15 @@ static iso_status find_sets(iso_context *ctx, iso_trajectory_reader *r)
     iso_hdf5_store *s = r->data;
     const char *names[ISO_TRAJECTORY_COLUMNS];
     size_t columns = 0;
+    iso_hdf5_part parts[ISO_HDF5_PARTS];
     iso_status status = ISO_OK;
-    for (int p = 0; status == ISO_OK && p < ISO_HDF5_PARTS; p++) {
-        const iso_hdf5_part *part = &iso_hdf5_parts[p];
+    const int count = iso_hdf5_parts(parts);
+    for (int p = 0; status == ISO_OK && p < count; p++) {
+        const iso_hdf5_part *part = &parts[p];
         const hid_t whole = open_set(s->file, part->group, part->name);
         status = take_set(ctx, r, whole, part->name, part->first, part->count, names, &columns);
         for (int i = 0; status == ISO_OK && whole < 0 && part->count > 1 && i < part->count; i++) {
-            const char *name = iso_trajectory_columns[part->first + i];
+            const char *name = iso_column_name(part->first + i);
             status =
                 take_set(ctx, r, open_set(s->file, part->group, name), name, part->first + i, 1, names, &columns);
         }

@@ -114,16 +114,15 @@ static bool add_set(iso_hdf5_store *s, hid_t id, int first, int count)
 /* The datasets of a part whose columns the record has, in the part's order and side by side, or one for each. */
 static bool create_part(iso_hdf5_store *s, const iso_hdf5_part *p, const iso_record *header)
 {
-    int at[4];
+    int at[ISO_TRAJECTORY_COLUMNS];
     bool whole = true;
     for (int i = 0; i < p->count; i++) {
-        at[i] = iso_record_find(header, iso_trajectory_columns[p->first + i]);
+        at[i] = iso_record_find(header, iso_column_name(p->first + i));
         whole = whole && at[i] >= 0 && at[i] == at[0] + i;
     }
     if (whole) return add_set(s, create_set(s->file, p->group, p->name, p->count), at[0], p->count);
     for (int i = 0; i < p->count; i++)
-        if (at[i] >= 0 &&
-            !add_set(s, create_set(s->file, p->group, iso_trajectory_columns[p->first + i], 1), at[i], 1))
+        if (at[i] >= 0 && !add_set(s, create_set(s->file, p->group, iso_column_name(p->first + i), 1), at[i], 1))
             return false;
     return true;
 }
@@ -132,13 +131,15 @@ static iso_status hdf5_header(iso_context *ctx, iso_trajectory_writer *w, const 
 {
     iso_hdf5_store *s = w->data;
     const char *key, *value;
+    iso_hdf5_part parts[ISO_HDF5_PARTS];
+    const int count = iso_hdf5_parts(parts);
     if (!iso_hdf5_store_room(s, iso_record_columns(header)))
         return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", w->name);
     bool good = true;
     H5E_BEGIN_TRY
     {
         good = write_text(s->file, "format", ISO_HDF5_FORMAT);
-        for (int p = 0; good && p < ISO_HDF5_PARTS; p++) good = create_part(s, &iso_hdf5_parts[p], header);
+        for (int p = 0; good && p < count; p++) good = create_part(s, &parts[p], header);
     }
     H5E_END_TRY
     iso_status status = good ? ISO_OK : iso_hdf5_trouble(ctx, "write", w->name);

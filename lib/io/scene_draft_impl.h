@@ -13,7 +13,6 @@ typedef struct iso_draft {
     iso_body body;
     double k, J[3], eps;
     double D; /* NAN: not written */
-    double g; /* NAN: not written */
     double normal[3], angular_velocity[3], gamma[3], M[3];
     bool project;
     iso_scene scene;

@@ -137,47 +137,50 @@ static iso_status make_D(iso_draft *d)
     return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, status);
 }
 
-/* What effects say in words of the ball: g of a body, mgb of a reduced one; c that a point's energy gives. */
+/* The section of one effect, for its row's questions. */
+typedef struct effect_section {
+    iso_draft *d;
+    const yaml_node_t *effects;
+    const char *name;
+} effect_section;
+
+static bool effect_has_key(const void *scene, const char *key)
+{
+    const effect_section *s = scene;
+    return find_effect_key(s->d, s->effects, s->name, key, NULL);
+}
+
+/* What an effect says in words of the ball becomes its numbers. A failure is put at the key it is about, or at that of the
+ * effect where it is about a key that is not there. */
+static iso_status complete_effect(iso_draft *d, iso_picture model, const yaml_node_t *effects, iso_effect_id e)
+{
+    const iso_effect *effect = iso_effect_list[e];
+    const effect_section section = {d, effects, effect->name};
+    const yaml_node_t *key;
+    const iso_status status = effect->complete(d->yaml.ctx, &d->scene.params, model == ISO_POINT,
+                                               d->scene.effects.number[e], effect_has_key, &section);
+    if (status != ISO_BAD_INPUT) return status;
+    if (!find_effect_key(d, effects, effect->name, iso_context_field(d->yaml.ctx), &key))
+        iso_yaml_find(&d->yaml, effects, effect->name, &key, NULL);
+    return iso_yaml_fail(&d->yaml, key->start_mark, "%s", iso_context_message(d->yaml.ctx));
+}
+
 static iso_status make_effects(iso_draft *d, iso_picture model)
 {
-    iso_effects *e = &d->scene.effects;
-    const iso_params *p = &d->scene.params;
-    const bool body = p->body.surface != ISO_REDUCED;
-    const yaml_node_t *effects, *key;
+    const yaml_node_t *effects;
+    iso_status status = ISO_OK;
     if (!find(d, "effects", NULL, NULL, &effects)) return ISO_OK;
-    if (e->on[ISO_GRAVITY]) {
-        const double b = iso_params_sign_of_radius(p) * p->body.radius;
-        const char *wanted = body ? "g" : "mgb", *other = body ? "mgb" : "g";
-        if (find_effect_key(d, effects, "gravity", other, &key))
-            return iso_yaml_fail(&d->yaml, key->start_mark, "'%s' does not belong here: %s, give '%s'", other,
-                                 body ? "the ball's mass and radius are known" : "k and J know no mass", wanted);
-        if (!find_effect_key(d, effects, "gravity", wanted, &key)) {
-            iso_yaml_find(&d->yaml, effects, "gravity", &key, NULL);
-            return iso_yaml_fail(&d->yaml, key->start_mark, "missing '%s' in 'gravity'", wanted);
-        }
-        if (body) e->mgb = p->body.mass * d->g * b;
-        if (!isfinite(e->mgb))
-            return iso_yaml_fail(&d->yaml, key->start_mark,
-                                 "the weight m g times the radius b does not fit a double");
-    }
-    if (e->on[ISO_FIELD] && !find_effect_key(d, effects, "field", "quadratic", NULL) &&
-        !find_effect_key(d, effects, "field", "linear", NULL)) {
-        iso_yaml_find(&d->yaml, effects, "field", &key, NULL);
-        return iso_yaml_fail(&d->yaml, key->start_mark, "missing 'quadratic' or 'linear' in 'field'");
-    }
-    if (e->on[ISO_LEVEL] && model == ISO_BALL && isnan(e->level)) {
-        iso_yaml_find(&d->yaml, effects, "level", &key, NULL);
-        return iso_yaml_fail(&d->yaml, key->start_mark, "missing 'c' in 'level': a ball's energy does not tell it");
-    }
-    return ISO_OK;
+    for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++)
+        if (d->scene.effects.on[e] && iso_effect_list[e]->complete) status = complete_effect(d, model, effects, e);
+    return status;
 }
 
 static iso_status make_start(iso_draft *d, iso_picture model)
 {
     iso_scene *s = &d->scene;
-    const iso_spin spin = s->effects.on[ISO_TWIST] && !d->project ? ISO_SPIN_KEEP
-                          : d->project                            ? ISO_SPIN_REMOVE
-                                                                  : ISO_SPIN_REFUSE;
+    const iso_spin spin = d->project                         ? ISO_SPIN_REMOVE
+                          : iso_effects_twist(&s->effects) ? ISO_SPIN_KEEP
+                                                           : ISO_SPIN_REFUSE;
     const double *eps = find(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;
     const iso_status status = model == ISO_BALL
                                   ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, spin, &s->start)
@@ -210,8 +213,7 @@ iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text,
     ISO_DEFAULT_ARITHMETIC;
     iso_draft d = {.yaml = {.ctx = ctx, .name = name}, .backend = ISO_AUTO, .as = ISO_AUTO};
     d.scene = iso_scene_default();
-    d.scene.effects.level = d.D = d.g = NAN;
-    d.scene.effects.quaternion[0] = 1;
+    d.D = NAN;
     iso_status status = iso_yaml_load(&d.yaml, text, length);
     if (status != ISO_OK) return status;
     d.root = yaml_document_get_root_node(&d.yaml.document);

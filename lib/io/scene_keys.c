@@ -7,7 +7,8 @@
 #include "io/text_impl.h"
 #include "method/method.h"
 
-enum { MAX_KEYS = 16, MAX_METHODS = 64 };
+enum { MAX_KEYS = 32, MAX_METHODS = 64, EFFECT_KEYS = ISO_EFFECT_NUMBERS + 2 };
+_Static_assert((int)MAX_KEYS >= (int)ISO_EFFECTS && (int)MAX_KEYS >= (int)EFFECT_KEYS, "room for all names");
 
 /* One key that a mapping may have: what reads its value, and where in the draft the value goes. */
 typedef struct entry {
@@ -19,7 +20,8 @@ typedef struct entry {
     const char *(*word)(int);    /* read_word: the names of an enum ... */
     unsigned words;              /* ... and which of them (1 << value)  */
     iso_picture model;           /* of `initial`: whose start this is   */
-    iso_effect_id effect;        /* read_effect: which                  */
+    iso_effect_id effect;        /* read_effect, read_effect_number: which effect ... */
+    const iso_effect_number *number; /* ... and which number of it */
 } entry;
 
 /* ---- Values ---- */
@@ -100,11 +102,12 @@ static iso_status read_method(iso_draft *d, const entry *e, const yaml_node_t *k
 static iso_status read_column(iso_draft *d, const yaml_node_t *item)
 {
     iso_scene *s = &d->scene;
-    const char *name = NULL;
+    const char *names[ISO_TRAJECTORY_COLUMNS], *name = NULL;
     if (item->type != YAML_SCALAR_NODE) return iso_yaml_expected(&d->yaml, item, "columns", "a list of names");
-    for (size_t i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
-        if (iso_yaml_is(item, iso_trajectory_columns[i])) name = iso_trajectory_columns[i];
-    if (!name) return iso_yaml_unknown(&d->yaml, item, "column", ISO_TRAJECTORY_COLUMNS, iso_trajectory_columns);
+    const int columns = iso_column_names(names);
+    for (int i = 0; i < columns; i++)
+        if (iso_yaml_is(item, names[i])) name = names[i];
+    if (!name) return iso_yaml_unknown(&d->yaml, item, "column", (size_t)columns, names);
     for (size_t i = 0; i < s->columns; i++)
         if (strcmp(s->column[i], name) == 0)
             return iso_yaml_fail(&d->yaml, item->start_mark, "column '%s' is listed twice", name);
@@ -133,10 +136,8 @@ static iso_status read_D(iso_draft *d, const entry *e, const yaml_node_t *key, c
 }
 
 /* Three rows of three numbers. */
-static iso_status read_matrix(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_matrix(iso_draft *d, const entry *e, const yaml_node_t *value, double matrix[9])
 {
-    double *matrix = target(d, e);
-    (void)key;
     if (value->type != YAML_SEQUENCE_NODE)
         return iso_yaml_expected(&d->yaml, value, e->name, "three rows of three numbers");
     const int rows = (int)(value->data.sequence.items.top - value->data.sequence.items.start);
@@ -151,10 +152,23 @@ static iso_status read_matrix(iso_draft *d, const entry *e, const yaml_node_t *k
     return ISO_OK;
 }
 
-static iso_status read_quaternion(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+static iso_status read_effect_flag(iso_draft *d, const entry *e, const yaml_node_t *value, double *number)
 {
+    bool flag = false;
+    const iso_status status = iso_yaml_flag(&d->yaml, value, e->name, &flag);
+    *number = flag;
+    return status;
+}
+
+/* A number of an effect: true or false, one number, a matrix or a list. */
+static iso_status read_effect_number(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    double *x = iso_effect_values(&d->scene.effects, e->effect, e->number);
     (void)key;
-    return iso_yaml_numbers(&d->yaml, value, e->name, 4, target(d, e));
+    if (e->number->kind == ISO_NUMBER_FLAG) return read_effect_flag(d, e, value, x);
+    if (e->number->count == 1) return iso_yaml_number(&d->yaml, value, e->name, x);
+    if (e->number->count == 9) return read_matrix(d, e, value, x);
+    return iso_yaml_numbers(&d->yaml, value, e->name, e->number->count, x);
 }
 
 /* ---- Sections ---- */
@@ -239,11 +253,6 @@ static iso_status read_section(iso_draft *d, const entry *e, const yaml_node_t *
     return read_mapping(d, e->section, name, key, value);
 }
 
-static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
-{
-    d->scene.effects.on[e->effect] = true;
-    return read_section(d, e, key, value);
-}
 
 /* ---- The tables: adding a key is adding its line ---- */
 
@@ -292,59 +301,28 @@ static const entry time_keys[] = {
     {0},
 };
 
-static const entry gravity_keys[] = {
-    {"g", read_number, AT(g)},
-    {"mgb", read_number, AT(scene.effects.mgb)},
-    {"up", read_vector, AT(scene.effects.up), .required = true},
-    {0},
-};
+/* The keys of an effect: its numbers, and D where it is needed. */
+static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    const iso_effect *effect = iso_effect_list[e->effect];
+    entry keys[EFFECT_KEYS] = {{0}};
+    const entry with_keys = {e->name, .section = keys};
+    int count = 0;
+    for (const iso_effect_number *n = effect->numbers; n && n->name && count < ISO_EFFECT_NUMBERS; n++)
+        keys[count++] = (entry){n->name, read_effect_number, .required = n->required, .effect = e->effect, .number = n};
+    if (effect->needs_D) keys[count] = (entry){"D", read_D, AT(D)};
+    d->scene.effects.on[e->effect] = true;
+    return read_section(d, &with_keys, key, value);
+}
 
-static const entry field_keys[] = {
-    {"quadratic", read_matrix, AT(scene.effects.quadratic)},
-    {"linear", read_vector, AT(scene.effects.linear)},
-    {0},
-};
-
-static const entry level_keys[] = {
-    {"c", read_number, AT(scene.effects.level)},
-    {0},
-};
-
-static const entry twist_keys[] = {
-    {"resistance", read_number, AT(scene.effects.twist), .required = true},
-    {"D", read_D, AT(D)},
-    {0},
-};
-
-static const entry resistance_keys[] = {
-    {"coefficient", read_number, AT(scene.effects.resistance), .required = true},
-    {0},
-};
-
-static const entry attitude_keys[] = {
-    {"quaternion", read_quaternion, AT(scene.effects.quaternion)},
-    {0},
-};
-
-static const entry reactions_keys[] = {
-    {"two_sided", read_flag, AT(scene.effects.two_sided)},
-    {"D", read_D, AT(D)},
-    {0},
-};
-
-static const entry no_keys[] = {{0}};
-
-static const entry effect_keys[] = {
-    {"gravity", read_effect, .effect = ISO_GRAVITY, .section = gravity_keys},
-    {"field", read_effect, .effect = ISO_FIELD, .section = field_keys},
-    {"level", read_effect, .effect = ISO_LEVEL, .section = level_keys},
-    {"twist", read_effect, .effect = ISO_TWIST, .section = twist_keys},
-    {"rolling_resistance", read_effect, .effect = ISO_ROLLING_RESISTANCE, .section = resistance_keys},
-    {"attitude", read_effect, .effect = ISO_ATTITUDE, .section = attitude_keys},
-    {"reactions", read_effect, .effect = ISO_REACTIONS, .section = reactions_keys},
-    {"clock", read_effect, .effect = ISO_CLOCK, .section = no_keys},
-    {0},
-};
+static iso_status read_effects(iso_draft *d, const entry *e, const yaml_node_t *key, const yaml_node_t *value)
+{
+    entry effects[ISO_EFFECTS + 1] = {{0}};
+    const entry with_effects = {e->name, .section = effects};
+    for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
+        effects[i] = (entry){iso_effect_list[i]->name, read_effect, .effect = i};
+    return read_section(d, &with_effects, key, value);
+}
 
 static const entry solver_keys[] = {
     {"backend", read_word, AT(backend), .word = iso_picture_name, .words = ~BIT(ISO_BOTH)},
@@ -366,7 +344,7 @@ static const entry scene_keys[] = {
     {"point", read_section, .section = point_keys},
     {"initial", read_section, .section = initial_keys, .required = true},
     {"time", read_section, .section = time_keys, .required = true},
-    {"effects", read_section, .section = effect_keys},
+    {"effects", .read = read_effects},
     {"solver", read_section, .section = solver_keys},
     {"output", read_section, .section = output_keys},
     {0},

@@ -3,7 +3,7 @@
  *     # isoroll trajectory 1
  *     # model: ball                                key: value lines, the record's
  *     # k: -1
- *     t,omega1,omega2,omega3,n1,n2,n3              some of iso_trajectory_columns, each once
+ *     t,omega1,omega2,omega3,n1,n2,n3              some of the columns (iso_column_name), each once
  *     0,0.9,-0.3,-0.225,0.36,0.48,0.8              finite numbers, written in %.17g: they read back exactly
  *
  * Files of others are read as well: without the lines of #, separated by commas, semicolons or blanks, names quoted or

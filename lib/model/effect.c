@@ -184,6 +184,10 @@ static iso_status check_D(iso_context *ctx, const iso_params *p, const char *eff
 /* A row that acts states its equations; what it leaves out of them nobody may guess. */
 static iso_status check_row(iso_context *ctx, const iso_effect *effect)
 {
+    if (iso_effect_columns() > ISO_EFFECT_COLUMNS)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
+                                "the effects have %d columns, and there is room for %d: set ISO_EFFECT_COLUMNS to %d",
+                                iso_effect_columns(), ISO_EFFECT_COLUMNS, iso_effect_columns());
     if (effect->observes || effect->motion || effect->torque) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
                             "the row of '%s' is not complete: it acts, but has no equations of motion", effect->name);
@@ -272,12 +276,35 @@ bool iso_effects_need_radius(const iso_effects *effects)
     return found;
 }
 
+const iso_effect *iso_effects_beyond_level(const iso_effects *effects)
+{
+    int e = 0;
+    const iso_effect *effect;
+    while ((effect = next_on(effects, &e)) && (effect->observes || effect->is_level)) {
+    }
+    return effect;
+}
+
 bool iso_effects_are_free(const iso_effects *effects)
 {
+    return !iso_effects_beyond_level(effects);
+}
+
+const iso_effect *iso_effects_without_frequencies(const iso_field *f, const char **why)
+{
+    int e = 0;
     const iso_effect *effect;
-    bool acts = false;
-    for (int e = 0; (effect = next_on(effects, &e));) acts = acts || !(effect->observes || effect->is_level);
-    return !acts;
+    *why = NULL;
+    while (!*why && (effect = next_on(&f->effects, &e))) *why = effect->no_frequencies ? effect->no_frequencies(f) : NULL;
+    return *why ? effect : NULL;
+}
+
+bool iso_effects_have_image(const iso_effects *effects)
+{
+    const iso_effect *effect;
+    bool found = false;
+    for (int e = 0; (effect = next_on(effects, &e));) found = found || effect->image;
+    return found;
 }
 
 bool iso_effects_pull(const iso_effects *effects)

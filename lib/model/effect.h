@@ -186,6 +186,16 @@ const char *iso_effect_why_broken(const iso_effect *effect);
 /* The first observer that only backend ball has; NULL: none. */
 const iso_effect *iso_effects_ball_only(const iso_effects *effects);
 
+/* The first effect that acts and is no level; NULL: none. */
+const iso_effect *iso_effects_beyond_level(const iso_effects *effects);
+
+/* The first effect with which n(t) has no frequencies, and why; NULL: none. */
+const iso_effect *iso_effects_without_frequencies(const iso_field *f, const char **why);
+
+/* Whether a run ends where contact is lost; and whether the pressure of the contact changes where it begins at 0. */
+bool iso_effects_watch_contact(const iso_effects *effects);
+bool iso_effects_change_pressure(const iso_params *params, const iso_effects *effects);
+
 /* Whether an effect that is on has the property. */
 bool iso_effects_twist(const iso_effects *effects);  /* the contact is not rigid      */
 bool iso_effects_clocks(const iso_effects *effects); /* the clocks are asked for      */
@@ -202,6 +212,9 @@ double iso_effects_largest(const iso_field *f, const double y[]); /* that of `ra
 
 /* Whether nothing acts but a level, which the isomorphism turns into a constant. */
 bool iso_effects_are_free(const iso_effects *effects);
+
+/* Whether one of them has an image: a potential on the point, beyond a level. */
+bool iso_effects_have_image(const iso_effects *effects);
 
 /* Whether the effects have potentials, which move a ball that is at rest. */
 bool iso_effects_pull(const iso_effects *effects);

@@ -7,6 +7,9 @@
 #include "model/model.h"
 #include "model/reactions.h"
 
+/* Where its number is. */
+enum { TWO_SIDED = 0 };
+
 /* Of the pressure, relative to its terms: what is less is none. Else a ball that grazes weightlessness, or rolls down a
  * wall, would leave its support where rounding says so. */
 #define ROUNDING (8 * DBL_EPSILON)
@@ -58,13 +61,25 @@ static const char *empty(const iso_params *p, const iso_effects *effects, const 
     return weightless && strcmp(column, "mu") == 0 ? "without gravity nothing presses the ball to the plane" : NULL;
 }
 
+bool iso_effects_watch_contact(const iso_effects *effects)
+{
+    return effects->on[ISO_REACTIONS] && effects->number[ISO_REACTIONS][TWO_SIDED] == 0;
+}
+
+/* On a plane it keeps its value; without gravity it keeps its sign. */
+bool iso_effects_change_pressure(const iso_params *p, const iso_effects *effects)
+{
+    return effects->on[ISO_GRAVITY] && p->k != 1;
+}
+
 static const char *const N_names[] = {"N1", "N2", "N3"}, *const pressure_name[] = {"pressure"},
                          *const friction_name[] = {"friction"}, *const mu_name[] = {"mu"},
                          *const lambda_name[] = {"lambda"};
 
 /* Forces are energies over the radius. lambda is a torque. */
 static const iso_effect_column columns[] = {
-    {.name = "N", .column = N_names, .count = 3, .dimension = {1, 0, 2}, .length = -1, .checked_as = "N"},
+    {.name = "N", .column = N_names, .count = 3, .dimension = {1, 0, 2}, .length = -1, .checked_as = "N",
+     .sized_by = "N"},
     {.name = "pressure", .column = pressure_name, .count = 1, .dimension = {1, 0, 2}, .length = -1,
      .checked_as = "force", .sized_by = "N"},
     {.name = "friction", .column = friction_name, .count = 1, .dimension = {1, 0, 2}, .length = -1,
@@ -76,7 +91,7 @@ static const iso_effect_column columns[] = {
 };
 
 static const iso_effect_number numbers[] = {
-    {.name = "two_sided", .count = 1, .kind = ISO_NUMBER_FLAG, .scene_only = true},
+    {.name = "two_sided", .at = TWO_SIDED, .count = 1, .kind = ISO_NUMBER_FLAG, .scene_only = true},
     {0},
 };
 

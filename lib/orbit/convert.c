@@ -81,7 +81,8 @@ static double off_level(const iso_conversion *c, const double own[ISO_STATE], do
     double size;
     iso_field field = iso_orbit_model(c->first)->field;
     field.eps = eps;
-    const double level = c->effects.on[ISO_LEVEL] ? iso_coupling(&field.p, field.effects.level) : 0;
+    const double c_own = iso_effects_level(&field.effects);
+    const double level = iso_effects_have_level(&c->effects) ? iso_coupling(&field.p, c_own) : 0;
     const double H = iso_system_point.integrals[0].value(&field, own, &size);
     return H == level ? 0 : (H - level) / fmax(size, fabs(level));
 }
@@ -123,7 +124,7 @@ static iso_status map_state(const iso_conversion *c, conversion_row *r)
 {
     double *const to = r->out + (c->own_column >= 0 || c->other_column >= 0);
     const bool rest = largest(r->y) == 0;
-    if (rest && !c->effects.on[ISO_FIELD] && !c->effects.on[ISO_LEVEL])
+    if (rest && !iso_effects_pull(&c->effects))
         return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "", "at rest (h = 0): a resting ball has no twin");
     (c->from == ISO_BALL ? iso_ball_to_point : iso_point_to_ball)(&c->units.own, r->own, to);
     double size = 0;
@@ -169,12 +170,14 @@ static iso_status open_first(iso_conversion *c, const conversion_row *r)
 {
     static const double digits = 1e-6;
     iso_start start;
-    const bool clock = c->own_column >= 0, stated = c->effects.on[ISO_LEVEL];
+    const bool clock = c->own_column >= 0, stated = iso_effects_have_level(&c->effects);
     iso_status status = iso_conversion_start(c, r->y, &start);
     const double eps = start.eps;
     if (stated) start.eps = NAN;
     if (status == ISO_OK) status = create_first(c, &start, clock);
-    if (status != ISO_OK || !iso_orbit_effects(c->first).on[ISO_LEVEL] || isnan(c->stated_eps)) return status;
+    if (status != ISO_OK || isnan(c->stated_eps)) return status;
+    const iso_effects effects = iso_orbit_effects(c->first);
+    if (!iso_effects_have_level(&effects)) return ISO_OK;
     const double own_eps = c->stated_eps / iso_unit(&c->units, iso_dimension_eps);
     const bool agrees = fabs(first_off_level(c, &start, own_eps)) <= digits;
     if (agrees && stated) return ISO_OK;
@@ -194,7 +197,7 @@ static iso_status shift_moments(iso_conversion *c, const conversion_row *r)
         iso_params_reduced(c->ctx, -1, (double[]){J[0] + E / eps, J[1] + E / eps, J[2] + E / eps}, &c->shifted);
     if (status == ISO_OK) {
         c->params = &c->shifted;
-        c->effects.on[ISO_LEVEL] = false;
+        iso_effects_set_level(&c->effects, false, NAN);
         return ISO_OK;
     }
     return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "",
@@ -301,7 +304,7 @@ static iso_status refuse_effect(const iso_conversion *c)
     if (!e) return ISO_OK;
     return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "effects",
                             "this trajectory was made with '%s', which breaks the isomorphism: %s", e->name,
-                            e->breaks);
+                            iso_effect_why_broken(e));
 }
 
 static iso_status find_columns(iso_conversion *c)

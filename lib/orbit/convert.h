@@ -1,7 +1,7 @@
 /* convert.h - trajectories from one model to the other, row by row or whole.
  *
  * A record with the lines `k` and `J` (and `h` or `eps`) can be carried over and back: states row by row through (18),
- * the other model's clock from each row to the next. The columns are those of iso_trajectory_columns.
+ * the other model's clock from each row to the next. The columns are those of iso_column_name.
  */
 #ifndef ISO_ORBIT_CONVERT_H
 #define ISO_ORBIT_CONVERT_H

@@ -1,6 +1,7 @@
 /* convert_lines.c - what the result of a conversion says of itself. */
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/vec3_impl.h"
@@ -19,7 +20,9 @@ static iso_status describe_energy(const iso_conversion *c, iso_picture to, iso_r
     const bool agrees =
         iso_record_coupling(c->ctx, out, c->params, &stated, &status) && fabs(stated - eps) <= 1e-6 * fabs(eps);
     if (status != ISO_OK) return status;
-    const bool named = !c->effects.on[ISO_LEVEL] || iso_record_get(out, "level.c");
+    char key[ISO_NAME_SIZE];
+    snprintf(key, sizeof key, "%s.c", iso_level_name());
+    const bool named = !iso_effects_have_level(&c->effects) || iso_record_get(out, key);
     return iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, agrees && named ? NULL : c->first);
 }
 
@@ -29,7 +32,13 @@ static bool is_left_behind(const char *key)
     static const char *const keys[] = {"effects", "s.from", "s.error", "t.from", "t.error", "radius"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (strcmp(key, keys[i]) == 0) return true;
-    return strncmp(key, "attitude.", 9) == 0 || strncmp(key, "level.", 6) == 0;
+    for (int e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        const size_t length = strlen(effect->name);
+        const bool its_line = strncmp(key, effect->name, length) == 0 && key[length] == '.';
+        if (its_line && (effect->observes || effect->is_level)) return true;
+    }
+    return false;
 }
 
 static iso_status set_lines(const iso_conversion *c, iso_picture to, double begin, iso_record *out)

@@ -20,13 +20,14 @@ iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const is
     ISO_DEFAULT_ARITHMETIC;
     char names[256] = "", key[ISO_NAME_SIZE];
     iso_status status = ISO_OK;
-    for (int e = 0; status == ISO_OK && e < ISO_EFFECTS; e++) {
-        if (!effects->on[e] || e == ISO_CLOCK) continue;
+    for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++) {
+        if (!effects->on[e] || iso_effect_list[e]->clocks) continue;
         const size_t used = strlen(names);
         snprintf(names + used, sizeof names - used, "%s%s", used ? " " : "", iso_effect_list[e]->name);
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; status == ISO_OK && n && n->name; n++) {
+            if (n->scene_only) continue;
             line_key(key, iso_effect_list[e], n);
-            status = iso_record_set_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, n));
+            status = iso_record_set_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, e, n));
         }
     }
     return status == ISO_OK && *names ? iso_record_set(ctx, r, "effects", names) : status;
@@ -43,10 +44,10 @@ iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *mode
     const bool twin = iso_orbit_has_twin(orbit);
     const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
     iso_effects effects = iso_orbit_effects(orbit);
-    effects.on[ISO_LEVEL] = effects.on[ISO_LEVEL] && isnormal(effects.level);
-    const bool reactions = effects.on[ISO_REACTIONS], lengths = reactions || effects.on[ISO_ATTITUDE];
-    if (effects.on[ISO_TWIST] || reactions) status = iso_record_set_numbers(ctx, r, "D", 1, &p->D);
-    if (status == ISO_OK && lengths && p->body.radius > 0)
+    const double c = iso_effects_level(&effects);
+    iso_effects_set_level(&effects, iso_effects_have_level(&effects) && isnormal(c), c);
+    if (iso_effects_need_D(&effects)) status = iso_record_set_numbers(ctx, r, "D", 1, &p->D);
+    if (status == ISO_OK && iso_effects_need_radius(&effects) && p->body.radius > 0)
         status = iso_record_set_numbers(ctx, r, "radius", 1, &p->body.radius);
     if (status == ISO_OK && twin && isnormal(h)) status = iso_record_set_numbers(ctx, r, "h", 1, &h);
     if (status == ISO_OK && twin && isnormal(eps)) status = iso_record_set_numbers(ctx, r, "eps", 1, &eps);
@@ -103,72 +104,95 @@ static iso_effect_id find_effect(const char *name, size_t length)
     return (iso_effect_id)e;
 }
 
-/* Numbers or columns of an effect that the line `effects` does not name: the line is lost or damaged. */
-static iso_status check_named(iso_context *ctx, const iso_record *r, const iso_effects *effects)
+/* Numbers of an effect that the line `effects` does not name, or columns of one that acts: the line is lost or damaged. */
+static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso_effect *effect)
 {
     char key[ISO_NAME_SIZE];
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; !effects->on[e] && n && n->name; n++) {
-            line_key(key, iso_effect_list[e], n);
-            if (iso_record_get(r, key))
-                return iso_context_fail(ctx, ISO_BAD_INPUT, "effects",
-                                        "there is a line '# %s', but no line '# effects' that names '%s'", key,
-                                        iso_effect_list[e]->name);
-        }
-    if (effects->on[ISO_GRAVITY] || iso_record_find(r, iso_trajectory_columns[ISO_COLUMN_GRAVITY]) < 0) return ISO_OK;
+    const char *column = effect->observes || !effect->columns ? NULL : effect->columns->column[0];
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
+        line_key(key, effect, n);
+        if (iso_record_get(r, key))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "effects",
+                                    "there is a line '# %s', but no line '# effects' that names '%s'", key,
+                                    effect->name);
+    }
+    if (!column || iso_record_find(r, column) < 0) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "effects",
-                            "there is a column '%s', but no line '# effects' that names "
-                            "'gravity'",
-                            iso_trajectory_columns[ISO_COLUMN_GRAVITY]);
+                            "there is a column '%s', but no line '# effects' that names '%s'", column, effect->name);
+}
+
+static iso_status check_named(iso_context *ctx, const iso_record *r, const iso_effects *effects)
+{
+    iso_status status = ISO_OK;
+    for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++)
+        if (!effects->on[e]) status = check_unnamed(ctx, r, iso_effect_list[e]);
+    return status;
+}
+
+static iso_status read_effect(iso_context *ctx, const iso_record *r, iso_effect_id e, iso_effects *effects)
+{
+    char key[ISO_NAME_SIZE];
+    iso_status status;
+    effects->on[e] = true;
+    for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
+        if (n->scene_only) continue;
+        line_key(key, iso_effect_list[e], n);
+        if (iso_record_get_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, e, n), &status)) continue;
+        if (status != ISO_OK) return status;
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "effect '%s' needs a line '# %s: ...'",
+                                iso_effect_list[e]->name, key);
+    }
+    return ISO_OK;
 }
 
 iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
     const char *names = iso_record_get(r, "effects");
-    iso_status status;
-    *effects = (iso_effects){.on = {false}};
+    *effects = iso_effects_default();
     if (names) names += strspn(names, " \t");
     for (size_t length; names && *names; names += length + strspn(names + length, " \t")) {
         length = strcspn(names, " \t");
         const iso_effect_id e = find_effect(names, length);
         if (e == ISO_EFFECTS)
             return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "there is no effect '%.*s'", (int)length, names);
-        effects->on[e] = true;
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
-            char key[ISO_NAME_SIZE];
-            line_key(key, iso_effect_list[e], n);
-            if (iso_record_get_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, n), &status))
-                continue;
-            if (status != ISO_OK) return status;
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "effect '%s' needs a line '# %s: ...'",
-                                    iso_effect_list[e]->name, key);
-        }
+        const iso_status status = read_effect(ctx, r, e, effects);
+        if (status != ISO_OK) return status;
     }
     return check_named(ctx, r, effects);
 }
 
+/* The group of an effect's columns that is called `name`. */
+static const iso_effect_column *find_group(const iso_effect *effect, const char *name)
+{
+    const iso_effect_column *group = effect->columns;
+    while (strcmp(group->name, name) != 0) group++;
+    return group;
+}
+
 /* What turns with the ball: vertical and quaternion of a row are those of an orbit that starts there. */
+static iso_status turn_number(iso_context *ctx, const double row[], const iso_record *r, const iso_effect *effect,
+                              const iso_effect_number *n, double x[])
+{
+    int columns[ISO_EFFECT_NUMBERS];
+    const char *missing;
+    if (!iso_record_find_all(r, (size_t)n->count, find_group(effect, n->turns_with)->column, columns, &missing))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
+                                "the trajectory has no column '%s', without which '%s' is not known", missing,
+                                effect->name);
+    for (int i = 0; i < n->count; i++) x[i] = row[columns[i]];
+    return ISO_OK;
+}
+
 static iso_status turn_effects(iso_context *ctx, const iso_record *r, size_t row, iso_effects *effects)
 {
-    const struct {
-        iso_effect_id effect;
-        double *numbers;
-        int column, count;
-    } turning[] = {{ISO_GRAVITY, effects->up, ISO_COLUMN_GRAVITY, 3},
-                   {ISO_ATTITUDE, effects->quaternion, ISO_COLUMN_ATTITUDE, 4}};
-    for (int i = 0; i < 2; i++) {
-        int columns[4];
-        const char *missing;
-        if (!effects->on[turning[i].effect]) continue;
-        if (!iso_record_find_all(r, (size_t)turning[i].count, iso_trajectory_columns + turning[i].column, columns,
-                                 &missing))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
-                                    "the trajectory has no column '%s', without which '%s' is not known", missing,
-                                    iso_effect_list[turning[i].effect]->name);
-        for (int j = 0; j < turning[i].count; j++) turning[i].numbers[j] = iso_record_const_row(r, row)[columns[j]];
-    }
-    return ISO_OK;
+    iso_status status = ISO_OK;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; effects->on[e] && n && n->name; n++)
+            if (status == ISO_OK && n->turns_with)
+                status = turn_number(ctx, iso_record_const_row(r, row), r, iso_effect_list[e], n,
+                                     iso_effect_values(effects, e, n));
+    return status;
 }
 
 /* How far a row may be from a state: the rounding of five digits. */
@@ -203,7 +227,7 @@ iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_par
     for (int i = 0; i < ISO_STATE; i++) y[i] = iso_record_const_row(r, row)[columns[i]];
     const bool states_eps = model == ISO_POINT && iso_record_coupling(ctx, r, p, &eps, &status);
     if (status != ISO_OK) return status;
-    status = iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, effects->on[ISO_TWIST], start);
+    status = iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, iso_effects_twist(effects), start);
     if (status == ISO_OK) return ISO_OK;
     return iso_context_fail(ctx, status, "", "row %zu: %s", row + 1, iso_context_message(ctx));
 }

@@ -26,6 +26,12 @@ double iso_sample_column(const iso_sample *sample, int column)
     return value;
 }
 
+double iso_sample_get(const iso_sample *sample, const char *name)
+{
+    const int column = iso_column_find(name);
+    return column < 0 ? NAN : iso_sample_column(sample, column);
+}
+
 void iso_sample_set_column(iso_sample *sample, int column, double value)
 {
     memcpy((char *)sample + (size_t)column * sizeof value, &value, sizeof value);
@@ -39,7 +45,7 @@ static iso_picture choose_backend(const iso_orbit_options *opt, const iso_start 
     const iso_effects *e = opt->effects;
     if (opt->backend != ISO_AUTO) return opt->backend;
     if (opt->method && opt->method->system) return opt->method->system == &iso_system_ball ? ISO_BALL : ISO_POINT;
-    return e && (iso_effects_breaking(e) || e->on[ISO_ATTITUDE] || e->on[ISO_REACTIONS]) ? ISO_BALL : start->model;
+    return e && (iso_effects_breaking(e) || iso_effects_ball_only(e)) ? ISO_BALL : start->model;
 }
 
 /* Whether a start stays where it is: then any time is known without steps. */
@@ -300,7 +306,7 @@ iso_status iso_orbit_event(iso_orbit *o, double (*g)(const iso_sample *sample, c
 static double pressure(const iso_sample *sample, const void *data)
 {
     (void)data;
-    return sample->pressure;
+    return iso_sample_get(sample, "pressure");
 }
 
 iso_status iso_orbit_lost_contact(iso_orbit *o, double from, double to, bool *lost, iso_sample *sample)
@@ -355,8 +361,7 @@ const iso_method *iso_orbit_method(const iso_orbit *o)
 
 bool iso_orbit_has_twin(const iso_orbit *o)
 {
-    const bool potential = o->effects.on[ISO_FIELD] || o->effects.on[ISO_LEVEL];
-    return !iso_effects_breaking(&o->effects) && (o->h > 0 || potential);
+    return !iso_effects_breaking(&o->effects) && (o->h > 0 || iso_effects_pull(&o->effects));
 }
 
 /* Back from own units as they were brought there; up and quaternion have none. */

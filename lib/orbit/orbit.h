@@ -36,18 +36,18 @@ typedef struct iso_orbit_options {
  * bound on the steps. */
 iso_orbit_options iso_orbit_defaults(const iso_start *start);
 
-/* One moment of an orbit. The numbers stand in the order of iso_trajectory_columns; what was not asked for is NaN. */
+/* One moment of an orbit. The numbers stand in the order of the columns (iso_column_name); what was not asked for is NaN. */
 typedef struct iso_sample {
     double clock[ISO_CLOCKS]; /* t, tau, s: all 0 at the start                            */
     double ball[ISO_STATE];   /* omega, n                                                 */
     double point[ISO_STATE];  /* M, gamma                                                 */
-    double vertical[3];       /* gravity                                                  */
-    double quaternion[4];     /* attitude ...                                             */
-    double contact[3], trace[3], centre[3];
-    double force[3], pressure, friction, mu, lambda; /* reactions                         */
+    double effect[ISO_EFFECT_COLUMNS]; /* the columns of effects                          */
 } iso_sample;
 
-/* Number `column` (index into iso_trajectory_columns) of a sample. */
+/* The number in the column called `name`, such as "pressure" or "e1"; NaN where there is no such column. */
+double iso_sample_get(const iso_sample *sample, const char *name);
+
+/* The number in a column (iso_column_find). */
 double iso_sample_column(const iso_sample *sample, int column);
 void iso_sample_set_column(iso_sample *sample, int column, double value);
 

@@ -1,57 +1,72 @@
 /* orbit_effects.c - what effects add to the samples of an orbit: own units to the caller's, and back. */
-#include <float.h>
 #include <math.h>
 
 #include "base/vec3_impl.h"
-#include "model/attitude_impl.h"
-#include "model/reactions.h"
 #include "orbit/orbit_impl.h"
 
-/* The radius of the fixed sphere in units of |b|, never negative. */
-static double radius_a(const iso_params *p)
+/* One own unit of a group of columns in the caller's. */
+static double unit_of(const iso_orbit *o, const iso_effect_column *group)
 {
-    return iso_params_sign_of_radius(p) * p->k / (1 - p->k);
+    double unit = iso_unit(&o->units, group->dimension);
+    for (int power = group->length; power > 0; power--) unit *= o->length;
+    for (int power = group->length; power < 0; power++) unit /= o->length;
+    return unit;
 }
 
-/* The contact goes round the fixed sphere at a R n; on a plane it goes with the centre, b x. */
-static void sample_attitude(const iso_orbit *o, const double y[], iso_sample *s)
+/* Fills the columns of one effect, which begin at `to`. False: one of them does not fit a double. */
+static bool show_effect(const iso_orbit *o, const iso_effect *effect, const double y[], double to[])
 {
-    const iso_field *f = &o->model.field;
-    const double *n = y + 3, *Q = y + f->at[ISO_ATTITUDE], b = iso_params_sign_of_radius(&f->p);
-    double space_n[3];
-    copy(Q, s->quaternion, 4);
-    iso_turn_to_space(Q, n, space_n);
-    for (int i = 0; i < 3; i++) {
-        s->contact[i] = o->length * (f->p.k == 1 ? iso_way(f, y)[i] : radius_a(&f->p) * space_n[i]);
-        s->trace[i] = -o->length * b * n[i];
-        s->centre[i] = s->contact[i] + o->length * b * space_n[i];
+    double own[ISO_EFFECT_COLUMNS];
+    bool fits = true;
+    int i = 0;
+    effect->show(&o->model.field, y, own);
+    for (const iso_effect_column *group = effect->columns; group && group->name; group++) {
+        const double unit = unit_of(o, group);
+        for (const int end = i + group->count; i < end; i++) {
+            to[i] = own[i] * unit;
+            fits = fits && isfinite(to[i]);
+        }
     }
+    return fits;
 }
 
-static void sample_reactions(const iso_orbit *o, const double y[], iso_sample *s)
+static iso_status out_of_range(const iso_orbit *o, const iso_sample *s, int column)
 {
-    const iso_reactions r = iso_reactions_at(&o->model.field, y);
-    const double torque = iso_unit(&o->units, iso_dimension_h), force = torque / o->length;
-    for (int i = 0; i < 3; i++) s->force[i] = r.force[i] * force;
-    s->pressure = r.pressure * force;
-    s->friction = r.friction * force;
-    s->mu = fmin(r.needed, DBL_MAX); /* where contact is lost the pressure may be 0 */
-    s->lambda = r.twist * torque;
+    while (isfinite(s->effect[column])) column++;
+    return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
+                            "%s is out of the range of doubles in these units: use other units of mass, length or time",
+                            iso_effect_column_name(column, NULL, NULL, NULL));
 }
 
 iso_status iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *s)
 {
-    const iso_field *f = &o->model.field;
-    if (f->effects.on[ISO_GRAVITY]) copy(y + f->at[ISO_GRAVITY], s->vertical, 3);
-    if (f->effects.on[ISO_ATTITUDE]) sample_attitude(o, y, s);
-    if (f->effects.on[ISO_REACTIONS]) sample_reactions(o, y, s);
-    for (int c = ISO_COLUMN_EFFECTS; c < ISO_TRAJECTORY_COLUMNS; c++)
-        if (f->effects.on[iso_column_effect(c)] && !isfinite(iso_sample_column(s, c)))
-            return iso_context_fail(
-                o->ctx, ISO_NUMERICAL, "",
-                "%s is out of the range of doubles in these units: use other units of mass, length or time",
-                iso_trajectory_columns[c]);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        if (!o->model.field.effects.on[e] || !effect->show) continue;
+        const int first = iso_effect_first_column(e);
+        if (!show_effect(o, effect, y, s->effect + first)) return out_of_range(o, s, first);
+    }
     return ISO_OK;
+}
+
+/* The states of one effect, from its columns that begin at `from`. */
+static void recall_effect(const iso_orbit *o, const iso_effect *effect, const double from[], double y[])
+{
+    double own[ISO_EFFECT_COLUMNS];
+    int i = 0;
+    for (const iso_effect_column *group = effect->columns; group && group->name; group++) {
+        const double unit = unit_of(o, group);
+        for (const int end = i + group->count; i < end; i++) own[i] = from[i] / unit;
+    }
+    effect->recall(&o->model.field, own, y);
+}
+
+static bool is_derived(const iso_effect *effect)
+{
+    bool derived = false;
+    for (const iso_effect_state *s = effect->states; s && s->name; s++)
+        derived = derived || s->kind == ISO_STATE_DERIVED;
+    return derived;
 }
 
 void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_sample *s, double y[])
@@ -60,9 +75,10 @@ void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_
     const bool ball = system == &iso_system_ball;
     copy(ball ? s->ball : s->point, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= ball ? o->units.w : o->unit_M;
-    if (f->at[ISO_GRAVITY] > 0) copy(s->vertical, y + f->at[ISO_GRAVITY], 3);
-    if (f->at[ISO_TWIST] > 0) y[f->at[ISO_TWIST]] = -f->effects.twist * dot(y, y + 3);
-    if (f->at[ISO_ATTITUDE] == 0) return;
-    copy(s->quaternion, y + f->at[ISO_ATTITUDE], 4);
-    for (int i = 0; f->p.k == 1 && i < 3; i++) y[f->at[ISO_ATTITUDE] + 4 + i] = s->contact[i] / o->length;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        if (f->at[e] == 0) continue;
+        if (is_derived(effect)) effect->begin(f, y);
+        if (effect->recall) recall_effect(o, effect, s->effect + iso_effect_first_column(e), y);
+    }
 }

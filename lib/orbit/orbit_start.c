@@ -66,6 +66,21 @@ static double falling_speed(const iso_orbit *o, const iso_params *p, const doubl
     return isfinite(speed) ? speed : 0;
 }
 
+/* Potentials that break the isomorphism are no part of the h of a twin, and may need states that are not there yet. */
+static void leave_out_broken(iso_effects *effects)
+{
+    for (int e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        effects->on[e] = effects->on[e] && !(effect->potential && iso_effect_why_broken(effect));
+    }
+}
+
+/* The level stated, in units of the coupling; 0: none is. */
+static double stated_level(const iso_params *p, const iso_effects *effects)
+{
+    return iso_effects_have_level(effects) ? iso_coupling(p, iso_effects_level(effects)) : 0;
+}
+
 /* A ball's start in y; every ball that moves or is moved has a point, at the energy that `level` says. */
 static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE])
 {
@@ -75,10 +90,10 @@ static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start
     copy(start->y, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= o->units.w;
     iso_field field = {.p = o->units.own, .effects = o->effects};
-    field.effects.on[ISO_GRAVITY] = false; /* its twin has no gravity, and its h is not asked for */
+    leave_out_broken(&field.effects);
     o->h = iso_system_ball.integrals[0].value(&field, y, &size);
     o->eps = iso_coupling(&o->units.own, o->h);
-    o->level = o->effects.on[ISO_LEVEL] ? iso_coupling(&o->units.own, o->effects.level) : 0;
+    o->level = stated_level(&o->units.own, &o->effects);
 }
 
 /* The speed of the ball whose M has the size that M reaches on this potential: w^2 = (k^2/(det J J)) times the larger of
@@ -96,8 +111,8 @@ static double point_speed(const iso_params *p, const iso_start *start)
  * is that to 1e-9 of its terms. False: it is not. */
 static bool find_level(iso_orbit *o, const iso_start *start, iso_field *field, double y[ISO_STATE])
 {
-    const bool stated = o->effects.on[ISO_LEVEL];
-    const double level = stated ? iso_coupling(&field->p, o->effects.level) : 0;
+    const bool stated = iso_effects_have_level(&o->effects);
+    const double level = stated_level(&field->p, &o->effects);
     double size;
     o->level = level;
     field->energy = level;
@@ -123,17 +138,16 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
     copy(start->y, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= o->unit_M;
     iso_field field = {.p = o->units.own, .effects = o->effects};
-    const double stated = o->effects.level;
+    const double stated = iso_effects_level(&o->effects);
     const bool agrees = find_level(o, start, &field, y);
     o->eps = field.eps;
     o->h = iso_energy(&field.p, field.eps);
-    o->effects.on[ISO_LEVEL] = o->level != 0;
-    o->effects.level = iso_energy(&field.p, o->level);
+    iso_effects_set_level(&o->effects, o->level != 0, iso_energy(&field.p, o->level));
     if (agrees) return ISO_OK;
-    const double unit = iso_unit(&o->units, iso_effect_list[ISO_LEVEL]->numbers->dimension);
+    const double unit = iso_unit(&o->units, iso_level_dimension());
     return iso_context_fail(o->ctx, ISO_BAD_INPUT, "c",
                             "level: this point has the energy of c = %.17g, not of c = %.17g: leave c out, or eps",
-                            o->effects.level * unit, stated * unit);
+                            iso_effects_level(&o->effects) * unit, stated * unit);
 }
 
 /* --- what effects allow --------------------------------------------------------------------------------------------- */
@@ -141,35 +155,30 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
 /* The closed solution knows what `level` does to the point, and nothing else that acts. */
 static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
 {
-    const iso_effects acting = iso_effects_acting(effects);
-    for (int id = 0; id < ISO_EFFECTS; id++) {
-        const iso_effect *effect = iso_effect_list[id];
-        if (!acting.on[id] || id == ISO_LEVEL) continue;
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect->name,
-                                "the closed solution is for a ball on which nothing acts but 'level', not for one with "
-                                "'%s': take backend %s",
-                                effect->name, effect->breaks ? "ball" : "point");
-    }
-    return ISO_OK;
+    const iso_effect *effect = iso_effects_beyond_level(effects);
+    if (!effect) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect->name,
+                            "the closed solution is for a ball on which nothing acts but '%s', not for one with "
+                            "'%s': take backend %s",
+                            iso_level_name(), effect->name, iso_effect_why_broken(effect) ? "ball" : "point");
 }
 
 static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_start *start)
 {
     iso_effects *e = &o->effects;
-    const iso_effect *breaking = iso_effects_breaking(e);
+    const iso_effect *breaking = iso_effects_breaking(e), *only_ball = iso_effects_ball_only(e);
     const bool by_point = o->options.backend != ISO_BALL;
     const bool point = by_point || o->options.show != ISO_BALL || start->model == ISO_POINT;
     const double *n = start->y + 3; /* a point's gamma: only gravity asks, which a point has not */
-    if (start->model == ISO_POINT && isnan(e->level)) e->on[ISO_LEVEL] = false; /* as it comes */
+    if (start->model == ISO_POINT && isnan(iso_effects_level(e))) iso_effects_set_level(e, false, NAN); /* as it comes */
     if (o->options.backend == ISO_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (breaking && point)
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, breaking->name,
                                 "'%s' breaks the isomorphism: %s. There is no such point; the ball alone can be had",
-                                breaking->name, breaking->breaks);
-    for (int id = ISO_ATTITUDE; id <= ISO_REACTIONS; id++)
-        if (e->on[id] && by_point)
-            return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, iso_effect_list[id]->name,
-                                    "'%s' is the ball's: take backend ball", iso_effect_list[id]->name);
+                                breaking->name, iso_effect_why_broken(breaking));
+    if (only_ball && by_point)
+        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, only_ball->name, "'%s' is the ball's: take backend ball",
+                                only_ball->name);
     return iso_effects_check(o->ctx, p, n, e);
 }
 
@@ -180,7 +189,7 @@ static const iso_system *choose_system(const iso_orbit *o)
     const iso_method *method = o->options.method;
     const bool bound = o->options.backend == ISO_EXACT || (method && method->system);
     if (o->options.backend == ISO_BALL) return &iso_system_ball;
-    if (bound || o->level != 0 || o->effects.on[ISO_FIELD] || p->k == -1) return &iso_system_point;
+    if (bound || o->level != 0 || iso_effects_have_image(&o->effects) || p->k == -1) return &iso_system_point;
     return iso_params_steep(p) ? &iso_system_point_t : &iso_system_point;
 }
 
@@ -248,7 +257,7 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
                                 "a ball at rest (h = 0) has no twin: the point's potential would vanish");
     status = check_units(o, start);
     if (status != ISO_OK) return status;
-    if (start->model == ISO_BALL && o->effects.on[ISO_LEVEL] && o->effects.level == 0)
+    if (start->model == ISO_BALL && iso_effects_have_level(&o->effects) && iso_effects_level(&o->effects) == 0)
         return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
                                 "level: c is out of the range of doubles in the ball's own units");
     o->system = choose_system(o);
@@ -256,7 +265,8 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     if (status != ISO_OK) return status;
     to_system(o, start->model, y);
     const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
-    if (level && o->effects.on[ISO_LEVEL] && !isnormal(iso_orbit_effects(o).level))
+    const iso_effects in_users_units = iso_orbit_effects(o);
+    if (level && iso_effects_have_level(&o->effects) && !isnormal(iso_effects_level(&in_users_units)))
         return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
                                 "level: c of the ball is out of the range of doubles in these units: use other units, or "
                                 "ask for the point in its time s alone");

@@ -6,20 +6,46 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 
-const char *const iso_trajectory_columns[ISO_TRAJECTORY_COLUMNS] = {
-    "t",       "tau", "s",        "omega1",   "omega2",   "omega3",   "n1",     "n2",     "n3",      "M1",
-    "M2",      "M3",  "gamma1",   "gamma2",   "gamma3",   "e1",       "e2",     "e3",     "q0",      "q1",
-    "q2",      "q3",  "contact1", "contact2", "contact3", "trace1",   "trace2", "trace3", "centre1", "centre2",
-    "centre3", "N1",  "N2",       "N3",       "pressure", "friction", "mu",     "lambda",
-};
+/* --- columns ---------------------------------------------------------------------------------------------------------- */
+
+int iso_columns_count(void)
+{
+    const int effects = iso_effect_columns();
+    return ISO_COLUMN_EFFECTS + (effects < ISO_EFFECT_COLUMNS ? effects : ISO_EFFECT_COLUMNS);
+}
+
+const char *iso_column_name(int c)
+{
+    if (c < 0 || c >= iso_columns_count()) return NULL;
+    if (c < ISO_COLUMN_BALL) return iso_clock_name((iso_clock)c);
+    if (c < ISO_COLUMN_POINT) return iso_system_ball.state[c - ISO_COLUMN_BALL];
+    if (c < ISO_COLUMN_EFFECTS) return iso_system_point.state[c - ISO_COLUMN_POINT];
+    return iso_effect_column_name(c - ISO_COLUMN_EFFECTS, NULL, NULL, NULL);
+}
+
+int iso_column_names(const char *names[ISO_TRAJECTORY_COLUMNS])
+{
+    const int count = iso_columns_count();
+    for (int c = 0; c < count; c++) names[c] = iso_column_name(c);
+    return count;
+}
+
+int iso_column_find(const char *name)
+{
+    const int count = iso_columns_count();
+    int c = 0;
+    while (c < count && strcmp(iso_column_name(c), name) != 0) c++;
+    return c < count ? c : -1;
+}
 
 iso_effect_id iso_column_effect(int column)
 {
-    return column < ISO_COLUMN_GRAVITY     ? ISO_EFFECTS
-           : column < ISO_COLUMN_ATTITUDE  ? ISO_GRAVITY
-           : column < ISO_COLUMN_REACTIONS ? ISO_ATTITUDE
-                                           : ISO_REACTIONS;
+    iso_effect_id effect = ISO_EFFECTS;
+    if (column >= ISO_COLUMN_EFFECTS) iso_effect_column_name(column - ISO_COLUMN_EFFECTS, &effect, NULL, NULL);
+    return effect;
 }
+
+/* --- starts ----------------------------------------------------------------------------------------------------------- */
 
 const char *iso_picture_name(int picture)
 {
@@ -89,7 +115,8 @@ iso_status iso_start_point(iso_context *ctx, const double M[3], const double gam
 
 iso_scene iso_scene_default(void)
 {
-    return (iso_scene){.backend = ISO_AUTO, .method = "auto", .tolerance = 1e-12, .as = ISO_AUTO};
+    return (iso_scene){
+        .effects = iso_effects_default(), .backend = ISO_AUTO, .method = "auto", .tolerance = 1e-12, .as = ISO_AUTO};
 }
 
 enum { USUAL_STEPS = 100 };
@@ -124,13 +151,19 @@ double iso_scene_time(const iso_scene *scene, size_t row)
     return scene->end * ((double)row / USUAL_STEPS);
 }
 
-/* A column that the scene's effects fill; mu only where something presses the ball to the support. */
+/* Why an effect that is on leaves a column empty; NULL: it fills it, or the column is none of its own. */
+static const char *why_empty(const iso_scene *scene, int column)
+{
+    const iso_effect_id effect = iso_column_effect(column);
+    const bool asked = effect < ISO_EFFECTS && iso_effect_list[effect]->empty;
+    return asked ? iso_effect_list[effect]->empty(&scene->params, &scene->effects, iso_column_name(column)) : NULL;
+}
+
+/* A column that is there without effects, or that the scene's effects fill. */
 static bool is_filled(const iso_scene *scene, int column)
 {
     const iso_effect_id effect = iso_column_effect(column);
-    const bool weightless = scene->params.k == 1 && !scene->effects.on[ISO_GRAVITY];
-    if (effect == ISO_EFFECTS) return true;
-    return scene->effects.on[effect] && !(weightless && strcmp(iso_trajectory_columns[column], "mu") == 0);
+    return effect == ISO_EFFECTS || (scene->effects.on[effect] && !why_empty(scene, column));
 }
 
 /* The columns of a picture are runs of the list: t, omega, n; s, M, gamma; or all of it; the ball's with those of effects. */
@@ -140,7 +173,7 @@ static bool is_default(const iso_scene *scene, int c)
     const bool ball = c == ISO_CLOCK_T || (c >= ISO_COLUMN_BALL && c < ISO_COLUMN_POINT) || c >= ISO_COLUMN_EFFECTS;
     const bool point = c == ISO_CLOCK_S || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
     if (!is_filled(scene, c)) return false;
-    if (c < ISO_CLOCKS && scene->effects.on[ISO_CLOCK]) return true;
+    if (c < ISO_CLOCKS && iso_effects_clocks(&scene->effects)) return true;
     return as == ISO_BOTH || (as == ISO_BALL && ball) || (as == ISO_POINT && point);
 }
 
@@ -148,9 +181,8 @@ int iso_scene_columns(const iso_scene *scene, int columns[])
 {
     int count = 0;
     for (size_t i = 0; i < scene->columns; i++)
-        for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++)
-            if (strcmp(scene->column[i], iso_trajectory_columns[c]) == 0) columns[count++] = c;
-    for (int c = 0; scene->columns == 0 && c < ISO_TRAJECTORY_COLUMNS; c++)
+        if (iso_column_find(scene->column[i]) >= 0) columns[count++] = iso_column_find(scene->column[i]);
+    for (int c = 0; scene->columns == 0 && c < iso_columns_count(); c++)
         if (is_default(scene, c)) columns[count++] = c;
     return count;
 }
@@ -163,10 +195,10 @@ iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene)
         const iso_effect_id effect = iso_column_effect(columns[i]);
         if (is_filled(scene, columns[i])) continue;
         if (scene->effects.on[effect])
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
-                                    "column 'mu': without gravity nothing presses the ball to the plane");
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "column '%s': %s", iso_column_name(columns[i]),
+                                    why_empty(scene, columns[i]));
         return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "column '%s' needs the effect '%s'",
-                                iso_trajectory_columns[columns[i]], iso_effect_list[effect]->name);
+                                iso_column_name(columns[i]), iso_effect_list[effect]->name);
     }
     return ISO_OK;
 }

@@ -85,12 +85,11 @@ iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scene);
 size_t iso_scene_rows(const iso_scene *scene);
 double iso_scene_time(const iso_scene *scene, size_t row);
 
-/* Indices into iso_trajectory_columns of the columns the scene asks for, and how many: columns[] has room for
- * ISO_MAX_COLUMNS. */
+/* Indices of the columns the scene asks for (iso_column_name), and how many: columns[] has room for ISO_MAX_COLUMNS. */
 int iso_scene_columns(const iso_scene *scene, int columns[]);
 
-/* Every column a trajectory can have, in file order: the clocks, the states of the ball and of the point, then what
- * effects add:
+/* Every column a trajectory can have, in file order: the clocks, the states of the ball and of the point, then those of
+ * the effects, in the order of the registry (iso_effect_column_name):
  *     t tau s   omega1..3 n1..3   M1..3 gamma1..3
  *     e1..3                        gravity: vertical, in body axes
  *     q0..3                        attitude: quaternion from body to space axes
@@ -106,12 +105,18 @@ enum {
     ISO_COLUMN_BALL = ISO_CLOCKS,
     ISO_COLUMN_POINT = ISO_COLUMN_BALL + ISO_STATE,
     ISO_COLUMN_EFFECTS = ISO_COLUMN_POINT + ISO_STATE,
-    ISO_COLUMN_GRAVITY = ISO_COLUMN_EFFECTS,
-    ISO_COLUMN_ATTITUDE = ISO_COLUMN_GRAVITY + 3,
-    ISO_COLUMN_REACTIONS = ISO_COLUMN_ATTITUDE + 4 + 9,
-    ISO_TRAJECTORY_COLUMNS = ISO_COLUMN_REACTIONS + 7
+    ISO_TRAJECTORY_COLUMNS = ISO_COLUMN_EFFECTS + ISO_EFFECT_COLUMNS /* room for them all */
 };
-extern const char *const iso_trajectory_columns[ISO_TRAJECTORY_COLUMNS];
+
+/* How many there are, and their names; NULL past the last. */
+int iso_columns_count(void);
+const char *iso_column_name(int column);
+
+/* All names, for lists of them; gives their number. */
+int iso_column_names(const char *names[ISO_TRAJECTORY_COLUMNS]);
+
+/* The column called `name`; -1: there is none. */
+int iso_column_find(const char *name);
 
 /* The effect that a column needs; ISO_EFFECTS: none. */
 iso_effect_id iso_column_effect(int column);

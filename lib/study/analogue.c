@@ -252,12 +252,10 @@ iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *probl
 /* What acts on the ball beyond its level changes the point's potential, or has no point. */
 static iso_status check_effects(iso_context *ctx, const iso_effects *e)
 {
-    for (int id = 0; id < ISO_EFFECTS; id++)
-        if (e->on[id] && (id == ISO_FIELD || iso_effect_list[id]->breaks))
-            return iso_context_fail(ctx, ISO_NOT_MAPPED, iso_effect_list[id]->name,
-                                    "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out",
-                                    iso_effect_list[id]->name);
-    return ISO_OK;
+    const iso_effect *more = iso_effects_beyond_level(e);
+    if (!more) return ISO_OK;
+    return iso_context_fail(ctx, ISO_NOT_MAPPED, more->name,
+                            "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out", more->name);
 }
 
 /* The orbit knows what a start's coupling and level are, stated or not. */
@@ -281,7 +279,8 @@ iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso
         effects = iso_orbit_effects(orbit);
         *problem = (iso_analogue_problem){.k = scene->params.k, .eps = iso_orbit_coupling(orbit)};
         copy(scene->params.J, problem->J, 3);
-        problem->energy = effects.on[ISO_LEVEL] ? iso_coupling(&scene->params, effects.level) : 0;
+        const double c = iso_effects_level(&effects);
+        problem->energy = iso_effects_have_level(&effects) ? iso_coupling(&scene->params, c) : 0;
         copy(sample.point, point, ISO_STATE);
     }
     iso_orbit_free(orbit);
@@ -337,8 +336,7 @@ iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, c
     iso_sample sample;
     iso_scene s = iso_scene_default();
     s.params = ball->params;
-    s.effects = (iso_effects){.level = ball->level, .quaternion = {1}};
-    s.effects.on[ISO_LEVEL] = ball->level != 0;
+    iso_effects_set_level(&s.effects, ball->level != 0, ball->level);
     iso_status status = start_ball(ctx, &s.params, point, &s.start);
     if (status != ISO_OK) return status;
     iso_orbit_options o = iso_orbit_defaults(&s.start);

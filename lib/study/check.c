@@ -21,7 +21,7 @@ typedef struct checker {
 } checker;
 
 static const int first_column[] = {
-    [ISO_BALL] = ISO_COLUMN_BALL, [ISO_POINT] = ISO_COLUMN_POINT}; /* in iso_trajectory_columns */
+    [ISO_BALL] = ISO_COLUMN_BALL, [ISO_POINT] = ISO_COLUMN_POINT}; /* of a trajectory */
 
 static const iso_system *system_of(iso_picture model)
 {
@@ -78,7 +78,8 @@ static iso_effects effects_of(const checker *c, iso_picture model)
 {
     if (model == ISO_BALL) return c->effects;
     iso_effects effects = iso_effects_acting(&c->effects);
-    if (iso_record_get(c->record, "eps") || iso_record_get(c->record, "h")) effects.level = NAN;
+    if (iso_record_get(c->record, "eps") || iso_record_get(c->record, "h")) 
+        iso_effects_set_level(&effects, iso_effects_have_level(&effects), NAN);
     return effects;
 }
 
@@ -113,16 +114,16 @@ static double integral_drift(const checker *c, const expectations *e, int i, siz
 static void expect_integrals(const checker *c, iso_picture model, const iso_orbit *first, expectations *e)
 {
     const iso_params *own = &iso_orbit_units(first)->own;
-    const double unit = iso_unit(iso_orbit_units(first), iso_effect_list[ISO_LEVEL]->numbers->dimension);
-    const double claimed = c->effects.on[ISO_LEVEL] ? iso_coupling(own, c->effects.level / unit) : 0;
+    const double level = iso_effects_level(&c->effects) / iso_unit(iso_orbit_units(first), iso_level_dimension());
+    const double claimed = iso_effects_have_level(&c->effects) ? iso_coupling(own, level) : 0;
     const bool twin = c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || has_model(c, ISO_BALL);
     *e = (expectations){.system = system_of(model), .first = first};
     e->count = iso_integrals_holding(e->system, &iso_orbit_model(first)->field, e->integral, ISO_MAX_INTEGRALS);
     for (int i = 0; i < e->count; i++) {
         double size;
-        const bool level = twin && strcmp(e->integral[i]->name, "H") == 0;
-        e->value[i] = e->integral[i]->known == ISO_ONE ? 1 : level ? claimed : 0;
-        if (e->integral[i]->known == ISO_ANY_VALUE && !level) e->value[i] = integral_value(c, e, i, 0, &size);
+        const bool on_level = twin && strcmp(e->integral[i]->name, "H") == 0;
+        e->value[i] = e->integral[i]->known == ISO_ONE ? 1 : on_level ? claimed : 0;
+        if (e->integral[i]->known == ISO_ANY_VALUE && !on_level) e->value[i] = integral_value(c, e, i, 0, &size);
     }
 }
 
@@ -189,46 +190,101 @@ static iso_status next_sample(const checker *c, iso_picture model, int clock, si
     return iso_context_fail(c->ctx, status, "", "row %zu: %s", row + 1, iso_context_message(c->ctx));
 }
 
-/* The columns that effects add, in groups of one size; what moves along a plane goes on from the row before. */
-static const struct {
-    const char *name;
+/* The first column of a group of an effect, in a trajectory; NULL: that of the first group that moves. -1: none. */
+static int column_of(iso_effect_id id, const char *name)
+{
+    int column = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
+    for (const iso_effect_column *g = iso_effect_list[id]->columns; g && g->name; column += g->count, g++)
+        if (name ? strcmp(g->name, name) == 0 : g->moves) return column;
+    return -1;
+}
+
+/* Groups that are side by side and have one name in the report: `count` columns from `first` on. */
+typedef struct checked {
+    const iso_effect_column *group;
+    iso_effect_id effect;
     int first, count;
-    bool moves;
-} groups[] = {
-    {"e flow", ISO_COLUMN_GRAVITY, 3, false},           {"q flow", ISO_COLUMN_ATTITUDE, 4, false},
-    {"contact flow", ISO_COLUMN_ATTITUDE + 4, 3, true}, {"trace flow", ISO_COLUMN_ATTITUDE + 7, 3, false},
-    {"centre flow", ISO_COLUMN_ATTITUDE + 10, 3, true}, {"N flow", ISO_COLUMN_REACTIONS, 3, false},
-    {"force flow", ISO_COLUMN_REACTIONS + 3, 2, false}, {"lambda flow", ISO_COLUMN_REACTIONS + 6, 1, false},
-};
-enum { GROUPS = sizeof groups / sizeof *groups };
+} checked;
+
+/* The size of the group that errors are measured by as well: of forces, of which the radius makes torques. */
+static double other_size(const checker *c, const checked *k, const iso_sample *flow)
+{
+    const double radius = c->params->body.radius;
+    double size = 0;
+    if (!k->group->sized_by) return 0;
+    const int first = column_of(k->effect, k->group->sized_by);
+    for (const iso_effect_column *g = iso_effect_list[k->effect]->columns; first >= 0 && g->name; g++)
+        for (int i = 0; strcmp(g->name, k->group->sized_by) == 0 && i < g->count; i++)
+            size = fmax(size, fabs(iso_sample_column(flow, first + i)));
+    return size * fmax(1, radius > 0 ? radius : 1);
+}
+
+/* What moves along a plane goes on from the row before. */
+static void check_columns(checker *c, const checked *k, const iso_sample *flow, const iso_sample *before,
+                          const iso_sample *there, size_t row)
+{
+    const bool goes_on = c->params->k == 1 && k->group->moves;
+    double error = 0, size = 0;
+    char name[sizeof c->out->residual[0].name];
+    for (int i = k->first; i < k->first + k->count; i++) {
+        double expected = iso_sample_column(flow, i);
+        if (goes_on) expected += iso_sample_column(before, column_of(k->effect, NULL) + (i - k->first));
+        if (isnan(expected) || c->columns[i] < 0) continue;
+        error = fmax(error, fabs(expected - iso_sample_column(there, i)));
+        size = fmax(size, fmax(fabs(expected), fabs(iso_sample_column(there, i))));
+    }
+    size = fmax(size, other_size(c, k, flow));
+    snprintf(name, sizeof name, "%s flow", k->group->checked_as);
+    if (size > 0) note(c, name, "effects' columns, each row integrated to the next", error / size, row);
+}
+
+static bool same_report(const iso_effect_column *a, const iso_effect_column *b)
+{
+    return b->name && a->checked_as && b->checked_as && strcmp(a->checked_as, b->checked_as) == 0;
+}
 
 /* What the effects' columns say in row `row`, against the flow from the row before, in units of the group's largest. */
 static void check_effects(checker *c, const iso_sample *flow, size_t row)
 {
     iso_sample there, before;
-    const double length = c->params->body.radius > 0 ? c->params->body.radius : 1;
-    const double force = largest(flow->force) * fmax(1, length);
+    int first = ISO_COLUMN_EFFECTS;
     read_sample(c, row, &there);
     read_sample(c, row - 1, &before);
-    for (int g = 0; g < GROUPS; g++) {
-        double error = 0, size = 0;
-        for (int i = groups[g].first; i < groups[g].first + groups[g].count; i++) {
-            const bool plane = c->params->k == 1 && groups[g].moves;
-            double expected = iso_sample_column(flow, i);
-            if (plane) expected += iso_sample_column(&before, ISO_COLUMN_ATTITUDE + 4 + (i - groups[g].first));
-            if (isnan(expected) || c->columns[i] < 0) continue;
-            error = fmax(error, fabs(expected - iso_sample_column(&there, i)));
-            size = fmax(size, fmax(fabs(expected), fabs(iso_sample_column(&there, i))));
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; g++) {
+            checked k = {.group = g, .effect = e, .first = first, .count = g->count};
+            for (; same_report(g, g + 1); g++) k.count += g[1].count;
+            if (g->checked_as) check_columns(c, &k, flow, &before, &there, row);
+            first += k.count;
         }
-        if (groups[g].first >= ISO_COLUMN_REACTIONS) size = fmax(size, force); /* of which lambda is the torque */
-        if (size > 0) note(c, groups[g].name, "effects' columns, each row integrated to the next", error / size, row);
-    }
 }
 
-/* The quaternion, and on a plane the way, without which the height is not known. */
-static bool has_attitude(const checker *c)
+/* Whether the record has what an effect that acts on nothing begins with: the numbers that turn with the ball, and on a
+ * plane the way, without which the height is not known. */
+static bool has_beginning(const checker *c, iso_effect_id id)
 {
-    return c->columns[ISO_COLUMN_ATTITUDE] >= 0 && (c->params->k != 1 || c->columns[ISO_COLUMN_ATTITUDE + 4] >= 0);
+    const int way = column_of(id, NULL);
+    bool has = c->params->k != 1 || way < 0 || c->columns[way] >= 0;
+    for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
+        if (n->turns_with) has = has && c->columns[column_of(id, n->turns_with)] >= 0;
+    return has;
+}
+
+/* Whether an effect that acts on nothing can be asked for because its columns are there: no line has to state a number. */
+static bool is_shown(const checker *c, iso_effect_id id)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    bool stated = false;
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) stated = stated || !n->scene_only;
+    return effect->columns && !stated && (!effect->needs_D || c->params->D > 0) &&
+           c->columns[ISO_COLUMN_EFFECTS + iso_effect_first_column(id)] >= 0;
+}
+
+static void choose_observers(checker *c)
+{
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (iso_effect_list[e]->observes)
+            c->effects.on[e] = (c->effects.on[e] && has_beginning(c, e)) || is_shown(c, e);
 }
 
 static iso_status check_step(checker *c, iso_picture model, int clock, size_t row)
@@ -323,13 +379,13 @@ static iso_status measure_clocks(checker *c)
 static iso_status begin(checker *c, bool has[2])
 {
     const iso_record *r = c->record;
-    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++) c->columns[i] = iso_record_find(r, iso_trajectory_columns[i]);
+    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
+        c->columns[i] = i < iso_columns_count() ? iso_record_find(r, iso_column_name(i)) : -1;
     c->out->rows = iso_record_rows(r);
     iso_status status = measure_clocks(c);
     if (status == ISO_OK) status = iso_record_effects(c->ctx, r, &c->effects);
-    c->effects.on[ISO_ATTITUDE] = c->effects.on[ISO_ATTITUDE] && has_attitude(c); /* they act on nothing */
-    if (c->params->D > 0 && c->columns[ISO_COLUMN_REACTIONS] >= 0) c->effects.on[ISO_REACTIONS] = true;
     if (status != ISO_OK) return status;
+    choose_observers(c);
     for (int m = 0; m < 2; m++) has[m] = has_model(c, m ? ISO_POINT : ISO_BALL);
     if (!has[0] && !has[1])
         return iso_context_fail(c->ctx, ISO_BAD_INPUT, "columns",

@@ -73,7 +73,9 @@ static iso_status open_backend(runner *r, iso_picture backend)
     const int which = r->out->runs;
     iso_backend_run *run = &r->out->run[which];
     iso_orbit_options o = iso_orbit_defaults(&r->scene->start);
-    iso_status status = iso_record_create(r->ctx, ISO_COLUMN_EFFECTS, iso_trajectory_columns, &run->trajectory);
+    const char *names[ISO_TRAJECTORY_COLUMNS];
+    iso_column_names(names);
+    iso_status status = iso_record_create(r->ctx, ISO_COLUMN_EFFECTS, names, &run->trajectory);
     if (status != ISO_OK) return status;
     if (!iso_method_find(r->scene->method) && strcmp(r->scene->method, "auto") != 0)
         return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "method", "there is no method '%s'", r->scene->method);

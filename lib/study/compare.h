@@ -27,7 +27,7 @@ typedef struct iso_drift {
 typedef struct iso_backend_run {
     iso_picture backend;
     const iso_method *method;
-    iso_record *trajectory; /* the columns iso_trajectory_columns, one row for each time of the scene    */
+    iso_record *trajectory; /* the columns before those of effects, one row for each time of the scene   */
     iso_statistics statistics;
     double seconds; /* of processor time, for the integration                                            */
     int drifts;     /* integrals that hold for this k and J, of the ball, then of the point              */

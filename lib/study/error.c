@@ -96,7 +96,7 @@ static iso_status move_start(iso_context *ctx, const iso_orbit_options *o, const
     const double eps = start->eps;
     if (start->model == ISO_POINT)
         return iso_start_point(ctx, y, y + 3, isnan(eps) ? NULL : &eps, true, start);
-    const bool twists = o->effects && o->effects->on[ISO_TWIST];
+    const bool twists = o->effects && iso_effects_twist(o->effects);
     return iso_start_ball(ctx, y, y + 3, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start);
 }
 

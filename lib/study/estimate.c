@@ -251,18 +251,12 @@ static iso_status estimate(estimator *e)
 static iso_status check_effects(iso_context *ctx, const iso_orbit *orbit)
 {
     const iso_field *field = &iso_orbit_model(orbit)->field;
-    const iso_effects *e = &field->effects;
-    const iso_effect_id taking = e->on[ISO_ROLLING_RESISTANCE]      ? ISO_ROLLING_RESISTANCE
-                                 : e->on[ISO_TWIST] && e->twist > 0 ? ISO_TWIST
-                                                                    : ISO_EFFECTS;
-    if (taking != ISO_EFFECTS)
-        return iso_context_fail(ctx, ISO_NOT_MAPPED, iso_effect_list[taking]->name,
-                                "'%s' takes energy from the ball: its motion has no frequencies",
-                                iso_effect_list[taking]->name);
-    if (e->on[ISO_GRAVITY] && field->p.k == 1)
-        return iso_context_fail(ctx, ISO_NOT_MAPPED, "gravity",
-                                "on a tilted plane the ball rolls away ever faster: its motion has no frequencies");
-    return ISO_OK;
+    const char *why;
+    const iso_effect *taking = iso_effects_taking_energy(field), *without = iso_effects_without_frequencies(field, &why);
+    if (taking)
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, taking->name,
+                                "'%s' takes energy from the ball: its motion has no frequencies", taking->name);
+    return without ? iso_context_fail(ctx, ISO_NOT_MAPPED, without->name, "%s", why) : ISO_OK;
 }
 
 /* n turns at the rate |k omega|; but where |k| is small omega itself turns faster, at about its own size. */
@@ -295,9 +289,7 @@ static iso_status prepare(estimator *e, const iso_frequencies_options *o)
     if (status == ISO_OK) status = check_effects(e->ctx, orbit);
     if (status == ISO_OK) {
         const double moving = norm(start.ball), falling = iso_orbit_units(orbit)->w;
-        const bool pulled =
-            e->effects.on[ISO_GRAVITY] || e->effects.on[ISO_FIELD] || iso_orbit_effects(orbit).on[ISO_LEVEL];
-        const double speed = pulled ? fmax(moving, falling) : moving;
+        const double speed = iso_effects_pull(&iso_orbit_model(orbit)->field.effects) ? fmax(moving, falling) : moving;
         e->twin = iso_orbit_has_twin(orbit);
         iso_frequencies_place(orbit, &start, e->f);
         status = speed > 0 ? choose_length(e, speed, o)
