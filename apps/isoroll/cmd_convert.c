@@ -13,7 +13,11 @@ typedef struct filter {
     iso_trajectory_writer *out;
     iso_conversion *conversion;
     size_t columns;
+    size_t unnamed; /* bad rows after the first NAMED */
+    size_t named;
 } filter;
+
+enum { NAMED = 20 };
 
 static iso_status put_header(void *data, const iso_record *header)
 {
@@ -29,12 +33,26 @@ static iso_status put_row(void *data, const double row[])
                : iso_trajectory_write_mark(f->ctx, f->out);
 }
 
-/* A bad row is named, and ends the work only under --strict. */
+/* Names a bad row on stderr. After the first NAMED they are only counted. */
+static void name_bad_row(filter *f, size_t line, const char *words)
+{
+    if (f->named == NAMED) {
+        f->unnamed++;
+        return;
+    }
+    f->named++;
+    if (line > 0)
+        complain("%s:%zu: %s", f->name, line, words);
+    else
+        complain("%s", words); /* they have the place */
+}
+
+/* A bad row ends the work only under --strict. */
 static iso_status put_bad(void *data, size_t line, iso_status why, const char *words)
 {
-    const filter *f = data;
+    filter *f = data;
     if (f->o->strict) return iso_context_fail(f->ctx, why, "", "%s:%zu: %s", f->name, line, words);
-    complain("%s:%zu: %s", f->name, line, words);
+    name_bad_row(f, line, words);
     return ISO_OK;
 }
 
@@ -44,7 +62,7 @@ static iso_status take_row(filter *f, double row[], bool *more)
     const iso_status status = iso_trajectory_next(f->ctx, f->in, row, more);
     if (status == ISO_OK) return *more ? iso_conversion_put(f->conversion, row, iso_trajectory_line(f->in)) : ISO_OK;
     if (status != ISO_BAD_INPUT || f->o->strict) return status;
-    complain("%s", iso_context_message(f->ctx));
+    name_bad_row(f, 0, iso_context_message(f->ctx));
     return iso_conversion_skip(f->conversion);
 }
 
@@ -100,14 +118,17 @@ static void tell(const filter *f, const iso_conversion_summary *s)
                  f->name, iso_clock_name(s->clock), s->end, s->error, s->between, s->integrated);
 }
 
-/* The drift that the rows of an orbit may have: what six digits make of it, or a hundred times the tolerance with which
- * the file says it was made. Rows of other equations, a thousandth beside the stated ones, drift by more. */
+/* The drift that the rows of an orbit may have is the largest of
+ * - 1e-5, what six digits make of it; rows of other equations, a thousandth beside the stated ones, drift by more;
+ * - a hundred times the tolerance with which the file says it was made;
+ * - ten times --row-tolerance, where that is wider than its default: the rows then have few digits. */
 static double largest_drift(const filter *f)
 {
     double tolerance = 0;
     iso_status unused;
     iso_record_get_numbers(f->ctx, iso_trajectory_header(f->in), "tolerance", 1, &tolerance, &unused);
-    return fmax(1e-5, 100 * tolerance);
+    const double row = f->o->row_tolerance > ISO_ROW_TOLERANCE ? 10 * f->o->row_tolerance : 0;
+    return fmax(fmax(1e-5, row), 100 * tolerance);
 }
 
 /* Whether the rows are what the file says they are. */
@@ -137,6 +158,7 @@ static int finish_filter(filter *f, iso_status status, const iso_conversion_summ
         const iso_status written = f->columns > 0 ? write_clock(f, s) : ISO_OK;
         if (status == ISO_OK) status = written;
     }
+    if (f->unnamed > 0) complain("%s: %zu more bad rows are not named", f->name, f->unnamed);
     const bool keep = f->columns > 0 && (status == ISO_OK || status == ISO_STOPPED);
     if (status != ISO_OK && status != ISO_FILE_TROUBLE && status != ISO_BAD_ARGUMENT)
         status = name_the_file(f->ctx, f->o, status);
@@ -190,7 +212,7 @@ const command command_convert = {
     .name = "convert",
     .argument = "[FILE]",
     .doc = "a trajectory of one model in, the other model's out",
-    .options = " to output digits k J eps h scene columns tol max-defect shift-J strict quiet ",
+    .options = " to output digits k J eps h scene columns row-tolerance tol max-defect shift-J strict quiet ",
     .more =
         "Row by row, in constant memory; what others write is read, too (README). States are mapped through (18); "
         "the "

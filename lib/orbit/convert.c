@@ -56,11 +56,18 @@ iso_status iso_conversion_emit(iso_conversion *c, conversion_row *row)
     return c->target.row(c->target.data, row->out);
 }
 
+double iso_conversion_digits(const iso_conversion *c)
+{
+    const double tolerance = iso_record_row_tolerance(c->in);
+    return tolerance > ISO_ROW_TOLERANCE ? 10 * tolerance : 1e-6;
+}
+
 /* --- states ------------------------------------------------------------------------------------------------------ */
 
 iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start)
 {
-    return iso_start_from_row(c->ctx, c->from, y, isnan(c->stated_eps) ? NULL : &c->stated_eps, false, start);
+    return iso_start_from_row(c->ctx, c->from, y, isnan(c->stated_eps) ? NULL : &c->stated_eps, false,
+                              iso_record_row_tolerance(c->in), start);
 }
 
 iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, bool clock, iso_orbit **orbit)
@@ -101,7 +108,7 @@ static iso_status check_energy(iso_conversion *c, const conversion_row *r)
     const double eps = stated ? c->stated_eps / iso_unit(&c->units, iso_dimension_eps)
                               : iso_orbit_model(c->first)->field.eps; /* the first row's */
     const double off = off_level(c, r->own, eps);
-    if (stated && !(fabs(off) <= 1e-3)) /* a method of low order keeps its energy no better */
+    if (stated && !(fabs(off) <= fmax(1e-3, iso_conversion_digits(c)))) /* low orders keep energy no better */
         return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "eps",
                                 "the energy of this point is not that of the rows before: its M does not belong to "
                                 "eps = %.10g (leave --eps and --h out, and the first row says them)",
@@ -167,7 +174,6 @@ static double first_off_level(const iso_conversion *c, const iso_start *start, d
  * is written with: its own coupling is then the one of that level. Farther off, it has a level if none is stated. */
 static iso_status open_first(iso_conversion *c, const conversion_row *r)
 {
-    static const double digits = 1e-6;
     iso_start start;
     const bool clock = c->own_column >= 0, stated = c->effects.on[ISO_LEVEL];
     iso_status status = iso_conversion_start(c, r->y, &start);
@@ -176,7 +182,7 @@ static iso_status open_first(iso_conversion *c, const conversion_row *r)
     if (status == ISO_OK) status = create_first(c, &start, clock);
     if (status != ISO_OK || !iso_orbit_effects(c->first).on[ISO_LEVEL] || isnan(c->stated_eps)) return status;
     const double own_eps = c->stated_eps / iso_unit(&c->units, iso_dimension_eps);
-    const bool agrees = fabs(first_off_level(c, &start, own_eps)) <= digits;
+    const bool agrees = fabs(first_off_level(c, &start, own_eps)) <= iso_conversion_digits(c);
     if (agrees && stated) return ISO_OK;
     start.eps = agrees ? NAN : eps; /* a level stated that is another one is refused there */
     if (agrees || stated) return create_first(c, &start, clock);
@@ -189,7 +195,7 @@ static iso_status shift_moments(iso_conversion *c, const conversion_row *r)
 {
     const double eps = c->stated_eps, *J = c->params->J, kinetic = dot(r->y, r->y) / 2;
     const double E = kinetic - eps * dot_diag(r->y + 3, J, r->y + 3);
-    if (!c->shift_J || isnan(eps) || fabs(E) <= 1e-6 * kinetic) return ISO_OK;
+    if (!c->shift_J || isnan(eps) || fabs(E) <= iso_conversion_digits(c) * kinetic) return ISO_OK;
     const iso_status status =
         iso_params_reduced(c->ctx, -1, (double[]){J[0] + E / eps, J[1] + E / eps, J[2] + E / eps}, &c->shifted);
     if (status == ISO_OK) {

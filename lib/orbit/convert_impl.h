@@ -70,6 +70,10 @@ iso_status iso_conversion_settle(iso_conversion *c);
 /* Notes a value at a line. */
 void iso_worst_note(iso_worst *worst, double value, size_t line);
 
+/* How well energies of rows agree, relative: 1e-6. With a wider row tolerance the caller says that the rows have fewer
+ * digits; an energy is then off by several times that tolerance. */
+double iso_conversion_digits(const iso_conversion *c);
+
 /* The columns and lines of the result. */
 iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record **header);
 

@@ -9,15 +9,15 @@
 /* Lines that say where a clock began which the record has lost. */
 static const char *const origin_line[] = {[ISO_CLOCK_T] = "t0", [ISO_CLOCK_S] = "s0"};
 
-/* h and eps: what the record states, if its first row agrees to 1e-6 (a point's rows have been held to it, a ball needs
+/* h and eps: what the record states, if its first row agrees to its digits (a point's rows have been held to it, a ball needs
  * neither to be carried over), else those of the first row. */
 static iso_status describe_energy(const iso_conversion *c, iso_picture to, iso_record *out)
 {
     double stated;
     iso_status status = ISO_OK;
     const double eps = iso_orbit_coupling(c->first);
-    const bool agrees =
-        iso_record_coupling(c->ctx, out, c->params, &stated, &status) && fabs(stated - eps) <= 1e-6 * fabs(eps);
+    const bool agrees = iso_record_coupling(c->ctx, out, c->params, &stated, &status) &&
+                        fabs(stated - eps) <= iso_conversion_digits(c) * fabs(eps);
     if (status != ISO_OK) return status;
     const bool named = !c->effects.on[ISO_LEVEL] || iso_record_get(out, "level.c");
     return iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, agrees && named ? NULL : c->first);
