@@ -1,5 +1,5 @@
 #!/bin/sh
-# convert_digits.sh ISOROLL - rows with few digits: --row-tolerance, the words about bad rows, and how many are named.
+# convert_digits.sh ISOROLL - rows with few digits: --row-tolerance, the words about bad rows, how many are named.
 . "$(dirname "$0")/lib.sh"
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 20 0.05 >scene.yaml
 run 0 run scene.yaml --as both --tol 1e-15 -o both.csv
