@@ -160,8 +160,8 @@ static int finish_filter(filter *f, iso_status status, const iso_conversion_summ
     }
     if (f->unnamed > 0) complain("%s: %zu more bad rows are not named", f->name, f->unnamed);
     const bool keep = f->columns > 0 && (status == ISO_OK || status == ISO_STOPPED);
-    if (status != ISO_OK && status != ISO_FILE_TROUBLE && status != ISO_BAD_ARGUMENT)
-        status = name_the_file(f->ctx, f->o, status);
+    const bool has_name = status == ISO_FILE_TROUBLE || status == ISO_CLOSED_PIPE || status == ISO_BAD_ARGUMENT;
+    if (status != ISO_OK && !has_name) status = name_the_file(f->ctx, f->o, status);
     const int result = finish(f->ctx, status);
     const iso_status closed = iso_trajectory_close(f->ctx, f->out, keep);
     if (closed != ISO_OK) return result == EXIT_DONE ? finish(f->ctx, closed) : result;

@@ -21,6 +21,7 @@ typedef struct csv {
     char *buffer; /* 2 LONGEST_LINE + 1 characters, of which begin to end - 1 are still to be read */
     size_t begin, end;
     bool ended, ours, again;    /* no more to come; with our first line; the line is to be read once more */
+    bool callers;               /* `line` is the caller's names of columns, no line of the file */
     char *line;                 /* in the buffer, without its end */
     size_t length, number;      /* number: of the line, from 1 */
     char separator;             /* ',', ';', or ' ' for blanks */
@@ -38,6 +39,7 @@ typedef struct field {
 
 static iso_status fail(const csv *c, const char *at, const char *message, const char *detail)
 {
+    if (c->callers) return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "columns", "columns: %s%s", message, detail);
     size_t column = 1; /* in characters of UTF-8, as for scenes */
     for (const char *x = c->line; at && x < at; x++) column += (*x & 0xC0) != 0x80;
     return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s%s", c->r->name, c->number ? c->number : 1,
@@ -200,7 +202,7 @@ static iso_status pass_over(csv *c, const field *f, bool named)
     }
     char *to = c->r->ignored;
     const size_t used = strlen(to), room = sizeof c->r->ignored - used;
-    const bool near = strncmp(suggested, "did", 3) == 0;
+    const bool near = iso_text_nearest(quoted, ISO_TRAJECTORY_COLUMNS, iso_trajectory_columns) != NULL;
     if (f->length > 0 && room > 2 * ISO_QUOTE_SIZE)
         snprintf(to + used, room, "%s'%s'%s%s%s", used ? ", " : "", quoted, near ? " (" : "", near ? suggested : "",
                  near ? ")" : "");
@@ -250,13 +252,6 @@ static bool begins_with_number(csv *c)
     return end > copy && (*end == '\0' || !isalpha((unsigned char)*copy)); /* "nan" is one, "info" none */
 }
 
-/* The failure is about the caller's names, not about a place in the file. */
-static iso_status blame_columns(const csv *c)
-{
-    const char *words = strchr(iso_context_message(c->ctx) + strlen(c->r->name), ' ');
-    return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "columns", "columns: %s", words ? words + 1 : "");
-}
-
 /* The caller's names, those of the file's first line of data, or of the line of # before it. */
 static iso_status read_header(csv *c, const char *columns)
 {
@@ -272,8 +267,9 @@ static iso_status read_header(csv *c, const char *columns)
     if (columns && !names) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for column names");
     const bool above = !columns && numbers && !c->ours && *c->comment;
     if (columns || above) c->line = columns ? names : c->comment;
+    c->callers = columns != NULL;
     status = read_names(c, c->line, columns ? ',' : separator_of(c->line), columns != NULL);
-    if (status == ISO_BAD_INPUT && columns) status = blame_columns(c);
+    c->callers = false;
     free(names);
     c->line = line;
     return status;

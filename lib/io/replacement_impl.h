@@ -15,7 +15,7 @@ typedef struct iso_replacement {
     char *temporary; /* the name it has till then, in that folder  */
 } iso_replacement;
 
-/* ISO_FILE_TROUBLE in errno's words: "cannot WHAT 'path': ..."; about the field "pipe" when a pipe's reader has gone. */
+/* ISO_FILE_TROUBLE in errno's words: "cannot WHAT 'path': ..."; ISO_CLOSED_PIPE when errno is EPIPE. */
 iso_status iso_file_trouble(iso_context *ctx, const char *what, const char *path);
 
 /* A new file, open for reading and writing, to be renamed to `path`. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY; nothing

@@ -71,8 +71,8 @@ const char *iso_trajectory_ignored(const iso_trajectory_reader *reader);
  *
  * A regular file appears under its name only when it is whole: until then its rows are in a temporary file in the
  * same folder. What is no regular file (/dev/stdout, a fifo) is written as the rows come.
- * Failing writes are ISO_FILE_TROUBLE, with iso_context_field() "pipe" when the reader of a pipe has gone (the program
- * must ignore SIGPIPE to see it). */
+ * A write that fails is ISO_FILE_TROUBLE, or ISO_CLOSED_PIPE when the reader of a pipe has gone (the program must ignore
+ * SIGPIPE to see it). */
 typedef struct iso_trajectory_writer iso_trajectory_writer;
 
 /* Errors: ISO_BAD_ARGUMENT, ISO_FILE_TROUBLE, ISO_NO_MEMORY; *writer is then NULL. */

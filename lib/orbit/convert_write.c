@@ -12,7 +12,7 @@ void iso_worst_note(iso_worst *worst, double value, size_t line)
     worst->line = line;
 }
 
-/* A file of which nothing can be used is not complained of row by row. */
+/* If so many rows at the beginning of a file are all bad, the conversion ends. */
 enum { HOPELESS = 20 };
 
 static iso_status give_up(const iso_conversion *c)
@@ -32,8 +32,9 @@ iso_status iso_conversion_mark(iso_conversion *c)
 
 iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why)
 {
-    if (why == ISO_NO_MEMORY || why == ISO_STOPPED || why == ISO_FILE_TROUBLE) return why;
-    if (why == ISO_BAD_ARGUMENT) why = ISO_BAD_INPUT; /* what a call does not take is here what the file says */
+    const bool ends = why == ISO_NO_MEMORY || why == ISO_STOPPED || why == ISO_FILE_TROUBLE || why == ISO_CLOSED_PIPE;
+    if (ends) return why;
+    if (why == ISO_BAD_ARGUMENT) why = ISO_BAD_INPUT; /* the argument comes from the file */
     if (!c->begun && !c->first_words) {
         c->first_failure = why;
         c->first_words = strdup(iso_context_message(c->ctx));
