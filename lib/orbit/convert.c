@@ -1,4 +1,4 @@
-/* convert.c - rows of a trajectory, and whole ones, from one model to the other. */
+/* convert.c - the calls of a conversion: beginning, one row after the other, end; and conversions of whole records. */
 #include "orbit/convert.h"
 
 #include <math.h>

@@ -1,11 +1,12 @@
-/* convert_clock.c - from row to row of a conversion: the other clock's way, the defect, and which row is damaged. */
+/* convert_clock.c - from one row of a conversion to the next: the gain of the other clock, the defect (the distance of a row
+ * from the orbit of the row before it), and which of two rows is damaged. */
 #include <float.h>
 #include <math.h>
 
 #include "base/vec3_impl.h"
 #include "orbit/convert_impl.h"
 
-/* Defects up to here are nobody's damage: numbers written with ten digits. */
+/* Defects up to here come from rounding to ten digits, not from damage. */
 #define SMALL_DEFECT 1e-9
 
 /* Whether b comes after a, or at the same time, in the direction of the rows before. */
@@ -15,7 +16,7 @@ static bool in_order(const iso_conversion *c, const conversion_row *a, const con
     return isfinite(step) && step * c->direction >= 0;
 }
 
-/* What would be no rows of the same orbit. */
+/* A larger defect means: these rows do not lie on one orbit. */
 static double unusual(const iso_conversion *c)
 {
     return fmax(SMALL_DEFECT, 100 * c->typical);
@@ -58,7 +59,7 @@ static iso_status integrate(const iso_conversion *c, const conversion_row *a, co
     return ISO_OK;
 }
 
-/* From a to b, which the quadrature knows as its last two samples, or again is shown. */
+/* From a to b by quadrature, whose last two samples they must be. False: they are too far apart. */
 static bool measure(iso_conversion *c, const conversion_row *a, const conversion_row *b, iso_gap *gap)
 {
     if (!iso_between_measure(c->between, (b->time - a->time) / c->unit_own, c->typical, gap)) return false;
@@ -68,6 +69,7 @@ static bool measure(iso_conversion *c, const conversion_row *a, const conversion
     return true;
 }
 
+/* The same, with the samples given again. */
 static bool measure_anew(iso_conversion *c, const conversion_row *a, const conversion_row *b, iso_gap *gap)
 {
     iso_between_take(c->between, a->own);
@@ -75,7 +77,7 @@ static bool measure_anew(iso_conversion *c, const conversion_row *a, const conve
     return measure(c, a, b, gap);
 }
 
-/* The same by whatever serves; *by_steps tells. */
+/* From a to b by quadrature or, if they are too far apart, by integration (*by_steps). */
 static iso_status judge(iso_conversion *c, const conversion_row *a, const conversion_row *b, iso_gap *gap,
                         bool *by_steps)
 {
@@ -94,7 +96,8 @@ static double sensitivity(const iso_conversion *c)
     return 2 * fabs(e) * sqrt(fmax(J[0], fmax(J[1], J[2])) / fmin(J[0], fmin(J[1], J[2])));
 }
 
-/* What the rows' equations make of the clock, if they are others than those stated: about as wrong as the drift. */
+/* Ends one piece of the drift. If the rows follow other equations than the stated ones, the clock is wrong by about as much
+ * as the state drifts: this goes into the estimate of the error. */
 static void close_drift(iso_conversion *c)
 {
     const double drift = fmax(norm(c->drift), norm(c->drift + 3));
@@ -114,7 +117,7 @@ static void add_drift(iso_conversion *c, const conversion_row *row, const iso_ga
     if (c->moved >= 0.5) close_drift(c);
 }
 
-/* The marks that waited for the held row; they wait on where the first one does. */
+/* The marks that waited for the held row. They go on waiting if the first row is not yet written. */
 static iso_status release_marks(iso_conversion *c)
 {
     if (!c->unwritten) return iso_conversion_write_marks(c, &c->marks);
@@ -123,7 +126,7 @@ static iso_status release_marks(iso_conversion *c)
     return ISO_OK;
 }
 
-/* The first row is good: it is written, with the marks behind it. */
+/* The first row is good: writes it, and the marks behind it. */
 static iso_status write_first(iso_conversion *c)
 {
     c->unwritten = false;
@@ -145,7 +148,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
     by_steps ? s->integrated++ : s->between++;
     iso_worst_note(&s->defect, gap->defect, row->line);
     add_drift(c, row, gap);
-    c->typical = 0.9 * c->typical + 0.1 * fmin(gap->defect, unusual(c)); /* one that breaks off hides no others */
+    c->typical = 0.9 * c->typical + 0.1 * fmin(gap->defect, unusual(c)); /* a large one must not hide the next */
     if (c->direction == 0 && step != 0) c->direction = step > 0 ? 1 : -1;
     c->lost += fabs(c->sum) >= fabs(there) ? (c->sum - next) + there : (there - next) + c->sum;
     c->sum = next;
@@ -164,7 +167,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
 static iso_status refuse_time(iso_conversion *c, const conversion_row *row)
 {
     if (c->trouble != ISO_OK) return c->trouble;
-    iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s turns back; sort the rows by time", iso_clock_name(c->own));
+    iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s turns back: sort the rows by time", iso_clock_name(c->own));
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 
@@ -176,7 +179,7 @@ static iso_status refuse_defect(iso_conversion *c, const conversion_row *row)
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 
-/* Whether a row and the next lie on one orbit, as far as others of the file do. */
+/* Whether two rows lie on one orbit, as well as the other rows of the file do. */
 static bool agree(iso_conversion *c, const conversion_row *a, const conversion_row *b)
 {
     iso_gap gap;
@@ -194,7 +197,8 @@ static iso_status replace_first(iso_conversion *c, const conversion_row *held)
     return status == ISO_OK ? iso_conversion_write_marks(c, &c->first_marks) : status;
 }
 
-/* A row that breaks off both from the last and from the next: damaged, where the file has been better so far. */
+/* Whether a row that fits neither the last nor the next is damaged. It is, if the rows so far were better; but not more than
+ * MOST rows one after the other, since then the orbit itself has changed. */
 static bool is_doubtful(iso_conversion *c, const conversion_row *held, const conversion_row *next)
 {
     enum { KNOWN = 10, MOST = 8 };

@@ -44,7 +44,7 @@ struct iso_conversion {
     iso_between *between;            /* NULL without own clock */
     conversion_row last, held;       /* the last accepted; one that breaks off from it */
     bool has_last, is_held;
-    bool unwritten;                  /* the last is the first, which may still prove damaged           */
+    bool unwritten;                  /* the last is the first, and not written: it may be damaged      */
     size_t first_marks;              /* bad rows behind it                                                 */
     int doubted;                     /* rows taken for damaged, one after the other                     */
     size_t marks;                    /* bad rows behind the held one, or before the first good one */

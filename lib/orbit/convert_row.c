@@ -24,7 +24,7 @@ iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STAT
 iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, bool clock, iso_orbit **orbit)
 {
     iso_start start = *row;
-    if (c->from == ISO_POINT && c->first) start.eps = NAN; /* that of its level, which has been looked at */
+    if (c->from == ISO_POINT && c->first) start.eps = NAN; /* the level gives it; check_energy has seen the row's */
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &c->effects;
     o.tolerance = c->tolerance;
@@ -33,7 +33,7 @@ iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, b
     return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
 }
 
-/* H of a point in own units from the level it should have, relative. */
+/* H of a point, in own units, minus the value of its level, relative. */
 static double off_level(const iso_conversion *c, const double own[ISO_STATE], double eps)
 {
     double size;
@@ -44,8 +44,8 @@ static double off_level(const iso_conversion *c, const double own[ISO_STATE], do
     return H == level ? 0 : (H - level) / fmax(size, fabs(level));
 }
 
-/* A point's own coupling is the one of its level, from which the record's may differ by the digits it is written with;
- * by more, the row is none of this trajectory. A ball's energy is only noted. */
+/* The H of a point must be that of its level, but for the digits that eps is written with. Else the row does not belong to
+ * this trajectory. A ball's energy is only noted. */
 static iso_status check_energy(iso_conversion *c, conversion_row *r)
 {
     double size;
@@ -59,11 +59,12 @@ static iso_status check_energy(iso_conversion *c, conversion_row *r)
     const double eps = stated ? c->stated_eps / iso_unit(&c->units, iso_dimension_eps)
                               : iso_orbit_model(c->first)->field.eps; /* the first row's */
     const double off = off_level(c, r->own, eps);
-    r->other_energy = stated && !(fabs(off) <= fmax(1e-3, iso_conversion_digits(c))); /* low orders keep no less */
+    r->other_energy =
+        stated && !(fabs(off) <= fmax(1e-3, iso_conversion_digits(c))); /* methods of low order reach that */
     if (r->other_energy)
         return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "eps",
-                                "the energy of this point is not that of the rows before: its M does not belong to "
-                                "eps = %.10g (leave --eps and --h out, and the first row says them)",
+                                "the energy of this point is not that of the rows before: its M does not fit "
+                                "eps = %.10g; leave out --eps and --h to take them from the first row",
                                 c->stated_eps);
     iso_worst_note(&c->summary.energy, off, r->line);
     return ISO_OK;
@@ -77,13 +78,13 @@ static void note_constraints(iso_conversion *c, const conversion_row *r)
     iso_worst_note(&c->summary.constraint, fmax(fabs(length), fabs(along)), r->line);
 }
 
-/* The row carried over as it stands: what a start makes orthogonal is for integration. */
+/* The state in the other model, from the row as it stands: it is not made orthogonal first. */
 static iso_status map_state(const iso_conversion *c, conversion_row *r)
 {
     double *const to = r->out + (c->own_column >= 0 || c->other_column >= 0);
     const bool rest = largest(r->y) == 0;
     if (rest && !c->effects.on[ISO_FIELD] && !c->effects.on[ISO_LEVEL])
-        return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "", "at rest (h = 0): a resting ball has no twin");
+        return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "", "at rest (h = 0): the other model has no such orbit");
     (c->from == ISO_BALL ? iso_ball_to_point : iso_point_to_ball)(&c->units.own, r->own, to);
     double size = 0;
     bool fits = isnormal(c->unit_to) && isnormal(c->unit_from);
@@ -93,7 +94,7 @@ static iso_status map_state(const iso_conversion *c, conversion_row *r)
         fits = fits && isfinite(to[i]) && isfinite(to[3 + i]);
     }
     if (fits && (rest || size >= DBL_MIN)) return ISO_OK;
-    return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double in these units");
+    return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double: use other units of time");
 }
 
 /* The other clock, where the file has it. */
@@ -113,7 +114,7 @@ static iso_status create_first(iso_conversion *c, const iso_start *start, bool c
     return status;
 }
 
-/* How far the first row is off the level stated, or 0, by the coupling eps in own units. */
+/* H of the first row minus the value of the level that the lines state (or 0), relative; eps in own units. */
 static double first_off_level(const iso_conversion *c, const iso_start *start, double eps)
 {
     double own[ISO_STATE];
@@ -122,8 +123,10 @@ static double first_off_level(const iso_conversion *c, const iso_start *start, d
     return off_level(c, own, eps);
 }
 
-/* The orbit of the first row. A point may be off the level stated, or off H = 0 where none is, by the digits a record
- * is written with: its own coupling is then the one of that level. Farther off, it has a level if none is stated. */
+/* The orbit of the first row. The lines of a point state eps, and perhaps a level; without one it should be on H = 0.
+ * - The row is on that level up to its digits: the coupling is computed from the row and the level.
+ * - It is not, and a level is stated: the orbit is refused.
+ * - It is not, and no level is stated: the orbit gets the level that follows from its energy. */
 static iso_status open_first(iso_conversion *c, const conversion_row *r)
 {
     iso_start start;
@@ -136,7 +139,7 @@ static iso_status open_first(iso_conversion *c, const conversion_row *r)
     const double own_eps = c->stated_eps / iso_unit(&c->units, iso_dimension_eps);
     const bool agrees = fabs(first_off_level(c, &start, own_eps)) <= iso_conversion_digits(c);
     if (agrees && stated) return ISO_OK;
-    start.eps = agrees ? NAN : eps; /* a level stated that is another one is refused there */
+    start.eps = agrees ? NAN : eps; /* with another level than the stated one create_first refuses */
     if (agrees || stated) return create_first(c, &start, clock);
     c->effects = iso_orbit_effects(c->first);
     return ISO_OK;
