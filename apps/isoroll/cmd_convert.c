@@ -1,4 +1,4 @@
-/* isoroll convert - a trajectory of one model in, the other's out: a filter, row by row. */
+/* cmd_convert.c - `isoroll convert`: a filter that reads a trajectory of one model and writes that of the other. */
 #include <math.h>
 #include <string.h>
 
@@ -86,7 +86,7 @@ static iso_status take_rows(filter *f, iso_conversion_summary *summary)
     return status == ISO_OK ? ended : status;
 }
 
-/* How the other clock was found, at the end of the file. */
+/* Two lines at the end of the file: how the other clock was computed, and its error. */
 static iso_status write_clock(filter *f, const iso_conversion_summary *s)
 {
     char key[ISO_NAME_SIZE], text[160];
@@ -131,7 +131,7 @@ static double largest_drift(const filter *f)
     return fmax(fmax(1e-5, row), 100 * tolerance);
 }
 
-/* Whether the rows are what the file says they are. */
+/* Whether all rows could be converted, and follow the equations that the file states. Says why not. */
 static bool judge(const filter *f, const iso_conversion_summary *s)
 {
     bool good = s->bad == 0;
@@ -144,8 +144,8 @@ static bool judge(const filter *f, const iso_conversion_summary *s)
     if (s->checked && isnan(f->o->max_defect) && !(s->drift.value <= largest_drift(f))) {
         complain(
             "%s:%zu: these rows do not solve the equations that the file or the options state (k, J, eps, clocks), "
-            "or have too few digits: they drift off by %.2g in half a radian, or one interval if that is longer "
-            "(--max-defect X sets another bound)",
+            "or have too few digits: they drift off by %.2g in half a radian or one interval, whichever is longer "
+            "(--row-tolerance X is for few digits, --max-defect X sets another bound)",
             f->name, s->drift.line, s->drift.value);
         good = false;
     }
@@ -211,18 +211,17 @@ static int run(iso_context *ctx, const options *o)
 const command command_convert = {
     .name = "convert",
     .argument = "[FILE]",
-    .doc = "a trajectory of one model in, the other model's out",
+    .doc = "converts a trajectory from one model to the other",
     .options = " to output digits k J eps h scene columns row-tolerance tol max-defect shift-J strict quiet ",
     .more =
-        "Row by row, in constant memory; what others write is read, too (README). States are mapped through (18); "
-        "the "
-        "other\nmodel's clock, unless the file has it, is that of the rows by two-point Taylor quadrature, from 0 at "
-        "the "
-        "first row,\nto --tol (default 1e-14), or integrated where they are too far apart. k, J and h or eps are "
-        "read "
-        "from the file's\n# lines, from --scene, or from --k --J. A bad row becomes one of nan; then the exit status "
-        "is 1.\nA point off the level H = 0 becomes a ball in the potential of the effect level; with --shift-J a "
-        "free "
-        "one.",
+        "Converts row by row in constant memory, also the files of other programs (lib/doc/formats.md). States go\n"
+        "through the map (18). The other model's clock is taken from the file or, if it has none, computed from 0 "
+        "at\n"
+        "the first row on, to --tol (default 1e-14). k, J and h or eps come from the file's # lines, from --scene, "
+        "or\n"
+        "from --k --J. A row that cannot be converted becomes a row of nan: the first 20 are named, the others are\n"
+        "counted, and the exit status is 1. Rows with few digits need a --row-tolerance. A point off the level H = "
+        "0\n"
+        "becomes a ball in the potential of the effect level, or with --shift-J a free ball.",
     .run = run,
 };

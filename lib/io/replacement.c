@@ -1,3 +1,4 @@
+/* replacement.c - writes a file beside the one it replaces, and renames it when it is complete. */
 #include "io/replacement_impl.h"
 
 #include <errno.h>

@@ -1,4 +1,5 @@
-/* text.c - text of users: opening and loading files, what a message may show of them, and the name they may have meant. */
+/* text.c - text of users: opening and loading files, what a message may show of them, and the name they may have
+ * meant. */
 #include "io/text_impl.h"
 
 #include <ctype.h>

@@ -1,4 +1,4 @@
-/* convert.c - the calls of a conversion: beginning, one row after the other, end; and conversions of whole records. */
+/* convert.c - the calls of a conversion: begin, one row after the other, end; and conversions of whole records. */
 #include "orbit/convert.h"
 
 #include <math.h>
@@ -22,7 +22,7 @@ static iso_status begin(iso_conversion *c, const conversion_row *r)
     return status == ISO_OK ? iso_conversion_write_marks(c, &c->marks) : status;
 }
 
-/* --- rows -------------------------------------------------------------------------------------------------------- */
+/* --- rows ------------------------------------------------------------------------------------------------------- */
 
 /* The first row fits, and three after it have other energies: then the file's eps or h is wrong, not these rows. */
 static bool is_eps_wrong(iso_conversion *c, const conversion_row *r)
@@ -63,7 +63,7 @@ iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary
                             c->summary.rows ? "no row could be read" : "the trajectory has no rows");
 }
 
-/* --- beginning and end ------------------------------------------------------------------------------------------- */
+/* --- beginning and end ------------------------------------------------------------------------------------------ */
 
 static iso_status refuse_effect(const iso_conversion *c)
 {
@@ -137,7 +137,7 @@ void iso_conversion_free(iso_conversion *c)
     free(c);
 }
 
-/* --- whole records ----------------------------------------------------------------------------------------------- */
+/* --- whole records ---------------------------------------------------------------------------------------------- */
 
 typedef struct whole {
     iso_context *ctx;

@@ -1,8 +1,8 @@
 /* convert.h - converts trajectories from one model to the other, row by row or as a whole.
  *
- * A record can be converted, and converted back, if its lines say `k` and `J` (for a point also `h` or `eps`). Each row's
- * state goes through the map (18). The other model's clock is computed from each row to the next. The columns are those of
- * iso_trajectory_columns.
+ * A record can be converted, and converted back, if its lines say `k` and `J` (for a point also `h` or `eps`). Each
+ * row's state goes through the map (18). The other model's clock is computed from each row to the next. The columns
+ * are those of iso_trajectory_columns.
  */
 #ifndef ISO_ORBIT_CONVERT_H
 #define ISO_ORBIT_CONVERT_H
@@ -19,13 +19,13 @@ enum { ISO_MAX_ROW_STEPS = 10000000 };
  *     status = iso_conversion_end(c, &summary);
  *     iso_conversion_free(c);
  *
- * Two-point Taylor quadrature (method/between.h) gives the gain of the other clock between two rows. It also shows whether
- * the two rows lie on one orbit. Where they are too far apart for it, the orbit is integrated. If a row does not lie on the
- * orbit of the row before it, it is held until the next row shows which of the two is damaged. Sums of times are
- * compensated. */
+ * Two-point Taylor quadrature (method/between.h) gives the gain of the other clock between two rows. It also shows
+ * whether the two rows lie on one orbit. Where they are too far apart for it, the orbit is integrated. If a row does
+ * not lie on the orbit of the row before it, it is held until the next row shows which of the two is damaged. Sums of
+ * times are compensated. */
 
-/* Where results go, in the order of the rows. Each function returns ISO_OK to go on. Any other status ends the call that
- * is under way, which returns it. */
+/* Where results go, in the order of the rows. Each function returns ISO_OK to go on. Any other status ends the call
+ * that is under way, which returns it. */
 typedef struct iso_conversion_target {
     iso_status (*header)(void *data, const iso_record *header); /* columns and lines: once, before all rows */
     iso_status (*row)(void *data, const double row[]);          /* NULL: a mark in the place of a bad row   */
@@ -67,8 +67,8 @@ typedef struct iso_conversion_options {
                          false: it becomes a ball in the potential of the effect `level`                     */
 } iso_conversion_options;
 
-/* header: columns, lines and row tolerance of what is converted. It must outlive the conversion, and lines may be added to
- * it meanwhile. It must have the six columns of one model. The clock of the result is
+/* header: columns, lines and row tolerance of what is converted. It must outlive the conversion, and lines may be
+ * added to it meanwhile. It must have the six columns of one model. The clock of the result is
  * - the column of the header, if it has the other model's clock;
  * - else computed, from the line `t0` or `s0` of an earlier conversion on, or from 0;
  * - none, if the header has no clock.
@@ -79,25 +79,25 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
                                  iso_conversion **conversion);
 void iso_conversion_free(iso_conversion *conversion);
 
-/* The next row. A point off the level H = 0 becomes a ball in the potential of the effect `level`, which the lines of the
- * result then name. A bad row goes to target->bad: it is no state, it is at rest, its time turns back, or its energy is not
- * that of the rows before. Errors: the status of the target; ISO_NO_MEMORY, ISO_STOPPED. */
+/* The next row. A point off the level H = 0 becomes a ball in the potential of the effect `level`, which the lines
+ * of the result then name. A bad row goes to target->bad: it is no state, it is at rest, its time turns back, or
+ * its energy is not that of the rows before. Errors: the status of the target; ISO_NO_MEMORY, ISO_STOPPED. */
 iso_status iso_conversion_put(iso_conversion *conversion, const double row[], size_t line);
 
 /* Call this in the place of a row that could not even be read. */
 iso_status iso_conversion_skip(iso_conversion *conversion);
 
-/* Call this after the last row. summary may be NULL. Errors: as for a row; if no row could be converted, the reason for the
- * first one. */
+/* Call this after the last row. summary may be NULL. Errors: as for a row; if no row could be converted, the reason
+ * for the first one. */
 iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary *summary);
 
-/* --- whole -------------------------------------------------------------------------------------------------------- */
+/* --- whole ------------------------------------------------------------------------------------------------------ */
 
 /* Converts `in` to the model `to`. *out has the clock, then the six columns, and one row for each row of `in`.
  * Errors; messages give the number of the row:
  * - ISO_BAD_INPUT: a row is no state, or the times do not run one way;
- * - ISO_NOT_MAPPED: a row is at rest; the M of a point does not fit eps or h of the record and the energy of the first row;
- *   or an effect breaks the isomorphism;
+ * - ISO_NOT_MAPPED: a row is at rest; the M of a point does not fit eps or h of the record and the energy of the
+ *   first row; or an effect breaks the isomorphism;
  * - ISO_NUMERICAL, ISO_NO_MEMORY. */
 iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_picture to,
                        double tolerance, iso_record **out);

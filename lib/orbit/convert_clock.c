@@ -1,5 +1,5 @@
-/* convert_clock.c - from one row of a conversion to the next: the gain of the other clock, the defect (the distance of a row
- * from the orbit of the row before it), and which of two rows is damaged. */
+/* convert_clock.c - from one row of a conversion to the next: the gain of the other clock, the defect (the distance
+ * of a row from the orbit of the row before it), and which of two rows is damaged. */
 #include <float.h>
 #include <math.h>
 
@@ -96,8 +96,8 @@ static double sensitivity(const iso_conversion *c)
     return 2 * fabs(e) * sqrt(fmax(J[0], fmax(J[1], J[2])) / fmin(J[0], fmin(J[1], J[2])));
 }
 
-/* Ends one piece of the drift. If the rows follow other equations than the stated ones, the clock is wrong by about as much
- * as the state drifts: this goes into the estimate of the error. */
+/* Ends one piece of the drift. If the rows follow other equations than the stated ones, the clock is wrong by about
+ * as much as the state drifts: this goes into the estimate of the error. */
 static void close_drift(iso_conversion *c)
 {
     const double drift = fmax(norm(c->drift), norm(c->drift + 3));
@@ -197,8 +197,8 @@ static iso_status replace_first(iso_conversion *c, const conversion_row *held)
     return status == ISO_OK ? iso_conversion_write_marks(c, &c->first_marks) : status;
 }
 
-/* Whether a row that fits neither the last nor the next is damaged. It is, if the rows so far were better; but not more than
- * MOST rows one after the other, since then the orbit itself has changed. */
+/* Whether a row that fits neither the last nor the next is damaged. It is, if the rows so far were better; but not
+ * more than MOST rows one after the other, since then the orbit itself has changed. */
 static bool is_doubtful(iso_conversion *c, const conversion_row *held, const conversion_row *next)
 {
     enum { KNOWN = 10, MOST = 8 };

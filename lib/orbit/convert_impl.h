@@ -1,5 +1,5 @@
-/* convert_impl.h - what a conversion is made of. convert.c is the top layer and calls the four below, which call each other
- * in one direction only: convert_clock.c and convert_lines.c -> convert_row.c -> convert_write.c. */
+/* convert_impl.h - what a conversion is made of. convert.c is the top layer and calls the four below, which call
+ * each other in one direction only: convert_clock.c and convert_lines.c -> convert_row.c -> convert_write.c. */
 #ifndef ISO_ORBIT_CONVERT_IMPL_H
 #define ISO_ORBIT_CONVERT_IMPL_H
 
@@ -85,8 +85,8 @@ iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STAT
 /* An orbit of the record's own model from a row on, with the other clock. */
 iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *start, bool clock, iso_orbit **orbit);
 
-/* How well energies of rows agree, relative: 1e-6. With a wider row tolerance the caller says that the rows have fewer
- * digits; an energy is then off by several times that tolerance. */
+/* How well energies of rows agree, relative: 1e-6. With a wider row tolerance the caller says that the rows have
+ * fewer digits; an energy is then off by several times that tolerance. */
 double iso_conversion_digits(const iso_conversion *c);
 
 /* --- convert_lines.c: the header of the result; calls convert_row.c --- */

@@ -9,7 +9,8 @@
 /* Lines for the first value of a clock that the result has no column for. */
 static const char *const origin_line[] = {[ISO_CLOCK_T] = "t0", [ISO_CLOCK_S] = "s0"};
 
-/* h and eps are those that the record states, if its first row agrees up to its digits; else those of the first row. */
+/* h and eps are those that the record states, if its first row agrees up to its digits; else those of the first
+ * row. */
 static iso_status describe_energy(const iso_conversion *c, iso_picture to, iso_record *out)
 {
     double stated;

@@ -13,7 +13,7 @@ double iso_conversion_digits(const iso_conversion *c)
     return tolerance > ISO_ROW_TOLERANCE ? 10 * tolerance : 1e-6;
 }
 
-/* --- states ------------------------------------------------------------------------------------------------------ */
+/* --- states ----------------------------------------------------------------------------------------------------- */
 
 iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start)
 {
@@ -44,8 +44,8 @@ static double off_level(const iso_conversion *c, const double own[ISO_STATE], do
     return H == level ? 0 : (H - level) / fmax(size, fabs(level));
 }
 
-/* The H of a point must be that of its level, but for the digits that eps is written with. Else the row does not belong to
- * this trajectory. A ball's energy is only noted. */
+/* The H of a point must be that of its level, but for the digits that eps is written with. Else the row does not
+ * belong to this trajectory. A ball's energy is only noted. */
 static iso_status check_energy(iso_conversion *c, conversion_row *r)
 {
     double size;
@@ -103,7 +103,7 @@ static void given_clock(const iso_conversion *c, const double row[], conversion_
     if (c->other_column >= 0) r->out[0] = row[c->other_column];
 }
 
-/* --- the first row ----------------------------------------------------------------------------------------------- */
+/* --- the first row ---------------------------------------------------------------------------------------------- */
 
 static iso_status create_first(iso_conversion *c, const iso_start *start, bool clock)
 {

@@ -1,5 +1,5 @@
-/* convert_write.c - what leaves a conversion: good rows, marks in the place of bad ones, and the words about these. It is
- * the lowest layer of a conversion and calls none of the others. */
+/* convert_write.c - what leaves a conversion: good rows, marks in the place of bad ones, and the words about these.
+ * It is the lowest layer of a conversion and calls none of the others. */
 #include <math.h>
 #include <string.h>
 
