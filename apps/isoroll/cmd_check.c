@@ -40,7 +40,7 @@ const command command_check = {
     .name = "check",
     .argument = "[FILE]",
     .doc = "residuals of a trajectory: constraints, integrals, whether it solves its model",
-    .options = " k J eps h scene columns tol max ",
+    .options = " k J eps h scene columns row-tolerance tol max ",
     .more = "Residuals are relative. 'flow' integrates each row to the time of the next at --tol (default 1e-13).",
     .run = run,
 };

@@ -1,4 +1,4 @@
-/* isoroll convert - a trajectory of one model in, the other's out: a filter, row by row. */
+/* cmd_convert.c - `isoroll convert`: a filter that reads a trajectory of one model and writes that of the other. */
 #include <math.h>
 #include <string.h>
 
@@ -13,7 +13,11 @@ typedef struct filter {
     iso_trajectory_writer *out;
     iso_conversion *conversion;
     size_t columns;
+    size_t unnamed; /* bad rows after the first NAMED */
+    size_t named;
 } filter;
+
+enum { NAMED = 20 };
 
 static iso_status put_header(void *data, const iso_record *header)
 {
@@ -29,12 +33,26 @@ static iso_status put_row(void *data, const double row[])
                : iso_trajectory_write_mark(f->ctx, f->out);
 }
 
-/* A bad row is named, and ends the work only under --strict. */
+/* Names a bad row on stderr. After the first NAMED they are only counted. */
+static void name_bad_row(filter *f, size_t line, const char *words)
+{
+    if (f->named == NAMED) {
+        f->unnamed++;
+        return;
+    }
+    f->named++;
+    if (line > 0)
+        complain("%s:%zu: %s", f->name, line, words);
+    else
+        complain("%s", words); /* they have the place */
+}
+
+/* A bad row ends the work only under --strict. */
 static iso_status put_bad(void *data, size_t line, iso_status why, const char *words)
 {
-    const filter *f = data;
+    filter *f = data;
     if (f->o->strict) return iso_context_fail(f->ctx, why, "", "%s:%zu: %s", f->name, line, words);
-    complain("%s:%zu: %s", f->name, line, words);
+    name_bad_row(f, line, words);
     return ISO_OK;
 }
 
@@ -44,7 +62,7 @@ static iso_status take_row(filter *f, double row[], bool *more)
     const iso_status status = iso_trajectory_next(f->ctx, f->in, row, more);
     if (status == ISO_OK) return *more ? iso_conversion_put(f->conversion, row, iso_trajectory_line(f->in)) : ISO_OK;
     if (status != ISO_BAD_INPUT || f->o->strict) return status;
-    complain("%s", iso_context_message(f->ctx));
+    name_bad_row(f, 0, iso_context_message(f->ctx));
     return iso_conversion_skip(f->conversion);
 }
 
@@ -68,7 +86,7 @@ static iso_status take_rows(filter *f, iso_conversion_summary *summary)
     return status == ISO_OK ? ended : status;
 }
 
-/* How the other clock was found, at the end of the file. */
+/* Two lines at the end of the file: how the other clock was computed, and its error. */
 static iso_status write_clock(filter *f, const iso_conversion_summary *s)
 {
     char key[ISO_NAME_SIZE], text[160];
@@ -100,17 +118,20 @@ static void tell(const filter *f, const iso_conversion_summary *s)
                  f->name, iso_clock_name(s->clock), s->end, s->error, s->between, s->integrated);
 }
 
-/* The drift that the rows of an orbit may have: what six digits make of it, or a hundred times the tolerance with which
- * the file says it was made. Rows of other equations, a thousandth beside the stated ones, drift by more. */
+/* The drift that the rows of an orbit may have is the largest of
+ * - 1e-5, what six digits make of it; rows of other equations, a thousandth beside the stated ones, drift by more;
+ * - a hundred times the tolerance with which the file says it was made;
+ * - ten times --row-tolerance, where that is wider than its default: the rows then have few digits. */
 static double largest_drift(const filter *f)
 {
     double tolerance = 0;
     iso_status unused;
     iso_record_get_numbers(f->ctx, iso_trajectory_header(f->in), "tolerance", 1, &tolerance, &unused);
-    return fmax(1e-5, 100 * tolerance);
+    const double row = f->o->row_tolerance > ISO_ROW_TOLERANCE ? 10 * f->o->row_tolerance : 0;
+    return fmax(fmax(1e-5, row), 100 * tolerance);
 }
 
-/* Whether the rows are what the file says they are. */
+/* Whether all rows could be converted, and follow the equations that the file states. Says why not. */
 static bool judge(const filter *f, const iso_conversion_summary *s)
 {
     bool good = s->bad == 0;
@@ -123,8 +144,8 @@ static bool judge(const filter *f, const iso_conversion_summary *s)
     if (s->checked && isnan(f->o->max_defect) && !(s->drift.value <= largest_drift(f))) {
         complain(
             "%s:%zu: these rows do not solve the equations that the file or the options state (k, J, eps, clocks), "
-            "or have too few digits: they drift off by %.2g in half a radian, or one interval if that is longer "
-            "(--max-defect X sets another bound)",
+            "or have too few digits: they drift off by %.2g in half a radian or one interval, whichever is longer "
+            "(--row-tolerance X is for few digits, --max-defect X sets another bound)",
             f->name, s->drift.line, s->drift.value);
         good = false;
     }
@@ -137,9 +158,10 @@ static int finish_filter(filter *f, iso_status status, const iso_conversion_summ
         const iso_status written = f->columns > 0 ? write_clock(f, s) : ISO_OK;
         if (status == ISO_OK) status = written;
     }
+    if (f->unnamed > 0) complain("%s: %zu more bad rows are not named", f->name, f->unnamed);
     const bool keep = f->columns > 0 && (status == ISO_OK || status == ISO_STOPPED);
-    if (status != ISO_OK && status != ISO_FILE_TROUBLE && status != ISO_BAD_ARGUMENT)
-        status = name_the_file(f->ctx, f->o, status);
+    const bool has_name = status == ISO_FILE_TROUBLE || status == ISO_CLOSED_PIPE || status == ISO_BAD_ARGUMENT;
+    if (status != ISO_OK && !has_name) status = name_the_file(f->ctx, f->o, status);
     const int result = finish(f->ctx, status);
     const iso_status closed = iso_trajectory_close(f->ctx, f->out, keep);
     if (closed != ISO_OK) return result == EXIT_DONE ? finish(f->ctx, closed) : result;
@@ -189,18 +211,17 @@ static int run(iso_context *ctx, const options *o)
 const command command_convert = {
     .name = "convert",
     .argument = "[FILE]",
-    .doc = "a trajectory of one model in, the other model's out",
-    .options = " to output digits k J eps h scene columns tol max-defect shift-J strict quiet ",
+    .doc = "converts a trajectory from one model to the other",
+    .options = " to output digits k J eps h scene columns row-tolerance tol max-defect shift-J strict quiet ",
     .more =
-        "Row by row, in constant memory; what others write is read, too (README). States are mapped through (18); "
-        "the "
-        "other\nmodel's clock, unless the file has it, is that of the rows by two-point Taylor quadrature, from 0 at "
-        "the "
-        "first row,\nto --tol (default 1e-14), or integrated where they are too far apart. k, J and h or eps are "
-        "read "
-        "from the file's\n# lines, from --scene, or from --k --J. A bad row becomes one of nan; then the exit status "
-        "is 1.\nA point off the level H = 0 becomes a ball in the potential of the effect level; with --shift-J a "
-        "free "
-        "one.",
+        "Converts row by row in constant memory, also the files of other programs (lib/doc/formats.md). States go\n"
+        "through the map (18). The other model's clock is taken from the file or, if it has none, computed from 0 "
+        "at\n"
+        "the first row on, to --tol (default 1e-14). k, J and h or eps come from the file's # lines, from --scene, "
+        "or\n"
+        "from --k --J. A row that cannot be converted becomes a row of nan: the first 20 are named, the others are\n"
+        "counted, and the exit status is 1. Rows with few digits need a --row-tolerance. A point off the level H = "
+        "0\n"
+        "becomes a ball in the potential of the effect level, or with --shift-J a free ball.",
     .run = run,
 };

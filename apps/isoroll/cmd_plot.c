@@ -87,7 +87,7 @@ const command command_plot = {
     .name = "plot",
     .argument = "[FILE]",
     .doc = "a picture of a trajectory: paths on the spheres, integrals, clocks",
-    .options = " output k J eps h scene columns ",
+    .options = " output k J eps h scene columns row-tolerance ",
     .more = "-o FILE names the picture: .svg, .png or .pdf. The other model's path and clock are computed, where it "
             "has one.",
     .run = run,

@@ -37,6 +37,7 @@ typedef struct options {
     const char *columns;   /* --columns                                                        */
     int digits;            /* --digits; ISO_HEXADECIMAL                                        */
     double max_defect;     /* NAN: not given                                                   */
+    double row_tolerance;  /* --row-tolerance                                                  */
     bool json, level, quick, quiet, shift_J, strict, verbose, help;
 } options;
 

@@ -70,8 +70,9 @@ int finish(iso_context *ctx, iso_status status)
         [ISO_STOPPED] = EXIT_SOME_FAILED,
         [ISO_FILE_TROUBLE] = EXIT_FILE,
         [ISO_NO_MEMORY] = EXIT_NUMERICAL,
+        [ISO_CLOSED_PIPE] = EXIT_FILE,
     };
-    const bool silent = status == ISO_OK || status == ISO_STOPPED || strcmp(iso_context_field(ctx), "pipe") == 0;
+    const bool silent = status == ISO_OK || status == ISO_STOPPED || status == ISO_CLOSED_PIPE;
     if (!silent) complain("%s", iso_context_message(ctx));
     return exits[status];
 }

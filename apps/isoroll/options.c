@@ -149,6 +149,8 @@ static const struct row {
      AT(columns)},
     {"max-defect", "X", "a number from 0 on", "exit with 1 if a row is farther off the orbit of the one before", set_bound,
      AT(max_defect)},
+    {"row-tolerance", "X", "a number in [1e-15, 0.1]",
+     "how far a row may be off a unit vector and a right angle (default 1e-5)", set_tolerance, AT(row_tolerance)},
     {"shift-J", NULL, NULL, "k = -1: a point off H = 0 becomes a free ball, of moments J + E/eps", set_flag, AT(shift_J)},
     {"strict", NULL, NULL, "stop at the first bad row", set_flag, AT(strict)},
     {"quiet", NULL, NULL, "no summary on stderr", set_flag, AT(quiet)},
@@ -273,7 +275,8 @@ bool options_read(const command *c, int argc, char **argv, options *o)
                    .samples = NAN,
                    .want = NAN,
                    .digits = 17,
-                   .max_defect = NAN};
+                   .max_defect = NAN,
+                   .row_tolerance = ISO_ROW_TOLERANCE};
     opterr = 0;
     const bool has_output = strstr(c->options, " output ") != NULL, has_digits = strstr(c->options, " digits ") != NULL;
     const char *letters = has_digits ? ":ho:p:" : has_output ? ":ho:" : ":h";

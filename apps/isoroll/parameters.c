@@ -42,6 +42,7 @@ iso_status parameters_of_file(iso_context *ctx, const options *o, iso_record *re
 {
     if (!isnan(o->h) && !isnan(o->eps))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "--h says what --eps says: leave one of them out");
+    iso_record_set_row_tolerance(record, o->row_tolerance);
     iso_status status = set_line(ctx, record, "k", 1, &o->k);
     if (status == ISO_OK) status = set_line(ctx, record, "J", 3, o->J);
     if (status == ISO_OK && o->scene) status = set_scene(ctx, o->scene, record);

@@ -4,7 +4,8 @@
 
 #include "command.h"
 
-/* Puts what the options say into the file's lines, and reads the parameters from these. */
+/* Puts what the options say into the record of the file (its lines, its row tolerance), and reads the parameters from
+ * the lines. */
 iso_status parameters_of_file(iso_context *ctx, const options *o, iso_record *record, iso_params *params);
 
 /* Puts the file's name before the context's message, where it is not there yet; gives `status`. */

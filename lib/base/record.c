@@ -17,6 +17,7 @@ struct iso_record {
     double *data;
     size_t lines;
     line *line;
+    double row_tolerance;
 };
 
 static iso_status no_memory(iso_context *ctx)
@@ -38,6 +39,7 @@ iso_status iso_record_create(iso_context *ctx, size_t columns, const char *const
     iso_record *r = calloc(1, sizeof *r);
     if (!r) return no_memory(ctx);
     r->columns = columns;
+    r->row_tolerance = ISO_ROW_TOLERANCE;
     r->names = calloc(columns ? columns : 1, sizeof *r->names);
     if (!r->names) return iso_record_free(r), no_memory(ctx);
     for (size_t i = 0; i < columns; i++) memcpy(r->names[i], names[i], strlen(names[i]) + 1);
@@ -61,6 +63,16 @@ void iso_record_free(iso_record *r)
 size_t iso_record_columns(const iso_record *r)
 {
     return r->columns;
+}
+
+void iso_record_set_row_tolerance(iso_record *r, double tolerance)
+{
+    r->row_tolerance = tolerance;
+}
+
+double iso_record_row_tolerance(const iso_record *r)
+{
+    return r->row_tolerance;
 }
 
 size_t iso_record_rows(const iso_record *r)

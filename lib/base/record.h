@@ -36,6 +36,13 @@ const double *iso_record_const_row(const iso_record *record, size_t row);
 /* Adds a row and gives it in *row, filled with zeros. Errors: ISO_NO_MEMORY. */
 iso_status iso_record_append(iso_context *ctx, iso_record *record, double **row);
 
+/* How far a row may be from a valid state: from a unit vector, and from a right angle. It follows from the digits that
+ * the numbers were written with. It is no part of a file; a new record has ISO_ROW_TOLERANCE. The caller sets a number > 0,
+ * at most 0.1. */
+#define ISO_ROW_TOLERANCE 1e-5 /* five digits */
+void iso_record_set_row_tolerance(iso_record *record, double tolerance);
+double iso_record_row_tolerance(const iso_record *record);
+
 /* The value of a `key: value` line, or NULL; setting an existing key replaces its value.
  * Numbers are stored as text in %.17g, vectors with one blank between. */
 const char *iso_record_get(const iso_record *record, const char *key);

@@ -15,7 +15,8 @@
     X(ISO_NUMERICAL,    "numerical failure")           /* integration stopped, or a result is not finite     */ \
     X(ISO_STOPPED,      "stopped on request")          /* iso_context_watch() answered false                 */ \
     X(ISO_FILE_TROUBLE, "file trouble")                /* cannot open, read, write or rename                 */ \
-    X(ISO_NO_MEMORY,    "out of memory")
+    X(ISO_NO_MEMORY,    "out of memory")               /* malloc gave none                                   */ \
+    X(ISO_CLOSED_PIPE,  "closed pipe")                 /* the reader of what we write has gone               */
 
 typedef enum iso_status {
 #define ISO_STATUS_ENUM(name, text) name,

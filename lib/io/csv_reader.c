@@ -1,4 +1,4 @@
-/* csv_reader.c - trajectories as text: ours, and what others write. Writing is in csv_writer.c. */
+/* csv_reader.c - reads trajectories from text: files of isoroll and of other programs. csv_writer.c writes them. */
 #include <ctype.h>
 #include <errno.h>
 #include <locale.h>
@@ -20,7 +20,8 @@ typedef struct csv {
     FILE *file;
     char *buffer; /* 2 LONGEST_LINE + 1 characters, of which begin to end - 1 are still to be read */
     size_t begin, end;
-    bool ended, ours, again;    /* no more to come; with our first line; the line is to be read once more */
+    bool ended, ours, again;    /* the file ended; it has our first line; the line is to be read once more */
+    bool callers;               /* `line` is the caller's names of columns, no line of the file */
     char *line;                 /* in the buffer, without its end */
     size_t length, number;      /* number: of the line, from 1 */
     char separator;             /* ',', ';', or ' ' for blanks */
@@ -38,13 +39,14 @@ typedef struct field {
 
 static iso_status fail(const csv *c, const char *at, const char *message, const char *detail)
 {
+    if (c->callers) return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "columns", "columns: %s%s", message, detail);
     size_t column = 1; /* in characters of UTF-8, as for scenes */
     for (const char *x = c->line; at && x < at; x++) column += (*x & 0xC0) != 0x80;
     return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s%s", c->r->name, c->number ? c->number : 1,
                             column, message, detail);
 }
 
-/* --- lines ------------------------------------------------------------------------------------------------------- */
+/* --- lines ------------------------------------------------------------------------------------------------------ */
 
 /* Reads on behind what is in the buffer, which is moved to its front. */
 static iso_status fill(csv *c)
@@ -98,11 +100,11 @@ static iso_status next_line(csv *c, bool *more)
     if (c->length >= LONGEST_LINE) {
         const iso_status status = end ? ISO_OK : pass_line(c);
         if (status != ISO_OK) return status;
-        return fail(c, c->line, "this line is too long: is it a trajectory file?", "");
+        return fail(c, c->line, "this line is longer than 64 KiB: is this a trajectory file?", "");
     }
     if (c->number == 1 && strncmp(c->line, "\xEF\xBB\xBF", 3) == 0) c->line += 3, c->length -= 3; /* byte order */
     const char *nul = memchr(c->line, '\0', c->length);
-    if (nul) return fail(c, nul, "a NUL byte: this is no text file", "");
+    if (nul) return fail(c, nul, "a NUL byte: this is not a text file", "");
     while (c->length > 0 && c->line[c->length - 1] == '\r') c->line[--c->length] = '\0';
     return ISO_OK;
 }
@@ -160,14 +162,14 @@ static iso_status next_data(csv *c, bool *more)
     return status;
 }
 
-/* --- names ------------------------------------------------------------------------------------------------------- */
+/* --- names ------------------------------------------------------------------------------------------------------ */
 
 static char separator_of(const char *line)
 {
     return strchr(line, ';') ? ';' : strchr(line, ',') ? ',' : ' ';
 }
 
-/* Takes the next field off *rest (NULL after the last). */
+/* The next field of *rest, which then begins behind it (NULL after the last). */
 static field next_field(char separator, char **rest)
 {
     char *start = *rest;
@@ -181,7 +183,7 @@ static field next_field(char separator, char **rest)
     return f;
 }
 
-/* A column that is none of ours: a mistake in a file of ours, nothing to us in one of others. */
+/* A column with an unknown name. In a file of isoroll it is a mistake; in other files it is ignored. */
 static iso_status pass_over(csv *c, const field *f, bool named)
 {
     char quoted[ISO_QUOTE_SIZE], suggested[ISO_SUGGEST_SIZE], detail[ISO_QUOTE_SIZE + ISO_SUGGEST_SIZE + 8];
@@ -195,14 +197,14 @@ static iso_status pass_over(csv *c, const field *f, bool named)
     }
     char *to = c->r->ignored;
     const size_t used = strlen(to), room = sizeof c->r->ignored - used;
-    const bool near = strncmp(suggested, "did", 3) == 0;
+    const bool near = iso_text_nearest(quoted, (size_t)columns, names) != NULL;
     if (f->length > 0 && room > 2 * ISO_QUOTE_SIZE)
         snprintf(to + used, room, "%s'%s'%s%s%s", used ? ", " : "", quoted, near ? " (" : "", near ? suggested : "",
                  near ? ")" : "");
     return ISO_OK;
 }
 
-/* Columns from a line of names: the file's, or (named) the caller's. */
+/* Columns from a line of names: the file's, or the caller's (`named`). */
 static iso_status read_names(csv *c, char *line, char separator, bool named)
 {
     const char *names[ISO_TRAJECTORY_COLUMNS];
@@ -245,14 +247,7 @@ static bool begins_with_number(csv *c)
     return end > copy && (*end == '\0' || !isalpha((unsigned char)*copy)); /* "nan" is one, "info" none */
 }
 
-/* The failure is about the caller's names, not about a place in the file. */
-static iso_status blame_columns(const csv *c)
-{
-    const char *words = strchr(iso_context_message(c->ctx) + strlen(c->r->name), ' ');
-    return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "columns", "columns: %s", words ? words + 1 : "");
-}
-
-/* The caller's names, those of the file's first line of data, or of the line of # before it. */
+/* Names of columns: the caller's, else those of the first line of data, else those of the line of # before it. */
 static iso_status read_header(csv *c, const char *columns)
 {
     bool more;
@@ -267,14 +262,15 @@ static iso_status read_header(csv *c, const char *columns)
     if (columns && !names) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for column names");
     const bool above = !columns && numbers && !c->ours && *c->comment;
     if (columns || above) c->line = columns ? names : c->comment;
+    c->callers = columns != NULL;
     status = read_names(c, c->line, columns ? ',' : separator_of(c->line), columns != NULL);
-    if (status == ISO_BAD_INPUT && columns) status = blame_columns(c);
+    c->callers = false;
     free(names);
     c->line = line;
     return status;
 }
 
-/* --- rows -------------------------------------------------------------------------------------------------------- */
+/* --- rows ------------------------------------------------------------------------------------------------------- */
 
 enum { DECIMAL = 1, HEXADECIMAL = 2 };
 static const unsigned char digit[256] = {
@@ -282,8 +278,8 @@ static const unsigned char digit[256] = {
     ['+'] = 3, ['-'] = 3, ['.'] = 3, ['e'] = 3, ['E'] = 3, ['d'] = 3, ['D'] = 3, ['a'] = 2, ['b'] = 2, ['c'] = 2,
     ['f'] = 2, ['A'] = 2, ['B'] = 2, ['C'] = 2, ['F'] = 2, ['x'] = 2, ['X'] = 2, ['p'] = 2, ['P'] = 2};
 
-/* Reads a number at *at and moves *at behind it; exponents may be written with D, as Fortran does. False: none. strtod
- * also takes "nan" and "infinity", which have other letters. */
+/* Reads a number at *at and moves *at behind it. False: there is none. An exponent may have the letter D, as Fortran
+ * writes it. strtod would also take "nan" and "infinity"; their letters are not in the table above. */
 static bool read_number(const csv *c, char **at, double *value)
 {
     char *const start = *at, *end = start, *seen;
@@ -355,7 +351,7 @@ static iso_status csv_next(iso_context *ctx, iso_trajectory_reader *r, double ro
     return status == ISO_OK && *more ? read_row(c, row) : status;
 }
 
-/* --- opening and closing ----------------------------------------------------------------------------------------- */
+/* --- opening and closing ---------------------------------------------------------------------------------------- */
 
 static void csv_close(iso_trajectory_reader *r)
 {

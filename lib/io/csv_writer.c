@@ -1,4 +1,4 @@
-/* csv_writer.c - trajectories as text, whole and then renamed. */
+/* csv_writer.c - writes trajectories as text: into a temporary file, which is renamed when it is complete. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +29,9 @@ static bool is_line(const char *key, const char *value)
 static iso_status csv_line(iso_context *ctx, iso_trajectory_writer *w, const char *key, const char *value)
 {
     if (!is_line(key, value))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "key '%s' is not one line of text 'key: value'", key);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                                "'%s' cannot be a line '# key: value': a key has no colon, and both are one line",
+                                key);
     fprintf(iso_output_stream(w->data), *value ? "# %s: %s\n" : "# %s:\n", key, value);
     return iso_output_check(ctx, w->data);
 }

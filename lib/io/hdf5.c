@@ -30,7 +30,8 @@ int iso_hdf5_parts(iso_hdf5_part parts[ISO_HDF5_PARTS])
 
 iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name)
 {
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot %s '%s': HDF5 cannot", what, name);
+    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot %s '%s': the HDF5 library gives no reason", what,
+                            name);
 }
 
 /* HDF5 would close at exit what it could not close before, a file on a full disk, and crash on it (1.10). */

@@ -1,13 +1,13 @@
 /* hdf5_impl.h - trajectories as HDF5: the layout of a file, and what its reader and its writer share. All three are
  * compiled where the build has HDF5 (ISO_HDF5).
  *
- *     /             attributes: "format" = "isoroll trajectory 1"; a line "# key: value" each, as numbers where it is
- *                   numbers, else as text
+ *     /             attributes: "format" = "isoroll trajectory 1", and one for each line "# key: value" of the record:
+ *                   an array of numbers if the value is numbers, else text
  *     /clock        t, tau, s                 rows
- *     /ball         omega, n, e, q, ...       rows x 3 (q: 4), where all their columns are there, else omega1 ...
+ *     /ball         omega, n, e, q, ...       rows x 3 (q: 4); if a column is missing, omega1 ... for each one there
  *     /point        M, gamma                  rows x 3
  *
- * Doubles, in chunks of ISO_HDF5_BLOCK rows. Such names at the root are read as well.
+ * All numbers are doubles, in chunks of ISO_HDF5_BLOCK rows. Datasets of these names at the root are read as well.
  */
 #ifndef ISO_IO_HDF5_IMPL_H
 #define ISO_IO_HDF5_IMPL_H
@@ -21,7 +21,7 @@
 enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */ };
 #define ISO_HDF5_FORMAT "isoroll trajectory 1"
 
-/* What has a dataset of its own: columns first ... first + count - 1 of a trajectory (iso_column_name). */
+/* A dataset of the layout: it holds columns first ... first + count - 1 of a trajectory (iso_column_name). */
 typedef struct iso_hdf5_part {
     const char *group, *name;
     int first, count;
@@ -65,7 +65,7 @@ bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write);
 /* How datasets are accessed: chunk by chunk, of which none need be kept. */
 hid_t iso_hdf5_access(void);
 
-/* ISO_FILE_TROUBLE: HDF5 does not say why. */
+/* Records that the HDF5 library failed, which does not say why. Returns ISO_FILE_TROUBLE. */
 iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name);
 
 #endif

@@ -11,7 +11,7 @@ static iso_status bad_file(iso_context *ctx, const iso_trajectory_reader *r, con
     return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s: %s%s", r->name, what, name);
 }
 
-/* One attribute as a line. */
+/* Makes one attribute a line of the header. */
 static iso_status read_attribute(iso_context *ctx, iso_trajectory_reader *r, hid_t file, const char *key)
 {
     double numbers[ISO_HDF5_NUMBERS];
@@ -73,7 +73,7 @@ static hid_t open_set(hid_t file, const char *group, const char *name)
     return id;
 }
 
-/* A dataset, if it is one of `count` columns; all have as many rows. */
+/* Adds a dataset of `count` columns (id < 0: there is none). It must have as many rows as the others. */
 static iso_status take_set(iso_context *ctx, iso_trajectory_reader *r, hid_t id, const char *name, int first,
                            int count, const char *names[], size_t *columns)
 {
@@ -86,8 +86,9 @@ static iso_status take_set(iso_context *ctx, iso_trajectory_reader *r, hid_t id,
     H5Sclose(space);
     s->set[s->sets++] = (iso_hdf5_set){id, (int)*columns, count};
     if (rank != (count > 1 ? 2 : 1) || size[1] != (hsize_t)count)
-        return bad_file(ctx, r, "a dataset of another shape than rows x components: ", name);
-    if (s->sets > 1 && size[0] != s->rows) return bad_file(ctx, r, "another number of rows than the others: ", name);
+        return bad_file(ctx, r, "expected a dataset of rows x components: ", name);
+    if (s->sets > 1 && size[0] != s->rows)
+        return bad_file(ctx, r, "this dataset has another number of rows than the others: ", name);
     s->rows = size[0];
     for (int i = 0; i < count; i++) names[(*columns)++] = iso_column_name(first + i);
     return ISO_OK;
@@ -124,7 +125,9 @@ static iso_status hdf5_open(iso_context *ctx, iso_trajectory_reader *r, const ch
 {
     iso_hdf5_store *s = r->data = iso_hdf5_store_create();
     if (!s) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
-    if (columns) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns", "columns of HDF5 have names");
+    if (columns)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns",
+                                "--columns is for text: in HDF5 the datasets have names");
     iso_status status = iso_record_create(ctx, 0, NULL, &r->header);
     if (status != ISO_OK) return status;
     if (access(r->path, R_OK) != 0)
@@ -133,7 +136,7 @@ static iso_status hdf5_open(iso_context *ctx, iso_trajectory_reader *r, const ch
     {
         s->file = H5Fopen(r->path, H5F_ACC_RDONLY, H5P_DEFAULT);
         if (s->file < 0)
-            status = bad_file(ctx, r, "this is no HDF5 file, or a damaged one", "");
+            status = bad_file(ctx, r, "this is not an HDF5 file, or it is damaged", "");
         else
             status = read_attributes(ctx, r, s->file);
         if (status == ISO_OK) status = find_sets(ctx, r);

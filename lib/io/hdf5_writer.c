@@ -26,7 +26,7 @@ static iso_status hdf5_create(iso_context *ctx, iso_trajectory_writer *w, const 
     return status;
 }
 
-/* The value as numbers; 0: it is text. */
+/* Reads a value as numbers with blanks between, and returns how many; 0: it is text. */
 static int numbers_of(const char *value, double numbers[ISO_HDF5_NUMBERS])
 {
     int count = 0;
@@ -48,7 +48,7 @@ static bool write_attribute(hid_t at, const char *key, hid_t type, hid_t space, 
     return written;
 }
 
-/* Of variable length: Python then reads it as text, not as bytes. */
+/* Text of variable length, since Python reads that as text and not as bytes. */
 static bool write_text(hid_t at, const char *key, const char *value)
 {
     const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
@@ -111,7 +111,7 @@ static bool add_set(iso_hdf5_store *s, hid_t id, int first, int count)
     return id >= 0;
 }
 
-/* The datasets of a part whose columns the record has, in the part's order and side by side, or one for each. */
+/* One dataset for the whole part if the record has all its columns side by side, else one for each column it has. */
 static bool create_part(iso_hdf5_store *s, const iso_hdf5_part *p, const iso_record *header)
 {
     int at[ISO_TRAJECTORY_COLUMNS];

@@ -1,4 +1,4 @@
-/* Writing text files, whole and then renamed. */
+/* output.c - writes text files: into a temporary file, which is renamed when it is complete. */
 #include "io/output.h"
 
 #include <errno.h>

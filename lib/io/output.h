@@ -24,7 +24,7 @@ iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **out)
 /* Where to write. */
 FILE *iso_output_stream(iso_output *out);
 
-/* Whether all that was written so far arrived. Errors: ISO_FILE_TROUBLE, with iso_context_field() "pipe" when the
+/* Whether all that was written so far arrived. Errors: ISO_FILE_TROUBLE; ISO_CLOSED_PIPE when the
  * reader of a pipe has gone (the program must ignore SIGPIPE to see it). */
 iso_status iso_output_check(iso_context *ctx, iso_output *out);
 

@@ -1,3 +1,4 @@
+/* replacement.c - writes a file beside the one it replaces, and renames it when it is complete. */
 #include "io/replacement_impl.h"
 
 #include <errno.h>
@@ -12,8 +13,8 @@ iso_status iso_file_trouble(iso_context *ctx, const char *what, const char *path
 {
     enum { SHOWN = 400 }; /* its end: the reason must have room behind it */
     const size_t length = strlen(path);
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, errno == EPIPE ? "pipe" : "", "cannot %s '%s%s': %s", what,
-                            length > SHOWN ? "..." : "", length > SHOWN ? path + length - SHOWN : path,
+    return iso_context_fail(ctx, errno == EPIPE ? ISO_CLOSED_PIPE : ISO_FILE_TROUBLE, "", "cannot %s '%s%s': %s",
+                            what, length > SHOWN ? "..." : "", length > SHOWN ? path + length - SHOWN : path,
                             strerror(errno));
 }
 

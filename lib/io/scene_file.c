@@ -105,13 +105,19 @@ static iso_status check_time(iso_draft *d)
 
 /* ---- Physics: the checks are the library's, the places are the file's ---- */
 
+/* Values that a failure calls otherwise than the scene, or that stand in another section than the rest. */
+static const struct {
+    const char *field, *section, *key;
+} elsewhere[] = {{"surface_radius", "surface", "radius"}, {"eps", "point", "eps"}};
+
 /* Repeats the last failure at the value it is about, or at the section's key when that value is not written. */
 static iso_status fail_at_field(iso_draft *d, iso_status status, const char *section)
 {
     const char *field = iso_context_field(d->yaml.ctx);
     const yaml_node_t *place = d->root;
     if (status != ISO_BAD_INPUT) return status;
-    if (strcmp(field, "surface_radius") == 0) section = "surface", field = "radius";
+    for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
+        if (strcmp(field, elsewhere[i].field) == 0) section = elsewhere[i].section, field = elsewhere[i].key;
     if (!find(d, section, field, NULL, &place)) find(d, section, NULL, &place, NULL);
     return iso_yaml_fail(&d->yaml, place->start_mark, "%s", iso_context_message(d->yaml.ctx));
 }
@@ -186,7 +192,7 @@ static iso_status make_start(iso_draft *d, iso_picture model)
                                   ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, spin, &s->start)
                                   : iso_start_point(d->yaml.ctx, d->M, d->gamma, eps, d->project, &s->start);
     if (status == ISO_OK) return status;
-    return fail_at_field(d, status, strcmp(iso_context_field(d->yaml.ctx), "eps") == 0 ? "point" : "initial");
+    return fail_at_field(d, status, "initial");
 }
 
 static iso_status make_scene(iso_draft *d)

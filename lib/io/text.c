@@ -1,3 +1,5 @@
+/* text.c - text of users: opening and loading files, what a message may show of them, and the name they may have
+ * meant. */
 #include "io/text_impl.h"
 
 #include <ctype.h>
@@ -105,8 +107,7 @@ static size_t distance(const char *a, size_t la, const char *b, size_t lb)
     return last[lb];
 }
 
-/* Near: fewer than half of the letters differ. */
-static const char *nearest(const char *wrong, size_t count, const char *const names[])
+const char *iso_text_nearest(const char *wrong, size_t count, const char *const names[])
 {
     const char *best = NULL;
     const size_t length = strlen(wrong);
@@ -124,7 +125,7 @@ static const char *nearest(const char *wrong, size_t count, const char *const na
 
 const char *iso_text_suggest(char out[ISO_SUGGEST_SIZE], const char *wrong, size_t count, const char *const names[])
 {
-    const char *best = nearest(wrong, count, names);
+    const char *best = iso_text_nearest(wrong, count, names);
     if (best) {
         snprintf(out, ISO_SUGGEST_SIZE, "did you mean '%s'?", best);
         return out;

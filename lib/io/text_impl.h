@@ -23,6 +23,9 @@ iso_status iso_text_load(iso_context *ctx, const char *path, size_t limit, char 
 /* Text of the user's as it can be shown in a message: one line, short, nothing that moves a terminal's cursor. */
 const char *iso_text_quote(char quoted[ISO_QUOTE_SIZE], const char *text, size_t length);
 
+/* The name that is nearest to `wrong`; NULL: none is near, half of the letters differ or more. */
+const char *iso_text_nearest(const char *wrong, size_t count, const char *const names[]);
+
 /* What to write instead of `wrong`: "did you mean 'x'?" for the nearest of the names, or if none is near the list of
  * them all. */
 const char *iso_text_suggest(char out[ISO_SUGGEST_SIZE], const char *wrong, size_t count, const char *const names[]);

@@ -1,4 +1,4 @@
-/* trajectory.c - trajectory files of either format: what they have in common. */
+/* trajectory.c - trajectory files: chooses the format by the name, and holds what CSV and HDF5 have in common. */
 #include "io/trajectory.h"
 
 #include <math.h>
@@ -31,7 +31,7 @@ static iso_status check_format(iso_context *ctx, const char *path)
                             path);
 }
 
-/* --- reading ----------------------------------------------------------------------------------------------------- */
+/* --- reading ---------------------------------------------------------------------------------------------------- */
 
 iso_status iso_trajectory_reader_open(iso_context *ctx, const char *path, const char *columns,
                                       iso_trajectory_reader **reader)
@@ -112,7 +112,7 @@ iso_status iso_trajectory_read(iso_context *ctx, const char *path, const char *c
     return status;
 }
 
-/* --- writing ----------------------------------------------------------------------------------------------------- */
+/* --- writing ---------------------------------------------------------------------------------------------------- */
 
 static void release(iso_trajectory_writer *w)
 {
@@ -155,7 +155,7 @@ static iso_status keep_columns(iso_context *ctx, iso_trajectory_writer *w, const
 
 iso_status iso_trajectory_write_header(iso_context *ctx, iso_trajectory_writer *w, const iso_record *header)
 {
-    if (w->header) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a trajectory has one header");
+    if (w->header) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the header is already written");
     const iso_status status = keep_columns(ctx, w, header);
     return status == ISO_OK ? w->format->header(ctx, w, header) : status;
 }
@@ -178,7 +178,7 @@ iso_status iso_trajectory_write_row(iso_context *ctx, iso_trajectory_writer *w, 
 iso_status iso_trajectory_write_mark(iso_context *ctx, iso_trajectory_writer *w)
 {
     double row[ISO_TRAJECTORY_COLUMNS];
-    if (!w->header) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a row before its header");
+    if (!w->header) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "write the header before the rows");
     for (size_t i = 0; i < iso_record_columns(w->header); i++) row[i] = NAN;
     w->rows++;
     return w->format->row(ctx, w, row);

@@ -6,10 +6,10 @@
  *     t,omega1,omega2,omega3,n1,n2,n3              some of the columns (iso_column_name), each once
  *     0,0.9,-0.3,-0.225,0.36,0.48,0.8              finite numbers, written in %.17g: they read back exactly
  *
- * Files of others are read as well: without the lines of #, separated by commas, semicolons or blanks, names quoted or
- * in a line of #, other columns beside ours (which are passed over), CRLF and blank lines, exponents in D, C's
- * hexadecimal numbers. In every path "-" is standard input or output. A path that ends in .h5 is HDF5 (io/hdf5.c says
- * how it is laid out), where the build has it; else ISO_BAD_ARGUMENT.
+ * Files of others are read as well: without the lines of #, separated by commas, semicolons or blanks, names quoted
+ * or in a line of #, other columns beside ours (which are passed over), CRLF and blank lines, exponents in D, C's
+ * hexadecimal numbers. In every path "-" is standard input or output. A path that ends in .h5 is HDF5 (io/hdf5.c
+ * says how it is laid out), where the build has it; else ISO_BAD_ARGUMENT.
  */
 #ifndef ISO_IO_TRAJECTORY_H
 #define ISO_IO_TRAJECTORY_H
@@ -18,7 +18,7 @@
 
 #include "../base/record.h"
 
-/* --- whole files ------------------------------------------------------------------------------------------------- */
+/* --- whole files ------------------------------------------------------------------------------------------------ */
 
 /* Reads a whole file into a new record, to be freed by the caller; `columns` as below. Messages about its text read
  * "path:line:column: ...", column being that of the first character of the field.
@@ -71,8 +71,8 @@ const char *iso_trajectory_ignored(const iso_trajectory_reader *reader);
  *
  * A regular file appears under its name only when it is whole: until then its rows are in a temporary file in the
  * same folder. What is no regular file (/dev/stdout, a fifo) is written as the rows come.
- * Failing writes are ISO_FILE_TROUBLE, with iso_context_field() "pipe" when the reader of a pipe has gone (the program
- * must ignore SIGPIPE to see it). */
+ * A write that fails is ISO_FILE_TROUBLE, or ISO_CLOSED_PIPE when the reader of a pipe has gone (the program must
+ * ignore SIGPIPE to see it). */
 typedef struct iso_trajectory_writer iso_trajectory_writer;
 
 /* Errors: ISO_BAD_ARGUMENT, ISO_FILE_TROUBLE, ISO_NO_MEMORY; *writer is then NULL. */

@@ -1,3 +1,4 @@
+/* yaml.c - reads one YAML document strictly: what a scene must not have is refused with its line and column. */
 #include "io/yaml_impl.h"
 
 #include <stdarg.h>
@@ -70,7 +71,7 @@ static const char *anchor_or_tag(const yaml_event_t *e)
     return NULL;
 }
 
-/* What an event says that a scene must not. */
+/* Refuses an event that a scene must not have: anchors, tags, a second document, deep nesting. */
 static iso_status check_event(const iso_yaml *y, const yaml_event_t *e, tally *seen)
 {
     const char *banned = anchor_or_tag(e);
@@ -109,7 +110,7 @@ static bool open_parser(yaml_parser_t *p, const char *text, size_t length)
     return true;
 }
 
-/* A first pass over the events: the document of the second keeps neither anchors nor explicit tags. */
+/* A first pass over the events. The second pass makes a document, which no longer shows anchors and tags. */
 static iso_status check_events(const iso_yaml *y, const char *text, size_t length)
 {
     yaml_parser_t parser;

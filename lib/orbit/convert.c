@@ -1,223 +1,12 @@
-/* convert.c - rows of a trajectory, and whole ones, from one model to the other. */
+/* convert.c - the calls of a conversion: begin, one row after the other, end; and conversions of whole records. */
 #include "orbit/convert.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
-#include "map/state.h"
 #include "orbit/convert_impl.h"
-
-/* --- bad rows, good rows ----------------------------------------------------------------------------------------- */
-
-/* A file of which nothing can be used is not complained of row by row. */
-enum { HOPELESS = 20 };
-
-static iso_status give_up(const iso_conversion *c)
-{
-    const char *words = c->first_words ? c->first_words : "none can be read";
-    return iso_context_fail(c->ctx, c->first_words ? c->first_failure : ISO_BAD_INPUT, "",
-                            "not one of the first %d rows can be converted: %s", HOPELESS, words);
-}
-
-static iso_status write_mark(iso_conversion *c)
-{
-    if (!c->begun && c->summary.bad == HOPELESS) return give_up(c);
-    if (c->begun && !c->is_held && !c->unwritten) return c->target.row(c->target.data, NULL);
-    ++*(c->unwritten && !c->is_held ? &c->first_marks : &c->marks);
-    return ISO_OK;
-}
-
-iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why)
-{
-    if (why == ISO_NO_MEMORY || why == ISO_STOPPED || why == ISO_FILE_TROUBLE) return why;
-    if (why == ISO_BAD_ARGUMENT) why = ISO_BAD_INPUT; /* what a call does not take is here what the file says */
-    if (!c->begun && !c->first_words) {
-        c->first_failure = why;
-        c->first_words = strdup(iso_context_message(c->ctx));
-    }
-    c->summary.bad++;
-    const iso_status status = c->target.bad(c->target.data, line, why, iso_context_message(c->ctx));
-    return status == ISO_OK ? write_mark(c) : status;
-}
-
-iso_status iso_conversion_skip(iso_conversion *c)
-{
-    c->summary.rows++;
-    c->summary.bad++;
-    return write_mark(c);
-}
-
-iso_status iso_conversion_emit(iso_conversion *c, conversion_row *row)
-{
-    return c->target.row(c->target.data, row->out);
-}
-
-/* --- states ------------------------------------------------------------------------------------------------------ */
-
-iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start)
-{
-    return iso_start_from_row(c->ctx, c->from, y, isnan(c->stated_eps) ? NULL : &c->stated_eps, false, start);
-}
-
-iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, bool clock, iso_orbit **orbit)
-{
-    iso_start start = *row;
-    if (c->from == ISO_POINT && c->first) start.eps = NAN; /* that of its level, which has been looked at */
-    iso_orbit_options o = iso_orbit_defaults(&start);
-    o.effects = &c->effects;
-    o.tolerance = c->tolerance;
-    o.carry[c->other] = clock;
-    o.max_steps = ISO_MAX_ROW_STEPS;
-    return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
-}
-
-/* H of a point in own units from the level it should have, relative. */
-static double off_level(const iso_conversion *c, const double own[ISO_STATE], double eps)
-{
-    double size;
-    iso_field field = iso_orbit_model(c->first)->field;
-    field.eps = eps;
-    const double c_own = iso_effects_level(&field.effects);
-    const double level = iso_effects_have_level(&c->effects) ? iso_coupling(&field.p, c_own) : 0;
-    const double H = iso_system_point.integrals[0].value(&field, own, &size);
-    return H == level ? 0 : (H - level) / fmax(size, fabs(level));
-}
-
-/* A point's own coupling is the one of its level, from which the record's may differ by the digits it is written with;
- * by more, the row is none of this trajectory. A ball's energy is only noted. */
-static iso_status check_energy(iso_conversion *c, const conversion_row *r)
-{
-    double size;
-    if (c->from == ISO_BALL) {
-        const double h = iso_system_ball.integrals[0].value(&iso_orbit_model(c->first)->field, r->own, &size);
-        if (c->summary.energy.line == 0) c->energy = h;
-        iso_worst_note(&c->summary.energy, h == c->energy ? 0 : (h - c->energy) / size, r->line);
-        return ISO_OK;
-    }
-    const bool stated = !isnan(c->stated_eps);
-    const double eps = stated ? c->stated_eps / iso_unit(&c->units, iso_dimension_eps)
-                              : iso_orbit_model(c->first)->field.eps; /* the first row's */
-    const double off = off_level(c, r->own, eps);
-    if (stated && !(fabs(off) <= 1e-3)) /* a method of low order keeps its energy no better */
-        return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "eps",
-                                "the energy of this point is not that of the rows before: its M does not belong to "
-                                "eps = %.10g (leave --eps and --h out, and the first row says them)",
-                                c->stated_eps);
-    iso_worst_note(&c->summary.energy, off, r->line);
-    return ISO_OK;
-}
-
-static void note_constraints(iso_conversion *c, const conversion_row *r)
-{
-    const double size = largest(r->y), length = norm(r->y + 3) - 1;
-    double along = 0;
-    for (int i = 0; i < 3 && size > 0; i++) along += r->y[i] / size * r->y[3 + i];
-    iso_worst_note(&c->summary.constraint, fmax(fabs(length), fabs(along)), r->line);
-}
-
-/* The row carried over as it stands: what a start makes orthogonal is for integration. */
-static iso_status map_state(const iso_conversion *c, conversion_row *r)
-{
-    double *const to = r->out + (c->own_column >= 0 || c->other_column >= 0);
-    const bool rest = largest(r->y) == 0;
-    if (rest && !iso_effects_pull(&c->effects))
-        return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "", "at rest (h = 0): a resting ball has no twin");
-    (c->from == ISO_BALL ? iso_ball_to_point : iso_point_to_ball)(&c->units.own, r->own, to);
-    double size = 0;
-    bool fits = isnormal(c->unit_to) && isnormal(c->unit_from);
-    for (int i = 0; i < 3; i++) {
-        to[i] *= c->unit_to;
-        size = fmax(size, fabs(to[i]));
-        fits = fits && isfinite(to[i]) && isfinite(to[3 + i]);
-    }
-    if (fits && (rest || size >= DBL_MIN)) return ISO_OK;
-    return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double in these units");
-}
-
-/* The other clock, where the file has it. */
-static void given_clock(const iso_conversion *c, const double row[], conversion_row *r)
-{
-    if (c->other_column >= 0) r->out[0] = row[c->other_column];
-}
-
-/* --- the first row ----------------------------------------------------------------------------------------------- */
-
-static iso_status create_first(iso_conversion *c, const iso_start *start, bool clock)
-{
-    iso_orbit_free(c->first);
-    c->first = NULL;
-    const iso_status status = iso_conversion_orbit(c, start, clock, &c->first);
-    if (status == ISO_OK) c->units = *iso_orbit_units(c->first);
-    return status;
-}
-
-/* How far the first row is off the level stated, or 0, by the coupling eps in own units. */
-static double first_off_level(const iso_conversion *c, const iso_start *start, double eps)
-{
-    double own[ISO_STATE];
-    copy(start->y, own, ISO_STATE);
-    for (int i = 0; i < 3; i++) own[i] /= iso_unit(&c->units, iso_system_point.fast_dimension);
-    return off_level(c, own, eps);
-}
-
-/* The orbit of the first row. A point may be off the level stated, or off H = 0 where none is, by the digits a record
- * is written with: its own coupling is then the one of that level. Farther off, it has a level if none is stated. */
-static iso_status open_first(iso_conversion *c, const conversion_row *r)
-{
-    static const double digits = 1e-6;
-    iso_start start;
-    const bool clock = c->own_column >= 0, stated = iso_effects_have_level(&c->effects);
-    iso_status status = iso_conversion_start(c, r->y, &start);
-    const double eps = start.eps;
-    if (stated) start.eps = NAN;
-    if (status == ISO_OK) status = create_first(c, &start, clock);
-    if (status != ISO_OK || isnan(c->stated_eps)) return status;
-    const iso_effects effects = iso_orbit_effects(c->first);
-    if (!iso_effects_have_level(&effects)) return ISO_OK;
-    const double own_eps = c->stated_eps / iso_unit(&c->units, iso_dimension_eps);
-    const bool agrees = fabs(first_off_level(c, &start, own_eps)) <= digits;
-    if (agrees && stated) return ISO_OK;
-    start.eps = agrees ? NAN : eps; /* a level stated that is another one is refused there */
-    if (agrees || stated) return create_first(c, &start, clock);
-    c->effects = iso_orbit_effects(c->first);
-    return ISO_OK;
-}
-
-/* On |gamma| = 1, eps (gamma,J gamma) + E = eps (gamma,(J + E/eps) gamma): the energy becomes a part of J. */
-static iso_status shift_moments(iso_conversion *c, const conversion_row *r)
-{
-    const double eps = c->stated_eps, *J = c->params->J, kinetic = dot(r->y, r->y) / 2;
-    const double E = kinetic - eps * dot_diag(r->y + 3, J, r->y + 3);
-    if (!c->shift_J || isnan(eps) || fabs(E) <= 1e-6 * kinetic) return ISO_OK;
-    const iso_status status =
-        iso_params_reduced(c->ctx, -1, (double[]){J[0] + E / eps, J[1] + E / eps, J[2] + E / eps}, &c->shifted);
-    if (status == ISO_OK) {
-        c->params = &c->shifted;
-        iso_effects_set_level(&c->effects, false, NAN);
-        return ISO_OK;
-    }
-    return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "",
-                            "no free ball has this energy, J + E/eps: %s; without a shift "
-                            "there is one in the potential of a level",
-                            iso_context_message(c->ctx));
-}
-
-static iso_status open_units(iso_conversion *c, const conversion_row *r)
-{
-    iso_status status = shift_moments(c, r);
-    if (status == ISO_OK) status = open_first(c, r);
-    if (status != ISO_OK) return status;
-    const double unit_M = iso_unit(&c->units, iso_system_point.fast_dimension);
-    c->unit_from = c->from == ISO_BALL ? c->units.w : unit_M;
-    c->unit_to = c->from == ISO_BALL ? unit_M : c->units.w;
-    c->unit_own = iso_unit(&c->units, iso_clock_dimension(c->own));
-    c->unit_other = iso_unit(&c->units, iso_clock_dimension(c->other));
-    return ISO_OK;
-}
 
 /* The header, and the marks of rows before the first good one. */
 static iso_status begin(iso_conversion *c, const conversion_row *r)
@@ -230,44 +19,15 @@ static iso_status begin(iso_conversion *c, const conversion_row *r)
     status = c->target.header(c->target.data, header);
     iso_record_free(header);
     c->begun = true;
-    for (; status == ISO_OK && c->marks > 0; c->marks--) status = c->target.row(c->target.data, NULL);
-    return status;
+    return status == ISO_OK ? iso_conversion_write_marks(c, &c->marks) : status;
 }
 
-/* --- rows -------------------------------------------------------------------------------------------------------- */
+/* --- rows ------------------------------------------------------------------------------------------------------- */
 
-static iso_status check_finite(const iso_conversion *c, const double row[])
+/* The first row fits, and three after it have other energies: then the file's eps or h is wrong, not these rows. */
+static bool is_eps_wrong(iso_conversion *c, const conversion_row *r)
 {
-    for (size_t i = 0; i < iso_record_columns(c->in); i++)
-        if (!isfinite(row[i]))
-            return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s is not finite", iso_record_name(c->in, i));
-    return ISO_OK;
-}
-
-/* Everything of a row but its place among the others. */
-static iso_status make_row(iso_conversion *c, const double row[], conversion_row *r)
-{
-    iso_start start;
-    for (int i = 0; i < ISO_STATE; i++) r->y[i] = row[c->state[i]];
-    r->time = c->own_column >= 0 ? row[c->own_column] : 0;
-    iso_status status = check_finite(c, row);
-    if (status == ISO_OK) status = iso_conversion_start(c, r->y, &start);
-    if (status == ISO_OK && !c->begun) status = open_units(c, r);
-    if (status != ISO_OK) return status;
-    copy(r->y, r->own, ISO_STATE);
-    for (int i = 0; i < 3; i++) r->own[i] /= c->unit_from;
-    status = check_energy(c, r);
-    if (status == ISO_OK) status = map_state(c, r);
-    if (status == ISO_OK) note_constraints(c, r);
-    given_clock(c, row, r);
-    return status;
-}
-
-/* Rows behind the first are of other energies, one after the other: what is stated of them all is wrong. */
-static bool is_strange(iso_conversion *c, iso_status status)
-{
-    if (status != ISO_NOT_MAPPED || c->good != 1 || strcmp(iso_context_field(c->ctx), "eps") != 0) return false;
-    return ++c->strangers == 3;
+    return r->other_energy && c->good == 1 && ++c->strangers == 3;
 }
 
 iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line)
@@ -275,12 +35,19 @@ iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line
     ISO_DEFAULT_ARITHMETIC;
     conversion_row r = {.line = line};
     c->summary.rows++;
-    iso_status status = make_row(c, row, &r);
-    if (status != ISO_OK) return is_strange(c, status) ? status : iso_conversion_bad(c, line, status);
+    iso_status status = iso_conversion_read_row(c, row, &r);
+    if (status != ISO_OK) return is_eps_wrong(c, &r) ? status : iso_conversion_bad(c, line, status);
     c->good++;
     if (!c->begun) status = begin(c, &r);
     if (status != ISO_OK) return status;
     return c->between ? iso_conversion_follow(c, &r) : iso_conversion_emit(c, &r);
+}
+
+iso_status iso_conversion_skip(iso_conversion *c)
+{
+    c->summary.rows++;
+    c->summary.bad++;
+    return iso_conversion_mark(c);
 }
 
 iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary)
@@ -296,7 +63,7 @@ iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary
                             c->summary.rows ? "no row could be read" : "the trajectory has no rows");
 }
 
-/* --- beginning and end ------------------------------------------------------------------------------------------- */
+/* --- beginning and end ------------------------------------------------------------------------------------------ */
 
 static iso_status refuse_effect(const iso_conversion *c)
 {
@@ -304,7 +71,7 @@ static iso_status refuse_effect(const iso_conversion *c)
     if (!e) return ISO_OK;
     return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "effects",
                             "this trajectory was made with '%s', which breaks the isomorphism: %s", e->name,
-                            iso_effect_why_broken(e));
+                            e->breaks);
 }
 
 static iso_status find_columns(iso_conversion *c)
@@ -370,7 +137,7 @@ void iso_conversion_free(iso_conversion *c)
     free(c);
 }
 
-/* --- whole records ----------------------------------------------------------------------------------------------- */
+/* --- whole records ---------------------------------------------------------------------------------------------- */
 
 typedef struct whole {
     iso_context *ctx;

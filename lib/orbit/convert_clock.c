@@ -1,19 +1,13 @@
-/* convert_clock.c - from row to row of a conversion: the other clock's way, the defect, and which row is damaged. */
+/* convert_clock.c - from one row of a conversion to the next: the gain of the other clock, the defect (the distance
+ * of a row from the orbit of the row before it), and which of two rows is damaged. */
 #include <float.h>
 #include <math.h>
 
 #include "base/vec3_impl.h"
 #include "orbit/convert_impl.h"
 
-/* Defects up to here are nobody's damage: numbers written with ten digits. */
+/* Defects up to here come from rounding to ten digits, not from damage. */
 #define SMALL_DEFECT 1e-9
-
-void iso_worst_note(iso_worst *worst, double value, size_t line)
-{
-    if (worst->line > 0 && !(fabs(value) > worst->value) && !isnan(value)) return;
-    worst->value = isnan(value) ? INFINITY : fabs(value);
-    worst->line = line;
-}
 
 /* Whether b comes after a, or at the same time, in the direction of the rows before. */
 static bool in_order(const iso_conversion *c, const conversion_row *a, const conversion_row *b)
@@ -22,7 +16,7 @@ static bool in_order(const iso_conversion *c, const conversion_row *a, const con
     return isfinite(step) && step * c->direction >= 0;
 }
 
-/* What would be no rows of the same orbit. */
+/* A larger defect means: these rows do not lie on one orbit. */
 static double unusual(const iso_conversion *c)
 {
     return fmax(SMALL_DEFECT, 100 * c->typical);
@@ -65,7 +59,7 @@ static iso_status integrate(const iso_conversion *c, const conversion_row *a, co
     return ISO_OK;
 }
 
-/* From a to b, which the quadrature knows as its last two samples, or again is shown. */
+/* From a to b by quadrature, whose last two samples they must be. False: they are too far apart. */
 static bool measure(iso_conversion *c, const conversion_row *a, const conversion_row *b, iso_gap *gap)
 {
     if (!iso_between_measure(c->between, (b->time - a->time) / c->unit_own, c->typical, gap)) return false;
@@ -75,6 +69,7 @@ static bool measure(iso_conversion *c, const conversion_row *a, const conversion
     return true;
 }
 
+/* The same, with the samples given again. */
 static bool measure_anew(iso_conversion *c, const conversion_row *a, const conversion_row *b, iso_gap *gap)
 {
     iso_between_take(c->between, a->own);
@@ -82,7 +77,7 @@ static bool measure_anew(iso_conversion *c, const conversion_row *a, const conve
     return measure(c, a, b, gap);
 }
 
-/* The same by whatever serves; *by_steps tells. */
+/* From a to b by quadrature or, if they are too far apart, by integration (*by_steps). */
 static iso_status judge(iso_conversion *c, const conversion_row *a, const conversion_row *b, iso_gap *gap,
                         bool *by_steps)
 {
@@ -101,7 +96,8 @@ static double sensitivity(const iso_conversion *c)
     return 2 * fabs(e) * sqrt(fmax(J[0], fmax(J[1], J[2])) / fmin(J[0], fmin(J[1], J[2])));
 }
 
-/* What the rows' equations make of the clock, if they are others than those stated: about as wrong as the drift. */
+/* Ends one piece of the drift. If the rows follow other equations than the stated ones, the clock is wrong by about
+ * as much as the state drifts: this goes into the estimate of the error. */
 static void close_drift(iso_conversion *c)
 {
     const double drift = fmax(norm(c->drift), norm(c->drift + 3));
@@ -121,28 +117,21 @@ static void add_drift(iso_conversion *c, const conversion_row *row, const iso_ga
     if (c->moved >= 0.5) close_drift(c);
 }
 
-static iso_status write_marks(iso_conversion *c, size_t *marks)
-{
-    iso_status status = ISO_OK;
-    for (; status == ISO_OK && *marks > 0; --*marks) status = c->target.row(c->target.data, NULL);
-    return status;
-}
-
-/* The marks that waited for the held row; they wait on where the first one does. */
+/* The marks that waited for the held row. They go on waiting if the first row is not yet written. */
 static iso_status release_marks(iso_conversion *c)
 {
-    if (!c->unwritten) return write_marks(c, &c->marks);
+    if (!c->unwritten) return iso_conversion_write_marks(c, &c->marks);
     c->first_marks += c->marks;
     c->marks = 0;
     return ISO_OK;
 }
 
-/* The first row is good: it is written, with the marks behind it. */
+/* The first row is good: writes it, and the marks behind it. */
 static iso_status write_first(iso_conversion *c)
 {
     c->unwritten = false;
     const iso_status status = iso_conversion_emit(c, &c->last);
-    return status == ISO_OK ? write_marks(c, &c->first_marks) : status;
+    return status == ISO_OK ? iso_conversion_write_marks(c, &c->first_marks) : status;
 }
 
 /* The row follows the last one, and becomes it. */
@@ -159,7 +148,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
     by_steps ? s->integrated++ : s->between++;
     iso_worst_note(&s->defect, gap->defect, row->line);
     add_drift(c, row, gap);
-    c->typical = 0.9 * c->typical + 0.1 * fmin(gap->defect, unusual(c)); /* one that breaks off hides no others */
+    c->typical = 0.9 * c->typical + 0.1 * fmin(gap->defect, unusual(c)); /* a large one must not hide the next */
     if (c->direction == 0 && step != 0) c->direction = step > 0 ? 1 : -1;
     c->lost += fabs(c->sum) >= fabs(there) ? (c->sum - next) + there : (there - next) + c->sum;
     c->sum = next;
@@ -178,7 +167,7 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
 static iso_status refuse_time(iso_conversion *c, const conversion_row *row)
 {
     if (c->trouble != ISO_OK) return c->trouble;
-    iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s turns back; sort the rows by time", iso_clock_name(c->own));
+    iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s turns back: sort the rows by time", iso_clock_name(c->own));
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 
@@ -190,7 +179,7 @@ static iso_status refuse_defect(iso_conversion *c, const conversion_row *row)
     return iso_conversion_bad(c, row->line, ISO_BAD_INPUT);
 }
 
-/* Whether a row and the next lie on one orbit, as far as others of the file do. */
+/* Whether two rows lie on one orbit, as well as the other rows of the file do. */
 static bool agree(iso_conversion *c, const conversion_row *a, const conversion_row *b)
 {
     iso_gap gap;
@@ -205,10 +194,11 @@ static iso_status replace_first(iso_conversion *c, const conversion_row *held)
     const iso_status status = refuse_defect(c, &c->last);
     c->last = *held;
     if (c->summary.computed) c->last.out[0] = c->sum;
-    return status == ISO_OK ? write_marks(c, &c->first_marks) : status;
+    return status == ISO_OK ? iso_conversion_write_marks(c, &c->first_marks) : status;
 }
 
-/* A row that breaks off both from the last and from the next: damaged, where the file has been better so far. */
+/* Whether a row that fits neither the last nor the next is damaged. It is, if the rows so far were better; but not
+ * more than MOST rows one after the other, since then the orbit itself has changed. */
 static bool is_doubtful(iso_conversion *c, const conversion_row *held, const conversion_row *next)
 {
     enum { KNOWN = 10, MOST = 8 };
@@ -218,35 +208,70 @@ static bool is_doubtful(iso_conversion *c, const conversion_row *held, const con
     return true;
 }
 
-/* The held row is accepted, or (damaged) refused; c->is_held falls first, so that its own mark is written at once. */
+/* Whether the row after the held one lies on the orbit of the last row, much better than the held row does. */
+static bool goes_on_without(iso_conversion *c, const conversion_row *next, double defect)
+{
+    iso_gap over;
+    bool by_steps;
+    return judge(c, &c->last, next, &over, &by_steps) == ISO_OK && over.defect < defect / 10 &&
+           !breaks_off(c, over.defect);
+}
+
+/* What becomes of the held row. */
+typedef enum verdict {
+    FOLLOWS,       /* it lies on the orbit, or nothing shows that it is damaged   */
+    DAMAGED,       /* it does not lie on the orbit of the rows beside it          */
+    TURNS_BACK,    /* its time is before that of the last row                     */
+    FIRST_DAMAGED, /* the last row is the first, and does not lie on the orbit    */
+    UNREACHABLE    /* the orbit of the last row cannot be integrated to its time  */
+} verdict;
+
+/* The orbit from the last row to the held one. */
+typedef struct way {
+    iso_gap gap;
+    bool by_steps;
+    iso_status reach; /* ISO_OK: gap is known */
+} way;
+
+static verdict weigh(iso_conversion *c, const conversion_row *held, const conversion_row *next, way *w)
+{
+    const bool behind = in_order(c, &c->last, held);
+    const bool before = next && in_order(c, &c->last, next) && next->time != c->last.time;
+    const bool jumps = next && (!behind || !in_order(c, held, next));
+    *w = (way){.gap = {.defect = INFINITY}, .reach = ISO_BAD_INPUT};
+    if (behind && !(jumps && before)) w->reach = judge(c, &c->last, held, &w->gap, &w->by_steps);
+    if (w->reach == ISO_OK && !breaks_off(c, w->gap.defect)) return FOLLOWS;
+    if (before && goes_on_without(c, next, w->gap.defect)) return behind ? DAMAGED : TURNS_BACK;
+    if (c->unwritten && next && agree(c, held, next)) return FIRST_DAMAGED;
+    if (!behind) return TURNS_BACK;
+    if (is_doubtful(c, held, next)) return DAMAGED;
+    if (w->reach != ISO_OK) w->reach = judge(c, &c->last, held, &w->gap, &w->by_steps);
+    return w->reach == ISO_OK ? FOLLOWS : UNREACHABLE;
+}
+
+static iso_status carry_out(iso_conversion *c, const conversion_row *held, verdict v, const way *w)
+{
+    switch (v) {
+    case FOLLOWS: return accept(c, held, &w->gap, w->by_steps);
+    case DAMAGED: return refuse_defect(c, held);
+    case TURNS_BACK: return refuse_time(c, held);
+    case FIRST_DAMAGED: return replace_first(c, held);
+    case UNREACHABLE: break;
+    }
+    return iso_conversion_bad(c, held->line, w->reach);
+}
+
+/* Decides about the held row. It is no longer held then, so that its mark is written at once, before the marks that
+ * wait behind it. */
 static iso_status decide(iso_conversion *c, const conversion_row *next)
 {
     const conversion_row held = c->held;
-    const bool behind = in_order(c, &c->last, &held);
-    const bool before = next && in_order(c, &c->last, next) && next->time != c->last.time;
-    iso_gap gap = {.defect = INFINITY}, over;
-    bool by_steps = false, steps_over;
     const size_t marks = c->marks;
+    way w;
     c->is_held = false;
     c->marks = 0;
-    iso_status status = ISO_OK, reach = ISO_BAD_INPUT;
-    const bool jumps = next && (!behind || !in_order(c, &held, next));
-    if (behind && !(jumps && before)) reach = judge(c, &c->last, &held, &gap, &by_steps);
-    if (reach == ISO_OK && !breaks_off(c, gap.defect)) {
-        status = accept(c, &held, &gap, by_steps);
-    } else if (before && judge(c, &c->last, next, &over, &steps_over) == ISO_OK && over.defect < gap.defect / 10 &&
-               !breaks_off(c, over.defect)) {
-        status = behind ? refuse_defect(c, &held) : refuse_time(c, &held);
-    } else if (c->unwritten && next && agree(c, &held, next)) {
-        status = replace_first(c, &held);
-    } else if (!behind) {
-        status = refuse_time(c, &held);
-    } else if (is_doubtful(c, &held, next)) {
-        status = refuse_defect(c, &held);
-    } else {
-        if (reach != ISO_OK) reach = judge(c, &c->last, &held, &gap, &by_steps);
-        status = reach == ISO_OK ? accept(c, &held, &gap, by_steps) : iso_conversion_bad(c, held.line, reach);
-    }
+    const verdict v = weigh(c, &held, next, &w);
+    const iso_status status = carry_out(c, &held, v, &w);
     c->marks = marks;
     iso_between_take(c->between, c->last.own);
     return status == ISO_OK ? release_marks(c) : status;

@@ -1,4 +1,5 @@
-/* convert_impl.h - what a conversion is made of, for convert.c, convert_clock.c and convert_lines.c. */
+/* convert_impl.h - what a conversion is made of. convert.c is the top layer and calls the four below, which call
+ * each other in one direction only: convert_clock.c and convert_lines.c -> convert_row.c -> convert_write.c. */
 #ifndef ISO_ORBIT_CONVERT_IMPL_H
 #define ISO_ORBIT_CONVERT_IMPL_H
 
@@ -12,6 +13,7 @@ typedef struct conversion_row {
     double y[ISO_STATE];       /* its own model, the caller's units: as it stands              */
     double own[ISO_STATE];     /* the same in own units                                        */
     double out[1 + ISO_STATE]; /* the clock (if there is one) and the other model              */
+    bool other_energy;         /* refused: its energy is not that of the rows before           */
 } conversion_row;
 
 struct iso_conversion {
@@ -42,7 +44,7 @@ struct iso_conversion {
     iso_between *between;            /* NULL without own clock */
     conversion_row last, held;       /* the last accepted; one that breaks off from it */
     bool has_last, is_held;
-    bool unwritten;                  /* the last is the first, which may still prove damaged           */
+    bool unwritten;                  /* the last is the first, and not written: it may be damaged      */
     size_t first_marks;              /* bad rows behind it                                                 */
     int doubted;                     /* rows taken for damaged, one after the other                     */
     size_t marks;                    /* bad rows behind the held one, or before the first good one */
@@ -55,28 +57,49 @@ struct iso_conversion {
     iso_conversion_summary summary;
 };
 
-/* A row cannot be converted, in the context's words. */
-iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why);
+/* --- convert_write.c: what leaves; calls none of the others --- */
 
 /* Writes a good row. */
-iso_status iso_conversion_emit(iso_conversion *c, conversion_row *row);
+iso_status iso_conversion_emit(iso_conversion *c, const conversion_row *row);
+
+/* Marks the place of a bad row: at once, or later where rows before it are not yet decided. */
+iso_status iso_conversion_mark(iso_conversion *c);
+
+/* Writes so many marks, and counts them down. */
+iso_status iso_conversion_write_marks(iso_conversion *c, size_t *marks);
+
+/* A row cannot be converted; the context's message says why. */
+iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why);
+
+/* Notes a value at a line, if it is the worst so far. */
+void iso_worst_note(iso_worst *worst, double value, size_t line);
+
+/* --- convert_row.c: one row of the file; calls convert_write.c --- */
+
+/* Everything of a row but its place among the others: r->line is given. */
+iso_status iso_conversion_read_row(iso_conversion *c, const double row[], conversion_row *r);
+
+/* A row as a start of c->from. */
+iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start);
+
+/* An orbit of the record's own model from a row on, with the other clock. */
+iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *start, bool clock, iso_orbit **orbit);
+
+/* How well energies of rows agree, relative: 1e-6. With a wider row tolerance the caller says that the rows have
+ * fewer digits; an energy is then off by several times that tolerance. */
+double iso_conversion_digits(const iso_conversion *c);
+
+/* --- convert_lines.c: the header of the result; calls convert_row.c --- */
+
+/* The columns and lines of the result. */
+iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record **header);
+
+/* --- convert_clock.c: rows one after the other; calls convert_row.c and convert_write.c --- */
 
 /* Puts a row behind the last one: accepts it, with the clock's way and the defect, or holds it. */
 iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row);
 
 /* No row comes behind the held one. */
 iso_status iso_conversion_settle(iso_conversion *c);
-
-/* Notes a value at a line. */
-void iso_worst_note(iso_worst *worst, double value, size_t line);
-
-/* The columns and lines of the result. */
-iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record **header);
-
-/* A row as a start of c->from. `effects` get what turns. */
-iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start);
-
-/* An orbit of the record's own model from a row on, with the other clock. */
-iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *start, bool clock, iso_orbit **orbit);
 
 #endif

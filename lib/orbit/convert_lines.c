@@ -1,4 +1,4 @@
-/* convert_lines.c - what the result of a conversion says of itself. */
+/* convert_lines.c - the header of a converted trajectory: its columns and its `# key: value` lines. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -7,18 +7,18 @@
 #include "base/vec3_impl.h"
 #include "orbit/convert_impl.h"
 
-/* Lines that say where a clock began which the record has lost. */
+/* Lines for the first value of a clock that the result has no column for. */
 static const char *const origin_line[] = {[ISO_CLOCK_T] = "t0", [ISO_CLOCK_S] = "s0"};
 
-/* h and eps: what the record states, if its first row agrees to 1e-6 (a point's rows have been held to it, a ball needs
- * neither to be carried over), else those of the first row. */
+/* h and eps are those that the record states, if its first row agrees up to its digits; else those of the first
+ * row. */
 static iso_status describe_energy(const iso_conversion *c, iso_picture to, iso_record *out)
 {
     double stated;
     iso_status status = ISO_OK;
     const double eps = iso_orbit_coupling(c->first);
-    const bool agrees =
-        iso_record_coupling(c->ctx, out, c->params, &stated, &status) && fabs(stated - eps) <= 1e-6 * fabs(eps);
+    const bool agrees = iso_record_coupling(c->ctx, out, c->params, &stated, &status) &&
+                        fabs(stated - eps) <= iso_conversion_digits(c) * fabs(eps);
     if (status != ISO_OK) return status;
     char key[ISO_NAME_SIZE];
     snprintf(key, sizeof key, "%s.c", iso_level_name());
@@ -26,7 +26,7 @@ static iso_status describe_energy(const iso_conversion *c, iso_picture to, iso_r
     return iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, agrees && named ? NULL : c->first);
 }
 
-/* Of the ball's columns, or of how a clock was computed: not so here. */
+/* Lines that do not hold for the result: of the ball's columns, of how a clock was computed. */
 static bool is_left_behind(const char *key)
 {
     static const char *const keys[] = {"effects", "s.from", "s.error", "t.from", "t.error", "radius"};
@@ -54,7 +54,7 @@ static iso_status set_lines(const iso_conversion *c, iso_picture to, double begi
     return status;
 }
 
-/* Where the computed clock begins. */
+/* The first value of the computed clock. */
 static iso_status find_origin(iso_conversion *c)
 {
     iso_status status = ISO_OK;

@@ -195,24 +195,49 @@ static iso_status turn_effects(iso_context *ctx, const iso_record *r, size_t row
     return status;
 }
 
-/* How far a row may be from a state: the rounding of five digits. */
-static const double row_rounding = 1e-5;
+/* "; --row-tolerance X takes it", X the next power of ten; "" where no tolerance does. */
+static const char *advice(double off, char text[64])
+{
+    const double wide = pow(10, ceil(log10(off)));
+    *text = '\0';
+    if (wide <= ISO_MOST_TOLERANCE) snprintf(text, 64, "; --row-tolerance %g takes it", wide);
+    return text;
+}
+
+static iso_status refuse_length(iso_context *ctx, iso_picture model, double length, double tolerance)
+{
+    char text[64];
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "|%s| = %.10g: a unit vector to %g is expected%s",
+                            model == ISO_BALL ? "n" : "gamma", length, tolerance, advice(fabs(length - 1), text));
+}
+
+static iso_status refuse_spin(iso_context *ctx, iso_picture model, double along, double tolerance)
+{
+    char text[64];
+    const bool ball = model == ISO_BALL;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                            "%s has a part %.3g of its size along %s: this is no %s (a right angle to %g is expected%s)",
+                            ball ? "omega" : "M", along, ball ? "n" : "gamma",
+                            ball ? "rubber ball's motion" : "point on a sphere", tolerance,
+                            advice(fabs(along), text));
+}
 
 iso_status iso_start_from_row(iso_context *ctx, iso_picture model, const double y[ISO_STATE], const double *eps,
-                              bool twists, iso_start *start)
+                              bool twists, double tolerance, iso_start *start)
 {
     double unit[3];
     copy(y + 3, unit, 3);
     const double size = largest(y), length = norm(unit);
-    if (fabs(length - 1) <= row_rounding) scale(unit, 1 / length);
+    const double exact = hypot(hypot(unit[0], unit[1]), unit[2]); /* where squares do not fit a double */
+    const bool is_near = fabs(length - 1) <= tolerance;
+    if (isfinite(exact) && exact > 0 && !is_near) return refuse_length(ctx, model, exact, tolerance);
+    if (is_near) scale(unit, 1 / length);
     const double along = size > 0 ? y[0] / size * unit[0] + y[1] / size * unit[1] + y[2] / size * unit[2] : 0;
     const iso_status status =
         model == ISO_BALL ? iso_start_ball(ctx, y, unit, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start)
                           : iso_start_point(ctx, y, unit, eps, true, start);
-    if (status != ISO_OK || twists || fabs(along) <= row_rounding) return status;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s has a part %.3g of its size along %s: this is no %s",
-                            model == ISO_BALL ? "omega" : "M", along, model == ISO_BALL ? "n" : "gamma",
-                            model == ISO_BALL ? "rubber ball's motion" : "point on a sphere");
+    if (status != ISO_OK || twists || fabs(along) <= tolerance) return status;
+    return refuse_spin(ctx, model, along, tolerance);
 }
 
 iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_picture model, size_t row,
@@ -227,7 +252,8 @@ iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_par
     for (int i = 0; i < ISO_STATE; i++) y[i] = iso_record_const_row(r, row)[columns[i]];
     const bool states_eps = model == ISO_POINT && iso_record_coupling(ctx, r, p, &eps, &status);
     if (status != ISO_OK) return status;
-    status = iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, iso_effects_twist(effects), start);
+    status = iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, iso_effects_twist(effects),
+                                iso_record_row_tolerance(r), start);
     if (status == ISO_OK) return ISO_OK;
     return iso_context_fail(ctx, status, "", "row %zu: %s", row + 1, iso_context_message(ctx));
 }

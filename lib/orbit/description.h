@@ -11,15 +11,16 @@
 #include "../base/record.h"
 #include "orbit.h"
 
-/* Writes the lines that a record needs to be carried back: model, k, J, and of the orbit (NULL: not touched) h, eps and the
- * effects. What is no normal double in these units is left out: h, eps and a point's level follow from any row. */
+/* Writes the lines without which a record cannot be converted back: model, k and J. An orbit (may be NULL) also gives
+ * h, eps and the effects. A number that is no normal double in these units is left out: h, eps and the level of a point
+ * follow from any row. */
 iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,
                                const iso_orbit *orbit);
 
-/* Those of the effects alone. */
+/* Writes only the lines of the effects. */
 iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, const iso_effects *effects);
 
-/* Reads them back: parameters from `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent or wrong). */
+/* Reads the parameters from the lines `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent, wrong). */
 iso_status iso_record_params(iso_context *ctx, const iso_record *record, iso_params *params);
 
 /* The effects of the lines, `up` and `quaternion` as at time 0. Errors: ISO_BAD_INPUT about "effects". */
@@ -30,18 +31,20 @@ bool iso_record_coupling(iso_context *ctx, const iso_record *record, const iso_p
                          iso_status *status);
 
 /* The six columns of a model. Errors: ISO_BAD_INPUT about "columns". */
-iso_status iso_record_find_state(iso_context *ctx, const iso_record *record, iso_picture model, int columns[ISO_STATE]);
+iso_status iso_record_find_state(iso_context *ctx, const iso_record *record, iso_picture model,
+                                 int columns[ISO_STATE]);
 
-/* Six numbers of a row as the start of an orbit in `model`; eps of a point, or NULL. Others write with few digits:
- * Errors: ISO_BAD_INPUT: |n| or |gamma| not 1 to 1e-5, a part of omega along n (of M along gamma) above 1e-5 of its
- * length, unless the contact twists. */
+/* Six numbers of a row as the start of an orbit in `model`; eps of a point, or NULL. Rows of others have few
+ * digits: `tolerance` says how far |n| (|gamma|) may be from 1, and how large a part of omega along n (of M along
+ * gamma) may be, relative to omega. A ball that twists may have any such part.
+ * Errors: ISO_BAD_INPUT: not within the tolerance (the message names one that takes the row), or no state at all. */
 iso_status iso_start_from_row(iso_context *ctx, iso_picture model, const double y[ISO_STATE], const double *eps,
-                              bool twists, iso_start *start);
+                              bool twists, double tolerance, iso_start *start);
 
-/* Row `row` of a record as the start of an orbit in `model`, whose columns it must have; of `effects`, those of the record,
- * `up` and `quaternion` become the row's. A point's coupling is the record's eps (or that of its h), or without these lines
- * the one with which H is 0, or the level's.
- * Errors: ISO_BAD_INPUT with the row: missing column, what is no state. */
+/* Row `row` of a record as the start of an orbit in `model`, whose columns it must have; of `effects`, those of the
+ * record, `up` and `quaternion` become the row's. A point's coupling is the record's eps (or that of its h), or
+ * without these lines the one with which H is 0, or the level's.
+ * Errors: ISO_BAD_INPUT with the row: a missing column, a row that is no state. */
 iso_status iso_record_start(iso_context *ctx, const iso_record *record, const iso_params *params, iso_picture model,
                             size_t row, iso_start *start, iso_effects *effects);
 

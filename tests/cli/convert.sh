@@ -132,7 +132,7 @@ bad() {
     at_most "$1: the clock of the others" "$(paste -d, others wanted | awk -F, '{ d = $1 - $8; if (d < 0) d = -d; if (d > w) w = d } END { print w + 0 }')" 1e-13
 }
 damage 3 5 0.5 ball.csv
-bad "14: normal has length" 3
+bad "14: |n| = " 3
 damage 4 1 0.1 ball.csv
 bad "15: t turns back" 4
 damage 4 1 1000 ball.csv

@@ -1,0 +1,207 @@
+/* convert_row.c - one row of the file: whether it is a state of the model and has the energy of the others, and its
+ * state in the other model. The first good row also gives the units and the level. */
+#include <float.h>
+#include <math.h>
+
+#include "base/vec3_impl.h"
+#include "map/state.h"
+#include "orbit/convert_impl.h"
+
+double iso_conversion_digits(const iso_conversion *c)
+{
+    const double tolerance = iso_record_row_tolerance(c->in);
+    return tolerance > ISO_ROW_TOLERANCE ? 10 * tolerance : 1e-6;
+}
+
+/* --- states ----------------------------------------------------------------------------------------------------- */
+
+iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start)
+{
+    return iso_start_from_row(c->ctx, c->from, y, isnan(c->stated_eps) ? NULL : &c->stated_eps, false,
+                              iso_record_row_tolerance(c->in), start);
+}
+
+iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, bool clock, iso_orbit **orbit)
+{
+    iso_start start = *row;
+    if (c->from == ISO_POINT && c->first) start.eps = NAN; /* the level gives it; check_energy has seen the row's */
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    o.effects = &c->effects;
+    o.tolerance = c->tolerance;
+    o.carry[c->other] = clock;
+    o.max_steps = ISO_MAX_ROW_STEPS;
+    return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
+}
+
+/* H of a point, in own units, minus the value of its level, relative. */
+static double off_level(const iso_conversion *c, const double own[ISO_STATE], double eps)
+{
+    double size;
+    iso_field field = iso_orbit_model(c->first)->field;
+    field.eps = eps;
+    const double c_own = iso_effects_level(&field.effects);
+    const double level = iso_effects_have_level(&c->effects) ? iso_coupling(&field.p, c_own) : 0;
+    const double H = iso_system_point.integrals[0].value(&field, own, &size);
+    return H == level ? 0 : (H - level) / fmax(size, fabs(level));
+}
+
+/* The H of a point must be that of its level, but for the digits that eps is written with. Else the row does not
+ * belong to this trajectory. A ball's energy is only noted. */
+static iso_status check_energy(iso_conversion *c, conversion_row *r)
+{
+    double size;
+    if (c->from == ISO_BALL) {
+        const double h = iso_system_ball.integrals[0].value(&iso_orbit_model(c->first)->field, r->own, &size);
+        if (c->summary.energy.line == 0) c->energy = h;
+        iso_worst_note(&c->summary.energy, h == c->energy ? 0 : (h - c->energy) / size, r->line);
+        return ISO_OK;
+    }
+    const bool stated = !isnan(c->stated_eps);
+    const double eps = stated ? c->stated_eps / iso_unit(&c->units, iso_dimension_eps)
+                              : iso_orbit_model(c->first)->field.eps; /* the first row's */
+    const double off = off_level(c, r->own, eps);
+    r->other_energy =
+        stated && !(fabs(off) <= fmax(1e-3, iso_conversion_digits(c))); /* methods of low order reach that */
+    if (r->other_energy)
+        return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "eps",
+                                "the energy of this point is not that of the rows before: its M does not fit "
+                                "eps = %.10g; leave out --eps and --h to take them from the first row",
+                                c->stated_eps);
+    iso_worst_note(&c->summary.energy, off, r->line);
+    return ISO_OK;
+}
+
+static void note_constraints(iso_conversion *c, const conversion_row *r)
+{
+    const double size = largest(r->y), length = norm(r->y + 3) - 1;
+    double along = 0;
+    for (int i = 0; i < 3 && size > 0; i++) along += r->y[i] / size * r->y[3 + i];
+    iso_worst_note(&c->summary.constraint, fmax(fabs(length), fabs(along)), r->line);
+}
+
+/* The state in the other model, from the row as it stands: it is not made orthogonal first. */
+static iso_status map_state(const iso_conversion *c, conversion_row *r)
+{
+    double *const to = r->out + (c->own_column >= 0 || c->other_column >= 0);
+    const bool rest = largest(r->y) == 0;
+    if (rest && !iso_effects_pull(&c->effects))
+        return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "", "at rest (h = 0): the other model has no such orbit");
+    (c->from == ISO_BALL ? iso_ball_to_point : iso_point_to_ball)(&c->units.own, r->own, to);
+    double size = 0;
+    bool fits = isnormal(c->unit_to) && isnormal(c->unit_from);
+    for (int i = 0; i < 3; i++) {
+        to[i] *= c->unit_to;
+        size = fmax(size, fabs(to[i]));
+        fits = fits && isfinite(to[i]) && isfinite(to[3 + i]);
+    }
+    if (fits && (rest || size >= DBL_MIN)) return ISO_OK;
+    return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the result does not fit a double: use other units of time");
+}
+
+/* The other clock, where the file has it. */
+static void given_clock(const iso_conversion *c, const double row[], conversion_row *r)
+{
+    if (c->other_column >= 0) r->out[0] = row[c->other_column];
+}
+
+/* --- the first row ---------------------------------------------------------------------------------------------- */
+
+static iso_status create_first(iso_conversion *c, const iso_start *start, bool clock)
+{
+    iso_orbit_free(c->first);
+    c->first = NULL;
+    const iso_status status = iso_conversion_orbit(c, start, clock, &c->first);
+    if (status == ISO_OK) c->units = *iso_orbit_units(c->first);
+    return status;
+}
+
+/* H of the first row minus the value of the level that the lines state (or 0), relative; eps in own units. */
+static double first_off_level(const iso_conversion *c, const iso_start *start, double eps)
+{
+    double own[ISO_STATE];
+    copy(start->y, own, ISO_STATE);
+    for (int i = 0; i < 3; i++) own[i] /= iso_unit(&c->units, iso_system_point.fast_dimension);
+    return off_level(c, own, eps);
+}
+
+/* The orbit of the first row. The lines of a point state eps, and perhaps a level; without one it should be on H = 0.
+ * - The row is on that level up to its digits: the coupling is computed from the row and the level.
+ * - It is not, and a level is stated: the orbit is refused.
+ * - It is not, and no level is stated: the orbit gets the level that follows from its energy. */
+static iso_status open_first(iso_conversion *c, const conversion_row *r)
+{
+    iso_start start;
+    const bool clock = c->own_column >= 0, stated = iso_effects_have_level(&c->effects);
+    iso_status status = iso_conversion_start(c, r->y, &start);
+    const double eps = start.eps;
+    if (stated) start.eps = NAN;
+    if (status == ISO_OK) status = create_first(c, &start, clock);
+    if (status != ISO_OK || isnan(c->stated_eps)) return status;
+    const iso_effects effects = iso_orbit_effects(c->first);
+    if (!iso_effects_have_level(&effects)) return ISO_OK;
+    const double own_eps = c->stated_eps / iso_unit(&c->units, iso_dimension_eps);
+    const bool agrees = fabs(first_off_level(c, &start, own_eps)) <= iso_conversion_digits(c);
+    if (agrees && stated) return ISO_OK;
+    start.eps = agrees ? NAN : eps; /* with another level than the stated one create_first refuses */
+    if (agrees || stated) return create_first(c, &start, clock);
+    c->effects = iso_orbit_effects(c->first);
+    return ISO_OK;
+}
+
+/* On |gamma| = 1, eps (gamma,J gamma) + E = eps (gamma,(J + E/eps) gamma): the energy becomes a part of J. */
+static iso_status shift_moments(iso_conversion *c, const conversion_row *r)
+{
+    const double eps = c->stated_eps, *J = c->params->J, kinetic = dot(r->y, r->y) / 2;
+    const double E = kinetic - eps * dot_diag(r->y + 3, J, r->y + 3);
+    if (!c->shift_J || isnan(eps) || fabs(E) <= iso_conversion_digits(c) * kinetic) return ISO_OK;
+    const iso_status status =
+        iso_params_reduced(c->ctx, -1, (double[]){J[0] + E / eps, J[1] + E / eps, J[2] + E / eps}, &c->shifted);
+    if (status == ISO_OK) {
+        c->params = &c->shifted;
+        iso_effects_set_level(&c->effects, false, NAN);
+        return ISO_OK;
+    }
+    return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "",
+                            "no free ball has this energy, J + E/eps: %s; without a shift "
+                            "there is one in the potential of a level",
+                            iso_context_message(c->ctx));
+}
+
+static iso_status open_units(iso_conversion *c, const conversion_row *r)
+{
+    iso_status status = shift_moments(c, r);
+    if (status == ISO_OK) status = open_first(c, r);
+    if (status != ISO_OK) return status;
+    const double unit_M = iso_unit(&c->units, iso_system_point.fast_dimension);
+    c->unit_from = c->from == ISO_BALL ? c->units.w : unit_M;
+    c->unit_to = c->from == ISO_BALL ? unit_M : c->units.w;
+    c->unit_own = iso_unit(&c->units, iso_clock_dimension(c->own));
+    c->unit_other = iso_unit(&c->units, iso_clock_dimension(c->other));
+    return ISO_OK;
+}
+
+static iso_status check_finite(const iso_conversion *c, const double row[])
+{
+    for (size_t i = 0; i < iso_record_columns(c->in); i++)
+        if (!isfinite(row[i]))
+            return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s is not finite", iso_record_name(c->in, i));
+    return ISO_OK;
+}
+
+iso_status iso_conversion_read_row(iso_conversion *c, const double row[], conversion_row *r)
+{
+    iso_start start;
+    for (int i = 0; i < ISO_STATE; i++) r->y[i] = row[c->state[i]];
+    r->time = c->own_column >= 0 ? row[c->own_column] : 0;
+    iso_status status = check_finite(c, row);
+    if (status == ISO_OK) status = iso_conversion_start(c, r->y, &start);
+    if (status == ISO_OK && !c->begun) status = open_units(c, r);
+    if (status != ISO_OK) return status;
+    copy(r->y, r->own, ISO_STATE);
+    for (int i = 0; i < 3; i++) r->own[i] /= c->unit_from;
+    status = check_energy(c, r);
+    if (status == ISO_OK) status = map_state(c, r);
+    if (status == ISO_OK) note_constraints(c, r);
+    given_clock(c, row, r);
+    return status;
+}
