@@ -1,25 +1,6 @@
 /* test_run.c - iso_run (study/run.h): its rows are those of the orbit asked time by time, whatever the order of the times,
- * and whoever ends the run: the sink, the watch, a failure, the ball that leaves its support. */
-#include <gsl/gsl_test.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include "io/scene_file.h"
-#include "laws.h"
-#include "study/run.h"
-
-static iso_context *ctx;
-
-#define HEAVY "ball: {mass: 2, radius: 1, inertia: [0.7, 0.8, 0.9]}\n"
-#define OUTSIDE HEAVY "surface: {kind: outside, radius: 3}\n"
-#define START "initial: {normal: [0.6, 0, 0.8], angular_velocity: [0.8, 1.5, -0.6]}\n"
-#define FREE_START "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}\n"
-#define REDUCED(k) "reduced: {k: " k ", J: [1.4, 2.1, 3.0]}\n" FREE_START
-#define POINT "point: {k: -1, J: [1.4, 2.1, 3.0]}\ninitial: {gamma: [0.6, 0, 0.8], M: [0, 2.5, 0]}\n"
-#define GRAVITY "gravity: {g: 9.81, up: [0.48, 0.6, 0.64]}"
-#define TIME "time: {end: 2, step: 0.25}\n"
+ * and whoever ends the run: the sink, the watch, a failure. */
+#include "runs.h"
 
 /* Scenes of every kind, none of which loses contact. */
 static const char *const kinds[] = {
@@ -37,118 +18,6 @@ static const char *const kinds[] = {
     HEAVY "surface: {kind: plane}\n" START TIME "effects: {" GRAVITY ", attitude: {}, clock: {}}\n",
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
-
-static void give_up(const char *what)
-{
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
-
-static iso_scene parse(const char *text)
-{
-    iso_scene scene;
-    if (iso_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK) give_up(text);
-    return scene;
-}
-
-/* --- a sink that keeps everything -------------------------------------------------------------------------------- */
-
-enum { MOST = 400 };
-
-typedef struct kept {
-    size_t headers, columns, rows, notes, steps;
-    double row[MOST][ISO_MAX_COLUMNS], time[MOST];
-    iso_run_note note;
-    size_t rows_at_note;
-    size_t stop_at; /* the row that is refused, from 1; 0: none */
-    bool refuses_header, wrong_progress;
-    double part;
-    iso_run_result result;
-    iso_status status;
-} kept;
-
-static iso_status keep_header(void *data, const iso_record *header)
-{
-    kept *k = data;
-    k->headers++;
-    k->columns = iso_record_columns(header);
-    return k->refuses_header ? iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "no header, please") : ISO_OK;
-}
-
-static iso_status keep_row(void *data, const double row[], size_t count)
-{
-    kept *k = data;
-    if (k->rows == MOST || count != k->columns) give_up("a row of another kind");
-    if (k->rows + 1 == k->stop_at) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "no more rows, please");
-    memcpy(k->row[k->rows++], row, count * sizeof *row);
-    return ISO_OK;
-}
-
-static void keep_note(void *data, iso_run_note note, const char *words)
-{
-    kept *k = data;
-    k->notes++;
-    k->note = note;
-    k->rows_at_note = k->rows;
-    gsl_test(*words == '\0', "a note: %s", words);
-}
-
-static void keep_progress(void *data, double part)
-{
-    kept *k = data;
-    k->steps++;
-    k->wrong_progress = k->wrong_progress || !(part >= 0 && part <= 1);
-    k->part = part;
-}
-
-/* A run into a sink that keeps everything; what stops it is set in *like before. The caller frees it. */
-static kept *run_like(const kept *like, const iso_scene *scene, const double times[], size_t count, bool errors)
-{
-    kept *k = malloc(sizeof *k);
-    if (!k) give_up("no memory");
-    *k = *like;
-    const iso_run_sink sink = {keep_header, keep_row, keep_note, keep_progress, k};
-    const iso_run_options o = {times, count, errors};
-    k->status = iso_run(ctx, scene, &o, &sink, &k->result);
-    gsl_test(k->result.rows != k->rows, "the result counts the sink's rows");
-    return k;
-}
-
-static const kept nothing = {.headers = 0};
-
-static kept *run(const iso_scene *scene, const double times[], size_t count)
-{
-    return run_like(&nothing, scene, times, count, false);
-}
-
-/* --- what it should give ------------------------------------------------------------------------------------------ */
-
-/* How many numbers of row `at` differ from those of a new orbit that is asked for this time alone. */
-static int different(const iso_scene *scene, const kept *k, size_t at, double time)
-{
-    int columns[ISO_MAX_COLUMNS], wrong = 0;
-    const int count = iso_scene_columns(scene, columns);
-    iso_orbit *orbit;
-    iso_sample sample;
-    if (iso_scene_orbit(ctx, scene, columns, count, &orbit) != ISO_OK || iso_orbit_at(orbit, time, &sample) != ISO_OK)
-        give_up("an orbit");
-    for (int c = 0; c < count; c++) wrong += !(k->row[at][c] == iso_sample_column(&sample, columns[c]));
-    iso_orbit_free(orbit);
-    return wrong + ((size_t)count != k->columns);
-}
-
-/* The times of a scene's grid, every one of them twice, in no order; some go to the other side of the start, `back`
- * times as far. */
-static size_t shuffle(const iso_scene *scene, double back, double times[])
-{
-    const size_t rows = iso_scene_rows(scene);
-    size_t count = 0;
-    for (size_t i = 0; i < rows; i++) {
-        times[count++] = iso_scene_time(scene, i * 7 % rows);
-        times[count++] = iso_scene_time(scene, i * 5 % rows) * (i % 3 ? 1 : -back);
-    }
-    return count;
-}
 
 static void check_kind(int kind)
 {
@@ -198,6 +67,25 @@ static void check_result(void)
     const iso_scene scene = parse(kinds[0]);
     const iso_run_sink none = {.data = NULL};
     gsl_test(iso_run(ctx, &scene, NULL, &none, NULL) != ISO_OK, "nobody takes anything: that is a run as well");
+}
+
+/* Times in any order take no more steps than one way forth and one way back. */
+static void check_order(void)
+{
+    iso_scene scene = parse(kinds[0]);
+    double times[MOST];
+    scene.end = 60;
+    scene.step = 1;
+    const size_t count = shuffle(&scene, 1, times);
+    kept *forth = run(&scene, NULL, 0), *any = run(&scene, times, count);
+    scene.end = -60;
+    kept *back = run(&scene, NULL, 0);
+    const long both = forth->result.statistics.steps + back->result.statistics.steps;
+    gsl_test(any->rows != count || any->result.statistics.steps > both || both < 20,
+             "%zu times in any order: %ld steps, %ld", count, any->result.statistics.steps, both);
+    free(forth);
+    free(any);
+    free(back);
 }
 
 /* --- who ends it early -------------------------------------------------------------------------------------------- */
@@ -320,79 +208,6 @@ static void check_refusals(void)
     free(k);
 }
 
-/* --- contact ------------------------------------------------------------------------------------------------------ */
-
-static int column_of(const iso_scene *scene, const char *name)
-{
-    int columns[ISO_MAX_COLUMNS];
-    const int count = iso_scene_columns(scene, columns);
-    for (int c = 0; c < count; c++)
-        if (strcmp(iso_trajectory_columns[columns[c]], name) == 0) return c;
-    give_up("a column is missing");
-    return -1;
-}
-
-/* The ball rolls down the outside of a sphere, after the start as before it, and leaves it. */
-static void check_loss(void)
-{
-    const iso_scene scene = parse(OUTSIDE "initial: {normal: [0, 0, 1], angular_velocity: [0.3, 0.2, 0]}\n"
-                                          "time: {end: 6, step: 0.25}\n"
-                                          "effects: {gravity: {g: 9.81, up: [0, 0, 1]}, reactions: {}}\n");
-    const int pressure = column_of(&scene, "pressure");
-    double times[MOST];
-    kept *k = run(&scene, NULL, 0);
-    const double lost = k->result.lost_at[0], weight = 2 * 9.81;
-    bool pressed = true;
-    for (size_t i = 0; i + 1 < k->rows; i++) pressed = pressed && k->row[i][pressure] > 0;
-    gsl_test(k->status != ISO_OK || !k->result.lost[0] || k->result.lost[1] || !(lost > 0 && lost < 6), "lost at %g",
-             lost);
-    gsl_test(k->notes != 1 || k->note != ISO_NOTE_LOST || k->rows_at_note + 1 != k->rows,
-             "said once, before its row");
-    gsl_test(!pressed || k->row[k->rows - 1][0] != lost || !(fabs(k->row[k->rows - 1][pressure]) < 1e-12 * weight),
-             "pressed until then, and not there: %.1e", k->row[k->rows - 1][pressure]);
-    gsl_test(k->rows != (size_t)floor(lost / 0.25) + 2, "%zu rows: those before, and that one", k->rows);
-    free(k);
-    const size_t count = shuffle(&scene, 1, times);
-    k = run(&scene, times, count);
-    const double before = k->result.lost_at[1];
-    size_t expected = 2; /* the two moments of loss */
-    int wrong = k->status != ISO_OK || !k->result.lost[0] || !k->result.lost[1] || k->notes != 2;
-    for (size_t i = 0, at = 0; i < count; i++) {
-        const double time = at < k->rows ? k->row[at][0] : NAN;
-        expected += times[i] < lost && times[i] > before;
-        if (time == times[i])
-            wrong += different(&scene, k, at++, times[i]);
-        else if ((times[i] > lost && time == lost) || (times[i] < before && time == before))
-            at++;
-        else
-            wrong += times[i] < lost && times[i] > before;
-    }
-    gsl_test(wrong || k->rows != expected || k->result.lost_at[0] != lost,
-             "times in any order: rows between %.6g and %.6g, and at both", before, lost);
-    free(k);
-}
-
-/* Nothing presses the ball at the start, or the support would have to pull it there. */
-static void check_no_pressure(void)
-{
-    iso_scene scene = parse(OUTSIDE "initial: {normal: [0, 0, 1], angular_velocity: [0.3, 0.2, 0]}\n"
-                                    "time: {end: 1, step: 0.25}\n"
-                                    "effects: {gravity: {g: 9.81, up: [0, 0, -1]}, reactions: {}}\n");
-    kept *k = run(&scene, NULL, 0);
-    gsl_test(k->status != ISO_OK || k->notes != 1 || k->note != ISO_NOTE_PULLED || k->rows_at_note != 0 ||
-                 k->rows != 5 || k->result.lost[0],
-             "below the sphere: two-sided, %zu rows", k->rows);
-    free(k);
-    scene = parse(OUTSIDE "initial: {normal: [0, 0, 1], angular_velocity: [0, 0, 0]}\n"
-                          "time: {end: 1, step: 0.25}\n"
-                          "effects: {gravity: {g: 9.81, up: [0, 1, 0]}, reactions: {}}\n");
-    k = run(&scene, NULL, 0);
-    gsl_test(k->status != ISO_OK || k->notes != 1 || k->note != ISO_NOTE_LOST_AT_START || k->rows != 1 ||
-                 !k->result.lost[0] || k->result.lost_at[0] != 0,
-             "at rest beside the sphere: one row, %zu", k->rows);
-    free(k);
-}
-
 /* --- errors of the rows ------------------------------------------------------------------------------------------- */
 
 static void check_errors(void)
@@ -432,13 +247,12 @@ int main(void)
     ctx = iso_context_create();
     for (int kind = 0; kind < KINDS; kind++) check_kind(kind);
     check_result();
+    check_order();
     check_sink_stops();
     check_watch_stops(true);
     check_watch_stops(false);
     check_failure();
     check_refusals();
-    check_loss();
-    check_no_pressure();
     check_errors();
     iso_context_free(ctx);
     exit(gsl_test_summary());
