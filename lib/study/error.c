@@ -227,7 +227,7 @@ void iso_error_finder_free(iso_error_finder *f)
     free(f);
 }
 
-/* From an absolute error of a clock to one relative to its largest value, which may itself be too large by the error. */
+/* The absolute error of a clock as a relative one. The largest value of the clock may itself be too large by it. */
 static double relative_to(double largest_clock, double error)
 {
     const double e = error / largest_clock + ISO_ERROR_ULPS * DBL_EPSILON;

@@ -9,13 +9,13 @@
  * Every row is compared, and none is kept: memory does not grow with the number of rows.
  *
  * The estimate of a row is the sum of two parts:
- * - Its distance from the row of a finer orbit. The finer orbit is found by `taylor_extended` at tolerance 1e-15: in long
- *   double, and by another code than the model's right-hand side. Where series do not serve (iso_method_auto), it is
- *   found by the orbit's own method at a hundredth of the tolerance. That orbit is assumed to have at most a tenth of
- *   the error.
+ * - Its distance from the row of a finer orbit. The finer orbit is found by `taylor_extended` at tolerance 1e-15: in
+ *   long double, and by another code than the model's right-hand side. Where series do not serve (iso_method_auto),
+ *   it is found by the orbit's own method at a hundredth of the tolerance. That orbit is assumed to have at most a
+ *   tenth of the error.
  * - The rounding of the start: what ISO_ERROR_ULPS ulps in the numbers of the start and of J do to the row. Four more
- *   orbits show it; their starts differ from the orbit's in generic directions, by far more than that. This part covers
- *   decimal numbers that are no doubles, and the change to own units.
+ *   orbits show it; their starts differ from the orbit's in four directions, by far more than that. This part
+ *   covers decimal numbers that are no doubles, and the change to own units.
  * The estimate does not cover
  * - an error of the equations themselves;
  * - the rounding of k, of the numbers of effects, and of times;
@@ -44,8 +44,8 @@ typedef struct iso_error {
 
 typedef struct iso_error_finder iso_error_finder;
 
-/* Starts the finer orbit. params, start and options are those that `orbit` was created with; the orbit must outlive the
- * finder. Errors: ISO_BAD_ARGUMENT where there is nothing finer: for taylor_quad, and for taylor_extended where
+/* Starts the finer orbit. params, start and options are those that `orbit` was created with; the orbit must outlive
+ * the finder. Errors: ISO_BAD_ARGUMENT where there is nothing finer: for taylor_quad, and for taylor_extended where
  * taylor_quad is missing; where series do not serve, for tolerances below 1e-13 and for backend exact. ISO_NO_MEMORY,
  * and the errors of iso_orbit_create. After an error *finder is NULL. */
 iso_status iso_error_finder_create(iso_context *ctx, const iso_params *params, const iso_start *start,

@@ -1,5 +1,5 @@
-/* The trajectory of a scene, see run.h: the orbit behind the columns, the header, the order of the times, the moment at
- * which contact is lost, and the rows. */
+/* The trajectory of a scene, see run.h: the orbit behind the columns, the header, the order of the times, the moment
+ * at which contact is lost, and the rows. */
 #include "study/run.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "base/watch_impl.h"
 #include "orbit/description.h"
 
-/* --- the orbit behind the columns --------------------------------------------------------------------------------- */
+/* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
 iso_orbit_options iso_scene_orbit_options(const iso_scene *scene, const int columns[], int count,
                                           iso_effects *effects)
@@ -46,7 +46,7 @@ iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int c
     return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
 }
 
-/* --- a run -------------------------------------------------------------------------------------------------------- */
+/* --- a run ------------------------------------------------------------------------------------------------------ */
 
 /* A time asked for, and the row of the result that it belongs to. */
 typedef struct asked_time {
@@ -86,7 +86,7 @@ static void say(const runner *r, iso_run_note note, const char *words)
     if (r->sink->note) r->sink->note(r->sink->data, note, words);
 }
 
-/* --- the header --------------------------------------------------------------------------------------------------- */
+/* --- the header ------------------------------------------------------------------------------------------------- */
 
 static iso_status describe(const runner *r, iso_record **header)
 {
@@ -114,10 +114,10 @@ static iso_status give_header(const runner *r)
     return status;
 }
 
-/* --- times -------------------------------------------------------------------------------------------------------- */
+/* --- times ------------------------------------------------------------------------------------------------------ */
 
-/* An orbit is followed away from its start; a time that lies behind is found from the start again. So the order of the
- * work is: times after the start, then those before it, each side by distance from the start. */
+/* An orbit is followed away from its start. For a time that lies behind, it begins at the start again. So the order of
+ * the work is: times after the start, then those before it; on each side the nearer times come first. */
 static int by_work(const void *first, const void *second)
 {
     const asked_time *a = first, *b = second;
@@ -172,7 +172,7 @@ static iso_status check_times(runner *r)
     return ISO_OK;
 }
 
-/* --- contact ------------------------------------------------------------------------------------------------------ */
+/* --- contact ---------------------------------------------------------------------------------------------------- */
 
 /* Nothing presses the ball at the start: looks on which sides of it the support would have to pull a moment later. */
 static iso_status look_both_ways(runner *r)
@@ -220,8 +220,8 @@ static void say_lost(runner *r, int side, double time)
     say(r, ISO_NOTE_LOST, words);
 }
 
-/* The sample at `time`. Where contact is lost on the way there, the sample at that moment, once; for times farther from
- * the start *row is false: there is none. */
+/* The sample at `time`. If contact is lost on the way there, it is the sample of that moment; for all later calls
+ * beyond that moment *row is false: they have no sample. */
 static iso_status find_sample(runner *r, double time, iso_sample *sample, bool *row)
 {
     const int side = time < 0;
@@ -238,7 +238,7 @@ static iso_status find_sample(runner *r, double time, iso_sample *sample, bool *
     return ISO_OK;
 }
 
-/* --- errors of the rows ------------------------------------------------------------------------------------------- */
+/* --- errors of the rows ----------------------------------------------------------------------------------------- */
 
 /* Ends the search for errors; status and words say why they are not known. */
 static void end_errors(runner *r, iso_status status, const char *words)
@@ -274,7 +274,7 @@ static void close_errors(runner *r)
     if (r->result->error.rows == 0) end_errors(r, ISO_BAD_ARGUMENT, "there is no row");
 }
 
-/* --- rows --------------------------------------------------------------------------------------------------------- */
+/* --- rows ------------------------------------------------------------------------------------------------------- */
 
 static iso_status give_row(runner *r, const double row[])
 {
@@ -315,7 +315,7 @@ static iso_status work(runner *r)
     return given == ISO_OK ? status : given;
 }
 
-/* --- the whole ---------------------------------------------------------------------------------------------------- */
+/* --- the whole -------------------------------------------------------------------------------------------------- */
 
 /* The context's watch during the run: shows how far it is, then asks the caller's watch. */
 static bool watch(void *data)

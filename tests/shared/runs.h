@@ -35,7 +35,7 @@ static inline iso_scene parse(const char *text)
     return scene;
 }
 
-/* --- a sink that keeps everything -------------------------------------------------------------------------------- */
+/* --- a sink that keeps everything ------------------------------------------------------------------------------- */
 
 enum { MOST = 400 };
 
@@ -106,7 +106,7 @@ static inline kept *run(const iso_scene *scene, const double times[], size_t cou
     return run_like(&nothing, scene, times, count, false);
 }
 
-/* --- what it should give ------------------------------------------------------------------------------------------ */
+/* --- what it should give ---------------------------------------------------------------------------------------- */
 
 /* How many numbers of row `at` differ from those of a new orbit that is asked for this time alone. */
 static inline int different(const iso_scene *scene, const kept *k, size_t at, double time)

@@ -78,9 +78,10 @@ static void check_references(const char *method, double tolerance, iso_picture b
         snprintf(where, sizeof where, "t = %g", r->t);
         snprintf(title, sizeof title, "%s at %g, backend %s", method, tolerance, iso_picture_name((int)backend));
         gsl_test(run->found != ISO_OK, "%s, row %d: an estimate", title, i);
-        compare(&state, &state_tight, distance(run->last.ball, r->ball), run->error.state[ISO_BALL].last, &r->p, where);
-        compare(&clock, &clock_tight, fabs(run->last.clock[ISO_CLOCK_S] / r->s - 1), run->error.clock[ISO_CLOCK_S].last,
-                &r->p, where);
+        compare(&state, &state_tight, distance(run->last.ball, r->ball), run->error.state[ISO_BALL].last, &r->p,
+                where);
+        compare(&clock, &clock_tight, fabs(run->last.clock[ISO_CLOCK_S] / r->s - 1),
+                run->error.clock[ISO_CLOCK_S].last, &r->p, where);
         end(run);
     }
     printf("%s at %g, backend %s:\n", method, tolerance, iso_picture_name((int)backend));
@@ -111,7 +112,8 @@ static void check_stiff(double c)
         o.method = iso_method_find("bsimp");
         o.tolerance = 1e-14;
         trial *truth = try(&p, &start, &o, 10, 5);
-        compare(&covered, &tight, distance(run->last.ball, truth->last.ball), run->error.state[ISO_BALL].last, &p, "t = 10");
+        compare(&covered, &tight, distance(run->last.ball, truth->last.ball), run->error.state[ISO_BALL].last, &p,
+                "t = 10");
         printf("c = %g, tolerance %g:\n", c, tolerance);
         laws_report(&covered, "the error is covered");
         laws_report(&tight, "and not much overestimated");
@@ -120,10 +122,10 @@ static void check_stiff(double c)
     }
 }
 
-/* --- every row --------------------------------------------------------------------------------------------------- */
+/* --- every row -------------------------------------------------------------------------------------------------- */
 
-/* A ball on a plane, max J/min J = 400, in a linear field: from time to time it turns over quickly, and its error is large
- * for a moment. */
+/* A ball on a plane, max J/min J = 400, in a linear field: from time to time it turns over quickly, and its error is
+ * large for a moment. */
 static void random_scene(iso_random *random, iso_params *p, iso_effects *effects, iso_start *start)
 {
     double n[3], omega[3];
@@ -138,8 +140,8 @@ static void random_scene(iso_random *random, iso_params *p, iso_effects *effects
 }
 
 /* The largest true error of the rows of r; the truth is by the finest method there is. */
-static double true_error(const trial *r, const iso_params *p, const iso_start *start, const iso_orbit_options *options,
-                         double t, size_t rows)
+static double true_error(const trial *r, const iso_params *p, const iso_start *start,
+                         const iso_orbit_options *options, double t, size_t rows)
 {
     iso_orbit_options o = *options;
     iso_orbit *truth;
@@ -205,7 +207,8 @@ static void check_others(void)
     end(run);
     o.method = iso_method_find("taylor_quad") ? iso_method_find("taylor_quad") : iso_method_find("taylor_extended");
     run = try(&p, &start, &o, 1, 2);
-    gsl_test(run->found != ISO_BAD_ARGUMENT, "nothing is finer than %s: %s", o.method->name, iso_context_message(ctx));
+    gsl_test(run->found != ISO_BAD_ARGUMENT, "nothing is finer than %s: %s", o.method->name,
+             iso_context_message(ctx));
     end(run);
 }
 

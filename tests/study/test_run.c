@@ -1,5 +1,5 @@
-/* test_run.c - iso_run (study/run.h): its rows are those of the orbit asked time by time, whatever the order of the times,
- * and whoever ends the run: the sink, the watch, a failure. */
+/* test_run.c - iso_run (study/run.h): every row is that of a new orbit asked for this time alone. Times come in any
+ * order; the sink, the watch or a failure may end the run early. */
 #include "runs.h"
 
 /* Scenes of every kind, none of which loses contact. */
@@ -88,7 +88,7 @@ static void check_order(void)
     free(back);
 }
 
-/* --- who ends it early -------------------------------------------------------------------------------------------- */
+/* --- who ends it early ------------------------------------------------------------------------------------------ */
 
 static bool some_times(void *data)
 {
@@ -208,7 +208,7 @@ static void check_refusals(void)
     free(k);
 }
 
-/* --- errors of the rows ------------------------------------------------------------------------------------------- */
+/* --- errors of the rows ----------------------------------------------------------------------------------------- */
 
 static void check_errors(void)
 {
