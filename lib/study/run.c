@@ -116,8 +116,8 @@ static iso_status give_header(const runner *r)
 
 /* --- times ------------------------------------------------------------------------------------------------------ */
 
-/* An orbit is followed away from its start. For a time that lies behind, it begins at the start again. So the order of
- * the work is: times after the start, then those before it; on each side the nearer times come first. */
+/* An orbit is followed away from its start. For a time that lies behind, it begins at the start again. So the order
+ * of the work is: times after the start, then those before it; on each side the nearer times come first. */
 static int by_work(const void *first, const void *second)
 {
     const asked_time *a = first, *b = second;
