@@ -58,6 +58,7 @@ extern "C" {
 #include "study/compare.h"
 #include "study/error.h"
 #include "study/momentum.h"
+#include "study/run.h"
 #include "study/spectrum.h"
 #include "study/frequencies.h"
 #include "study/cost.h"

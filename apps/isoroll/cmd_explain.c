@@ -77,7 +77,7 @@ static iso_status explain_exact(iso_context *ctx, const iso_scene *scene, const 
     };
     iso_effects effects;
     iso_orbit *orbit;
-    iso_orbit_options o = options_for_columns(scene, columns, count, &effects);
+    iso_orbit_options o = iso_scene_orbit_options(scene, columns, count, &effects);
     o.backend = ISO_EXACT;
     o.method = NULL;
     printf("closed solution (--backend exact)\n");
@@ -201,7 +201,7 @@ static int run(iso_context *ctx, const options *o)
     iso_status status = scene_with_options(ctx, o, &scene);
     if (status != ISO_OK) return finish(ctx, status);
     count = iso_scene_columns(&scene, columns);
-    status = orbit_for_columns(ctx, &scene, columns, count, &orbit);
+    status = iso_scene_orbit(ctx, &scene, columns, count, &orbit);
     if (status != ISO_OK) return finish_scene(ctx, o, &scene, status);
     explain_ball(&scene.params);
     explain_effects(orbit);

@@ -72,13 +72,6 @@ iso_status scene_with_options(iso_context *ctx, const options *o, iso_scene *sce
 /* As finish(), after a failure with the scene: says where in its file the cause stands, unless an option put it there. */
 int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso_status status);
 
-/* Options of the orbit that fills the columns asked for, and nothing else; it is `effects` that they point to. */
-iso_orbit_options options_for_columns(const iso_scene *scene, const int columns[], int count, iso_effects *effects);
-
-/* That orbit. */
-iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
-                             iso_orbit **orbit);
-
 /* The effects that act, with their numbers and, if wanted, what they are; nothing where there are none. */
 void print_effects(const iso_effects *effects, bool docs);
 

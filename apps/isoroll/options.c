@@ -149,8 +149,6 @@ static const struct row {
      AT(columns)},
     {"max-defect", "X", "a number from 0 on", "exit with 1 if a row is farther off the orbit of the one before", set_bound,
      AT(max_defect)},
-    {"row-tolerance", "X", "a number in [1e-15, 0.1]",
-     "how far a row may be off a unit vector and a right angle (default 1e-5)", set_tolerance, AT(row_tolerance)},
     {"shift-J", NULL, NULL, "k = -1: a point off H = 0 becomes a free ball, of moments J + E/eps", set_flag, AT(shift_J)},
     {"strict", NULL, NULL, "stop at the first bad row", set_flag, AT(strict)},
     {"quiet", NULL, NULL, "no summary on stderr", set_flag, AT(quiet)},
@@ -275,8 +273,7 @@ bool options_read(const command *c, int argc, char **argv, options *o)
                    .samples = NAN,
                    .want = NAN,
                    .digits = 17,
-                   .max_defect = NAN,
-                   .row_tolerance = ISO_ROW_TOLERANCE};
+                   .max_defect = NAN};
     opterr = 0;
     const bool has_output = strstr(c->options, " output ") != NULL, has_digits = strstr(c->options, " digits ") != NULL;
     const char *letters = has_digits ? ":ho:p:" : has_output ? ":ho:" : ":h";
@@ -309,46 +306,4 @@ int finish_scene(iso_context *ctx, const options *o, const iso_scene *scene, iso
     const bool from_option = method || (time && (!isnan(o->end) || !isnan(o->step)));
     const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
     return finish(ctx, from_option ? status : iso_scene_blame(ctx, scene, name, status));
-}
-
-/* What acts on nothing has its states for its columns: without one of them it need not be followed. */
-static void leave_out_unseen(iso_effects *effects, const int columns[], int count)
-{
-    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
-        const iso_effect *effect = iso_effect_list[e];
-        bool seen = !(effect->observes && effect->states && effect->columns);
-        for (int i = 0; i < count; i++) seen = seen || iso_column_effect(columns[i]) == e;
-        effects->on[e] = effects->on[e] && seen;
-    }
-}
-
-iso_orbit_options options_for_columns(const iso_scene *scene, const int columns[], int count, iso_effects *effects)
-{
-    iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    bool ball = false, point = false, M = false;
-    for (int i = 0; i < count; i++) {
-        if (columns[i] < ISO_CLOCKS) o.carry[columns[i]] = true;
-        ball = ball || (columns[i] >= ISO_COLUMN_BALL && columns[i] < ISO_COLUMN_POINT) ||
-               columns[i] >= ISO_COLUMN_EFFECTS;
-        point = point || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_EFFECTS);
-        M = M || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_POINT + 3);
-    }
-    *effects = scene->effects;
-    leave_out_unseen(effects, columns, count);
-    ball = ball || iso_effects_ball_only(effects); /* loss of contact is looked for */
-    o.effects = effects;
-    o.show = ball && point ? ISO_BOTH : ball ? ISO_BALL : point ? ISO_POINT : scene->start.model;
-    o.gamma_alone = point && !M;
-    o.backend = scene->backend;
-    o.method = iso_method_find(scene->method);
-    o.tolerance = scene->tolerance;
-    return o;
-}
-
-iso_status orbit_for_columns(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
-                             iso_orbit **orbit)
-{
-    iso_effects effects;
-    const iso_orbit_options o = options_for_columns(scene, columns, count, &effects);
-    return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
 }

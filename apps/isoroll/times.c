@@ -1,8 +1,7 @@
-/* The times of `run`, see times.h. */
+/* Reads output times: numbers between blanks, commas, new lines and comments. */
 #include "times.h"
 
 #include <errno.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,52 +9,6 @@
 typedef struct place {
     int line, column;
 } place;
-
-output_time times_at(const times *t, size_t i)
-{
-    if (t->order) return t->order[i];
-    return (output_time){t->list ? t->list[i] : iso_scene_time(t->scene, i), i};
-}
-
-double times_farthest(const times *t)
-{
-    double most = t->list ? 0 : t->scene->end;
-    for (size_t i = 0; t->list && i < t->count; i++)
-        if (fabs(t->list[i]) > fabs(most)) most = t->list[i];
-    return most;
-}
-
-void times_free(times *t)
-{
-    free(t->list);
-    free(t->order);
-}
-
-/* --- the order -------------------------------------------------------------------------------------------------- */
-
-static int by_work(const void *first, const void *second)
-{
-    const output_time *a = first, *b = second;
-    if ((a->time < 0) != (b->time < 0)) return a->time < 0 ? 1 : -1;
-    if (a->time != b->time) return fabs(a->time) > fabs(b->time) ? 1 : -1;
-    return (a->row > b->row) - (a->row < b->row);
-}
-
-static iso_status find_order(iso_context *ctx, times *t)
-{
-    size_t sorted = 1;
-    while (sorted < t->count &&
-           by_work(&(output_time){t->list[sorted - 1], sorted - 1}, &(output_time){t->list[sorted], sorted}) < 0)
-        sorted++;
-    if (sorted == t->count) return ISO_OK;
-    t->order = malloc(t->count * sizeof *t->order);
-    if (!t->order) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the order of the output times");
-    for (size_t i = 0; i < t->count; i++) t->order[i] = (output_time){t->list[i], i};
-    qsort(t->order, t->count, sizeof *t->order, by_work);
-    return ISO_OK;
-}
-
-/* --- reading ---------------------------------------------------------------------------------------------------- */
 
 static iso_status add_time(iso_context *ctx, times *t, size_t *room, double time)
 {
@@ -123,5 +76,5 @@ iso_status times_read(iso_context *ctx, const char *path, times *t)
     if (!file) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));
     const iso_status status = read_words(ctx, file == stdin ? "<stdin>" : path, file, t);
     if (file != stdin) fclose(file);
-    return status == ISO_OK ? find_order(ctx, t) : status;
+    return status;
 }

@@ -6,11 +6,11 @@
 
 #include "base/room_impl.h"
 #include "base/sundials_impl.h"
+#include "base/watch_impl.h"
 
 struct iso_context {
     SUNContext sun; /* made when the first SUNDIALS method asks for it */
-    bool (*go_on)(void *data);
-    void *watcher;
+    iso_watch watch;
     char message[1024];
     char field[32];
 };
@@ -40,13 +40,17 @@ void iso_context_free(iso_context *ctx)
 
 void iso_context_watch(iso_context *ctx, bool (*go_on)(void *data), void *data)
 {
-    ctx->go_on = go_on;
-    ctx->watcher = data;
+    ctx->watch = (iso_watch){go_on, data};
+}
+
+iso_watch iso_context_watched(const iso_context *ctx)
+{
+    return ctx->watch;
 }
 
 bool iso_context_goes_on(const iso_context *ctx)
 {
-    return !ctx->go_on || ctx->go_on(ctx->watcher);
+    return iso_watch_goes_on(&ctx->watch);
 }
 
 const char *iso_context_message(const iso_context *ctx)

@@ -6,6 +6,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
+#include "method/integrator_impl.h"
 #include "orbit/orbit_impl.h"
 
 iso_orbit_options iso_orbit_defaults(const iso_start *start)
@@ -330,6 +331,11 @@ iso_status iso_orbit_last(iso_orbit *o, iso_sample *sample)
     double own_time, y[ISO_MAX_STATE];
     iso_integrator_last(o->integrator, &own_time, y);
     return iso_orbit_make_sample(o, iso_orbit_reached(o), y, sample);
+}
+
+void iso_orbit_allow_steps(iso_orbit *o, long max_steps)
+{
+    o->options.max_steps = o->integrator->options.max_steps = max_steps;
 }
 
 /* --- what it is made of ------------------------------------------------------------------------------------------- */

@@ -34,6 +34,9 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
 /* Fails with ISO_NUMERICAL: what leaves the range of doubles for this k, and what to do about it. */
 iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out);
 
+/* From now on the orbit may take this many steps, counted from its start; 0: any number. */
+void iso_orbit_allow_steps(iso_orbit *o, long max_steps);
+
 /* The method of backend ISO_EXACT: a model of the point is found by its closed solution. */
 extern const iso_method iso_method_exact;
 

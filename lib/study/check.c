@@ -1,3 +1,4 @@
+/* Does a trajectory solve its model? See check.h: constraints and integrals, the flow from row to row, the map. */
 #include "study/check.h"
 
 #include <math.h>
@@ -28,7 +29,7 @@ static const iso_system *system_of(iso_picture model)
     return model == ISO_BALL ? &iso_system_ball : &iso_system_point;
 }
 
-/* Notes a value of the residual `name`, which is made at its first value. A NaN counts as the worst. */
+/* Notes a value of the residual `name`, and makes the residual at its first value. A NaN counts as infinite. */
 static void note(checker *c, const char *name, const char *what, double value, size_t row)
 {
     iso_residuals *r = c->out;
@@ -59,7 +60,7 @@ static void read_state(const checker *c, iso_picture model, size_t row, double y
     for (int i = 0; i < ISO_STATE; i++) y[i] = x[c->columns[first_column[model] + i]];
 }
 
-/* What the record has of a sample; NaN for the rest. */
+/* The columns of the record as a sample; NaN for columns that are missing. */
 static void read_sample(const checker *c, size_t row, iso_sample *sample)
 {
     const double *x = iso_record_const_row(c->record, row);
@@ -72,8 +73,8 @@ static double read_clock(const checker *c, int clock, size_t row)
     return iso_record_const_row(c->record, row)[c->columns[clock]];
 }
 
-/* Those that a model's orbit has: a point shows nothing of the ball's, and its level follows from each row if
- * eps is known. */
+/* The effects of a model's orbit. A point shows nothing that belongs to the ball alone, and its level follows from
+ * each row if eps is known. */
 static iso_effects effects_of(const checker *c, iso_picture model)
 {
     if (model == ISO_BALL) return c->effects;
@@ -83,7 +84,7 @@ static iso_effects effects_of(const checker *c, iso_picture model)
     return effects;
 }
 
-/* --- constraints and integrals, in the units of the first row ----------------------------------------------------- */
+/* --- constraints and integrals, in the units of the first row --------------------------------------------------- */
 
 /* The integrals that hold for a model, and the value each should have. */
 typedef struct expectations {
@@ -101,7 +102,7 @@ static double integral_value(const checker *c, const expectations *e, int i, siz
     return iso_orbit_integral(e->first, e->system, e->integral[i], &sample, size);
 }
 
-/* Relative, to the size of its terms. */
+/* The integral less its expected value, relative to the size of its terms. */
 static double integral_drift(const checker *c, const expectations *e, int i, size_t row)
 {
     double size;
@@ -109,8 +110,8 @@ static double integral_drift(const checker *c, const expectations *e, int i, siz
     return value == e->value[i] ? 0 : (value - e->value[i]) / size;
 }
 
-/* The first row's value, but for constraints, and for H: a point has the ball the record claims only on H = 0, or on the
- * level the record names. */
+/* An integral should keep the value of the first row. There are two exceptions: a constraint has its own exact value;
+ * and where the record has a ball's columns or clocks, H of the point must be 0, or the level that it states. */
 static void expect_integrals(const checker *c, iso_picture model, const iso_orbit *first, expectations *e)
 {
     const iso_params *own = &iso_orbit_units(first)->own;
@@ -139,7 +140,7 @@ static void check_integrals(checker *c, iso_picture model, const iso_orbit *firs
     }
 }
 
-/* --- the flow from row to row ------------------------------------------------------------------------------------- */
+/* --- the flow from row to row ----------------------------------------------------------------------------------- */
 
 static double distance(const double a[ISO_STATE], const double b[ISO_STATE])
 {
@@ -152,7 +153,7 @@ static double distance(const double a[ISO_STATE], const double b[ISO_STATE])
     return fmax(norm(d), norm(d + 3));
 }
 
-/* The clock to follow: the model's own, or the first there is; -1: none. */
+/* The clock to follow: the model's own if the record has it, else the first one there; -1: the record has none. */
 static int clock_to_follow(const checker *c, iso_picture model)
 {
     const int own = (int)system_of(model)->clock;
@@ -162,8 +163,8 @@ static int clock_to_follow(const checker *c, iso_picture model)
     return -1;
 }
 
-/* What the equations of motion make of `row` until the next one; the record's other clocks are carried, but not along
- * a point off the level H = 0, which has no ball and no time t. */
+/* Integrates `row` to the time of the next row. The record's other clocks are integrated, too, where the orbit has
+ * them: a point with H not 0 has no free ball and no time t. */
 static iso_status next_sample(const checker *c, iso_picture model, int clock, size_t row, iso_sample *sample)
 {
     iso_start start;
@@ -186,7 +187,7 @@ static iso_status next_sample(const checker *c, iso_picture model, int clock, si
         status = iso_orbit_at(orbit, read_clock(c, clock, row + 1) - read_clock(c, clock, row), sample);
     iso_orbit_free(orbit);
     if (status == ISO_OK) return ISO_OK;
-    if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT; /* what the call does not take is what the file says */
+    if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT; /* the number that is refused stands in the file */
     return iso_context_fail(c->ctx, status, "", "row %zu: %s", row + 1, iso_context_message(c->ctx));
 }
 
@@ -243,7 +244,7 @@ static bool same_report(const iso_effect_column *a, const iso_effect_column *b)
     return b->name && a->checked_as && b->checked_as && strcmp(a->checked_as, b->checked_as) == 0;
 }
 
-/* What the effects' columns say in row `row`, against the flow from the row before, in units of the group's largest. */
+/* Compares the columns of effects in row `row` with the flow from the row before, relative to the group's largest. */
 static void check_effects(checker *c, const iso_sample *flow, size_t row)
 {
     iso_sample there, before;
@@ -319,7 +320,7 @@ static iso_status check_flow(checker *c, iso_picture model)
     return ISO_OK;
 }
 
-/* --- the map ------------------------------------------------------------------------------------------------------ */
+/* --- the map ---------------------------------------------------------------------------------------------------- */
 
 static void check_map(checker *c)
 {
@@ -336,7 +337,7 @@ static void check_map(checker *c)
     }
 }
 
-/* The orbit of the first row, after a look at all. */
+/* The orbit of the first row. Every row must be a valid start. */
 static iso_status open_first(checker *c, iso_picture model, iso_orbit **first)
 {
     iso_start start;
@@ -375,7 +376,7 @@ static iso_status measure_clocks(checker *c)
     return ISO_OK;
 }
 
-/* Columns, clocks and effects of a record; which models it has. */
+/* Reads columns, clocks and effects of the record, and finds which models it has. */
 static iso_status begin(checker *c, bool has[2])
 {
     const iso_record *r = c->record;
@@ -409,7 +410,7 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
     return status;
 }
 
-/* --- drifts over time --------------------------------------------------------------------------------------------- */
+/* --- drifts over time ------------------------------------------------------------------------------------------- */
 
 static iso_status record_drifts(const checker *c, const expectations *e, int clock, iso_record **drifts)
 {

@@ -7,12 +7,12 @@
 
 enum { ISO_MAX_RESIDUALS = 32 };
 
-/* One thing that should be zero (to rounding and to the method's error). */
+/* One quantity that should be zero, up to rounding and the method's error. */
 typedef struct iso_residual {
     char name[48];    /* "ball |n|", "point H", "ball flow", "clock s", ... */
     const char *what; /* in words                                           */
-    double worst;     /* relative                                           */
-    size_t row;       /* where, counted from 1; 0: nowhere                  */
+    double worst;     /* the largest, relative                              */
+    size_t row;       /* the row of the largest, from 1; 0: all are zero    */
 } iso_residual;
 
 typedef struct iso_residuals {
@@ -22,23 +22,25 @@ typedef struct iso_residuals {
 } iso_residuals;
 
 /* Looks at every model whose six columns the record has:
- * - constraints (|n| = 1, (w,n) = 0 / |gamma| = 1, (M,gamma) = 0), relative to the vectors' lengths;
- * - integrals that hold for k and J: |I(row) - I(first row)| / size (iso_integral); H of a point against 0
- *   if the record has a ball's columns or clocks;
- * - flow: each row integrated to the time of the next (at `tolerance`), the difference relative to the
- *   largest component of omega or M and to 1; for this the record needs a clock;
- * - the columns of effects (e, q, contact, trace, centre, N, pressure, friction, lambda): likewise, relative to the largest
- *   number of the vector;
- * - the map: with both models in the record, each row's point against the point of its ball;
- * - clocks: with two of t, tau, s in the record, the steps of the one along the other, relative to the whole.
+ * - constraints (|n| = 1, (w,n) = 0; |gamma| = 1, (M,gamma) = 0), relative to the lengths of the vectors;
+ * - integrals that hold for k and J: |I(row) - I(first row)| / size (iso_integral). H of a point must be 0, not its
+ *   first value, if the record has a ball's columns or clocks;
+ * - flow: each row is integrated to the time of the next row (at `tolerance`) and compared with it, relative to the
+ *   largest component of omega or M, and to 1 for n and gamma. The record must have a clock for this;
+ * - the columns of effects (e, q, contact, trace, centre, N, pressure, friction, lambda): the same, relative to the
+ *   largest number of the vector;
+ * - the map: if the record has both models, each row's point against the point that belongs to its ball;
+ * - clocks: if the record has two of t, tau, s, the steps of the second along the first, relative to its whole
+ *   length.
  * Errors, with the row: ISO_BAD_INPUT (no model's columns, a row that is no state, a time that is not finite),
- * ISO_NOT_MAPPED (a point off the level H = 0 in the times of a ball), ISO_NUMERICAL, ISO_NO_MEMORY. */
+ * ISO_NOT_MAPPED (a point with H not 0 in the times of a ball), ISO_NUMERICAL, ISO_NO_MEMORY. */
 iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
                      iso_residuals *residuals);
 
-/* The drifts of the integrals that hold, over the rows: a new record with the model's first clock (or the row's number,
- * "row"), then |I(row) - I(first row)| / size, or for constraints that from their value, in columns "h", "F_shell", ...
- * Errors: as iso_check. */
-iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, iso_record **drifts);
+/* The drifts of the integrals that hold, row by row, as a new record. The first column is the model's first clock, or
+ * "row", the row's number. The others ("h", "F_shell", ...) are |I(row) - I(first row)| / size; for a constraint its
+ * exact value stands in the place of I(first row). Errors: those of iso_check. */
+iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record,
+                            iso_record **drifts);
 
 #endif

@@ -1,3 +1,4 @@
+/* The same orbit by every backend, see compare.h: the rows, the drift of the integrals, and the differences. */
 #include "study/compare.h"
 
 #include <math.h>
@@ -18,13 +19,13 @@ typedef struct runner {
     double at_start[ISO_BACKENDS][ISO_MAX_INTEGRALS]; /* the integrals, in own units */
 } runner;
 
-/* The larger of a largest value and |x|; a NaN counts as infinite. */
+/* The larger of `largest` and |x|; a NaN counts as infinite. */
 static double larger(double largest, double x)
 {
     return fabs(x) <= largest ? largest : isnan(x) ? INFINITY : fabs(x);
 }
 
-/* --- integrals along an orbit ------------------------------------------------------------------------------------- */
+/* --- integrals along an orbit ----------------------------------------------------------------------------------- */
 
 /* Lists the integrals that hold, with their values at the start. */
 static void list_drifts(runner *r, int which, const iso_sample *start)
@@ -58,9 +59,9 @@ static void follow_drifts(const runner *r, int which, const iso_sample *sample)
     }
 }
 
-/* --- one backend -------------------------------------------------------------------------------------------------- */
+/* --- one backend ------------------------------------------------------------------------------------------------ */
 
-/* The scene's method where it serves the backend; NULL: auto. */
+/* The scene's method if it can integrate the backend's model; NULL: auto. */
 static const iso_method *method_for(const iso_scene *scene, iso_picture backend)
 {
     const iso_method *m = iso_method_find(scene->method);
@@ -98,7 +99,7 @@ static iso_status open_backend(runner *r, iso_picture backend)
     return ISO_OK;
 }
 
-/* That there is no closed solution, or none that is found, is no failure. */
+/* It is no failure if there is no closed solution, or if it cannot be found. */
 static iso_status open_exact(runner *r)
 {
     const iso_status status = open_backend(r, ISO_EXACT);
@@ -128,7 +129,7 @@ static iso_status keep(runner *r, int which, size_t i, const iso_sample *sample)
     return ISO_OK;
 }
 
-/* A row by all backends, or by none: what there is when it ends early, at whichever, is of all. */
+/* A row is kept only when every backend has found it: so all have the same rows when one of them fails. */
 static iso_status take_row(runner *r, size_t i)
 {
     iso_sample sample[ISO_BACKENDS];
@@ -149,7 +150,7 @@ static iso_status take_rows(runner *r, bool (*progress)(double part, void *data)
     return ISO_OK;
 }
 
-/* --- differences -------------------------------------------------------------------------------------------------- */
+/* --- differences ------------------------------------------------------------------------------------------------ */
 
 static double largest_in_column(const iso_record *r, int column)
 {
@@ -158,9 +159,9 @@ static double largest_in_column(const iso_record *r, int column)
     return most;
 }
 
-/* The differences of run b from run a, and the largest of each column. */
-static iso_status compare_rows(iso_context *ctx, const iso_comparison *c, int run_a, int run_b, iso_record **difference,
-                               double worst[ISO_DIFFERENCES])
+/* The differences between runs a and b, row by row, and the largest of each column. */
+static iso_status compare_rows(iso_context *ctx, const iso_comparison *c, int run_a, int run_b,
+                               iso_record **difference, double worst[ISO_DIFFERENCES])
 {
     const iso_record *a = c->run[run_a].trajectory, *b = c->run[run_b].trajectory;
     const iso_clock first = c->clock == ISO_CLOCK_T ? ISO_CLOCK_TAU : ISO_CLOCK_T;

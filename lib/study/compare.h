@@ -12,7 +12,7 @@
 #include "../base/record.h"
 #include "../orbit/orbit.h"
 
-/* Which run is which: those of ISO_BALL and ISO_POINT have these numbers, the one of ISO_EXACT is the last. */
+/* The index of each run: [ISO_BALL] and [ISO_POINT] are integrated, [ISO_BY_EXACT] is the closed solution. */
 enum { ISO_INTEGRATED = 2, ISO_BY_EXACT = ISO_INTEGRATED, ISO_BACKENDS };
 
 /* One integral along one backend's orbit, in the model of `system`. */
@@ -34,30 +34,32 @@ typedef struct iso_backend_run {
     iso_drift drift[ISO_MAX_INTEGRALS];
 } iso_backend_run;
 
-/* The columns of the differences: a clock, then |difference| of the two backends relative to the size of
- * the vector (omega, M) or to the largest value of the clock in the record (tau, s, t); n and gamma are unit vectors. */
+/* The columns of the differences: a clock, then |difference| of the two backends for omega, n, M, gamma and the two
+ * other clocks. That of omega and M is relative to the size of the vector, that of a clock to its largest value in
+ * the record; n and gamma are unit vectors. */
 enum { ISO_DIFFERENCES = 7 };
 
 typedef struct iso_comparison {
-    iso_effects effects; /* that act, in the scene's units: those of the scene, and the level of a point off H = 0 */
-    iso_clock clock;                   /* in which the scene counts its times: t or s                    */
-    double h, eps;                     /* energy and coupling in the caller's units                      */
-    int runs;                          /* ISO_BACKENDS, or ISO_INTEGRATED: there is no closed solution   */
+    iso_effects effects; /* that act, in the scene's units: the scene's, and `level` for a point with H not 0 */
+    iso_clock clock;     /* in which the scene counts its times: t or s                                       */
+    double h, eps;       /* energy and coupling in the caller's units                                         */
+    int runs;            /* ISO_BACKENDS; ISO_INTEGRATED where there is no closed solution                    */
     iso_backend_run run[ISO_BACKENDS];
-    char no_exact[512];                /* why not                                                        */
-    iso_record *difference;            /* time, omega, n, M, gamma and the two other clocks              */
-    double worst[ISO_DIFFERENCES];     /* largest of each column of `difference`; [0] is the last time   */
+    char no_exact[512];                     /* why there is no closed solution                                */
+    iso_record *difference;                 /* time, omega, n, M, gamma and the two other clocks              */
+    double worst[ISO_DIFFERENCES];          /* largest of each column of `difference`; [0] is the last time   */
     iso_record *from_exact[ISO_INTEGRATED]; /* the same of [ISO_BALL] and [ISO_POINT] from the closed solution */
     double worst_from_exact[ISO_INTEGRATED][ISO_DIFFERENCES];
 } iso_comparison;
 
-/* Finds the scene's orbit by every backend (its own choice of backend is not read), row by row; without a closed
- * solution by ball and point alone. `progress` (may be NULL) is called after each row with the part done in (0, 1]; when
- * it answers false the comparison ends there.
- * Errors: as iso_scene_check_times, iso_orbit_create and iso_orbit_at; ISO_BAD_ARGUMENT for a method there is not.
- * After ISO_NUMERICAL in the middle *comparison holds the rows before; otherwise it is NULL on failure. */
-iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data), void *data,
-                       iso_comparison **comparison);
+/* Finds the scene's orbit by every backend, row by row; where there is no closed solution, by ball and point. The
+ * scene's own choice of a backend is not read. `progress` (may be NULL) is called after each row with the part done,
+ * in (0, 1]; the comparison ends when it answers false.
+ * Errors: those of iso_scene_check_times, iso_orbit_create and iso_orbit_at; ISO_BAD_ARGUMENT for an unknown method.
+ * After ISO_NUMERICAL or ISO_STOPPED *comparison holds the rows found before, if there are any; after other errors
+ * it is NULL. */
+iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress)(double part, void *data),
+                       void *data, iso_comparison **comparison);
 void iso_comparison_free(iso_comparison *comparison);
 
 #endif

@@ -1,16 +1,21 @@
+/* The estimated error of an orbit: a finer orbit and four moved ones run beside it, see error.h. */
 #include "study/error.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/seconds_impl.h"
 
-/* How far from the start the moved orbits begin: far above the error of their method, and still in proportion. */
+/* How far from the start the moved orbits begin, relative: far above the error of their method, but small enough that
+ * their distance grows in proportion. */
 static const double AWAY = 1e-7;
 
-/* Their directions, in units of AWAY: what moves omega, n and J. One alone may happen to miss what grows. */
+/* Their directions, in units of AWAY: for omega, n and J. There are four, since a single one may by chance be one in
+ * which the distance does not grow. */
 enum { MOVED = 4 };
 static const double directions[MOVED][3][3] = {
     {{0.6, -0.9, 0.7}, {-0.8, 0.5, 1.0}, {0.9, 0.8, -0.6}},
@@ -19,35 +24,26 @@ static const double directions[MOVED][3][3] = {
     {{1.0, -0.5, -0.8}, {0.6, 0.9, 0.7}, {0.7, 0.6, 1.0}},
 };
 
-/* What the second orbit of the same method, at a hundredth of the tolerance, is taken to have of the first one's
+/* The assumed error of an orbit by the same method at a hundredth of the tolerance, as a part of the first orbit's
  * error. */
 static const double SHARE = 0.1;
 
-/* Of an orbit by steps that checks one without: some five seconds. */
+/* The finer orbit may take this many steps for each step of the orbit, and SPARE_STEPS more. */
+enum { STEPS_FOR_ONE = 20, SPARE_STEPS = 2000 };
+
+/* It may take this many where the orbit has no steps (backend exact): some five seconds. */
 enum { MOST_STEPS = 200000 };
 
-/* --- rows ------------------------------------------------------------------------------------------------------- */
-
-void iso_error_keep(iso_error_rows *rows, const iso_sample *sample)
-{
-    if (rows->stride == 0) rows->stride = 1;
-    if (rows->seen % rows->stride == 0) {
-        if (rows->count == ISO_ERROR_ROWS) {
-            for (size_t i = 0; 2 * i < ISO_ERROR_ROWS; i++) rows->sample[i] = rows->sample[2 * i];
-            rows->count = (ISO_ERROR_ROWS + 1) / 2;
-            rows->stride *= 2;
-        }
-        if (rows->seen % rows->stride == 0) rows->sample[rows->count++] = *sample;
-    }
-    rows->last = *sample;
-    rows->seen++;
-}
-
-/* Row i of those kept, the last row after them. */
-static const iso_sample *row_of(const iso_error_rows *rows, size_t i)
-{
-    return i < rows->count ? &rows->sample[i] : &rows->last;
-}
+/* `worst` of a clock is an absolute error until the largest value of the clock is known. */
+struct iso_error_finder {
+    iso_context *ctx;
+    const iso_orbit *orbit;
+    iso_orbit *finer, *moved[MOVED];
+    iso_clock clock;
+    double factor; /* from the distance to the finer orbit to the error */
+    double largest_clock[ISO_CLOCKS];
+    iso_error found;
+};
 
 /* --- the other orbits ------------------------------------------------------------------------------------------- */
 
@@ -57,7 +53,6 @@ static bool make_finer(const iso_orbit *orbit, iso_orbit_options *o)
     const iso_method *own = iso_orbit_method(orbit);
     const bool exact = iso_orbit_exact(orbit) != NULL;
     o->backend = iso_orbit_model(orbit)->system == &iso_system_ball ? ISO_BALL : ISO_POINT;
-    o->max_steps = exact ? MOST_STEPS : 20 * (iso_orbit_statistics(orbit).steps + 100);
     if (iso_method_auto(iso_orbit_model(orbit))->own_equations) {
         o->method = iso_method_with_more_digits(own->digits > 0 ? own->digits : ISO_DOUBLE_DIGITS);
         o->tolerance = ISO_LEAST_TOLERANCE;
@@ -68,9 +63,9 @@ static bool make_finer(const iso_orbit *orbit, iso_orbit_options *o)
     return o->tolerance >= ISO_LEAST_TOLERANCE && !own->reference && !exact;
 }
 
-/* The start and J, moved by about AWAY, to another valid start. J stays where its neighbours are no body's. */
-static iso_status move_start(iso_context *ctx, const iso_orbit_options *o, const double direction[3][3], iso_params *p,
-                             iso_start *start)
+/* Moves the start and J by about AWAY, to another valid start. J stays as it is where no body has the moved J. */
+static iso_status move_start(iso_context *ctx, const iso_orbit_options *o, const double direction[3][3],
+                             iso_params *p, iso_start *start)
 {
     double y[ISO_STATE];
     iso_params moved;
@@ -94,15 +89,38 @@ static iso_status move_start(iso_context *ctx, const iso_orbit_options *o, const
         *p = moved;
     }
     const double eps = start->eps;
-    if (start->model == ISO_POINT)
-        return iso_start_point(ctx, y, y + 3, isnan(eps) ? NULL : &eps, true, start);
+    if (start->model == ISO_POINT) return iso_start_point(ctx, y, y + 3, isnan(eps) ? NULL : &eps, true, start);
     const bool twists = o->effects && iso_effects_twist(o->effects);
     return iso_start_ball(ctx, y, y + 3, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start);
 }
 
-/* --- errors ----------------------------------------------------------------------------------------------------- */
+/* The steps that the finer and the moved orbits may take, as far as the orbit has come now. */
+static void allow_steps(iso_error_finder *f)
+{
+    const bool exact = iso_orbit_exact(f->orbit) != NULL;
+    const long most = exact ? MOST_STEPS : STEPS_FOR_ONE * iso_orbit_statistics(f->orbit).steps + SPARE_STEPS;
+    iso_orbit_allow_steps(f->finer, most);
+    for (int m = 0; m < MOVED; m++) iso_orbit_allow_steps(f->moved[m], most);
+}
 
-/* The larger distance of the two vectors of a from those of b, relative to the shorter one; NaN: not shown. */
+static iso_status open_orbits(iso_error_finder *f, const iso_params *params, const iso_start *start,
+                              const iso_orbit_options *o)
+{
+    iso_orbit_options moved = *o;
+    iso_status status = iso_orbit_create(f->ctx, params, start, o, &f->finer);
+    if (o->method->own_equations) moved.method = iso_method_auto(iso_orbit_model(f->orbit)); /* exact enough, and faster */
+    for (int m = 0; status == ISO_OK && m < MOVED; m++) {
+        iso_params p = *params;
+        iso_start s = *start;
+        status = move_start(f->ctx, o, directions[m], &p, &s);
+        if (status == ISO_OK) status = iso_orbit_create(f->ctx, &p, &s, &moved, &f->moved[m]);
+    }
+    return status;
+}
+
+/* --- one row ---------------------------------------------------------------------------------------------------- */
+
+/* The two vectors of a against those of b: the larger distance, relative to the shorter vector; NaN: not shown. */
 static double state_distance(const double a[ISO_STATE], const double b[ISO_STATE])
 {
     double most = 0;
@@ -118,17 +136,9 @@ static void note(iso_error_of *e, double error, double time)
     e->last = error;
 }
 
-typedef struct finder {
-    iso_orbit *finer, *moved[MOVED];
-    iso_clock clock;
-    double factor; /* from the distance to the finer orbit to the error */
-    double largest_clock[ISO_CLOCKS];
-    iso_error *out;
-} finder;
-
 static double worst_state(const iso_error *e)
 {
-    return fmax(e->state[0].worst, e->state[1].worst); /* a NaN is not shown */
+    return fmax(e->state[0].worst, e->state[1].worst); /* fmax passes over a NaN, which is not shown */
 }
 
 static const double *six(const iso_sample *s, int picture)
@@ -136,69 +146,104 @@ static const double *six(const iso_sample *s, int picture)
     return picture == ISO_BALL ? s->ball : s->point;
 }
 
-/* The estimate at one row. */
-static iso_status compare_row(finder *f, const iso_sample *row)
+static void compare_states(iso_error_finder *f, const iso_sample *row, const iso_sample *fine,
+                           const iso_sample moved[MOVED])
 {
-    const double least = ISO_ERROR_ULPS * DBL_EPSILON, ulps = least / AWAY, time = row->clock[f->clock];
-    iso_sample fine, moved[MOVED];
-    iso_status status = iso_orbit_at(f->finer, time, &fine);
-    for (int m = 0; status == ISO_OK && m < MOVED; m++) status = iso_orbit_at(f->moved[m], time, &moved[m]);
-    if (status != ISO_OK) return status;
+    const double least = ISO_ERROR_ULPS * DBL_EPSILON, ulps = least / AWAY;
     for (int picture = ISO_BALL; picture <= ISO_POINT; picture++) {
-        const double off = state_distance(six(row, picture), six(&fine, picture)), before = worst_state(f->out);
+        const double off = state_distance(six(row, picture), six(fine, picture)), before = worst_state(&f->found);
         double start = least;
-        for (int m = 0; m < MOVED; m++) start += ulps * state_distance(six(&fine, picture), six(&moved[m], picture));
-        note(&f->out->state[picture], f->factor * off + start, time);
-        if (!(worst_state(f->out) <= before)) f->out->start = start;
+        for (int m = 0; m < MOVED; m++) start += ulps * state_distance(six(fine, picture), six(&moved[m], picture));
+        note(&f->found.state[picture], f->factor * off + start, row->clock[f->clock]);
+        if (!(worst_state(&f->found) <= before)) f->found.start = start;
     }
-    for (int c = 0; c < ISO_CLOCKS; c++) {
-        if (isnan(row->clock[c]) || c == (int)f->clock || f->largest_clock[c] == 0) continue;
-        double start = least * f->largest_clock[c];
-        for (int m = 0; m < MOVED; m++) start += ulps * fabs(fine.clock[c] - moved[m].clock[c]);
-        const double e = (f->factor * fabs(row->clock[c] - fine.clock[c]) + start) / f->largest_clock[c];
-        note(&f->out->clock[c], e < 1 ? e / (1 - e) : e, time); /* the true clock may be smaller by e */
-    }
-    return ISO_OK;
 }
 
-static iso_status open_orbits(iso_context *ctx, const iso_params *params, const iso_start *start,
-                              const iso_orbit_options *o, const iso_orbit *orbit, finder *f)
+static void compare_clocks(iso_error_finder *f, const iso_sample *row, const iso_sample *fine,
+                           const iso_sample moved[MOVED])
 {
-    iso_orbit_options moved = *o;
-    iso_status status = iso_orbit_create(ctx, params, start, o, &f->finer);
-    if (o->method->own_equations) moved.method = iso_method_auto(iso_orbit_model(orbit)); /* exact enough, and faster */
-    for (int m = 0; status == ISO_OK && m < MOVED; m++) {
-        iso_params p = *params;
-        iso_start s = *start;
-        status = move_start(ctx, o, directions[m], &p, &s);
-        if (status == ISO_OK) status = iso_orbit_create(ctx, &p, &s, &moved, &f->moved[m]);
+    const double ulps = ISO_ERROR_ULPS * DBL_EPSILON / AWAY;
+    for (int c = 0; c < ISO_CLOCKS; c++) {
+        double start = 0;
+        if (isnan(row->clock[c]) || c == (int)f->clock) continue;
+        f->largest_clock[c] = fmax(f->largest_clock[c], fabs(row->clock[c]));
+        for (int m = 0; m < MOVED; m++) start += ulps * fabs(fine->clock[c] - moved[m].clock[c]);
+        note(&f->found.clock[c], f->factor * fabs(row->clock[c] - fine->clock[c]) + start, row->clock[f->clock]);
     }
+}
+
+iso_status iso_error_finder_add(iso_error_finder *f, const iso_sample *row)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    const double begin = processor_seconds(), time = row->clock[f->clock];
+    iso_sample fine, moved[MOVED];
+    allow_steps(f);
+    iso_status status = iso_orbit_at(f->finer, time, &fine);
+    for (int m = 0; status == ISO_OK && m < MOVED; m++) status = iso_orbit_at(f->moved[m], time, &moved[m]);
+    if (status == ISO_OK) {
+        compare_states(f, row, &fine, moved);
+        compare_clocks(f, row, &fine, moved);
+        f->found.rows++;
+    }
+    f->found.seconds += processor_seconds() - begin;
     return status;
 }
 
-iso_status iso_error_find(iso_context *ctx, const iso_params *params, const iso_start *start,
-                          const iso_orbit_options *options, const iso_orbit *orbit, const iso_error_rows *rows,
-                          iso_error *error)
+/* --- all rows --------------------------------------------------------------------------------------------------- */
+
+iso_status iso_error_finder_create(iso_context *ctx, const iso_params *params, const iso_start *start,
+                                   const iso_orbit_options *options, const iso_orbit *orbit,
+                                   iso_error_finder **finder)
 {
     ISO_DEFAULT_ARITHMETIC;
     static const iso_error_of unknown = {NAN, NAN, NAN};
-    const double begin = processor_seconds();
     iso_orbit_options o = *options;
-    finder f = {.clock = o.clock, .out = error};
-    if (rows->seen == 0) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "there is no row");
+    *finder = NULL;
     if (!make_finer(orbit, &o))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "there is nothing finer than %s at %g for this model",
-                                iso_orbit_method(orbit)->name, options->tolerance);
-    *error = (iso_error){{unknown, unknown}, {unknown, unknown, unknown}, .method = o.method, .tolerance = o.tolerance};
-    error->rows = rows->count + ((rows->seen - 1) % rows->stride != 0);
-    for (int c = 0; c < ISO_CLOCKS; c++)
-        for (size_t i = 0; i < error->rows; i++)
-            f.largest_clock[c] = fmax(f.largest_clock[c], fabs(row_of(rows, i)->clock[c]));
-    f.factor = o.method->own_equations ? 1 : 1 / (1 - SHARE);
-    iso_status status = open_orbits(ctx, params, start, &o, orbit, &f);
-    for (size_t i = 0; status == ISO_OK && i < error->rows; i++) status = compare_row(&f, row_of(rows, i));
-    iso_orbit_free(f.finer);
-    for (int m = 0; m < MOVED; m++) iso_orbit_free(f.moved[m]);
-    error->seconds = processor_seconds() - begin;
-    return status;
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method",
+                                "there is nothing finer than %s at %g for this model", iso_orbit_method(orbit)->name,
+                                options->tolerance);
+    iso_error_finder *f = calloc(1, sizeof *f);
+    if (!f) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the error of an orbit");
+    const double begin = processor_seconds();
+    f->ctx = ctx;
+    f->orbit = orbit;
+    f->clock = o.clock;
+    f->factor = o.method->own_equations ? 1 : 1 / (1 - SHARE);
+    f->found =
+        (iso_error){{unknown, unknown}, {unknown, unknown, unknown}, .method = o.method, .tolerance = o.tolerance};
+    const iso_status status = open_orbits(f, params, start, &o);
+    f->found.seconds = processor_seconds() - begin;
+    if (status != ISO_OK) return iso_error_finder_free(f), status;
+    *finder = f;
+    return ISO_OK;
+}
+
+void iso_error_finder_free(iso_error_finder *f)
+{
+    if (!f) return;
+    iso_orbit_free(f->finer);
+    for (int m = 0; m < MOVED; m++) iso_orbit_free(f->moved[m]);
+    free(f);
+}
+
+/* The absolute error of a clock as a relative one. The largest value of the clock may itself be too large by it. */
+static double relative_to(double largest_clock, double error)
+{
+    const double e = error / largest_clock + ISO_ERROR_ULPS * DBL_EPSILON;
+    return e < 1 ? e / (1 - e) : e;
+}
+
+iso_error iso_error_finder_read(const iso_error_finder *f)
+{
+    static const iso_error_of unknown = {NAN, NAN, NAN};
+    iso_error error = f->found;
+    for (int c = 0; c < ISO_CLOCKS; c++) {
+        const double most = f->largest_clock[c];
+        const iso_error_of *absolute = &f->found.clock[c];
+        error.clock[c] = most == 0 ? unknown
+                                   : (iso_error_of){relative_to(most, absolute->worst), absolute->worst_time,
+                                                    relative_to(most, absolute->last)};
+    }
+    return error;
 }

@@ -1,36 +1,34 @@
-/* error.h - how wrong an orbit is: a number that covers the true error, from the same orbit computed again.
+/* error.h - how wrong an orbit is: a number that covers the true error, from the same orbit computed again beside it.
  *
- *     iso_error_rows *rows = calloc(1, sizeof *rows);      (some 90 kB)
- *     ... iso_error_keep(rows, &sample) for every row, from iso_orbit_at(orbit, ...)
- *     iso_error error;
- *     iso_error_find(ctx, &params, &start, &options, orbit, rows, &error);     error.state[ISO_BALL].worst
+ *     iso_error_finder *finder;
+ *     iso_error_finder_create(ctx, &params, &start, &options, orbit, &finder);
+ *     for each row: iso_orbit_at(orbit, time, &sample), then iso_error_finder_add(finder, &sample)
+ *     iso_error error = iso_error_finder_read(finder);                     error.state[ISO_BALL].worst
+ *     iso_error_finder_free(finder);
+ *
+ * Every row is compared, and none is kept: memory does not grow with the number of rows.
  *
  * The estimate of a row is the sum of two parts:
- * - its distance from the row of a finer orbit: by `taylor_extended` at 1e-15, that is in long double and by another
- *   code than the model's right-hand side; where series do not serve (iso_method_auto), by the orbit's method at a
- *   hundredth of its tolerance, which is taken to leave at most a tenth of the error;
- * - what ISO_ERROR_ULPS ulps in the numbers of the start and in J would make of it, from four more orbits whose starts
- *   differ in generic directions by far more than that. It covers decimals that are no doubles, and what becomes of
- *   them on the way to own units.
- * It does not cover an error of the equations themselves, or numbers of k, of effects and of times that are no
- * doubles; nor, after the orbit has lost its start altogether (an estimate of about 1), how far it is away.
+ * - Its distance from the row of a finer orbit. The finer orbit is found by `taylor_extended` at tolerance 1e-15: in
+ *   long double, and by another code than the model's right-hand side. Where series do not serve (iso_method_auto),
+ *   it is found by the orbit's own method at a hundredth of the tolerance. That orbit is assumed to have at most a
+ *   tenth of the error.
+ * - The rounding of the start: what ISO_ERROR_ULPS ulps in the numbers of the start and of J do to the row. Four more
+ *   orbits show it; their starts differ from the orbit's in four directions, by far more than that. This part
+ *   covers decimal numbers that are no doubles, and the change to own units.
+ * The estimate does not cover
+ * - an error of the equations themselves;
+ * - the rounding of k, of the numbers of effects, and of times;
+ * - the distance after the orbit has lost its start completely (then the estimate is about 1).
  */
 #ifndef ISO_STUDY_ERROR_H
 #define ISO_STUDY_ERROR_H
 
 #include "../orbit/orbit.h"
 
-enum { ISO_ERROR_ROWS = 256, ISO_ERROR_ULPS = 2 };
+enum { ISO_ERROR_ULPS = 2 };
 
-/* Rows of an orbit: all of them, or every second, fourth, ..., and the last. Begins as {0}. */
-typedef struct iso_error_rows {
-    size_t seen, stride, count; /* rows given; one in `stride` of them is kept, `count` in all */
-    iso_sample sample[ISO_ERROR_ROWS], last;
-} iso_error_rows;
-
-void iso_error_keep(iso_error_rows *rows, const iso_sample *sample);
-
-/* One error along the rows: the largest, its time, and that of the last row. NaN: not shown. */
+/* One error along the rows: the largest, its time, and the error of the last row. NaN: the rows do not show it. */
 typedef struct iso_error_of {
     double worst, worst_time, last;
 } iso_error_of;
@@ -38,18 +36,29 @@ typedef struct iso_error_of {
 typedef struct iso_error {
     iso_error_of state[2];          /* of (omega, n) and of (M, gamma): each vector relative to its length */
     iso_error_of clock[ISO_CLOCKS]; /* of a carried clock, relative to its largest value in the rows       */
-    double start;                   /* the part of the largest state error that is the start's             */
-    size_t rows;                    /* how many were compared                                              */
+    double start;                   /* the part of the largest state error that the start's rounding makes */
+    size_t rows;                    /* how many were compared: all that were added                         */
     const iso_method *method;       /* of the finer orbit                                                  */
     double tolerance, seconds;      /* its tolerance; processor time for all of it                         */
 } iso_error;
 
-/* The error of `orbit` at the rows kept of it; params, start and options are those it was created with. Errors:
- * ISO_BAD_ARGUMENT where there is nothing finer (taylor_quad, taylor_extended without it, tolerances below 1e-13, or
- * backend exact, where series do not serve) or no row; ISO_NUMERICAL when the finer orbit does not get there, or needs
- * more than twenty times the steps (for backend exact, which has none: than 200000); ISO_STOPPED, ISO_NO_MEMORY. */
-iso_status iso_error_find(iso_context *ctx, const iso_params *params, const iso_start *start,
-                          const iso_orbit_options *options, const iso_orbit *orbit, const iso_error_rows *rows,
-                          iso_error *error);
+typedef struct iso_error_finder iso_error_finder;
+
+/* Starts the finer orbit. params, start and options are those that `orbit` was created with; the orbit must outlive
+ * the finder. Errors: ISO_BAD_ARGUMENT where there is nothing finer: for taylor_quad, and for taylor_extended where
+ * taylor_quad is missing; where series do not serve, for tolerances below 1e-13 and for backend exact. ISO_NO_MEMORY,
+ * and the errors of iso_orbit_create. After an error *finder is NULL. */
+iso_status iso_error_finder_create(iso_context *ctx, const iso_params *params, const iso_start *start,
+                                   const iso_orbit_options *options, const iso_orbit *orbit,
+                                   iso_error_finder **finder);
+void iso_error_finder_free(iso_error_finder *finder);
+
+/* Compares the next row of the orbit. Rows may come in any order, but are cheap in the order that suits iso_orbit_at.
+ * Errors: ISO_NUMERICAL when the finer orbit does not get there, or needs more than twenty times the orbit's steps
+ * (backend exact has no steps: more than 200000); ISO_STOPPED. After an error nothing is known of this row. */
+iso_status iso_error_finder_add(iso_error_finder *finder, const iso_sample *row);
+
+/* The errors of the rows so far; with rows = 0 nothing is known. */
+iso_error iso_error_finder_read(const iso_error_finder *finder);
 
 #endif

@@ -192,22 +192,19 @@ static iso_status find_frequencies(const hard_road *way)
 
 static iso_status find_error(const hard_road *way)
 {
-    static iso_error_rows rows;
     const iso_orbit_options o = iso_orbit_defaults(&batch_usual);
     iso_orbit *made;
+    iso_error_finder *finder = NULL;
     iso_sample sample;
-    iso_error e;
     (void)way;
     digits = 0;
-    rows = (iso_error_rows){.seen = 0};
     iso_status status = iso_orbit_create(ctx, &shell, &batch_usual, &o, &made);
     if (status != ISO_OK) return status;
     status = iso_orbit_at(made, 2, &sample);
-    if (status == ISO_OK) {
-        iso_error_keep(&rows, &sample);
-        status = iso_error_find(ctx, &shell, &batch_usual, &o, made, &rows, &e);
-        if (status == ISO_OK) digits = e.state[ISO_BALL].worst;
-    }
+    if (status == ISO_OK) status = iso_error_finder_create(ctx, &shell, &batch_usual, &o, made, &finder);
+    if (status == ISO_OK) status = iso_error_finder_add(finder, &sample);
+    if (status == ISO_OK) digits = iso_error_finder_read(finder).state[ISO_BALL].worst;
+    iso_error_finder_free(finder);
     iso_orbit_free(made);
     return status;
 }

@@ -232,18 +232,19 @@ static void put_frequencies(FILE *to)
 /* An orbit's own error, and numbers as text: among them what has no short decimals, and what is subnormal. */
 static void put_numbers(FILE *to)
 {
-    static iso_error_rows rows;
+    iso_error_finder *finder;
     const iso_scene scene = scene_of(to, scenes[0]);
     const iso_orbit_options o = iso_orbit_defaults(&scene.start);
     iso_orbit *made;
     iso_sample sample;
     iso_error e;
-    rows = (iso_error_rows){.seen = 0};
     put_status(to, ctx, iso_orbit_create(ctx, &scene.params, &scene.start, &o, &made), true);
     put_status(to, ctx, iso_orbit_at(made, 10, &sample), true);
-    iso_error_keep(&rows, &sample);
-    put_status(to, ctx, iso_error_find(ctx, &scene.params, &scene.start, &o, made, &rows, &e), true);
+    put_status(to, ctx, iso_error_finder_create(ctx, &scene.params, &scene.start, &o, made, &finder), true);
+    put_status(to, ctx, iso_error_finder_add(finder, &sample), true);
+    e = iso_error_finder_read(finder);
     put(to, &e.state[ISO_BALL].worst, sizeof(double));
+    iso_error_finder_free(finder);
     iso_orbit_free(made);
     static const char *const texts[] = {
         "0.1",    "-0.3",    "1e23",   "5e-324",   "-1.1e-310", "2.2250738585072011e-308",

@@ -15,7 +15,6 @@ static iso_context *ctx;
 typedef struct trial {
     iso_orbit *orbit;
     iso_sample last;
-    iso_error_rows rows;
     iso_error error;
     iso_status found;
 } trial;
@@ -29,13 +28,16 @@ static void give_up(const char *what)
 static trial *try(const iso_params *p, const iso_start *start, const iso_orbit_options *o, double t, size_t rows)
 {
     trial *r = calloc(1, sizeof *r);
+    iso_error_finder *finder;
     if (!r || iso_orbit_create(ctx, p, start, o, &r->orbit) != ISO_OK) give_up("an orbit");
+    r->found = iso_error_finder_create(ctx, p, start, o, r->orbit, &finder);
     for (size_t i = 0; i < rows; i++) {
         if (iso_orbit_at(r->orbit, i + 1 == rows ? t : t * (double)i / (double)(rows - 1), &r->last) != ISO_OK)
             give_up("an orbit stops");
-        iso_error_keep(&r->rows, &r->last);
+        if (r->found == ISO_OK) r->found = iso_error_finder_add(finder, &r->last);
     }
-    r->found = iso_error_find(ctx, p, start, o, r->orbit, &r->rows, &r->error);
+    if (r->found == ISO_OK) r->error = iso_error_finder_read(finder);
+    iso_error_finder_free(finder);
     return r;
 }
 
@@ -76,9 +78,10 @@ static void check_references(const char *method, double tolerance, iso_picture b
         snprintf(where, sizeof where, "t = %g", r->t);
         snprintf(title, sizeof title, "%s at %g, backend %s", method, tolerance, iso_picture_name((int)backend));
         gsl_test(run->found != ISO_OK, "%s, row %d: an estimate", title, i);
-        compare(&state, &state_tight, distance(run->last.ball, r->ball), run->error.state[ISO_BALL].last, &r->p, where);
-        compare(&clock, &clock_tight, fabs(run->last.clock[ISO_CLOCK_S] / r->s - 1), run->error.clock[ISO_CLOCK_S].last,
-                &r->p, where);
+        compare(&state, &state_tight, distance(run->last.ball, r->ball), run->error.state[ISO_BALL].last, &r->p,
+                where);
+        compare(&clock, &clock_tight, fabs(run->last.clock[ISO_CLOCK_S] / r->s - 1),
+                run->error.clock[ISO_CLOCK_S].last, &r->p, where);
         end(run);
     }
     printf("%s at %g, backend %s:\n", method, tolerance, iso_picture_name((int)backend));
@@ -109,7 +112,8 @@ static void check_stiff(double c)
         o.method = iso_method_find("bsimp");
         o.tolerance = 1e-14;
         trial *truth = try(&p, &start, &o, 10, 5);
-        compare(&covered, &tight, distance(run->last.ball, truth->last.ball), run->error.state[ISO_BALL].last, &p, "t = 10");
+        compare(&covered, &tight, distance(run->last.ball, truth->last.ball), run->error.state[ISO_BALL].last, &p,
+                "t = 10");
         printf("c = %g, tolerance %g:\n", c, tolerance);
         laws_report(&covered, "the error is covered");
         laws_report(&tight, "and not much overestimated");
@@ -118,16 +122,70 @@ static void check_stiff(double c)
     }
 }
 
-/* Which rows are kept: evenly spread ones, the last always. */
-static void check_rows(void)
+/* --- every row -------------------------------------------------------------------------------------------------- */
+
+/* A ball on a plane, max J/min J = 400, in a linear field: from time to time it turns over quickly, and its error is
+ * large for a moment. */
+static void random_scene(iso_random *random, iso_params *p, iso_effects *effects, iso_start *start)
 {
-    static iso_error_rows rows;
-    const size_t many = 5 * ISO_ERROR_ROWS + 3;
-    for (size_t i = 0; i < many; i++) iso_error_keep(&rows, &(iso_sample){.clock = {(double)i}});
-    bool even = rows.seen == many && rows.count <= ISO_ERROR_ROWS && rows.count > ISO_ERROR_ROWS / 2;
-    for (size_t i = 0; i < rows.count; i++) even = even && rows.sample[i].clock[0] == (double)(i * rows.stride);
-    gsl_test(!even || rows.count != (many + rows.stride - 1) / rows.stride, "every %zu-th row is kept", rows.stride);
-    gsl_test(rows.last.clock[0] != (double)(many - 1), "and the last");
+    double n[3], omega[3];
+    *p = laws_params(1, (const double[]){400, exp(iso_random_uniform(random, 0, log(400))), 1});
+    *effects = (iso_effects){.on[ISO_FIELD] = true};
+    for (int i = 0; i < 3; i++) {
+        effects->linear[i] = 0.3 * iso_random_normal(random);
+        omega[i] = iso_random_normal(random);
+    }
+    iso_random_direction(random, n);
+    if (iso_start_ball(ctx, omega, n, ISO_SPIN_REMOVE, start) != ISO_OK) give_up("a start");
+}
+
+/* The largest true error of the rows of r; the truth is by the finest method there is. */
+static double true_error(const trial *r, const iso_params *p, const iso_start *start,
+                         const iso_orbit_options *options, double t, size_t rows)
+{
+    iso_orbit_options o = *options;
+    iso_orbit *truth;
+    iso_sample a, b;
+    double worst = 0;
+    o.method = iso_method_find(iso_method_find("taylor_quad") ? "taylor_quad" : "taylor_extended");
+    o.tolerance = 1e-15;
+    if (iso_orbit_create(ctx, p, start, &o, &truth) != ISO_OK) give_up("the truth");
+    for (size_t i = 0; i < rows; i++) {
+        const double time = i + 1 == rows ? t : t * (double)i / (double)(rows - 1);
+        if (iso_orbit_at(r->orbit, time, &a) != ISO_OK || iso_orbit_at(truth, time, &b) != ISO_OK)
+            give_up("the truth stops");
+        worst = fmax(worst, distance(a.ball, b.ball));
+    }
+    iso_orbit_free(truth);
+    return worst;
+}
+
+/* What is said to be the largest error covers that of every row, however many there are. */
+static void check_every_row(int scenes)
+{
+    enum { ROWS = 5001 };
+    const double t = 20;
+    iso_random *random = iso_random_create(15);
+    laws_worst covered = {0}, tight = {0};
+    if (!random) give_up("no memory");
+    for (int i = 0; i < scenes; i++) {
+        iso_params p;
+        iso_effects effects;
+        iso_start start;
+        char where[32];
+        random_scene(random, &p, &effects, &start);
+        iso_orbit_options o = iso_orbit_defaults(&start);
+        o.effects = &effects;
+        o.tolerance = 1e-9;
+        trial *r = try(&p, &start, &o, t, ROWS);
+        snprintf(where, sizeof where, "scene %d", i);
+        gsl_test(r->found != ISO_OK || r->error.rows != ROWS, "%s: the error of %zu rows", where, r->error.rows);
+        compare(&covered, &tight, true_error(r, &p, &start, &o, t, ROWS), r->error.state[ISO_BALL].worst, &p, where);
+        end(r);
+    }
+    laws_report(&covered, "the largest error of all rows is covered");
+    laws_report(&tight, "and not much overestimated");
+    iso_random_free(random);
 }
 
 /* A point's orbit backwards in s; what is not shown is not judged; nothing finer than the finest. */
@@ -139,7 +197,7 @@ static void check_others(void)
     o.tolerance = 1e-3;
     trial *run = try(&p, &start, &o, -30, 1000);
     const iso_error *e = &run->error;
-    gsl_test(run->found != ISO_OK || e->rows != 251 || !isnan(e->state[ISO_BALL].worst) || !isnan(e->clock[0].worst),
+    gsl_test(run->found != ISO_OK || e->rows != 1000 || !isnan(e->state[ISO_BALL].worst) || !isnan(e->clock[0].worst),
              "a point alone has no omega, and no t");
     gsl_test(!(e->state[ISO_POINT].worst > 1e-6) || !(e->state[ISO_POINT].worst >= e->state[ISO_POINT].last) ||
                  !(e->state[ISO_POINT].worst_time < 0),
@@ -149,11 +207,20 @@ static void check_others(void)
     end(run);
     o.method = iso_method_find("taylor_quad") ? iso_method_find("taylor_quad") : iso_method_find("taylor_extended");
     run = try(&p, &start, &o, 1, 2);
-    gsl_test(run->found != ISO_BAD_ARGUMENT, "nothing is finer than %s: %s", o.method->name, iso_context_message(ctx));
-    const iso_error_rows none = {.seen = 0};
-    gsl_test(iso_error_find(ctx, &p, &start, &o, run->orbit, &none, &run->error) != ISO_BAD_ARGUMENT, "no rows: %s",
+    gsl_test(run->found != ISO_BAD_ARGUMENT, "nothing is finer than %s: %s", o.method->name,
              iso_context_message(ctx));
     end(run);
+}
+
+/* Without a row nothing is known. */
+static void check_no_rows(void)
+{
+    const iso_params p = laws_params(-1, J);
+    const iso_start start = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
+    const iso_orbit_options o = iso_orbit_defaults(&start);
+    trial *r = try(&p, &start, &o, 1, 0);
+    gsl_test(r->found != ISO_OK || r->error.rows != 0 || !isnan(r->error.state[ISO_BALL].worst), "no rows, no error");
+    end(r);
 }
 
 int main(void)
@@ -171,7 +238,8 @@ int main(void)
     check_references("blanes_moan6", 1e-8, ISO_POINT, 100);
     check_stiff(1e2);
     check_stiff(1e5);
-    check_rows();
+    check_every_row(6);
+    check_no_rows();
     check_others();
     iso_context_free(ctx);
     exit(gsl_test_summary());

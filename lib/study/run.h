@@ -1,0 +1,89 @@
+/* run.h - the trajectory of a scene: every row goes to a sink as soon as it is found.
+ *
+ *     iso_status keep_row(void *data, const double row[], size_t count);
+ *     iso_run_sink sink = {.row = keep_row, .data = &rows};
+ *     iso_run_result result;
+ *     status = iso_run(ctx, &scene, NULL, &sink, &result);              the times of the scene's own grid
+ *
+ * The columns are those that the scene asks for (iso_scene_columns). The rows are kept in memory only if the times
+ * come in another order than they are worked on.
+ */
+#ifndef ISO_STUDY_RUN_H
+#define ISO_STUDY_RUN_H
+
+#include "../base/record.h"
+#include "error.h"
+
+/* --- the orbit behind the columns ------------------------------------------------------------------------------- */
+
+/* Options of the orbit that fills these columns (iso_scene_columns) and computes nothing else. Writes *effects; the
+ * options point to it. */
+iso_orbit_options iso_scene_orbit_options(const iso_scene *scene, const int columns[], int count,
+                                          iso_effects *effects);
+
+/* That orbit. Errors: those of iso_orbit_create. */
+iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
+                           iso_orbit **orbit);
+
+/* --- a run ------------------------------------------------------------------------------------------------------ */
+
+typedef struct iso_run_options {
+    const double *times; /* in any order, before and after the start; in t for a ball's scene, in s for a point's.
+                            NULL: the scene's own grid                                                           */
+    size_t count;        /* of times                                                                             */
+    bool errors;         /* also find the largest error of the rows (study/error.h); this takes many times as
+                            long as the rows alone                                                               */
+} iso_run_options;
+
+/* The scene's own grid, no errors. */
+iso_run_options iso_run_defaults(void);
+
+/* What a run can say about the contact of ball and support (effect `reactions`). */
+typedef enum iso_run_note {
+    ISO_NOTE_LOST,          /* the ball loses contact; the row of this moment is the last on this side of the start */
+    ISO_NOTE_LOST_AT_START, /* it loses contact at time 0, which has a row; there are no others towards the end     */
+    ISO_NOTE_PULLED         /* the support would have to pull at time 0; the rows are those of a two-sided contact  */
+} iso_run_note;
+
+/* Who takes the rows. A function may be NULL: it is not called. `header` and `row` answer ISO_OK to go on. Any other
+ * answer ends the run, and iso_run answers the same. */
+typedef struct iso_run_sink {
+    iso_status (*header)(void *data, const iso_record *header); /* columns and lines, once, before all rows       */
+    iso_status (*row)(void *data, const double row[], size_t count); /* in the order of the times asked for       */
+    void (*note)(void *data, iso_run_note note, const char *words);  /* one line without a newline                */
+    void (*progress)(void *data, double part); /* at each step: the part done of the farthest time, in [0, 1]      */
+    void *data;
+} iso_run_sink;
+
+typedef struct iso_run_result {
+    size_t asked, rows; /* times asked for, and rows that the sink has taken                                       */
+    /* of the orbit; method is NULL if there is no orbit */
+    iso_picture backend; /* ISO_BALL, ISO_POINT, ISO_EXACT                                                         */
+    const iso_method *method;
+    iso_clock clock; /* that of the times                                                                          */
+    iso_statistics statistics;
+    bool lost[2];      /* whether the ball loses contact: [0] after the start, [1] before it                       */
+    double lost_at[2]; /* the times of that                                                                        */
+    /* with options.errors */
+    iso_status error_status; /* ISO_OK: `error` holds for every row that the sink has taken                        */
+    char error_words[256];   /* otherwise: why the error is not known                                              */
+    iso_error error;
+} iso_run_result;
+
+/* Finds the scene's orbit at the given times, and gives the sink a row for each, in the order of the times.
+ * - Work begins with the times after the start, then come those before it; on each side the nearer times come first.
+ * - Where the ball loses contact, the sink gets the row of this moment in the place of the first time beyond it.
+ *   Times still farther from the start have no row.
+ * - After a failure or a stop the sink has every row that was found before.
+ * - The context's watch is asked at each step and before each row; it can stop the run.
+ * - options NULL: iso_run_defaults(). result may be NULL; else it is always filled, after an error, too.
+ *
+ * Errors before the header:
+ * - those of iso_scene_check_times, iso_scene_check_columns, iso_orbit_create and iso_orbit_check_time;
+ * - ISO_BAD_ARGUMENT about "times" (there are none, or one is not finite) or "method" (no method has this name).
+ * Errors after it: what the sink answers; those of iso_orbit_at; ISO_STOPPED; ISO_NO_MEMORY.
+ * It is no failure if the error of the rows is not known: see result->error_status. */
+iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_options *options, const iso_run_sink *sink,
+                   iso_run_result *result);
+
+#endif
