@@ -1,3 +1,4 @@
+/* analogue.c - from a problem of a point on a sphere to a ball that realises it (see analogue.h). */
 #include "study/analogue.h"
 
 #include <float.h>
@@ -8,6 +9,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
+#include "study/analogue_impl.h"
 
 /* A free ball by a shift of J is taken only if its moments are not further apart than this: J1 is the difference of
  * 2 E and c, and loses as many digits. */
@@ -206,9 +208,7 @@ static void choose_surface(double k, iso_body *body)
 static void make_body(iso_context *ctx, double mass, double radius, iso_analogue *a)
 {
     const iso_analogue_ball *r = &a->reduced;
-    iso_body body = {.mass = mass, .radius = radius};
     iso_params params;
-    const double D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
     a->room = triangle_room(r->params.J);
     if (!(a->room > 0)) {
         snprintf(a->no_body, sizeof a->no_body,
@@ -217,6 +217,9 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
                  a->room);
         return;
     }
+    iso_analogue_choose_units(a, &mass, &radius);
+    iso_body body = {.mass = mass, .radius = radius};
+    const double D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
     a->scale = 2 * (D / a->room);
     for (int i = 0; i < 3; i++) body.inertia[i] = D * (2 * (r->params.J[i] / a->room) - 1);
     choose_surface(r->params.k, &body);

@@ -16,6 +16,9 @@
  * A body: J -> s J, eps -> s^(1/k) eps leaves V and its clock s as they are. I = s J - D > 0, D = m B^2, obeys the
  * triangle inequalities for 0 < D/s <= J1 + J2 - J3 (J sorted), so there is one exactly if J1 + J2 > J3. D/s is in
  * the middle.
+ *
+ * Units: the angular velocity of the body goes as s^((1/k - 4)/2). Mass and radius that are not given are 1, 2 or 5
+ * times a power of ten, chosen so that it is of order one.
  */
 #ifndef ISO_STUDY_ANALOGUE_H
 #define ISO_STUDY_ANALOGUE_H
@@ -61,7 +64,7 @@ typedef struct iso_analogue {
     char no_body[512];      /* why there is none; "" when there is one                                 */
 } iso_analogue;
 
-/* The ball of a problem; its body is to have this mass and radius.
+/* The ball of a problem; its body is to have this mass and radius. NAN: the function chooses a round number.
  * Errors: ISO_BAD_INPUT about "k", "J", "eps", "c" or "energy" (no numbers, k = 0, J not positive); ISO_NOT_MAPPED
  * about "energy": no motion has it, or in a constant potential only rest; ISO_NUMERICAL: what leaves the doubles. */
 iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *problem, double mass, double radius,
@@ -79,5 +82,8 @@ double iso_analogue_start(const iso_analogue *analogue, double point[ISO_STATE])
  * Errors: as iso_orbit_create and iso_orbit_at. */
 iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, const double point[ISO_STATE],
                               double s_end, iso_scene *scene);
+
+/* The least number that is 1, 2 or 5 times a power of ten and not less than x > 0. Any other x comes back as it is. */
+double iso_analogue_round_up(double x);
 
 #endif
