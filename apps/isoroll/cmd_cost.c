@@ -4,6 +4,16 @@
 #include <string.h>
 
 #include "cost_report.h"
+#include "scene_options.h"
+
+/* What cost can be told. */
+typedef struct options {
+    scene_options scene;
+    const char *plot, *csv; /* NULL: not given */
+    double want;            /* NAN: not given  */
+    double horizons;        /* 0: not given    */
+    bool json, quick;
+} options;
 
 static void show(double share, const char *what, void *data)
 {
@@ -12,19 +22,13 @@ static void show(double share, const char *what, void *data)
     progress_show(share);
 }
 
-static bool go_on(void *data)
-{
-    (void)data;
-    return !interrupted();
-}
-
 static iso_cost_options options_of(const options *o)
 {
     iso_cost_options c = iso_cost_defaults();
     c.quick = o->quick || !isnan(o->want);
-    if ((int)o->backend >= 0) c.backend = o->backend;
-    if (o->method) c.method = iso_method_find(o->method);
-    if (!isnan(o->tolerance)) c.tolerance = o->tolerance;
+    if ((int)o->scene.backend >= 0) c.backend = o->scene.backend;
+    if (o->scene.method) c.method = iso_method_find(o->scene.method);
+    if (!isnan(o->scene.tolerance)) c.tolerance = o->scene.tolerance;
     c.progress = show;
     return c;
 }
@@ -181,23 +185,24 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     if (o->horizons > 0 && !o->json && (!isnan(o->want) || (o->csv && strcmp(o->csv, "-") == 0)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "horizons",
                                 "cost: --want and --csv - leave no room for what --horizons tells");
-    iso_status status = scene_with_options(ctx, o, scene);
+    iso_status status = scene_with_options(ctx, &o->scene, scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK && o->csv) status = iso_output_open(ctx, o->csv, csv);
     return status;
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
+    const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_output *csv = NULL;
     iso_cost *cost = NULL;
     iso_status status = prepare(ctx, o, &scene, &csv);
     const iso_cost_options how = options_of(o);
     stop_gently();
-    iso_context_watch(ctx, go_on, NULL);
+    iso_context_watch(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &how, &cost);
-    int result = finish_scene(ctx, o, &scene, status);
+    int result = finish_scene(ctx, &o->scene, &scene, status);
     const int measured = cost ? cost_count(cost, iso_cost_is_measured) : 0;
     if (status == ISO_STOPPED && cost)
         complain("interrupted: %d of %d cells", measured, cost->cells);
@@ -218,20 +223,51 @@ static int run(iso_context *ctx, const options *o)
     return result;
 }
 
+/* The number of orbits may be left out. */
+static bool set_horizons(void *at, const char *text)
+{
+    const bool set = set_count(at, text ? text : "6");
+    return set && *(double *)at <= ISO_COST_HORIZONS;
+}
+
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .want = NAN};
+
+static const option_row rows[] = {
+    ROW_BACKEND(options, scene),
+    ROW_METHOD(options, scene),
+    ROW_TOLERANCE(options, scene),
+    ROW_T_END(options, scene),
+    ROW("quick", NULL, NULL, "measure three tolerances only: a few seconds", set_flag, options, quick),
+    ROW("want", "X", "a positive number", "print only the cheapest choice with an error of at most X", set_positive,
+        options, want),
+    ROW("horizons", "[=N]", "a whole number from 1 to 24",
+        "growth over N orbits (default 6), each twice as long as the one before", set_horizons, options, horizons),
+    ROW_PLOT(options, plot),
+    ROW_OF_FILE("csv", "FILE", "a file", "write the table as CSV to FILE; - is standard output", set_text, options,
+                csv, 0, OPTION_WRITES),
+    ROW_JSON(options, json),
+    ROW_END,
+};
+
 const command command_cost = {
     .name = "cost",
     .argument = "SCENE",
-    .doc = "what accuracy costs in time: error against time by every backend, method and tolerance",
-    .options = " backend method tol t-end quick want horizons plot csv json ",
-    .more =
-        "The scene's own backend, method and tolerance are not read: all are measured, unless --backend, --method or "
-        "--tol names one.\n"
-        "Errors are those of (omega, n), relative, the largest of 20 times from the start to the end, against a "
-        "reference that is none of\nthe cells. Times are processor time, the median of repeats, set-up apart. "
-        "--want X prints the cheapest choice as options of 'run':\n  isoroll run SCENE $(isoroll cost SCENE --want "
-        "1e-9)\n"
-        "--horizons repeats the best cell of each backend over orbits 2, 4, ... times as long, and tells how error "
-        "and "
-        "time grow.\nInterrupted (Ctrl-C), what has been measured is printed.",
+    .doc = "measure error against time for every backend, method and tolerance",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "All backends, methods and tolerances are measured. --backend, --method or --tol restrict the measurement to "
+        "one; the scene's own backend, method and tolerance are not read.\n\n"
+        "An error is the largest relative error of (omega, n) at 20 times from the start to the end. The reference "
+        "is "
+        "none of the measured runs. A time is processor time, the median of several runs; set-up is shown apart.\n\n"
+        "--want X prints the cheapest choice as options of 'isoroll run'. --horizons repeats the best choice of each "
+        "backend over orbits 2, 4, ... times as long, and tells how error and time grow. After Ctrl-C, what has been "
+        "measured is printed.",
+    .example = "isoroll cost scene.yaml --quick --plot cost.svg\n"
+               "isoroll run scene.yaml $(isoroll cost scene.yaml --want 1e-9)",
+    .exits = "1: a run failed, or nothing reaches the error that --want asks for.",
     .run = run,
 };

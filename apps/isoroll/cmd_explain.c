@@ -3,7 +3,12 @@
 #include <string.h>
 #include <time.h>
 
-#include "command.h"
+#include "scene_options.h"
+
+/* What explain can be told. */
+typedef struct options {
+    scene_options scene;
+} options;
 
 static void explain_ball(const iso_params *p)
 {
@@ -192,16 +197,17 @@ static iso_status explain_cost(iso_context *ctx, const iso_model *m)
     return ISO_OK;
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
+    const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_orbit *orbit;
     int columns[ISO_MAX_COLUMNS], count;
-    iso_status status = scene_with_options(ctx, o, &scene);
+    iso_status status = scene_with_options(ctx, &o->scene, &scene);
     if (status != ISO_OK) return finish(ctx, status);
     count = iso_scene_columns(&scene, columns);
     status = orbit_for_columns(ctx, &scene, columns, count, &orbit);
-    if (status != ISO_OK) return finish_scene(ctx, o, &scene, status);
+    if (status != ISO_OK) return finish_scene(ctx, &o->scene, &scene, status);
     explain_ball(&scene.params);
     explain_effects(orbit);
     explain_level_plane(&scene, orbit);
@@ -216,10 +222,30 @@ static int run(iso_context *ctx, const options *o)
     return finish(ctx, status);
 }
 
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET};
+
+static const option_row rows[] = {
+    ROW_BACKEND(options, scene),
+    ROW_METHOD(options, scene),
+    ROW_TOLERANCE(options, scene),
+    ROW_AS(options, scene),
+    ROW_T_END(options, scene),
+    ROW_STEP(options, scene),
+    ROW_END,
+};
+
 const command command_explain = {
     .name = "explain",
     .argument = "SCENE",
-    .doc = "what would be simulated and why; nothing is integrated",
-    .options = " backend method tol as t-end step ",
+    .doc = "say what would be simulated and why, without doing it",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "Tells the ball's parameters, the effects that act, whether the orbit has a twin, whether there is a "
+        "closed solution, the backend and the method, which integrals hold, and the measured cost of one "
+        "right-hand side.",
+    .example = "isoroll explain scene.yaml",
     .run = run,
 };

@@ -3,6 +3,11 @@
 
 #include "command.h"
 
+/* What list can be told. */
+typedef struct options {
+    const char *topic;
+} options;
+
 static void list_systems(void)
 {
     for (int s = 0; iso_systems[s]; s++) {
@@ -101,25 +106,43 @@ static const struct {
 };
 enum { TOPICS = sizeof topics / sizeof *topics };
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
-    const bool all = strcmp(o->file, "-") == 0;
+    const options *o = options_given;
+    const bool all = strcmp(o->topic, "-") == 0;
     int listed = 0;
     (void)ctx;
     for (int i = 0; i < TOPICS; i++) {
-        if (!all && strcmp(o->file, topics[i].name) != 0) continue;
+        if (!all && strcmp(o->topic, topics[i].name) != 0) continue;
         printf("%s%s: %s\n", listed++ ? "\n" : "", topics[i].name, topics[i].doc);
         topics[i].list();
     }
     if (listed) return EXIT_DONE;
-    complain("list: nothing is called '%s'; 'isoroll list' shows everything", o->file);
+    complain("list: nothing is called '%s'; 'isoroll list' shows everything", o->topic);
     return EXIT_USAGE;
 }
+
+static const char *topic_word(int i)
+{
+    return i < TOPICS ? topics[i].name : NULL;
+}
+
+static const options defaults = {.topic = "-"};
+
+static const option_row rows[] = {ROW_END};
 
 const command command_list = {
     .name = "list",
     .argument = "[TOPIC]",
-    .doc = "the registries: systems, backends, effects, methods, surfaces, integrals, clocks, columns",
-    .options = " ",
+    .doc = "list what there is: systems, backends, effects, methods, columns, ...",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, topic),
+    .word = topic_word,
+    .description =
+        "A topic is systems, backends, effects, methods, surfaces, integrals, clocks or columns. Without one, "
+        "all topics are listed.",
+    .example = "isoroll list methods",
     .run = run,
 };

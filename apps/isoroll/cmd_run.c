@@ -3,8 +3,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
+#include "scene_options.h"
 #include "times.h"
+
+/* What run can be told. */
+typedef struct options {
+    scene_options scene;
+    const char *output;
+    const char *times; /* NULL: not given */
+    bool verbose;
+} options;
 
 /* What is being done, for the bar. */
 typedef struct work {
@@ -173,12 +181,6 @@ static void tell(const iso_orbit *orbit, size_t rows)
              s.rejected, s.rhs, s.jacobians, s.correction);
 }
 
-static bool not_interrupted(void *data)
-{
-    (void)data;
-    return !interrupted();
-}
-
 /* Up to two digits: what is said to be at most so large must be. */
 static double rounded_up(double x)
 {
@@ -241,13 +243,14 @@ static int write_file(iso_context *ctx, const options *o, iso_orbit *orbit, cons
 
 static iso_status check_files(iso_context *ctx, const options *o)
 {
-    if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->file, "-") == 0)
+    if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->scene.file, "-") == 0)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "standard input is the scene or the times, not both");
     return ISO_OK;
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
+    const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_orbit *orbit = NULL;
     iso_record *header = NULL;
@@ -257,7 +260,7 @@ static int run(iso_context *ctx, const options *o)
     iso_orbit_options how;
     iso_error_rows *rows = NULL;
     iso_status status = check_files(ctx, o);
-    if (status == ISO_OK) status = scene_with_options(ctx, o, &scene);
+    if (status == ISO_OK) status = scene_with_options(ctx, &o->scene, &scene);
     if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &t);
     if (status == ISO_OK) {
         if (!t.list) t.count = iso_scene_rows(&scene);
@@ -272,7 +275,7 @@ static int run(iso_context *ctx, const options *o)
         if (!rows) status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the rows");
     }
     result = status == ISO_OK ? write_file(ctx, o, orbit, &t, header, columns, count, rows)
-                              : finish_scene(ctx, o, &scene, status);
+                              : finish_scene(ctx, &o->scene, &scene, status);
     if (rows && result != EXIT_FILE) tell_errors(ctx, &scene, &how, orbit, rows);
     free(rows);
     iso_record_free(header);
@@ -281,18 +284,42 @@ static int run(iso_context *ctx, const options *o)
     return result;
 }
 
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .output = "-"};
+
+static const option_row rows[] = {
+    ROW_OUTPUT(options, output),
+    ROW_BACKEND(options, scene),
+    ROW_METHOD(options, scene),
+    ROW_TOLERANCE(options, scene),
+    ROW_AS(options, scene),
+    ROW_T_END(options, scene),
+    ROW_STEP(options, scene),
+    ROW_OF_FILE("times", "FILE", "a file", "output times from FILE, in any order; # begins a comment", set_text,
+                options, times, 0, OPTION_READS),
+    ROW("verbose", NULL, NULL, "tell on stderr how the run went, and the error of the rows", set_flag, options,
+        verbose),
+    ROW_END,
+};
+
 const command command_run = {
     .name = "run",
     .argument = "SCENE",
     .doc = "compute a scene's orbit and write its trajectory",
-    .options = " output backend method tol as t-end step times verbose ",
-    .more =
-        "The times of --t-end, --step and --times are those of the clock of the scene's model: t of a ball, s of a "
-        "point.\nBackend exact is the closed solution, where there is one ('isoroll explain' says): every time costs "
-        "the same, near or far;\nit takes no method and no tolerance.\nRows do not depend on which other times are "
-        "asked. Interrupted "
-        "(Ctrl-C), the rows so far are kept.\n--verbose computes the orbit once more, finer, and tells the largest "
-        "error of the rows: it covers "
-        "the method's error and\nthe rounding of the start, not numbers of k, effects and times that are no doubles.",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "The times of --t-end, --step and --times are those of the scene's model: t of a ball, s of a point. A row "
+        "does not depend on which other times are asked for.\n\n"
+        "Backend exact is the closed solution, where there is one ('isoroll explain' says so). Every time costs the "
+        "same, near or far. It takes no method and no tolerance.\n\n"
+        "--verbose computes the orbit a second time, with smaller steps, and tells the largest error of the rows. "
+        "This "
+        "covers the error of the method and the rounding of the start. It does not cover the rounding of k, of the "
+        "effects' numbers and of the times.\n\n"
+        "After Ctrl-C, the rows computed so far are kept.",
+    .example = "isoroll run scene.yaml -o trajectory.csv",
+    .exits = "1: interrupted. 4: the computation failed; the rows before the failure are kept.",
     .run = run,
 };

@@ -2,7 +2,7 @@
 #ifndef ISOROLL_COST_REPORT_H
 #define ISOROLL_COST_REPORT_H
 
-#include "command.h"
+#include "scene_options.h"
 
 /* How error and time of one cell grow with the length of the orbit. */
 typedef struct cost_growth {

@@ -1,5 +1,7 @@
-/* effects.c - how commands show the effects of an orbit. */
-#include "command.h"
+/* effects.c - prints the effects of an orbit. */
+#include <stdio.h>
+
+#include "scene_options.h"
 
 static void print_number(const iso_effects *effects, const iso_effect_number *n)
 {

@@ -1,13 +1,39 @@
-/* parameters.h - k, J and eps of a trajectory file: its own lines, or the options. */
+/* parameters.h - the options about a trajectory file: what it does not say itself of k, J, eps and its columns. */
 #ifndef ISOROLL_PARAMETERS_H
 #define ISOROLL_PARAMETERS_H
 
+#include <math.h>
+
 #include "command.h"
 
-/* Puts what the options say into the file's lines, and reads the parameters from these. */
-iso_status parameters_of_file(iso_context *ctx, const options *o, iso_record *record, iso_params *params);
+typedef struct file_options {
+    const char *file;
+    const char *scene, *columns; /* NULL: not given */
+    double k, J[3], eps, h;      /* NAN: not given  */
+} file_options;
 
-/* Puts the file's name before the context's message, where it is not there yet; gives `status`. */
-iso_status name_the_file(iso_context *ctx, const options *o, iso_status status);
+#define FILE_OPTIONS_UNSET                                                                                           \
+    {                                                                                                                \
+        .file = "-", .k = NAN, .J = {NAN, NAN, NAN}, .eps = NAN, .h = NAN                                            \
+    }
+
+/* Their rows; `from` is the place of a file_options in the struct `type`. */
+#define ROWS_OF_FILE(type, from)                                                                                     \
+    ROW("k", "K", "a number", "geometry number k, if the file does not say it", set_number, type, from.k),           \
+        ROW("J", "J1,J2,J3", "three numbers J1,J2,J3",                                                               \
+            "moments about the contact point, if the file does not say them", set_vector, type, from.J),             \
+        ROW("eps", "X", "a number", "coupling of the point's potential, if the file does not say it", set_number,    \
+            type, from.eps),                                                                                         \
+        ROW("h", "X", "a number", "energy of the ball, in place of eps", set_number, type, from.h),                  \
+        ROW_OF_FILE("scene", "FILE", "a file", "take k, J and the effects from this scene", set_text, type,          \
+                    from.scene, 0, OPTION_READS),                                                                    \
+        ROW("columns", "NAMES", "names with commas between", "the file's columns from left to right; - for others",  \
+            set_text, type, from.columns)
+
+/* Puts what the options say into the file's lines, and reads the parameters from these. */
+iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params);
+
+/* Puts the file's name before the context's message, unless it is there already. Gives `status`. */
+iso_status name_the_file(iso_context *ctx, const char *file, iso_status status);
 
 #endif

@@ -6,7 +6,7 @@
 #ifndef ISOROLL_TIMES_H
 #define ISOROLL_TIMES_H
 
-#include "command.h"
+#include "scene_options.h"
 
 /* A time, and its row in the file. */
 typedef struct output_time {
