@@ -15,13 +15,13 @@ typedef struct options {
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
-/* The fewest digits that read back as the same double. */
+/* The fewest digits, 6 or more, that read back as the same double. */
 static void print_number(const char *before, double x)
 {
     char text[ISO_NUMBER_SIZE];
     double read;
     x += 0.0; /* no -0 */
-    for (int digits = 1, same = 0; digits <= 17 && !same; digits++) {
+    for (int digits = 6, same = 0; digits <= 17 && !same; digits++) {
         const int length = iso_number_print_as(text, x, digits);
         same = iso_number_read(text, (size_t)length, &read) && read == x;
     }

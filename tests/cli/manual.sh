@@ -117,6 +117,22 @@ if command -v bash >/dev/null; then
     same "bash: topics" listed expected
 fi
 
+# --- apps/README.md: a section for each command, whose commands work
+readme=$source/apps/README.md
+sed -n 's/^## \([a-z]*\): .*/\1/p' "$readme" | sort >listed
+same "apps/README.md: sections" listed commands
+check "apps/README.md: no line over 100 characters" awk 'length > 100 { exit 1 }' "$readme"
+ln -s "$source/examples" examples
+sed -n 's/^    \$ isoroll \([^|>]*\)\( [|>].*\)*$/\1/p' "$readme" >lines
+check "apps/README.md: commands" test "$(wc -l <lines)" -ge "$(wc -l <commands)"
+while read -r line; do
+    case $line in
+    *" -o "*.svg) command -v gnuplot >/dev/null || continue ;;
+    esac
+    # shellcheck disable=SC2086 # a list
+    run 0 $line </dev/null
+done <lines
+
 # --- what the build made
 if [ -d "${ISO_BUILD:-absent}/manual" ]; then
     for of in isoroll $(cat commands); do
