@@ -58,15 +58,15 @@ static void print_way(const iso_analogue *a)
     switch (a->way) {
     case ISO_ANALOGUE_STATED: printf(b->level == 0 ? ", since the energy is 0\n" : "; c = E k^2/det J\n"); break;
     case ISO_ANALOGUE_FREE:
-        printf(": V = E - eps (gamma, J gamma), the energy is a shift of J, to %s\n", shift);
+        printf(": on the sphere V = E - eps (gamma, J gamma) with the ball's J = %s\n", shift);
         break;
     case ISO_ANALOGUE_SHIFTED:
         printf(": V = d/2 - eps (gamma, J gamma), d = %.10g, and c = (E - d/2) k^2/det J;\n"
-               "#   any d that leaves J positive will do, this one makes max J/min J = 3/2\n",
+               "#   any d with a positive J would do; this one makes max J/min J = 3/2\n",
                2 * a->shift);
         break;
     case ISO_ANALOGUE_CONSTANT:
-        printf(": V is constant, the point turns uniformly; so does any ball of equal moments\n");
+        printf(": V is constant: the point turns uniformly, and so does any ball of equal moments\n");
         break;
     }
     if (*a->not_free) printf("#   %s\n", a->not_free);
@@ -83,7 +83,7 @@ static void print_reduced(const iso_analogue *a)
     printf("\n");
 }
 
-/* With a body, what else could be one; without, why, and what would have one. */
+/* With a body: which other bodies there are. Without: why there is none, and which option gives one. */
 static void print_body(const iso_analogue *a)
 {
     const iso_body *b = &a->body.params.body;
@@ -134,10 +134,10 @@ static void print_scene(const iso_scene *s)
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-/* What is to be realised, and how it begins. */
+/* The problem, and the start of its point. */
 typedef struct task {
     iso_analogue_problem problem;
-    bool started;
+    bool started;                       /* a scene gives the start */
     double point[ISO_STATE], end, rows; /* end: in s; rows: those of a scene, 0 is the usual hundred */
 } task;
 
@@ -147,14 +147,14 @@ static bool problem_of_options(const options *o, iso_analogue_problem *p, bool *
     const bool neumann = !isnan(o->neumann[0]), k = !isnan(o->k), J = !isnan(o->J[0]), eps = !isnan(o->eps);
     *usage = true;
     if (neumann && (k || J || eps))
-        return complain("analogue: --neumann has k = -1 and needs no --k, --J or --eps"), false;
+        return complain("analogue: --neumann has k = -1 and needs no --k, --J or --eps: leave them out"), false;
     if (!neumann && (k || J || eps) && !(k && J && eps))
         return complain("analogue: --%s is missing: a problem is --k, --J and --eps, or --neumann", !k   ? "k"
                                                                                                     : !J ? "J"
                                                                                                          : "eps"),
                false;
     if ((neumann || k) && strcmp(o->file, "-") != 0)
-        return complain("analogue: '%s' and a problem in options: give one of them", o->file), false;
+        return complain("analogue: '%s' and a problem in options: leave one of them out", o->file), false;
     if (!neumann && !k && !isnan(o->energy))
         return complain("analogue: --energy needs --neumann or --k, --J and --eps; a scene's start has its own"),
                false;

@@ -1,4 +1,4 @@
-/* isoroll check - does a trajectory file solve its model? */
+/* isoroll check - tests whether a trajectory solves its model. */
 #include <math.h>
 
 #include "parameters.h"
@@ -9,7 +9,7 @@ typedef struct options {
     double tolerance, bound; /* NAN: not given */
 } options;
 
-/* True if a bound is given and any residual is above it. */
+/* True: a bound is given, and a residual is above it. */
 static bool print_residuals(const iso_residuals *r, double bound)
 {
     bool failed = false;

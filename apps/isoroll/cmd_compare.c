@@ -1,4 +1,4 @@
-/* isoroll compare - the same orbit by every backend: table, picture, JSON. */
+/* isoroll compare - computes one orbit by every backend and shows the differences: table, picture, JSON. */
 #include <math.h>
 
 #include "json.h"
@@ -17,7 +17,8 @@ static const char *backend_name(const iso_comparison *c, int run)
     return iso_picture_name((int)c->run[run].backend);
 }
 
-/* --- the table ----------------------------------------------------------------------------------------------------- */
+/* --- the table
+ * ----------------------------------------------------------------------------------------------------- */
 
 static void print_head(const iso_scene *scene, const iso_comparison *c)
 {
@@ -37,14 +38,14 @@ static void print_head(const iso_scene *scene, const iso_comparison *c)
         printf("exact: %s\n", c->no_exact);
 }
 
-/* The rows shown: `shown` of them, evenly spaced, first and last among them. */
+/* Which of the rows is the i-th that is shown: `shown` rows, evenly spaced, with the first and the last. */
 static size_t shown_row(size_t i, size_t shown, size_t rows)
 {
     return shown < 2 ? rows - 1 : i * (rows - 1) / (shown - 1);
 }
 
-/* The larger of the differences of a model's two vectors in a row: of the point from the ball; of either from the closed
- * solution. */
+/* The larger difference of a model's two vectors in a row. Run `point`: from the ball. Run `exact`: from the ball
+ * or the point, whichever is larger. */
 static double row_difference(const iso_comparison *c, int run, iso_picture model, size_t row)
 {
     const int first = model == ISO_BALL ? 1 : 3;
@@ -56,7 +57,7 @@ static double row_difference(const iso_comparison *c, int run, iso_picture model
     return most;
 }
 
-/* One model's six numbers by every backend, with its difference from those above it. */
+/* Prints one model's six numbers by every backend, each with its difference from the backends above it. */
 static void print_model(const iso_comparison *c, iso_picture model, size_t shown, size_t rows)
 {
     static const char *const titles[] = {"the ball", "the point"};
@@ -124,7 +125,8 @@ static void print_table(const iso_scene *scene, const options *o, const iso_comp
     }
 }
 
-/* --- JSON ---------------------------------------------------------------------------------------------------------- */
+/* --- JSON
+ * ---------------------------------------------------------------------------------------------------------- */
 
 static json_t *columns_of(const iso_record *r)
 {
@@ -179,7 +181,7 @@ static json_t *worst_of(const iso_comparison *c, const double worst[ISO_DIFFEREN
     return o;
 }
 
-/* What the closed solution adds, or why there is none. */
+/* Adds the closed solution, or why there is none. */
 static void add_exact(json_t *o, const iso_comparison *c)
 {
     if (c->runs < ISO_BACKENDS) {
@@ -195,7 +197,7 @@ static void add_exact(json_t *o, const iso_comparison *c)
                                   columns_of(c->from_exact[ISO_POINT])));
 }
 
-/* False: no memory. A full disk is found when the output is flushed. */
+/* False: there is no memory. A full disk shows later, when the output is flushed. */
 static bool print_json(const iso_scene *scene, const iso_comparison *c)
 {
     const iso_params *p = &scene->params;
@@ -210,7 +212,8 @@ static bool print_json(const iso_scene *scene, const iso_comparison *c)
     return json_print(o);
 }
 
-/* --- the command --------------------------------------------------------------------------------------------------- */
+/* --- the command
+ * --------------------------------------------------------------------------------------------------- */
 
 static bool show(double part, void *data)
 {
@@ -219,7 +222,8 @@ static bool show(double part, void *data)
     return true;
 }
 
-/* The differences of ball and point, and of each from the closed solution the largest in a row. */
+/* The curves of the picture: the differences of ball and point, and the largest difference of each of them from the
+ * closed solution. */
 static iso_status differences_drawn(iso_context *ctx, const iso_comparison *c, iso_record **drawn)
 {
     const char *names[ISO_DIFFERENCES + ISO_INTEGRATED] = {[ISO_DIFFERENCES] = "ball - exact", "point - exact"};
@@ -275,7 +279,8 @@ static int run(iso_context *ctx, const void *options_given)
     for (int e = ISO_ATTITUDE; e <= ISO_REACTIONS; e++)
         if (scene.effects.on[e]) complain("'%s' acts on nothing and is not compared", iso_effect_list[e]->name);
     if (status == ISO_STOPPED)
-        complain("interrupted: %zu of %zu rows", iso_record_rows(c->difference), iso_scene_rows(&scene));
+        complain("interrupted: %zu of %zu rows were compared", iso_record_rows(c->difference),
+                 iso_scene_rows(&scene));
     if (o->json) {
         if (!print_json(&scene, c)) result = EXIT_NUMERICAL;
     } else if (iso_record_rows(c->difference) > 0) {

@@ -1,4 +1,4 @@
-/* isoroll cost - what accuracy costs in time: error and processor time by every backend, method and tolerance. */
+/* isoroll cost - measures what accuracy costs: error and processor time for every backend, method and tolerance. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +35,7 @@ static iso_cost_options options_of(const options *o)
 
 /* --- growth ----------------------------------------------------------------------------------------------------- */
 
-/* The most exact cell of a line; NULL: none is measured. */
+/* The cell of a line with the smallest error; NULL: none is measured. */
 static const iso_cost_cell *most_exact(const iso_cost *cost, const iso_cost_line *line)
 {
     const iso_cost_cell *best = NULL;
@@ -46,7 +46,7 @@ static const iso_cost_cell *most_exact(const iso_cost *cost, const iso_cost_line
     return best;
 }
 
-/* Of each backend the fastest method, where it is most exact. */
+/* For each backend the fastest method, at the tolerance where its error is smallest. */
 static int best_cells(const iso_cost *cost, const iso_cost_line *const line[],
                       const iso_cost_cell *best[COST_GROWTHS])
 {
@@ -74,9 +74,9 @@ static void grow(iso_context *ctx, const options *o, const iso_cost_line *const 
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-enum { NAMED = 6 }; /* methods of each backend that have a name in the picture */
+enum { NAMED = 6 }; /* so many methods of each backend have a name in the picture */
 
-/* Whether a line is one of the first of its backend, or its method has its name from another one. */
+/* Whether the picture names a line: one of the first of its backend, or of a method that is named already. */
 static bool has_name(const iso_plot_work *work, int in_panel, int *names, const char *name)
 {
     for (int s = 0; s < work->count; s++)
@@ -84,7 +84,7 @@ static bool has_name(const iso_plot_work *work, int in_panel, int *names, const 
     return in_panel < NAMED && (*names)++ < ISO_PLOT_NAMES;
 }
 
-/* The lines of one backend, the fastest first; error and seconds are those of all cells. */
+/* Adds the lines of one backend, the fastest first. `error` and `seconds` hold the numbers of all cells. */
 static void add_panel(const iso_cost *cost, const iso_cost_line *const line[], iso_picture backend,
                       const double *error, const double *seconds, iso_plot_work *work, iso_plot_series *series,
                       int *names)
@@ -129,12 +129,13 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_cost_line *
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-/* What suits --want, as options to be pasted; what is expected of it goes to stderr. */
+/* Prints the choice for --want as options of `run`. The error and time to expect go to stderr. */
 static int tell_choice(const cost_report *r)
 {
     char words[COST_OPTIONS], seconds[COST_SECONDS];
     const iso_cost_cell *c = iso_cost_choose(r->cost, r->want);
-    if (!c) return complain("nothing measured reaches an error of %g", r->want), EXIT_SOME_FAILED;
+    if (!c)
+        return complain("nothing measured reaches an error of %g: try a larger --want", r->want), EXIT_SOME_FAILED;
     printf("%s\n", cost_options_of(c, words));
     complain("expected: error %.1e%s, time %s", c->error, c->below ? ", as far as the reference can tell" : "",
              cost_seconds(c->total, seconds));
@@ -156,7 +157,7 @@ static int worse(int a, int b)
     return a > b ? a : b;
 }
 
-/* Everything that was asked for, of what was measured. */
+/* Prints and draws what was asked for. */
 static int report(iso_context *ctx, const options *o, cost_report *r, iso_output *csv)
 {
     const iso_cost_line **line = cost_sort_lines(r->cost);
@@ -176,15 +177,16 @@ static int report(iso_context *ctx, const options *o, cost_report *r, iso_output
     return result;
 }
 
-/* What is wrong with the options is said before the work. */
+/* Reads the scene and opens the files. Refuses wrong options before the work begins. */
 static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_output **csv)
 {
     if (o->csv && strcmp(o->csv, "-") == 0 && (o->json || !isnan(o->want)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
-                                "cost: standard output has room for one: --csv -, --json or --want");
+                                "cost: standard output has room for one: choose --csv -, --json or --want");
     if (o->horizons > 0 && !o->json && (!isnan(o->want) || (o->csv && strcmp(o->csv, "-") == 0)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "horizons",
-                                "cost: --want and --csv - leave no room for what --horizons tells");
+        return iso_context_fail(
+            ctx, ISO_BAD_ARGUMENT, "horizons",
+            "cost: --want and --csv - leave no room for what --horizons tells: leave one of them out");
     iso_status status = scene_with_options(ctx, &o->scene, scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK && o->csv) status = iso_output_open(ctx, o->csv, csv);
@@ -205,7 +207,7 @@ static int run(iso_context *ctx, const void *options_given)
     int result = finish_scene(ctx, &o->scene, &scene, status);
     const int measured = cost ? cost_count(cost, iso_cost_is_measured) : 0;
     if (status == ISO_STOPPED && cost)
-        complain("interrupted: %d of %d cells", measured, cost->cells);
+        complain("interrupted: %d of %d cells were measured", measured, cost->cells);
     else if (status == ISO_STOPPED)
         complain("interrupted: nothing has been measured");
     if (measured > 0 || status == ISO_OK) {

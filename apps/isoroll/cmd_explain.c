@@ -1,4 +1,4 @@
-/* isoroll explain - what would be simulated, and why. */
+/* isoroll explain - tells what would be simulated, and why. */
 #include <math.h>
 #include <string.h>
 #include <time.h>
@@ -28,14 +28,14 @@ static void explain_ball(const iso_params *p)
     printf("\n");
 }
 
-/* What acts on the ball or is asked of it, with its numbers. */
+/* The effects, with their numbers. */
 static void explain_effects(const iso_orbit *orbit)
 {
     const iso_effects effects = iso_orbit_effects(orbit);
     print_effects(&effects, true);
 }
 
-/* What is simulated for the reactions alone. */
+/* On a level plane gravity changes nothing but the reactions. */
 static void explain_level_plane(const iso_scene *scene, const iso_orbit *orbit)
 {
     const iso_effects effects = iso_orbit_effects(orbit);
@@ -44,7 +44,7 @@ static void explain_level_plane(const iso_scene *scene, const iso_orbit *orbit)
                "gravity and reactions out\n\n");
 }
 
-/* Whether the two models are one here, and the twin that the ball has for every start. */
+/* Whether the ball has a twin, and in which potential that point moves. */
 static void explain_map(const iso_params *p, const iso_orbit *orbit)
 {
     const bool symmetric = iso_params_symmetric(p, 0) || iso_params_symmetric(p, 1) || iso_params_symmetric(p, 2);
@@ -69,7 +69,7 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
     printf("\n");
 }
 
-/* What `run --backend exact` would say of these columns. Errors: ISO_NO_MEMORY, which is no answer. */
+/* Whether `run --backend exact` can compute these columns, and if not, why. Errors: ISO_NO_MEMORY. */
 static iso_status explain_exact(iso_context *ctx, const iso_scene *scene, const int columns[], int count)
 {
     static const char *const kinds[ISO_EXACT_KINDS] = {
@@ -106,7 +106,7 @@ static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const
     const iso_model *m = iso_orbit_model(orbit);
     printf("%s: backend %s, %d states, in the clock %s\n", iso_orbit_exact(orbit) ? "evaluated" : "integrated",
            iso_picture_name((int)iso_orbit_backend(orbit)), m->dim, iso_clock_name(m->clock));
-    for (int i = 0, first = 0; i < m->dim; i++) { /* one line for those that are there for the same reason */
+    for (int i = 0, first = 0; i < m->dim; i++) { /* states with the same reason share a line */
         const char *reason = reason_of(m, i);
         if (i + 1 < m->dim && strcmp(reason, reason_of(m, i + 1)) == 0) continue;
         char names[128];
@@ -138,7 +138,7 @@ static void explain_integral(const char *whose, const iso_integral *i, const iso
     if (holds(i, f) == wanted) printf("  %-5s %-10s %s\n", whose, i->name, i->doc);
 }
 
-/* Of both models, or without a twin of the one that is integrated. */
+/* The integrals of both models. Without a twin: of the integrated model alone. */
 static void explain_integrals(const iso_orbit *orbit)
 {
     const iso_field *f = &iso_orbit_model(orbit)->field;
@@ -154,7 +154,7 @@ static void explain_integrals(const iso_orbit *orbit)
     }
 }
 
-/* Processor time of this thread: that of the process ticks in milliseconds where a limit has been set (ulimit -t). */
+/* Processor time of this thread. The time of the process has only milliseconds where a limit is set (ulimit -t). */
 static double seconds(void)
 {
     struct timespec now;
@@ -162,7 +162,7 @@ static double seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Seconds for one right-hand side, the best of several rounds. */
+/* Seconds for one right-hand side: the least of several rounds. */
 static double cost(const iso_model *m, const double y[])
 {
     enum { CALLS = 20000, ROUNDS = 7 };
@@ -172,7 +172,7 @@ static double cost(const iso_model *m, const double y[])
         const double begin = seconds();
         for (int i = 0; i < CALLS; i++) {
             m->rhs(m, x, dy);
-            x[0] += 1e-18 * dy[0]; /* each call waits for the one before */
+            x[0] += 1e-18 * dy[0]; /* so each call must wait for the one before */
         }
         best = fmin(best, (seconds() - begin) / CALLS);
     }

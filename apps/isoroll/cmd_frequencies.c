@@ -1,4 +1,5 @@
-/* isoroll frequencies - how fast a motion turns and swings: exactly where it can be, else by an estimate. */
+/* isoroll frequencies - tells how fast a motion turns and swings: exactly where a closed solution does it, else by an
+ * estimate from an orbit. */
 #include <math.h>
 #include <string.h>
 
@@ -7,9 +8,9 @@
 
 /* What frequencies can be told. */
 typedef struct options {
-    scene_options scene;        /* its file alone is read; what follows is of the orbit of an estimate */
-    const char *plot;           /* NULL: not given */
-    double turns, samples, end; /* NAN: not given  */
+    scene_options scene;   /* only its file and its end are used */
+    const char *plot;      /* NULL: not given */
+    double turns, samples; /* NAN: not given  */
     bool json;
 } options;
 
@@ -42,7 +43,7 @@ static void print_head(const iso_scene *scene, const iso_frequencies *f)
         "by %.1e)\n",
         f->estimate.turns, f->estimate.length, f->estimate.samples, f->estimate.drift, f->estimate.drift_before);
     if (f->estimate.verdict == ISO_CHAOTIC)
-        printf("  what follows wanders: it is of this orbit, not of the motion\n");
+        printf("  the numbers below change with time: they describe this orbit, not the motion\n");
     if (f->estimate.unexplained > 1e-4)
         printf("  %.2g of the amplitudes are no combinations of two frequencies\n", f->estimate.unexplained);
 }
@@ -53,7 +54,7 @@ static void print_separatrices(const iso_frequencies *f)
         printf("  %-46s %22.15g\n", f->separatrix[i].what, f->separatrix[i].distance);
 }
 
-/* In each clock; - where it is not known. */
+/* One line: a number in each clock, - where it is not known. */
 static void print_clocks(const char *what, const double x[ISO_CLOCKS])
 {
     printf("  %-22s", what);
@@ -88,7 +89,7 @@ static void print_resonances(const iso_frequencies *f)
         const iso_resonance *r = &f->resonance[i];
         printf("  %3d:%-3d  off by %.1e, ", r->p, r->q, r->gap);
         if (r->met)
-            printf(f->estimated ? "which the estimate cannot tell from 0\n" : "resonant\n");
+            printf(f->estimated ? "the estimate cannot tell this from 0\n" : "resonant\n");
         else
             printf("t = %.6g\n", r->beat[ISO_CLOCK_T]);
     }
@@ -176,7 +177,7 @@ static json_t *integral_of(const iso_frequencies *f)
     return f->integral ? json_pack("{s:s, s:o}", "name", f->integral->name, "value", json_number(f->F)) : json_null();
 }
 
-/* False: no memory. */
+/* False: there is no memory. */
 static bool print_json(const iso_scene *scene, const iso_frequencies *f)
 {
     const iso_params *p = &scene->params;
@@ -192,7 +193,7 @@ static bool print_json(const iso_scene *scene, const iso_frequencies *f)
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* The image of the momentum map. */
+/* Draws the image of the momentum map with the orbit in it. */
 static iso_status draw_map(iso_context *ctx, const options *o, const iso_momentum *m, const char *title,
                            const iso_frequencies *f)
 {
@@ -217,7 +218,7 @@ static iso_status draw_map(iso_context *ctx, const options *o, const iso_momentu
     return status;
 }
 
-/* The lines of n(t), which a closed solution has not been asked for. */
+/* Draws the spectral lines of n(t). After a closed solution they are estimated here. */
 static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene *scene, const char *title,
                              const iso_frequencies *found)
 {
@@ -252,7 +253,7 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scen
     snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g", scene->params.k, J[0], J[1], J[2]);
     bool mapped =
         f->integral && f->h > 0 && iso_momentum_make(&scene->params, f->H, &m) && strcmp(f->integral->name, m.F) == 0;
-    double low, high; /* equal moments leave no area */
+    double low, high; /* with equal moments the image has no area */
     mapped = mapped && iso_momentum_interval(&m, f->h, iso_momentum_find(&m, f->h, f->F), &low, &high);
     return mapped ? draw_map(ctx, o, &m, title, f) : draw_lines(ctx, o, scene, title, f);
 }

@@ -1,4 +1,4 @@
-/* isoroll list - the registries of the library. */
+/* isoroll list - prints what there is: systems, backends, effects, methods and so on. */
 #include <string.h>
 
 #include "command.h"
@@ -23,8 +23,9 @@ static void list_backends(void)
     static const char *const docs[] = {
         [ISO_BALL] = "integrates the ball (9)",
         [ISO_POINT] = "integrates the point (24)",
-        [ISO_AUTO] = "the model of the start, the ball where effects need it, or what the method is for",
-        [ISO_EXACT] = "evaluates the closed solution, where there is one: any time at the same cost",
+        [ISO_AUTO] =
+            "chooses: the model of the start; the ball if an effect needs it; the model that the method is for",
+        [ISO_EXACT] = "evaluates the closed solution, where there is one; every time costs the same",
     };
     for (int i = 0; iso_picture_name(i); i++)
         if (i != ISO_BOTH) printf("  %-22s %s\n", iso_picture_name(i), docs[i]);
@@ -97,7 +98,7 @@ static const struct {
 } topics[] = {
     {"systems", "the two models", list_systems},
     {"backends", "what finds an orbit (--backend)", list_backends},
-    {"effects", "what can act on the ball, or be asked of it (effects:)", list_effects},
+    {"effects", "what can act on the ball, and what can be computed beside its motion (effects:)", list_effects},
     {"methods", "integrators (--method)", list_methods},
     {"surfaces", "what the ball rolls on (surface: kind)", list_surfaces},
     {"integrals", "first integrals, each with the k, J and effects for which it holds", list_integrals},
@@ -118,7 +119,7 @@ static int run(iso_context *ctx, const void *options_given)
         topics[i].list();
     }
     if (listed) return EXIT_DONE;
-    complain("list: nothing is called '%s'; 'isoroll list' shows everything", o->topic);
+    complain("list: nothing is called '%s'; 'isoroll list' shows all topics", o->topic);
     return EXIT_USAGE;
 }
 

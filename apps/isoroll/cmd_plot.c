@@ -1,4 +1,4 @@
-/* isoroll plot - a picture of a trajectory: paths on the spheres, integrals, clocks. */
+/* isoroll plot - draws a trajectory: paths on the spheres, drift of integrals, clocks. */
 #include <stdio.h>
 #include <string.h>
 
@@ -10,18 +10,19 @@ typedef struct options {
     const char *output;
 } options;
 
-/* What is drawn, of the file and of its conversion. */
+/* What is drawn: the file, its conversion, and numbers from both. */
 typedef struct parts {
     iso_record *file, *twin, *drifts, *clocks;
 } parts;
 
-/* The model the file has, the ball if both. */
+/* The model of the file; the ball if it has both. */
 static iso_picture model_of(const iso_record *record)
 {
     return iso_record_find(record, "n1") >= 0 && iso_record_find(record, "omega1") >= 0 ? ISO_BALL : ISO_POINT;
 }
 
-/* The file's own clock, and the other one: from the file, or computed with its twin. */
+/* Puts the file's clock and the other model's clock side by side. The other one comes from the file or from its
+ * twin. */
 static iso_status pair_clocks(iso_context *ctx, parts *p)
 {
     const iso_picture model = model_of(p->file);
@@ -40,7 +41,7 @@ static iso_status pair_clocks(iso_context *ctx, parts *p)
     return status;
 }
 
-/* Only one model is drawn where the other does not exist: at rest, or with effects that break the isomorphism. */
+/* Converts the file. A ball at rest, or with effects that break the isomorphism, has no twin and is drawn alone. */
 static iso_status find_twin(iso_context *ctx, const iso_params *params, parts *p)
 {
     if (iso_record_find(p->file, "n1") >= 0 && iso_record_find(p->file, "gamma1") >= 0) return ISO_OK;
@@ -76,7 +77,8 @@ static int run(iso_context *ctx, const void *options_given)
     const options *o = options_given;
     parts p = {NULL, NULL, NULL, NULL};
     iso_params params;
-    if (strcmp(o->output, "-") == 0) return complain("plot: -o FILE is missing: .svg, .png or .pdf"), EXIT_USAGE;
+    if (strcmp(o->output, "-") == 0)
+        return complain("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
     iso_status status = iso_plot_check_format(ctx, o->output);
     if (status == ISO_OK) status = iso_trajectory_read(ctx, o->from.file, o->from.columns, &p.file);
     if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, p.file, &params);

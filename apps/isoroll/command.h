@@ -23,7 +23,8 @@ typedef struct command {
     int (*run)(iso_context *ctx, const void *options); /* gives the exit status                     */
 } command;
 
-/* All commands in the order of --help; NULL after the last. Adding a command is one file and one line in commands.c. */
+/* All commands in the order of --help; NULL after the last. Adding a command is one file and one line in
+ * commands.c. */
 extern const command *const commands[];
 
 /* NULL: there is none of that name. */

@@ -1,4 +1,4 @@
-/* cost_data.c - what `isoroll cost` measured, for other programs: CSV and JSON. */
+/* cost_data.c - writes what `isoroll cost` measured for other programs: CSV and JSON. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 
 /* --- CSV -------------------------------------------------------------------------------------------------------- */
 
-/* A number; an empty field where there is none. */
+/* A field with a number. It is empty where there is none. */
 static void put(FILE *to, double x)
 {
     char text[ISO_NUMBER_SIZE] = "";

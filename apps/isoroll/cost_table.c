@@ -1,4 +1,4 @@
-/* cost_table.c - `isoroll cost` on a terminal: a table of all that was measured, and the answer in words. */
+/* cost_table.c - prints what `isoroll cost` measured as tables, and the answer in words. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -6,7 +6,7 @@
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
-enum { MOST_DIGITS = 16 }; /* a double has no more, but an error may be 0 */
+enum { MOST_DIGITS = 16 }; /* of a double */
 
 static const char *method_name(const iso_method *method)
 {
@@ -37,7 +37,7 @@ static void print_number(double x)
         printf(" %8.1e", x);
 }
 
-/* Which cell it is: backend, method, tolerance. */
+/* The name of a cell: backend, method, tolerance. */
 static void print_name(const iso_cost_cell *c)
 {
     char tolerance[16] = "-";
@@ -83,7 +83,7 @@ static void print_failed(const iso_cost *cost)
     }
 }
 
-/* What would take longer than its share: of each line the loosest tolerance of those. */
+/* The cells that would take too long: of each line the one with the loosest tolerance. */
 static void print_left_out(const iso_cost *cost)
 {
     int lines = 0;
@@ -163,7 +163,8 @@ static const iso_cost_cell *choose_digits(const iso_cost *cost, chooser *choose,
     return digits <= MOST_DIGITS ? choose(cost, pow(10, -digits)) : NULL;
 }
 
-/* Each choice once, with the most digits that it is the choice for, from so many on. Gives the first without one. */
+/* Prints the choices for `digits` digits and more. A choice for several numbers of digits is printed once, with
+ * the most. Returns the first number of digits for which there is no choice. */
 static int print_choices(const iso_cost *cost, chooser *choose, int digits)
 {
     const iso_cost_cell *c = choose_digits(cost, choose, digits);
@@ -175,10 +176,10 @@ static int print_choices(const iso_cost *cost, chooser *choose, int digits)
     return digits;
 }
 
-/* Where the closed solution is the choice, the best of the others as well. */
+/* Prints what to take. Where this is the closed solution, prints the best of the other methods as well. */
 static void print_answer(const iso_cost *cost)
 {
-    printf("\nwhat to take (times with set-up, on this machine; on others their ratios are much the same)\n");
+    printf("\nwhat to take (times with set-up; other machines have other times, but similar ratios)\n");
     const int beyond = print_choices(cost, iso_cost_choose, 1);
     if (beyond <= MOST_DIGITS) printf("  nothing measured reaches 1e-%d\n", beyond);
     for (int digits = 1; digits < beyond; digits++) {

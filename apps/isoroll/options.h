@@ -32,8 +32,8 @@ typedef struct option_row {
 
 typedef enum options_result { OPTIONS_WRONG, OPTIONS_HELP, OPTIONS_DONE } options_result;
 
-/* Reads the arguments of a command into its struct, which already holds the defaults. OPTIONS_WRONG: a message has been
- * given. */
+/* Reads the arguments of a command into its struct, which already holds the defaults. OPTIONS_WRONG: a message has
+ * been given. */
 options_result options_read(const struct command *c, int argc, char **argv, void *options);
 
 /* The rows of a command, and after them --help; NULL after the last. */

@@ -18,8 +18,8 @@ enum exit_status {
 /* Prints "isoroll: MESSAGE" on stderr, in one line. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Prints the context's message and returns the exit status that belongs to `status`. Says nothing after success, after
- * a stop on request, and when the reader of a pipe has gone. */
+/* Prints the context's message and returns the exit status that belongs to `status`. Says nothing after success,
+ * after a stop on request, and when the reader of a pipe has gone. */
 int finish(iso_context *ctx, iso_status status);
 
 /* From now on SIGINT, SIGTERM and SIGHUP only ask to stop. A signal that comes two seconds later ends the program. */

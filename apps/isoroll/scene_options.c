@@ -39,8 +39,8 @@ iso_orbit_options options_for_columns(const iso_scene *scene, const int columns[
         point = point || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_EFFECTS);
         M = M || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_POINT + 3);
     }
-    ball = ball || scene->effects.on[ISO_REACTIONS]; /* loss of contact is looked for */
-    *effects = scene->effects;                       /* what acts on nothing is there for its columns */
+    ball = ball || scene->effects.on[ISO_REACTIONS]; /* the loss of contact is looked for in the ball */
+    *effects = scene->effects;                       /* some effects only add columns */
     effects->on[ISO_ATTITUDE] = effects->on[ISO_ATTITUDE] && attitude;
     o.effects = effects;
     o.show = ball && point ? ISO_BOTH : ball ? ISO_BALL : point ? ISO_POINT : scene->start.model;

@@ -41,7 +41,8 @@ typedef struct scene_options {
 /* Reads the scene and puts the options into it. */
 iso_status scene_with_options(iso_context *ctx, const scene_options *o, iso_scene *scene);
 
-/* As finish(), after a failure with the scene: says where in its file the cause stands, unless an option put it there. */
+/* As finish(), after a failure with the scene: says where in its file the cause stands, unless an option put it
+ * there. */
 int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scene, iso_status status);
 
 /* Options of the orbit that fills these columns, and nothing else. They point to `effects`. */

@@ -1,8 +1,8 @@
 /* analogue_units.c - round mass, radius and time for the ball of a problem.
  *
- * A problem of a point fixes the ball's J up to a scale s (analogue.h), and the angular velocity goes as s^((1/k - 4)/2).
- * With D = m B^2 in the middle of what the triangle inequalities allow, s is 2 D over their room. So there is one D for
- * which the angular velocity is 1; mass and radius are round numbers with a product m B^2 near this D.
+ * A problem of a point fixes the ball's J up to a scale s (analogue.h). The angular velocity goes as
+ * s^((1/k - 4)/2). With D = m B^2 in the middle of its range, s is 2 D/(J1 + J2 - J3). So there is one D for which the
+ * angular velocity is 1. Mass and radius are round numbers with a product m B^2 near this D.
  */
 #include <math.h>
 #include <stdio.h>
@@ -51,8 +51,8 @@ static double angular_velocity(const iso_analogue *a)
     return norm(y);
 }
 
-/* The D = m B^2 for which the angular velocity of the body is 1. For k near 1/4 it hardly depends on D: then, and where
- * the ball is at rest, D is 1. */
+/* The D = m B^2 for which the angular velocity of the body is 1. For k near 1/4 it hardly depends on D: then, and
+ * where the ball is at rest, D is 1. */
 static double best_D(const iso_analogue *a)
 {
     const double power = (1 / a->reduced.params.k - 4) / 2, w = angular_velocity(a);
