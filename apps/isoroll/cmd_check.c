@@ -65,6 +65,6 @@ const command command_check = {
     .description = "Prints residuals: of constraints, of integrals, and of every column. Residuals are relative. The "
                    "residual 'flow' integrates each row to the time of the next row and compares.",
     .example = "isoroll check trajectory.csv --max 1e-9",
-    .exits = "1: a residual is larger than --max.",
+    .exits = "1: a residual is larger than --max",
     .run = run,
 };

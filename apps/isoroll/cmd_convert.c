@@ -235,6 +235,6 @@ const command command_convert = {
         "A bad row becomes a row of nan. A point off the level H = 0 becomes a ball in the potential of the effect "
         "'level'; with --shift-J it becomes a free ball.",
     .example = "isoroll convert --to point ball.csv -o point.csv",
-    .exits = "1: a row was bad, or the rows do not lie on one orbit.",
+    .exits = "1: a row was bad, or the rows do not lie on one orbit",
     .run = run,
 };

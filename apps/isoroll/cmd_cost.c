@@ -270,6 +270,6 @@ const command command_cost = {
         "measured is printed.",
     .example = "isoroll cost scene.yaml --quick --plot cost.svg\n"
                "isoroll run scene.yaml $(isoroll cost scene.yaml --want 1e-9)",
-    .exits = "1: a run failed, or nothing reaches the error that --want asks for.",
+    .exits = "1: a run failed, or nothing reaches the error that --want asks for",
     .run = run,
 };

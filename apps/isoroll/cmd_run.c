@@ -320,6 +320,6 @@ const command command_run = {
         "effects' numbers and of the times.\n\n"
         "After Ctrl-C, the rows computed so far are kept.",
     .example = "isoroll run scene.yaml -o trajectory.csv",
-    .exits = "1: interrupted. 4: the computation failed; the rows before the failure are kept.",
+    .exits = "1: interrupted\n4: the computation failed; the rows before the failure are kept",
     .run = run,
 };

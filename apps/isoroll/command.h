@@ -19,7 +19,7 @@ typedef struct command {
     const char *(*word)(int i); /* the words that the argument can be; NULL: it is a file           */
     const char *description;    /* paragraphs with an empty line between; lines are folded          */
     const char *example;        /* lines as they are typed                                          */
-    const char *exits;          /* exit statuses where they need words; NULL: the usual ones        */
+    const char *exits;          /* lines about exit statuses that need words; NULL: the usual ones  */
     int (*run)(iso_context *ctx, const void *options); /* gives the exit status                     */
 } command;
 

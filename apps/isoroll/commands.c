@@ -14,8 +14,12 @@ const char *const about_isoroll =
     "isoroll simulates the rubber Chaplygin ball that rolls on a sphere, and its twin, a point on a sphere in a "
     "Neumann/Braden potential. It carries orbits from one model to the other.";
 
-const char *const about_exits = "0 done; 1 some rows failed, a bound was broken, or interrupted; 2 wrong usage; "
-                                "3 bad input; 4 numerical failure, or no memory; 5 trouble with a file";
+const char *const about_exits = "0: done\n"
+                                "1: some rows failed, a bound was broken, or interrupted\n"
+                                "2: wrong usage\n"
+                                "3: bad input\n"
+                                "4: numerical failure, or no memory\n"
+                                "5: trouble with a file";
 
 const command *command_find(const char *name)
 {

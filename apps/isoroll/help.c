@@ -50,7 +50,7 @@ void help_command(const command *c, FILE *to)
     print_indented(c->example, to);
     if (!c->exits) return;
     fputs("\nexit status\n", to);
-    print_folded(c->exits, to);
+    print_indented(c->exits, to);
 }
 
 void help_program(FILE *to)
@@ -62,5 +62,5 @@ void help_program(FILE *to)
     fputs("\n  isoroll COMMAND --help     the options of a command\n"
           "  isoroll --version          the versions of isoroll and its libraries\n\nexit status\n",
           to);
-    print_folded(about_exits, to);
+    print_indented(about_exits, to);
 }

@@ -76,12 +76,13 @@ static void put_example(const char *example, FILE *to)
 
 static void put_exits(const char *special, FILE *to)
 {
-    fputs(".SH EXIT STATUS\n", to);
+    fputs(".SH EXIT STATUS\n.nf\n", to);
     put_lines(about_exits, "", to);
-    fputs(".\n", to);
+    fputs(".fi\n", to);
     if (!special) return;
-    fputs(".PP\nFor this command:\n", to);
-    put_lines(special, ".PP\n", to);
+    fputs(".PP\nFor this command:\n.PP\n.nf\n", to);
+    put_lines(special, "", to);
+    fputs(".fi\n", to);
 }
 
 void manual_command(const command *c, FILE *to)
