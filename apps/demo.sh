@@ -1,6 +1,6 @@
 #!/bin/sh
-# The main job on real input, with all its set-up: a bowling ball on a lane and a Neumann shell, each computed as a
-# rolling ball and as its twin, a point on a sphere; a table of both, and a picture.
+# Builds the command, with all set-up, and uses it on two examples: a bowling ball and a Neumann shell. Each orbit is
+# computed in both models, as a rolling ball and as a point on a sphere. Prints a table and draws a picture of each.
 set -eu
 cd "$(dirname "$0")/.."
 sh .ci/packages.sh

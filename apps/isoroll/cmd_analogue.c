@@ -1,16 +1,30 @@
-/* isoroll analogue - from a point problem to a ball that realises it: a report in # lines, the ball as a scene */
+/* isoroll analogue - finds a ball for a problem of a point: a report in # lines, then the ball as a scene. */
 #include <math.h>
 #include <string.h>
 
 #include "parameters.h"
+#include "scene_options.h"
+
+/* What analogue can be told. */
+typedef struct options {
+    const char *file;
+    double k, J[3], eps, neumann[3], energy; /* NAN: not given               */
+    double mass, radius;                     /* NAN: analogue chooses        */
+    bool level;
+} options;
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
-/* Reads back as the same double. */
+/* The fewest digits, 6 or more, that read back as the same double. */
 static void print_number(const char *before, double x)
 {
     char text[ISO_NUMBER_SIZE];
-    iso_number_print(text, x + 0.0); /* no -0 */
+    double read;
+    x += 0.0; /* no -0 */
+    for (int digits = 6, same = 0; digits <= 17 && !same; digits++) {
+        const int length = iso_number_print_as(text, x, digits);
+        same = iso_number_read(text, (size_t)length, &read) && read == x;
+    }
     printf("%s%s", before, text);
 }
 
@@ -44,15 +58,15 @@ static void print_way(const iso_analogue *a)
     switch (a->way) {
     case ISO_ANALOGUE_STATED: printf(b->level == 0 ? ", since the energy is 0\n" : "; c = E k^2/det J\n"); break;
     case ISO_ANALOGUE_FREE:
-        printf(": V = E - eps (gamma, J gamma), the energy is a shift of J, to %s\n", shift);
+        printf(": on the sphere V = E - eps (gamma, J gamma) with the ball's J = %s\n", shift);
         break;
     case ISO_ANALOGUE_SHIFTED:
         printf(": V = d/2 - eps (gamma, J gamma), d = %.10g, and c = (E - d/2) k^2/det J;\n"
-               "#   any d that leaves J positive will do, this one makes max J/min J = 3/2\n",
+               "#   any d with a positive J would do; this one makes max J/min J = 3/2\n",
                2 * a->shift);
         break;
     case ISO_ANALOGUE_CONSTANT:
-        printf(": V is constant, the point turns uniformly; so does any ball of equal moments\n");
+        printf(": V is constant: the point turns uniformly, and so does any ball of equal moments\n");
         break;
     }
     if (*a->not_free) printf("#   %s\n", a->not_free);
@@ -69,7 +83,7 @@ static void print_reduced(const iso_analogue *a)
     printf("\n");
 }
 
-/* With a body, what else could be one; without, why, and what would have one. */
+/* With a body: which other bodies there are. Without: why there is none, and which option gives one. */
 static void print_body(const iso_analogue *a)
 {
     const iso_body *b = &a->body.params.body;
@@ -121,33 +135,27 @@ static void print_scene(const iso_scene *s)
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-/* What is to be realised, and how it begins. */
+/* The problem, and the start of its point. */
 typedef struct task {
     iso_analogue_problem problem;
-    bool started;
-    double point[ISO_STATE], end, rows; /* of a scene, in s; rows 0: the usual hundred */
+    bool started;                       /* a scene gives the start */
+    double point[ISO_STATE], end, rows; /* end: in s; rows: those of a scene, 0 is the usual hundred */
 } task;
 
-static bool go_on(void *data)
-{
-    (void)data;
-    return !interrupted();
-}
-
-/* True: the options state a problem; false: they leave it to a scene. A wrong mixture is told, and makes *usage. */
+/* True: the options state a problem. False: a scene states it. A wrong mixture gives a message and sets *usage. */
 static bool problem_of_options(const options *o, iso_analogue_problem *p, bool *usage)
 {
     const bool neumann = !isnan(o->neumann[0]), k = !isnan(o->k), J = !isnan(o->J[0]), eps = !isnan(o->eps);
     *usage = true;
     if (neumann && (k || J || eps))
-        return complain("analogue: --neumann has k = -1 and needs no --k, --J or --eps"), false;
+        return complain("analogue: --neumann has k = -1 and needs no --k, --J or --eps: leave them out"), false;
     if (!neumann && (k || J || eps) && !(k && J && eps))
         return complain("analogue: --%s is missing: a problem is --k, --J and --eps, or --neumann", !k   ? "k"
                                                                                                     : !J ? "J"
                                                                                                          : "eps"),
                false;
     if ((neumann || k) && strcmp(o->file, "-") != 0)
-        return complain("analogue: '%s' and a problem in options: give one of them", o->file), false;
+        return complain("analogue: '%s' and a problem in options: leave one of them out", o->file), false;
     if (!neumann && !k && !isnan(o->energy))
         return complain("analogue: --energy needs --neumann or --k, --J and --eps; a scene's start has its own"),
                false;
@@ -169,7 +177,7 @@ static iso_status problem_of_scene(iso_context *ctx, const options *o, task *t)
     t->rows = scene.step > 0 ? fabs(scene.end) / scene.step : 0;
     const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
     if (status == ISO_OK || status == ISO_FILE_TROUBLE) return status;
-    return name_the_file(ctx, o, iso_scene_blame(ctx, &scene, name, status));
+    return name_the_file(ctx, o->file, iso_scene_blame(ctx, &scene, name, status));
 }
 
 static iso_status answer(iso_context *ctx, const options *o, task *t)
@@ -179,43 +187,77 @@ static iso_status answer(iso_context *ctx, const options *o, task *t)
     t->problem.level = o->level;
     iso_status status = iso_analogue_find(ctx, &t->problem, o->mass, o->radius, &a);
     if (status != ISO_OK) return status;
-    if (!t->started) t->end = iso_analogue_start(&a, t->point);
+    if (!t->started) t->end = 2 * iso_analogue_start(&a, t->point); /* about twenty turns */
     status = iso_analogue_scene(ctx, a.has_body ? &a.body : &a.reduced, t->point, t->end, &scene);
     if (status != ISO_OK) return status;
+    if (!t->started) scene.end = iso_analogue_round_up(scene.end);
     if (t->rows > 0 && scene.end != 0) scene.step = fabs(scene.end) / t->rows;
     print_problem(&a);
     print_way(&a);
     print_reduced(&a);
     print_body(&a);
-    printf("# start: %s; the twin's gamma and M are the point's, in its clock s; end is s = %.10g\n",
-           t->started ? "the scene's" : "one that has this energy", t->end);
+    printf("# start: %s; the twin's gamma and M are the point's, in its clock s\n",
+           t->started ? "the scene's" : "one that has this energy");
+    if (t->started)
+        printf("# end: where s = %.10g\n", t->end);
+    else
+        printf("# end: a round time t, 20 turns or more\n");
     print_scene(&scene);
     return ISO_OK;
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
+    const options *o = options_given;
     task t = {.started = false};
     bool usage;
     const bool stated = problem_of_options(o, &t.problem, &usage);
     if (usage) return EXIT_USAGE;
     iso_status status = stated ? ISO_OK : problem_of_scene(ctx, o, &t);
     stop_gently();
-    iso_context_watch(ctx, go_on, NULL);
+    iso_context_watch(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = answer(ctx, o, &t);
     iso_context_watch(ctx, NULL, NULL);
     return finish(ctx, status);
 }
 
+static const options defaults = {.file = "-",
+                                 .k = NAN,
+                                 .J = {NAN, NAN, NAN},
+                                 .eps = NAN,
+                                 .neumann = {NAN, NAN, NAN},
+                                 .energy = NAN,
+                                 .mass = NAN,
+                                 .radius = NAN};
+
+static const option_row rows[] = {
+    ROW("neumann", "C", "three numbers C1,C2,C3", "C1,C2,C3 of Neumann's problem V = (1/2) sum C_i gamma_i^2",
+        set_vector, options, neumann),
+    ROW("k", "K", "a number", "k of the problem V = -eps (gamma, J gamma)^(-1/k)", set_number, options, k),
+    ROW("J", "J1,J2,J3", "three numbers J1,J2,J3", "J of this problem", set_vector, options, J),
+    ROW("eps", "X", "a number", "eps of this problem", set_number, options, eps),
+    ROW("energy", "E", "a number", "energy of the point, M^2/2 + V (default 0)", set_number, options, energy),
+    ROW("level", NULL, NULL, "k = -1: a ball in the potential of a level, even where there is a free one", set_flag,
+        options, level),
+    ROW("mass", "M", "a positive number", "mass of the ball (default: chosen)", set_positive, options, mass),
+    ROW("radius", "B", "a positive number", "radius of the ball (default: chosen)", set_positive, options, radius),
+    ROW_END,
+};
+
 const command command_analogue = {
     .name = "analogue",
     .argument = "[SCENE]",
-    .doc = "from a point problem to a ball that realises it",
-    .options = " neumann k J eps energy level mass radius ",
-    .more = "The problem is a `point` scene, whose start is carried over, or --neumann, or --k, --J and --eps: "
-            "V = -eps (gamma, J gamma)^(-1/k).\nThe answer is a scene with the report in # lines:\n\n"
-            "  isoroll analogue --neumann 1,2,2.5 --energy 2 > ball.yaml && isoroll compare ball.yaml\n\n"
-            "It is a body of that mass and radius where there is one, else k and J alone; free (no potential) where "
-            "it can be.",
+    .doc = "find a ball that realises a problem of a point on a sphere",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, file),
+    .description =
+        "The problem is a scene of a 'point', or --neumann, or --k, --J and --eps. The start of a scene is carried "
+        "over; otherwise a start is chosen. The answer is a scene of a ball, with a report in # lines.\n\n"
+        "The ball is free (no potential acts on it) where that is possible. It is a body with mass and radius where "
+        "there is one, else k and J alone. Mass and radius that are not given are round numbers, chosen so that the "
+        "angular velocity is of order one.",
+    .example = "isoroll analogue --neumann 1,2,2.5 --energy 2 > ball.yaml\nisoroll compare ball.yaml",
     .run = run,
 };

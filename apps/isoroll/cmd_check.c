@@ -1,9 +1,15 @@
-/* isoroll check - does a trajectory file solve its model? */
+/* isoroll check - tests whether a trajectory solves its model. */
 #include <math.h>
 
 #include "parameters.h"
 
-/* True if a bound is given and any residual is above it. */
+/* What check can be told. */
+typedef struct options {
+    file_options from;
+    double tolerance, bound; /* NAN: not given */
+} options;
+
+/* True: a bound is given, and a residual is above it. */
 static bool print_residuals(const iso_residuals *r, double bound)
 {
     bool failed = false;
@@ -17,30 +23,48 @@ static bool print_residuals(const iso_residuals *r, double bound)
     return failed;
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
+    const options *o = options_given;
     iso_record *record = NULL;
     iso_params params;
     iso_residuals residuals;
     bool failed = false;
-    iso_status status = iso_trajectory_read(ctx, o->file, o->columns, &record);
-    if (status == ISO_OK) status = parameters_of_file(ctx, o, record, &params);
+    iso_status status = iso_trajectory_read(ctx, o->from.file, o->from.columns, &record);
+    if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, record, &params);
     if (status == ISO_OK)
         status = iso_check(ctx, &params, record, isnan(o->tolerance) ? 1e-13 : o->tolerance, &residuals);
     if (status == ISO_OK)
         failed = print_residuals(&residuals, o->bound);
     else if (status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
-        status = name_the_file(ctx, o, status);
+        status = name_the_file(ctx, o->from.file, status);
     iso_record_free(record);
-    if (failed) complain("%s: a residual is above %g", o->file, o->bound);
+    if (failed) complain("%s: a residual is above %g", o->from.file, o->bound);
     return status == ISO_OK && failed ? EXIT_SOME_FAILED : finish(ctx, status);
 }
+
+static const options defaults = {.from = FILE_OPTIONS_UNSET, .tolerance = NAN, .bound = NAN};
+
+static const option_row rows[] = {
+    ROW("tol", "X", "a number in [1e-15, 0.1]", "tolerance of the flow from row to row (default 1e-13)",
+        set_tolerance, options, tolerance),
+    ROWS_OF_FILE(options, from),
+    ROW("max", "X", "a number from 0 on", "exit with status 1 if a residual is larger than X", set_bound, options,
+        bound),
+    ROW_END,
+};
 
 const command command_check = {
     .name = "check",
     .argument = "[FILE]",
-    .doc = "residuals of a trajectory: constraints, integrals, whether it solves its model",
-    .options = " k J eps h scene columns row-tolerance tol max ",
-    .more = "Residuals are relative. 'flow' integrates each row to the time of the next at --tol (default 1e-13).",
+    .doc = "test whether a trajectory solves its model",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, from.file),
+    .description = "Prints residuals: of constraints, of integrals, and of every column. Residuals are relative. The "
+                   "residual 'flow' integrates each row to the time of the next row and compares.",
+    .example = "isoroll check trajectory.csv --max 1e-9",
+    .exits = "1: a residual is larger than --max",
     .run = run,
 };

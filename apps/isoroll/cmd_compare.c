@@ -1,15 +1,24 @@
-/* isoroll compare - the same orbit by every backend: table, picture, JSON. */
+/* isoroll compare - computes one orbit by every backend and shows the differences: table, picture, JSON. */
 #include <math.h>
 
-#include "command.h"
 #include "json.h"
+#include "scene_options.h"
+
+/* What compare can be told. */
+typedef struct options {
+    scene_options scene;
+    const char *plot; /* NULL: not given */
+    double rows;
+    bool json;
+} options;
 
 static const char *backend_name(const iso_comparison *c, int run)
 {
     return iso_picture_name((int)c->run[run].backend);
 }
 
-/* --- the table ----------------------------------------------------------------------------------------------------- */
+/* --- the table
+ * ----------------------------------------------------------------------------------------------------- */
 
 static void print_head(const iso_scene *scene, const iso_comparison *c)
 {
@@ -29,14 +38,14 @@ static void print_head(const iso_scene *scene, const iso_comparison *c)
         printf("exact: %s\n", c->no_exact);
 }
 
-/* The rows shown: `shown` of them, evenly spaced, first and last among them. */
+/* Which of the rows is the i-th that is shown: `shown` rows, evenly spaced, with the first and the last. */
 static size_t shown_row(size_t i, size_t shown, size_t rows)
 {
     return shown < 2 ? rows - 1 : i * (rows - 1) / (shown - 1);
 }
 
-/* The larger of the differences of a model's two vectors in a row: of the point from the ball; of either from the closed
- * solution. */
+/* The larger difference of a model's two vectors in a row. Run `point`: from the ball. Run `exact`: from the ball
+ * or the point, whichever is larger. */
 static double row_difference(const iso_comparison *c, int run, iso_picture model, size_t row)
 {
     const int first = model == ISO_BALL ? 1 : 3;
@@ -48,7 +57,7 @@ static double row_difference(const iso_comparison *c, int run, iso_picture model
     return most;
 }
 
-/* One model's six numbers by every backend, with its difference from those above it. */
+/* Prints one model's six numbers by every backend, each with its difference from the backends above it. */
 static void print_model(const iso_comparison *c, iso_picture model, size_t shown, size_t rows)
 {
     static const char *const titles[] = {"the ball", "the point"};
@@ -116,13 +125,8 @@ static void print_table(const iso_scene *scene, const options *o, const iso_comp
     }
 }
 
-/* --- JSON ---------------------------------------------------------------------------------------------------------- */
-
-/* JSON has no infinity: what overflows in the user's units is null. */
-static json_t *number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
-}
+/* --- JSON
+ * ---------------------------------------------------------------------------------------------------------- */
 
 static json_t *columns_of(const iso_record *r)
 {
@@ -130,7 +134,7 @@ static json_t *columns_of(const iso_record *r)
     for (size_t c = 0; c < iso_record_columns(r); c++) {
         json_t *column = json_array();
         for (size_t i = 0; i < iso_record_rows(r); i++)
-            json_array_append_new(column, number(iso_record_const_row(r, i)[c]));
+            json_array_append_new(column, json_number(iso_record_const_row(r, i)[c]));
         json_object_set_new(o, iso_record_name(r, c), column);
     }
     return o;
@@ -143,14 +147,13 @@ static json_t *backend_of(const iso_backend_run *r)
         const iso_drift *d = &r->drift[i];
         json_array_append_new(integrals, json_pack("{s:s, s:s, s:s, s:o, s:o}", "system", d->system->name, "name",
                                                    d->integral->name, "doc", d->integral->doc, "start",
-                                                   number(d->start), "drift", number(d->worst)));
+                                                   json_number(d->start), "drift", json_number(d->worst)));
     }
     return json_pack("{s:s, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o}", "method", r->method->name, "steps",
                      (json_int_t)r->statistics.steps, "rejected", (json_int_t)r->statistics.rejected,
-                     "right_hand_sides", (json_int_t)r->statistics.rhs, "states",
-                     (json_int_t)r->statistics.states, "correction",
-                     number(r->statistics.correction), "seconds", number(r->seconds), "integrals", integrals,
-                     "trajectory", columns_of(r->trajectory));
+                     "right_hand_sides", (json_int_t)r->statistics.rhs, "states", (json_int_t)r->statistics.states,
+                     "correction", json_number(r->statistics.correction), "seconds", json_number(r->seconds),
+                     "integrals", integrals, "trajectory", columns_of(r->trajectory));
 }
 
 static json_t *effects_of(const iso_effects *effects)
@@ -163,7 +166,7 @@ static json_t *effects_of(const iso_effects *effects)
             const double *x = iso_effect_values(effects, e, n);
             if (n->scene_only) continue;
             json_t *list = json_array();
-            for (int i = 0; i < n->count; i++) json_array_append_new(list, number(x[i]));
+            for (int i = 0; i < n->count; i++) json_array_append_new(list, json_number(x[i]));
             json_object_set_new(numbers, n->name, list);
         }
         json_object_set_new(o, iso_effect_list[e]->name, numbers);
@@ -175,11 +178,11 @@ static json_t *worst_of(const iso_comparison *c, const double worst[ISO_DIFFEREN
 {
     json_t *o = json_object();
     for (size_t i = 1; i < ISO_DIFFERENCES; i++)
-        json_object_set_new(o, iso_record_name(c->difference, i), number(worst[i]));
+        json_object_set_new(o, iso_record_name(c->difference, i), json_number(worst[i]));
     return o;
 }
 
-/* What the closed solution adds, or why there is none. */
+/* Adds the closed solution, or why there is none. */
 static void add_exact(json_t *o, const iso_comparison *c)
 {
     if (c->runs < ISO_BACKENDS) {
@@ -195,21 +198,23 @@ static void add_exact(json_t *o, const iso_comparison *c)
                                   columns_of(c->from_exact[ISO_POINT])));
 }
 
-/* False: no memory. A full disk is found when the output is flushed. */
+/* False: there is no memory. A full disk shows later, when the output is flushed. */
 static bool print_json(const iso_scene *scene, const iso_comparison *c)
 {
     const iso_params *p = &scene->params;
     json_t *o =
         json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:{s:o, s:o}}", "isoroll", ISO_VERSION,
-                  "k", number(p->k), "J", number(p->J[0]), number(p->J[1]), number(p->J[2]), "h", number(c->h), "eps",
-                  number(c->eps), "effects", effects_of(&c->effects), "tolerance", number(scene->tolerance), "clock",
-                  iso_clock_name(c->clock), "worst_difference", worst_of(c, c->worst), "difference",
-                  columns_of(c->difference), "backends", "ball", backend_of(&c->run[ISO_BALL]), "point", backend_of(&c->run[ISO_POINT]));
+                  "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]), "h",
+                  json_number(c->h), "eps", json_number(c->eps), "effects", effects_of(&c->effects), "tolerance",
+                  json_number(scene->tolerance), "clock", iso_clock_name(c->clock), "worst_difference",
+                  worst_of(c, c->worst), "difference", columns_of(c->difference), "backends", "ball",
+                  backend_of(&c->run[ISO_BALL]), "point", backend_of(&c->run[ISO_POINT]));
     if (o) add_exact(o, c);
     return json_print(o);
 }
 
-/* --- the command --------------------------------------------------------------------------------------------------- */
+/* --- the command
+ * --------------------------------------------------------------------------------------------------- */
 
 static bool show(double part, void *data)
 {
@@ -218,13 +223,8 @@ static bool show(double part, void *data)
     return true;
 }
 
-static bool go_on(void *data)
-{
-    (void)data;
-    return !interrupted();
-}
-
-/* The differences of ball and point, and of each from the closed solution the largest in a row. */
+/* The curves of the picture: the differences of ball and point, and the largest difference of each of them from the
+ * closed solution. */
 static iso_status differences_drawn(iso_context *ctx, const iso_comparison *c, iso_record **drawn)
 {
     const char *names[ISO_DIFFERENCES + ISO_INTEGRATED] = {[ISO_DIFFERENCES] = "ball - exact", "point - exact"};
@@ -263,24 +263,26 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scen
     return status;
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
+    const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_comparison *c = NULL;
-    iso_status status = scene_with_options(ctx, o, &scene);
+    iso_status status = scene_with_options(ctx, &o->scene, &scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     stop_gently();
-    iso_context_watch(ctx, go_on, NULL);
+    iso_context_watch(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_compare(ctx, &scene, show, NULL, &c);
     iso_context_watch(ctx, NULL, NULL);
-    int result = finish_scene(ctx, o, &scene, status);
+    int result = finish_scene(ctx, &o->scene, &scene, status);
     progress_end();
     if (!c) return result;
     for (int e = 0; e < ISO_EFFECTS; e++)
         if (scene.effects.on[e] && iso_effect_list[e]->ball_only)
             complain("'%s' acts on nothing and is not compared", iso_effect_list[e]->name);
     if (status == ISO_STOPPED)
-        complain("interrupted: %zu of %zu rows", iso_record_rows(c->difference), iso_scene_rows(&scene));
+        complain("interrupted: %zu of %zu rows were compared", iso_record_rows(c->difference),
+                 iso_scene_rows(&scene));
     if (o->json) {
         if (!print_json(&scene, c)) result = EXIT_NUMERICAL;
     } else if (iso_record_rows(c->difference) > 0) {
@@ -294,12 +296,31 @@ static int run(iso_context *ctx, const options *o)
     return result;
 }
 
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .rows = 6};
+
+static const option_row rows[] = {
+    ROW_METHOD(options, scene),
+    ROW_TOLERANCE(options, scene),
+    ROW_T_END(options, scene),
+    ROW_STEP(options, scene),
+    ROW("rows", "N", "a whole number from 1 on", "rows of the table to print (default 6)", set_count, options, rows),
+    ROW_PLOT(options, plot),
+    ROW_JSON(options, json),
+    ROW_END,
+};
+
 const command command_compare = {
     .name = "compare",
     .argument = "SCENE",
-    .doc = "the same orbit by every backend, side by side: states, clocks, integrals",
-    .options = " method tol t-end step rows plot json ",
-    .more = "The backends are ball, point and, where there is a closed solution, exact. Differences are relative to the "
-            "size of the vector\n(clocks: to the largest value).",
+    .doc = "compute an orbit by every backend and show the differences",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "The backends are ball, point and, where there is a closed solution, exact. The table shows states, "
+        "clocks and integrals by each of them. Differences of states are relative to the size of the "
+        "vector, those of clocks to the largest value of the clock.",
+    .example = "isoroll compare scene.yaml --plot orbit.svg",
     .run = run,
 };

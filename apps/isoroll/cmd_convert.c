@@ -2,8 +2,18 @@
 #include <math.h>
 #include <string.h>
 
-#include "command.h"
 #include "parameters.h"
+#include "scene_options.h"
+
+/* What convert can be told. */
+typedef struct options {
+    file_options from;
+    const char *output;
+    iso_picture to;               /* -1: not given  */
+    double tolerance, max_defect; /* NAN: not given */
+    int digits;
+    bool shift_J, strict, quiet;
+} options;
 
 typedef struct filter {
     iso_context *ctx;
@@ -66,12 +76,6 @@ static iso_status take_row(filter *f, double row[], bool *more)
     return iso_conversion_skip(f->conversion);
 }
 
-static bool not_interrupted(void *data)
-{
-    (void)data;
-    return !interrupted();
-}
-
 static iso_status take_rows(filter *f, iso_conversion_summary *summary)
 {
     double row[ISO_TRAJECTORY_COLUMNS];
@@ -127,7 +131,7 @@ static double largest_drift(const filter *f)
     double tolerance = 0;
     iso_status unused;
     iso_record_get_numbers(f->ctx, iso_trajectory_header(f->in), "tolerance", 1, &tolerance, &unused);
-    const double row = f->o->row_tolerance > ISO_ROW_TOLERANCE ? 10 * f->o->row_tolerance : 0;
+    const double row = f->o->from.row_tolerance > ISO_ROW_TOLERANCE ? 10 * f->o->from.row_tolerance : 0;
     return fmax(fmax(1e-5, row), 100 * tolerance);
 }
 
@@ -161,7 +165,7 @@ static int finish_filter(filter *f, iso_status status, const iso_conversion_summ
     if (f->unnamed > 0) complain("%s: %zu more bad rows are not named", f->name, f->unnamed);
     const bool keep = f->columns > 0 && (status == ISO_OK || status == ISO_STOPPED);
     const bool has_name = status == ISO_FILE_TROUBLE || status == ISO_CLOSED_PIPE || status == ISO_BAD_ARGUMENT;
-    if (status != ISO_OK && !has_name) status = name_the_file(f->ctx, f->o, status);
+    if (status != ISO_OK && !has_name) status = name_the_file(f->ctx, f->o->from.file, status);
     const int result = finish(f->ctx, status);
     const iso_status closed = iso_trajectory_close(f->ctx, f->out, keep);
     if (closed != ISO_OK) return result == EXIT_DONE ? finish(f->ctx, closed) : result;
@@ -176,13 +180,14 @@ static iso_status open_filter(filter *f, iso_params *params)
     const options *o = f->o;
     const iso_conversion_target target = {put_header, put_row, put_bad, f};
     const iso_conversion_options how = {isnan(o->tolerance) ? 1e-14 : o->tolerance, o->shift_J};
-    iso_status status = iso_trajectory_reader_open(f->ctx, o->file, o->columns, &f->in);
-    if (status == ISO_OK) status = parameters_of_file(f->ctx, o, iso_trajectory_header(f->in), params);
+    iso_status status = iso_trajectory_reader_open(f->ctx, o->from.file, o->from.columns, &f->in);
+    if (status == ISO_OK) status = parameters_of_file(f->ctx, &o->from, iso_trajectory_header(f->in), params);
     if (status == ISO_OK)
         status =
             iso_conversion_create(f->ctx, params, iso_trajectory_header(f->in), o->to, &how, &target, &f->conversion);
     if (status != ISO_OK)
-        return status == ISO_BAD_ARGUMENT || status == ISO_FILE_TROUBLE ? status : name_the_file(f->ctx, o, status);
+        return status == ISO_BAD_ARGUMENT || status == ISO_FILE_TROUBLE ? status
+                                                                        : name_the_file(f->ctx, o->from.file, status);
     if (iso_trajectory_ignored(f->in) && !o->quiet)
         complain("%s: passed over: %s", f->name, iso_trajectory_ignored(f->in));
     stop_gently();
@@ -191,9 +196,10 @@ static iso_status open_filter(filter *f, iso_params *params)
     return status;
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
-    filter f = {.ctx = ctx, .o = o, .name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file};
+    const options *o = options_given;
+    filter f = {.ctx = ctx, .o = o, .name = strcmp(o->from.file, "-") == 0 ? "<stdin>" : o->from.file};
     iso_params params;
     iso_conversion_summary summary = {.rows = 0};
     if ((int)o->to < 0) return complain("convert: --to ball or --to point is missing"), EXIT_USAGE;
@@ -208,20 +214,51 @@ static int run(iso_context *ctx, const options *o)
     return result;
 }
 
+static const options defaults = {.from = FILE_OPTIONS_UNSET,
+                                 .output = "-",
+                                 .to = (iso_picture)-1,
+                                 .tolerance = NAN,
+                                 .max_defect = NAN,
+                                 .digits = 17};
+
+static const option_row rows[] = {
+    ROW_OF_WORDS("to", "MODEL", "ball or point", "the model to convert to: ball, point", set_target, options, to,
+                 target_word),
+    ROW_OUTPUT(options, output),
+    ROW_OF_FILE("digits", "N", "1 to 17, or hex", "significant digits of numbers, 1 to 17 (default), or hex",
+                set_digits, options, digits, 'p', OPTION_NO_FILE),
+    ROW("tol", "X", "a number in [1e-15, 0.1]", "relative error of the other model's clock (default 1e-14)",
+        set_tolerance, options, tolerance),
+    ROWS_OF_FILE(options, from),
+    ROW("max-defect", "X", "a number from 0 on",
+        "exit with status 1 if a row is farther than X off the orbit before it", set_bound, options, max_defect),
+    ROW("shift-J", NULL, NULL, "k = -1: a point off H = 0 becomes a free ball with moments J + E/eps", set_flag,
+        options, shift_J),
+    ROW("strict", NULL, NULL, "stop at the first bad row", set_flag, options, strict),
+    ROW("quiet", NULL, NULL, "print no summary on stderr", set_flag, options, quiet),
+    ROW_END,
+};
+
 const command command_convert = {
     .name = "convert",
     .argument = "[FILE]",
-    .doc = "converts a trajectory from one model to the other",
-    .options = " to output digits k J eps h scene columns row-tolerance tol max-defect shift-J strict quiet ",
-    .more =
-        "Converts row by row in constant memory, also the files of other programs (lib/doc/formats.md). States go\n"
-        "through the map (18). The other model's clock is taken from the file or, if it has none, computed from 0 "
-        "at\n"
-        "the first row on, to --tol (default 1e-14). k, J and h or eps come from the file's # lines, from --scene, "
-        "or\n"
-        "from --k --J. A row that cannot be converted becomes a row of nan: the first 20 are named, the others are\n"
-        "counted, and the exit status is 1. Rows with few digits need a --row-tolerance. A point off the level H = "
-        "0\n"
-        "becomes a ball in the potential of the effect level, or with --shift-J a free ball.",
+    .doc = "convert a trajectory of one model into one of the other",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, from.file),
+    .description =
+        "A filter: row by row, in constant memory. It reads files of other programs, too. k, J and h or eps come "
+        "from "
+        "the # lines of the file, from --scene, or from --k and --J.\n\n"
+        "States are mapped through (18). The clock of the other model, unless the file has it, is computed from the "
+        "rows by two-point Taylor quadrature to --tol. Where the rows are too far apart it is integrated. It is 0 at "
+        "the first row.\n\n"
+        "A row that cannot be converted becomes a row of nan. The first 20 are named, the others are counted. Rows "
+        "with few digits need a --row-tolerance.\n\n"
+        "A point off the level H = 0 becomes a ball in the potential of the effect "
+        "'level'; with --shift-J it becomes a free ball.",
+    .example = "isoroll convert --to point ball.csv -o point.csv",
+    .exits = "1: a row was bad, or the rows do not lie on one orbit",
     .run = run,
 };

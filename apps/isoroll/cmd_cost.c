@@ -1,9 +1,19 @@
-/* isoroll cost - what accuracy costs in time: error and processor time by every backend, method and tolerance. */
+/* isoroll cost - measures what accuracy costs: error and processor time for every backend, method and tolerance. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cost_report.h"
+#include "scene_options.h"
+
+/* What cost can be told. */
+typedef struct options {
+    scene_options scene;
+    const char *plot, *csv; /* NULL: not given */
+    double want;            /* NAN: not given  */
+    double horizons;        /* 0: not given    */
+    bool json, quick;
+} options;
 
 static void show(double share, const char *what, void *data)
 {
@@ -12,26 +22,20 @@ static void show(double share, const char *what, void *data)
     progress_show(share);
 }
 
-static bool go_on(void *data)
-{
-    (void)data;
-    return !interrupted();
-}
-
 static iso_cost_options options_of(const options *o)
 {
     iso_cost_options c = iso_cost_defaults();
     c.quick = o->quick || !isnan(o->want);
-    if ((int)o->backend >= 0) c.backend = o->backend;
-    if (o->method) c.method = iso_method_find(o->method);
-    if (!isnan(o->tolerance)) c.tolerance = o->tolerance;
+    if ((int)o->scene.backend >= 0) c.backend = o->scene.backend;
+    if (o->scene.method) c.method = iso_method_find(o->scene.method);
+    if (!isnan(o->scene.tolerance)) c.tolerance = o->scene.tolerance;
     c.progress = show;
     return c;
 }
 
 /* --- growth ----------------------------------------------------------------------------------------------------- */
 
-/* The most exact cell of a line; NULL: none is measured. */
+/* The cell of a line with the smallest error; NULL: none is measured. */
 static const iso_cost_cell *most_exact(const iso_cost *cost, const iso_cost_line *line)
 {
     const iso_cost_cell *best = NULL;
@@ -42,7 +46,7 @@ static const iso_cost_cell *most_exact(const iso_cost *cost, const iso_cost_line
     return best;
 }
 
-/* Of each backend the fastest method, where it is most exact. */
+/* For each backend the fastest method, at the tolerance where its error is smallest. */
 static int best_cells(const iso_cost *cost, const iso_cost_line *const line[],
                       const iso_cost_cell *best[COST_GROWTHS])
 {
@@ -70,9 +74,9 @@ static void grow(iso_context *ctx, const options *o, const iso_cost_line *const 
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-enum { NAMED = 6 }; /* methods of each backend that have a name in the picture */
+enum { NAMED = 6 }; /* so many methods of each backend have a name in the picture */
 
-/* Whether a line is one of the first of its backend, or its method has its name from another one. */
+/* Whether the picture names a line: one of the first of its backend, or of a method that is named already. */
 static bool has_name(const iso_plot_work *work, int in_panel, int *names, const char *name)
 {
     for (int s = 0; s < work->count; s++)
@@ -80,7 +84,7 @@ static bool has_name(const iso_plot_work *work, int in_panel, int *names, const 
     return in_panel < NAMED && (*names)++ < ISO_PLOT_NAMES;
 }
 
-/* The lines of one backend, the fastest first; error and seconds are those of all cells. */
+/* Adds the lines of one backend, the fastest first. `error` and `seconds` hold the numbers of all cells. */
 static void add_panel(const iso_cost *cost, const iso_cost_line *const line[], iso_picture backend,
                       const double *error, const double *seconds, iso_plot_work *work, iso_plot_series *series,
                       int *names)
@@ -125,12 +129,13 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_cost_line *
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-/* What suits --want, as options to be pasted; what is expected of it goes to stderr. */
+/* Prints the choice for --want as options of `run`. The error and time to expect go to stderr. */
 static int tell_choice(const cost_report *r)
 {
     char words[COST_OPTIONS], seconds[COST_SECONDS];
     const iso_cost_cell *c = iso_cost_choose(r->cost, r->want);
-    if (!c) return complain("nothing measured reaches an error of %g", r->want), EXIT_SOME_FAILED;
+    if (!c)
+        return complain("nothing measured reaches an error of %g: try a larger --want", r->want), EXIT_SOME_FAILED;
     printf("%s\n", cost_options_of(c, words));
     complain("expected: error %.1e%s, time %s", c->error, c->below ? ", or less: the reference is no better" : "",
              cost_seconds(c->total, seconds));
@@ -152,7 +157,7 @@ static int worse(int a, int b)
     return a > b ? a : b;
 }
 
-/* Everything that was asked for, of what was measured. */
+/* Prints and draws what was asked for. */
 static int report(iso_context *ctx, const options *o, cost_report *r, iso_output *csv)
 {
     const iso_cost_line **line = cost_sort_lines(r->cost);
@@ -172,35 +177,37 @@ static int report(iso_context *ctx, const options *o, cost_report *r, iso_output
     return result;
 }
 
-/* What is wrong with the options is said before the work. */
+/* Reads the scene and opens the files. Refuses wrong options before the work begins. */
 static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_output **csv)
 {
     if (o->csv && strcmp(o->csv, "-") == 0 && (o->json || !isnan(o->want)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
-                                "cost: standard output has room for one: --csv -, --json or --want");
+                                "cost: standard output has room for one: choose --csv -, --json or --want");
     if (o->horizons > 0 && !o->json && (!isnan(o->want) || (o->csv && strcmp(o->csv, "-") == 0)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "horizons",
-                                "cost: --want and --csv - leave no room for what --horizons tells");
-    iso_status status = scene_with_options(ctx, o, scene);
+        return iso_context_fail(
+            ctx, ISO_BAD_ARGUMENT, "horizons",
+            "cost: --want and --csv - leave no room for what --horizons tells: leave one of them out");
+    iso_status status = scene_with_options(ctx, &o->scene, scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK && o->csv) status = iso_output_open(ctx, o->csv, csv);
     return status;
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
+    const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_output *csv = NULL;
     iso_cost *cost = NULL;
     iso_status status = prepare(ctx, o, &scene, &csv);
     const iso_cost_options how = options_of(o);
     stop_gently();
-    iso_context_watch(ctx, go_on, NULL);
+    iso_context_watch(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &how, &cost);
-    int result = finish_scene(ctx, o, &scene, status);
+    int result = finish_scene(ctx, &o->scene, &scene, status);
     const int measured = cost ? cost_count(cost, iso_cost_is_measured) : 0;
     if (status == ISO_STOPPED && cost)
-        complain("interrupted: %d of %d cells", measured, cost->cells);
+        complain("interrupted: %d of %d cells were measured", measured, cost->cells);
     else if (status == ISO_STOPPED)
         complain("interrupted: nothing has been measured");
     if (measured > 0 || status == ISO_OK) {
@@ -218,18 +225,51 @@ static int run(iso_context *ctx, const options *o)
     return result;
 }
 
+/* The number of orbits may be left out. */
+static bool set_horizons(void *at, const char *text)
+{
+    const bool set = set_count(at, text ? text : "6");
+    return set && *(double *)at <= ISO_COST_HORIZONS;
+}
+
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .want = NAN};
+
+static const option_row rows[] = {
+    ROW_BACKEND(options, scene),
+    ROW_METHOD(options, scene),
+    ROW_TOLERANCE(options, scene),
+    ROW_T_END(options, scene),
+    ROW("quick", NULL, NULL, "measure three tolerances only: a few seconds", set_flag, options, quick),
+    ROW("want", "X", "a positive number", "print only the cheapest choice with an error of at most X", set_positive,
+        options, want),
+    ROW("horizons", "[=N]", "a whole number from 1 to 24",
+        "growth over N orbits (default 6), each twice as long as the one before", set_horizons, options, horizons),
+    ROW_PLOT(options, plot),
+    ROW_OF_FILE("csv", "FILE", "a file", "write the table as CSV to FILE; - is standard output", set_text, options,
+                csv, 0, OPTION_WRITES),
+    ROW_JSON(options, json),
+    ROW_END,
+};
+
 const command command_cost = {
     .name = "cost",
     .argument = "SCENE",
-    .doc = "what accuracy costs in time: error against time by every backend, method and tolerance",
-    .options = " backend method tol t-end quick want horizons plot csv json ",
-    .more =
-        "All backends, methods and tolerances are measured, whatever the scene names; --backend, --method and --tol\n"
-        "restrict them. A cell is one of each. Its error is the largest relative error of (omega, n) at 20 times from the\n"
-        "start to the end, against a reference that is none of the cells. Its time is processor time, the median of\n"
-        "repeats, without set-up. --want X prints the cheapest choice as options of 'run':\n"
-        "  isoroll run SCENE $(isoroll cost SCENE --want 1e-9)\n"
-        "--horizons runs the best cell of each backend on orbits that are 2, 4, ... times as long, and says how error and\n"
-        "time grow. After Ctrl-C, what has been measured is printed.",
+    .doc = "measure error against time for every backend, method and tolerance",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "All backends, methods and tolerances are measured. --backend, --method or --tol restrict the measurement to "
+        "one; the scene's own backend, method and tolerance are not read.\n\n"
+        "An error is the largest relative error of (omega, n) at 20 times from the start to the end. The reference "
+        "is "
+        "none of the measured runs. A time is processor time, the median of several runs; set-up is shown apart.\n\n"
+        "--want X prints the cheapest choice as options of 'isoroll run'. --horizons repeats the best choice of each "
+        "backend over orbits 2, 4, ... times as long, and tells how error and time grow. After Ctrl-C, what has been "
+        "measured is printed.",
+    .example = "isoroll cost scene.yaml --quick --plot cost.svg\n"
+               "isoroll run scene.yaml $(isoroll cost scene.yaml --want 1e-9)",
+    .exits = "1: a run failed, or nothing reaches the error that --want asks for",
     .run = run,
 };

@@ -1,9 +1,14 @@
-/* isoroll explain - what would be simulated, and why. */
+/* isoroll explain - tells what would be simulated, and why. */
 #include <math.h>
 #include <string.h>
 #include <time.h>
 
-#include "command.h"
+#include "scene_options.h"
+
+/* What explain can be told. */
+typedef struct options {
+    scene_options scene;
+} options;
 
 static void explain_ball(const iso_params *p)
 {
@@ -23,14 +28,14 @@ static void explain_ball(const iso_params *p)
     printf("\n");
 }
 
-/* What acts on the ball or is asked of it, with its numbers. */
+/* The effects, with their numbers. */
 static void explain_effects(const iso_orbit *orbit)
 {
     const iso_effects effects = iso_orbit_effects(orbit);
     print_effects(&effects, true);
 }
 
-/* What is simulated for the reactions alone. */
+/* On a level plane gravity changes nothing but the reactions. */
 static void explain_level_plane(const iso_scene *scene, const iso_orbit *orbit)
 {
     const iso_effects effects = iso_orbit_effects(orbit);
@@ -39,7 +44,7 @@ static void explain_level_plane(const iso_scene *scene, const iso_orbit *orbit)
                "gravity and reactions out\n\n");
 }
 
-/* Whether the two models are one here, and the twin that the ball has for every start. */
+/* Whether the ball has a twin, and in which potential that point moves. */
 static void explain_map(const iso_params *p, const iso_orbit *orbit)
 {
     const bool symmetric = iso_params_symmetric(p, 0) || iso_params_symmetric(p, 1) || iso_params_symmetric(p, 2);
@@ -65,7 +70,7 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
     printf("\n");
 }
 
-/* What `run --backend exact` would say of these columns. Errors: ISO_NO_MEMORY, which is no answer. */
+/* Whether `run --backend exact` can compute these columns, and if not, why. Errors: ISO_NO_MEMORY. */
 static iso_status explain_exact(iso_context *ctx, const iso_scene *scene, const int columns[], int count)
 {
     static const char *const kinds[ISO_EXACT_KINDS] = {
@@ -102,7 +107,7 @@ static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const
     const iso_model *m = iso_orbit_model(orbit);
     printf("%s: backend %s, %d states, in the clock %s\n", iso_orbit_exact(orbit) ? "evaluated" : "integrated",
            iso_picture_name((int)iso_orbit_backend(orbit)), m->dim, iso_clock_name(m->clock));
-    for (int i = 0, first = 0; i < m->dim; i++) { /* one line for those that are there for the same reason */
+    for (int i = 0, first = 0; i < m->dim; i++) { /* states with the same reason share a line */
         const char *reason = reason_of(m, i);
         if (i + 1 < m->dim && strcmp(reason, reason_of(m, i + 1)) == 0) continue;
         char names[128];
@@ -134,7 +139,7 @@ static void explain_integral(const char *whose, const iso_integral *i, const iso
     if (holds(i, f) == wanted) printf("  %-5s %-10s %s\n", whose, i->name, i->doc);
 }
 
-/* Of both models, or without a twin of the one that is integrated. */
+/* The integrals of both models. Without a twin: of the integrated model alone. */
 static void explain_integrals(const iso_orbit *orbit)
 {
     const iso_field *f = &iso_orbit_model(orbit)->field;
@@ -150,7 +155,7 @@ static void explain_integrals(const iso_orbit *orbit)
     }
 }
 
-/* Processor time of this thread: that of the process ticks in milliseconds where a limit has been set (ulimit -t). */
+/* Processor time of this thread. The time of the process has only milliseconds where a limit is set (ulimit -t). */
 static double seconds(void)
 {
     struct timespec now;
@@ -158,7 +163,7 @@ static double seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Seconds for one right-hand side, the best of several rounds. */
+/* Seconds for one right-hand side: the least of several rounds. */
 static double cost(const iso_model *m, const double y[])
 {
     enum { CALLS = 20000, ROUNDS = 7 };
@@ -168,7 +173,7 @@ static double cost(const iso_model *m, const double y[])
         const double begin = seconds();
         for (int i = 0; i < CALLS; i++) {
             m->rhs(m, x, dy);
-            x[0] += 1e-18 * dy[0]; /* each call waits for the one before */
+            x[0] += 1e-18 * dy[0]; /* so each call must wait for the one before */
         }
         best = fmin(best, (seconds() - begin) / CALLS);
     }
@@ -193,16 +198,17 @@ static iso_status explain_cost(iso_context *ctx, const iso_model *m)
     return ISO_OK;
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
+    const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_orbit *orbit;
     int columns[ISO_MAX_COLUMNS], count;
-    iso_status status = scene_with_options(ctx, o, &scene);
+    iso_status status = scene_with_options(ctx, &o->scene, &scene);
     if (status != ISO_OK) return finish(ctx, status);
     count = iso_scene_columns(&scene, columns);
     status = iso_scene_orbit(ctx, &scene, columns, count, &orbit);
-    if (status != ISO_OK) return finish_scene(ctx, o, &scene, status);
+    if (status != ISO_OK) return finish_scene(ctx, &o->scene, &scene, status);
     explain_ball(&scene.params);
     explain_effects(orbit);
     explain_level_plane(&scene, orbit);
@@ -217,10 +223,30 @@ static int run(iso_context *ctx, const options *o)
     return finish(ctx, status);
 }
 
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET};
+
+static const option_row rows[] = {
+    ROW_BACKEND(options, scene),
+    ROW_METHOD(options, scene),
+    ROW_TOLERANCE(options, scene),
+    ROW_AS(options, scene),
+    ROW_T_END(options, scene),
+    ROW_STEP(options, scene),
+    ROW_END,
+};
+
 const command command_explain = {
     .name = "explain",
     .argument = "SCENE",
-    .doc = "what would be simulated and why; nothing is integrated",
-    .options = " backend method tol as t-end step ",
+    .doc = "say what would be simulated and why, without doing it",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "Tells the ball's parameters, the effects that act, whether the orbit has a twin, whether there is a "
+        "closed solution, the backend and the method, which integrals hold, and the measured cost of one "
+        "right-hand side.",
+    .example = "isoroll explain scene.yaml",
     .run = run,
 };

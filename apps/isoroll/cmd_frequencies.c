@@ -1,20 +1,26 @@
-/* isoroll frequencies - how fast a motion turns and swings: exactly where it can be, else by an estimate. */
+/* isoroll frequencies - tells how fast a motion turns and swings: exactly where a closed solution does it, else by an
+ * estimate from an orbit. */
 #include <math.h>
 #include <string.h>
 
-#include "command.h"
 #include "json.h"
+#include "scene_options.h"
+
+/* What frequencies can be told. */
+typedef struct options {
+    scene_options scene;   /* only its file and its end are used */
+    const char *plot;      /* NULL: not given */
+    double turns, samples; /* NAN: not given  */
+    bool json;
+} options;
 
 static const char *const verdicts[] = {[ISO_REGULAR] = "regular",
                                        [ISO_CHAOTIC] = "chaotic",
                                        [ISO_UNDECIDED] = "not decided",
                                        [ISO_INTEGRABLE] = "integrable"};
-static const char *const kinds[] = {[ISO_EXACT_SEPARATED] = "separated",
-                                    [ISO_EXACT_SYMMETRIC] = "symmetric",
-                                    [ISO_EXACT_PLANE] = "plane",
-                                    [ISO_EXACT_SEPARATRIX] = "separatrix",
-                                    [ISO_EXACT_REST] = "rest",
-                                    [ISO_EXACT_KINDS] = "unknown"};
+static const char *const kinds[] = {
+    [ISO_EXACT_SEPARATED] = "separated",   [ISO_EXACT_SYMMETRIC] = "symmetric", [ISO_EXACT_PLANE] = "plane",
+    [ISO_EXACT_SEPARATRIX] = "separatrix", [ISO_EXACT_REST] = "rest",           [ISO_EXACT_KINDS] = "unknown"};
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
@@ -34,9 +40,10 @@ static void print_head(const iso_scene *scene, const iso_frequencies *f)
            f->unresolved ? "the closed solution was not resolved" : "no closed solution", f->why);
     printf("  orbit: %.6g turns, to t = %.10g, %zu samples\n", f->estimate.turns, f->estimate.length,
            f->estimate.samples);
-    printf("  a frequency differs between the halves of the orbit by %.1e, between the halves of its first quarter by "
-           "%.1e\n",
-           f->estimate.drift, f->estimate.drift_before);
+    printf(
+        "  a frequency differs between the halves of the orbit by %.1e, between the halves of its first quarter by "
+        "%.1e\n",
+        f->estimate.drift, f->estimate.drift_before);
     if (f->estimate.verdict == ISO_CHAOTIC)
         printf("  a chaotic motion has no fixed frequencies: the numbers below hold for this orbit only\n");
     if (f->estimate.unexplained > 1e-4)
@@ -49,7 +56,7 @@ static void print_separatrices(const iso_frequencies *f)
         printf("  %-46s %22.15g\n", f->separatrix[i].what, f->separatrix[i].distance);
 }
 
-/* In each clock; - where it is not known. */
+/* One line: a number in each clock, - where it is not known. */
 static void print_clocks(const char *what, const double x[ISO_CLOCKS])
 {
     printf("  %-22s", what);
@@ -106,15 +113,9 @@ static void print_table(const iso_scene *scene, const iso_frequencies *f)
 
 /* --- JSON ------------------------------------------------------------------------------------------------------- */
 
-/* What is not known or infinite is null. */
-static json_t *number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
-}
-
 static json_t *clocks_of(const double x[ISO_CLOCKS])
 {
-    return json_pack("{s:o, s:o, s:o}", "t", number(x[0]), "tau", number(x[1]), "s", number(x[2]));
+    return json_pack("{s:o, s:o, s:o}", "t", json_number(x[0]), "tau", json_number(x[1]), "s", json_number(x[2]));
 }
 
 static json_t *angles_of(const iso_frequencies *f)
@@ -122,10 +123,10 @@ static json_t *angles_of(const iso_frequencies *f)
     json_t *list = json_array();
     for (int i = 0; i < f->angles; i++) {
         const iso_angle *a = &f->angle[i];
-        json_array_append_new(list,
-                              json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "what", a->what, "frequency",
-                                        clocks_of(a->frequency), "period", clocks_of(a->period), "error",
-                                        clocks_of(a->error), "drift", number(a->drift), "action", number(a->action)));
+        json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "what", a->what, "frequency",
+                                              clocks_of(a->frequency), "period", clocks_of(a->period), "error",
+                                              clocks_of(a->error), "drift", json_number(a->drift), "action",
+                                              json_number(a->action)));
     }
     return list;
 }
@@ -135,7 +136,7 @@ static json_t *separatrices_of(const iso_frequencies *f)
     json_t *list = json_array();
     for (int i = 0; i < f->separatrices; i++)
         json_array_append_new(list, json_pack("{s:s, s:o}", "of", f->separatrix[i].what, "distance",
-                                              number(f->separatrix[i].distance)));
+                                              json_number(f->separatrix[i].distance)));
     return list;
 }
 
@@ -145,7 +146,7 @@ static json_t *resonances_of(const iso_frequencies *f)
     for (int i = 0; i < f->resonances; i++) {
         const iso_resonance *r = &f->resonance[i];
         json_array_append_new(list, json_pack("{s:i, s:i, s:o, s:o, s:b}", "p", r->p, "q", r->q, "gap",
-                                              number(r->gap), "beat", clocks_of(r->beat), "met", (int)r->met));
+                                              json_number(r->gap), "beat", clocks_of(r->beat), "met", (int)r->met));
     }
     return list;
 }
@@ -155,10 +156,10 @@ static json_t *lines_of(const iso_estimate *e, int signal)
     json_t *list = json_array();
     for (int i = 0; i < e->lines[signal]; i++) {
         const iso_named_line *l = &e->line[signal][i];
-        json_array_append_new(list,
-                              json_pack("{s:o, s:o, s:o, s:o}", "frequency", number(l->line.frequency), "amplitude",
-                                        number(l->line.amplitude), "m", l->known ? json_integer(l->m) : json_null(),
-                                        "n", l->known ? json_integer(l->n) : json_null()));
+        json_array_append_new(list, json_pack("{s:o, s:o, s:o, s:o}", "frequency", json_number(l->line.frequency),
+                                              "amplitude", json_number(l->line.amplitude), "m",
+                                              l->known ? json_integer(l->m) : json_null(), "n",
+                                              l->known ? json_integer(l->n) : json_null()));
     }
     return list;
 }
@@ -168,34 +169,34 @@ static json_t *estimate_of(const iso_frequencies *f)
     const iso_estimate *e = &f->estimate;
     if (!f->estimated) return json_null();
     return json_pack("{s:s, s:s, s:o, s:o, s:I, s:i, s:o, s:o, s:o, s:o, s:o}", "why", f->why, "verdict",
-                     verdicts[e->verdict], "length", number(e->length), "turns", number(e->turns), "samples",
-                     (json_int_t)e->samples, "axis", e->axis + 1, "drift", number(e->drift), "drift_before",
-                     number(e->drift_before), "unexplained", number(e->unexplained), "lines_turning", lines_of(e, 0),
-                     "lines_along", lines_of(e, 1));
+                     verdicts[e->verdict], "length", json_number(e->length), "turns", json_number(e->turns),
+                     "samples", (json_int_t)e->samples, "axis", e->axis + 1, "drift", json_number(e->drift),
+                     "drift_before", json_number(e->drift_before), "unexplained", json_number(e->unexplained),
+                     "lines_turning", lines_of(e, 0), "lines_along", lines_of(e, 1));
 }
 
 static json_t *integral_of(const iso_frequencies *f)
 {
-    return f->integral ? json_pack("{s:s, s:o}", "name", f->integral->name, "value", number(f->F)) : json_null();
+    return f->integral ? json_pack("{s:s, s:o}", "name", f->integral->name, "value", json_number(f->F)) : json_null();
 }
 
-/* False: no memory. */
+/* False: there is no memory. */
 static bool print_json(const iso_scene *scene, const iso_frequencies *f)
 {
     const iso_params *p = &scene->params;
-    json_t *o = json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}",
-                          "isoroll", ISO_VERSION, "k", number(p->k), "J", number(p->J[0]), number(p->J[1]),
-                          number(p->J[2]), "h", number(f->h), "eps", number(f->eps), "solution",
-                          f->estimated ? "estimated" : "closed", "kind", kinds[f->kind], "motion", f->motion,
-                          "integral", integral_of(f), "c", number(f->c), "angles", angles_of(f), "rotation_number",
-                          number(f->rotation), "resonances", resonances_of(f), "separatrices", separatrices_of(f),
-                          "closed_orbit", clocks_of(f->closed), "estimate", estimate_of(f));
+    json_t *o = json_pack(
+        "{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "isoroll",
+        ISO_VERSION, "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]),
+        "h", json_number(f->h), "eps", json_number(f->eps), "solution", f->estimated ? "estimated" : "closed", "kind",
+        kinds[f->kind], "motion", f->motion, "integral", integral_of(f), "c", json_number(f->c), "angles",
+        angles_of(f), "rotation_number", json_number(f->rotation), "resonances", resonances_of(f), "separatrices",
+        separatrices_of(f), "closed_orbit", clocks_of(f->closed), "estimate", estimate_of(f));
     return json_print(o);
 }
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* The image of the momentum map. */
+/* Draws the image of the momentum map with the orbit in it. */
 static iso_status draw_map(iso_context *ctx, const options *o, const iso_momentum *m, const char *title,
                            const iso_frequencies *f)
 {
@@ -220,12 +221,12 @@ static iso_status draw_map(iso_context *ctx, const options *o, const iso_momentu
     return status;
 }
 
-/* The lines of n(t), which a closed solution has not been asked for. */
+/* Draws the spectral lines of n(t). After a closed solution they are estimated here. */
 static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene *scene, const char *title,
                              const iso_frequencies *found)
 {
     static const char *const names[] = {"frequency", "amplitude", "signal", "m", "n"};
-    const iso_frequencies_options how = {.turns = o->turns, .end = o->end, .samples = o->samples};
+    const iso_frequencies_options how = {.turns = o->turns, .end = o->scene.end, .samples = o->samples};
     iso_frequencies f = *found;
     iso_record *r;
     iso_status status = f.estimated ? ISO_OK : iso_frequencies_estimate(ctx, scene, &how, &f);
@@ -255,31 +256,25 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scen
     snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g", scene->params.k, J[0], J[1], J[2]);
     bool mapped =
         f->integral && f->h > 0 && iso_momentum_make(&scene->params, f->H, &m) && strcmp(f->integral->name, m.F) == 0;
-    double low, high; /* equal moments leave no area */
+    double low, high; /* with equal moments the image has no area */
     mapped = mapped && iso_momentum_interval(&m, f->h, iso_momentum_find(&m, f->h, f->F), &low, &high);
     return mapped ? draw_map(ctx, o, &m, title, f) : draw_lines(ctx, o, scene, title, f);
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static bool go_on(void *data)
+static int run(iso_context *ctx, const void *options_given)
 {
-    (void)data;
-    return !interrupted();
-}
-
-static int run(iso_context *ctx, const options *o)
-{
+    const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_frequencies f;
-    const iso_frequencies_options how = {.turns = o->turns, .end = o->end, .samples = o->samples};
-    if (o->end <= 0) return complain("frequencies: --t-end '%.10g': expected a positive number", o->end), EXIT_USAGE;
-    iso_status status = iso_scene_read(ctx, o->file, &scene);
+    const iso_frequencies_options how = {.turns = o->turns, .end = o->scene.end, .samples = o->samples};
+    iso_status status = iso_scene_read(ctx, o->scene.file, &scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     stop_gently();
-    iso_context_watch(ctx, go_on, NULL);
+    iso_context_watch(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &how, &f);
-    int result = finish_scene(ctx, o, &scene, status);
+    int result = finish_scene(ctx, &o->scene, &scene, status);
     if (status == ISO_OK) {
         if (!o->json)
             print_table(&scene, &f);
@@ -291,15 +286,35 @@ static int run(iso_context *ctx, const options *o)
     return result;
 }
 
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .turns = NAN, .samples = NAN};
+
+static const option_row rows[] = {
+    ROW("turns", "N", "a positive number", "length of the orbit in turns, 20 or more (default 1000, more if needed)",
+        set_positive, options, turns),
+    ROW("t-end", "T", "a positive number", "length of the orbit in time t, in place of --turns", set_positive,
+        options, scene.end),
+    ROW("samples", "N", "a whole number from 1 on", "samples of the orbit, made a power of 2 (default 32 each turn)",
+        set_count, options, samples),
+    ROW_PLOT(options, plot),
+    ROW_JSON(options, json),
+    ROW_END,
+};
+
 const command command_frequencies = {
     .name = "frequencies",
     .argument = "SCENE",
-    .doc = "actions, frequencies, rotation number, near resonances; estimated where there is no closed solution",
-    .options = " turns t-end samples plot json ",
-    .more =
-        "Where there is a closed solution (k = 1, k = -1, two equal moments, principal planes), it gives the numbers.\n"
-        "Elsewhere they are estimated by Laskar's frequency analysis of n(t), from an orbit in the ball's time t: --turns\n"
-        "or --t-end says how long. The end of the scene is not used. --plot draws the image of the momentum map (h, F)\n"
-        "with the orbit in it; where there is no map, the lines of n(t).",
+    .doc = "compute frequencies, actions, rotation number and near resonances",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "Where there is a closed solution (k = 1, k = -1, equal moments, principal planes) the numbers are exact. "
+        "Elsewhere they are estimated from an orbit in the ball's time t, by Laskar's frequency analysis. --turns, "
+        "--t-end and --samples are about this orbit; the scene's own times are not read.\n\n"
+        "--plot draws the image of the momentum map (h, F) with the orbit in it. Where there is no such map, it "
+        "draws "
+        "the spectral lines of n(t).",
+    .example = "isoroll frequencies scene.yaml --plot map.svg",
     .run = run,
 };

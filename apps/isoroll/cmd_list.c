@@ -1,7 +1,12 @@
-/* isoroll list - the registries of the library. */
+/* isoroll list - prints what there is: systems, backends, effects, methods and so on. */
 #include <string.h>
 
 #include "command.h"
+
+/* What list can be told. */
+typedef struct options {
+    const char *topic;
+} options;
 
 static void list_systems(void)
 {
@@ -18,8 +23,9 @@ static void list_backends(void)
     static const char *const docs[] = {
         [ISO_BALL] = "integrates the ball (9)",
         [ISO_POINT] = "integrates the point (24)",
-        [ISO_AUTO] = "the model of the start, the ball where effects need it, or what the method is for",
-        [ISO_EXACT] = "evaluates the closed solution, where there is one: any time at the same cost",
+        [ISO_AUTO] =
+            "chooses: the model of the start; the ball if an effect needs it; the model that the method is for",
+        [ISO_EXACT] = "evaluates the closed solution, where there is one; every time costs the same",
     };
     for (int i = 0; iso_picture_name(i); i++)
         if (i != ISO_BOTH) printf("  %-22s %s\n", iso_picture_name(i), docs[i]);
@@ -108,7 +114,7 @@ static const struct {
 } topics[] = {
     {"systems", "the two models", list_systems},
     {"backends", "what finds an orbit (--backend)", list_backends},
-    {"effects", "what can act on the ball, or be asked of it (effects:)", list_effects},
+    {"effects", "what can act on the ball, and what can be computed beside its motion (effects:)", list_effects},
     {"methods", "integrators (--method)", list_methods},
     {"surfaces", "what the ball rolls on (surface: kind)", list_surfaces},
     {"integrals", "first integrals, each with the k, J and effects for which it holds", list_integrals},
@@ -117,25 +123,43 @@ static const struct {
 };
 enum { TOPICS = sizeof topics / sizeof *topics };
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
-    const bool all = strcmp(o->file, "-") == 0;
+    const options *o = options_given;
+    const bool all = strcmp(o->topic, "-") == 0;
     int listed = 0;
     (void)ctx;
     for (int i = 0; i < TOPICS; i++) {
-        if (!all && strcmp(o->file, topics[i].name) != 0) continue;
+        if (!all && strcmp(o->topic, topics[i].name) != 0) continue;
         printf("%s%s: %s\n", listed++ ? "\n" : "", topics[i].name, topics[i].doc);
         topics[i].list();
     }
     if (listed) return EXIT_DONE;
-    complain("list: nothing is called '%s'; 'isoroll list' shows everything", o->file);
+    complain("list: nothing is called '%s'; 'isoroll list' shows all topics", o->topic);
     return EXIT_USAGE;
 }
+
+static const char *topic_word(int i)
+{
+    return i < TOPICS ? topics[i].name : NULL;
+}
+
+static const options defaults = {.topic = "-"};
+
+static const option_row rows[] = {ROW_END};
 
 const command command_list = {
     .name = "list",
     .argument = "[TOPIC]",
-    .doc = "the registries: systems, backends, effects, methods, surfaces, integrals, clocks, columns",
-    .options = " ",
+    .doc = "list what there is: systems, backends, effects, methods, columns, ...",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, topic),
+    .word = topic_word,
+    .description =
+        "A topic is systems, backends, effects, methods, surfaces, integrals, clocks or columns. Without one, "
+        "all topics are listed.",
+    .example = "isoroll list methods",
     .run = run,
 };

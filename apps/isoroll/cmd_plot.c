@@ -1,21 +1,28 @@
-/* isoroll plot - a picture of a trajectory: paths on the spheres, integrals, clocks. */
+/* isoroll plot - draws a trajectory: paths on the spheres, drift of integrals, clocks. */
 #include <stdio.h>
 #include <string.h>
 
 #include "parameters.h"
 
-/* What is drawn, of the file and of its conversion. */
+/* What plot can be told. */
+typedef struct options {
+    file_options from;
+    const char *output;
+} options;
+
+/* What is drawn: the file, its conversion, and numbers from both. */
 typedef struct parts {
     iso_record *file, *twin, *drifts, *clocks;
 } parts;
 
-/* The model the file has, the ball if both. */
+/* The model of the file; the ball if it has both. */
 static iso_picture model_of(const iso_record *record)
 {
     return iso_record_find(record, "n1") >= 0 && iso_record_find(record, "omega1") >= 0 ? ISO_BALL : ISO_POINT;
 }
 
-/* The file's own clock, and the other one: from the file, or computed with its twin. */
+/* Puts the file's clock and the other model's clock side by side. The other one comes from the file or from its
+ * twin. */
 static iso_status pair_clocks(iso_context *ctx, parts *p)
 {
     const iso_picture model = model_of(p->file);
@@ -34,7 +41,7 @@ static iso_status pair_clocks(iso_context *ctx, parts *p)
     return status;
 }
 
-/* Only one model is drawn where the other does not exist: at rest, or with effects that break the isomorphism. */
+/* Converts the file. A ball at rest, or with effects that break the isomorphism, has no twin and is drawn alone. */
 static iso_status find_twin(iso_context *ctx, const iso_params *params, parts *p)
 {
     if (iso_record_find(p->file, "n1") >= 0 && iso_record_find(p->file, "gamma1") >= 0) return ISO_OK;
@@ -53,9 +60,9 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_params *par
     if (status == ISO_OK) status = iso_check_drifts(ctx, params, p->file, &p->drifts);
     if (status != ISO_OK) return status;
     const bool ball = iso_record_find(p->file, "n1") >= 0, point = iso_record_find(p->file, "gamma1") >= 0;
-    const char *name = strrchr(o->file, '/') ? strrchr(o->file, '/') + 1 : o->file;
+    const char *name = strrchr(o->from.file, '/') ? strrchr(o->from.file, '/') + 1 : o->from.file;
     snprintf(title, sizeof title, "%.60s: k = %.6g, J = %.6g, %.6g, %.6g, %zu rows",
-             strcmp(o->file, "-") == 0 ? "<stdin>" : name, params->k, params->J[0], params->J[1], params->J[2],
+             strcmp(o->from.file, "-") == 0 ? "<stdin>" : name, params->k, params->J[0], params->J[1], params->J[2],
              iso_record_rows(p->file));
     const iso_plot_orbit plot = {.title = title,
                                  .ball = ball ? p->file : p->twin,
@@ -65,17 +72,19 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_params *par
     return iso_plot_trajectory(ctx, o->output, &plot);
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
+    const options *o = options_given;
     parts p = {NULL, NULL, NULL, NULL};
     iso_params params;
-    if (strcmp(o->output, "-") == 0) return complain("plot: -o FILE is missing: .svg, .png or .pdf"), EXIT_USAGE;
+    if (strcmp(o->output, "-") == 0)
+        return complain("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
     iso_status status = iso_plot_check_format(ctx, o->output);
-    if (status == ISO_OK) status = iso_trajectory_read(ctx, o->file, o->columns, &p.file);
-    if (status == ISO_OK) status = parameters_of_file(ctx, o, p.file, &params);
+    if (status == ISO_OK) status = iso_trajectory_read(ctx, o->from.file, o->from.columns, &p.file);
+    if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, p.file, &params);
     if (status == ISO_OK) status = draw(ctx, o, &params, &p);
     if (status != ISO_OK && status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
-        status = name_the_file(ctx, o, status);
+        status = name_the_file(ctx, o->from.file, status);
     iso_record_free(p.file);
     iso_record_free(p.twin);
     iso_record_free(p.drifts);
@@ -83,12 +92,25 @@ static int run(iso_context *ctx, const options *o)
     return finish(ctx, status);
 }
 
+static const options defaults = {.from = FILE_OPTIONS_UNSET, .output = "-"};
+
+static const option_row rows[] = {
+    ROW_OF_FILE("output", "FILE", "a file", "the picture: .svg, .png or .pdf", set_text, options, output, 'o',
+                OPTION_WRITES),
+    ROWS_OF_FILE(options, from),
+    ROW_END,
+};
+
 const command command_plot = {
     .name = "plot",
     .argument = "[FILE]",
-    .doc = "a picture of a trajectory: paths on the spheres, integrals, clocks",
-    .options = " output k J eps h scene columns row-tolerance ",
-    .more = "-o FILE names the picture: .svg, .png or .pdf. The other model's path and clock are computed, where it "
-            "has one.",
+    .doc = "draw a trajectory: paths on the spheres, integrals, clocks",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, from.file),
+    .description = "-o FILE is needed; its ending chooses the format. The path and the clock of the other model are "
+                   "computed, where the orbit has a twin. gnuplot draws the picture.",
+    .example = "isoroll plot trajectory.csv -o trajectory.svg",
     .run = run,
 };

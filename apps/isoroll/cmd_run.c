@@ -1,10 +1,18 @@
-/* isoroll run - computes a scene's orbit and writes its trajectory: options in, a file and messages out. */
+/* isoroll run - integrate a scene and write its trajectory. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
+#include "scene_options.h"
 #include "times.h"
+
+/* What run can be told. */
+typedef struct options {
+    scene_options scene;
+    const char *output;
+    const char *times; /* NULL: not given */
+    bool verbose;
+} options;
 
 /* Where the rows go. */
 typedef struct target {
@@ -120,7 +128,7 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     iso_context_watch(ctx, go_on, NULL);
     const iso_status status = iso_run(ctx, scene, &how, &sink, &r);
     iso_context_watch(ctx, NULL, NULL);
-    if (!t.opened) return finish_scene(ctx, o, scene, status);
+    if (!t.opened) return finish_scene(ctx, &o->scene, scene, status);
     const int result = close_file(&t, status, &r);
     if (o->verbose && result != EXIT_FILE) tell_errors(&r);
     return result;
@@ -128,36 +136,60 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
 
 static iso_status check_files(iso_context *ctx, const options *o)
 {
-    if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->file, "-") == 0)
+    if (o->times && strcmp(o->times, "-") == 0 && strcmp(o->scene.file, "-") == 0)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "standard input is the scene or the times, not both");
     return ISO_OK;
 }
 
-static int run(iso_context *ctx, const options *o)
+static int run(iso_context *ctx, const void *options_given)
 {
+    const options *o = options_given;
     iso_scene scene = {.places = 0};
     times asked = {.list = NULL};
     iso_status status = check_files(ctx, o);
-    if (status == ISO_OK) status = scene_with_options(ctx, o, &scene);
+    if (status == ISO_OK) status = scene_with_options(ctx, &o->scene, &scene);
     if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &asked);
-    const int result = status == ISO_OK ? run_scene(ctx, o, &scene, &asked) : finish_scene(ctx, o, &scene, status);
+    const int result = status == ISO_OK ? run_scene(ctx, o, &scene, &asked) : finish_scene(ctx, &o->scene, &scene, status);
     free(asked.list);
     return result;
 }
+
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .output = "-"};
+
+static const option_row rows[] = {
+    ROW_OUTPUT(options, output),
+    ROW_BACKEND(options, scene),
+    ROW_METHOD(options, scene),
+    ROW_TOLERANCE(options, scene),
+    ROW_AS(options, scene),
+    ROW_T_END(options, scene),
+    ROW_STEP(options, scene),
+    ROW_OF_FILE("times", "FILE", "a file", "output times from FILE, in any order; # begins a comment", set_text,
+                options, times, 0, OPTION_READS),
+    ROW("verbose", NULL, NULL, "tell on stderr how the run went, and the error of the rows", set_flag, options,
+        verbose),
+    ROW_END,
+};
 
 const command command_run = {
     .name = "run",
     .argument = "SCENE",
     .doc = "compute a scene's orbit and write its trajectory",
-    .options = " output backend method tol as t-end step times verbose ",
-    .more =
-        "--t-end, --step and --times are in the clock of the scene's model: t of a ball, s of a point.\n"
-        "Backend exact is the closed solution. 'isoroll explain' says where there is one. Every time costs the\n"
-        "same, near or far; it takes no method and no tolerance.\n"
-        "A row does not depend on which other times are asked for. When the run is interrupted (Ctrl-C), the rows\n"
-        "so far are kept.\n"
-        "--verbose computes a finer orbit beside this one and tells the largest error of all rows. This covers the\n"
-        "error of the method and the rounding of the start. It does not cover the rounding of k, of times and of\n"
-        "the numbers of effects.",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "The times of --t-end, --step and --times are those of the scene's model: t of a ball, s of a point. A row "
+        "does not depend on which other times are asked for.\n\n"
+        "Backend exact is the closed solution, where there is one ('isoroll explain' says so). Every time costs the "
+        "same, near or far. It takes no method and no tolerance.\n\n"
+        "--verbose computes the orbit a second time, with smaller steps, and tells the largest error of the rows. "
+        "This "
+        "covers the error of the method and the rounding of the start. It does not cover the rounding of k, of the "
+        "effects' numbers and of the times.\n\n"
+        "After Ctrl-C, the rows computed so far are kept.",
+    .example = "isoroll run scene.yaml -o trajectory.csv",
+    .exits = "1: interrupted\n4: the computation failed; the rows before the failure are kept",
     .run = run,
 };

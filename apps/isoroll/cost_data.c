@@ -1,4 +1,4 @@
-/* cost_data.c - what `isoroll cost` measured, for other programs: CSV and JSON. */
+/* cost_data.c - writes what `isoroll cost` measured for other programs: CSV and JSON. */
 #include <math.h>
 #include <string.h>
 
@@ -7,7 +7,7 @@
 
 /* --- CSV -------------------------------------------------------------------------------------------------------- */
 
-/* A number; an empty field where there is none. */
+/* A field with a number. It is empty where there is none. */
 static void put(FILE *to, double x)
 {
     char text[ISO_NUMBER_SIZE] = "";
@@ -52,12 +52,6 @@ void cost_write_csv(const cost_report *r, FILE *to)
 
 /* --- JSON ------------------------------------------------------------------------------------------------------- */
 
-/* What is not known is null. */
-static json_t *number(double x)
-{
-    return isfinite(x) ? json_real(x) : json_null();
-}
-
 static json_t *method_of(const iso_method *method)
 {
     return method ? json_string(method->name) : json_null();
@@ -68,17 +62,17 @@ static json_t *cell_of(const iso_cost_cell *c)
     const iso_statistics *s = &c->statistics;
     const bool measured = iso_cost_is_measured(c);
     json_t *o = json_pack("{s:s, s:o, s:o, s:b, s:o}", "backend", iso_picture_name((int)c->backend), "method",
-                          method_of(c->method), "tolerance", number(c->tolerance), "measured", (int)measured,
+                          method_of(c->method), "tolerance", json_number(c->tolerance), "measured", (int)measured,
                           "failure", measured ? json_null() : json_string(c->why));
     if (!o || !measured) return o;
-    json_t *more =
-        json_pack("{s:o, s:b, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:i, s:I, s:I, s:I, s:I, s:I}", "error",
-                  number(c->error), "below", (int)c->below, "pareto", (int)c->pareto, "clock_error",
-                  number(c->clock_error), "energy_drift", number(c->energy_drift), "constraint_drift",
-                  number(c->constraint_drift), "setup", number(c->setup), "fastest", number(c->fastest), "median",
-                  number(c->median), "slowest", number(c->slowest), "total", number(c->total), "repeats", c->repeats,
-                  "steps", (json_int_t)s->steps, "rejected", (json_int_t)s->rejected, "right_hand_sides",
-                  (json_int_t)s->rhs, "jacobians", (json_int_t)s->jacobians, "states", (json_int_t)s->states);
+    json_t *more = json_pack(
+        "{s:o, s:b, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:i, s:I, s:I, s:I, s:I, s:I}", "error",
+        json_number(c->error), "below", (int)c->below, "pareto", (int)c->pareto, "clock_error",
+        json_number(c->clock_error), "energy_drift", json_number(c->energy_drift), "constraint_drift",
+        json_number(c->constraint_drift), "setup", json_number(c->setup), "fastest", json_number(c->fastest),
+        "median", json_number(c->median), "slowest", json_number(c->slowest), "total", json_number(c->total),
+        "repeats", c->repeats, "steps", (json_int_t)s->steps, "rejected", (json_int_t)s->rejected, "right_hand_sides",
+        (json_int_t)s->rhs, "jacobians", (json_int_t)s->jacobians, "states", (json_int_t)s->states);
     json_object_update(o, more);
     json_decref(more);
     return o;
@@ -96,10 +90,11 @@ static json_t *lines_of(const iso_cost *c)
     json_t *list = json_array();
     for (int i = 0; i < c->lines; i++) {
         const iso_cost_line *l = &c->line[i];
-        json_array_append_new(list, json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "backend",
-                                              iso_picture_name((int)l->backend), "method", method_of(l->method),
-                                              "time_of_a_digit", number(l->digit), "order", number(l->order),
-                                              "least_error", number(l->least), "stops_at", number(l->stops_at)));
+        json_array_append_new(list,
+                              json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "backend",
+                                        iso_picture_name((int)l->backend), "method", method_of(l->method),
+                                        "time_of_a_digit", json_number(l->digit), "order", json_number(l->order),
+                                        "least_error", json_number(l->least), "stops_at", json_number(l->stops_at)));
     }
     return list;
 }
@@ -116,14 +111,15 @@ static json_t *growths_of(const cost_report *r)
         const iso_cost_growth *x = &r->growth[g].growth;
         json_t *rows = json_array();
         for (int i = 0; i < x->count; i++)
-            json_array_append_new(rows, json_pack("{s:o, s:o, s:o, s:o}", "end", number(x->end[i]), "error",
-                                                  number(x->error[i]), "uncertainty", number(x->uncertainty[i]),
-                                                  "seconds", number(x->seconds[i])));
+            json_array_append_new(rows,
+                                  json_pack("{s:o, s:o, s:o, s:o}", "end", json_number(x->end[i]), "error",
+                                            json_number(x->error[i]), "uncertainty", json_number(x->uncertainty[i]),
+                                            "seconds", json_number(x->seconds[i])));
         json_array_append_new(list,
                               json_pack("{s:o, s:o, s:b, s:o, s:o, s:o, s:o}", "cell", cell_of(r->growth[g].cell),
-                                        "horizons", rows, "chaotic", (int)x->chaotic, "power", number(x->power),
-                                        "time_power", number(x->time_power), "lyapunov_time",
-                                        number(x->lyapunov_time), "failure", why_of(&r->growth[g])));
+                                        "horizons", rows, "chaotic", (int)x->chaotic, "power", json_number(x->power),
+                                        "time_power", json_number(x->time_power), "lyapunov_time",
+                                        json_number(x->lyapunov_time), "failure", why_of(&r->growth[g])));
     }
     return list;
 }
@@ -138,11 +134,12 @@ bool cost_print_json(const cost_report *r)
 {
     const iso_params *p = &r->scene->params;
     const iso_cost *c = r->cost;
-    json_t *o = json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:s, s:o, s:o, s:b, s:o, s:o, s:o, s:o, s:o}",
-                          "isoroll", ISO_VERSION, "k", number(p->k), "J", number(p->J[0]), number(p->J[1]),
-                          number(p->J[2]), "end", number(c->end), "turns", number(c->turns), "reference",
-                          c->reference, "second_reference", c->second, "uncertainty", number(c->uncertainty),
-                          "seconds", number(c->seconds), "complete", (int)c->complete, "cells", cells_of(c), "lines",
-                          lines_of(c), "want", number(r->want), "choice", choice_of(r), "growth", growths_of(r));
+    json_t *o =
+        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:s, s:o, s:o, s:b, s:o, s:o, s:o, s:o, s:o}", "isoroll",
+                  ISO_VERSION, "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]),
+                  json_number(p->J[2]), "end", json_number(c->end), "turns", json_number(c->turns), "reference",
+                  c->reference, "second_reference", c->second, "uncertainty", json_number(c->uncertainty), "seconds",
+                  json_number(c->seconds), "complete", (int)c->complete, "cells", cells_of(c), "lines", lines_of(c),
+                  "want", json_number(r->want), "choice", choice_of(r), "growth", growths_of(r));
     return json_print(o);
 }

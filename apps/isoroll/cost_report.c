@@ -1,4 +1,4 @@
-/* cost_report.c - what is asked of the cells of `isoroll cost`, and their words. */
+/* cost_report.c - counts, chooses and sorts the cells that `isoroll cost` measured, and puts them into words. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,5 +1,7 @@
-/* effects.c - how commands show the effects of an orbit. */
-#include "command.h"
+/* effects.c - prints the effects of an orbit. */
+#include <stdio.h>
+
+#include "scene_options.h"
 
 /* The numbers of an effect, on a line of their own or not; none that a scene alone states. */
 static void print_numbers(const iso_effects *effects, iso_effect_id id, const char *begin)

@@ -1,11 +1,13 @@
-/* What --json prints: all of it, or nothing. */
+/* json.c - prints JSON: all of it, or nothing (see json.h). */
 #include "json.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
-#include "command.h"
+#include "report.h"
 
-static bool lacking; /* jansson leaves out what it had no memory for, and does not say so */
+static bool lacking; /* jansson leaves out what it has no memory for, and does not say so */
 
 static void *allocate(size_t size)
 {
@@ -17,6 +19,11 @@ static void *allocate(size_t size)
 void json_begin(void)
 {
     json_set_alloc_funcs(allocate, free);
+}
+
+json_t *json_number(double x)
+{
+    return isfinite(x) ? json_real(x) : json_null();
 }
 
 bool json_print(json_t *o)

@@ -1,14 +1,17 @@
-/* json.h - what --json prints, made with jansson. */
+/* json.h - what the commands need to print JSON, beside jansson. */
 #ifndef ISOROLL_JSON_H
 #define ISOROLL_JSON_H
 
 #include <jansson.h>
 #include <stdbool.h>
 
-/* Before any other call of jansson. */
+/* Call it before any other function of jansson. */
 void json_begin(void);
 
-/* Prints o and gives it back. False: no memory for all of it; nothing is printed, and that is complained of. */
+/* A number. JSON has no infinity and no nan: they become null. */
+json_t *json_number(double x);
+
+/* Prints o and frees it. False: there is no memory for all of it; then nothing is printed, and a message says so. */
 bool json_print(json_t *o);
 
 #endif

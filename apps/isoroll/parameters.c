@@ -1,9 +1,10 @@
+/* parameters.c - k, J and eps of a trajectory file: from its own lines, or from the options (see parameters.h). */
 #include "parameters.h"
 
 #include <math.h>
 #include <string.h>
 
-/* What an option says becomes the record's line; where the file has that line it must say the same. */
+/* Makes what an option says a line of the record. If the file has that line already, it must say the same. */
 static iso_status set_line(iso_context *ctx, iso_record *record, const char *key, size_t count, const double values[])
 {
     double said[3];
@@ -18,7 +19,7 @@ static iso_status set_line(iso_context *ctx, iso_record *record, const char *key
     return iso_record_set_numbers(ctx, record, key, count, values);
 }
 
-/* What a scene says, where the file does not say it: k, J and D, the effects that act, a point's eps. */
+/* Takes from a scene what the file does not say: k, J and D, the effects that act, a point's eps. */
 static iso_status set_scene(iso_context *ctx, const char *path, iso_record *record)
 {
     iso_scene scene;
@@ -38,10 +39,11 @@ static iso_status set_scene(iso_context *ctx, const char *path, iso_record *reco
     return status;
 }
 
-iso_status parameters_of_file(iso_context *ctx, const options *o, iso_record *record, iso_params *params)
+iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params)
 {
     if (!isnan(o->h) && !isnan(o->eps))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps", "--h says what --eps says: leave one of them out");
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "eps",
+                                "--h and --eps say the same thing: leave one of them out");
     iso_record_set_row_tolerance(record, o->row_tolerance);
     iso_status status = set_line(ctx, record, "k", 1, &o->k);
     if (status == ISO_OK) status = set_line(ctx, record, "J", 3, o->J);
@@ -51,9 +53,9 @@ iso_status parameters_of_file(iso_context *ctx, const options *o, iso_record *re
     return status == ISO_OK ? iso_record_params(ctx, record, params) : status;
 }
 
-iso_status name_the_file(iso_context *ctx, const options *o, iso_status status)
+iso_status name_the_file(iso_context *ctx, const char *file, iso_status status)
 {
-    const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
+    const char *name = strcmp(file, "-") == 0 ? "<stdin>" : file;
     const char *message = iso_context_message(ctx);
     if (strncmp(message, name, strlen(name)) == 0) return status;
     return iso_context_fail(ctx, status, iso_context_field(ctx), "%s: %s", name, message);

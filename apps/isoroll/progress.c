@@ -1,8 +1,11 @@
+/* progress.c - a bar on stderr while a command works (see progress.h). */
+#include "progress.h"
+
+#include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
-
-#include "command.h"
 
 enum { WIDTH = 40 };
 
@@ -22,7 +25,7 @@ void progress_show(double part)
     const double time = now();
     if (time - start < 1 || time - last < 0.1 || !isatty(STDERR_FILENO)) return;
     last = time;
-    const char *no_color = getenv("NO_COLOR"); /* says so when it is not empty */
+    const char *no_color = getenv("NO_COLOR"); /* counts only if it is not empty */
     const bool coloured = !no_color || !*no_color;
     fprintf(stderr, "\r%s", coloured ? "\033[36m" : "");
     for (int i = 0; i < WIDTH; i++) fputc(i < (int)(part * WIDTH) ? '#' : '.', stderr);

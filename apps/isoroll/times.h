@@ -2,7 +2,7 @@
 #ifndef ISOROLL_TIMES_H
 #define ISOROLL_TIMES_H
 
-#include "command.h"
+#include "scene_options.h"
 
 typedef struct times {
     double *list; /* in the order of the file */

@@ -1,3 +1,4 @@
+/* analogue.c - from a problem of a point on a sphere to a ball that realises it (see analogue.h). */
 #include "study/analogue.h"
 
 #include <float.h>
@@ -8,9 +9,10 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
+#include "study/analogue_impl.h"
 
-/* A free ball by a shift of J is taken only if its moments are not further apart than this: J1 is the difference of
- * 2 E and c, and loses as many digits. */
+/* The largest ratio of moments of a free ball with J = 2 E - c. The least moment is a difference, and loses as
+ * many digits as the ratio has. */
 #define MOST_SPREAD 1e8
 
 /* --- the problem ------------------------------------------------------------------------------------------------ */
@@ -27,7 +29,8 @@ static double potential(const iso_analogue_problem *p, const double gamma[3])
     return -p->eps * pow(dot_diag(gamma, p->J, gamma), -1 / p->k);
 }
 
-/* V is monotonic in one quadratic form: its extremes are at the ends of two axes. */
+/* Finds the least and the largest V on the sphere. V is monotonic in one quadratic form, so both are on axes.
+ * Returns the axis of the least V. */
 static int find_range(const iso_analogue_problem *p, double *lowest, double *highest)
 {
     int bottom = 0;
@@ -61,13 +64,14 @@ static bool is_constant(const iso_analogue_problem *p)
     return (x[0] == x[1] && x[1] == x[2]) || (!p->neumann && p->eps == 0);
 }
 
-/* What the difference of two energies may be by rounding. */
+/* Two energies that differ by less are equal up to rounding. */
 static double rounding(const iso_analogue *a)
 {
     return 4 * DBL_EPSILON * fmax(fabs(a->problem.energy), fmax(fabs(a->lowest), fabs(a->highest)));
 }
 
-/* Whether anything moves at this energy. The least V itself, to rounding, is a point that rests at the bottom. */
+/* Refuses an energy that no motion has. At the least V, up to rounding, the point rests at the bottom: that is
+ * allowed. */
 static iso_status check_energy(iso_context *ctx, const iso_analogue *a)
 {
     const double E = a->problem.energy;
@@ -96,7 +100,7 @@ static iso_status check_energy(iso_context *ctx, const iso_analogue *a)
 
 /* --- the reduced ball ------------------------------------------------------------------------------------------- */
 
-/* J1 + J2 - J3 of the sorted J: positive for a body's. */
+/* J1 + J2 - J3 with J sorted. It is positive if there is a body. */
 static double triangle_room(const double J[3])
 {
     const double least = min3(J), most = max3(J), middle = fmax(fmin(J[0], J[1]), fmin(fmax(J[0], J[1]), J[2]));
@@ -121,7 +125,7 @@ static iso_status make_ball(iso_context *ctx, double k, const double J[3], doubl
         k, J[0], J[1], J[2], eps, level_energy);
 }
 
-/* V is a constant: the moments as stated if they are equal, else such that the ball is of order one. */
+/* V is a constant: takes the stated moments if they are equal, else moments that make the ball of order one. */
 static iso_status make_constant(iso_context *ctx, iso_analogue *a)
 {
     const iso_analogue_problem *p = &a->problem;
@@ -134,7 +138,7 @@ static iso_status make_constant(iso_context *ctx, iso_analogue *a)
     return make_ball(ctx, k, J, over * pow(one, 1 / k), 0, &a->reduced);
 }
 
-/* k = -1: J = d - c, eps = 1/2, on the level E - d/2. Where eps > 0 is stated J is measured so that it stays. */
+/* k = -1: J = d - c, eps = 1/2, on the level E - d/2. A stated eps > 0 is kept: then J is in other units. */
 static iso_status make_shifted(iso_context *ctx, iso_analogue *a, double d, double level_energy)
 {
     const iso_analogue_problem *p = &a->problem;
@@ -146,7 +150,7 @@ static iso_status make_shifted(iso_context *ctx, iso_analogue *a, double d, doub
     return make_ball(ctx, -1, J, unit / 2, level_energy, &a->reduced);
 }
 
-/* Whether J = 2 E - c is positive, and says in a->not_free what it is where it is not. */
+/* Whether J = 2 E - c is positive. If not, a->not_free says why. */
 static bool shift_is_free(iso_analogue *a)
 {
     double c[3], J[3];
@@ -183,7 +187,7 @@ static iso_status make_reduced(iso_context *ctx, iso_analogue *a)
         snprintf(a->not_free, sizeof a->not_free, "a ball in the potential of a level was asked for");
     } else if (!shell) {
         snprintf(a->not_free, sizeof a->not_free,
-                 "no free ball: only for k = -1 is the energy a shift of J, for k = %.10g a free ball has E = 0",
+                 "no free ball: for k = %.10g a free ball has E = 0; only for k = -1 can J take up another energy",
                  p->k);
     } else if (shift_is_free(a)) {
         a->way = ISO_ANALOGUE_FREE;
@@ -202,13 +206,11 @@ static void choose_surface(double k, iso_body *body)
     body->surface_radius = k == 1 ? 0 : k > 1 || k < 0 ? B * (k / (k - 1)) : B * (k / (1 - k));
 }
 
-/* The scale by which D = m B^2 stands in the middle of (0, s room]. */
+/* The body of mass and radius (NAN: chosen) with D = m B^2 in the middle of (0, s room]. */
 static void make_body(iso_context *ctx, double mass, double radius, iso_analogue *a)
 {
     const iso_analogue_ball *r = &a->reduced;
-    iso_body body = {.mass = mass, .radius = radius};
     iso_params params;
-    const double D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
     a->room = triangle_room(r->params.J);
     if (!(a->room > 0)) {
         snprintf(a->no_body, sizeof a->no_body,
@@ -217,6 +219,9 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
                  a->room);
         return;
     }
+    iso_analogue_choose_units(a, &mass, &radius);
+    iso_body body = {.mass = mass, .radius = radius};
+    const double D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
     a->scale = 2 * (D / a->room);
     for (int i = 0; i < 3; i++) body.inertia[i] = D * (2 * (r->params.J[i] / a->room) - 1);
     choose_surface(r->params.k, &body);
@@ -249,7 +254,7 @@ iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *probl
 
 /* --- starts and scenes ------------------------------------------------------------------------------------------ */
 
-/* What acts on the ball beyond its level changes the point's potential, or has no point. */
+/* Refuses effects other than the level: they change the potential of the point, or leave the ball without a twin. */
 static iso_status check_effects(iso_context *ctx, const iso_effects *e)
 {
     const iso_effect *more = iso_effects_beyond_level(e);
@@ -258,7 +263,7 @@ static iso_status check_effects(iso_context *ctx, const iso_effects *e)
                             "'%s' is more than V = -eps (gamma, J gamma)^(-1/k): take it out", more->name);
 }
 
-/* The orbit knows what a start's coupling and level are, stated or not. */
+/* Asks an orbit for the coupling and the level of the start: the scene may not state them. */
 iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso_analogue_problem *problem,
                                    double point[ISO_STATE])
 {
@@ -287,8 +292,8 @@ iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso
     return status;
 }
 
-/* From a direction off all planes of symmetry halfway to the bottom, again and again, until half of what the energy
- * has above the bottom is motion. */
+/* Begins in a direction off all planes of symmetry, and goes halfway to the bottom again and again, until half of the
+ * energy above the bottom is motion. */
 double iso_analogue_start(const iso_analogue *a, double point[ISO_STATE])
 {
     static const double off[3] = {0.48, 0.6, 0.64}, way[3] = {0.6, -0.48, 0.64};
@@ -311,7 +316,7 @@ double iso_analogue_start(const iso_analogue *a, double point[ISO_STATE])
     return 20 * acos(-1) / sqrt(2 * most);
 }
 
-/* (18) in own units, where its powers are of order one. */
+/* Maps the point to the ball by (18), in own units: there its powers are of order one. */
 static iso_status start_ball(iso_context *ctx, const iso_params *p, const double point[ISO_STATE], iso_start *start)
 {
     iso_units units;

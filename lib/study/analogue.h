@@ -1,21 +1,25 @@
-/* analogue.h - from a point problem to a ball that realises it: section 5 of the paper read backwards.
+/* analogue.h - finds a ball for a problem of a point on a sphere: section 5 of the paper read backwards.
  *
  *     V = -eps (gamma, J gamma)^(-1/k)      or, k = -1,      V = (1/2) sum c_i gamma_i^2      at M^2/2 + V = E
  *
- * The ball with k and J has h = eps k^2/det J, and off E = 0 rolls in the potential of the effect `level`,
- * c = E k^2/det J. A ball without that potential is preferred where there is one:
+ * The ball with k and J has h = eps k^2/det J. Off E = 0 it rolls in the potential of the effect `level`,
+ * c = E k^2/det J. A ball without this potential is called free. It is taken where there is one:
  *
- *     E = 0         the ball itself
- *     k = -1        on |gamma| = 1 a constant is a shift of J: V - E = -(1/2)(gamma, (2 E - c) gamma), c = -2 eps J;
- *                   the ball with J = 2 E - c is free whenever that is positive
+ *     E = 0         the ball of the same k, J and eps
+ *     k = -1        since |gamma| = 1, adding a constant to V only shifts J:
+ *                   V - E = -(1/2)(gamma, (2 E - c) gamma) with c = -2 eps J.
+ *                   The ball with J = 2 E - c is free. It exists where all three of 2 E - c are positive
  *     V constant    the point turns uniformly: any equal moments, eps = (E - V) J^(1/k)
  *
- * For k = -1 in the potential of a level every J = d - c > 0 will do; d = max c + 2 (max c - min c) makes max J/min J
- * 3/2, and J always a body's.
+ * For k = -1 there is also a ball in the potential of a level with J = d - c for every d that makes J positive.
+ * d = max c + 2 (max c - min c) gives max J/min J = 3/2, and such a J always has a body.
  *
- * A body: J -> s J, eps -> s^(1/k) eps leaves V and its clock s as they are. I = s J - D > 0, D = m B^2, obeys the
- * triangle inequalities for 0 < D/s <= J1 + J2 - J3 (J sorted), so there is one exactly if J1 + J2 > J3. D/s is in
- * the middle.
+ * A body: J -> s J, eps -> s^(1/k) eps leaves V and its clock s as they are. The central moments I = s J - D with
+ * D = m B^2 must be positive and obey the triangle inequalities. With J sorted, they do for 0 < D/s <= J1 + J2 - J3:
+ * a body exists exactly if J1 + J2 > J3. D/s is put in the middle.
+ *
+ * Units: the angular velocity of the body goes as s^((1/k - 4)/2). Mass and radius that are not given are 1, 2 or 5
+ * times a power of ten, chosen so that the angular velocity is of order one (analogue_units.c).
  */
 #ifndef ISO_STUDY_ANALOGUE_H
 #define ISO_STUDY_ANALOGUE_H
@@ -61,7 +65,7 @@ typedef struct iso_analogue {
     char no_body[512];      /* why there is none; "" when there is one                                 */
 } iso_analogue;
 
-/* The ball of a problem; its body is to have this mass and radius.
+/* The ball of a problem; its body is to have this mass and radius. NAN: the function chooses a round number.
  * Errors: ISO_BAD_INPUT about "k", "J", "eps", "c" or "energy" (no numbers, k = 0, J not positive); ISO_NOT_MAPPED
  * about "energy": no motion has it, or in a constant potential only rest; ISO_NUMERICAL: what leaves the doubles. */
 iso_status iso_analogue_find(iso_context *ctx, const iso_analogue_problem *problem, double mass, double radius,
@@ -79,5 +83,9 @@ double iso_analogue_start(const iso_analogue *analogue, double point[ISO_STATE])
  * Errors: as iso_orbit_create and iso_orbit_at. */
 iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, const double point[ISO_STATE],
                               double s_end, iso_scene *scene);
+
+/* The least number that is 1, 2 or 5 times a power of ten and not less than x > 0. Any other x comes back as it
+ * is. */
+double iso_analogue_round_up(double x);
 
 #endif

@@ -32,8 +32,43 @@ finds() {
     agrees "$of"
 }
 
+# is_readable NAME: the last scene's mass, radius and end are 1, 2 or 5 times a power of ten; its angular velocity is of
+# order one; its end is 10 to 100 turns away at this velocity
+is_readable() {
+    sed -n 's/^ball: *{mass: \([^,]*\), radius: \([^,]*\),.*/\1 \2/p; s/^time: *{end: \([^}]*\)}/\1/p' out | tr ' ' '\n' >round
+    check "$1: mass, radius and end" test "$(wc -l <round)" -eq 3
+    check "$1: round: $(tr '\n' ' ' <round)" test "$(grep -cxE '(0\.0*|)[125](0*|e[-+]?[0-9]+)' round)" -eq 3
+    omega=$(sed -n 's/^  angular_velocity: \[\(.*\)\]/\1/p' out | awk -F, '{ print sqrt($1 * $1 + $2 * $2 + $3 * $3) }')
+    at_most "$1: angular velocity" "$omega" 3
+    at_most "$1: angular velocity $omega, at least 0.3" 0.3 "$omega"
+    turns=$(awk -v omega="$omega" 'END { print omega * $1 / 6.2831853 }' round)
+    at_most "$1: turns" "$turns" 100
+    at_most "$1: turns $turns, at least 10" 10 "$turns"
+}
+
+# readable NAME ARGUMENT...
+readable() {
+    of=$1
+    shift
+    run 0 analogue "$@"
+    is_readable "$of"
+}
+
 # --- every branch
-finds "free Neumann" "ball: free: V = E - eps (gamma, J gamma), the energy is a shift of J, to 2 E - c" --neumann 1,2,2.5 --energy 2
+readable "Neumann's own units" --neumann 1,2,2.5 --energy 2
+readable "large numbers" --neumann 1e10,2e10,2.5e10 --energy 2e10
+readable "small numbers" --neumann 1e-7,2e-7,2.5e-7 --energy 2e-7
+readable "a level" --neumann 1,2,4 --energy 2.25 --level
+readable "a plane" --k 1 --J 1.4,2.1,3 --eps 6.5
+readable "a slow plane" --k 1 --J 1400,2100,3000 --eps 1e-3
+readable "outside" --k 0.7 --J 1.4,2.1,3 --eps 6.5 --energy 2
+readable "inside" --k 2 --J 1.4,2.1,3 --eps 650
+run 0 analogue --neumann 1,2,2.5 --energy 2 --mass 3
+check "--mass is taken as it is" grep -qE '^ball: *\{mass: 3, radius: [0-9.]*, inertia' out
+run 0 analogue --neumann 1,2,2.5 --energy 2 --radius 0.3
+check "--radius is taken as it is" grep -qE '^ball: *\{mass: [0-9.]*, radius: 0.3, inertia' out
+finds "free Neumann" "ball: free: on the sphere V = E - eps (gamma, J gamma) with the ball's J = 2 E - c" --neumann 1,2,2.5 --energy 2
+finds "a stated body" "ball: free" --neumann 1,2,2.5 --energy 2 --mass 1 --radius 1
 check "2 E - c" grep -qx '# reduced: k = -1, J = 3 2 1.5' out
 reports "h = eps k^2/det J = 0.055555555555555552" # 1/(2 x 9)
 check "B = 2 A" grep -qx 'surface: {kind: shell, radius: 0.5}' out
@@ -53,13 +88,13 @@ finds "constant" "V is constant" --neumann 2,2,2 --energy 3
 finds "plane" "ball: free, since the energy is 0" --k 1 --J 1.4,2.1,3 --eps 6.5
 check "a plane has no radius" grep -qx 'surface: {kind: plane}' out
 finds "outside" "body: outside, m = 3, B = 0.1, A = 0.2333333333" --k 0.7 --J 1.4,2.1,3 --eps 6.5 --energy 2 --mass 3 --radius 0.1
-reports "no free ball: only for k = -1 is the energy a shift of J, for k = 0.7"
+reports "no free ball: for k = 0.7 a free ball has E = 0"
 finds "inside" "eps and h are negative" --k 2 --J 1.4,2.1,3 --eps -1.5 --energy 1
 finds "k and J alone" "no body:" --k 2 --J 1.4,2.1,4 --eps 1.5
-check "no body" grep -qx 'reduced: {k: 2, J: \[1.3999999999999999, 2.1000000000000001, 4\]}' out
-finds "J + E/eps" "to J + E/eps" --k -1 --J 1.4,2.1,3 --eps 4 --energy 2
+check "no body" grep -qx 'reduced: {k: 2, J: \[1.4, 2.1, 4\]}' out
+finds "J + E/eps" "the ball's J = J + E/eps" --k -1 --J 1.4,2.1,3 --eps 4 --energy 2
 check "J + E/eps" grep -q '^# reduced: k = -1, J = 1.89.* 2.60.* 3.5$' out
-finds "a shell of eps < 0" "to 2 E - c" --k -1 --J 1.4,2.1,3 --eps -1 --energy 4
+finds "a shell of eps < 0" "the ball's J = 2 E - c" --k -1 --J 1.4,2.1,3 --eps -1 --energy 4
 
 # --- a scene's start: the point of `run`, in s, is the ball's twin at the same times
 # carries NAME ENERGY EPS SECTIONS [ARGUMENT...]: a scene with these sections and its start

@@ -3,7 +3,7 @@
 . "$(dirname "$0")/lib.sh"
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 "$isoroll" run scene.yaml >ball.csv
-commands="run convert compare cost check explain analogue frequencies list"
+commands="run convert compare cost check plot explain analogue frequencies list manual"
 
 # --- exit statuses
 run 0 run scene.yaml
@@ -46,6 +46,7 @@ refuses 5 "cannot open 'xxxxx" run "$(printf '%05000d' 0 | tr 0 x)"
 refuses 5 "cannot read '.': Is a directory" run .
 refuses 5 "cannot write '.'" run scene.yaml -o .
 refuses 3 ":1:1" run /dev/null
+refuses 2 "convert: 'scene.yaml' would overwrite what is read" convert --to point --scene scene.yaml ball.csv -o scene.yaml
 run 0 run scene.yaml --step 5 --step 2 --verbose --verbose --t-end=4
 check "the last of repeated options counts" test "$(rows out | cut -d, -f1 | tr '\n' ' ')" = "0 2 4 "
 run 0 run --back point -- scene.yaml

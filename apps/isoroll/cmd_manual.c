@@ -1,0 +1,65 @@
+/* isoroll manual - prints the man pages and the completions for shells; the build installs what it prints. */
+#include <string.h>
+
+#include "manual.h"
+
+/* What manual can be told. */
+typedef struct options {
+    const char *page, *output;
+} options;
+
+static const struct {
+    const char *name;
+    void (*print)(FILE *to);
+} pages[] = {{"isoroll", manual_program}, {"bash", complete_bash}, {"zsh", complete_zsh}};
+enum { PAGES = sizeof pages / sizeof *pages };
+
+static const char *page_word(int i)
+{
+    if (i < PAGES) return pages[i].name;
+    return commands[i - PAGES] ? commands[i - PAGES]->name : NULL;
+}
+
+static void print_page(const char *name, FILE *to)
+{
+    for (int i = 0; i < PAGES; i++)
+        if (strcmp(name, pages[i].name) == 0) pages[i].print(to);
+    if (command_find(name)) manual_command(command_find(name), to);
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    const options *o = options_given;
+    const char *name = strcmp(o->page, "-") == 0 ? "isoroll" : o->page;
+    iso_output *output;
+    int i = 0;
+    while (page_word(i) && strcmp(name, page_word(i)) != 0) i++;
+    if (!page_word(i)) {
+        complain("manual: no page is called '%s': expected isoroll, the name of a command, bash or zsh", name);
+        return EXIT_USAGE;
+    }
+    const iso_status status = iso_output_open(ctx, o->output, &output);
+    if (status != ISO_OK) return finish(ctx, status);
+    print_page(name, iso_output_stream(output));
+    return finish(ctx, iso_output_close(ctx, output, true));
+}
+
+static const options defaults = {.page = "-", .output = "-"};
+
+static const option_row rows[] = {ROW_OUTPUT(options, output), ROW_END};
+
+const command command_manual = {
+    .name = "manual",
+    .argument = "[PAGE]",
+    .doc = "print a man page, or the completion of a shell",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, page),
+    .word = page_word,
+    .description =
+        "A page is isoroll (the default), the name of a command, bash or zsh. Installation puts all of them in "
+        "their places; this command prints them for an installation without these places.",
+    .example = "isoroll manual run | man -l -\nsource <(isoroll manual bash)",
+    .run = run,
+};

@@ -1,0 +1,29 @@
+/* commands.c - the list of commands, and what is said of all of them. */
+#include <string.h>
+
+#include "command.h"
+
+extern const command command_run, command_convert, command_compare, command_cost, command_check, command_analogue,
+    command_frequencies, command_explain, command_list, command_plot, command_manual;
+
+const command *const commands[] = {&command_run,         &command_convert, &command_compare, &command_cost,
+                                   &command_check,       &command_plot,    &command_explain, &command_analogue,
+                                   &command_frequencies, &command_list,    &command_manual,  NULL};
+
+const char *const about_isoroll =
+    "isoroll simulates the rubber Chaplygin ball that rolls on a sphere, and its twin, a point on a sphere in a "
+    "Neumann/Braden potential. It carries orbits from one model to the other.";
+
+const char *const about_exits = "0: done\n"
+                                "1: some rows failed, a bound was broken, or interrupted\n"
+                                "2: wrong usage\n"
+                                "3: bad input\n"
+                                "4: numerical failure, or no memory\n"
+                                "5: trouble with a file";
+
+const command *command_find(const char *name)
+{
+    for (int i = 0; commands[i]; i++)
+        if (strcmp(commands[i]->name, name) == 0) return commands[i];
+    return NULL;
+}

@@ -1,0 +1,66 @@
+/* help.c - the text of --help, for one command and for the program. */
+#include <string.h>
+
+#include "command.h"
+
+enum { WIDTH = 100 };
+
+/* Prints text in lines of at most WIDTH characters; a new line in the text stays one. */
+static void print_folded(const char *text, FILE *to)
+{
+    for (int column = 0; *text;) {
+        const size_t blanks = strspn(text, " "), word = strcspn(text + blanks, " \n");
+        const bool fits = column == 0 || column + (int)(blanks + word) <= WIDTH;
+        if (!fits) fputc('\n', to), column = 0;
+        const size_t skipped = column == 0 ? blanks : 0;
+        column += fprintf(to, "%.*s", (int)(blanks + word - skipped), text + skipped);
+        text += blanks + word;
+        if (*text == '\n') fputc(*text++, to), column = 0;
+    }
+    fputc('\n', to);
+}
+
+static void print_row(const option_row *r, FILE *to)
+{
+    fprintf(to, "  --%-10s %-9s %s", r->name, r->argument ? r->argument : "", r->doc);
+    if (r->letter && r->argument)
+        fprintf(to, " (-%c %s)", r->letter, r->argument);
+    else if (r->letter)
+        fprintf(to, " (-%c)", r->letter);
+    fputc('\n', to);
+}
+
+/* Each line of text after two blanks. */
+static void print_indented(const char *text, FILE *to)
+{
+    while (*text) {
+        const size_t length = strcspn(text, "\n");
+        fprintf(to, "  %.*s\n", (int)length, text);
+        text += length + (text[length] == '\n');
+    }
+}
+
+void help_command(const command *c, FILE *to)
+{
+    fprintf(to, "usage: isoroll %s [options] %s\n%s\n\n", c->name, c->argument, c->doc);
+    for (int i = 0; options_row(c, i); i++) print_row(options_row(c, i), to);
+    fputc('\n', to);
+    print_folded(c->description, to);
+    fputs("\nexample\n", to);
+    print_indented(c->example, to);
+    if (!c->exits) return;
+    fputs("\nexit status\n", to);
+    print_indented(c->exits, to);
+}
+
+void help_program(FILE *to)
+{
+    print_folded(about_isoroll, to);
+    fputs("\nusage: isoroll COMMAND [options] [SCENE or FILE]      - is standard input or output\n\n", to);
+    for (int i = 0; commands[i]; i++)
+        fprintf(to, "  %-11s %-9s %s\n", commands[i]->name, commands[i]->argument, commands[i]->doc);
+    fputs("\n  isoroll COMMAND --help     the options of a command\n"
+          "  isoroll --version          the versions of isoroll and its libraries\n\nexit status\n",
+          to);
+    print_indented(about_exits, to);
+}

@@ -1,0 +1,11 @@
+/* progress.h - a bar on stderr while a command works. */
+#ifndef ISOROLL_PROGRESS_H
+#define ISOROLL_PROGRESS_H
+
+/* Shows which part of the work is done, 0 to 1. Draws only on a terminal, and only after the first second. */
+void progress_show(double part);
+
+/* Takes the bar away. */
+void progress_end(void);
+
+#endif

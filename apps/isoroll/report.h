@@ -1,0 +1,31 @@
+/* report.h - what a command says when it ends: messages, exit statuses, and whether the user asked to stop. */
+#ifndef ISOROLL_REPORT_H
+#define ISOROLL_REPORT_H
+
+#include <stdbool.h>
+
+#include "isoroll.h"
+
+enum exit_status {
+    EXIT_DONE = 0,
+    EXIT_SOME_FAILED = 1, /* some rows or cells failed; a bound of `check` is broken; interrupted */
+    EXIT_USAGE = 2,
+    EXIT_BAD_INPUT = 3,
+    EXIT_NUMERICAL = 4,
+    EXIT_FILE = 5,
+};
+
+/* Prints "isoroll: MESSAGE" on stderr, in one line. */
+void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* Prints the context's message and returns the exit status that belongs to `status`. Says nothing after success,
+ * after a stop on request, and when the reader of a pipe has gone. */
+int finish(iso_context *ctx, iso_status status);
+
+/* From now on SIGINT, SIGTERM and SIGHUP only ask to stop. A signal that comes two seconds later ends the program. */
+void stop_gently(void);
+
+/* True once the user has asked to stop. */
+bool interrupted(void);
+
+#endif

@@ -1,0 +1,54 @@
+/* scene_options.h - the options that change something in a scene, and the orbit that a scene asks for. */
+#ifndef ISOROLL_SCENE_OPTIONS_H
+#define ISOROLL_SCENE_OPTIONS_H
+
+#include <math.h>
+
+#include "command.h"
+
+/* A scene's file and what options put in the place of its lines. */
+typedef struct scene_options {
+    const char *file;
+    const char *method;          /* NULL: as the scene says */
+    iso_picture backend, as;     /* -1: as the scene says   */
+    double tolerance, end, step; /* NAN: as the scene says  */
+} scene_options;
+
+#define SCENE_OPTIONS_UNSET                                                                                          \
+    {                                                                                                                \
+        .file = "-", .backend = (iso_picture)-1, .as = (iso_picture)-1, .tolerance = NAN, .end = NAN, .step = NAN    \
+    }
+
+/* Rows of these; `scene` is the place of a scene_options in the struct `type`. */
+#define ROW_BACKEND(type, scene)                                                                                     \
+    ROW_OF_WORDS("backend", "B", "ball, point, exact or auto", "what finds the orbit: ball, point, exact, auto",     \
+                 set_backend, type, scene.backend, backend_word)
+#define ROW_METHOD(type, scene)                                                                                      \
+    ROW_OF_WORDS("method", "NAME", "a method of 'isoroll list methods', or auto", "the integrator, or auto",         \
+                 set_method, type, scene.method, method_word)
+#define ROW_TOLERANCE(type, scene)                                                                                   \
+    ROW("tol", "X", "a number in [1e-15, 0.1]", "largest relative error of one step, in [1e-15, 0.1]",               \
+        set_tolerance, type, scene.tolerance)
+#define ROW_AS(type, scene)                                                                                          \
+    ROW_OF_WORDS("as", "WHAT", "ball, point or both", "which model is written: ball, point, both", set_as, type,     \
+                 scene.as, as_word)
+#define ROW_T_END(type, scene)                                                                                       \
+    ROW("t-end", "T", "a number", "last time, in place of the scene's", set_number, type, scene.end)
+#define ROW_STEP(type, scene)                                                                                        \
+    ROW("step", "DT", "a positive number", "time between rows, in place of the scene's", set_positive, type,         \
+        scene.step)
+
+/* Reads the scene and puts the options into it. */
+iso_status scene_with_options(iso_context *ctx, const scene_options *o, iso_scene *scene);
+
+/* As finish(), after a failure with the scene: says where in its file the cause stands, unless an option put it
+ * there. */
+int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scene, iso_status status);
+
+/* Prints the effects that act, with their numbers and, if wanted, what they are. Prints nothing where none acts. */
+void print_effects(const iso_effects *effects, bool docs);
+
+/* For iso_context_watch: false once the user has asked to stop. */
+bool not_interrupted(void *unused);
+
+#endif
