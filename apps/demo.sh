@@ -1,19 +1,21 @@
 #!/bin/sh
-# The main job on real input, with all its set-up: a bowling ball on a lane and a Neumann shell, each computed as a
-# rolling ball and as its twin, a point on a sphere; a table of both, and a picture.
+# The main job on real input, with all its set-up: installs missing packages, compiles, then computes three scenes twice,
+# as a rolling ball and as a point on a sphere. Shows a table of both, and draws a picture of each scene.
 set -eu
 cd "$(dirname "$0")/.."
 sh .ci/packages.sh
 
 mkdir -p .build
 log=.build/demo.log
+echo "compiling in .build/demo; messages go to $log"
 { cmake -S . -B .build/demo -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF &&
     cmake --build .build/demo -j "$(nproc 2>/dev/null || echo 2)"; } >"$log" 2>&1 || { cat "$log"; exit 1; }
 
-for name in 01_bowling_ball 02_neumann_shell; do
+for name in 15_two_spheres 01_bowling_ball 02_neumann_shell; do
     echo "== examples/$name/scene.yaml"
     .build/demo/isoroll compare "examples/$name/scene.yaml" --plot ".build/demo/$name.svg"
     echo
 done
 echo "pictures:"
 ls "$PWD"/.build/demo/*.svg
+echo "the command: $PWD/.build/demo/isoroll --help"
