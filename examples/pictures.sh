@@ -79,4 +79,4 @@ chart 13_chaos/picture.svg <<EOF
 set xlabel 'k'; set ylabel 'chaotic orbits, of 200'; unset key; set yrange [-3:]
 plot '$work/chaos.txt' using 1:2 skip 2 with linespoints pt 7 ps 0.8 lw 1.5 lc rgb '#0072B2'
 EOF
-ls -l */picture.svg
+ls -l ./*/picture.svg
