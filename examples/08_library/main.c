@@ -1,12 +1,12 @@
-/* One ball, asked twice: where is it at t = 10? A small program against the library; it reads no file.
+/* Where is the ball at t = 10? A small program that uses the library and computes the answer in two ways.
  *
  *     cc main.c $(pkg-config --cflags --libs isoroll) -Wl,-rpath,$(pkg-config --variable=libdir isoroll) -lm -o twice
  *     ./twice
  *
  * (installed in a prefix of your own, first: export PKG_CONFIG_PATH=PREFIX/lib/pkgconfig)
  *
- * The first answer integrates the ball (9), the second the point on a sphere (24) and carries it back. You see two
- * states equal to about 13 digits, and the integral F (11) of the shell with B = 2A, the same at t = 0 and t = 10.
+ * The first answer integrates the ball (9). The second integrates the point on a sphere (24) and maps the state back.
+ * The two states agree to about 13 digits. The integral F (11) of the shell with B = 2A is the same at both times.
  */
 #include <math.h>
 #include <stdio.h>

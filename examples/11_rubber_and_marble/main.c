@@ -1,12 +1,12 @@
-/* Rubber against marble: one ball on a sphere, let go in the same way with contacts that resist twisting differently.
+/* Rubber and marble: one ball on a sphere, three contacts that resist twisting more or less, the same start.
  *
  *     cc main.c $(pkg-config --cflags --libs isoroll) -Wl,-rpath,$(pkg-config --variable=libdir isoroll) -o contacts
  *     ./contacts
  *
- * Side by side: the rubber ball, whose contact cannot twist at all (the paper's), one with the resistance c = 10, and the
- * classical Chaplygin ball, c = 0. You see n go its own way in each, the spin (omega,n) of the classical ball stay alive
- * and that of c = 10 small, and the energy kept by the first and the last alone. The same scenes for the command are made of
- * scene.yaml beside this file: take `twist` out, or change its number.
+ * Three balls side by side: the rubber ball of the paper, whose contact cannot twist; a contact with the resistance
+ * c = 10; and the classical Chaplygin ball, c = 0. Each n takes its own path. The spin (omega,n) is 0, small, large.
+ * The first and the last ball keep their energy, the second loses some. The file scene.yaml in this folder gives the
+ * same scenes to the command: remove `twist`, or change its number.
  */
 #include <stdio.h>
 

@@ -3,10 +3,10 @@
  *     cc main.c $(pkg-config --cflags --libs isoroll) -Wl,-rpath,$(pkg-config --variable=libdir isoroll) -lm -o chaos
  *     ./chaos
  *
- * For each k, 200 pairs of balls of energy h = 1 start with spins 1e-10 apart in direction (a faster spin alone is the
- * same path in less time). By t = 1000 (some 200 turns) neighbours on regular orbits are a thousand times as far from
- * each other, on chaotic ones anywhere: those beyond 1e-5 are counted. None are where the problem is integrable, on a
- * plane (k = 1) and in a shell around a ball half its size (k = -1).
+ * For each k, 200 pairs of balls start with energy h = 1. The two balls of a pair differ by 1e-10 in the direction of
+ * their angular velocity. At t = 1000, after some 200 turns, a pair on a regular orbit is about a thousand times
+ * farther apart; a pair on a chaotic orbit can be anywhere. Pairs farther apart than 1e-5 are counted. There are none
+ * where the problem is integrable: on a plane (k = 1), and for a shell around a ball half its size (k = -1).
  */
 #include <math.h>
 #include <stdio.h>

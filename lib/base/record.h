@@ -1,7 +1,7 @@
 /* record.h - a trajectory in memory: named columns of doubles, and `key: value` lines that travel with them.
  *
  * A record is what a trajectory file holds, no more: it knows nothing of balls. Column names and their units are
- * those of the trajectory file (README, "Trajectory files"); rows are stored one after another.
+ * those of the trajectory file (lib/doc/formats.md); rows are stored one after another.
  */
 #ifndef ISO_BASE_RECORD_H
 #define ISO_BASE_RECORD_H

@@ -1,6 +1,6 @@
 /* bench_effects - what each effect costs: states, one right-hand side, a whole orbit; as ratios to the free ball's.
  *
- *     cmake -S . -B .build/release -DBUILD_TESTING=ON && cmake --build .build/release -j && .build/release/tests/bench_effects
+ *     cmake -S . -B .build/release -DBUILD_TESTING=ON && cmake --build .build/release -j 2 && .build/release/tests/bench_effects
  *
  * The ball is the shell k = -1, J = (1.4, 2.1, 3.0), D = 0.5; its orbit runs to t = 100 with method auto at tolerance
  * 1e-12. Each time is the least of several; the rounds go over all cases in turn, so that the ratios hold on a noisy

@@ -98,7 +98,7 @@ find lib -name '*.[ch]' | while read -r file; do
 done | complain "the library does not print, end the program or set the locale"
 
 # What stands where, and how long it is.
-ls -A | grep -vxE '\..*|lib|apps|tests|examples|CMakeLists\.txt|README\.md|LICENSE' | complain "nothing else at the top"
+ls -A | grep -vxE '\..*|lib|apps|tests|examples|CMakeLists\.txt|README\.md|LICENSE|CITATION\.cff' | complain "nothing else at the top"
 for entry in lib apps tests examples CMakeLists.txt README.md LICENSE; do
     [ -e "$entry" ] || echo "$entry"
 done | complain "missing at the top"

@@ -1,0 +1,48 @@
+#!/bin/sh
+# documents.sh ISOROLL - the documents: how long they are, whether their links lead somewhere, whether the commands of
+# the README work, and whether the gallery shows every example.
+. "$(dirname "$0")/lib.sh"
+documents=$(cd "$source" && find . -name '*.md' ! -path './.build/*' ! -path './.git/*' | sort)
+check "there are documents" test "$(echo "$documents" | wc -l)" -ge 5
+
+# --- no line is longer than 100 characters; the README has at most 130 lines
+for document in $documents; do
+    long=$(awk 'length($0) > 100 { print FNR; exit }' "$source/$document")
+    check "$document: line $long has at most 100 characters" test -z "$long"
+done
+lines=$(wc -l <"$source/README.md")
+check "README.md has at most 130 lines, not $lines" test "$lines" -le 130
+
+# --- links within the project: [text](path) and src="path"
+for document in $documents; do
+    folder=$source/$(dirname "$document")
+    links=$(sed 's/](/\n](/g; s/src="/\nsrc="/g' "$source/$document" |
+        sed -n 's/^](\([^)#]*\)[^)]*).*/\1/p; s/^src="\([^"]*\)".*/\1/p' | grep -v '^[a-z]*:')
+    for link in $links; do check "$document: there is $link" test -e "$folder/$link"; done
+done
+
+# --- the gallery shows every example, each picture is at most 150 kB
+for folder in "$source"/examples/[0-9]*/; do
+    example=$(basename "$folder")
+    check "examples/README.md shows $example" grep -qx "## $example" "$source/examples/README.md"
+done
+for picture in "$source"/examples/*/*.svg; do
+    size=$(wc -c <"$picture")
+    check "$picture has $size bytes, at most 150000" test "$size" -le 150000
+done
+
+# --- the README's tasks, one after the other; `cost` takes a minute and has tests of its own
+mkdir examples && cp -r "$source/examples/15_two_spheres" examples
+sed -n '/^## Tasks/,/^## A scene/p' "$source/README.md" | sed -n 's/ *#.*//; s/^    \(isoroll\|cp\) /\1 /p' |
+    grep -v cost >tasks
+check "the README has tasks" test "$(wc -l <tasks)" -ge 6
+while read -r command; do
+    checks=$((checks + 1))
+    case $command in isoroll*) run_it="$isoroll ${command#isoroll}" ;; *) run_it=$command ;; esac
+    sh -c "$run_it" >out 2>err </dev/null || fail "the README's command '$command'"
+done <tasks
+
+# --- the README's scene
+sed -n '/^## A scene/,/^## Where/s/^    //p' "$source/README.md" >scene.yaml
+run 0 run scene.yaml -o scene.csv
+finish
