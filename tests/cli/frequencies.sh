@@ -95,7 +95,7 @@ END
 refuses 3 "plane_gravity.yaml:4:" frequencies plane_gravity.yaml
 
 # --- pictures: maps for k = -1 and 1, lines for others
-if command -v gnuplot >/dev/null; then
+if has gnuplot "--plot"; then
     run 0 frequencies "$source/examples/02_neumann_shell/scene.yaml" --plot map.svg
     silent
     check "a map" grep -q 'rotation about axis 2, separatrix' map.svg

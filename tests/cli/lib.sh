@@ -12,7 +12,7 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
 cd "$work" || exit 1
-checks=0 failures=0
+checks=0 failures=0 skipped=0
 export LC_ALL=C
 
 # Counts a check that has failed; what the last `run` said on stderr goes with it.
@@ -20,6 +20,24 @@ fail() {
     failures=$((failures + 1))
     echo "FAIL $*" >&2
     [ ! -s err ] || sed 's/^/    /' err | head -n 5 >&2
+}
+
+# skip NAME REASON: this cannot be tried on this machine. run.sh repeats these lines at its end.
+skip() {
+    skipped=$((skipped + 1))
+    echo "SKIP $(basename "$0" .sh): $1: $2"
+}
+
+# has TOOL NAME: the tool is installed; if it is not, NAME is skipped
+has() {
+    command -v "$1" >/dev/null || { skip "$2" "$1 is not installed"; return 1; }
+}
+
+# interruptible NAME: SIGINT can reach a program started here; if it is ignored (as in a background job), NAME is skipped
+interruptible() {
+    case $(sed -n 's/^SigIgn:.*\(.\)$/\1/p' /proc/self/status 2>/dev/null) in
+    [2367abefABEF]) skip "$1" "SIGINT is ignored here" && return 1 ;;
+    esac
 }
 
 # check NAME COMMAND...: the command succeeds
@@ -175,6 +193,12 @@ hard_hold() {
     at_most "$case ${3-} ${4-}" "$1" "$2"
 }
 
+# hard_skip REASON: the case cannot be tried on this machine
+hard_skip() {
+    printf '%s\t%s\tskipped\t\t\t%s\t0\n' "$topic" "$case" "$1" >>"$table"
+    skip "$case" "$1"
+}
+
 # hard_refused WORDS [BACKEND METHOD]: the right answer is to refuse (check that with `refuses`)
 hard_refused() {
     printf '%s\t%s\trefused\t%s\t%s\t%s\t0\n' "$topic" "$case" "${2-}" "${3-}" "$1" >>"$table"
@@ -188,8 +212,8 @@ hard_naive() {
         fail "$case: naive ($1) holds: $2 is not above $3"
 }
 
-# finish: the count, and the exit status
+# finish: the counts, and the exit status
 finish() {
-    echo "$(basename "$0" .sh): $checks checks, $failures failures"
+    echo "$(basename "$0" .sh): $checks checks, $failures failures, $skipped skipped"
     [ "$checks" -gt 0 ] && [ "$failures" -eq 0 ]
 }
