@@ -44,9 +44,10 @@ spoken() {
 
 # --- memory: every call in turn, then every call and all after it
 
-# starve STRIDE ARGUMENT...: `made` among the arguments is the file written. Adds to $starved and $wrong.
+# starve STRIDE ARGUMENT...: every STRIDE-th call fails (short tests: fewer). `made` among the arguments is the file
+# written. Adds to $starved and $wrong.
 starve() {
-    stride=$1
+    stride=$(($1 * $(length 4 1)))
     shift
     rm -f made good
     ISO_FAIL_COUNT=calls LD_PRELOAD=$ISO_NO_MEMORY "$isoroll" "$@" >good.out 2>err </dev/null ||

@@ -22,6 +22,11 @@ fail() {
     [ ! -s err ] || sed 's/^/    /' err | head -n 5 >&2
 }
 
+# length SHORT FULL: one of the two, see tests/shared/length.h
+length() {
+    if [ "${ISO_TEST_LENGTH-}" = full ]; then echo "$2"; else echo "$1"; fi
+}
+
 # skip NAME REASON: this cannot be tried on this machine. run.sh repeats these lines at its end.
 skip() {
     skipped=$((skipped + 1))
