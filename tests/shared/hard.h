@@ -7,8 +7,8 @@
  *     hard_naive("(24) as it stands, by rk8pd", error, 1e-9);
  *     return hard_summary();
  *
- * Every entry is a test (gsl_test.h), and a line of hard_<topic>.tsv in the working folder, from which hard_table.sh
- * makes the tables of tests/README.md.
+ * Every entry is a test (gsl_test.h), and a line of hard_<topic>.tsv in the working folder. hard_table.sh reads these and
+ * makes tests/hard/README.md and hard_cases.md of the build folder.
  */
 #ifndef ISO_TESTS_HARD_H
 #define ISO_TESTS_HARD_H
