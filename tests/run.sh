@@ -27,8 +27,10 @@ round() {
     { cmake -S . -B ".build/test-$name" -DISO_WERROR=ON -DBUILD_TESTING=ON "$@" &&
         cmake --build ".build/test-$name" -j "$jobs"; } >"$log" 2>&1 || { cat "$log"; exit 1; }
     # shellcheck disable=SC2086 # $select is an option and its value
-    ISO_TEST_LENGTH=$length ctest --test-dir ".build/test-$name" -j "$jobs" --output-on-failure --no-tests=error $select
-    grep -h '^SKIP ' ".build/test-$name/Testing/Temporary/LastTest.log" | sort -u || true # parts that cannot be tried here
+    ISO_TEST_LENGTH=$length ctest --test-dir ".build/test-$name" -j "$jobs" --output-on-failure \
+        --no-tests=error $select
+    # parts that cannot be tried here
+    grep -h '^SKIP ' ".build/test-$name/Testing/Temporary/LastTest.log" | sort -u || true
     rounds="$rounds${rounds:+, }$name ($length)"
 }
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# convert_foreign.sh ISOROLL - files of others, damaged files, files that are not what they say, and HDF5.
+# convert_foreign.sh ISOROLL - files of other programs, damaged files, files with a wrong description, and HDF5.
 . "$(dirname "$0")/lib.sh"
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 50 0.05 >scene.yaml
 run 0 run scene.yaml -o ball.csv

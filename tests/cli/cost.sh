@@ -1,6 +1,6 @@
 #!/bin/sh
-# cost.sh ISOROLL - `isoroll cost`: its table, words, CSV, JSON, pictures and choices say the same and are right; what it
-# refuses, what fails, and what an interruption leaves.
+# cost.sh ISOROLL - `isoroll cost`: table, words, CSV, JSON, pictures and choices agree and are right; refusals,
+# failures, and interruptions.
 . "$(dirname "$0")/lib.sh"
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
 scene 0.7 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >open.yaml

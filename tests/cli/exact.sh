@@ -1,6 +1,6 @@
 #!/bin/sh
-# exact.sh ISOROLL - the closed solution through the command: reference states, run, compare, explain, and where there
-# is none.
+# exact.sh ISOROLL - the closed solution through the command: reference states, run, compare, explain, and scenes
+# that have none.
 . "$(dirname "$0")/lib.sh"
 
 # --- every reference orbit with k = 1 and k = -1, at once at its time

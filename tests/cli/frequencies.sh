@@ -1,5 +1,6 @@
 #!/bin/sh
-# frequencies.sh ISOROLL - `isoroll frequencies` on every example: closed or estimated, table, JSON, pictures, no.
+# frequencies.sh ISOROLL - `isoroll frequencies` on every example: closed or estimated, table, JSON, pictures,
+# refusals.
 . "$(dirname "$0")/lib.sh"
 closed=0 estimated=0
 

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Disks that are full, pipes and streams that are closed, signals, memory that is not there: in each case a clear error or
-# the whole result, and under its name the older file or the new one, whole; never half of one, never success without it.
+# Full disks, closed pipes and streams, signals, and no memory. In each case the command must give the whole result or
+# a clear error. The file must be the old one or the new one, whole. Half a file is wrong; so is success without the
+# file.
 . "$(dirname "$0")/lib.sh"
 # ISO_NO_MEMORY: no_memory.so, made from no_memory.c; empty under sanitizers, which have a malloc of their own
 : "${ISO_NO_MEMORY=}"
@@ -21,13 +22,14 @@ timeless() {
     sed -E 's/[0-9.e+-]+ (ms|us|ns|s)\b/TIME/g; s/"seconds": .*//; s/^cost of .*//' "$1"
 }
 
-# whole NAME: what has just succeeded, its output `out` and its file `made`, is as in `good.out` and `good`
+# whole: after success the output `out` and the file `made` are the same as `good.out` and `good`
 whole() {
     cmp -s out good.out || { timeless out >out.plain && timeless good.out | cmp -s - out.plain; } || return 1
     [ ! -e good ] || cmp -s made good || { timeless made >made.plain && timeless good | cmp -s - made.plain; }
 }
 
-# kept: after a failure `made` is what it was, or new and whole, or says how far it got; and nothing else is left
+# kept: after a failure `made` is the old file, or new and whole, or the message says how many rows it has; no other
+# file is left
 kept() {
     set -- .isoroll-*
     [ "$1" = '.isoroll-*' ] || { rm -f .isoroll-*; return 1; }
@@ -35,7 +37,7 @@ kept() {
         grep -q 'rows were written' err
 }
 
-# spoken: every message is isoroll's, and there is one
+# spoken: there is a message, and every message begins with "isoroll: "
 spoken() {
     [ -s err ] && while IFS= read -r line; do
         case $line in "isoroll: "*) ;; *) return 1 ;; esac
@@ -138,12 +140,12 @@ fi
 
 # --- disks
 
-# torn FILE: 1 where the file is neither whole (as `good`) nor the old one nor absent
+# torn FILE: prints 0 if the file is whole (as `good`), the old one or absent, else 1
 torn() {
     if [ ! -e "$1" ] || cmp -s "$1" good || [ "$(head -c 8 "$1")" = "old file" ]; then echo 0; else echo 1; fi
 }
 
-# fill WORDS ARGUMENT...: with room for 1, 2, ... blocks of 512 bytes until it is enough. Adds to $wrong, $naive.
+# fill WORDS ARGUMENT...: runs with room for 1, 2, ... blocks of 512 bytes until it is enough. Adds to $wrong.
 fill() {
     words=$1
     shift

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Installs the build tree into a temporary prefix, moves that prefix, and builds outside.c against it in every way
-# a user can: find_package (shared, static), pkg-config (shared, fully static), bare options; C, and C++ if there is one.
+# Installs the build tree into a temporary prefix, moves that prefix, and builds outside.c against it in every way a
+# user can: find_package (shared, static), pkg-config (shared, fully static), bare options; C, and C++ if there is
+# one.
 set -eu
 : "${ISO_SOURCE:?}" "${ISO_BUILD:?}" "${CC:=cc}"
 here=$ISO_SOURCE/tests/cli

@@ -10,9 +10,10 @@ static iso_context *ctx;
 
 /* --- against steps ---------------------------------------------------------------------------------------------- */
 
-/* What a start given in doubles allows is a rounding error of its frequencies times the way, of the axis' orbit here
- * 1e-15 times its condition, 8e4 at 5e4: the bound is proportional to the length. Long double without restoring the second integral (test_exact_near.c) and, for
- * much longer, doubles with it. */
+/* A start given in doubles allows an error of the state: a rounding error of its frequencies times the way. For the
+ * axis' orbit here it is 1e-15 times its condition, 8e4 at 5e4. So the bound is proportional to the length. The
+ * reference: long double without restoring the second integral (test_exact_near.c) and, for much longer, doubles with
+ * it. */
 static void check_steps(const char *method, bool restored, int count, double units, double allowed)
 {
     static const exact_family list[3] = {EXACT_LEVEL, EXACT_ANY, EXACT_AXIS};

@@ -51,8 +51,7 @@ static void run_all(double k)
     const long_scene scene = scene_of(k);
     for (int i = 0; i < hard_ways; i++) {
         const hard_road *way = &hard_way[i];
-        runs[i] = long_follow(ctx, &scene, way, length_of(way, k), fabs(k) == 1 ? &by_exact : NULL,
-                              all_seconds);
+        runs[i] = long_follow(ctx, &scene, way, length_of(way, k), fabs(k) == 1 ? &by_exact : NULL, all_seconds);
         if (all_spins == 0 || runs[i].refused) continue;
         const double *drift = runs[i].drift;
         printf("%s %s, k = %g: %g spins, energy %.1e, |n| %.1e, (w,n) %.1e, F %.1e, error %.1e ~ t^%.2f %s\n",
@@ -70,8 +69,9 @@ static void add_lengths(char quantity[256], const char *what, double k)
     if (k == -1 && all_spins > 0)
         snprintf(quantity, 256, "%s; %g spins, or as many as there was time for", what, all_spins);
     else
-        snprintf(quantity, 256, "%s; spins: exact %g, taylor and blanes_moan6 %g, other splittings %g, rk8pd %g, others %g",
-                 what, most, most * part, most / 10 * part, 1e4 * part, 500 * part);
+        snprintf(quantity, 256,
+                 "%s; spins: exact %g, taylor and blanes_moan6 %g, other splittings %g, rk8pd %g, others %g", what,
+                 most, most * part, most / 10 * part, 1e4 * part, 500 * part);
 }
 
 /* Names of cases are kept by the book. */
