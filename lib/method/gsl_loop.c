@@ -201,10 +201,13 @@ void iso_gsl_start(iso_gsl *g, const double y[], double first_step)
     g->t = 0;
 }
 
-/* Methods that solve linear systems take memory in each step. */
+/* Methods that solve linear systems take memory in some of their steps, and give it back. So it is enough to check once
+ * in each call of the library. A check in each step took 3.4 % of the instructions of msbdf. */
 static iso_status check_room(iso_integrator *it, const iso_gsl *g)
 {
-    if (!g->implicit || iso_room()) return ISO_OK;
+    if (!g->implicit || !it->called) return ISO_OK;
+    it->called = false;
+    if (iso_room()) return ISO_OK;
     return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for GSL's %s", g->driver->s->type->name);
 }
 

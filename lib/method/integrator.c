@@ -149,6 +149,7 @@ iso_status iso_integrator_reach(iso_integrator *it, int direction, double t)
 {
     iso_status status = ISO_OK;
     if (it->method->at) return jump(it, direction, t);
+    it->called = true;
     if (direction != it->direction || it->direction * iso_integrator_since(it, t) < 0) status = set_out(it, direction);
     while (status == ISO_OK && it->direction * since_end(it, t) > 0) status = iso_integrator_advance(it);
     return status;

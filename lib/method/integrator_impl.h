@@ -37,6 +37,7 @@ struct iso_integrator {
     int direction;            /* of the steps: 1, -1, or 0 before the first                           */
     bool stopped;             /* by a failure: no further steps before the next start from 0           */
     bool resting;             /* the current step is one of a model at rest                            */
+    bool called;              /* a call of the library has begun since the method last cleared this    */
     iso_instant left;         /* the current step runs from here ...                                  */
     double h;                 /* ... by this signed length                                            */
     double at_left[ISO_MAX_STATE], at_right[ISO_MAX_STATE];

@@ -1,6 +1,6 @@
 #!/bin/sh
-# analogue.sh ISOROLL - `isoroll analogue`: its output is a report and a scene; that scene, run as a ball and carried to the
-# point, is the orbit of the problem; and what it refuses.
+# analogue.sh ISOROLL - `isoroll analogue`: it prints a report and a scene, or refuses. Run as a ball and converted to
+# the point, this scene gives the orbit of the problem.
 . "$(dirname "$0")/lib.sh"
 worst=0
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# bad_scenes.sh ISOROLL - every scene in bad/ is refused: status 3, the place and the words its first line announces
-# (`# expect LINE:COLUMN fragment of the message`), nothing on standard output.
+# bad_scenes.sh ISOROLL - every scene in bad/ is refused with exit status 3 and nothing on standard output. Place
+# and words of the message are in the first line of the scene (`# expect LINE:COLUMN part of the message`).
 isoroll=${1:?usage: bad_scenes.sh ISOROLL}
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d) || exit 1

@@ -1,5 +1,6 @@
 #!/bin/sh
-# check.sh ISOROLL - `isoroll check` passes what solves its model and finds what does not; `isoroll explain`.
+# check.sh ISOROLL - `isoroll check` accepts rows that solve their model and finds rows that do not; `isoroll
+# explain`.
 . "$(dirname "$0")/lib.sh"
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 for as in ball point both; do

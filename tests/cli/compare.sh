@@ -79,7 +79,7 @@ is_picture() {
     pdf) [ "$(head -c 5 picture.pdf)" = %PDF- ] ;;
     esac
 }
-if command -v gnuplot >/dev/null; then
+if has gnuplot "--plot"; then
     for format in svg png pdf; do
         run 0 compare scene.yaml --plot picture.$format
         silent
@@ -90,8 +90,6 @@ if command -v gnuplot >/dev/null; then
     says "absent"
     run 0 compare scene.yaml --plot folder/a.svg
     check "no temporary files" test "$(ls -A folder)" = a.svg
-else
-    echo "gnuplot is not installed: no pictures"
 fi
 for name in a.jpg a '' svg; do refuses 2 "" compare scene.yaml --plot "$name"; done
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1e6 1e5 >endless.yaml

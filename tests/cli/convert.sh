@@ -119,7 +119,8 @@ refuses 5 "cannot read" convert --to ball .
 sed 's/^[0-9].*/0,0,0,0,0.6,0,0.8/' ball.csv | awk '!/^0/ || !n++' >rest.csv
 refuses 3 "at rest" convert --strict --to point rest.csv
 run 3 convert --to point rest.csv
-# bad WORDS: damaged.csv is refused under --strict; else one row is marked, the others are converted, and the exit status is 1
+# bad WORDS: damaged.csv is refused under --strict; else one row is marked, the others are converted, and the exit
+# status is 1
 bad() {
     refuses 3 "damaged.csv:$1" convert --strict --to point damaged.csv -o none.csv
     check_not "$1: no file" test -e none.csv

@@ -1,6 +1,6 @@
 #!/bin/sh
-# convert_clock.sh ISOROLL - `isoroll convert`: the other clock from samples alone, against reference states in quadruple
-# precision, and its own estimate of the error.
+# convert_clock.sh ISOROLL - `isoroll convert`: the other clock from samples alone, against reference states in
+# quadruple precision, and its own estimate of the error.
 . "$(dirname "$0")/lib.sh"
 reference=$here/../reference/free_ball.csv
 worst=0

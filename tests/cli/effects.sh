@@ -1,6 +1,7 @@
 #!/bin/sh
-# effects.sh ISOROLL - the effects as a user meets them: columns, lines, check, there and back between the models, loss of
-# contact, and what is refused with its place. Orbits known from elsewhere: reference_effects.sh; mistakes in scenes: bad/.
+# effects.sh ISOROLL - the effects through the command: columns, lines, check, conversion to the other model and back,
+# loss of contact, refusals with their place. Reference orbits are in reference_effects.sh, mistakes in scenes in
+# bad/.
 . "$(dirname "$0")/lib.sh"
 ball=omega1,omega2,omega3,n1,n2,n3 point=M1,M2,M3,gamma1,gamma2,gamma3
 gravity="gravity: {g: 9.81, up: [0.6, 0, 0.8]}"
@@ -277,8 +278,8 @@ says "contact is lost at t = 1.95"
 lost=$(sed -n 's/.*lost at t = \([0-9.]*\): there is a row there.*/\1/p' err)
 check "the last row is there" test "$(tail -n 1 loss.csv | cut -d, -f1)" = "$lost"
 check "and the rows before" test "$(rows loss.csv | wc -l)" -eq 9
-# presses FILE SIDE RADIUS: largest |pressure - SIDE m [g (e,n) - (b w)^2/RADIUS]|/m g, w across n, RADIUS that of the way of
-# the centre, SIDE -1 inside a sphere; N has this part along n, the friction across it
+# presses FILE SIDE RADIUS: largest |pressure - SIDE m [g (e,n) - (b w)^2/RADIUS]|/m g, w across n, RADIUS that of the
+# way of the centre, SIDE -1 inside a sphere; N has this part along n, the friction across it
 presses() {
     awk -F, -v side="$2" -v radius="$3" '/^#/ { next } !n++ { for (i = 1; i <= NF; i++) at[$i] = i; next }
         function v(name, i) { return $(at[name i]) }

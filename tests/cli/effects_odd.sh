@@ -1,5 +1,6 @@
 #!/bin/sh
-# effects_odd.sh ISOROLL - scenes with effects that once hung, or were answered wrongly in silence.
+# effects_odd.sh ISOROLL - scenes with effects on which the command once hung, or gave a wrong answer without a
+# message.
 . "$(dirname "$0")/lib.sh"
 
 # A homogeneous ball whose stiff contact has nothing left to do: leaps within a step of bdf never ended.

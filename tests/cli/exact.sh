@@ -1,6 +1,6 @@
 #!/bin/sh
-# exact.sh ISOROLL - the closed solution through the command: reference states, run, compare, explain, and where there
-# is none.
+# exact.sh ISOROLL - the closed solution through the command: reference states, run, compare, explain, and scenes
+# that have none.
 . "$(dirname "$0")/lib.sh"
 
 # --- every reference orbit with k = 1 and k = -1, at once at its time
@@ -84,7 +84,7 @@ for name in exact from_exact; do check "compare --json: $name" grep -q "\"$name\
 check_not "compare --json: a reason" grep -q no_exact out
 run 0 compare scene.yaml --method strang --tol 1e-3 --rows 2
 compared 4
-if command -v gnuplot >/dev/null; then
+if has gnuplot "--plot"; then
     run 0 compare scene.yaml --plot picture.svg
     silent
     for backend in ball point; do check "picture: $backend - exact" grep -q "$backend−exact" picture.svg; done

@@ -1,5 +1,6 @@
 #!/bin/sh
-# frequencies.sh ISOROLL - `isoroll frequencies` on every example: closed or estimated, table, JSON, pictures, no.
+# frequencies.sh ISOROLL - `isoroll frequencies` on every example: closed or estimated, table, JSON, pictures,
+# refusals.
 . "$(dirname "$0")/lib.sh"
 closed=0 estimated=0
 
@@ -95,7 +96,7 @@ END
 refuses 3 "plane_gravity.yaml:4:" frequencies plane_gravity.yaml
 
 # --- pictures: maps for k = -1 and 1, lines for others
-if command -v gnuplot >/dev/null; then
+if has gnuplot "--plot"; then
     run 0 frequencies "$source/examples/02_neumann_shell/scene.yaml" --plot map.svg
     silent
     check "a map" grep -q 'rotation about axis 2, separatrix' map.svg

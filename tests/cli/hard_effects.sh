@@ -1,5 +1,6 @@
 #!/bin/sh
-# hard_effects.sh ISOROLL - effects at their limits as the command shows them: stiff contacts, rest, a ball that nothing presses.
+# hard_effects.sh ISOROLL - effects at their limits through the command: stiff contacts, rest, a ball without
+# pressure.
 . "$(dirname "$0")/lib.sh"
 hard_topic "6d. Effects at their limits: the command"
 

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Geometry numbers as a user meets them: a ball on a needle's tip, a shell around a pin, a ball that nearly fills its bowl.
+# Geometry numbers in physical scenes: a ball on a needle's tip, a shell around a pin, a ball that nearly fills its
+# bowl.
 . "$(dirname "$0")/lib.sh"
 hard_topic "1. Geometry numbers, physical scenes"
 

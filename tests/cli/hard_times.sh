@@ -1,4 +1,5 @@
-# Hard times through the command: lists in any order, ends that are none, and numbers at the ends of the doubles.
+# Hard times through the command: lists in any order, runs that fail before the end, numbers at the ends of the
+# doubles.
 # shellcheck shell=sh
 . "$(dirname "$0")/lib.sh"
 hard_topic "7b. Times and numbers through the command"

@@ -1,13 +1,15 @@
 #!/bin/sh
-# The house rules, as far as a script can see them: who includes whom, what is public and how it is called, what stands
-# where, how long it is. Reads the sources in $ISO_SOURCE and the shared library in $ISO_BUILD; every complaint is a line.
+# house.sh - the rules for the sources that a script can check: includes, public names, exported symbols, places of
+# files, lengths. It reads the sources in $ISO_SOURCE and the shared library in $ISO_BUILD. Every complaint is a line.
+#
+# To add a rule: print one line for each place that breaks it, and pipe the lines into `complain "RULE"`.
 set -u
 : "${ISO_SOURCE:?}" "${ISO_BUILD:?}" "${CC:=cc}"
 cd "$ISO_SOURCE" || exit 1
 complaints=$(mktemp)
 trap 'rm -f "$complaints"' EXIT
 
-# complain RULE: each line read is a place where the rule is broken
+# complain RULE: each line of standard input is a place that breaks the rule
 complain() {
     sed "s|^|FAIL $1: |" >>"$complaints"
 }
@@ -44,7 +46,7 @@ find apps examples -name '*.[ch]' -exec grep -HnE 'include <isoroll/.*_impl\.h>'
 grep -nE '^[ \t]*#[ \t]*include[ \t]*<' $public lib/isoroll.h |
     grep -vE '<(float|limits|math|stdarg|stdbool|stddef|stdint|stdio)\.h>' | complain "public headers include only C"
 
-# Names: macros as written; enumerators, types, functions and variables after the preprocessor and without comments.
+# Names. Macros are read as written; enumerators, types, functions and variables after the preprocessor.
 # shellcheck disable=SC2086
 grep -nE '^[ \t]*#[ \t]*define[ \t]' $public lib/isoroll.h |
     grep -vE '#[ \t]*define[ \t]+ISO(_|ROLL_H)' | complain "a macro begins with ISO_"
@@ -77,6 +79,8 @@ grep -nE '^[ \t]*#[ \t]*define[ \t]' $public lib/isoroll.h |
             check("iso_", last_word(s), "name")
         }
     }' | complain "public names begin with iso_, ISO_"
+
+# Exported symbols: what the shared library offers.
 library=$ISO_BUILD/libisoroll.so
 nm -D --defined-only "$library" | grep -q ' iso_' || echo "$library exports nothing" | complain "symbols"
 nm -D --defined-only "$library" | awk '$NF !~ /^iso_/ { print $NF }' | complain "an exported symbol begins with iso_"
@@ -90,14 +94,15 @@ awk -F '["/]' '/^#include "/ { place = index("base model map method exact orbit 
     complain "lib/isoroll.h goes bottom-up"
 sed -n 's/^#include "\(.*\)".*/\1/p' lib/isoroll.h | grep '_impl\.h' | complain "lib/isoroll.h lists public headers only"
 
-# A library does not talk (a file called "-" may be stdout), end the program, or change its locale. (Comments are cut out first.)
+# A library does not print (a file called "-" may be stdout), end the program, or change its locale. Comments are left
+# out.
 find lib -name '*.[ch]' | while read -r file; do
     sed -e 's|/\*.*\*/||' -e '/^ *\/\*/,/\*\//d' "$file" |
         grep -oE '(^|[^A-Za-z0-9_])(printf|puts|putchar|perror|exit|_Exit|abort|assert|setlocale|signal) *\(|\bstderr\b' |
         sed "s|^|$file: |"
 done | complain "the library does not print, end the program or set the locale"
 
-# What stands where, and how long it is.
+# Places and lengths of files.
 ls -A | grep -vxE '\..*|lib|apps|tests|examples|CMakeLists\.txt|README\.md|LICENSE|CITATION\.cff' | complain "nothing else at the top"
 for entry in lib apps tests examples CMakeLists.txt README.md LICENSE; do
     [ -e "$entry" ] || echo "$entry"

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Installs the build tree into a temporary prefix, moves that prefix, and builds outside.c against it in every way
-# a user can: find_package (shared, static), pkg-config (shared, fully static), bare options; C, and C++ if there is one.
+# Installs the build tree into a temporary prefix, moves that prefix, and builds outside.c against it in every way a
+# user can: find_package (shared, static), pkg-config (shared, fully static), bare options; C, and C++ if there is
+# one.
 set -eu
 : "${ISO_SOURCE:?}" "${ISO_BUILD:?}" "${CC:=cc}"
 here=$ISO_SOURCE/tests/cli
@@ -63,7 +64,7 @@ while read -r header; do # each by itself
     echo "#include <$header>" >one.c
     "$CC" -std=c11 -Wpedantic -Werror -fsyntax-only -I"$prefix/include" one.c || { echo "FAIL $header"; exit 1; }
 done <headers
-command -v c++ >/dev/null || { echo "c++ is not installed: that is left out"; exit 0; }
+command -v c++ >/dev/null || { echo "SKIP install: C++: c++ is not installed"; exit 0; }
 bare "C++" c++ -x c++ -std=c++17 -Wall -Wpedantic -Werror
 while read -r header; do
     echo "#include <$header>" >one.cpp

@@ -1,6 +1,6 @@
-# lib.sh - what the scripts here share; each begins with `. "$(dirname "$0")/lib.sh"` and ends with `finish`.
-# shellcheck shell=sh disable=SC2034 # variables for those who source it
-# They work in a folder of their own that is removed at the end.
+# lib.sh - what the scripts here share. Each begins with `. "$(dirname "$0")/lib.sh"` and ends with `finish`.
+# shellcheck shell=sh disable=SC2034 # the scripts that include it use its variables
+# A script works in a folder of its own, which is removed at the end.
 set -u
 case ${1:?usage: sh SCRIPT ISOROLL} in
 /*) isoroll=$1 ;;
@@ -12,14 +12,38 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' HUP INT TERM
 cd "$work" || exit 1
-checks=0 failures=0
+checks=0 failures=0 skipped=0
 export LC_ALL=C
 
-# Counts a check that has failed; what the last `run` said on stderr goes with it.
+# fail WORDS: counts a failed check, and shows the messages of the last `run`
 fail() {
     failures=$((failures + 1))
     echo "FAIL $*" >&2
     [ ! -s err ] || sed 's/^/    /' err | head -n 5 >&2
+}
+
+# length SHORT FULL: one of the two, see tests/shared/length.h
+length() {
+    if [ "${ISO_TEST_LENGTH-}" = full ]; then echo "$2"; else echo "$1"; fi
+}
+
+# skip NAME REASON: this cannot be tried on this machine. run.sh repeats these lines at its end.
+skip() {
+    skipped=$((skipped + 1))
+    echo "SKIP $(basename "$0" .sh): $1: $2"
+}
+
+# has TOOL NAME: the tool is installed; if it is not, NAME is skipped
+has() {
+    command -v "$1" >/dev/null || { skip "$2" "$1 is not installed"; return 1; }
+}
+
+# interruptible NAME: SIGINT can reach a program started here; if it is ignored (as in a background job), NAME is
+# skipped
+interruptible() {
+    case $(sed -n 's/^SigIgn:.*\(.\)$/\1/p' /proc/self/status 2>/dev/null) in
+    [2367abefABEF]) skip "$1" "SIGINT is ignored here" && return 1 ;;
+    esac
 }
 
 # check NAME COMMAND...: the command succeeds
@@ -38,7 +62,7 @@ check_not() {
     if "$@" >/dev/null 2>&1; then fail "$name: should fail: $*"; fi
 }
 
-# run STATUS ARGUMENT...: isoroll's exit status; its output is left in `out`, its messages in `err`
+# run STATUS ARGUMENT...: isoroll ends with this exit status. Its output goes to `out`, its messages to `err`
 run() {
     wanted=$1
     shift
@@ -49,7 +73,7 @@ run() {
     [ "$status" -eq "$wanted" ] || fail "isoroll $last: exit status $status, not $wanted"
 }
 
-# says WORDS: the last run has one message, which begins with "isoroll: " and has these words
+# says WORDS: the last run printed one message. It begins with "isoroll: " and contains these words
 says() {
     checks=$((checks + 1))
     [ "$(wc -l <err)" -eq 1 ] || fail "isoroll $last: expected one line on stderr"
@@ -60,7 +84,7 @@ says() {
     grep -F -q -e "$1" err || fail "isoroll $last: expected the words '$1'"
 }
 
-# refuses STATUS WORDS ARGUMENT...: exit status, message, and nothing on standard output
+# refuses STATUS WORDS ARGUMENT...: isoroll ends with this status and message, and prints nothing on standard output
 refuses() {
     words=$2
     wanted=$1
@@ -70,12 +94,12 @@ refuses() {
     check "isoroll $last: nothing on stdout" test ! -s out
 }
 
-# silent: the last run has no messages
+# silent: the last run printed no message
 silent() {
     check "isoroll $last: nothing on stderr" test ! -s err
 }
 
-# at_most NAME VALUE BOUND: numbers; a value that is none is a failure
+# at_most NAME VALUE BOUND: VALUE is a number and not above BOUND
 at_most() {
     checks=$((checks + 1))
     awk -v x="$2" -v bound="$3" 'BEGIN { exit !(x ~ /^[-+0-9.eE]+$/ && x + 0 <= bound + 0) }' ||
@@ -87,8 +111,8 @@ larger() {
     awk -v a="$1" -v b="$2" 'BEGIN { print (a + 0 > b + 0 ? a : b) }'
 }
 
-# each_method COMMAND...: for each line "METHOD BOUND" of standard input runs COMMAND METHOD BOUND, which raises
-# $worst to its largest error, and prints that. Passes taylor_extended over where the compiler has not made it.
+# each_method COMMAND...: runs COMMAND METHOD BOUND for each line "METHOD BOUND" of standard input. COMMAND raises
+# $worst to its largest error, which is printed. Leaves taylor_extended out where the compiler cannot make it.
 each_method() {
     while read -r method bound; do
         if [ "$method" = taylor_extended ] && ! "$isoroll" list methods | grep -q -w "$method"; then continue; fi
@@ -98,7 +122,7 @@ each_method() {
     done
 }
 
-# rows FILE: a trajectory without its lines of # and without its header
+# rows FILE: the rows of a trajectory, without header and # lines
 rows() {
     grep -v '^#' "$1" | tail -n +2
 }
@@ -108,8 +132,9 @@ columns() {
     grep -v '^#' "$1" | head -n 1
 }
 
-# difference A B [UNIT]: the largest difference of two trajectories' common columns (at least one besides the clocks, in as many rows),
-# relative to the vector or, for a clock, to its largest value; in units of UNIT. Prints a number, or words if it cannot.
+# difference A B [UNIT]: the largest difference of the common columns of two trajectories, in units of UNIT. It is
+# relative to the length of the vector; for a clock, to its largest value. Prints a number. Prints words if the
+# numbers of rows differ, or if the files have no common column besides the clocks.
 difference() {
     awk -F, -v unit="${3:-1}" '
         function size(x, i) { x = 0; for (i in v) { w = v[i] < 0 ? -v[i] : v[i]; if (w > x) x = w } return x }
@@ -175,12 +200,18 @@ hard_hold() {
     at_most "$case ${3-} ${4-}" "$1" "$2"
 }
 
+# hard_skip REASON: the case cannot be tried on this machine
+hard_skip() {
+    printf '%s\t%s\tskipped\t\t\t%s\t0\n' "$topic" "$case" "$1" >>"$table"
+    skip "$case" "$1"
+}
+
 # hard_refused WORDS [BACKEND METHOD]: the right answer is to refuse (check that with `refuses`)
 hard_refused() {
     printf '%s\t%s\trefused\t%s\t%s\t%s\t0\n' "$topic" "$case" "${2-}" "${3-}" "$1" >>"$table"
 }
 
-# hard_naive HOW VALUE BOUND: the naive formulation, which breaks the bound
+# hard_naive HOW VALUE BOUND: the naive formula must break the bound
 hard_naive() {
     printf '%s\t%s\tnaive\t%s\t\t%s\t%s\n' "$topic" "$case" "$1" "$2" "$3" >>"$table"
     checks=$((checks + 1))
@@ -188,8 +219,8 @@ hard_naive() {
         fail "$case: naive ($1) holds: $2 is not above $3"
 }
 
-# finish: the count, and the exit status
+# finish: the counts, and the exit status
 finish() {
-    echo "$(basename "$0" .sh): $checks checks, $failures failures"
+    echo "$(basename "$0" .sh): $checks checks, $failures failures, $skipped skipped"
     [ "$checks" -gt 0 ] && [ "$failures" -eq 0 ]
 }

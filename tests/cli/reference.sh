@@ -1,5 +1,5 @@
 #!/bin/sh
-# reference.sh ISOROLL - the orbits of reference/free_ball.csv, known to 1e-26, through `isoroll run`: every row by both
+# reference.sh ISOROLL - the orbits of reference/free_ball.csv, known to 1e-26, by `isoroll run`: every row by both
 # backends with rk8pd at tolerance 1e-13, some by other methods.
 . "$(dirname "$0")/lib.sh"
 reference=$source/tests/reference/free_ball.csv

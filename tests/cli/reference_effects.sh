@@ -1,10 +1,11 @@
 #!/bin/sh
 # reference_effects.sh ISOROLL - orbits under gravity, finite twist resistance and with the attitude, known to 1e-26
-# (reference/{gravity,finite_twist,attitude}.csv), through `isoroll run`: every row at tolerance 1e-13 by all kinds of methods.
+# (reference/{gravity,finite_twist,attitude}.csv), through `isoroll run`: every row at tolerance 1e-13 by all kinds of
+# methods.
 . "$(dirname "$0")/lib.sh"
 
-# error HEADER LINE: largest difference of the last row of `out` from a reference row, of omega relative to |omega|, of s to
-# max(1, s). Prints words if a column is missing.
+# error HEADER LINE: largest difference of the last row of `out` from a reference row, of omega relative to |omega|,
+# of s to max(1, s). Prints words if a column is missing.
 error() {
     { columns out && tail -n 1 out; } | awk -F, -v header="$1" -v line="$2" '
         function abs(x) { return x < 0 ? -x : x }

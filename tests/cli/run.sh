@@ -1,5 +1,5 @@
 #!/bin/sh
-# run.sh ISOROLL - `isoroll run`: what it writes, at which times, and that only the scene decides what it writes.
+# run.sh ISOROLL - `isoroll run`: what it writes, at which times, and that its numbers depend on the scene alone.
 . "$(dirname "$0")/lib.sh"
 ball=t,omega1,omega2,omega3,n1,n2,n3
 point=s,M1,M2,M3,gamma1,gamma2,gamma3

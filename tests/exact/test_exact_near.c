@@ -3,15 +3,11 @@
 #include <string.h>
 
 #include "exact_orbits.h"
+#include "length.h"
 
 static iso_context *ctx;
 
-/* A thousand once; where the code is checked in other ways, a part of them. */
-#if defined(__SANITIZE_ADDRESS__) || defined(__clang__)
-enum { ORBITS = 110, TIMES = 3 };
-#else
-enum { ORBITS = 1100, TIMES = 3 };
-#endif
+enum { TIMES = 3 };
 
 /* Units of an orbit's time (of which a turn has 6) it is followed, and every tenth. */
 static const double NEAR = 100, FAR = 628;
@@ -174,7 +170,8 @@ int main(void)
     gsl_test_verbose(1);
     ctx = iso_context_create();
     iso_random *random = iso_random_create(1000);
-    for (int i = 0; i < ORBITS; i++) {
+    const int orbits = tests_length(110, 1100);
+    for (int i = 0; i < orbits; i++) {
         const exact_family family = list[i % EXACT_FAMILIES];
         const double delta = pow(10, -iso_random_uniform(random, 1, 12));
         const orbit o = exact_orbit(ctx, family, i / EXACT_FAMILIES, delta, random);

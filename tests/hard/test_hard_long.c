@@ -1,14 +1,15 @@
 /* A million spins of a free ball: what must not drift does not, and phases go wrong no faster than their methods
  * promise.
  *
- * A spin is 1/|omega| at the start, the time in which the ball turns by a radian. Run by itself every method goes as
- * far as a test has time for; `test_hard_long 1e6 600` takes each so far at k = -1, or as far as 600 seconds of processor
- * time go, and says how far: for the table.
+ * A spin is 1/|omega| at the start, the time in which the ball turns by a radian. At full length (length.h) the fastest
+ * methods go a million spins, at short length 1e5; the others go less far. `test_hard_long 1e6 600` takes every method
+ * at k = -1 to 1e6 spins, or as far as 600 seconds of processor time go, and says how far.
  */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
 #include "hard_long.h"
+#include "length.h"
 
 static iso_context *ctx;
 static double all_spins, all_seconds; /* of every method at k = -1; 0: what a test has time for */
@@ -27,16 +28,22 @@ static long_scene scene_of(double k)
 
 /* --- integrals -------------------------------------------------------------------------------------------------- */
 
-/* A second or two of each at k = -1, a tenth of it for other k. */
+/* Spins of the fastest methods */
+static double longest(void)
+{
+    return tests_length(100000, 1000000);
+}
+
+/* At full length a second or two of each at k = -1, a tenth of it for other k. */
 static double length_of(const hard_road *way, double k)
 {
     static const char *const fast[] = {"taylor", "blanes_moan6"};
     const double part = k == -1 ? 1 : 0.1;
     if (k == -1 && all_spins > 0) return all_spins;
     for (int i = 0; i < 2 && way->method; i++)
-        if (strcmp(way->method->name, fast[i]) == 0) return 1e6 * part;
-    if (!way->method) return 1e6;
-    return part * (long_is(way, "splitting") ? 1e5 : strcmp(way->method->name, "rk8pd") == 0 ? 1e4 : 500);
+        if (strcmp(way->method->name, fast[i]) == 0) return longest() * part;
+    if (!way->method) return longest();
+    return part * (long_is(way, "splitting") ? longest() / 10 : strcmp(way->method->name, "rk8pd") == 0 ? 1e4 : 500);
 }
 
 static void run_all(double k)
@@ -44,8 +51,7 @@ static void run_all(double k)
     const long_scene scene = scene_of(k);
     for (int i = 0; i < hard_ways; i++) {
         const hard_road *way = &hard_way[i];
-        runs[i] = long_follow(ctx, &scene, way, length_of(way, k), fabs(k) == 1 ? &by_exact : NULL,
-                              all_seconds);
+        runs[i] = long_follow(ctx, &scene, way, length_of(way, k), fabs(k) == 1 ? &by_exact : NULL, all_seconds);
         if (all_spins == 0 || runs[i].refused) continue;
         const double *drift = runs[i].drift;
         printf("%s %s, k = %g: %g spins, energy %.1e, |n| %.1e, (w,n) %.1e, F %.1e, error %.1e ~ t^%.2f %s\n",
@@ -56,15 +62,16 @@ static void run_all(double k)
     }
 }
 
-static const char *lengths(double k)
+/* The lengths in words, behind `what` */
+static void add_lengths(char quantity[256], const char *what, double k)
 {
-    if (k != -1)
-        return "1e5 spins: taylor, blanes_moan6, exact (1e6); 1e4: other splittings; 1e3: "
-               "rk8pd; "
-               "50: others";
-    if (all_spins > 0) return "1e6 spins, or as many as there was time for";
-    return "1e6 spins: taylor, blanes_moan6, exact; 1e5: other splittings; 1e4: rk8pd; 500: "
-           "others";
+    const double part = k == -1 ? 1 : 0.1, most = longest();
+    if (k == -1 && all_spins > 0)
+        snprintf(quantity, 256, "%s; %g spins, or as many as there was time for", what, all_spins);
+    else
+        snprintf(quantity, 256,
+                 "%s; spins: exact %g, taylor and blanes_moan6 %g, other splittings %g, rk8pd %g, others %g", what,
+                 most, most * part, most / 10 * part, 1e4 * part, 500 * part);
 }
 
 /* Names of cases are kept by the book. */
@@ -80,7 +87,7 @@ static const char *name_of(const char *what, double k)
 static void begin_case(const char *what, double k, const char *why)
 {
     char quantity[256];
-    snprintf(quantity, sizeof quantity, "%s; %s", what, lengths(k));
+    add_lengths(quantity, what, k);
     hard_case(name_of(what, k), quantity, why);
 }
 
@@ -107,7 +114,7 @@ static void hold_drift(double k, int quantity, const char *what, const char *why
  * one of 370 runs. */
 static void hold_trend(double k)
 {
-    begin_case("trend of the energy", k, "an error a step of one sign would be 1e6 times as large at the end");
+    begin_case("trend of the energy", k, "errors of one sign at each step would add up");
     for (int i = 0; i < hard_ways; i++)
         if (long_is(&hard_way[i], "splitting")) hard_hold(&hard_way[i], runs[i].trend, 3);
     for (int i = 0; i < hard_ways && k == -1; i++)
@@ -134,7 +141,7 @@ static void hold_growth(double k)
 static void integrals_hold(double k)
 {
     run_all(k);
-    hold_drift(k, LONG_ENERGY, "energy", "restored with a rounding of its own at each of 1e6 steps");
+    hold_drift(k, LONG_ENERGY, "energy", "restored with a rounding of its own at each step");
     hold_drift(k, LONG_UNITS, "length of n", "off it the equations are others, of a point unstable");
     hold_drift(k, LONG_SPIN, "(omega,n)", "a twist that the contact forbids");
     if (fabs(k) == 1) hold_drift(k, LONG_SECOND, "F", "nothing in the equations holds it");
@@ -219,7 +226,7 @@ static double plainly_projected(const long_scene *scene, double spins, const dou
 /* What the rounding of the start (omega, n or M, gamma: six numbers, and J on the way) makes of the phase. */
 static void finest_phase(double k)
 {
-    enum { SPINS = 100000 };
+    enum { SPINS = 100000 }; /* as many as the naive way needs to fail: also at short length */
     const long_scene scene = scene_of(k);
     double right[ISO_STATE];
     const double rounded = 8 * DBL_EPSILON * sensitivity(&scene, SPINS, right);

@@ -3,6 +3,7 @@
 #include <gsl/gsl_fit.h>
 #include <string.h>
 
+#include "length.h"
 #include "orbits.h"
 
 static iso_context *ctx;
@@ -97,9 +98,14 @@ static void check_reference(const bundle *b)
 
 /* --- long runs -------------------------------------------------------------------------------------------------- */
 
-enum { LONG = 1000000, LOOKS = 1000 };
+enum { LOOKS = 1000 };
 
-/* Energy along a million steps: bounded, its trend not to be told from its scatter; constraints by construction. */
+static int steps_of_long_runs(void)
+{
+    return tests_length(100000, 1000000);
+}
+
+/* Energy along a million steps (a short test: 1e5): bounded, its trend not to be told from its scatter; constraints by construction. */
 static void check_energy(const char *name, double k, double step, double bound)
 {
     const orbit o = sample(k, 3);
@@ -109,13 +115,14 @@ static void check_energy(const char *name, double k, double step, double bound)
     for (int i = 0; i < LOOKS; i++) {
         double y[ISO_MAX_STATE];
         x[i] = (i + 1.) / LOOKS;
-        if (iso_integrator_at(it, x[i] * LONG * step * o.unit, y) != ISO_OK) exit(1);
+        if (iso_integrator_at(it, x[i] * steps_of_long_runs() * step * o.unit, y) != ISO_OK) exit(1);
         e[i] = energy_of(&o, y);
         worst = fmax(worst, fabs(e[i]));
         constraints = fmax(constraints, fmax(fabs(norm(y + 3) - 1), fabs(dot(y, y + 3)) / norm(y)));
     }
     gsl_fit_linear(x, 1, e, 1, LOOKS, &c0, &slope, &cov[0], &cov[1], &cov[2], &chi2);
-    gsl_test(!(worst < bound), "%s, k = %g: energy error %.1e in 1e6 steps, allowed %.0e", name, k, worst, bound);
+    gsl_test(!(worst < bound), "%s, k = %g: energy error %.1e in %d steps, allowed %.0e", name, k, worst,
+             steps_of_long_runs(), bound);
     gsl_test(!(fabs(slope) < 3 * sqrt(cov[2]) + 1e-14), "%s, k = %g: its trend %.1e, to be told from scatter at %.1e",
              name, k, slope, sqrt(cov[2]));
     gsl_test(!(constraints < 1e-14), "%s, k = %g: constraints kept to %.1e", name, k, constraints);
@@ -126,7 +133,7 @@ static void check_energy(const char *name, double k, double step, double bound)
 static void check_reversal(const char *name, double k, double step, double bound)
 {
     orbit o = sample(k, 3);
-    const double s = LONG * step * o.unit;
+    const double s = steps_of_long_runs() * step * o.unit;
     const iso_method_options options = {.fixed_step = step * o.unit};
     double there[ISO_MAX_STATE], back[ISO_MAX_STATE];
     orbit_solve(&o, iso_method_find(name), &options, s, there);

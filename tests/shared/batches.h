@@ -1,4 +1,4 @@
-/* batches.h - pools of orbits, random and odd ones, and how the tests run them as a batch. */
+/* batches.h - pools of random and of odd orbits, and how the tests run them as a batch. */
 #ifndef ISO_TESTS_BATCHES_H
 #define ISO_TESTS_BATCHES_H
 
@@ -47,7 +47,7 @@ static inline void batch_add_random(batch_pool *all, iso_random *dice, double k,
     batch_add(all, p, start, subset ? &e : NULL);
 }
 
-/* The samples of a batch, to be freed; its status in *all. */
+/* The samples of a batch. The caller frees them. The status of the batch goes to *all. */
 static inline iso_sample *batch_run(iso_context *ctx, const iso_batch_orbit orbits[], int count,
                                     const iso_batch_options *o, const double times[], int rows, iso_status status[],
                                     iso_status *all)

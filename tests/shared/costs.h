@@ -20,7 +20,7 @@ static inline iso_scene cost_plane(iso_context *ctx)
     return cost_scene(ctx, 1, (const double[]){1, 2, 4}, 40);
 }
 
-/* Ends the test where there is none. */
+/* The measured cost. Ends the test when there is none. */
 static inline iso_cost *cost_of(iso_context *ctx, const iso_scene *scene, const iso_cost_options *o)
 {
     iso_cost *c;

@@ -1,4 +1,4 @@
-/* effects.h - what the laws of the effects run over: every subset of them, with random numbers, on random states.
+/* effects.h - the cases of the laws of effects: every subset of the effects, with random numbers, on random states.
  *
  * The numbers are of the size that matters: torques and potentials are about as large as the kinetic energy. Bounds
  * are rounding errors relative to the terms that the equations are made of, effects_sizes().
@@ -39,7 +39,7 @@ static inline bool effects_on(const effects_case *c, int e)
     return c->model.field.effects.on[e];
 }
 
-/* Where the torque of a stiff contact is a state; 0: nowhere. */
+/* The place of the torque of a stiff contact in the state; 0: the torque is not a state. */
 static inline int effects_lambda(const effects_case *c)
 {
     return c->model.field.at[ISO_TWIST];
@@ -61,7 +61,7 @@ static inline void effects_note(const effects_case *c, laws_worst *worst, double
                                 const char *what)
 {
     char text[112], name[80];
-    const bool news = !(error <= worst->ratio * allowed); /* the name costs more than the law */
+    const bool news = !(error <= worst->ratio * allowed); /* making the name takes longer than the law */
     if (news) effects_name(c->subset, name, sizeof name);
     if (news) snprintf(text, sizeof text, "%s [%s]", what, name);
     laws_note(worst, error, allowed, &c->model.field.p, news ? text : what);
@@ -153,7 +153,7 @@ static inline void effects_each(const iso_system *system, int J_step, effects_la
     iso_random_free(r);
 }
 
-/* One line for each system (NULL: both). */
+/* Reports one line for each system (NULL: both). */
 static inline void effects_hold(const char *name, const iso_system *system, int J_step, effects_law *law)
 {
     for (int i = 0; iso_systems[i]; i++) {

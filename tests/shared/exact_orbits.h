@@ -1,4 +1,4 @@
-/* exact_orbits.h - orbits that have a closed solution: everywhere, and next to where it changes its form. */
+/* exact_orbits.h - orbits that have a closed solution: random ones, and ones next to a change of its form. */
 #ifndef ISO_TESTS_EXACT_ORBITS_H
 #define ISO_TESTS_EXACT_ORBITS_H
 
@@ -8,7 +8,7 @@
 
 static const bool exact_clocks[ISO_CLOCKS] = {true, true, true};
 
-/* What an orbit is, and what `delta` is the distance from. */
+/* Families of orbits. `delta` is the distance from what the family is next to. */
 typedef enum exact_family {
     EXACT_ANY,        /* k = 1 and -1, H = 0; ratios of moments to 7                                  */
     EXACT_WIDE,       /* ratios of moments to 100                                                     */
@@ -36,7 +36,7 @@ static const char *const exact_names[EXACT_FAMILIES] = {"anywhere",
                                                         "axis, next to a form",
                                                         "nearly equal moments, next to the pole"};
 
-/* M along `direction` as far as gamma lets it, of the length the level H asks for; rho in (-1, 1) for H in units of
+/* M: the part of `direction` across gamma, with the length that the level H gives. rho in (-1, 1) is H in units of
  * eps q^(-1/k). */
 static inline void exact_start(orbit *o, double k, const double J[3], const double gamma[3],
                                const double direction[3], double rho)
@@ -70,7 +70,7 @@ static inline double exact_excess(orbit *o, double k, const double J[3], const d
     return excess[which];
 }
 
-/* Turns M about gamma onto the separatrix, and delta on. False: no M at this gamma is on it. */
+/* Turns M about gamma to the distance delta from the separatrix. False: no M at this gamma is on the separatrix. */
 static inline bool exact_next_to(orbit *o, double k, const double J[3], const double g[3], double delta, int which)
 {
     enum { PARTS = 32 };
@@ -92,7 +92,7 @@ static inline double exact_sign(iso_random *random)
     return iso_random_uniform(random, -1, 1) < 0 ? -1 : 1;
 }
 
-/* The i-th of a family. */
+/* The i-th orbit of a family. */
 static inline orbit exact_orbit(iso_context *ctx, exact_family family, int i, double delta, iso_random *random)
 {
     orbit o = {.ctx = ctx, .model.system = &iso_system_point};
@@ -126,13 +126,13 @@ static inline orbit exact_orbit(iso_context *ctx, exact_family family, int i, do
     return o;
 }
 
-/* The same in another clock, with the others carried. */
+/* The same orbit in another clock; the other clocks are carried. */
 static inline void exact_in_clock(orbit *o, iso_clock clock)
 {
     orbit_clocks(o, clock, clock != ISO_CLOCK_T, clock != ISO_CLOCK_TAU, clock != ISO_CLOCK_S);
 }
 
-/* One that is not refused; ends the test. */
+/* The closed solution of the orbit. Ends the test when it is refused. */
 static inline iso_exact *exact_create(const orbit *o)
 {
     iso_exact *exact;

@@ -1,5 +1,5 @@
-/* hard.h - the book of the hard cases: why each is hard, what must hold, and what was measured, by every backend and
- * method that claims to serve it.
+/* hard.h - the book of the hard cases. For each case it keeps: why it is hard, what must hold, and what was
+ * measured, for every backend and method that can serve it.
  *
  *     hard_topic("1. Geometry numbers");
  *     hard_case("k = 1e-6", "the ball's n at 3 turns against taylor_quad", "q^(1/k) spans 1e5 decades");
@@ -7,15 +7,16 @@
  *     hard_naive("(24) as it stands, by rk8pd", error, 1e-9);
  *     return hard_summary();
  *
- * Every entry is a test (gsl_test.h), and a line of hard_<topic>.tsv in the working folder, from which hard_table.sh
- * makes the tables of tests/README.md.
+ * Every entry is a test (gsl_test.h), and a line of hard_<topic>.tsv in the working folder. hard_table.sh reads
+ * these and makes tests/hard/README.md and hard_cases.md of the build folder.
  */
 #ifndef ISO_TESTS_HARD_H
 #define ISO_TESTS_HARD_H
 
 #include "orbit/orbit.h"
 
-/* One way to find an orbit. Tolerances are what a user of the method would ask for: 1e-12, of methods of low order less. */
+/* One way to find an orbit. Tolerances are what a user of the method would ask for: 1e-12, of methods of low order
+ * less. */
 typedef struct hard_road {
     iso_picture backend;
     const iso_method *method; /* NULL with ISO_EXACT */
@@ -44,8 +45,9 @@ void hard_naive(const char *how, double measured, double bound);
 /* Writes the table; the program's exit status. */
 int hard_summary(void);
 
-/* The orbit at one time of `clock` by one way: ISO_OK, or what iso_orbit_create or iso_orbit_at say. Both models and all
- * clocks are shown where the orbit has them (`both`), else the start's own alone. max_steps bounds the work. */
+/* The orbit at one time of `clock` by one way: ISO_OK, or what iso_orbit_create or iso_orbit_at say. Both models
+ * and all clocks are shown where the orbit has them (`both`), else the start's own alone. max_steps bounds the
+ * work. */
 iso_status hard_solve(iso_context *ctx, const hard_road *way, const iso_params *p, const iso_start *start,
                       const iso_effects *effects, bool both, iso_clock clock, double time, iso_sample *sample);
 

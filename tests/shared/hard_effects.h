@@ -1,4 +1,4 @@
-/* hard_effects.h - what the hard cases of the effects share: one ball, solved by each way that claims to serve it. */
+/* hard_effects.h - shared by the hard cases of the effects: one ball, solved by each backend and method that can. */
 #ifndef ISO_TESTS_HARD_EFFECTS_H
 #define ISO_TESTS_HARD_EFFECTS_H
 
@@ -35,7 +35,7 @@ static inline bool he_is_ball(int way)
     return hard_way[way].backend == ISO_BALL;
 }
 
-/* taylor and rk8pd at their best, to be held to rounding; the others as they are used. */
+/* taylor and rk8pd at their least tolerance, where only rounding is left; the others as users run them. */
 static inline double he_tolerance(const hard_road *way)
 {
     if (way->method == iso_method_find("taylor")) return 1e-15;
@@ -48,7 +48,7 @@ static inline hard_road he_quad(void)
     return (hard_road){ISO_BALL, quad ? quad : iso_method_find("taylor_extended"), 1e-15};
 }
 
-/* What a way gives at a time, in how many steps; the ball in its time t, with the columns of its effects. */
+/* The answer of a way at a time t and the number of its steps: the ball, with the columns of its effects. */
 typedef struct he_answer {
     iso_status status;
     iso_sample at;
@@ -80,27 +80,27 @@ static inline he_answer he_solve(iso_context *ctx, const hard_road *way, const i
     return a;
 }
 
-/* Errors of steps add up, each at most its tolerance; 100 roundings besides. On the orbits here, a turn or two long or
- * damped, they at most double. */
+/* The errors of the steps add up: each is at most the tolerance. Rounding adds 100 units in the last place. The
+ * orbits here are a turn or two long, or damped: on them errors at most double. */
 static inline double he_bound(const hard_road *way, double steps)
 {
     return 2 * steps * he_tolerance(way) + 100 * DBL_EPSILON;
 }
 
-/* The way answers, and is off by at most the bound. */
+/* The way answers, with an error of at most the bound. */
 static inline void he_hold(const hard_road *way, const he_answer *a, const iso_sample *expected)
 {
     hard_hold(way, a->status == ISO_OK ? hard_error(a->at.ball, expected->ball) : NAN, he_bound(way, a->steps));
 }
 
-/* The way refuses, in words that have these in them. */
+/* The way refuses, and its message contains these words. */
 static inline void he_refuses(iso_context *ctx, const hard_road *way, iso_status status, const char *words)
 {
     const bool refused = status != ISO_OK && strstr(iso_context_message(ctx), words) != NULL;
     hard_refused(way, refused, refused ? words : iso_context_message(ctx));
 }
 
-/* A point has no such ball, and no closed solution is known: all their ways say so. */
+/* No point has such a ball, and no closed solution is known. All ways of the point and the closed solution refuse. */
 static inline void he_refusals(iso_context *ctx, const iso_params *p, const iso_start *start,
                                const iso_effects *effects, double time)
 {

@@ -1,4 +1,4 @@
-/* hard_long.h - long runs by one way: how far integrals drift, with or without a trend, and how the error grows. */
+/* hard_long.h - long runs by one way: how far integrals drift, whether the drift has a trend, how the error grows. */
 #ifndef ISO_TESTS_HARD_LONG_H
 #define ISO_TESTS_HARD_LONG_H
 
@@ -20,8 +20,8 @@ enum { LONG_ENERGY, LONG_UNITS, LONG_SPIN, LONG_SECOND, LONG_QUANTITIES };
 
 enum { LONG_LOOKS = 1000 };
 
-/* Rounding: what is restored is known to the roundings of three products, and read by ten more; the terms are at most
- * a few times the whole. */
+/* Rounding. A restored quantity has the rounding errors of three products, and reading it adds ten more. The terms
+ * are at most a few times as large as their sum. */
 #define LONG_ROUNDED (64 * DBL_EPSILON)
 
 typedef struct long_scene {
@@ -103,8 +103,8 @@ static inline void long_fits(const long_looks *looks, long_run *run)
         looks->errors > 10 ? long_slope(looks->log_time, looks->log_error, looks->errors, &standard_error) : NAN;
 }
 
-/* The scene by one way for so many spins, at most `limit` seconds of processor time (0: no limit); errors are those
- * against another way (NULL: none). */
+/* Runs the scene by one way for so many spins, for at most `limit` seconds of processor time (0: no limit). Errors
+ * are measured against another way (NULL: no errors). */
 static inline long_run long_follow(iso_context *ctx, const long_scene *scene, const hard_road *way, double spins,
                                    const hard_road *against, double limit)
 {
@@ -150,10 +150,11 @@ static inline bool long_is(const hard_road *way, const char *family)
     return way->method && strcmp(way->method->family, family) == 0;
 }
 
-/* What a quantity may drift. A splitting's step is chosen to err by half a tolerance for each of the first 12 radians
- * (splitting.c), by 6 then, of which the energy is the double, and later turns are twice as bad at most; taylor puts
- * F back but for a tenth of a step's error where omega hardly changes it; what nobody restores adds up from step to
- * step, F with the moments' ratio. */
+/* The bound on the drift of a quantity:
+ * - Splittings: splitting.c chooses a step whose error is half a tolerance in each of the first 12 radians, 6
+ *   tolerances in all. The energy's error is twice that. Later turns are at most twice as bad: 24 tolerances.
+ * - taylor restores F, except for a tenth of the error of a step, where F hardly depends on omega.
+ * - A quantity that is not restored drifts by the errors of all steps, F by that times the ratio of the moments. */
 static inline double long_bound(const hard_road *way, const long_run *run, int quantity)
 {
     const double added = (double)run->steps * way->tolerance;

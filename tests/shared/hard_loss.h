@@ -1,9 +1,11 @@
-/* hard_loss.h - what a way may lose of the state in a radian of the motion, by error analysis.
+/* hard_loss.h - the error that a way may make in a radian of the motion, from error analysis.
  *
- * A step errs by a tolerance at most; one-step methods take up to 100 steps a radian (order 2 at 1e-6). The errors of
- * linear multistep methods carry over from step to step, and theirs are not projected away: 100 times more. A ball's
- * series beside a principal plane is exact to 3/4 of the tolerance's digits. Taylor and rk8pd are asked for 1e-15,
- * and the closed solution takes no steps: rounding is left, some units in the last place a radian.
+ * - The error of a step is at most the tolerance. One-step methods take up to 100 steps a radian (order 2 at
+ *   1e-6).
+ * - Linear multistep methods carry errors from step to step and do not project: 100 times more.
+ * - A ball's series beside a principal plane has 3/4 of the digits of its tolerance.
+ * - taylor and rk8pd run at 1e-15, the closed solution takes no steps: some units in the last place a radian are
+ *   left.
  */
 #ifndef ISO_TESTS_HARD_LOSS_H
 #define ISO_TESTS_HARD_LOSS_H
@@ -18,7 +20,7 @@ static inline bool hard_is(const hard_road *way, const char *method)
     return way->method && strncmp(way->method->name, method, strlen(method)) == 0;
 }
 
-/* The way at the tolerance where rounding is what is left. */
+/* The way at the tolerance where only rounding is left. */
 static inline hard_road hard_finest(const hard_road *way)
 {
     hard_road finest = *way;

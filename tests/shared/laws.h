@@ -1,4 +1,4 @@
-/* laws.h - what the law tests share: which balls and states to run over, differences, and the book of the worst.
+/* laws.h - shared by the tests of laws: sample balls and states, numerical derivatives, and the worst error found.
  *
  * A law is a function that looks at one case (system, parameters, state) and notes errors with the bound each may
  * have. laws_hold() runs it over every system x k x J x random state and reports one line of gsl_test.h: the worst
@@ -43,15 +43,15 @@ typedef struct laws_worst {
 /* Notes an error that may be `allowed`; p and what (may be NULL) say where. NaN is never allowed. */
 void laws_note(laws_worst *worst, double error, double allowed, const iso_params *p, const char *what);
 
-/* Passes when something was noted and all of it was within its bound. */
+/* Passes when at least one error was noted and every error was within its bound. */
 void laws_report(const laws_worst *worst, const char *law);
 
 typedef void laws_law(const laws_case *c, laws_worst *worst);
 
-/* One case for every k, J and state of one system (NULL: of each in turn); one line for each system. */
+/* Runs the law for every k, J and state of one system (NULL: of both). Reports one line for each system. */
 void laws_hold(const char *name, const iso_system *system, laws_law *law);
 
-/* For what must NOT hold: passes when some case was at least at its bound. */
+/* For a law that must NOT hold: passes when at least one case reaches its bound. */
 void laws_fail(const char *name, const iso_system *system, laws_law *law);
 
 /* A function of a state, R^n -> R^count. */
@@ -66,21 +66,22 @@ void laws_slope(laws_function *f, const void *data, int count, int n, const doub
 /* The same along the flow of the case's system, per unit of its own clock. */
 void laws_slope_flow(laws_function *f, const void *data, int count, const laws_case *c, double h, double slope[]);
 
-/* A step of which `direction` moves the state by 1/128 of the way on which the equations change much: that way is
- * laws_reach() for the unit vector, the speed for the fast one. The 8-point formula then leaves an error of 1e-16
- * from the step and one of laws_rounding()/h from rounding. */
+/* The step h for laws_slope(). h times `direction` is 1/128 of the distance over which the equations change much.
+ * This distance is laws_reach() for the unit vector, and the speed for the fast vector. The 8-point formula then
+ * has an error of 1e-16 from the step, and of laws_rounding()/h from rounding. */
 double laws_step(const laws_case *c, const double direction[ISO_STATE]);
 
-/* How far the unit vector moves until q^e, |e| <= 1 + 1/|k|, has changed by its own size at most: q has its complex
- * zeros at a distance sqrt(q/max J) or more. */
+/* A distance of the unit vector over which q^e, |e| <= 1 + 1/|k|, changes by at most its own size: the complex
+ * zeros of q are at a distance of sqrt(q/max J) or more. */
 double laws_reach(const iso_params *p);
 
 /* Rounding error of one evaluation of the equations, relative to its terms: a power q^e multiplies that of q by e. */
 double laws_rounding(const iso_params *p);
 
-/* What the formulas of sphero-conical coordinates need, which divide by A(lam) and A(mu): three moments well apart,
- * max J/min J < 10, and a unit vector 0.2 or more away from the coordinate planes; and the rounding error they then
- * have, relative to their terms: times 1/x_i^2 <= 25 and max J/min J. */
+/* The formulas of sphero-conical coordinates divide by A(lam) and A(mu). laws_regular: they work here, that is,
+ * the three moments are well apart, max J/min J < 10, and the unit vector is 0.2 or more away from the coordinate
+ * planes. laws_conditioning: their rounding error, relative to their terms; the factors are 1/x_i^2 <= 25 and max
+ * J/min J. */
 bool laws_regular(const laws_case *c);
 double laws_conditioning(const iso_params *p);
 

@@ -1,5 +1,5 @@
-/* machine.h - answers as bytes, of every way to find an orbit and of what people call besides: what must not depend on
- * the machine's state, nor on the run. */
+/* machine.h - the answers of every backend and method, and of the other calls, as bytes. They must not depend on the
+ * state of the machine, and must be the same in every run. */
 #ifndef ISO_TESTS_MACHINE_H
 #define ISO_TESTS_MACHINE_H
 
@@ -26,14 +26,14 @@
 static iso_context *ctx;
 static batch_pool pool; /* filled before the machine's state is changed */
 
-/* --- answers as bytes ------------------------------------------------------------------------------------------- */
+/* --- answers as bytes ---------------------------------------------------------------------------------------- */
 
 typedef struct answer {
     char *bytes;
     size_t length;
 } answer;
 
-/* How many bytes of b are not as in a. */
+/* The number of bytes that differ. */
 static double differing(const answer *a, const answer *b)
 {
     size_t count = a->length > b->length ? a->length - b->length : b->length - a->length;
@@ -46,7 +46,7 @@ static void put(FILE *to, const void *data, size_t size)
     fwrite(data, 1, size, to);
 }
 
-/* What a call has said; without `right` it is a failure of the test. */
+/* Adds the message of a call. If `right` is false, the test fails. */
 static void put_status(FILE *to, iso_context *c, iso_status status, bool right)
 {
     put(to, &status, sizeof status);
@@ -71,7 +71,7 @@ static void put_file(FILE *to, const char *path)
     unlink(path);
 }
 
-/* --- orbits by every way ----------------------------------------------------------------------------------------- */
+/* --- orbits by every way -------------------------------------------------------------------------------------- */
 
 /* Ten turns of the ball of the README. */
 static void put_orbit(FILE *to, iso_context *c, const hard_road *way)
@@ -92,7 +92,7 @@ static answer orbit_by(iso_context *c, const hard_road *way)
     return a;
 }
 
-/* --- all else: what people call ----------------------------------------------------------------------------------- */
+/* --- all else: what people call -------------------------------------------------------------------------------- */
 
 #define BALL "reduced: {k: -1, J: [1.4, 2.1, 3.0], D: 0.4}\n"
 #define ODD "reduced: {k: 0.5, J: [1.4, 2.1, 3.0], D: 0.4}\n"
@@ -158,7 +158,7 @@ static void put_scenes(FILE *to)
     }
 }
 
-/* All backends side by side, a file of it and its way back, the other model's, what a check of it says, a picture. */
+/* A comparison of all backends, its file written and read, its conversion, its check, and a picture. */
 static void put_studies(FILE *to)
 {
     const iso_scene scene = scene_of(to, scenes[0]);
@@ -229,7 +229,7 @@ static void put_frequencies(FILE *to)
     put(to, ball.body.params.J, sizeof ball.body.params.J);
 }
 
-/* An orbit's own error, and numbers as text: among them what has no short decimals, and what is subnormal. */
+/* The error estimate of an orbit, and numbers as text: also subnormal ones, and ones with no short decimal form. */
 static void put_numbers(FILE *to)
 {
     iso_error_finder *finder;
@@ -259,7 +259,7 @@ static void put_numbers(FILE *to)
     }
 }
 
-/* What follows the clock has no bytes to compare. */
+/* Measured times differ from run to run, so their bytes are not compared. */
 static void put_cost(FILE *to)
 {
     const iso_scene scene = scene_of(to, scenes[0]);

@@ -81,7 +81,7 @@ static inline double orbit_stretch(const effects_case *c, const orbit *o)
     return 128 * effects_step(c) * norm(own + 3) / norm(f + 3);
 }
 
-/* Whether a method is one for the system's equations. */
+/* Whether the method can solve the equations of the system. */
 static inline bool orbit_served(const iso_method *method, const iso_system *system)
 {
     return !method->system || method->system == system;
@@ -109,7 +109,7 @@ static inline void orbit_solve(const orbit *o, const iso_method *method, const i
     iso_integrator_free(it);
 }
 
-/* What the others are measured by. */
+/* The reference: the state by the finest method. */
 static inline void orbit_reference(const orbit *o, double t, double y[])
 {
     orbit_solve(o, iso_method_find("rk8pd"), &(iso_method_options){.tolerance = 1e-15}, t, y);

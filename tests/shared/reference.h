@@ -38,7 +38,7 @@ static inline bool reference_read_row(iso_context *ctx, char *line, reference *r
     return iso_start_ball(ctx, x + 7, x + 4, false, &r->start) == ISO_OK;
 }
 
-/* All rows; ends the test when one is not understood. */
+/* Reads all rows. Ends the test when a row cannot be read. */
 static inline int reference_read(iso_context *ctx, reference rows[REFERENCE_ROWS])
 {
     FILE *file = fopen(ISO_TEST_DATA "/free_ball.csv", "r");

@@ -1,6 +1,6 @@
-/* scenes.h - balls on all four surfaces with what acts on them, and derivatives of what is seen of their motion.
+/* scenes.h - balls on all four surfaces with effects, and derivatives along their motion.
  *
- * Everything a test compares with is made here anew from mass, signed radii and moments: none of it is the library's.
+ * The numbers that a test compares with are computed here from mass, signed radii and moments, without the library.
  */
 #ifndef ISO_TESTS_SCENES_H
 #define ISO_TESTS_SCENES_H
@@ -118,7 +118,7 @@ static inline iso_start scene_start(const rolling *ball, iso_random *random)
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
 
-/* In the ball's time; the integrator's noise must stay below that of the differences. */
+/* An orbit in the ball's time. The error of the integrator must be less than that of the differences. */
 static inline iso_orbit *scene_orbit(iso_context *ctx, const rolling *ball, const iso_start *start,
                                      const iso_effects *effects, const iso_orbit_options *options)
 {

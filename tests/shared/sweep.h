@@ -1,8 +1,8 @@
-/* sweep.h - every number of a call, one after the other, made what no caller means: NaN, infinite, zero, subnormal,
+/* sweep.h - calls with a bad number. Each number of a call in turn becomes NaN, infinite, zero, subnormal or the
  * largest.
  *
- * A call answers with a status, and with ISO_OK in finite numbers alone; NaN and infinity it refuses. It is given its
- * numbers as an array, and gives back what a caller would read.
+ * The call must answer with a status. With ISO_OK all its numbers must be finite. It must refuse NaN and infinity.
+ * A call here gets its numbers as an array, and gives back the numbers that a caller would read.
  */
 #ifndef ISO_TESTS_SWEEP_H
 #define ISO_TESTS_SWEEP_H
@@ -44,7 +44,7 @@ static inline void sweep_give_sample(sweep_answer *a, const iso_sample *sample, 
     if (show != ISO_BALL) sweep_give(a, sample->point, ISO_STATE);
 }
 
-/* Long work is stopped: nothing here is asked for that takes more than a moment. */
+/* Stops long work: no call here should take more than a moment. */
 static clock_t sweep_began;
 static inline bool sweep_goes_on(void *data)
 {
@@ -65,7 +65,8 @@ static inline const char *sweep_fault(const sweep_call *c, int place, double spe
     return NULL;
 }
 
-/* How many of a call's answers are wrong, each with a line on standard error; 1 for a call that fails as it is. */
+/* The number of wrong answers of a call; each has a line on standard error. 1 if the call fails with its good
+ * numbers. */
 static inline int sweep(iso_context *ctx, const sweep_call *c, int *cases)
 {
     static const double special[] = {NAN,          INFINITY,     -INFINITY,     0.0,     -0.0,    DBL_MIN / 2,
