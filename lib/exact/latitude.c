@@ -153,13 +153,21 @@ void iso_latitude_range(latitude *r)
 
 /* --- along the way ---------------------------------------------------------------------------------------------- */
 
-real iso_latitude_rate(const latitude *r, real y, real to_a, real dn, real *psi)
+/* Leibniz's rule gives Q = -P[y,a,b], P = (1 - y) m - M_x^2, in three ways, one for each of the factors 1 - y, 1 - a
+ * and 1 - b. The smallest of the three is 1 - a, and with it the two terms cancel least:
+ *
+ *     Q = m[y,b] - (1 - a) m[y,a,b],        without b:  Q = m(y) - (1 - a) m[y,a].
+ *
+ * (With 1 - y they cancel to 1e-8 of their size where q^(-1/k) is steep and the orbit passes the pole.) */
+real iso_latitude_rate(const latitude *r, real y, real dn, real *psi)
 {
-    const real rest = r->rest_a + to_a, reach = !r->has_b ? 1 : r->side ? r->a : r->a - r->b;
+    const real reach = !r->has_b ? 1 : r->side ? r->a : r->a - r->b;
     const real curved = r->has_b ? bend(r, y, r->a, r->b) : 0;
     const real Q =
-        r->has_b ? slope(r, r->a, r->b) - rest * curved : iso_latitude_m(r, r->a) - rest * slope(r, y, r->a);
-    const real rate = sqrtl(reach * Q), S = sqrtl(r->rest_a * r->rest_b);
+        r->has_b ? slope(r, y, r->b) - r->rest_a * curved : iso_latitude_m(r, y) - r->rest_a * slope(r, y, r->a);
+    const real rate = sqrtl(reach * Q);
+    if (!psi) return rate;
+    const real S = sqrtl(r->rest_a * r->rest_b);
     const real more = r->side ? r->rest_b * (slope(r, r->a, r->b) + y * curved) : slope(r, y, r->a);
     const real sum = fabsl(r->Mx) / rate + S * dn;
     *psi = sum > 0 ? r->rest_a * more / (reach * Q) / sum : 0;
