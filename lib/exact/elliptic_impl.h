@@ -8,9 +8,9 @@
 
 #include <math.h>
 
-typedef long double real;
+#include "base/pi_impl.h"
 
-#define ISO_PI 3.141592653589793238462643383279502884L
+typedef long double real;
 
 /* What an orbit on a separatrix is taken off it, relatively: nothing to be seen before it has come back. */
 #define ISO_OFF_SEPARATRIX 1e-38L

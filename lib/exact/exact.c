@@ -148,7 +148,7 @@ static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact
         const double *g = p.point + 3, q = dot_diag(g, f->p.J, g), speed = norm(p.point);
         near = fabs(g[axis]) < 1e-16 ? near + 1 : 0;
         time += direction * iso_clock_rate(&f->p, (iso_clock)clock, q, NULL) /
-                iso_clock_rate(&f->p, ISO_CLOCK_S, q, NULL) * 2 * ISO_PI / STEPS_A_TURN / speed;
+                iso_clock_rate(&f->p, ISO_CLOCK_S, q, NULL) * 2 * ISO_PI_LONG / STEPS_A_TURN / speed;
     }
     if (near < STEPS_A_TURN)
         return iso_context_fail(ctx, ISO_NUMERICAL, "",
@@ -320,7 +320,7 @@ iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double p
     if (status != ISO_OK) return status;
     if (!all_finite(point, ISO_STATE) || !x->form->angles(x->data, point, angle))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "this state is not on the torus of this motion");
-    for (int i = 0; i < 2; i++) angle[i] -= 2 * (double)ISO_PI * floor(angle[i] / (2 * (double)ISO_PI));
+    for (int i = 0; i < 2; i++) angle[i] -= 2 * ISO_PI * floor(angle[i] / (2 * ISO_PI));
     return ISO_OK;
 }
 

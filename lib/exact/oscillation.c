@@ -12,7 +12,7 @@
 static void cosine_transform(int N, const real f[], real a[])
 {
     real cosine[2 * MOST_XI_MODES];
-    for (int i = 0; i < 2 * N; i++) cosine[i] = cosl(ISO_PI * i / N);
+    for (int i = 0; i < 2 * N; i++) cosine[i] = cosl(ISO_PI_LONG * i / N);
     for (int n = 0; n <= N; n++) {
         real sum = (f[0] + (n % 2 ? -f[N] : f[N])) / 2;
         for (int j = 1; j < N; j++) sum += f[j] * cosine[n * j % (2 * N)];
@@ -86,7 +86,7 @@ static real z_at(const oscillation *o, real xi, real *rate)
 /* xi where theta is th, in [low, pi]: Newton's method, kept in its interval */
 static real invert(const oscillation *o, real th, real low, real *slope)
 {
-    real high = ISO_PI, xi = low, derivative;
+    real high = ISO_PI_LONG, xi = low, derivative;
     for (int i = 0; i < 100; i++) {
         const real miss = xi + sine_series_l(o->beta, o->modes, xi, &derivative) - th;
         if (miss > 0)
@@ -110,14 +110,14 @@ static bool find_theta(oscillation *o)
     int N = 16;
     for (;; N *= 2) {
         for (int j = 0; j <= N; j++) {
-            z_at(o, ISO_PI * j / N, &f[j]);
+            z_at(o, ISO_PI_LONG * j / N, &f[j]);
             f[j] = 1 / f[j];
         }
         cosine_transform(N, f, a);
         if (fabsl(a[N]) + fabsl(a[N - 1]) + fabsl(a[N - 2]) <= 1e-18L * a[0]) break;
         if (N == MOST_XI_MODES) return false;
     }
-    o->omega = ISO_PI / (a[0] * o->f.K);
+    o->omega = ISO_PI_LONG / (a[0] * o->f.K);
     o->modes = 0;
     for (int n = 1; n <= N; n++) {
         o->beta[n] = a[n] / (a[0] * n);
@@ -136,7 +136,7 @@ static bool find_xi(oscillation *o, int N)
     double *const slope = o->gamma, *const work = o->z, *const z = work + 2 * N; /* work, then z, in one */
     real low = 0, part, unused, most = 0;
     for (int j = 0; j <= N; j++) {
-        o->at[j] = z_at(o, low = invert(o, ISO_PI * j / N, low, &part), &unused);
+        o->at[j] = z_at(o, low = invert(o, ISO_PI_LONG * j / N, low, &part), &unused);
         slope[j] = (double)(1 / part);
         z[j] = (double)o->at[j];
     }
@@ -162,10 +162,10 @@ static void find_parts(oscillation *o)
     const int N = 2 * o->samples;
     o->parts = 0;
     if (o->f.m1 < 1e-3L || N > MOST_SAMPLES) return;
-    for (int i = 0; i < 4 * N; i++) sine[i] = sin((double)ISO_PI * i / (2 * N));
+    for (int i = 0; i < 4 * N; i++) sine[i] = sin(ISO_PI * i / (2 * N));
     for (int j = 0; j <= N; j++) {
         real s, c, d;
-        iso_elliptic_at(&o->f, xi_at(o, ISO_PI * j / N), &s, &c, &d);
+        iso_elliptic_at(&o->f, xi_at(o, ISO_PI_LONG * j / N), &s, &c, &d);
         sn[j] = (double)s, cn[j] = (double)c;
     }
     for (int n = 0; n < MOST_PARTS && n < N; n++) {

@@ -58,8 +58,8 @@ static real rates_at(const revolution *r, real xi, real rate[SERIES])
     real sn, cn, dn;
     iso_elliptic_at(&r->f, xi, &sn, &cn, &dn);
     const real y = square_at(r, cn, dn), q = iso_latitude_q(&r->x, y);
-    const real ds = r->f.K / ISO_PI / iso_latitude_rate(&r->x, y, dn, &rate[PSI]);
-    rate[PSI] *= r->f.K / ISO_PI;
+    const real ds = r->f.K / ISO_PI_LONG / iso_latitude_rate(&r->x, y, dn, &rate[PSI]);
+    rate[PSI] *= r->f.K / ISO_PI_LONG;
     rate[ISO_CLOCK_S] = ds;
     rate[ISO_CLOCK_TAU] = r->det * powl(q, r->x.power) * ds;
     rate[ISO_CLOCK_T] = r->det * powl(q, r->x.power / 2 - 1) * ds;
@@ -107,7 +107,7 @@ static bool make_series(revolution *r, int N, double *samples, double work[])
     forget(r);
     r->force = 0;
     for (int j = 0; j <= N; j++) {
-        const real weight = (j % N == 0 ? 0.5L : 1) / N, y = rates_at(r, ISO_PI * j / N, rate);
+        const real weight = (j % N == 0 ? 0.5L : 1) / N, y = rates_at(r, ISO_PI_LONG * j / N, rate);
         r->force += weight * rate[ISO_CLOCK_S] * iso_latitude_m(&r->x, y);
         for (int i = 0; i < SERIES; i++) {
             samples[i * (N + 1) + j] = (double)rate[i];
@@ -143,7 +143,7 @@ static real growing_at(const revolution *r, int i, real along, real *slope)
 {
     const growing *f = &r->of[i];
     double part;
-    const double series = sine_series(f->b, f->modes, (double)remainderl(r->start + along, 2 * ISO_PI), &part);
+    const double series = sine_series(f->b, f->modes, (double)remainderl(r->start + along, 2 * ISO_PI_LONG), &part);
     *slope = f->mean + part;
     return f->mean * along + (series - f->zero);
 }
@@ -197,8 +197,8 @@ static void state_at(const revolution *r, real along, double point[ISO_STATE])
 {
     real unused;
     int turns;
-    const double psi = r->sense * (double)remainderl(growing_at(r, PSI, along, &unused), 2 * ISO_PI);
-    const double xi = (double)remquol(r->start + along, 2 * ISO_PI, &turns), by[2] = {cos(psi), sin(psi)};
+    const double psi = r->sense * (double)remainderl(growing_at(r, PSI, along, &unused), 2 * ISO_PI_LONG);
+    const double xi = (double)remquol(r->start + along, 2 * ISO_PI_LONG, &turns), by[2] = {cos(psi), sin(psi)};
     swinging at = swing_at(r, xi, turns % 2 == 0 ? r->half : -r->half, !r->even);
     turn(by, at.h), turn(r->turned, at.h);
     turn(by, at.dh), turn(r->turned, at.dh);
@@ -383,7 +383,7 @@ static bool angles_of(const void *data, const double point[ISO_STATE], double an
     double own[ISO_STATE];
     const real Mx = take_state(&other, point, g, d);
     find_start(&other);
-    const real along = other.start - r->start + (other.half == r->half ? 0 : 2 * ISO_PI);
+    const real along = other.start - r->start + (other.half == r->half ? 0 : 2 * ISO_PI_LONG);
     const real s = growing_at(r, ISO_CLOCK_S, along, &unused) / r->of[ISO_CLOCK_S].mean;
     state_at(r, along, own);
     const double *const y = own + 3;

@@ -177,7 +177,7 @@ static void set_angles(const torus *x, real sigma, int most, angles *a)
     for (int i = 0; i < 2; i++) {
         const oscillation *o = &x->s.coordinate[i];
         const int last = i == 0 ? x->rows : x->columns;
-        a->theta[i] = less_turns(o->start + o->omega * sigma, 4 * ISO_PI);
+        a->theta[i] = less_turns(o->start + o->omega * sigma, 4 * ISO_PI_LONG);
         set_multiples(0, (double)a->theta[i], last < most ? last : most, a->cosine[i], a->sine[i]);
     }
 }
@@ -301,7 +301,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     }
     a.sigma = isnan(p->along) ? near(x, clock, time, &a) : p->along;
     const real step = approach(x, clock, time, &a);
-    for (int i = 0; i < 2; i++) theta[i] = less_turns(a.theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
+    for (int i = 0; i < 2; i++) theta[i] = less_turns(a.theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI_LONG);
     p->along = a.sigma + step;
     for (int k = 0; k < ISO_CLOCKS; k++) others = others || (k != (int)clock && x->clock[k].mean > 0);
     if (others) set_angles(x, p->along, ALL, &a);
@@ -387,7 +387,7 @@ static void point_of(const void *data, const double angle[2], double point[ISO_S
 {
     const separation *s = &((const torus *)data)->s;
     real theta[2];
-    for (int i = 0; i < 2; i++) theta[i] = remainderl((real)angle[i] * swings_of(s, i), 4 * ISO_PI);
+    for (int i = 0; i < 2; i++) theta[i] = remainderl((real)angle[i] * swings_of(s, i), 4 * ISO_PI_LONG);
     iso_separation_state(s, theta, point);
 }
 

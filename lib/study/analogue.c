@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 
@@ -309,7 +310,7 @@ double iso_analogue_start(const iso_analogue *a, double point[ISO_STATE])
     make_unit(M);
     remove_along(M, gamma); /* the first time left a rounding error */
     scale(M, sqrt(2 * fmax(p->energy - potential(p, gamma), 0)));
-    return 20 * acos(-1) / sqrt(2 * most);
+    return 20 * ISO_PI / sqrt(2 * most);
 }
 
 /* (18) in own units, where its powers are of order one. */
