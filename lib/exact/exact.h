@@ -25,9 +25,9 @@
 
 typedef struct iso_exact iso_exact;
 
-/* From the state (M, gamma) at time 0, in any consistent units; |gamma| and, on it, the level H = 0 are restored. `clocks`
- * are those that will be asked for, as a time or with a state. Takes less than a millisecond, longer next to a
- * separatrix or for extreme bodies.
+/* From the state (M, gamma) at time 0, in any consistent units; |gamma| and, on it, the level H = 0 are restored.
+ * `clocks` are those that will be asked for, as a time or with a state. Takes less than a millisecond, longer next to
+ * a separatrix or for extreme bodies.
  * Errors: ISO_BAD_ARGUMENT where there is no closed solution: about "k" (and unequal moments), "eps" (not > 0), or
  * the name of an effect that acts; ISO_NUMERICAL: too many terms would be needed; ISO_NO_MEMORY. */
 iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const double point[ISO_STATE],

@@ -155,8 +155,8 @@ typedef struct swinging {
     double x, dx, h[2], dh[2];
 } swinging;
 
-/* At xi, or (half = -1) half a period of sn later. The rates only if they are asked for. They come from dx/ds itself and
- * not from the series of s: where a rate is small beside its largest value the series has lost its digits. */
+/* At xi, or (half = -1) half a period of sn later. The rates only if they are asked for. They come from dx/ds itself
+ * and not from the series of s: where a rate is small beside its largest value the series has lost its digits. */
 static swinging swing_at(const revolution *r, double xi, int half, bool rates)
 {
     real sn_l, cn_l, dn_l;
@@ -179,7 +179,8 @@ static void turn(const double by[2], double h[2])
     h[0] = x;
 }
 
-/* M and gamma from x, y = gamma_1 + i gamma_2 and their rates: M = gamma x gamma'. */
+/* M and gamma from x, h = gamma_1 + i gamma_2 and their rates. gamma' = gamma x M and (M,gamma) = 0 give
+ * M = gamma' x gamma. */
 static void put(const revolution *r, const swinging *at, double point[ISO_STATE])
 {
     const double g[3] = {at->x, at->h[0], at->h[1]}, d[3] = {at->dx, at->dh[0], at->dh[1]};
@@ -271,8 +272,8 @@ static void take_body(revolution *r, const iso_field *f, const double point[ISO_
 }
 
 /* In a plane on H = 0 the moving ball's energy J omega^2/2 = h is all of it: omega is a constant, and M goes like
- * NN ~ q^(-1/(2k)). Computed from there the state's omega is that constant again to rounding, for every k; computed from
- * gamma' it has the rounding errors of a power, 1/(2k) times as many. */
+ * NN ~ q^(-1/(2k)). Computed from there the state's omega is that constant again to rounding, for every k; computed
+ * from gamma' it has the rounding errors of a power, 1/(2k) times as many. */
 static void take_spin(revolution *r, const iso_field *f, const double point[ISO_STATE])
 {
     r->params = f->p;
