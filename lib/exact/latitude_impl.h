@@ -37,8 +37,8 @@ real iso_latitude_m(const latitude *r, real y);
 real iso_latitude_distance(const latitude *r, real root);
 
 /* dx/ds of the argument x of the elliptic functions at y, where dn is given; and what the longitude grows by with x
- * beyond the elementary S dn/(1 - y), S = sqrt((1 - a)(1 - b)): psi = (M_x/(dx/ds) - S dn)/(1 - y). psi may be NULL.
- * */
+ * beyond the elementary S dn/(1 - y), S = sqrt((1 - a)(1 - b)):
+ * psi = (M_x/(dx/ds) - S dn)/(1 - y). psi may be NULL. */
 real iso_latitude_rate(const latitude *r, real y, real dn, real *psi);
 
 #endif

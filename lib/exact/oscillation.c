@@ -1,3 +1,14 @@
+/* oscillation.c - the series of one oscillation: from the elliptic functions of xi to the angle theta that grows
+ * evenly.
+ *
+ *  (1) dx/dsigma is known as a function of xi = pi x/K. So dsigma/dxi = (K/pi)/(dx/dsigma) is one too; it is even,
+ *      and its cosine series a_0 + sum a_n cos n xi is found from samples.
+ *  (2) Integrated: sigma = (K/pi) (a_0 xi + sum (a_n/n) sin n xi). With theta = omega sigma and omega = pi/(a_0 K)
+ *      this is theta = xi + sum beta_n sin n xi, beta_n = a_n/(a_0 n).
+ *  (3) The inverse xi = theta + sum gamma_n sin n theta: dxi/dtheta = 1/(1 + sum n beta_n cos n xi) is sampled at
+ *      even theta, where Newton's method finds xi; its cosine series gives n gamma_n. The series of z is found
+ *      likewise.
+ */
 #include "exact/oscillation_impl.h"
 
 #include <float.h>
@@ -40,7 +51,7 @@ real iso_oscillation_theta(const oscillation *o, real xi)
     return xi + sine_series_l(o->beta, o->modes, xi, &unused);
 }
 
-/* A step of Newton's method from the first terms. */
+/* xi from theta: the first terms of (3), then one step of Newton's method on (2). */
 static real xi_at(const oscillation *o, real theta)
 {
     real slope;
@@ -103,7 +114,7 @@ static real invert(const oscillation *o, real th, real low, real *slope)
     return xi;
 }
 
-/* beta and omega: sigma = integral of dx/rate */
+/* (1) and (2): beta and omega */
 static bool find_theta(oscillation *o)
 {
     real f[MOST_XI_MODES + 1], a[MOST_XI_MODES + 1];
@@ -127,10 +138,10 @@ static bool find_theta(oscillation *o)
     return true;
 }
 
-/* What terms of gamma and z add up to rounding after one more step of Newton's method. */
+/* Terms of gamma and z below this are left out: one step of Newton's method squares the error. */
 static const double FIRST = 1e-11;
 
-/* gamma and z from samples at theta = pi j/N. */
+/* (3) from samples at theta = pi j/N. Gives whether N is large enough. */
 static bool find_xi(oscillation *o, int N)
 {
     double *const slope = o->gamma, *const work = o->z, *const z = work + 2 * N; /* work, then z, in one */
@@ -154,7 +165,8 @@ static bool find_xi(oscillation *o, int N)
     return enough;
 }
 
-/* sn and cn as series in theta, where few terms do and neither becomes small against rounding but at its zeros. */
+/* sn and cn directly as series in theta, where few terms are enough. Not where m1 is small: there sn or cn stays
+ * small over long times, and a series has only absolute accuracy. */
 static void find_parts(oscillation *o)
 {
     enum { MOST_SAMPLES = 256 };

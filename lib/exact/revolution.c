@@ -16,7 +16,8 @@
 #include "exact/series_impl.h"
 #include "map/state.h"
 
-/* Rates that differ by more than exp(MOST_SHARP) leave no digits where they are small. */
+/* Where the rates of a clock differ by more than exp(MOST_SHARP), its series has no digits
+ * left where they are small. */
 static const real MOST_SHARP = 23;
 
 enum { LEAST_SAMPLES = 32, MOST_SAMPLES = 1 << 15, PSI = ISO_CLOCKS, SERIES };
@@ -66,7 +67,7 @@ static real rates_at(const revolution *r, real xi, real rate[SERIES])
     return y;
 }
 
-/* NaN where one is */
+/* The largest size; NaN if one of the numbers is NaN */
 static double largest_of(const double a[], int from, int to)
 {
     double most = 0;
@@ -75,7 +76,7 @@ static double largest_of(const double a[], int from, int to)
     return most;
 }
 
-/* From samples of f' in `a`. False: they are too few, or memory is. */
+/* The series of f from samples of f' in `a`. False: too few samples, or no memory. */
 static bool integrate(growing *f, double a[], int N, double work[])
 {
     iso_cosine_series(a, N, 1, work);
@@ -100,7 +101,7 @@ static void forget(revolution *r)
     }
 }
 
-/* One number of samples. */
+/* All series from N + 1 samples. False: too few samples, or no memory. */
 static bool make_series(revolution *r, int N, double *samples, double work[])
 {
     real rate[SERIES];

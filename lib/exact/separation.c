@@ -65,8 +65,9 @@ real iso_separation_rate(const separation *s, iso_clock clock, real u, real v)
     return (v - u) * clock_rate(s, clock, q);
 }
 
-/* (1/2 pi) times the integral of |p_z dz| over one swing. p_z = (dz/dsigma)/(4 A), so p_z dz = (dz/dsigma)^2/(4 A) dsigma =
- * 2 (R + c) dsigma = 2 (R + c) dtheta/omega: the mean of 2 (R + c) over even samples of theta, over omega. */
+/* (1/2 pi) times the integral of |p_z dz| over one swing. p_z = (dz/dsigma)/(4 A), so
+ * p_z dz = (dz/dsigma)^2/(4 A) dsigma = 2 (R + c) dsigma = 2 (R + c) dtheta/omega: the mean of 2 (R + c) over even
+ * samples of theta, over omega. */
 real iso_separation_action(const separation *s, const oscillation *o)
 {
     real mean = 0;
@@ -161,7 +162,8 @@ static real excess(const separation *s, const moment *m, int j, real *size)
 }
 
 /* (4) and (5): v - u, c, and the distances of al and be from b1, b2, b3. With X + iY = (v - u) exp(i phi) the width
- * be - al of (5) is |v - u + P exp(-i phi)|. A distance that is zero to rounding says that the orbit is on a separatrix. */
+ * be - al of (5) is |v - u + P exp(-i phi)|. A distance that is zero to rounding says that the orbit is on a
+ * separatrix. */
 static void find_roots(separation *s, moment *m)
 {
     s->unstable = -1;

@@ -40,8 +40,8 @@ typedef struct torus {
 
 /* --- set-up ----------------------------------------------------------------------------------------------------- */
 
-/* Coefficients below LEAST d_00 are rounding errors of the transform. Differences |m omega_u - n omega_v| below RESONANT
- * times the sum of both are zero. The first terms, for a first guess, are good to LITTLE. */
+/* Coefficients below LEAST d_00 are rounding errors of the transform. Differences |m omega_u - n omega_v| below
+ * RESONANT times the sum of both are zero. The first terms, for a first guess, are good to LITTLE. */
 static const double LEAST = 4e-17, RESONANT = 1e-15, LITTLE = 1e-6;
 
 enum { MOST_TERMS = 1 << 23 };
