@@ -2,7 +2,8 @@
 #ifndef ISO_BASE_SUM_IMPL_H
 #define ISO_BASE_SUM_IMPL_H
 
-/* The rounded sum of a and b. *lost is what the rounding took: a + b is exactly the sum plus *lost (Knuth's two-sum). */
+/* The rounded sum of a and b. *lost is what the rounding took: a + b is exactly the sum plus *lost
+ * (Knuth's two-sum). */
 static inline double iso_two_sum(double a, double b, double *lost)
 {
     const double sum = a + b, part = sum - a;
