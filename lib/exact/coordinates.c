@@ -1,3 +1,5 @@
+/* coordinates.c - states in separated coordinates, the constant of separation, and where
+ * the motion changes its kind. */
 #include "exact/coordinates.h"
 
 #include <math.h>
@@ -88,7 +90,7 @@ static double summit(const potential *f)
     return (b[0] + b[1] + b[2] + f->H / f->eps) / 2;
 }
 
-/* Puts it in its place; one that is already there stays alone. */
+/* Inserts `one` by descending c, unless its z is already in the list. */
 static int insert(iso_bifurcation list[], int count, iso_bifurcation one)
 {
     int at = count;

@@ -1,4 +1,5 @@
-/* elliptic.c - Bulirsch's ways along the arithmetic-geometric mean (Numer. Math. 7 (1965) 78-90). */
+/* elliptic.c - elliptic functions by Bulirsch's algorithms, which use the arithmetic-geometric mean (Numer. Math. 7
+ * (1965) 78-90). */
 #include "exact/elliptic_impl.h"
 
 #include <float.h>
@@ -17,14 +18,16 @@ void iso_elliptic_set(elliptic *e, real m1)
         a = mean;
     }
     e->mean[e->steps] = a;
-    e->K = ISO_PI / (2 * a);
+    e->K = ISO_PI_LONG / (2 * a);
 }
 
-/* Within an eighth of a turn, where the C library is quick, and from there to the right quarter. */
+/* sin and cos by those of an angle within an eighth of a turn, for which the C library is quick. */
 static void sine_and_cosine(real x, real *sine, real *cosine)
 {
-    const real quarters = rintl(x / (ISO_PI / 2)), rest = x - quarters * (ISO_PI / 2), s = sinl(rest), c = cosl(rest);
-    const int quarter = (fabsl(quarters) < 1e9L ? (int)quarters : 0) & 3; /* of NaN none, and xi is a turn at most */
+    const real quarters = rintl(x / (ISO_PI_LONG / 2)), rest = x - quarters * (ISO_PI_LONG / 2), s = sinl(rest),
+               c = cosl(rest);
+    const int quarter =
+        (fabsl(quarters) < 1e9L ? (int)quarters : 0) & 3; /* NaN has no quarter; xi is a turn at most */
     *sine = quarter == 0 ? s : quarter == 1 ? c : quarter == 2 ? -s : -c;
     *cosine = quarter == 0 ? c : quarter == 1 ? -s : quarter == 2 ? -c : s;
 }
@@ -51,7 +54,7 @@ real iso_elliptic_inverse(const elliptic *e, real sn, real cn)
 {
     real kc = sqrtl(e->m1), m = 1, y = fabsl(cn / sn);
     int turns = 0;
-    if (sn == 0) return cn < 0 ? 2 * ISO_PI : 0;
+    if (sn == 0) return cn < 0 ? 2 * ISO_PI_LONG : 0;
     for (;;) {
         const real product = m * kc, before = m;
         m += kc;
@@ -60,6 +63,6 @@ real iso_elliptic_inverse(const elliptic *e, real sn, real cn)
         kc = 2 * sqrtl(product);
         turns = 2 * turns + (y < 0);
     }
-    const real xi = ISO_PI / e->K * (atanl(m / y) + ISO_PI * (turns + (y < 0))) / m;
-    return copysignl(cn < 0 ? 2 * ISO_PI - xi : xi, sn);
+    const real xi = ISO_PI_LONG / e->K * (atanl(m / y) + ISO_PI_LONG * (turns + (y < 0))) / m;
+    return copysignl(cn < 0 ? 2 * ISO_PI_LONG - xi : xi, sn);
 }

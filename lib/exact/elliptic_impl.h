@@ -1,5 +1,5 @@
-/* elliptic_impl.h - Jacobi's elliptic functions of parameter m = 1 - m1. m1 itself is carried, which 1 - m would
- * lose, and small values of any function keep their digits.
+/* elliptic_impl.h - Jacobi's elliptic functions of parameter m = 1 - m1. m1 itself is given and kept: where it is
+ * small, 1 - m would have no digits. Small values of any of the functions keep their relative accuracy.
  *
  * Angles are xi = pi x/K: sn and cn have period 4 pi, dn has 2 pi.
  */
@@ -8,14 +8,15 @@
 
 #include <math.h>
 
+#include "base/pi_impl.h"
+
 typedef long double real;
 
-#define ISO_PI 3.141592653589793238462643383279502884L
-
-/* What an orbit on a separatrix is taken off it, relatively: nothing to be seen before it has come back. */
+/* An orbit on a separatrix is computed as one at this relative distance from it. The difference is below all digits
+ * until the orbit has come back. */
 #define ISO_OFF_SEPARATRIX 1e-38L
 
-/* x less the nearest multiple of `period`: as exact as x is. */
+/* x minus the nearest multiple of `period` */
 static inline real less_turns(real x, real period)
 {
     return x - period * rintl(x / period);
@@ -32,7 +33,7 @@ void iso_elliptic_set(elliptic *e, real m1);
 
 void iso_elliptic_at(const elliptic *e, real xi, real *sn, real *cn, real *dn);
 
-/* xi in [-2 pi, 2 pi] where sn and cn are as sn and cn given, which need not be of length 1. */
+/* xi in [-2 pi, 2 pi] at which sn and cn are in the ratio of those given, with their signs. */
 real iso_elliptic_inverse(const elliptic *e, real sn, real cn);
 
 #endif

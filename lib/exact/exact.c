@@ -1,3 +1,6 @@
+/* exact.c - the public functions of the closed solution: they choose the form of the motion (form_impl.h), check what
+ * is asked, and follow an orbit on a separatrix into the rotation at its end.
+ */
 #include "exact/exact.h"
 
 #include <float.h>
@@ -13,7 +16,7 @@
 
 static const iso_form *const forms[] = {&iso_form_rest, &iso_form_revolution, &iso_form_separated, NULL};
 
-/* The end of an orbit on a separatrix: from these clocks on it is the rotation. */
+/* An end of an orbit on a separatrix. Beyond these clocks the orbit is the unstable rotation, to all digits. */
 typedef struct homoclinic_end {
     iso_exact *rotation; /* NULL: not on a separatrix */
     real clock[ISO_CLOCKS];
@@ -24,11 +27,11 @@ struct iso_exact {
     void *data;
     iso_params params;
     bool has[ISO_CLOCKS];
-    double moment[ISO_CLOCKS]; /* in each clock, in which hardly anything changes */
+    double moment[ISO_CLOCKS]; /* a short time in each clock, see find_moments */
     homoclinic_end past, future;
 };
 
-/* Errors: numbers that are none, or that no motion has. */
+/* Errors: numbers that are not finite or out of range, and a state that is not on the level. */
 static iso_status check_numbers(iso_context *ctx, const iso_field *f, const double point[ISO_STATE])
 {
     const double *g = point + 3, square = dot(g, g);
@@ -62,8 +65,8 @@ static const iso_form *form_for(const iso_field *f, const double point[ISO_STATE
     return NULL;
 }
 
-/* The form for a start; where there is none but in a principal plane, one that is in it but for rounding is put
- * there. */
+/* The form for a start. Where only a start in a principal plane has a form, components that are zero but for rounding
+ * are set to zero first. */
 static iso_status find_form(iso_context *ctx, const iso_field *f, double point[ISO_STATE], const iso_form **form)
 {
     double snapped[ISO_STATE], size[2];
@@ -82,7 +85,8 @@ static iso_status find_form(iso_context *ctx, const iso_field *f, double point[I
                             fabs(fabs(f->p.k) - 1) < 1e-14 ? 17 : 15, f->p.k); /* 1 + 1e-15 must not read as 1 */
 }
 
-/* The time in which gamma turns, and what the clocks' rates are powers of changes, by a tenth at most. */
+/* A time so short that gamma turns by a tenth of a radian at most, and the clocks' rates change
+ * by a tenth at most. */
 static void find_moments(const iso_field *f, const double point[ISO_STATE], double moment[ISO_CLOCKS])
 {
     const iso_params *p = &f->p;
@@ -94,8 +98,9 @@ static void find_moments(const iso_field *f, const double point[ISO_STATE], doub
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) moment[c] = change > 0 ? s * iso_clock_rate(p, c, q, NULL) : 0;
 }
 
-/* The other clocks after a moment. As a difference of series they have the rounding error of a whole turn; Gauss's
- * rule with five nodes leaves none of its own (1e-19 of them). */
+/* The other clocks after a short time. The series of a clock have the rounding error of a whole turn, which is large
+ * beside a short time. So the rates are integrated directly, by Gauss's rule with five nodes; its own error is 1e-19
+ * of the result. */
 static void count_moment(const iso_exact *x, iso_clock clock, real time, form_place *p)
 {
     static const double node[] = {-0.90617984593866399, -0.53846931010568309, 0, 0.53846931010568309,
@@ -135,8 +140,8 @@ static void find(const iso_exact *x, iso_clock clock, real time, form_place *p)
 
 enum { STEPS_A_TURN = 32, MOST_TURNS = 20000 };
 
-/* Away from time 0 until gamma has been in the plane of the unstable rotation for a turn, to rounding; there begins
- * the rotation. */
+/* Goes away from time 0 until gamma has stayed in the plane of the unstable rotation, to rounding, for a whole turn.
+ * The rotation begins there. */
 static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact *x, int axis, int direction,
                            homoclinic_end *end)
 {
@@ -150,7 +155,7 @@ static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact
         const double *g = p.point + 3, q = dot_diag(g, f->p.J, g), speed = norm(p.point);
         near = fabs(g[axis]) < 1e-16 ? near + 1 : 0;
         time += direction * iso_clock_rate(&f->p, (iso_clock)clock, q, NULL) /
-                iso_clock_rate(&f->p, ISO_CLOCK_S, q, NULL) * 2 * ISO_PI / STEPS_A_TURN / speed;
+                iso_clock_rate(&f->p, ISO_CLOCK_S, q, NULL) * 2 * ISO_PI_LONG / STEPS_A_TURN / speed;
     }
     if (near < STEPS_A_TURN)
         return iso_context_fail(ctx, ISO_NUMERICAL, "",
@@ -165,7 +170,7 @@ static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact
 
 /* --- the front -------------------------------------------------------------------------------------------------- */
 
-/* Whether a solution is where it should be at time 0, and anywhere a little later. */
+/* Whether the solution gives the start at time 0, and a finite state a little later. */
 static bool begins(const iso_exact *x, const double point[ISO_STATE])
 {
     const double *g = point + 3, length = norm(g);
@@ -269,7 +274,7 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
 /* --- grids ------------------------------------------------------------------------------------------------------ */
 
 enum { TRAIL = 8 };
-static const double POOR = 1e-3; /* of a guess, in radians or so */
+static const double POOR = 1e-3; /* a guess that is wrong by more, about in radians, is of no use */
 
 /* The next value after `count` even steps, by their differences. */
 static real extrapolate(const real value[], int count)
@@ -300,7 +305,8 @@ iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock,
         hand_over(x, &p, points + ISO_STATE * i, clocks ? clocks + ISO_CLOCKS * i : NULL);
         status = check_place(ctx, x, &p);
         if (status != ISO_OK) return status;
-        if (isnan(p.along) || fabsl(guess - p.along) > POOR) known = 0; /* an end; or steps too long */
+        if (isnan(p.along) || fabsl(guess - p.along) > POOR)
+            known = 0; /* the end of a separatrix, or steps too long */
         if (known == TRAIL) memmove(trail, trail + 1, (size_t)--known * sizeof *trail);
         trail[known++] = p.along - even;
     }
@@ -322,7 +328,7 @@ iso_status iso_exact_angles(iso_context *ctx, const iso_exact *x, const double p
     if (status != ISO_OK) return status;
     if (!all_finite(point, ISO_STATE) || !x->form->angles(x->data, point, angle))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "this state is not on the torus of this motion");
-    for (int i = 0; i < 2; i++) angle[i] -= 2 * (double)ISO_PI * floor(angle[i] / (2 * (double)ISO_PI));
+    for (int i = 0; i < 2; i++) angle[i] -= 2 * ISO_PI * floor(angle[i] / (2 * ISO_PI));
     return ISO_OK;
 }
 

@@ -1,22 +1,22 @@
-/* exact.h - the closed solution of the free problem: any time, the same cost.
+/* exact.h - the closed solution of the free problem: the state at any time, always at the same cost.
  *
  *     iso_exact *exact;
  *     iso_exact_create(ctx, &field, point, all_clocks, &exact);    field: k, J, eps and the level H
  *     iso_exact_at(ctx, exact, ISO_CLOCK_T, 1e6, y, clocks);       the point a million units of the ball's time later
  *     iso_exact_free(exact);
  *
- * It exists where there are as many integrals as it takes:
+ * It exists in three cases:
  * - k = 1 on H = 0, and k = -1 on every level: in sphero-conical coordinates of gamma the problem separates into two
  *   oscillations with a clock sigma of their own (theory: section 5 of the paper);
  * - two moments of inertia equal to 4 units in the last place, every k: gamma along the axis swings, the angle about
  *   the axis follows;
  * - a start in a principal plane, every k: gamma never leaves it.
- * The last two hold on every level. An orbit on a separatrix is followed from the unstable rotation that it leaves to
- * the one that it comes to; beyond, where it is the rotation to all digits, it is the rotation.
+ * The last two hold on every level. An orbit on a separatrix leaves an unstable rotation and comes back to it. Where
+ * it is that rotation to all digits, the rotation is what is computed.
  *
- * Each oscillation is brought to an angle by elliptic functions and Fourier series; the clocks are linear terms and
- * Fourier series of the angles. What is asked at a time is found by Newton's method. Numbers that grow with time are
- * carried in long double.
+ * Elliptic functions and Fourier series turn each oscillation into an angle. Each clock is a linear term and a
+ * Fourier series of the angles. Newton's method finds the place at which a clock shows the time asked for. Numbers
+ * that grow with time are carried in long double.
  */
 #ifndef ISO_EXACT_EXACT_H
 #define ISO_EXACT_EXACT_H
@@ -25,9 +25,10 @@
 
 typedef struct iso_exact iso_exact;
 
-/* From the state (M, gamma) at time 0, in any consistent units; |gamma| and, on it, the level H = 0 are restored. `clocks`
- * are those that will be asked for, as a time or with a state. Takes less than a millisecond, longer next to a
- * separatrix or for extreme bodies.
+/* From the state (M, gamma) at time 0, in any consistent units. gamma is made a unit vector; on the level H = 0 M is
+ * scaled to that level.
+ * `clocks` are those that will be asked for, as a time or with a state. Takes less than a millisecond, longer next to
+ * a separatrix or for extreme bodies.
  * Errors: ISO_BAD_ARGUMENT where there is no closed solution: about "k" (and unequal moments), "eps" (not > 0), or
  * the name of an effect that acts; ISO_NUMERICAL: too many terms would be needed; ISO_NO_MEMORY. */
 iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const double point[ISO_STATE],
@@ -40,13 +41,14 @@ void iso_exact_free(iso_exact *exact);
 iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock clock, double time,
                         double point[ISO_STATE], double clocks[ISO_CLOCKS]);
 
-/* The states at the times start + i step, i < count, to rounding those of iso_exact_at, in less time where steps are
- * short: points[ISO_STATE i ...], clocks[ISO_CLOCKS i ...]; clocks may be NULL. Errors: as iso_exact_at. */
+/* The states at the times start + i step, i < count. They are those of iso_exact_at to rounding, and take less time
+ * where steps are short: points[ISO_STATE i ...], clocks[ISO_CLOCKS i ...]; clocks may be NULL. Errors: as
+ * iso_exact_at. */
 iso_status iso_exact_grid(iso_context *ctx, const iso_exact *exact, iso_clock clock, double start, double step,
                           size_t count, double points[], double clocks[]);
 
-/* The angles, in [0, 2 pi), of a state on the orbit's torus, and the state at given angles; NaN: a second angle of a
- * motion that has one. They grow evenly with sigma for a separated motion, else with s, from a place that is the
+/* The angles, in [0, 2 pi), of a state on the orbit's torus, and the state at given angles. A motion with one angle
+ * has NaN as its second. Angles grow evenly with sigma for a separated motion, else with s; where they are 0 is the
  * form's choice. Errors: ISO_BAD_ARGUMENT: a motion without angles; a state that turns the other way; numbers that
  * are not finite. */
 iso_status iso_exact_angles(iso_context *ctx, const iso_exact *exact, const double point[ISO_STATE], double angle[2]);

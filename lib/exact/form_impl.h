@@ -5,7 +5,7 @@
 #include "exact/elliptic_impl.h"
 #include "exact/exact.h"
 
-/* A state, its clocks, and where on the way it is: the form's own angle or clock, which grows with time. */
+/* A state, its clocks, and `along`: the form's own angle or clock, which grows with time. */
 typedef struct form_place {
     double point[ISO_STATE];
     real clock[ISO_CLOCKS], along;
@@ -14,19 +14,20 @@ typedef struct form_place {
 typedef struct iso_form {
     bool (*serves)(const iso_field *field, const double point[ISO_STATE]);
 
-    /* Into *data. ISO_NUMERICAL: too many terms would be needed; ISO_NO_MEMORY; messages are the caller's. */
+    /* Makes *data. Errors: ISO_NUMERICAL (too many terms would be needed), ISO_NO_MEMORY. The caller writes the
+     * message. */
     iso_status (*make)(const iso_field *field, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
                        void **data);
     void (*free)(void *data);
 
-    /* Where `clock`, one of those made, shows `time`; p->along is not NaN: a good guess of it. */
+    /* The place where `clock`, one of those made, shows `time`. If p->along is not NaN, it is a good guess. */
     void (*find)(const void *data, iso_clock clock, real time, form_place *p);
 
     /* The mean rate at which a clock grows with p->along. */
     real (*rate)(const void *data, iso_clock clock);
 
-    /* On a separatrix: the axis of the rotation that the orbit leaves and comes back to; else -1. The form is good
-     * until it has come back, and wrong from there. */
+    /* On a separatrix: the axis of the rotation that the orbit leaves and comes back to; else -1. The form is right
+     * until the orbit has come back, and wrong after that. */
     int (*unstable)(const void *data);
 
     /* The angles of a state on the torus, and back; NULL where there are none. */

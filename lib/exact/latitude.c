@@ -1,3 +1,4 @@
+/* latitude.c - the range of the swing along an axis of revolution, and its rate, from divided differences. */
 #include "exact/latitude_impl.h"
 
 #include <float.h>
@@ -10,7 +11,7 @@ real iso_latitude_q(const latitude *r, real y)
     return r->Je + (r->Ja - r->Je) * y;
 }
 
-/* m[y,z] */
+/* m[y,z] = (m(z) - m(y))/(z - y): with x = (q(z) - q(y))/q(y) it is m' at y times ((1 + x)^power - 1)/(power x). */
 static real slope(const latitude *r, real y, real z)
 {
     const real q = iso_latitude_q(r, y), x = (r->Ja - r->Je) * (z - y) / q;
@@ -18,7 +19,7 @@ static real slope(const latitude *r, real y, real z)
     return 2 * r->eps * (r->Ja - r->Je) * powl(q, r->power - 1) * part;
 }
 
-/* Off the level H = 0 as it differs from the start's, which may be small. */
+/* m(y). Off the level H = 0 it is M^2 of the start plus a difference: M^2 may be small beside its two terms. */
 real iso_latitude_m(const latitude *r, real y)
 {
     if (r->H == 0) return 2 * r->eps * powl(iso_latitude_q(r, y), r->power);
@@ -45,7 +46,7 @@ static real bend(const latitude *r, real x, real y, real z)
     return 2 * r->eps * scale * scale * powl(q, r->power) * sum;
 }
 
-/* P[y,z], and P(y) as it differs from the start's */
+/* P[y,z]; and P(y) as (dx/ds)^2 of the start plus a difference */
 static real P_slope(const latitude *r, real y, real z)
 {
     return (1 - y) * slope(r, y, z) - iso_latitude_m(r, z);
@@ -88,7 +89,8 @@ static real root_of_P(const latitude *r, bool rising, real low, real high)
     return y;
 }
 
-/* Places between which P is monotonic, by Rolle: P'' = 0 at one y at most. The last is 1, the first negative. */
+/* Places between which P is monotonic. P'' = 0 at one y at most, so by Rolle P' = 0 at two at most. The first place
+ * is negative, the last is 1. */
 static int monotonic_parts(const latitude *r, real place[5])
 {
     const real d = r->Ja - r->Je, p = r->power, low = d > 0 ? fmaxl(-1, -r->Je / (2 * d)) : -1;
@@ -103,14 +105,16 @@ static int monotonic_parts(const latitude *r, real place[5])
     return count;
 }
 
-/* 1 - y at a root of P, where P = (1 - y) m - M_x^2: near the pole the difference has no digits. */
+/* 1 - y at a root y of P. Near the pole the difference has no digits; there it is M_x^2/m, because
+ * P = (1 - y) m - M_x^2 = 0. */
 static real rest_of(const latitude *r, real y)
 {
     const real m = iso_latitude_m(r, y), rest = r->Mx * r->Mx / m;
     return m > 0 && fabsl(rest - (1 - y)) < 1e-14L ? rest : 1 - y;
 }
 
-/* How far y0 is from a root of P: P(y0) = (y0 - root) P[root,y0], of which one factor may have no digits. */
+/* |y0 - root| for a root of P: the difference or, where that has no digits, what P(y0) = (y0 - root) P[root,y0]
+ * gives. */
 real iso_latitude_distance(const latitude *r, real root)
 {
     const real m = iso_latitude_m(r, r->y0), direct = fabsl(root - r->y0);
@@ -118,7 +122,8 @@ real iso_latitude_distance(const latitude *r, real root)
     return direct * m >= steep ? direct : r->dx0 * r->dx0 / steep;
 }
 
-/* a and b: from y0, which is one of them where the motion turns, to where P falls to zero. */
+/* a and b: the first places above and below y0 where P falls to zero. If the motion turns at the
+ * start, one of them is y0. */
 void iso_latitude_range(latitude *r)
 {
     real place[5], from = r->y0;
@@ -153,13 +158,21 @@ void iso_latitude_range(latitude *r)
 
 /* --- along the way ---------------------------------------------------------------------------------------------- */
 
-real iso_latitude_rate(const latitude *r, real y, real to_a, real dn, real *psi)
+/* Leibniz's rule gives Q = -P[y,a,b], P = (1 - y) m - M_x^2, in three ways, one for each of the factors 1 - y, 1 - a
+ * and 1 - b. The smallest of the three is 1 - a, and with it the two terms cancel least:
+ *
+ *     Q = m[y,b] - (1 - a) m[y,a,b],        without b:  Q = m(y) - (1 - a) m[y,a].
+ *
+ * (With 1 - y they cancel to 1e-8 of their size where q^(-1/k) is steep and the orbit passes the pole.) */
+real iso_latitude_rate(const latitude *r, real y, real dn, real *psi)
 {
-    const real rest = r->rest_a + to_a, reach = !r->has_b ? 1 : r->side ? r->a : r->a - r->b;
+    const real reach = !r->has_b ? 1 : r->side ? r->a : r->a - r->b;
     const real curved = r->has_b ? bend(r, y, r->a, r->b) : 0;
     const real Q =
-        r->has_b ? slope(r, r->a, r->b) - rest * curved : iso_latitude_m(r, r->a) - rest * slope(r, y, r->a);
-    const real rate = sqrtl(reach * Q), S = sqrtl(r->rest_a * r->rest_b);
+        r->has_b ? slope(r, y, r->b) - r->rest_a * curved : iso_latitude_m(r, y) - r->rest_a * slope(r, y, r->a);
+    const real rate = sqrtl(reach * Q);
+    if (!psi) return rate;
+    const real S = sqrtl(r->rest_a * r->rest_b);
     const real more = r->side ? r->rest_b * (slope(r, r->a, r->b) + y * curved) : slope(r, y, r->a);
     const real sum = fabsl(r->Mx) / rate + S * dn;
     *psi = sum > 0 ? r->rest_a * more / (reach * Q) / sum : 0;

@@ -9,8 +9,8 @@
  *     equator:  x = sqrt(a) cn,    between -sqrt(a) and sqrt(a)     b <= 0, or too far to matter: cn is cos
  *     side:     x = +-sqrt(a) dn,  between sqrt(b) and sqrt(a)      b > 0
  *
- * What is left, Q = P/((a - y)(y - b)), comes of divided differences f[y,a,b]: P[y,a] = (1 - y) m[y,a] - m(a) and
- * Q = m[a,b] - (1 - y) m[y,a,b], without cancellation.
+ * What is left, Q = P/((a - y)(y - b)), comes of divided differences f[y,a,b]: Q = m[y,b] - (1 - a) m[y,a,b], without
+ * cancellation (iso_latitude_rate).
  */
 #ifndef ISO_EXACT_LATITUDE_IMPL_H
 #define ISO_EXACT_LATITUDE_IMPL_H
@@ -36,8 +36,9 @@ real iso_latitude_m(const latitude *r, real y);
 /* |y0 - root| for a root of P */
 real iso_latitude_distance(const latitude *r, real root);
 
-/* dx/ds of the argument x of the elliptic functions at y = a - to_a, where dn is given; and what the longitude grows
- * by with x beyond the elementary S dn/(1 - y), S = sqrt((1 - a)(1 - b)): (M_x/(dx/ds) - S dn)/(1 - y). */
-real iso_latitude_rate(const latitude *r, real y, real to_a, real dn, real *psi);
+/* dx/ds of the argument x of the elliptic functions at y, where dn is given; and what the longitude grows by with x
+ * beyond the elementary S dn/(1 - y), S = sqrt((1 - a)(1 - b)):
+ * psi = (M_x/(dx/ds) - S dn)/(1 - y). psi may be NULL. */
+real iso_latitude_rate(const latitude *r, real y, real dn, real *psi);
 
 #endif

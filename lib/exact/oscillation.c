@@ -1,3 +1,14 @@
+/* oscillation.c - the series of one oscillation: from the elliptic functions of xi to the angle theta that grows
+ * evenly.
+ *
+ *  (1) dx/dsigma is known as a function of xi = pi x/K. So dsigma/dxi = (K/pi)/(dx/dsigma) is one too; it is even,
+ *      and its cosine series a_0 + sum a_n cos n xi is found from samples.
+ *  (2) Integrated: sigma = (K/pi) (a_0 xi + sum (a_n/n) sin n xi). With theta = omega sigma and omega = pi/(a_0 K)
+ *      this is theta = xi + sum beta_n sin n xi, beta_n = a_n/(a_0 n).
+ *  (3) The inverse xi = theta + sum gamma_n sin n theta: dxi/dtheta = 1/(1 + sum n beta_n cos n xi) is sampled at
+ *      even theta, where Newton's method finds xi; its cosine series gives n gamma_n. The series of z is found
+ *      likewise.
+ */
 #include "exact/oscillation_impl.h"
 
 #include <float.h>
@@ -12,7 +23,7 @@
 static void cosine_transform(int N, const real f[], real a[])
 {
     real cosine[2 * MOST_XI_MODES];
-    for (int i = 0; i < 2 * N; i++) cosine[i] = cosl(ISO_PI * i / N);
+    for (int i = 0; i < 2 * N; i++) cosine[i] = cosl(ISO_PI_LONG * i / N);
     for (int n = 0; n <= N; n++) {
         real sum = (f[0] + (n % 2 ? -f[N] : f[N])) / 2;
         for (int j = 1; j < N; j++) sum += f[j] * cosine[n * j % (2 * N)];
@@ -40,7 +51,7 @@ real iso_oscillation_theta(const oscillation *o, real xi)
     return xi + sine_series_l(o->beta, o->modes, xi, &unused);
 }
 
-/* A step of Newton's method from the first terms. */
+/* xi from theta: the first terms of (3), then one step of Newton's method on (2). */
 static real xi_at(const oscillation *o, real theta)
 {
     real slope;
@@ -86,7 +97,7 @@ static real z_at(const oscillation *o, real xi, real *rate)
 /* xi where theta is th, in [low, pi]: Newton's method, kept in its interval */
 static real invert(const oscillation *o, real th, real low, real *slope)
 {
-    real high = ISO_PI, xi = low, derivative;
+    real high = ISO_PI_LONG, xi = low, derivative;
     for (int i = 0; i < 100; i++) {
         const real miss = xi + sine_series_l(o->beta, o->modes, xi, &derivative) - th;
         if (miss > 0)
@@ -103,21 +114,21 @@ static real invert(const oscillation *o, real th, real low, real *slope)
     return xi;
 }
 
-/* beta and omega: sigma = integral of dx/rate */
+/* (1) and (2): beta and omega */
 static bool find_theta(oscillation *o)
 {
     real f[MOST_XI_MODES + 1], a[MOST_XI_MODES + 1];
     int N = 16;
     for (;; N *= 2) {
         for (int j = 0; j <= N; j++) {
-            z_at(o, ISO_PI * j / N, &f[j]);
+            z_at(o, ISO_PI_LONG * j / N, &f[j]);
             f[j] = 1 / f[j];
         }
         cosine_transform(N, f, a);
         if (fabsl(a[N]) + fabsl(a[N - 1]) + fabsl(a[N - 2]) <= 1e-18L * a[0]) break;
         if (N == MOST_XI_MODES) return false;
     }
-    o->omega = ISO_PI / (a[0] * o->f.K);
+    o->omega = ISO_PI_LONG / (a[0] * o->f.K);
     o->modes = 0;
     for (int n = 1; n <= N; n++) {
         o->beta[n] = a[n] / (a[0] * n);
@@ -127,16 +138,16 @@ static bool find_theta(oscillation *o)
     return true;
 }
 
-/* What terms of gamma and z add up to rounding after one more step of Newton's method. */
+/* Terms of gamma and z below this are left out: one step of Newton's method squares the error. */
 static const double FIRST = 1e-11;
 
-/* gamma and z from samples at theta = pi j/N. */
+/* (3) from samples at theta = pi j/N. Gives whether N is large enough. */
 static bool find_xi(oscillation *o, int N)
 {
     double *const slope = o->gamma, *const work = o->z, *const z = work + 2 * N; /* work, then z, in one */
     real low = 0, part, unused, most = 0;
     for (int j = 0; j <= N; j++) {
-        o->at[j] = z_at(o, low = invert(o, ISO_PI * j / N, low, &part), &unused);
+        o->at[j] = z_at(o, low = invert(o, ISO_PI_LONG * j / N, low, &part), &unused);
         slope[j] = (double)(1 / part);
         z[j] = (double)o->at[j];
     }
@@ -154,7 +165,8 @@ static bool find_xi(oscillation *o, int N)
     return enough;
 }
 
-/* sn and cn as series in theta, where few terms do and neither becomes small against rounding but at its zeros. */
+/* sn and cn directly as series in theta, where few terms are enough. Not where m1 is small: there sn or cn stays
+ * small over long times, and a series has only absolute accuracy. */
 static void find_parts(oscillation *o)
 {
     enum { MOST_SAMPLES = 256 };
@@ -162,10 +174,10 @@ static void find_parts(oscillation *o)
     const int N = 2 * o->samples;
     o->parts = 0;
     if (o->f.m1 < 1e-3L || N > MOST_SAMPLES) return;
-    for (int i = 0; i < 4 * N; i++) sine[i] = sin((double)ISO_PI * i / (2 * N));
+    for (int i = 0; i < 4 * N; i++) sine[i] = sin(ISO_PI * i / (2 * N));
     for (int j = 0; j <= N; j++) {
         real s, c, d;
-        iso_elliptic_at(&o->f, xi_at(o, ISO_PI * j / N), &s, &c, &d);
+        iso_elliptic_at(&o->f, xi_at(o, ISO_PI_LONG * j / N), &s, &c, &d);
         sn[j] = (double)s, cn[j] = (double)c;
     }
     for (int n = 0; n < MOST_PARTS && n < N; n++) {

@@ -14,8 +14,10 @@
 #include "exact/form_impl.h"
 #include "exact/latitude_impl.h"
 #include "exact/series_impl.h"
+#include "map/state.h"
 
-/* Rates that differ by more than exp(MOST_SHARP) leave no digits where they are small. */
+/* Where the rates of a clock differ by more than exp(MOST_SHARP), its series has no digits
+ * left where they are small. */
 static const real MOST_SHARP = 23;
 
 enum { LEAST_SAMPLES = 32, MOST_SAMPLES = 1 << 15, PSI = ISO_CLOCKS, SERIES };
@@ -28,13 +30,16 @@ typedef struct growing {
 } growing;
 
 typedef struct revolution {
-    int axis[3];             /* the caller's axes, right-handed; the first is x's                     */
-    bool plane;              /* a principal plane ...                                                 */
-    int across;              /* ... and the axis that stands on it                                    */
+    int axis[3]; /* the caller's axes, right-handed; the first is x's                     */
+    bool plane;  /* a principal plane ...                                                 */
+    int across;  /* ... and the axis that stands on it                                    */
+    bool even;   /* a plane on H = 0: omega is a constant ...                             */
+    double spin; /* ... and this is sqrt(J) omega = M/NN across the plane                 */
+    iso_params params;
     latitude x;
-    real det, force;         /* det J/k^2; mean of M^2 ds/dxi                                         */
+    real det, force; /* det J/k^2; mean of M^2 ds/dxi                                         */
     elliptic f;
-    real start;              /* xi at time 0, plus half a period of sn where half is -1               */
+    real start; /* xi at time 0, plus half a period of sn where half is -1               */
     int half;
     double turned[2], sense; /* exp(i longitude) of the smooth factor at time 0; of growing longitude */
     growing of[SERIES];      /* the clocks, and psi (in the sense of growing longitude)               */
@@ -42,21 +47,27 @@ typedef struct revolution {
 
 /* --- the series ------------------------------------------------------------------------------------------------- */
 
+/* y = x^2 from the elliptic functions */
+static real square_at(const revolution *r, real cn, real dn)
+{
+    return r->x.a * (r->x.side ? dn * dn : cn * cn);
+}
+
 /* y at xi, where it is even about 0 and pi, and d/dxi of the clocks and of psi */
 static real rates_at(const revolution *r, real xi, real rate[SERIES])
 {
     real sn, cn, dn;
     iso_elliptic_at(&r->f, xi, &sn, &cn, &dn);
-    const real to_a = (r->x.side ? r->x.a_b : r->x.a) * sn * sn, y = r->x.side ? r->x.a * dn * dn : r->x.a * cn * cn;
-    const real q = iso_latitude_q(&r->x, y), ds = r->f.K / ISO_PI / iso_latitude_rate(&r->x, y, to_a, dn, &rate[PSI]);
-    rate[PSI] *= r->f.K / ISO_PI;
+    const real y = square_at(r, cn, dn), q = iso_latitude_q(&r->x, y);
+    const real ds = r->f.K / ISO_PI_LONG / iso_latitude_rate(&r->x, y, dn, &rate[PSI]);
+    rate[PSI] *= r->f.K / ISO_PI_LONG;
     rate[ISO_CLOCK_S] = ds;
     rate[ISO_CLOCK_TAU] = r->det * powl(q, r->x.power) * ds;
     rate[ISO_CLOCK_T] = r->det * powl(q, r->x.power / 2 - 1) * ds;
     return y;
 }
 
-/* NaN where one is */
+/* The largest size; NaN if one of the numbers is NaN */
 static double largest_of(const double a[], int from, int to)
 {
     double most = 0;
@@ -65,7 +76,7 @@ static double largest_of(const double a[], int from, int to)
     return most;
 }
 
-/* From samples of f' in `a`. False: they are too few, or memory is. */
+/* The series of f from samples of f' in `a`. False: too few samples, or no memory. */
 static bool integrate(growing *f, double a[], int N, double work[])
 {
     iso_cosine_series(a, N, 1, work);
@@ -90,14 +101,14 @@ static void forget(revolution *r)
     }
 }
 
-/* One number of samples. */
+/* All series from N + 1 samples. False: too few samples, or no memory. */
 static bool make_series(revolution *r, int N, double *samples, double work[])
 {
     real rate[SERIES];
     forget(r);
     r->force = 0;
     for (int j = 0; j <= N; j++) {
-        const real weight = (j % N == 0 ? 0.5L : 1) / N, y = rates_at(r, ISO_PI * j / N, rate);
+        const real weight = (j % N == 0 ? 0.5L : 1) / N, y = rates_at(r, ISO_PI_LONG * j / N, rate);
         r->force += weight * rate[ISO_CLOCK_S] * iso_latitude_m(&r->x, y);
         for (int i = 0; i < SERIES; i++) {
             samples[i * (N + 1) + j] = (double)rate[i];
@@ -133,27 +144,33 @@ static real growing_at(const revolution *r, int i, real along, real *slope)
 {
     const growing *f = &r->of[i];
     double part;
-    const double series = sine_series(f->b, f->modes, (double)remainderl(r->start + along, 2 * ISO_PI), &part);
+    const double series = sine_series(f->b, f->modes, (double)remainderl(r->start + along, 2 * ISO_PI_LONG), &part);
     *slope = f->mean + part;
     return f->mean * along + (series - f->zero);
 }
 
 /* --- the state -------------------------------------------------------------------------------------------------- */
 
-/* x, dx/ds and the elementary factor of gamma_1 + i gamma_2 at xi, or (half = -1) half a period of sn later */
-static void swing_at(const revolution *r, double xi, int half, double W, double *x, double *dx, double h[2],
-                     double dh[2])
+/* x, the elementary factor h of gamma_1 + i gamma_2, and their rates in s */
+typedef struct swinging {
+    double x, dx, h[2], dh[2];
+} swinging;
+
+/* At xi, or (half = -1) half a period of sn later. The rates only if they are asked for. They come from dx/ds itself
+ * and not from the series of s: where a rate is small beside its largest value the series has lost its digits. */
+static swinging swing_at(const revolution *r, double xi, int half, bool rates)
 {
     real sn_l, cn_l, dn_l;
     iso_elliptic_at(&r->f, xi, &sn_l, &cn_l, &dn_l);
     const double sn = half * (double)sn_l, cn = half * (double)cn_l, dn = (double)dn_l;
-    const double root_a = sqrt((double)r->x.a), up = r->x.x0 < 0 ? -1 : 1;
-    *x = r->x.side ? up * root_a * dn : root_a * cn;
-    *dx = r->x.side ? -up * (double)r->x.a_b / root_a * sn * cn * W : -root_a * sn * dn * W;
-    h[0] = sqrt((double)r->x.rest_a) * cn;
-    h[1] = r->sense * sqrt((double)r->x.rest_b) * sn;
-    dh[0] = 0; /* at the pole, the only place that asks, sn = 0 */
-    dh[1] = r->sense * sqrt((double)r->x.rest_b) * cn * dn * W;
+    const double W = rates ? (double)iso_latitude_rate(&r->x, square_at(r, cn_l, dn_l), dn_l, NULL) : 0;
+    const double root_a = sqrt((double)r->x.a), up = r->x.x0 < 0 ? -1 : 1, wide = sqrt((double)r->x.rest_b);
+    return (swinging){
+        .x = r->x.side ? up * root_a * dn : root_a * cn,
+        .dx = r->x.side ? -up * (double)r->x.a_b / root_a * sn * cn * W : -root_a * sn * dn * W,
+        .h = {sqrt((double)r->x.rest_a) * cn, r->sense * wide * sn},
+        .dh = {0, r->sense * wide * cn * dn * W}, /* at the pole, the only place that asks: there sn = 0 */
+    };
 }
 
 static void turn(const double by[2], double h[2])
@@ -163,30 +180,39 @@ static void turn(const double by[2], double h[2])
     h[0] = x;
 }
 
-/* gamma' = gamma x M: with M_x the component across obeys h' = (-x x' - i M_x)/conj(h). */
-static void state_at(const revolution *r, real along, double point[ISO_STATE])
+/* M and gamma from x, h = gamma_1 + i gamma_2 and their rates. gamma' = gamma x M and (M,gamma) = 0 give
+ * M = gamma' x gamma. */
+static void put(const revolution *r, const swinging *at, double point[ISO_STATE])
 {
-    real s_rate, unused;
-    double x, dx, h[2], dh[2];
-    growing_at(r, ISO_CLOCK_S, along, &s_rate);
-    const double psi = r->sense * (double)remainderl(growing_at(r, PSI, along, &unused), 2 * ISO_PI);
-    int turns;
-    const double xi = (double)remquol(r->start + along, 2 * ISO_PI, &turns), by[2] = {cos(psi), sin(psi)};
-    swing_at(r, xi, turns % 2 == 0 ? r->half : -r->half, (double)(r->f.K / ISO_PI / s_rate), &x, &dx, h, dh);
-    turn(by, h), turn(r->turned, h);
-    turn(by, dh), turn(r->turned, dh);
-    const double rest = h[0] * h[0] + h[1] * h[1], u = -x * dx, w = -(double)r->x.Mx;
-    if (rest > 0) {
-        dh[0] = (u * h[0] - w * h[1]) / rest;
-        dh[1] = (w * h[0] + u * h[1]) / rest;
-    }
-    const double g[3] = {x, h[0], h[1]}, d[3] = {dx, dh[0], dh[1]};
+    const double g[3] = {at->x, at->h[0], at->h[1]}, d[3] = {at->dx, at->dh[0], at->dh[1]};
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3, l = (i + 2) % 3;
         const bool out = r->plane && r->axis[i] == r->across, in = r->plane && !out;
         point[r->axis[i]] = i == 0 ? (double)r->x.Mx : in ? 0 : d[j] * g[l] - d[l] * g[j];
         point[3 + r->axis[i]] = out ? 0 : g[i];
     }
+}
+
+/* gamma' = gamma x M: with M_x the component across obeys h' = (-x x' - i M_x)/conj(h). In a plane on H = 0 the ball
+ * turns evenly, and M = NN sqrt(J) omega takes no rates. */
+static void state_at(const revolution *r, real along, double point[ISO_STATE])
+{
+    real unused;
+    int turns;
+    const double psi = r->sense * (double)remainderl(growing_at(r, PSI, along, &unused), 2 * ISO_PI_LONG);
+    const double xi = (double)remquol(r->start + along, 2 * ISO_PI_LONG, &turns), by[2] = {cos(psi), sin(psi)};
+    swinging at = swing_at(r, xi, turns % 2 == 0 ? r->half : -r->half, !r->even);
+    turn(by, at.h), turn(r->turned, at.h);
+    turn(by, at.dh), turn(r->turned, at.dh);
+    const double rest = at.h[0] * at.h[0] + at.h[1] * at.h[1], u = -at.x * at.dx, w = -(double)r->x.Mx;
+    if (rest > 0) {
+        at.dh[0] = (u * at.h[0] - w * at.h[1]) / rest;
+        at.dh[1] = (w * at.h[0] + u * at.h[1]) / rest;
+    }
+    put(r, &at, point);
+    if (!r->even) return;
+    point[r->across] = r->spin;
+    iso_point_t_to_point(&r->params, point, point);
 }
 
 /* --- from a state ----------------------------------------------------------------------------------------------- */
@@ -246,6 +272,16 @@ static void take_body(revolution *r, const iso_field *f, const double point[ISO_
     r->det = J[0] * J[1] * J[2] / ((real)f->p.k * f->p.k);
 }
 
+/* In a plane on H = 0 the moving ball's energy J omega^2/2 = h is all of it: omega is a constant, and M goes like
+ * NN ~ q^(-1/(2k)). Computed from there the state's omega is that constant again to rounding, for every k; computed
+ * from gamma' it has the rounding errors of a power, 1/(2k) times as many. */
+static void take_spin(revolution *r, const iso_field *f, const double point[ISO_STATE])
+{
+    r->params = f->p;
+    r->even = r->plane && f->energy == 0;
+    if (r->even) r->spin = copysign(sqrt(2 * iso_energy(&f->p, f->eps)), point[r->across] * f->p.k);
+}
+
 /* xi at the start: P = (a - y)(y - b) Q gives what sn^2 takes of y0 */
 static void find_start(revolution *r)
 {
@@ -260,16 +296,14 @@ static void find_start(revolution *r)
 /* exp(i longitude) of the smooth factor: what gamma across the axis (at the pole, its rate) is beside the other. */
 static void find_longitude(revolution *r, const real g[3], const real d[3])
 {
-    double x, dx, h[2], dh[2];
-    real s_rate;
     for (int i = 0; i < SERIES; i++) {
         real unused;
         r->of[i].zero = (double)growing_at(r, i, 0, &unused);
     }
-    growing_at(r, ISO_CLOCK_S, 0, &s_rate);
-    swing_at(r, (double)r->start, r->half, (double)(r->f.K / ISO_PI / s_rate), &x, &dx, h, dh);
     const bool pole = g[1] == 0 && g[2] == 0;
-    const double *elementary = pole ? dh : h, y[2] = {(double)(pole ? d[1] : g[1]), (double)(pole ? d[2] : g[2])};
+    const swinging at = swing_at(r, (double)r->start, r->half, pole);
+    const double *elementary = pole ? at.dh : at.h;
+    const double y[2] = {(double)(pole ? d[1] : g[1]), (double)(pole ? d[2] : g[2])};
     r->turned[0] = elementary[0] * y[0] + elementary[1] * y[1];
     r->turned[1] = elementary[0] * y[1] - elementary[1] * y[0];
     const double length = hypot(r->turned[0], r->turned[1]);
@@ -284,6 +318,7 @@ static iso_status make(const iso_field *f, const double point[ISO_STATE], const 
     revolution *r = *data = calloc(1, sizeof *r);
     if (!r) return ISO_NO_MEMORY;
     take_body(r, f, point);
+    take_spin(r, f, point);
     r->x.Mx = take_state(r, point, g, d);
     r->sense = r->x.Mx > 0 ? -1 : 1;
     iso_latitude_range(&r->x);
@@ -350,7 +385,7 @@ static bool angles_of(const void *data, const double point[ISO_STATE], double an
     double own[ISO_STATE];
     const real Mx = take_state(&other, point, g, d);
     find_start(&other);
-    const real along = other.start - r->start + (other.half == r->half ? 0 : 2 * ISO_PI);
+    const real along = other.start - r->start + (other.half == r->half ? 0 : 2 * ISO_PI_LONG);
     const real s = growing_at(r, ISO_CLOCK_S, along, &unused) / r->of[ISO_CLOCK_S].mean;
     state_at(r, along, own);
     const double *const y = own + 3;

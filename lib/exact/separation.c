@@ -1,3 +1,24 @@
+/* separation.c - from a state to the two separate oscillations of u and v, and back to a state.
+ *
+ * The formulas, in the order in which the code needs them (b, D, A, R, c, al, be: see separation_impl.h):
+ *
+ *  (1) u and v are the two roots z of sum_i gamma_i^2/(b_i - z) = 0. Multiplied by A(z) this is a quadratic
+ *      polynomial in z; its value at z = b_i gives  gamma_i^2 = (b_i - u)(b_i - v)/((b_i - b_j)(b_i - b_l)).
+ *  (2) The same roots are the eigenvalues of the form diag(b) on the plane across gamma. For two orthogonal unit
+ *      vectors m, l across gamma:
+ *          u + v = (l,bl) + (m,bm),    v - u = |X + iY|,    X = (l,bl) - (m,bm),    Y = 2 (m,bl).
+ *  (3) R(b_j) + c follows from M and gamma by the formula in separation_impl.h, in which no large terms cancel next
+ *      to a principal plane.
+ *  (4) k = 1:   R(z) + c = c (z - al)/z, so b_j - al = b_j (R(b_j) + c)/c.
+ *  (5) k = -1:  R(z) + c = eps (z - al)(be - z). With P = M^2/(2 eps) and m along M, al and be are the eigenvalues of
+ *      diag(b) + P l l^T across gamma. So al + be = u + v + P and be - al = |X + P + iY|. The two distances b_j - al
+ *      and be - b_j then have the known sum be - al, the known product (R(b_j) + c)/eps, and the known difference
+ *      2 b_j - (al + be).
+ *  (6) Along the line on which u grows, gamma moves with a speed u', and |gamma'|^2 = M^2 = u'^2 + v'^2 in arc
+ *      length. Separation says  u'^2 = 2 |R(u) + c|/(v - u), and the same for v. Read backwards this gives the
+ *      distances from u and v to al and be with all their digits where u or v turns.
+ *  (7) Each of u and v becomes an angle by elliptic functions, see oscillation_impl.h.
+ */
 #include "exact/separation_impl.h"
 
 #include <float.h>
@@ -9,12 +30,17 @@
 enum { U, V };           /* the coordinates         */
 enum { AL = 3, BE = 4 }; /* roots beyond b1, b2, b3 */
 
-/* A state in the sorted axes. The rates of u and v are in arc length and s, so that rate^2 = 2 |R + c|/(v - u). */
+/* A state in the sorted axes, and what follows from it. */
 typedef struct moment {
-    real gamma[3], M[3], gap, z[2], from[2][3], rate[2]; /* v - u; u and v, |b_i - u| and |b_i - v|, rates */
+    real gamma[3], M[3];
+    real gap;        /* v - u                                   */
+    real z[2];       /* u and v                                 */
+    real from[2][3]; /* |b_i - u| and |b_i - v|                 */
+    real rate[2];    /* u' and v' of (6), with their signs      */
 } moment;
 
-/* x and y, the larger >= 0, of which the sum, the product and about the difference are known. */
+/* x and y from their sum, their product and, for the signs and to a few digits, their difference. The larger one is
+ * found first and the smaller one by division, so both keep all digits. */
 static void split(real sum, real product, real difference, real *x, real *y)
 {
     const real larger = (sum + fabsl(difference)) / 2, smaller = larger > 0 ? product / larger : 0;
@@ -24,7 +50,7 @@ static void split(real sum, real product, real difference, real *x, real *y)
 
 /* --- along the motion ------------------------------------------------------------------------------------------- */
 
-/* d clock/ds */
+/* d clock/ds: tau' = (det J/k^2) q^(-1/k) and t' = (det J/k^2) q^(-1 - 1/(2k)) for k = 1 and k = -1 */
 static real clock_rate(const separation *s, iso_clock clock, real q)
 {
     if (clock == ISO_CLOCK_S) return 1;
@@ -39,7 +65,9 @@ real iso_separation_rate(const separation *s, iso_clock clock, real u, real v)
     return (v - u) * clock_rate(s, clock, q);
 }
 
-/* p_z dz = z'^2/(4 A) dsigma = 2 (R + c) dsigma */
+/* (1/2 pi) times the integral of |p_z dz| over one swing. p_z = (dz/dsigma)/(4 A), so
+ * p_z dz = (dz/dsigma)^2/(4 A) dsigma = 2 (R + c) dsigma = 2 (R + c) dtheta/omega: the mean of 2 (R + c) over even
+ * samples of theta, over omega. */
 real iso_separation_action(const separation *s, const oscillation *o)
 {
     real mean = 0;
@@ -67,7 +95,7 @@ static void sort_axes(separation *s, const double J[3])
     for (int i = 0; i < 3; i++) s->norm[i] = (double)sqrtl(fabsl((b[i] - b[(i + 1) % 3]) * (b[i] - b[(i + 2) % 3])));
 }
 
-/* sum_i b_i^power x_i y_i; PAST_B2: sum_i (b_i - b2) x_i y_i */
+/* sum_i b_i^power x_i y_i for power = 1, 0, -1; for PAST_B2: sum_i (b_i - b2) x_i y_i */
 enum { PAST_B2 = 2 };
 
 static real form(const separation *s, int power, const real x[3], const real y[3])
@@ -80,8 +108,8 @@ static real form(const separation *s, int power, const real x[3], const real y[3
     return sum;
 }
 
-/* gamma and M in long double, on |gamma| = 1, (M,gamma) = 0 and, if that is the level, H = 0, sorted; M's components
- * keep the caller's sense */
+/* gamma and M in long double and in the order of b. They are put on |gamma| = 1 and (M,gamma) = 0 and, if the level
+ * is H = 0, also on that level. The signs of M's components are those of the caller's axes. */
 static void take_state(const separation *s, real energy, const double point[ISO_STATE], moment *m)
 {
     real *gamma = m->gamma, *M = m->M;
@@ -90,13 +118,13 @@ static void take_state(const separation *s, real energy, const double point[ISO_
     for (int i = 0; i < 3; i++) gamma[i] /= length;
     const real along = form(s, 0, M, gamma);
     for (int i = 0; i < 3; i++) M[i] -= along * gamma[i];
-    if (energy != 0) return; /* is what M says: it may be small beside the potential */
+    if (energy != 0) return; /* then M decides what the level is */
     const real fall = s->k == -1 ? form(s, 1, gamma, gamma) : 1 / form(s, -1, gamma, gamma);
     const real scale = sqrtl(2 * s->eps * fall / form(s, 0, M, M));
     for (int i = 0; i < 3; i++) M[i] *= scale;
 }
 
-/* Unit vectors m along M (any tangent one where M = 0) and l = m x gamma. */
+/* The unit vectors m and l = m x gamma of (2): m is along M. Where M = 0, m is any unit vector across gamma. */
 static void tangents(const moment *at, real m[3], real l[3])
 {
     const real *g = at->gamma, *M = at->M, M2 = M[0] * M[0] + M[1] * M[1] + M[2] * M[2];
@@ -110,7 +138,7 @@ static void tangents(const moment *at, real m[3], real l[3])
     for (int i = 0; i < 3; i++) l[i] = m[(i + 1) % 3] * g[(i + 2) % 3] - m[(i + 2) % 3] * g[(i + 1) % 3];
 }
 
-/* u + v - 2 b2, and v - u = |X + iY| without cancellation */
+/* (2): gives u + v - 2 b2 and sets v - u. */
 static real find_gap(const separation *s, moment *m, real *X, real *Y)
 {
     real unit[3], l[3];
@@ -121,7 +149,7 @@ static real find_gap(const separation *s, moment *m, real *X, real *Y)
     return form(s, PAST_B2, l, l) + form(s, PAST_B2, unit, unit);
 }
 
-/* R(b_j) + c, and the size of its terms */
+/* (3): R(b_j) + c, and the size of its terms */
 static real excess(const separation *s, const moment *m, int j, real *size)
 {
     const real *b = s->b, E = s->k == -1 ? s->eps : s->eps / (form(s, -1, m->gamma, m->gamma) * b[j]);
@@ -133,7 +161,9 @@ static real excess(const separation *s, const moment *m, int j, real *size)
     return x + y - g;
 }
 
-/* v - u, and al, be: at k = -1 the eigenvalues of b + (M^2/2 eps) l l^T across gamma, as u and v are those of b. */
+/* (4) and (5): v - u, c, and the distances of al and be from b1, b2, b3. With X + iY = (v - u) exp(i phi) the width
+ * be - al of (5) is |v - u + P exp(-i phi)|. A distance that is zero to rounding says that the orbit is on a
+ * separatrix. */
 static void find_roots(separation *s, moment *m)
 {
     s->unstable = -1;
@@ -156,7 +186,6 @@ static void find_roots(separation *s, moment *m)
             s->to_be[j] = INFINITY;
             continue;
         }
-        /* (b_j - al)(be - b_j) = kappa/eps */
         const real difference = 2 * s->off[j] - sum - P;
         split(s->width, kappa / s->eps, difference, &s->to_al[j], &s->to_be[j]);
         if (j == 2 && zero && difference > 0) s->unstable = s->axis[2];
@@ -178,8 +207,16 @@ static void rates(const separation *s, const real y[6], real dy[6])
     }
 }
 
-/* Where u and v are nearly one, al and the rates have lost their digits: a little further on they have them. By Runge
- * and Kutta's method in steps that leave no error, once for an orbit. */
+/* Where u and v are nearly equal (gamma is next to an umbilic) the directions of u and v, and with them u', v' and
+ * al, have lost their digits. A little further on they have them. So the start is carried on for a short time, once
+ * for an orbit, by the classical Runge-Kutta method of order 4 in STEPS steps. The error of the method is h^5 for a
+ * step and about (0.2/STEPS)^4 < 1e-17 in all.
+ *
+ * Why not a method of the library or of GSL: all of them take and give doubles, `taylor_extended` as well. The state
+ * has to stay in long double here. Measured, J = (1, 2, 3), gamma2 = 1e-6 from an umbilic, within 15 radians: error
+ * of the states against `taylor_extended` 1.2e-15 (k = -1) and 1.1e-15 (k = 1) as it is; 9.4e-15 and 5.6e-15 if the
+ * state is rounded to double after this function, which is the best that such a method can do. These steps take less
+ * than half of the set-up (4.8 ms) of these few orbits. */
 static void carry_on(separation *s, moment *m)
 {
     enum { STEPS = 4000 };
@@ -188,7 +225,7 @@ static void carry_on(separation *s, moment *m)
     real force[6], speed = sqrtl(form(s, 0, m->M, m->M));
     for (int i = 0; i < 3; i++) y[i] = m->M[i], y[3 + i] = m->gamma[i];
     rates(s, y, force);
-    speed += sqrtl(sqrtl(form(s, 0, force, force))); /* from rest it is the force that moves it */
+    speed += sqrtl(sqrtl(form(s, 0, force, force))); /* if M = 0, the force alone moves gamma */
     const real h = 0.2L / speed / STEPS;
     for (int n = 0; n < STEPS; n++) {
         real sum[6] = {0};
@@ -207,7 +244,9 @@ static void carry_on(separation *s, moment *m)
 
 /* --- from a state: the oscillations ----------------------------------------------------------------------------- */
 
-/* u and v: (u - b1)(v - b1) = gamma1^2 (b2-b1)(b3-b1), and so on; their rates along e_z,i ~ -gamma_i/(b_i - z). */
+/* u and v, their distances from b1, b2, b3 by (1), and u', v'. The coordinate line of z has the direction
+ * e_z,i = +-gamma_i/(b_i - z), made a unit vector by (1): e_u,i = +-sqrt(|b_i - v| prod_{j != i} |b_j - u|/((v - u)
+ * |b_i - b_j| |b_i - b_l|)), likewise e_v. Then z' = (gamma', e_z) with gamma' = gamma x M. */
 static void find_coordinates(const separation *s, moment *m)
 {
     const real *b = s->off, *g = m->gamma, *M = m->M, gap = m->gap;
@@ -227,7 +266,7 @@ static void find_coordinates(const separation *s, moment *m)
     }
 }
 
-/* Root j less root i */
+/* Root j minus root i */
 static real between(const separation *s, int i, int j)
 {
     if (i < 3 && j < 3) return s->off[j] - s->off[i];
@@ -235,7 +274,8 @@ static real between(const separation *s, int i, int j)
     return j < 3 ? -between(s, j, i) : j == i ? 0 : j == BE ? s->width : -s->width;
 }
 
-/* Roots that are none of these lie beyond cn's or beyond dn's: their distance from cn's is what is kept. */
+/* Which root belongs to sn, cn, dn and the base of an oscillation. A root that has none of these roles lies beyond
+ * the root of cn or beyond that of dn; of it the distance from the root of cn is kept. */
 static void give_roles(separation *s, int which, int sn, int cn, int dn, int base)
 {
     const oscillation *o = &s->coordinate[which];
@@ -253,7 +293,8 @@ static void give_roles(separation *s, int which, int sn, int cn, int dn, int bas
 
 enum { OUTSIDE = -1 }; /* 0 or infinity */
 
-/* Among roots b > c > d, u in [d, c], and infinity (k = -1) or 0 (k = 1):
+/* The oscillation of u (7). It moves in [d, c], the next root above is b, and the base is infinity (k = -1) or 0
+ * (k = 1):
  *     sn^2 = (u-d)/(c-d) times {1 | c/u},    1-m = (b-c)/(b-d) times {1 | d/c} */
 static real make_lower(separation *s, int a, int b, int c, int d, int e)
 {
@@ -271,7 +312,8 @@ static real make_lower(separation *s, int a, int b, int c, int d, int e)
     return between(s, c, b) / bd * o->left;
 }
 
-/* Among roots a > b > c, v in [b, a], and e > a (k = -1) or infinity (k = 1):
+/* The oscillation of v (7). It moves in [b, a], the next root below is c, and the base is e > a (k = -1) or infinity
+ * (k = 1):
  *     sn^2 = (a-v)/(a-b) times {(e-b)/(e-v) | 1},    1-m = (b-c)/(a-c) times {(e-a)/(e-b) | 1} */
 static real make_upper(separation *s, int a, int b, int c, int d, int e)
 {
@@ -291,7 +333,7 @@ static real make_upper(separation *s, int a, int b, int c, int d, int e)
     return between(s, c, b) / ac * o->left;
 }
 
-/* How far u is below al, v above al, and v below be: 2 (R + c) = rate^2 (v - u). */
+/* The distances al - u, v - al and be - v from (6): |R(z) + c| = z'^2 (v - u)/2, and (4) or (5) for R + c. */
 static void find_distances(const separation *s, const moment *m, real *al_u, real *v_al, real *be_v)
 {
     const real power_u = m->rate[U] * m->rate[U] * m->gap / 2, power_v = m->rate[V] * m->rate[V] * m->gap / 2;
@@ -309,7 +351,7 @@ static void find_distances(const separation *s, const moment *m, real *al_u, rea
         split(s->width, power_v / s->eps, 2 * m->from[V][1] + s->to_al[1] - s->to_be[1], v_al, be_v);
 }
 
-/* theta where the distances to the roots of sn and cn are these, with the signs of sn and cn */
+/* theta from the distances to the roots of sn and of cn, and from the signs of sn and cn */
 static real angle(const oscillation *o, real to_sn, real to_cn, int sn, int cn)
 {
     if (!(o->span > 0)) return 0;
@@ -317,7 +359,9 @@ static real angle(const oscillation *o, real to_sn, real to_cn, int sn, int cn)
     return iso_oscillation_theta(o, xi);
 }
 
-/* gamma1 ~ sn_u always; gamma2 ~ dn_u cn_v or cn_u dn_v; gamma3 ~ sn_v, unless it keeps its side. */
+/* The angles of u and v, and the signs that the components of gamma keep. From (1), gamma_i is a product of a factor
+ * of u and one of v: gamma1 goes like sn_u; gamma2 like dn_u cn_v (u librates) or cn_u dn_v (v does); gamma3 like
+ * sn_v, or it keeps its sign (be < b3). So the signs of gamma and of u', v' are the signs of sn and cn. */
 static void find_angles(const separation *s, const moment *m, real theta[2], double sign[3])
 {
     int side[3], rising[2];
@@ -392,8 +436,8 @@ bool iso_separation_angles(const separation *s, const double point[ISO_STATE], r
 
 /* --- to a state ------------------------------------------------------------------------------------------------- */
 
-/* Square roots of the distances from a coordinate to all roots, with the signs that make them smooth (ROOT_NONE: 1
- * over that of z), and the distance to its root of cn. */
+/* The square roots r of the distances from a coordinate to all roots, with the signs with which they are smooth
+ * functions of theta. (ROOT_NONE: 1/sqrt(z).) Returns the distance to the root of cn. */
 static double roots_at(const separation *s, int which, real theta, double root[SEPARATION_ROOTS])
 {
     const oscillation *o = &s->coordinate[which];
@@ -411,7 +455,10 @@ static double roots_at(const separation *s, int which, real theta, double root[S
     return to_cn;
 }
 
-/* gamma_i = +-r_u,i r_v,i/norm_i and its rate: (r^2)' = +-z', and z' = +-sqrt(8 lead) times all r */
+/* By (1) gamma_i = +-r_u,i r_v,i/norm_i. Its rate: r^2 is a distance to z, so 2 r r' = +-dz/ds, and by (2) of
+ * separation_impl.h dz/dsigma is sqrt(8 c) (k = 1) or sqrt(8 eps) (k = -1) times the product of all r. Then r_i' is
+ * half of that constant times the product of the other r: nothing is divided. gamma' = gamma x M and (M,gamma) = 0
+ * give M = gamma' x gamma, which is taken in the caller's axes. */
 void iso_separation_state(const separation *s, const real theta[2], double point[ISO_STATE])
 {
     double ru[SEPARATION_ROOTS], rv[SEPARATION_ROOTS], x[3], y[3];

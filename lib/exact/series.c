@@ -1,3 +1,4 @@
+/* series.c - cosine series by a fast Fourier transform. */
 #include "exact/series_impl.h"
 
 #include <gsl/gsl_fft_real.h>

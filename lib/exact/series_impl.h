@@ -11,7 +11,7 @@
  * x[j stride]. `work` has room for 2 N numbers. */
 void iso_cosine_series(double x[], int N, int stride, double work[]);
 
-enum { ABREAST = 4 }; /* steps of a recurrence that do not wait for each other */
+enum { ABREAST = 4 }; /* so many steps of a recurrence are taken side by side: they do not wait for each other */
 
 /* cos (first + n step) and sin (first + n step) for n < last, and up to ABREAST more. */
 static inline void set_multiples(double first, double step, int last, double cosine[], double sine[])

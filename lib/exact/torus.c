@@ -1,4 +1,19 @@
-/* torus.c - the separated form: both oscillations side by side, and the clocks on their torus. */
+/* torus.c - the separated form: the two oscillations of u and v side by side, and the clocks t, tau, s.
+ *
+ *  (1) The angles grow evenly: theta_u = start_u + omega_u sigma, theta_v = start_v + omega_v sigma. The state is a
+ *      function of the two angles.
+ *  (2) The rate d clock/dsigma is a function of u and v (iso_separation_rate), so it is even in each angle:
+ *          d clock/dsigma = sum_mn d_mn cos m theta_u cos n theta_v.
+ *      Its coefficients d_mn come from samples on a grid of both angles (two cosine transforms). They fall like a
+ *      geometric series, because the rate is a smooth periodic function.
+ *  (3) cos m theta_u cos n theta_v = (cos(m theta_u + n theta_v) + cos(m theta_u - n theta_v))/2. Integrated in sigma
+ *      each cosine becomes a sine, divided by m omega_u + n omega_v or m omega_u - n omega_v. Put back as products:
+ *          clock = d_00 sigma + sum_mn [ (P + Q) sin m theta_u cos n theta_v + (P - Q) cos m theta_u sin n theta_v ],
+ *          P = d_mn/(2 (m omega_u + n omega_v)),    Q = d_mn/(2 (m omega_u - n omega_v)),
+ *      less the value of the sum at sigma = 0.
+ *  (4) The place at which a clock shows a given time is found by Newton's method. Clocks only go forwards, so there
+ *      is one such place, and it lies within (range of the sum)/d_00 of time/d_00.
+ */
 #include <math.h>
 #include <stdlib.h>
 
@@ -6,32 +21,33 @@
 #include "exact/separation_impl.h"
 #include "exact/series_impl.h"
 
-/* A clock on the torus: d clock/d sigma = mean + sum_mn d_mn cos m theta_u cos n theta_v, integrated term by term:
- *     clock = mean sigma + sum_mn [ at_sine[m][n] sin m theta_u cos n theta_v
- *                                   + at_cosine[m][n] cos m theta_u sin n theta_v ]
- * less its value at sigma = 0. Rows are kept ABREAST, in blocks of equal length[block]. */
+/* A clock (3): mean = d_00, at_sine[m][n] = P + Q, at_cosine[m][n] = P - Q. The tables have a row for each m. ABREAST
+ * rows make a block; the rows of a block have the same length. */
 typedef struct torus_clock {
     real mean;
-    int blocks, columns, *length; /* the longest row has `columns` */
-    int few;                      /* terms m, n < few are the clock but for LITTLE of its range */
-    double *at_sine, *at_cosine, zero, range;
+    int blocks, columns, *length; /* length[block]; `columns` is the largest of them                */
+    int few;                      /* terms with m, n < few give the clock to LITTLE of its range    */
+    double *at_sine, *at_cosine;
+    double zero;  /* the sum at sigma = 0, less what the clock shows there          */
+    double range; /* the sum of the sizes of all terms                              */
 } torus_clock;
 
 typedef struct torus {
     separation s;
-    int rows, columns; /* of what angles keep: sines and cosines of m theta_u, n theta_v */
+    int rows, columns; /* how many multiples of theta_u and of theta_v are needed at most */
     torus_clock clock[ISO_CLOCKS];
 } torus;
 
 /* --- set-up ----------------------------------------------------------------------------------------------------- */
 
-/* What of a coefficient is above the rounding of its transform, and a difference of frequencies above theirs. */
+/* Coefficients below LEAST d_00 are rounding errors of the transform. Differences |m omega_u - n omega_v| below
+ * RESONANT times the sum of both are zero. The first terms, for a first guess, are good to LITTLE. */
 static const double LEAST = 4e-17, RESONANT = 1e-15, LITTLE = 1e-6;
 
 enum { MOST_TERMS = 1 << 23 };
 
-/* d_mn into the two tables of the integral: sin(m theta_u +- n theta_v)/(m omega_u +- n omega_v), each with d_mn/2.
- * Where the frequencies are in the ratio n : m, m theta_u - n theta_v stays what it is. */
+/* (3): the term d_mn of the rate, into the two tables. Where m omega_u = n omega_v, the angle m theta_u - n theta_v
+ * is a constant: its cosine belongs to the mean rate. */
 static void integrate_term(const separation *s, torus_clock *c, int m, int n, double d, size_t to)
 {
     const oscillation *u = &s->coordinate[0], *v = &s->coordinate[1];
@@ -44,6 +60,7 @@ static void integrate_term(const separation *s, torus_clock *c, int m, int n, do
     c->range += fabs(of_sum) + fabs(of_gap);
 }
 
+/* The least multiple of ABREAST beyond which all terms are small. */
 static void find_few(torus_clock *c)
 {
     size_t at = 0;
@@ -54,7 +71,7 @@ static void find_few(torus_clock *c)
                 c->few += ABREAST;
 }
 
-/* d[m][n], m <= M, n <= N */
+/* (3) for all d[m][n], m <= M, n <= N. False: no memory. */
 static bool integrate(const separation *s, torus_clock *c, const double d[], int M, int N)
 {
     const double least = LEAST * (double)c->mean;
@@ -81,7 +98,8 @@ static bool integrate(const separation *s, torus_clock *c, const double d[], int
     return true;
 }
 
-/* Whether the last terms of d[m][n] in m, and in n, are the rounding of a rate that gets as large as `most`. */
+/* enough[0]: whether the last eighth of the terms in m is as small as the rounding errors of a rate of size `most`;
+ * enough[1]: the same in n. If not, the grid of (2) is too coarse. */
 static void see_tails(const double d[], int M, int N, double most, bool enough[2])
 {
     enough[0] = enough[1] = true;
@@ -93,7 +111,7 @@ static void see_tails(const double d[], int M, int N, double most, bool enough[2
         }
 }
 
-/* From the samples of u and v; enough: whether there are. */
+/* (2) and (3) from the samples that u and v have; enough: whether these are enough, of u and of v. */
 static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *c, bool enough[2])
 {
     const oscillation *u = &s->coordinate[0], *v = &s->coordinate[1];
@@ -125,7 +143,7 @@ static iso_status why_not(const separation *s)
     return s->coordinate[0].no_memory || s->coordinate[1].no_memory ? ISO_NO_MEMORY : ISO_NUMERICAL;
 }
 
-/* With more samples where a clock is sharper than u and v. */
+/* Makes a clock. The samples that resolve u and v may be too few for its rate: then they are doubled. */
 static iso_status resolve_clock(separation *s, iso_clock clock, torus_clock *c)
 {
     for (;;) {
@@ -142,13 +160,13 @@ static iso_status resolve_clock(separation *s, iso_clock clock, torus_clock *c)
 enum { SMALL = 2048 };
 
 typedef struct angles {
-    real sigma, theta[2];        /* of u and v, within a turn and back */
-    double *sine[2], *cosine[2]; /* of their multiples                 */
-    double *of_sine, *of_cosine; /* sums over those of theta_u         */
+    real sigma, theta[2];        /* theta_u, theta_v, in [-2 pi, 2 pi]      */
+    double *sine[2], *cosine[2]; /* of m theta_u, of n theta_v              */
+    double *of_sine, *of_cosine; /* for each n: the sums of (3) over m      */
     double *heap, small[SMALL];
 } angles;
 
-/* Room for what a clock may need: seldom more than `small`. False: no memory. */
+/* Room for all multiples and sums; seldom more than `small`, then from the heap. False: no memory. */
 static bool open_angles(const torus *x, angles *a)
 {
     const size_t rows = (size_t)x->rows + 2 * ABREAST, columns = (size_t)x->columns + 2 * ABREAST;
@@ -170,19 +188,20 @@ static void close_angles(angles *a)
     free(a->heap);
 }
 
-/* With multiples of them below `most`, as far as they are needed. */
+/* The angles at sigma, (1), and the sines and cosines of their multiples below `most`. */
 static void set_angles(const torus *x, real sigma, int most, angles *a)
 {
     a->sigma = sigma;
     for (int i = 0; i < 2; i++) {
         const oscillation *o = &x->s.coordinate[i];
         const int last = i == 0 ? x->rows : x->columns;
-        a->theta[i] = less_turns(o->start + o->omega * sigma, 4 * ISO_PI);
+        a->theta[i] = less_turns(o->start + o->omega * sigma, 4 * ISO_PI_LONG);
         set_multiples(0, (double)a->theta[i], last < most ? last : most, a->cosine[i], a->sine[i]);
     }
 }
 
-/* The first `blocks` of rows, n < most: sums over m first, which can be taken side by side. */
+/* The clock by the first `blocks` blocks of rows and n < most. The sums over m come first: there the terms for
+ * different n do not wait for each other. */
 static real clock_at(const torus_clock *c, int blocks, int most, const angles *a)
 {
     double *const of_sine = a->of_sine, *const of_cosine = a->of_cosine, sum = 0;
@@ -204,7 +223,7 @@ static real clock_at(const torus_clock *c, int blocks, int most, const angles *a
 
 enum { ALL = MOST_MODES + 1 };
 
-/* u and v about a place: values and two derivatives in sigma. */
+/* u and v at a place, and their first and second derivative in sigma. */
 typedef struct local {
     real z[2], rate[2], bend[2];
 } local;
@@ -224,6 +243,7 @@ static void look_around(const torus *x, int most, const angles *a, local *l)
     }
 }
 
+/* d clock/dsigma a short step further on, u and v by their Taylor polynomials */
 static real rate_at(const torus *x, iso_clock clock, const local *l, real step)
 {
     real z[2];
@@ -231,8 +251,8 @@ static real rate_at(const torus *x, iso_clock clock, const local *l, real step)
     return iso_separation_rate(&x->s, clock, z[0], z[1]);
 }
 
-/* What a clock goes by over a short step, by Simpson's rule, over its length; and how far this can be wrong: in a
- * smooth rate by the fourth power of how much it changes. */
+/* The mean rate of a clock over a short step, by Simpson's rule; *error: how wrong it may be, relatively. The rule is
+ * exact for polynomials of degree 3, so for a smooth rate that changes by a part e its error is about e^4. */
 static real simpson(const torus *x, iso_clock clock, const local *l, real step, real *error)
 {
     const real first = rate_at(x, clock, l, 0), middle = rate_at(x, clock, l, step / 2),
@@ -242,7 +262,7 @@ static real simpson(const torus *x, iso_clock clock, const local *l, real step, 
     return (first + 4 * middle + last) / 6;
 }
 
-/* Where the first terms of a clock show the time: Newton's method, a few steps. */
+/* A first guess for (4): a few steps of Newton's method with the first terms only. */
 static real near(const torus *x, iso_clock clock, real time, angles *a)
 {
     const torus_clock *c = &x->clock[clock];
@@ -260,8 +280,9 @@ static real near(const torus *x, iso_clock clock, real time, angles *a)
     return sigma;
 }
 
-/* Newton's method between bounds, as clocks only go forwards, from a->sigma on to the place where Simpson's rule over
- * the last step, which is not taken but given, leaves nothing. */
+/* (4) from a->sigma on. The place sought lies between `low` and `high`, which come closer; a step that leaves them,
+ * and each eighth step, is replaced by the middle. The last step is not taken, that is the sum (3) is not evaluated
+ * again: it is (time missing)/(mean rate over the step), the mean rate by Simpson's rule. Returns that step. */
 static real approach(const torus *x, iso_clock clock, real time, angles *a)
 {
     const torus_clock *c = &x->clock[clock];
@@ -301,7 +322,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
     }
     a.sigma = isnan(p->along) ? near(x, clock, time, &a) : p->along;
     const real step = approach(x, clock, time, &a);
-    for (int i = 0; i < 2; i++) theta[i] = less_turns(a.theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI);
+    for (int i = 0; i < 2; i++) theta[i] = less_turns(a.theta[i] + x->s.coordinate[i].omega * step, 4 * ISO_PI_LONG);
     p->along = a.sigma + step;
     for (int k = 0; k < ISO_CLOCKS; k++) others = others || (k != (int)clock && x->clock[k].mean > 0);
     if (others) set_angles(x, p->along, ALL, &a);
@@ -367,8 +388,9 @@ static real mean_rate(const void *data, iso_clock clock)
     return ((const torus *)data)->clock[clock].mean;
 }
 
-/* After how many swings of a coordinate the state returns: one of v where gamma3 keeps its side and gamma2 does not
- * swing with it, else two. */
+/* After how many swings of a coordinate the state returns. It is two, because gamma goes like sn and cn, which change
+ * sign after one swing. It is one for v where neither gamma3 (be < b3) nor gamma2 (v librates) goes like sn_v or
+ * cn_v. */
 static int swings_of(const separation *s, int coordinate)
 {
     return coordinate == 1 && s->below_b3 && !s->librates_low ? 1 : 2;
@@ -387,7 +409,7 @@ static void point_of(const void *data, const double angle[2], double point[ISO_S
 {
     const separation *s = &((const torus *)data)->s;
     real theta[2];
-    for (int i = 0; i < 2; i++) theta[i] = remainderl((real)angle[i] * swings_of(s, i), 4 * ISO_PI);
+    for (int i = 0; i < 2; i++) theta[i] = remainderl((real)angle[i] * swings_of(s, i), 4 * ISO_PI_LONG);
     iso_separation_state(s, theta, point);
 }
 

@@ -13,6 +13,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/pi_impl.h"
 #include "io/gnuplot_impl.h"
 #include "io/plot_impl.h"
 
@@ -133,7 +134,7 @@ static void put_end(FILE *f, const double v[3], const char *type)
 
 static void put_graticule(FILE *f, bool near)
 {
-    const double degree = 3.14159265358979323846 / 180;
+    const double degree = ISO_PI / 180;
     begin_block(f, "grid", near);
     for (int circle = 0; circle < 11; circle++) { /* 6 meridians, 5 parallels, 30 degrees apart */
         const double angle0 = (circle < 6 ? circle : circle - 8) * 30 * degree;

@@ -2,6 +2,7 @@
 #ifndef ISO_METHOD_INTEGRATOR_IMPL_H
 #define ISO_METHOD_INTEGRATOR_IMPL_H
 
+#include "base/sum_impl.h"
 #include "method/method.h"
 
 typedef struct iso_leaper iso_leaper;
@@ -11,12 +12,12 @@ typedef struct iso_instant {
     double head, tail;
 } iso_instant;
 
-/* a + h without rounding (Knuth's two-sum), renormalised */
+/* a + h without rounding, renormalised */
 static inline iso_instant iso_instant_later(iso_instant a, double h)
 {
-    const double sum = a.head + h, part = sum - a.head;
-    const double tail = a.tail + ((a.head - (sum - part)) + (h - part));
-    const double head = sum + tail;
+    double lost;
+    const double sum = iso_two_sum(a.head, h, &lost);
+    const double tail = a.tail + lost, head = sum + tail;
     return (iso_instant){head, tail - (head - sum)};
 }
 

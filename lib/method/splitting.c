@@ -21,6 +21,7 @@
 #include <string.h>
 
 #include "base/finite_impl.h"
+#include "base/sum_impl.h"
 #include "base/vec3_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
@@ -114,12 +115,10 @@ typedef struct splitting {
     int until_restored;              /* steps                                                 */
 } splitting;
 
-/* *sum + *rest + x without rounding, but for the last bits of the rest (Knuth's two-sum) */
+/* *sum + *rest + x without rounding, but for the last bits of the rest */
 static inline void add(double *sum, double *rest, double x)
 {
-    const double more = x + *rest, total = *sum + more, part = total - *sum;
-    *rest = (*sum - (total - part)) + (more - part);
-    *sum = total;
+    *sum = iso_two_sum(*sum, x + *rest, rest);
 }
 
 static inline void add3(double sum[3], double rest[3], const double x[3])

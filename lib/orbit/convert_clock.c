@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "base/sum_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/convert_impl.h"
 
@@ -137,7 +138,8 @@ static iso_status write_first(iso_conversion *c)
 /* The row follows the last one, and becomes it. */
 static iso_status accept(iso_conversion *c, const conversion_row *row, const iso_gap *gap, bool by_steps)
 {
-    const double there = gap->gained[c->other], next = c->sum + there, step = row->time - c->last.time;
+    const double there = gap->gained[c->other], step = row->time - c->last.time;
+    double lost;
     iso_conversion_summary *s = &c->summary;
     if (c->trouble != ISO_OK) return c->trouble;
     if (c->unwritten) {
@@ -150,8 +152,8 @@ static iso_status accept(iso_conversion *c, const conversion_row *row, const iso
     add_drift(c, row, gap);
     c->typical = 0.9 * c->typical + 0.1 * fmin(gap->defect, unusual(c)); /* a large one must not hide the next */
     if (c->direction == 0 && step != 0) c->direction = step > 0 ? 1 : -1;
-    c->lost += fabs(c->sum) >= fabs(there) ? (c->sum - next) + there : (there - next) + c->sum;
-    c->sum = next;
+    c->sum = iso_two_sum(c->sum, there, &lost);
+    c->lost += lost;
     s->error += gap->error[c->other] + sensitivity(c) * gap->defect * fabs(there);
     c->last = *row;
     if (s->computed) {

@@ -51,7 +51,7 @@ struct iso_conversion {
     double direction, typical;       /* of time; size of defects                                   */
     double drift[ISO_STATE], late, moved;  /* see iso_conversion_summary.drift                            */
     double gained;                   /* by the other clock meanwhile                                */
-    double sum, lost;                /* the other clock, compensated (Neumaier)                     */
+    double sum, lost;                /* the other clock, and what its roundings lost               */
     iso_status first_failure;
     char *first_words;
     iso_conversion_summary summary;

@@ -1,7 +1,8 @@
 /* exact_method.c - the closed solution as a method: the state at any time, without steps.
  *
- * It stands here and not in the registry: methods do not know of closed solutions, and it is no integrator to be
- * chosen but a backend. Only a search for events goes along the orbit, in parts in which the state changes by half its size.
+ * It stands here and not in the registry of methods for two reasons: methods stand below the closed solutions in the
+ * library, and a user chooses it as a backend. Only a search for events follows the orbit step by step; in a step the
+ * state changes by half its size.
  */
 #include <math.h>
 
@@ -12,7 +13,7 @@
 
 static iso_status create(iso_integrator *it)
 {
-    it->data = NULL; /* it takes the state at the start to make one */
+    it->data = NULL; /* it is made from the state at the start, see start() */
     return ISO_OK;
 }
 
@@ -54,7 +55,7 @@ static iso_status within(iso_integrator *it, double dt, double y[])
     return at(it, it->left.head + (it->left.tail + dt), y);
 }
 
-/* From t on until the state has changed by half its size, at this rate. */
+/* The state after the time in which, at this rate, it changes by half its size. */
 static iso_status part_of_change(iso_integrator *it, double t, double rate, double y[], double *h)
 {
     const double next = t + it->direction * (rate > 0 ? 0.5 / rate : 1);
@@ -62,7 +63,7 @@ static iso_status part_of_change(iso_integrator *it, double t, double rate, doub
     return at(it, next, y);
 }
 
-/* Short also where the state changes faster at the step's end than at its beginning. */
+/* The step is shortened where the state changes more than twice as fast at the step's end as at its beginning. */
 static iso_status step(iso_integrator *it, double y[], double *h)
 {
     const double t = iso_instant_later(it->left, it->h).head, here = iso_integrator_rate(it, y);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "study/analogue_impl.h"
@@ -313,7 +314,7 @@ double iso_analogue_start(const iso_analogue *a, double point[ISO_STATE])
     make_unit(M);
     remove_along(M, gamma); /* the first time left a rounding error */
     scale(M, sqrt(2 * fmax(p->energy - potential(p, gamma), 0)));
-    return 20 * acos(-1) / sqrt(2 * most);
+    return 20 * ISO_PI / sqrt(2 * most);
 }
 
 /* Maps the point to the ball by (18), in own units: there its powers are of order one. */

@@ -8,7 +8,7 @@
 
 iso_status iso_basis_lines(iso_context *ctx, const series *s, size_t first, size_t count, int most, lines *l)
 {
-    l->resolution = ISO_TWO_PI / ((double)count * s->step);
+    l->resolution = 2 * ISO_PI / ((double)count * s->step);
     iso_status status = iso_spectrum_find(ctx, s->pair + 2 * first, count, s->step, most, l->line[0], &l->count[0]);
     if (status != ISO_OK) return status;
     return iso_spectrum_find(ctx, s->third + 2 * first, count, s->step, most, l->line[1], &l->count[1]);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/pi_impl.h"
 #include "study/cost_impl.h"
 
 /* How the time is divided: references; of the rest, a cell is run about RUNS times at least. */
@@ -267,7 +268,7 @@ static double count_turns(const measurer *m)
         mean += hypot(hypot(x, y), z) / t->reached;
     }
     const double end = m->p.clock == ISO_CLOCK_T ? m->p.end : t->row[t->reached - 1].clock;
-    return fabs(m->p.scene->params.k * mean * end) / (2 * acos(-1));
+    return fabs(m->p.scene->params.k * mean * end) / (2 * ISO_PI);
 }
 
 static iso_status find_reference(measurer *m)

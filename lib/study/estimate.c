@@ -112,7 +112,7 @@ static double slowest_beat(const basis *b, double length)
         for (int n = 0; n <= 3; n++)
             if (b->angles == 2 && (m != 0 || n != 0))
                 least = fmin(least, fabs(m * b->frequency[0] + n * b->frequency[1]));
-    return least * length / 2 / ISO_TWO_PI;
+    return least * length / 2 / (2 * ISO_PI);
 }
 
 /* The frequencies of a regular motion are found by far the better, the longer the orbit, once it has a dozen beats;
@@ -171,7 +171,7 @@ static iso_status estimate_in_t(estimator *e, const series *s, basis *b)
     }
     out->length = e->end[ISO_CLOCK_T];
     out->samples = s->count;
-    out->turns = b->angles > 0 ? fabs(b->frequency[0]) * out->length / ISO_TWO_PI : 0;
+    out->turns = b->angles > 0 ? fabs(b->frequency[0]) * out->length / (2 * ISO_PI) : 0;
     out->verdict = judge(out, b, f->integral != NULL);
     name_lines(f, &l);
     return status;
@@ -262,8 +262,8 @@ static iso_status check_effects(iso_context *ctx, const iso_orbit *orbit)
 /* n turns at the rate |k omega|; but where |k| is small omega itself turns faster, at about its own size. */
 static iso_status choose_length(estimator *e, double speed, const iso_frequencies_options *o)
 {
-    const double k = fabs(e->scene->params.k), turn = ISO_TWO_PI / (k * speed),
-                 fast = fmax(k, 1) * speed / ISO_TWO_PI;
+    const double k = fabs(e->scene->params.k), turn = 2 * ISO_PI / (k * speed),
+                 fast = fmax(k, 1) * speed / (2 * ISO_PI);
     const double turns = isnan(o->turns) ? 1000 * fmin(fmax(4 * k, 0.05), 1) : o->turns;
     const double length = e->end[ISO_CLOCK_T] = isnan(o->end) ? turns * turn : o->end;
     if (!(length >= LEAST_TURNS * turn * (1 - ROUNDING)))

@@ -37,7 +37,7 @@ static iso_resonance resonance_of(const iso_frequencies *f, int p, int q)
                      gap = fabs(one - other);
         const double errors = p * f->angle[0].error[c] + q * f->angle[1].error[c];
         const bool met = gap <= 1e-14 * one + (f->estimated ? errors : 0);
-        r.beat[c] = isnan(gap) ? NAN : met ? INFINITY : ISO_TWO_PI / gap;
+        r.beat[c] = isnan(gap) ? NAN : met ? INFINITY : 2 * ISO_PI / gap;
         if (isnan(gap)) continue;
         r.gap = fmin(r.gap, gap / one);
         r.met = r.met && met;
@@ -71,7 +71,7 @@ static void find_closed(iso_frequencies *f)
 void iso_frequencies_finish(iso_frequencies *f)
 {
     for (int i = 0; i < f->angles; i++)
-        for (int c = 0; c < ISO_CLOCKS; c++) f->angle[i].period[c] = ISO_TWO_PI / f->angle[i].frequency[c];
+        for (int c = 0; c < ISO_CLOCKS; c++) f->angle[i].period[c] = 2 * ISO_PI / f->angle[i].frequency[c];
     const bool steady = !f->estimated || f->estimate.verdict != ISO_CHAOTIC;
     if (f->angles == 2 && steady) {
         f->rotation = f->angle[0].frequency[ISO_CLOCK_T] / f->angle[1].frequency[ISO_CLOCK_T];

@@ -2,9 +2,8 @@
 #ifndef ISO_STUDY_FREQUENCIES_IMPL_H
 #define ISO_STUDY_FREQUENCIES_IMPL_H
 
+#include "base/pi_impl.h"
 #include "study/frequencies.h"
-
-#define ISO_TWO_PI 6.283185307179586476925
 
 /* Errors: ISO_BAD_ARGUMENT. */
 iso_status iso_frequencies_check(iso_context *ctx, const iso_frequencies_options *options);

@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/pi_impl.h"
 
-#define PI 3.14159265358979323846
 static const double LEAST = 1e-14; /* amplitudes that count, relative to the largest */
 
 enum {
@@ -91,8 +91,8 @@ static double refine(const analysis *z, const double x[], double s)
         fourier(z, x, s, phi);
         const double slope = creal(conj(phi[0]) * phi[1]);
         const double bend = creal(conj(phi[1]) * phi[1] + conj(phi[0]) * phi[2]);
-        const double step = bend < 0 ? -slope / bend : copysign(PI / 4, slope);
-        const double next = fmin(fmax(s + step, begin - 2 * PI), begin + 2 * PI);
+        const double step = bend < 0 ? -slope / bend : copysign(ISO_PI / 4, slope);
+        const double next = fmin(fmax(s + step, begin - 2 * ISO_PI), begin + 2 * ISO_PI);
         const double moved = fabs(next - s);
         s = next;
         if (!(moved > 1e-13 * fmax(1, fabs(s)))) break;
@@ -116,7 +116,7 @@ static double largest_bin(const analysis *z, double *size)
         if (here > *size) *size = here, best = j;
     }
     *size = sqrt(*size) / (double)N;
-    return PI * (best < N / 2 ? (double)best : (double)best - (double)N);
+    return ISO_PI * (best < N / 2 ? (double)best : (double)best - (double)N);
 }
 
 /* --- all lines -------------------------------------------------------------------------------------------------- */
@@ -128,7 +128,7 @@ static double overlap(size_t count, double s)
     double sum = 0, weight = 1;
     for (int m = 0; m <= POWER; m++) {
         for (int sign = -1; sign <= (m > 0 ? 1 : -1); sign += 2) {
-            const double x = 2 * (s + sign * m * PI) / n, down = n * sin(x / 2);
+            const double x = 2 * (s + sign * m * ISO_PI) / n, down = n * sin(x / 2);
             sum += weight * (fabs(down) < 1e-12 * n ? 1 : sin(n * x / 2) / down);
         }
         weight *= (double)(POWER - m) / (POWER + m + 1);
@@ -195,7 +195,7 @@ static bool take_line(analysis *z)
     if (!(size > z->least)) return false;
     const double s = refine(z, z->rest, bin);
     for (int l = 0; l < z->lines; l++)
-        if (fabs(s - z->s[l]) < 2 * PI) return false;
+        if (fabs(s - z->s[l]) < 2 * ISO_PI) return false;
     z->s[z->lines] = s;
     project(z, z->lines++);
     fit(z);
@@ -235,7 +235,7 @@ static void make_window(const analysis *z)
 {
     double most = 1;
     for (int m = 1; m <= POWER; m++) most *= 2.0 * m / (2.0 * m - 1);
-    for (size_t j = 0; j < z->count; j++) z->window[j] = most * pow(cos(PI / 2 * y_of(z, j)), 2 * POWER);
+    for (size_t j = 0; j < z->count; j++) z->window[j] = most * pow(cos(ISO_PI / 2 * y_of(z, j)), 2 * POWER);
 }
 
 static void find(analysis *z, int most)

@@ -63,6 +63,12 @@ run 0 run exact.yaml --t-end -100
 run 2 run exact.yaml --t-end 1e30 --step 1e29
 says "1e15 can be told apart"
 
+# a ball in a principal plane turns evenly, also where the clocks' rates change by 1e10 along its orbit
+scene 0.1 "352.8178935200162, 0.06393673223402149, 0.006435000728723503" "1.1, 0, 0" "0, 0.6, 0.8" 10 0.05 >sharp.yaml
+run 0 run sharp.yaml --backend exact
+at_most "omega in a plane" "$(rows out | awk -F, '{ e = $2 / 1.1 - 1; e = e < 0 ? -e : e; if (e > worst) worst = e }
+    END { print NR == 201 ? worst + 0 : "rows" }')" 4e-15
+
 # --- compare
 compared() {
     check "compare: rows of exact" test "$(grep -cE '^ +[-0-9.e+]+ +exact ' out)" -eq "$1"
