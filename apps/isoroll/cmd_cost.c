@@ -225,11 +225,13 @@ const command command_cost = {
     .options = " backend method tol t-end quick want horizons plot csv json ",
     .more =
         "All backends, methods and tolerances are measured, whatever the scene names; --backend, --method and --tol\n"
-        "restrict them. A cell is one of each. Its error is the largest relative error of (omega, n) at 20 times from the\n"
+        "restrict them. A cell is one of each. Its error is the largest relative error of (omega, n) at 20 times "
+        "from the\n"
         "start to the end, against a reference that is none of the cells. Its time is processor time, the median of\n"
         "repeats, without set-up. --want X prints the cheapest choice as options of 'run':\n"
         "  isoroll run SCENE $(isoroll cost SCENE --want 1e-9)\n"
-        "--horizons runs the best cell of each backend on orbits that are 2, 4, ... times as long, and says how error and\n"
+        "--horizons runs the best cell of each backend on orbits that are 2, 4, ... times as long, and says how "
+        "error and\n"
         "time grow. After Ctrl-C, what has been measured is printed.",
     .run = run,
 };

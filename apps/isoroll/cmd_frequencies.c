@@ -34,9 +34,10 @@ static void print_head(const iso_scene *scene, const iso_frequencies *f)
            f->unresolved ? "the closed solution was not resolved" : "no closed solution", f->why);
     printf("  orbit: %.6g turns, to t = %.10g, %zu samples\n", f->estimate.turns, f->estimate.length,
            f->estimate.samples);
-    printf("  a frequency differs between the halves of the orbit by %.1e, between the halves of its first quarter by "
-           "%.1e\n",
-           f->estimate.drift, f->estimate.drift_before);
+    printf(
+        "  a frequency differs between the halves of the orbit by %.1e, between the halves of its first quarter by "
+        "%.1e\n",
+        f->estimate.drift, f->estimate.drift_before);
     if (f->estimate.verdict == ISO_CHAOTIC)
         printf("  a chaotic motion has no fixed frequencies: the numbers below hold for this orbit only\n");
     if (f->estimate.unexplained > 1e-4)
@@ -296,10 +297,12 @@ const command command_frequencies = {
     .argument = "SCENE",
     .doc = "actions, frequencies, rotation number, near resonances; estimated where there is no closed solution",
     .options = " turns t-end samples plot json ",
-    .more =
-        "Where there is a closed solution (k = 1, k = -1, two equal moments, principal planes), it gives the numbers.\n"
-        "Elsewhere they are estimated by Laskar's frequency analysis of n(t), from an orbit in the ball's time t: --turns\n"
-        "or --t-end says how long. The end of the scene is not used. --plot draws the image of the momentum map (h, F)\n"
-        "with the orbit in it; where there is no map, the lines of n(t).",
+    .more = "Where there is a closed solution (k = 1, k = -1, two equal moments, principal planes), it gives the "
+            "numbers.\n"
+            "Elsewhere they are estimated by Laskar's frequency analysis of n(t), from an orbit in the ball's time "
+            "t: --turns\n"
+            "or --t-end says how long. The end of the scene is not used. --plot draws the image of the momentum map "
+            "(h, F)\n"
+            "with the orbit in it; where there is no map, the lines of n(t).",
     .run = run,
 };

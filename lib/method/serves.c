@@ -1,10 +1,11 @@
-/* serves.c - whether a method can simulate a model: each check compares one need of the method's row with what the model
- * has, and says what is missing. A method is never run on a model that it would simulate wrongly. */
+/* serves.c - whether a method can simulate a model: each check compares one need of the method's row with what the
+ * model has, and says what is missing. A method is never run on a model that it would simulate wrongly. */
 #include <stdio.h>
 
 #include "method/integrator_impl.h"
 
-/* --- one check for each need ------------------------------------------------------------------------------------- */
+/* --- one check for each need
+ * ------------------------------------------------------------------------------------- */
 
 static bool has_system(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
@@ -33,7 +34,8 @@ static bool has_jacobian(const iso_method *method, const iso_model *model, char 
     return false;
 }
 
-/* Steps of one length in s suit no potential that spans many decades. For k = -1 it is a quadratic form, and spans none. */
+/* Steps of one length in s suit no potential that spans many decades. For k = -1 it is a quadratic form, and spans
+ * none. */
 static bool has_even_steps(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
     const iso_params *p = &model->field.p;
@@ -44,7 +46,8 @@ static bool has_even_steps(const iso_method *method, const iso_model *model, cha
     return false;
 }
 
-/* --- all of them ------------------------------------------------------------------------------------------------- */
+/* --- all of them
+ * ------------------------------------------------------------------------------------------------- */
 
 bool iso_method_serves(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
