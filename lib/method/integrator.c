@@ -15,6 +15,23 @@ iso_status iso_tolerance_check(iso_context *ctx, double tolerance)
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", tolerance);
 }
 
+/* Whether the method serves the model, and takes the fixed steps that the options ask for. */
+static iso_status check_method(iso_context *ctx, const iso_method *method, const iso_model *model,
+                               const iso_method_options *options)
+{
+    char why[ISO_WHY_SIZE];
+    if (!iso_method_serves(method, model, why))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "%s %s; take %s", method->name, why,
+                                iso_method_auto(model)->name);
+    if (!(options->fixed_step > 0)) return ISO_OK;
+    if (!method->fixed)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s takes no fixed steps: it chooses its own",
+                                method->name);
+    if (!method->steps_in_s || model->clock == ISO_CLOCK_S) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "the steps of %s are fixed in s: they cannot be in %s",
+                            method->name, iso_clock_name(model->clock));
+}
+
 iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
                                  const iso_method_options *options, iso_integrator **integrator)
 {
@@ -25,7 +42,7 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     if (!(o.fixed_step >= 0 && isfinite(o.fixed_step)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a fixed step must be finite and >= 0, not %g",
                                 o.fixed_step);
-    if (iso_method_check(ctx, method, model, &o) != ISO_OK) return ISO_BAD_ARGUMENT;
+    if (check_method(ctx, method, model, &o) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of leaps to times between the steps */
     if (iso_tolerance_check(ctx, o.tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
     iso_integrator *it = calloc(1, sizeof *it);

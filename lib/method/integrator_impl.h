@@ -68,11 +68,6 @@ double iso_integrator_first_step(iso_integrator *it, int order);
 /* Whether steps can be held to a tolerance. Errors: ISO_BAD_ARGUMENT about "tolerance". */
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance);
 
-/* serves.c: whether the method serves the model, and takes the fixed steps that options ask for. Errors:
- * ISO_BAD_ARGUMENT about "method". */
-iso_status iso_method_check(iso_context *ctx, const iso_method *method, const iso_model *model,
-                            const iso_method_options *options);
-
 /* Takes one step. */
 iso_status iso_integrator_advance(iso_integrator *it);
 

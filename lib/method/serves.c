@@ -2,10 +2,9 @@
  * model has, and says what is missing. A method is never run on a model that it would simulate wrongly. */
 #include <stdio.h>
 
-#include "method/integrator_impl.h"
+#include "method/method.h"
 
-/* --- one check for each need
- * ------------------------------------------------------------------------------------- */
+/* --- one check for each need --------------------------------------------------------------------------------- */
 
 static bool has_system(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
@@ -46,26 +45,9 @@ static bool has_even_steps(const iso_method *method, const iso_model *model, cha
     return false;
 }
 
-/* --- all of them
- * ------------------------------------------------------------------------------------------------- */
+/* --- all of them --------------------------------------------------------------------------------------------- */
 
 bool iso_method_serves(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
     return has_system(method, model, why) && has_jacobian(method, model, why) && has_even_steps(method, model, why);
-}
-
-iso_status iso_method_check(iso_context *ctx, const iso_method *method, const iso_model *model,
-                            const iso_method_options *options)
-{
-    char why[ISO_WHY_SIZE];
-    if (!iso_method_serves(method, model, why))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "%s %s; take %s", method->name, why,
-                                iso_method_auto(model)->name);
-    if (!(options->fixed_step > 0)) return ISO_OK;
-    if (!method->fixed)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s takes no fixed steps: it chooses its own",
-                                method->name);
-    if (!method->steps_in_s || model->clock == ISO_CLOCK_S) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "the steps of %s are fixed in s: they cannot be in %s",
-                            method->name, iso_clock_name(model->clock));
 }

@@ -81,8 +81,7 @@ void iso_frequencies_finish(iso_frequencies *f)
     find_closed(f);
 }
 
-/* --- where the motion lies in its family
- * -------------------------------------------------------------------------- */
+/* --- where the motion lies in its family --------------------------------------------------------------------- */
 
 /* The ball's integral beyond the energy and the constraints. */
 static const iso_integral *further_integral(const iso_orbit *orbit)
