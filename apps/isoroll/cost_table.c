@@ -67,9 +67,10 @@ static void print_cells(const iso_cost *cost, const iso_cost_line *const line[])
     for (int l = 0; l < cost->lines; l++)
         for (int i = line[l]->first; i < line[l]->first + line[l]->count; i++)
             if (iso_cost_is_measured(&cost->cell[i])) print_cell(&cost->cell[i]);
-    printf("* nothing else is both more exact and faster   ~ less than the uncertainty of the reference\n"
-           "clocks: error of another clock along the orbit   energy: its drift   rhs: evaluations of the equations\n"
-           "time: processor time, median of repeats   spread: slowest - fastest   set-up: time before the first step\n");
+    printf(
+        "* nothing else is both more exact and faster   ~ less than the uncertainty of the reference\n"
+        "clocks: error of another clock along the orbit   energy: its drift   rhs: evaluations of the equations\n"
+        "time: processor time, median of repeats   spread: slowest - fastest   set-up: time before the first step\n");
 }
 
 static void print_failed(const iso_cost *cost)
@@ -111,10 +112,11 @@ static void print_time_to(const iso_cost *cost, const iso_cost_line *line, doubl
 
 static void print_lines(const iso_cost *cost, const iso_cost_line *const line[])
 {
-    printf("\nmethods, sorted by their time to an error of 1e-9: time to reach an error, factor in time for one more\n"
-           "digit, order (measured, and of the method), least error\n"
-           "  %-5s  %-22s %9s %9s %9s  %10s  %8s  %s\n",
-           "", "", "to 1e-6", "to 1e-9", "to 1e-12", "a digit", "order", "least error");
+    printf(
+        "\nmethods, sorted by their time to an error of 1e-9: time to reach an error, factor in time for one more\n"
+        "digit, order (measured, and of the method), least error\n"
+        "  %-5s  %-22s %9s %9s %9s  %10s  %8s  %s\n",
+        "", "", "to 1e-6", "to 1e-9", "to 1e-12", "a digit", "order", "least error");
     for (int l = 0; l < cost->lines; l++) {
         const iso_cost_line *m = line[l];
         if (!m->method || isnan(m->least)) continue;
@@ -148,8 +150,8 @@ static const iso_cost_cell *choose_steps(const iso_cost *cost, double want)
 static void print_choice(const iso_cost_cell *c, int digits)
 {
     char words[COST_OPTIONS], seconds[COST_SECONDS];
-    printf("  for 1e-%-2d %s: %s (error %.1e%s)\n", digits, cost_options_of(c, words), cost_seconds(c->total, seconds),
-           c->error, c->below ? ", or less: the reference is no better" : "");
+    printf("  for 1e-%-2d %s: %s (error %.1e%s)\n", digits, cost_options_of(c, words),
+           cost_seconds(c->total, seconds), c->error, c->below ? ", or less: the reference is no better" : "");
 }
 
 typedef const iso_cost_cell *chooser(const iso_cost *cost, double want);
@@ -159,8 +161,8 @@ static const iso_cost_cell *choose_digits(const iso_cost *cost, chooser *choose,
     return digits <= MOST_DIGITS ? choose(cost, pow(10, -digits)) : NULL;
 }
 
-/* Each choice once, with the most digits for which it is the choice, beginning with `digits`. Returns the first number of
- * digits that nothing reaches. */
+/* Each choice once, with the most digits for which it is the choice, beginning with `digits`. Returns the first
+ * number of digits that nothing reaches. */
 static int print_choices(const iso_cost *cost, chooser *choose, int digits)
 {
     const iso_cost_cell *c = choose_digits(cost, choose, digits);

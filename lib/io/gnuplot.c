@@ -1,5 +1,6 @@
-/* gnuplot.c - runs gnuplot. The script is its standard input, the picture its standard output, its complaints go to a third
- * file. All three are files, not pipes: nothing can block or raise SIGPIPE, and no file name ever enters a script. */
+/* gnuplot.c - runs gnuplot. Its standard input is the script, its standard output the picture, its messages go to a
+ * third file. All three are files, not pipes: nothing can block or raise SIGPIPE, and no script contains a file
+ * name. */
 #include "io/gnuplot_impl.h"
 
 #include <errno.h>
@@ -18,8 +19,9 @@
 
 extern char **environ;
 
-/* A format: the terminal that makes it, and how a whole file of it ends. The last shows a gnuplot that was stopped, or
- * had no room on the disk, even where its exit status is lost (a host program that ignores SIGCHLD). */
+/* A format: the terminal that makes it, and how a complete file of it ends. A file without this ending shows that
+ * gnuplot was stopped or had no room on the disk, also where its exit status is lost (in a program that ignores
+ * SIGCHLD). */
 typedef struct format {
     const char *extension, *terminal, *unit;
     double scale; /* of width and height */
@@ -55,7 +57,8 @@ static const format *find_format(const char *path)
 iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path)
 {
     if (find_format(path)) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': a picture's name ends in .svg, .png or .pdf", path);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': the name of a picture must end in .svg, .png or .pdf",
+                            path);
 }
 
 static void release(iso_gnuplot *g)
@@ -72,7 +75,7 @@ static iso_status open_picture(iso_context *ctx, iso_gnuplot *g, const char *pat
 {
     struct stat old;
     if (stat(path, &old) == 0 && !S_ISREG(old.st_mode))
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is no regular file", path);
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
     return iso_replacement_open(ctx, path, &g->file, &g->picture);
 }
 
@@ -142,15 +145,17 @@ static int character(const unsigned char *text)
     return code < smallest[length] || code > 0x10FFFF || surrogate || (code & 0xFFFE) == 0xFFFE ? 0 : length;
 }
 
-/* Characters that mean nothing to gnuplot in a text; quotes, backslashes, `commands` and @macros are not among them. */
+/* Characters that mean nothing to gnuplot in a text; quotes, backslashes, `commands` and @macros are not among
+ * them. */
 static bool is_plain(unsigned char c)
 {
     return c >= 0x80 || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
            (c && strchr(" -._/,:", c));
 }
 
-/* All else is written in octal. (Not in single quotes: gnuplot 5.4 stumbles over a text that begins with one.) It reads
- * one digit more than three, so before a digit the text is closed, and goes on after a dot, which joins texts. */
+/* Every other character is written in octal. (In single quotes gnuplot 5.4 fails on a text that begins with a quote.)
+ * gnuplot reads a fourth digit as part of the number: before a digit the text is closed, and joined to the next by a
+ * dot. */
 void iso_gnuplot_text(FILE *script, const char *text, int longest)
 {
     const unsigned char *c = (const unsigned char *)text;
@@ -170,7 +175,7 @@ void iso_gnuplot_text(FILE *script, const char *text, int longest)
 
 /* ---- Drawing ---- */
 
-/* The words gnuplot left, in one line, the end if they are many. */
+/* gnuplot's messages in one line; of long ones the end. */
 static void read_complaints(FILE *file, char words[], size_t size)
 {
     fseek(file, 0, SEEK_END);
@@ -189,7 +194,7 @@ static void read_complaints(FILE *file, char words[], size_t size)
     words[kept] = '\0';
 }
 
-/* gnuplot with its three files; an errno. -d: nobody's start-up file has a say in the picture. */
+/* Starts gnuplot with its three files; returns an errno. -d: no start-up file of the user changes the picture. */
 static int spawn(iso_gnuplot *g, pid_t *child)
 {
     char name[] = "gnuplot", settings[] = "-d", input[] = "-", *const arguments[] = {name, settings, input, NULL};

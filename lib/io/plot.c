@@ -9,7 +9,8 @@
 
 enum { WIDTH = 900, HEIGHT = 800 };
 
-/* The title, and between the spheres and the chart what their signs mean: a plot of its own, as wide as the page. */
+/* The title, and the key of the spheres, which stands between them and the chart: a plot of its own, as wide as the
+ * page. */
 static void put_heading(FILE *f, const char *title)
 {
     fputs("unset border; unset tics; set xrange [0:1]; set yrange [0:1]\n"
@@ -44,7 +45,8 @@ static iso_status find_vectors(iso_context *ctx, const iso_record *r, int *n, in
     static const char *const names[] = {"n1", "n2", "n3", "gamma1", "gamma2", "gamma3"};
     const char *missing;
     int column[6];
-    if (!r || iso_record_rows(r) == 0) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of no rows");
+    if (!r || iso_record_rows(r) == 0)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs at least one row");
     if (!iso_record_find_all(r, 6, names, column, &missing))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, missing, "a picture: the record has no column %s", missing);
     for (int i = 0; i < 6; i++)
@@ -61,11 +63,12 @@ static iso_status check_differences(iso_context *ctx, const iso_plot *plot)
     const iso_record *r = plot->difference;
     int column[ISO_PLOT_DIFFERENCES + 1];
     for (int c = 0; c <= ISO_PLOT_DIFFERENCES; c++) column[c] = c;
-    if (!r || iso_record_rows(r) == 0 || iso_record_columns(r) < 2 || iso_record_columns(r) > ISO_PLOT_DIFFERENCES + 1)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of no differences, or of more than %d",
+    if (!r || iso_record_rows(r) == 0 || iso_record_columns(r) < 2 ||
+        iso_record_columns(r) > ISO_PLOT_DIFFERENCES + 1)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs 1 to %d columns of differences",
                                 ISO_PLOT_DIFFERENCES);
     if (!(plot->tolerance >= 0 && plot->tolerance <= 1))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "a picture: tolerance not in [0, 1]");
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "a picture: the tolerance must be in [0, 1]");
     return check_finite(ctx, r, column, (int)iso_record_columns(r));
 }
 

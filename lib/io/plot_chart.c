@@ -1,6 +1,7 @@
 /* plot_chart.c - a chart of differences over a clock, below the spheres of a picture.
  *
- * Each column of a record is one line on a logarithmic axis. A key on the right gives its symbol and its largest value.
+ * Each column of a record is one line on a logarithmic axis. A key on the right gives its symbol and its largest
+ * value.
  */
 #include <math.h>
 #include <string.h>

@@ -21,7 +21,7 @@ static const char *const strokes[ISO_PLOT_NAMES] = {
 #define CLOSED "points pt 3 ps 1.5 lw 2 lc rgb 'black'"
 #define BAND "'#E4E7EA'"
 
-/* What stands where: panels and names in the order in which they come first. */
+/* The lay-out: panels and names in the order of their first series, and the ranges of the axes. */
 typedef struct layout {
     int panels, names;
     const char *panel[ISO_PLOT_PANELS], *name[ISO_PLOT_NAMES];
@@ -90,7 +90,7 @@ static bool lay_out(const iso_plot_work *w, layout *l)
         if (l->panels == 0) l->panel[l->panels++] = "";
     }
     if (l->panels == 0) return false;
-    l->error[1] = fmin(l->error[1], 0.8); /* beyond 1 it is only wrong */
+    l->error[1] = fmin(l->error[1], 0.8); /* larger errors are no results */
     l->error[0] = fmin(l->error[0], l->error[1]);
     round_out(l->error);
     round_out(l->seconds);
@@ -173,7 +173,7 @@ static void put_panel(FILE *f, const iso_plot_work *w, layout *l, int panel)
     fputs("unset label\n", f);
 }
 
-/* What everything is called, below, in a plot of its own. */
+/* The key below the panels, in a plot of its own. */
 static void put_key(FILE *f, const iso_plot_work *w, const layout *l)
 {
     const int entries = l->names + l->others + has_closed(w) + (w->uncertainty > 0);
@@ -204,7 +204,7 @@ iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_plot_work
     layout l;
     iso_gnuplot *g;
     if (!lay_out(work, &l))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of no measurements, or of too many");
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "there are no measurements to draw, or too many");
     iso_status status = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT, &g);
     if (status != ISO_OK) return status;
     FILE *f = iso_gnuplot_script(g);

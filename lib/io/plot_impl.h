@@ -30,7 +30,8 @@ typedef struct iso_plot_chart {
 /* Column 0 is a clock, the others are drawn over it on a logarithmic axis. */
 void iso_plot_differences(FILE *script, const iso_record *record, double tolerance, const iso_plot_chart *chart);
 
-/* A plot of the unit sphere with a path, `line`, and markers on it (NULL: none): three columns of unit vectors each. */
+/* A plot of the unit sphere with a path, `line`, and markers on it (NULL: none): three columns of unit vectors
+ * each. */
 void iso_plot_sphere(FILE *script, const iso_record *line, int line_column, const iso_record *markers,
                      int marker_column, bool fine);
 

@@ -58,7 +58,7 @@ static void find_range(const iso_plot_map *map, double range[2])
     range[1] = high + room;
 }
 
-/* A part's name where it is thickest, if it has room there: up to its colon. */
+/* The name of a part, up to its colon, where the part is thickest, if it is thicker than `room`. */
 static void put_label(FILE *f, const iso_plot_map *map, int part, double room)
 {
     const size_t rows = iso_record_rows(map->bounds);
@@ -116,7 +116,7 @@ iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_
     double range[2];
     if (!r || iso_record_rows(r) == 0 || iso_record_columns(r) != columns || map->parts > ISO_PLOT_PARTS ||
         map->lines > ISO_PLOT_LINES || !(map->at[0] > 0) || !isfinite(map->at[1]))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of no map");
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a map needs bounds, h > 0 and a finite F");
     iso_status status = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT, &g);
     if (status != ISO_OK) return status;
     FILE *f = iso_gnuplot_script(g);
@@ -183,7 +183,8 @@ iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title,
     iso_gnuplot *g;
     double least = 1;
     if (!r || iso_record_rows(r) == 0 || iso_record_columns(r) != 5 || axis < 0 || axis > 2)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of no lines");
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                                "a picture of lines needs a record with five columns and at least one row");
     iso_status status = iso_gnuplot_open(ctx, path, WIDTH, LINES_HEIGHT, &g);
     if (status != ISO_OK) return status;
     FILE *f = iso_gnuplot_script(g);

@@ -1,10 +1,12 @@
 /* plot_sphere.c - one sphere of a picture, with a path on it.
  *
- * Spheres are projected here and drawn in two dimensions: gnuplot's own 3D has no far side that shows through. Seen
- * from afar along d (orthographic), a point x of the unit sphere is at ((x,right), (x,up)), and on the near side where
- * (x,d) > 0. First comes what is far, pale, then what is near.
+ * Spheres are projected here and drawn in two dimensions, because gnuplot's own 3D cannot show the far side through
+ * the near one. The projection is orthographic, along d: a point x of the unit sphere is drawn at ((x,right),
+ * (x,up)), and lies on the near side where (x,d) > 0. The far side is drawn first, in pale colours, then the near
+ * side.
  *
- *          3 |                right = (-sin a, cos a, 0)                  a  azimuth of the eye, from axis 1 to axis 2
+ *          3 |                right = (-sin a, cos a, 0)                  a  azimuth of the eye, from axis 1 to axis
+ *          2
  *            |  . eye         up    = (-sin e cos a, -sin e sin a, cos e)
  *            |.               d     = ( cos e cos a,  cos e sin a, sin e)
  *            /------ 2                                                    e  its elevation over the plane of both
@@ -89,7 +91,8 @@ static bool is_joined(const iso_record *r, int column)
     return true;
 }
 
-/* A block of data called `name` with the side's number; the first point is none, so that no block is empty. */
+/* Begins a block of data called `name` with the number of the side. Its first point is NaN, so that no block is
+ * empty. */
 static void begin_block(FILE *f, const char *name, bool near)
 {
     fprintf(f, "$%s%d << EOD\nNaN NaN\n\n", name, near);
@@ -120,7 +123,7 @@ static void put_markers(FILE *f, const iso_record *r, int column, bool near)
     fputs("EOD\n", f);
 }
 
-/* The first and the last row: labels, for they may be on top of each other. */
+/* A sign for the first or the last row. It is a label, so that it stays visible where both are at the same place. */
 static void put_end(FILE *f, const double v[3], const char *type)
 {
     const spot s = project(v);

@@ -14,7 +14,7 @@ static int find_path(iso_context *ctx, const iso_record *r, const char *const na
     int column[3];
     const char *missing;
     if (iso_record_rows(r) == 0)
-        *status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of no rows");
+        *status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs at least one row");
     else if (!iso_record_find_all(r, 3, names, column, &missing) || column[1] != column[0] + 1 ||
              column[2] != column[0] + 2)
         *status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, names[0], "a picture: no columns %s, %s, %s side by side",
@@ -80,7 +80,7 @@ iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plo
     const int n = plot->ball ? find_path(ctx, plot->ball, normal, &status) : -1;
     const int gamma = plot->point && status == ISO_OK ? find_path(ctx, plot->point, place, &status) : -1;
     if (status == ISO_OK && n < 0 && gamma < 0)
-        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of no path");
+        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs the path of the ball or of the point");
     if (status == ISO_OK) status = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT, &g);
     if (status != ISO_OK) return status;
     FILE *f = iso_gnuplot_script(g);

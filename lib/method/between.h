@@ -10,10 +10,12 @@
  * The equations give every derivative of the state, and of the clocks' rates, at both samples. With the Taylor
  * coefficients f_j at the left one and g_j at the right one
  *
- *     int_0^h f dt = sum_(j=0)^p c_j h^(j+1) (f_j + (-1)^j g_j),   c_j = (p+1)! (2p+1-j)! j! / ((2p+2)! (j+1)! (p-j)!)
+ *     int_0^h f dt = sum_(j=0)^p c_j h^(j+1) (f_j + (-1)^j g_j),   c_j = (p+1)! (2p+1-j)! j! / ((2p+2)! (j+1)!
+ *     (p-j)!)
  *
- * is exact for polynomials of degree 2p+1: two-point Taylor, Hermite's or Obreshkov's quadrature. Of a clock's rate it
- * is how far the clock goes on; of y' it is y1 - y0 if the samples lie on one orbit, and what is left is the defect.
+ * is exact for polynomials of degree 2p+1: two-point Taylor, Hermite's or Obreshkov's quadrature. Of a clock's rate
+ * it is how far the clock goes on; of y' it is y1 - y0 if the samples lie on one orbit, and what is left is the
+ * defect.
  */
 #ifndef ISO_METHOD_BETWEEN_H
 #define ISO_METHOD_BETWEEN_H
@@ -29,8 +31,8 @@ typedef struct iso_gap {
     double motion[ISO_STATE];  /* y1 - y0 - int y' dt itself, likewise                                     */
 } iso_gap;
 
-/* For samples of that model, whose states are those of its system alone. tolerance: relative error that a clock's gain
- * may have. Errors: ISO_NO_MEMORY. */
+/* For samples of that model, whose states are those of its system alone. tolerance: relative error that a clock's
+ * gain may have. Errors: ISO_NO_MEMORY. */
 iso_status iso_between_create(iso_context *ctx, const iso_model *model, double tolerance, iso_between **between);
 void iso_between_free(iso_between *between);
 

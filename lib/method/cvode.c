@@ -38,7 +38,7 @@ static int jacobian(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix J, void *i
     return 0;
 }
 
-/* CVODE wants the correction, and leaves the projection of the error estimate to us: none is needed. */
+/* CVODE asks for the correction. Its error estimate could be projected as well: that is not needed. */
 static int projection(sunrealtype t, N_Vector y, N_Vector correction, sunrealtype tolerance, N_Vector error,
                       void *integrator)
 {
@@ -112,7 +112,7 @@ static iso_status start(iso_integrator *it)
     copy(it->at_right, N_VGetArrayPointer(c->y), it->model.dim);
     const double first = iso_integrator_first_step(it, 1);
     int failed = CVodeReInit(c->memory, 0, c->y);
-    /* CVODE finds its own, but none that is less than 1e-14 of the time in which the ball turns */
+    /* CVODE chooses its first step itself, but never one below 1e-14 of the time in which the ball turns */
     if (!failed) failed = CVodeSetInitStep(c->memory, fabs(first) < SHORT ? first : 0);
     return failed ? iso_sundials_stopped(it, CVodeGetReturnFlagName(failed)) : ISO_OK;
 }
@@ -134,7 +134,7 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     return ISO_OK;
 }
 
-/* BDF's own interpolant: its steps may be too long for anything that is not implicit. */
+/* By BDF's own interpolant: the steps may be too long for a leap by an explicit method. */
 static iso_status within(iso_integrator *it, double dt, double y[])
 {
     cvode *c = it->data;

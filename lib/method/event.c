@@ -1,11 +1,13 @@
 /* event.c - zeros of a function of the state, the same for every method.
  *
- * Each step is looked at in parts over which the state changes by about a quarter of its size. Where g changes its
- * sign over a part the zero is bracketed, and Brent's method finds it, reaching every trial time by a leap from the
- * step's left end. Where g has the same sign at both ends of a part but comes towards zero at one end and leaves it
- * at the other, there may be two zeros: the extremum of g between them, a zero of its slope, is sought first, and
- * splits the part in two. The ends of steps are the method's own, where a leap arrives but for the error of the step:
- * so a zero that falls into this gap is found once, and at the end of the step.
+ * Each step is divided into parts over which the state changes by about a quarter of its size.
+ * - Where g changes its sign over a part, the zero is bracketed, and Brent's method finds it. It reaches every trial
+ *   time from the left end of the step.
+ * - Where g has the same sign at both ends of a part, but goes towards zero at one end and away from it at the other,
+ *   there may be two zeros. The extremum of g between them, a zero of its slope, is found first, and divides the
+ *   part.
+ * - At the end of a step the method's own state and that of a leap differ by the error of the step. A zero that falls
+ *   into this gap is found once, and at the end of the step.
  */
 #include <float.h>
 #include <gsl/gsl_errno.h>
@@ -46,8 +48,7 @@ static double g_moved(search *s, const double y[], const double f[], double time
     return g_of(s, moved);
 }
 
-/* g a moment after dt on the way, on the orbit: the straight way leads off it, on which a g that only touches 0 passes
- * it. */
+/* g a moment after dt, on the orbit. (On the tangent, `straight`, a g that only touches 0 on the orbit passes it.) */
 static double g_beyond(search *s, double dt, double straight)
 {
     iso_integrator *it = s->it;
@@ -58,7 +59,8 @@ static double g_beyond(search *s, double dt, double straight)
     return s->status == ISO_OK ? g_of(s, y) : 0;
 }
 
-/* What there is at dt. A g that is exactly 0 is taken from just beyond, so that every zero lies within one part. */
+/* g and its slope at dt. Where g is exactly 0, its value just beyond is taken, so that every zero lies inside one
+ * part. */
 static place look(search *s, double dt)
 {
     iso_integrator *it = s->it;
@@ -116,7 +118,7 @@ static bool counts(const search *s, place a, place b)
 /* The first event in (a, b], which lies in one part. */
 static bool search_part(search *s, place a, place b, double *dt)
 {
-    if (a.g == 0 || b.g == 0) return false; /* 0 there and around there: nothing passes */
+    if (a.g == 0 || b.g == 0) return false; /* g is 0 there and just beyond: it passes nothing */
     place end = b;
     if ((a.g > 0) == (b.g > 0)) {
         const double away = (a.g > 0 ? 1 : -1) * s->it->direction; /* sign of slopes that leave zero */

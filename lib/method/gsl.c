@@ -55,7 +55,8 @@ static iso_suits rk8pd_suits(const iso_model *m)
     return iso_effects_stiffness(&m->field) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_WELL;
 }
 
-/* Of the methods for stiff models the most exact for its time; from ISO_VERY_STIFF on bdf needs fewer right-hand sides. */
+/* Of the methods for stiff models the most exact for its time; from ISO_VERY_STIFF on bdf needs fewer right-hand
+ * sides. */
 static iso_suits bsimp_suits(const iso_model *m)
 {
     const double stiffness = iso_effects_stiffness(&m->field);

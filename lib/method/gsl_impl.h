@@ -6,8 +6,9 @@
 
 #include "method/integrator_impl.h"
 
-/* An implicit method sees y_i/unit_i, numbers of order one. Its LU decomposition chooses pivots by size: without units a
- * small component would lose its digits beside a large one. Units are powers of two, so that they cause no rounding. */
+/* An implicit method sees y_i/unit_i, numbers of order one. Its LU decomposition chooses pivots by size: without
+ * units a small component would lose its digits beside a large one. Units are powers of two, so that they cause no
+ * rounding. */
 typedef struct iso_gsl {
     iso_integrator *it;
     bool implicit;
@@ -31,7 +32,8 @@ iso_status iso_gsl_step(iso_integrator *it, iso_gsl *g, double limit, double y[]
 /* One step of y of the length options.fixed_step, whatever its error. */
 iso_status iso_gsl_fixed_step(iso_integrator *it, iso_gsl *g, double y[], double *h);
 
-/* After y was changed (projected): GSL begins its next step with the derivative it has kept, which must be that of y. */
+/* After y was changed (projected): GSL begins its next step with the derivative it has kept, which must be that of
+ * y. */
 iso_status iso_gsl_renew_slope(iso_integrator *it, iso_gsl *g, const double y[]);
 
 #endif

@@ -1,4 +1,5 @@
-/* gsl_loop.c - a model as GSL's ode-initval2 sees it, and GSL's loop over steps: for the methods of gsl.c and for leaps. */
+/* gsl_loop.c - a model as GSL's ode-initval2 sees it, and GSL's loop over steps: for the methods of gsl.c and for
+ * leaps. */
 #include "method/gsl_impl.h"
 
 #include <float.h>
@@ -46,12 +47,12 @@ static double sum_of_sizes(int count, const double x[])
     return sum;
 }
 
-/* GSL solves linear systems with the matrix 1 - h J. Where a pivot is 0 it calls its error handler, which by default ends
- * the program, and which belongs to the program, not to the library. A pivot can be 0 where the rows of J depend on each
- * other and h J is so large that the 1 is lost:
+/* GSL solves linear systems with the matrix 1 - h J. Where a pivot is 0 it calls its error handler, which by default
+ * ends the program, and which belongs to the program, not to the library. A pivot can be 0 where the rows of J depend
+ * on each other and h J is so large that the 1 is lost:
  * - in slow motions, whose steps would be that long: longest_step bounds them;
- * - in the stiffest models: here the diagonal of J is moved by a few of its last digits, against the direction of time.
- *   If a row is larger than HOPELESS there is no step. */
+ * - in the stiffest models: here the diagonal of J is moved by a few of its last digits, against the direction of
+ *   time. If a row is larger than HOPELESS there is no step. */
 static const double HOPELESS = 1e17;
 
 static bool keep_regular(const iso_integrator *it, double *dfdz)
@@ -212,9 +213,9 @@ static iso_status check_room(iso_integrator *it, const iso_gsl *g)
 }
 
 /* bsimp divides the error of each component by the component's size when the step begins (by 1 where it is 0). A tiny
- * component so makes tiny steps, and where its square underflows there is no result at all. So tiny components are set
- * to 0: at the start those that are tiny in the ball's own units, later (a ball may come to rest) those that are tiny
- * beside the rest of their vector. */
+ * component so makes tiny steps, and where its square underflows there is no result at all. So tiny components are
+ * set to 0: at the start those that are tiny in the ball's own units, later (a ball may come to rest) those that are
+ * tiny beside the rest of their vector. */
 static void drop_traces(const iso_integrator *it, const gsl_odeiv2_step *s, double y[ISO_STATE])
 {
     for (int i = 0; s->type == gsl_odeiv2_step_bsimp && i < ISO_STATE; i++) {

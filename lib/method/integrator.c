@@ -1,5 +1,5 @@
-/* integrator.c - one contract for all methods, see method.h: it takes steps, keeps the exact time, and reaches any time
- * within a step. */
+/* integrator.c - one contract for all methods, see method.h: it takes steps, keeps the exact time, and reaches any
+ * time within a step. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -15,6 +15,23 @@ iso_status iso_tolerance_check(iso_context *ctx, double tolerance)
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "tolerance", "tolerance %g is not in [1e-15, 0.1]", tolerance);
 }
 
+/* Whether the method serves the model, and takes the fixed steps that the options ask for. */
+static iso_status check_method(iso_context *ctx, const iso_method *method, const iso_model *model,
+                               const iso_method_options *options)
+{
+    char why[ISO_WHY_SIZE];
+    if (!iso_method_serves(method, model, why))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "%s %s; take %s", method->name, why,
+                                iso_method_auto(model)->name);
+    if (!(options->fixed_step > 0)) return ISO_OK;
+    if (!method->fixed)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s takes no fixed steps: it chooses its own",
+                                method->name);
+    if (!method->steps_in_s || model->clock == ISO_CLOCK_S) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "the steps of %s are fixed in s: they cannot be in %s",
+                            method->name, iso_clock_name(model->clock));
+}
+
 iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
                                  const iso_method_options *options, iso_integrator **integrator)
 {
@@ -23,8 +40,9 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     iso_method_options o = *options;
     if (!method) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "no such method");
     if (!(o.fixed_step >= 0 && isfinite(o.fixed_step)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a fixed step must be finite and >= 0, not %g", o.fixed_step);
-    if (iso_method_check(ctx, method, model, &o) != ISO_OK) return ISO_BAD_ARGUMENT;
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a fixed step must be finite and >= 0, not %g",
+                                o.fixed_step);
+    if (check_method(ctx, method, model, &o) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of leaps to times between the steps */
     if (iso_tolerance_check(ctx, o.tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
     iso_integrator *it = calloc(1, sizeof *it);
@@ -48,7 +66,7 @@ void iso_integrator_free(iso_integrator *it)
     free(it);
 }
 
-/* Back to time 0, to set out in the given direction. */
+/* Goes back to time 0, to take steps in the given direction from there. */
 static iso_status set_out(iso_integrator *it, int direction)
 {
     it->direction = direction;
@@ -111,7 +129,8 @@ iso_status iso_integrator_advance(iso_integrator *it)
     const char *end = find_end(it, y);
     if (end) return iso_integrator_stopped(it, end);
     /* some methods never end before a place that they cannot pass: their steps hardly move the clock */
-    if (fabs(h) <= 64 * DBL_EPSILON * fabs(it->left.head)) return iso_integrator_stopped(it, "steps shrink to nothing");
+    if (fabs(h) <= 64 * DBL_EPSILON * fabs(it->left.head))
+        return iso_integrator_stopped(it, "steps shrink to nothing");
     it->stopped = false;
     it->statistics.steps++;
     it->left = iso_instant_later(it->left, it->h);
@@ -121,7 +140,7 @@ iso_status iso_integrator_advance(iso_integrator *it)
     return ISO_OK;
 }
 
-/* Straight to t, where a step begins that has no length yet. */
+/* For methods with `at`: the current step begins at t, and has no length yet. */
 static iso_status jump(iso_integrator *it, int direction, double t)
 {
     double y[ISO_MAX_STATE];
@@ -138,8 +157,9 @@ static iso_status jump(iso_integrator *it, int direction, double t)
     return ISO_OK;
 }
 
-/* t minus the time of the step's right end, which is the next one's left: both ask it, so that a time that is the end
- * but for rounding belongs to one of them, whichever way it is reached. */
+/* t minus the time of the step's right end. Whether t belongs to this step or to the next is always decided by this
+ * difference, so that a time equal to the end up to rounding is found in the same step whichever way it is
+ * reached. */
 static double since_end(const iso_integrator *it, double t)
 {
     return iso_instant_since(iso_instant_later(it->left, it->h), t);
@@ -150,7 +170,8 @@ iso_status iso_integrator_reach(iso_integrator *it, int direction, double t)
     iso_status status = ISO_OK;
     if (it->method->at) return jump(it, direction, t);
     it->called = true;
-    if (direction != it->direction || it->direction * iso_integrator_since(it, t) < 0) status = set_out(it, direction);
+    if (direction != it->direction || it->direction * iso_integrator_since(it, t) < 0)
+        status = set_out(it, direction);
     while (status == ISO_OK && it->direction * since_end(it, t) > 0) status = iso_integrator_advance(it);
     return status;
 }

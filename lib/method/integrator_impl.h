@@ -34,7 +34,7 @@ struct iso_integrator {
     iso_method_options options;
     iso_statistics statistics;
 
-    double y0[ISO_MAX_STATE]; /* at time 0                                                            */
+    double y0[ISO_MAX_STATE]; /* the state at time 0                                                  */
     int direction;            /* of the steps: 1, -1, or 0 before the first                           */
     bool stopped;             /* by a failure: no further steps before the next start from 0           */
     bool resting;             /* the current step is one of a model at rest                            */
@@ -70,16 +70,11 @@ double iso_integrator_first_step(iso_integrator *it, int order);
 /* Whether steps can be held to a tolerance. Errors: ISO_BAD_ARGUMENT about "tolerance". */
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance);
 
-/* serves.c: whether the method serves the model, and takes the fixed steps that options ask for. Errors: ISO_BAD_ARGUMENT
- * about "method". */
-iso_status iso_method_check(iso_context *ctx, const iso_method *method, const iso_model *model,
-                            const iso_method_options *options);
-
 /* Takes one step. */
 iso_status iso_integrator_advance(iso_integrator *it);
 
-/* Takes steps in `direction` until t lies within the current one; sets out again from 0 when t lies behind it. A method
- * that finds any state at once begins its next step there. */
+/* Takes steps in `direction` until t lies within the current one; begins again from 0 when t lies behind it. With a
+ * method that has `at`, the current step begins at t. */
 iso_status iso_integrator_reach(iso_integrator *it, int direction, double t);
 
 /* t minus the time of the step's left end: exact but for the last bit. */

@@ -1,5 +1,5 @@
-/* leap.c - the state at a time within a step, for methods without `within`: from the step's left end by GSL's rk8pd, or
- * by its bsimp where "auto" would take an implicit method. */
+/* leap.c - the state at a time within a step, for methods without `within`: from the step's left end by GSL's rk8pd,
+ * or by its bsimp where "auto" would take an implicit method. */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

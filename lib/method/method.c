@@ -13,7 +13,7 @@ const iso_method *const iso_methods[] = {
         NULL,
 };
 
-/* How much of `name` the pattern covers: -1 if they differ, else the number of characters of name left over. */
+/* The number of characters of `name` behind the pattern; -1: the name does not begin with the pattern. */
 static int left_over(const char *pattern, const char *name)
 {
     for (; *pattern; pattern++, name++) {
@@ -23,7 +23,7 @@ static int left_over(const char *pattern, const char *name)
     return (int)strlen(name);
 }
 
-/* The pattern without a family in front. */
+/* The pattern without the family's name in front of it, if that is there. */
 static const char *without_family(const char *pattern, const char *family)
 {
     const size_t length = strlen(family);

@@ -8,17 +8,18 @@
  *
  * Times are those of the model's independent clock. The contract:
  * - A method takes its own steps. A time between their ends is reached from the left end of the step: by the method
- *   itself where it can (`within`), else by a leap with GSL's rk8pd (bsimp for stiff models) at the same tolerance, as a
- *   rule 13 right-hand sides. So a state depends on the method and the tolerance, never on which other times were asked.
- * - `tolerance` bounds the estimated error of one step in units of iso_model_size(): of the largest component for GSL's
- *   methods, of the root mean square for SUNDIALS'. Splittings keep one step in s, which trial runs over the first two
- *   turns choose. The error of a long orbit is larger, because the errors of its steps add up.
- * - The elapsed time is the compensated sum of the steps taken, exact to 1e-30 relative. (The equations do not depend on
- *   the time. The t += h of the other libraries would cost 1e-9 at t = 1000: see SUNDIALS in the README.)
+ *   itself where it can (`within`), else by a leap with GSL's rk8pd (bsimp for stiff models) at the same tolerance,
+ *   as a rule 13 right-hand sides. So a state depends on the method and the tolerance, never on which other times
+ *   were asked.
+ * - `tolerance` bounds the estimated error of one step in units of iso_model_size(): of the largest component for
+ *   GSL's methods, of the root mean square for SUNDIALS'. Splittings keep one step in s, which trial runs over the
+ *   first two turns choose. The error of a long orbit is larger, because the errors of its steps add up.
+ * - The elapsed time is the compensated sum of the steps taken, exact to 1e-30 relative. (The equations do not depend
+ *   on the time. The t += h of the other libraries would cost 1e-9 at t = 1000: see SUNDIALS in the README.)
  * - After each step the constraints and the energy of the model are restored where the method allows it (`projects`).
  *   The statistics hold the largest correction, because restored integrals look perfect whatever the error is.
- * - A method may know the state at any time without steps (`at`). Then tolerance and max_steps mean nothing, and only a
- *   search for events takes steps.
+ * - A method may know the state at any time without steps (`at`). Then tolerance and max_steps mean nothing, and only
+ *   a search for events takes steps.
  * - After a failing call the last good time and state can be read (iso_integrator_last). Times before it can still be
  *   asked; times behind it fail again.
  */
@@ -67,11 +68,11 @@ typedef struct iso_method {
                            asked first; 0: none                                                        */
 
     /* What it needs of a model. iso_integrator_create refuses a model that lacks it, in words. */
-    bool implicit;            /* solves with the Jacobian, for stiff models: every effect must have its slopes        */
-    bool own_equations;       /* has the equations of motion in a form of its own, and does not call the model's rhs  */
-    bool steps_in_s;          /* all its steps have one length in the clock s, whatever the clock of the model        */
-    const iso_system *system; /* the only system it serves; NULL: every one                                           */
-    const char *system_why;   /* why only that one                                                                    */
+    bool implicit;      /* solves with the Jacobian, for stiff models: every effect must have its slopes  */
+    bool own_equations; /* has a form of its own of the equations of motion, and does not call model.rhs  */
+    bool steps_in_s;    /* all its steps have one length in the clock s, whatever the model's clock is    */
+    const iso_system *system; /* the only system it serves; NULL: every one                               */
+    const char *system_why;   /* why only that one                                                        */
 
     /* How well it suits a model that it serves, for iso_method_auto; NULL: ISO_NEVER. */
     iso_suits (*suits)(const iso_model *model);
@@ -102,8 +103,8 @@ const iso_method *iso_method_find(const char *name);
 enum { ISO_WHY_SIZE = 256 };
 bool iso_method_serves(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE]);
 
-/* What "auto" means for a model: of the methods that serve it the one that suits it best (iso_method.suits), the first
- * in the registry of equals. As a rule:
+/* What "auto" means for a model: of the methods that serve it the one that suits it best (iso_method.suits), the
+ * first in the registry of equals. As a rule:
  * - stiff models (iso_effects_stiffness): `bsimp`, the stiffest `bdf`;
  * - (24) with |k| so small that (max J/min J)^(1/|k|) > 1e10: `rk8pd`;
  * - all others: `taylor`. */
@@ -115,8 +116,8 @@ const iso_method *iso_method_with_more_digits(int digits);
 const iso_method *iso_method_witness(int place);
 
 /* Errors: ISO_NO_MEMORY; ISO_BAD_ARGUMENT:
- * - about "method": there is none, or it does not serve the model, or its fixed steps are not those of this clock; the
- *   message says what is missing and what to take instead;
+ * - about "method": there is none, or it does not serve the model, or its fixed steps are not those of this clock;
+ *   the message says what is missing and what to take instead;
  * - about "tolerance": it is out of range;
  * - else: a fixed step that is negative or not finite, or a method that takes no fixed steps. */
 iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, const iso_model *model,
@@ -131,18 +132,19 @@ iso_status iso_integrator_start(iso_integrator *it, const double y0[]);
  * Errors: ISO_NUMERICAL with method, reason and the last good time; y is then not written. */
 iso_status iso_integrator_at(iso_integrator *it, double t, double y[]);
 
-/* An event: g(y) passes zero upwards (direction 1, in the sense of growing time), downwards (-1) or either way (0). */
+/* An event: g(y) passes zero upwards (direction 1, in the sense of growing time), downwards (-1) or either way
+ * (0). */
 typedef struct iso_event {
     double (*g)(const iso_model *model, const double y[], const void *data);
     const void *data;
     int direction;
 } iso_event;
 
-/* The first event after `from`, at or before `to`, going away from 0 (0 <= from <= to, or 0 >= from >= to). If there is
- * one, *found is true and t and y are its time and state, good to rounding (at the end of a step: to the error of a
- * step). Two zeros between which the state changes by less than a quarter of its size are found if g turns round just
- * once between them. No events are: a zero that g only touches, a zero at `from` itself or within 1e-9 steps of it.
- * Errors: as iso_integrator_at, and ISO_NUMERICAL when g is not finite. */
+/* The first event after `from`, at or before `to`, going away from 0 (0 <= from <= to, or 0 >= from >= to). If there
+ * is one, *found is true and t and y are its time and state, good to rounding (at the end of a step: to the error of
+ * a step). Two zeros between which the state changes by less than a quarter of its size are found if g turns round
+ * just once between them. No events are: a zero that g only touches, a zero at `from` itself or within 1e-9 steps of
+ * it. Errors: as iso_integrator_at, and ISO_NUMERICAL when g is not finite. */
 iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, double from, double to, bool *found,
                                 double *t, double y[]);
 

@@ -1,10 +1,10 @@
-/* serves.c - whether a method can simulate a model: each check compares one need of the method's row with what the model
- * has, and says what is missing. A method is never run on a model that it would simulate wrongly. */
+/* serves.c - whether a method can simulate a model: each check compares one need of the method's row with what the
+ * model has, and says what is missing. A method is never run on a model that it would simulate wrongly. */
 #include <stdio.h>
 
-#include "method/integrator_impl.h"
+#include "method/method.h"
 
-/* --- one check for each need ------------------------------------------------------------------------------------- */
+/* --- one check for each need --------------------------------------------------------------------------------- */
 
 static bool has_system(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
@@ -17,11 +17,16 @@ static bool has_system(const iso_method *method, const iso_model *model, char wh
 /* Jacobians and series are made of the effects' formulas. */
 static bool has_formulas(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
-    const iso_effect *lacking = method->implicit || method->own_equations ? iso_model_without_formula(model) : NULL;
-    if (!lacking) return true;
-    snprintf(why, ISO_WHY_SIZE, "%s, and the equations of '%s' are no formula to make them from",
-             method->implicit ? "solves with slopes" : "expands the equations in series", lacking->name);
-    return false;
+    const char *needs = method->implicit ? "solves with slopes" : "expands the equations in series";
+    if (!method->implicit && !method->own_equations) return true;
+    const iso_effect *lacking = iso_model_without_formula(model);
+    if (!model->system->has_recurrences)
+        snprintf(why, ISO_WHY_SIZE, "%s, and there are no recurrences of the %s to make them from", needs,
+                 model->system->name);
+    else if (lacking)
+        snprintf(why, ISO_WHY_SIZE, "%s, and the equations of '%s' are no formula to make them from", needs,
+                 lacking->name);
+    return model->system->has_recurrences && !lacking;
 }
 
 static bool has_room(const iso_model *model, char why[ISO_WHY_SIZE])
@@ -31,7 +36,8 @@ static bool has_room(const iso_model *model, char why[ISO_WHY_SIZE])
     return !too_large;
 }
 
-/* Steps of one length in s suit no potential that spans many decades. For k = -1 it is a quadratic form, and spans none. */
+/* Steps of one length in s suit no potential that spans many decades. For k = -1 it is a quadratic form, and spans
+ * none. */
 static bool has_even_steps(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
     const iso_params *p = &model->field.p;
@@ -42,28 +48,10 @@ static bool has_even_steps(const iso_method *method, const iso_model *model, cha
     return false;
 }
 
-/* --- all of them ------------------------------------------------------------------------------------------------- */
+/* --- all of them --------------------------------------------------------------------------------------------- */
 
 bool iso_method_serves(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
     return has_system(method, model, why) && has_room(model, why) && has_formulas(method, model, why) &&
            has_even_steps(method, model, why);
-}
-
-iso_status iso_method_check(iso_context *ctx, const iso_method *method, const iso_model *model,
-                            const iso_method_options *options)
-{
-    char why[ISO_WHY_SIZE];
-    if (!iso_method_serves(method, model, why)) {
-        const iso_method *other = iso_method_auto(model);
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "%s %s%s%s", method->name, why,
-                                other ? "; take " : "", other ? other->name : "");
-    }
-    if (!(options->fixed_step > 0)) return ISO_OK;
-    if (!method->fixed)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%s takes no fixed steps: it chooses its own",
-                                method->name);
-    if (!method->steps_in_s || model->clock == ISO_CLOCK_S) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "the steps of %s are fixed in s: they cannot be in %s",
-                            method->name, iso_clock_name(model->clock));
 }

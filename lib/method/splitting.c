@@ -4,16 +4,17 @@
  *     V alone:        gamma stays, M += h gamma x dV/dgamma
  *
  * Either keeps |gamma| = 1 and (M,gamma) = 0, so every composition does, up to rounding. A symmetric composition of
- * order p solves a Hamiltonian system whose H differs from ours by O(h^p): with steps that are all alike the energy
- * error stays bounded, and the way back is the way forth. Kicks do not feel M and the kinetic energy is quadratic
- * in it, so {V,{V,{V,T}}} = 0 and the tables of Runge-Kutta-Nystrom type hold here as well.
+ * order p solves a Hamiltonian system whose H differs from ours by O(h^p): with steps of one length the error of the
+ * energy stays bounded, and a step back undoes a step forth. Kicks do not depend on M, and the kinetic energy T is
+ * quadratic in M, so {V,{V,{V,T}}} = 0: tables of Runge-Kutta-Nystrom type are valid here.
  *
- * Another clock c with dc/ds = r(gamma) comes along as the coordinate of a momentum p_c = 0: V + p_c r is again a
- * potential of the positions, its kick adds h r(gamma) to c, and the composition has its order for c too.
+ * Another clock c with dc/ds = r(gamma) is one more coordinate, with a momentum p_c = 0: V + p_c r is again a
+ * potential that depends on positions only, its kick adds h r(gamma) to c, and the composition has its order for c
+ * too.
  *
- * Steps are fixed in s, which suits no potential that spans many decades. A run in another clock finds the s where that
- * clock shows a time by Newton's method. Sums over steps are compensated: that divides the rounding errors by the angle
- * of a stage, ten or more.
+ * Steps are fixed in s. This does not suit a potential that spans many decades (serves.c). In a run in another clock
+ * Newton's method finds the s at which that clock shows a given time. Sums over steps are compensated, which makes
+ * the rounding errors ten times smaller or more (by the angle of a stage).
  */
 #include <float.h>
 #include <math.h>
@@ -28,8 +29,9 @@
 
 /* --- coefficients ---------------------------------------------------------------------------------------------- */
 
-/* The first halves of symmetric lists, in units of the step. A middle one (two, if their number is even) takes what
- * the others leave. Without drifts the table composes Strang's steps drift/2, kick, drift/2 of the kicks' lengths. */
+/* The first halves of symmetric lists, in units of the step. The middle number (two, if the count is even) is what
+ * the others leave of 1. A table without drifts composes Strang's steps (drift/2, kick, drift/2) of the kicks'
+ * lengths. */
 typedef struct table {
     int kicks;
     bool kick_first;
@@ -128,8 +130,8 @@ static inline void add3(double sum[3], double rest[3], const double x[3])
     add(&sum[2], &rest[2], x[2]);
 }
 
-/* sin(a)/a and (1 - cos a)/a^2 at x = a^2. The angles of a stage are small as a rule and their series short; sums of
- * pairs wait for each other less than Horner's rule does. */
+/* sin(a)/a and (1 - cos a)/a^2 at x = a^2. The angle of a stage is small as a rule, and the series short. Terms are
+ * summed in pairs, because a processor computes these at the same time; Horner's rule makes each term wait. */
 static inline void turn(double x, double *sine, double *versine)
 {
     if (x > 0.25) {
@@ -192,8 +194,8 @@ static void advance(iso_integrator *it, const schedule *s, bool clocks, state *z
 
 /* --- how long a step may be ------------------------------------------------------------------------------------ */
 
-/* A trial of about two turns from the start, RADIANS, in n steps and in 2n: at LOOKS places they may differ by
- * half a tolerance for each radian of the way. */
+/* A trial goes about two turns from the start (RADIANS), once in n steps and once in 2n. At LOOKS places the two may
+ * differ by half a tolerance for each radian of the way. */
 enum { RADIANS = 12, LOOKS = 4, FIRST_TRIAL = LOOKS, LAST_TRIAL = 512 };
 
 static state begin(const double y[])
@@ -231,8 +233,8 @@ static double difference(const state a[LOOKS], const state b[LOOKS], double spee
     return isnan(most) ? INFINITY : most;
 }
 
-/* The number of steps that makes the difference as large as it may be: between two trials on logarithmic scales,
- * beyond the last by the order; but no step longer than a radian. */
+/* The step for which the difference is as large as it may be: interpolated between two trials on logarithmic scales,
+ * extrapolated beyond the last by the order; but no step is longer than a radian. */
 static double choose_step(iso_integrator *it, bool clocks)
 {
     const double speed = it->model.system->speed(&it->model.field, it->at_right);
@@ -271,7 +273,7 @@ static iso_status create(iso_integrator *it)
     return ISO_OK;
 }
 
-/* Every so many steps rounding is taken out of |gamma| = 1 and (M,gamma) = 0. */
+/* After so many steps the rounding errors of |gamma| = 1 and (M,gamma) = 0 are removed. */
 enum { STEPS_TO_RESTORE = 1024 };
 
 static void restore(state *z)
@@ -293,7 +295,7 @@ static iso_status start(iso_integrator *it)
     return ISO_OK;
 }
 
-/* From y and its rest by s->..., a step or a part of one that is `ds` long */
+/* From y and its rest by the schedule s, which is a step, or a part of one, of length ds; *z is where it arrives. */
 static void move(iso_integrator *it, const schedule *s, double ds, double y[], double rest[], state *z)
 {
     const splitting *d = it->data;
@@ -320,10 +322,11 @@ static iso_status step(iso_integrator *it, double y[], double *h)
         d->until_restored = STEPS_TO_RESTORE;
     }
     *h = z.clock[it->model.clock];
-    return all_finite(y, it->model.dim) && isfinite(*h) ? ISO_OK : iso_integrator_stopped(it, "the state is not finite");
+    return all_finite(y, it->model.dim) && isfinite(*h) ? ISO_OK
+                                                        : iso_integrator_stopped(it, "the state is not finite");
 }
 
-/* A part of a step is a step of that length. */
+/* A part of a step, ds from its left end, is computed as a step of that length. */
 static void part(iso_integrator *it, double ds, double y[], state *z)
 {
     const splitting *d = it->data;
@@ -346,7 +349,7 @@ static iso_status within(iso_integrator *it, double dt, double y[])
     for (int i = 0; i < MAX_ITERATIONS; i++) {
         part(it, ds, reached, &z);
         const double miss = dt - z.clock[m->clock], q = m->system->q(&m->field.p, reached, NULL);
-        /* once in any case: a moment's clocks are found to their own size, not to the step's */
+        /* at least one correction: a short dt is wanted exact relative to itself, not to the step */
         if (miss == 0 || (i > 0 && !(fabs(miss) > DBL_EPSILON * fabs(it->h)))) break;
         ds +=
             miss * iso_clock_rate(&m->field.p, ISO_CLOCK_S, q, NULL) / iso_clock_rate(&m->field.p, m->clock, q, NULL);

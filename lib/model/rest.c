@@ -1,5 +1,5 @@
-/* rest.c - where a motion ends: the ball at rest, the ball that resistance drives backwards in time, and the constraint
- * that is lost while the motion dies away. See rest_impl.h.
+/* rest.c - where a motion ends: the ball at rest, the ball that resistance drives backwards in time, and the
+ * constraint that is lost while the motion dies away. See rest_impl.h.
  *
  * Resistance takes motion out at the rate iso_effects_stiffness() > 0. Only the ball has resistance: it breaks the
  * isomorphism, so that no point has any.

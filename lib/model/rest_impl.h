@@ -4,7 +4,8 @@
  * can find by itself:
  * - At rest nothing changes but clocks, and these go on evenly: any time is one step away.
  * - Backwards in time resistance drives the ball. It turns faster without end, and no number of steps is enough.
- * - While a ball loses its motion, what a method has lost of a constraint stays. In the end that loss is all there is.
+ * - While a ball loses its motion, what a method has lost of a constraint stays. In the end that loss is all there
+ *   is.
  */
 #ifndef ISO_MODEL_REST_IMPL_H
 #define ISO_MODEL_REST_IMPL_H

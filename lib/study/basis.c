@@ -1,3 +1,4 @@
+/* basis.c - from the lines of n(t) to the two frequencies of which they are combinations, see basis_impl.h. */
 #include "study/basis_impl.h"
 
 #include <limits.h>
@@ -42,8 +43,8 @@ double iso_basis_unexplained(const lines *l, const double f[2])
     return all > 0 ? unknown / all : 0;
 }
 
-/* The strongest line of signal s that is no multiple of f (0: that is not constant); -1: none. What is ten orders
- * smaller is not looked at. */
+/* The strongest line of signal s that is no multiple of f (f = 0: the strongest that is not constant); -1: there is
+ * none. Lines with an amplitude below 1e-10 are ignored. */
 static int strongest(const lines *l, int s, double f)
 {
     for (int i = 0; i < l->count[s] && l->line[s][i].amplitude > 1e-10; i++) {
@@ -53,7 +54,8 @@ static int strongest(const lines *l, int s, double f)
     return -1;
 }
 
-/* The strongest line of the pair, and the strongest of the third, or else of the pair, that is no multiple of it. */
+/* The strongest line of the pair, and the strongest line that is no multiple of it: of the third, or else of the
+ * pair. */
 static basis first_basis(const lines *l)
 {
     basis b = {.angles = 0};

@@ -6,7 +6,7 @@
 
 enum { ISO_LINES = 16, ISO_PART_LINES = 8, ISO_MOST_FACTOR = 16 /* of a frequency in a combination */ };
 
-/* Within this part of the resolution a line is what it should be. */
+/* A line is taken for a combination when it differs from it by less than this part of the resolution. */
 #define ISO_NEAR 0.02
 
 /* Samples of n in one clock, as complex signals. */
@@ -33,8 +33,8 @@ typedef struct lines {
 /* The lines of count samples of the series, from the first on. */
 iso_status iso_basis_lines(iso_context *ctx, const series *s, size_t first, size_t count, int most, lines *l);
 
-/* The strongest line of the pair, and the strongest of the third, or else of the pair, that is no multiple of it;
- * where those leave much unexplained, the two among the strongest lines that explain most. */
+/* The strongest line of the pair, and the strongest line that is no multiple of it: of the third, or else of the
+ * pair. Where these two leave much unexplained: the two of the strongest lines that explain most. */
 basis iso_basis_find(const lines *l);
 
 /* The basic frequencies of `whole` in a part of the series: the lines nearest to them. */

@@ -1,3 +1,4 @@
+/* cost.c - measures error and time of every backend, method and tolerance on one scene, see cost.h. */
 #include "study/cost.h"
 
 #include <math.h>
@@ -8,13 +9,14 @@
 #include "base/pi_impl.h"
 #include "study/cost_impl.h"
 
-/* How the time is divided: references; of the rest, a cell is run about RUNS times at least. */
+/* How the time is divided: REFERENCES is the part for references. Of the rest each cell may use so much that it can
+ * be run RUNS times. */
 static const double QUICK = 3, LONG = 40, REFERENCES = 0.3, RUNS = 5;
 
-/* Runs shorter than this are warmed up. */
+/* A run that takes less than this many seconds is run once more before it is timed. */
 static const double MOMENT = 1e-3;
 
-/* A cell may take so many times its fair share, for most take less. */
+/* A cell may take so many times its fair share of the time, because most cells take less. */
 static const double GENEROUS = 8;
 
 enum { LEAST_REPEATS = 3, MOST_LINES = 128, MOST_TOLERANCES = 8 };
@@ -76,7 +78,7 @@ static iso_cost_line *add_line(measurer *m, iso_picture backend, const iso_metho
     return line;
 }
 
-/* Whether there is such an orbit at all. */
+/* Whether this backend and method can compute the scene at all. */
 static bool serves(measurer *m, iso_picture backend, const iso_method *method)
 {
     iso_orbit *orbit;
@@ -120,7 +122,7 @@ static iso_status choose_cells(measurer *m)
 
 /* --- errors ----------------------------------------------------------------------------------------------------- */
 
-/* The closed solution does not judge itself. */
+/* The closed solution is compared with the second reference, because the first may be itself. */
 static void take_errors(measurer *m, const cost_track *track, iso_cost_cell *cell)
 {
     const cost_reference *r = &m->reference;
@@ -145,8 +147,8 @@ static void not_in_time(iso_cost_cell *cell, double seconds)
     snprintf(cell->why, sizeof cell->why, "it would take more than %.2g s, its share of the time", seconds);
 }
 
-/* The error of one cell, in a run that may take so many seconds, and of its clock in another; *about: what the first
- * took. */
+/* The error of one cell, from a run that may take so many seconds, and that of its clock, from another run. *about is
+ * the time of the first run. */
 static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double *about)
 {
     cost_track track;
@@ -169,7 +171,7 @@ static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double 
     iso_cost_track_free(&track);
 }
 
-/* The tighter tolerances of a line that takes too long. */
+/* Leaves out the tighter tolerances of a line that takes too long. */
 static void give_up(measurer *m, const iso_cost_line *line, int from)
 {
     for (int i = from; i < line->count; i++) {
@@ -179,7 +181,7 @@ static void give_up(measurer *m, const iso_cost_line *line, int from)
     }
 }
 
-/* What the least repeats take: short runs are warmed up, and timed several at once. */
+/* The time that the least number of repeats takes. Short runs are run once before, and several are timed at once. */
 static double repeats_of(double about)
 {
     return LEAST_REPEATS * (about < MOMENT ? 2 * about + MOMENT / 10 : about);
@@ -192,7 +194,7 @@ static double share_of(const measurer *m, int left)
     return rest / RUNS * fmin(1, GENEROUS / left);
 }
 
-/* All lines at the loosest tolerance, then at the next, so that what there is after a while is of all. */
+/* All lines at the loosest tolerance, then all at the next: when the time is over every line has some cells. */
 static void check_cells(measurer *m, double about[])
 {
     int left = m->out->cells;
@@ -226,7 +228,7 @@ static void time_cell(measurer *m, iso_cost_cell *cell, cost_times *times, doubl
         fail(cell, status, iso_context_message(m->p.ctx));
 }
 
-/* In rounds, until all is known or the time is over. */
+/* Times all cells once in each round, until all times are settled or the time is over. */
 static void time_cells(measurer *m, const double about[])
 {
     int open = 1;
@@ -243,7 +245,7 @@ static void time_cells(measurer *m, const double about[])
     }
 }
 
-/* A cell that a stop leaves without a time has that of the run that gave its error, set-up included. */
+/* Where a stop leaves a cell without a time, it gets the time of the run that gave its error, with set-up. */
 static void keep_first_runs(measurer *m, const double about[])
 {
     for (int i = 0; i < m->out->cells; i++) {

@@ -6,16 +6,18 @@
  *     const iso_cost_cell *best = iso_cost_choose(cost, 1e-9);      the cheapest that reaches it, or NULL
  *     iso_cost_free(cost);
  *
- * A cell is one backend with one method at one tolerance. Its error is the largest, over output times spread evenly
- * over the scene, of the relative error of the ball's (omega, n) (each vector relative to its length) against a
- * reference that no cell shares: the closed solution where there is one, else a run in extended precision. The
- * reference's own uncertainty is its distance from a second, independent one: of the other formulation where there is
- * one, else by another code. Only what acts on the motion is computed, no attitude and no reactions.
- *
- * Times are processor time of warm runs straight to the scene's end, repeated in rounds over all cells, so that a
- * disturbance of the machine does not fall on one of them, until minimum and median are known to about 5 %; set-up
- * (the creation of the orbit) is apart from stepping. A cell that would take more than its share of the time is given
- * up, and the tighter tolerances of its line are not tried.
+ * A cell is one backend with one method at one tolerance.
+ * - Its error is the largest relative error of the ball's (omega, n), each vector relative to its length, at output
+ *   times that are spread evenly over the scene. It is measured against a reference that is none of the cells: the
+ *   closed solution where there is one, else a run in extended precision.
+ * - The uncertainty of the reference is its distance from a second, independent reference: from the other formulation
+ *   (ball or point) where there is one, else from another method.
+ * - Only what acts on the motion is computed: no attitude, no reactions.
+ * - Its time is processor time of runs straight to the end of the scene, without set-up (the creation of the orbit).
+ *   Runs are repeated in rounds over all cells, so that a disturbance of the machine does not fall on one cell, until
+ *   minimum and median are known to about 5 %.
+ * - A cell that would take more than its share of the time is given up, and the tighter tolerances of its line are
+ *   not tried.
  */
 #ifndef ISO_STUDY_COST_H
 #define ISO_STUDY_COST_H
@@ -85,10 +87,10 @@ void iso_cost_free(iso_cost *cost);
 /* Whether a cell has a result. */
 bool iso_cost_is_measured(const iso_cost_cell *cell);
 
-/* Whether it has one with an error of at most `want`, as far as the reference can tell. */
+/* Whether its error is at most `want`; an error below the uncertainty of the reference counts as that uncertainty. */
 bool iso_cost_reaches(const iso_cost *cost, const iso_cost_cell *cell, double want);
 
-/* The cell with the least `total` whose error is known to be at most `want`; NULL: none is. */
+/* The cell with the least `total` of those that reach `want`; NULL: none does. */
 const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want);
 
 enum { ISO_COST_HORIZONS = 24 };

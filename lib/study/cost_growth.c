@@ -1,4 +1,4 @@
-/* cost_growth.c - how error and time grow with the length of an orbit. */
+/* cost_growth.c - how error and time of one cell grow with the length of the orbit. */
 #include <gsl/gsl_fit.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,14 +8,15 @@
 #include "base/vec3_impl.h"
 #include "study/cost_impl.h"
 
-/* Output times in each doubling, and all of them. */
+/* Output times in each doubling of the length, and in all. */
 enum { TIMES = 20, MOST_TIMES = TIMES * ISO_COST_HORIZONS, REPEATS = 7, LEAST_REPEATS = 3 };
 
-/* What all may take, and of it the references and the cell's errors; a horizon is timed again when it is shorter than
- * MOMENT. */
+/* Seconds for everything, of these for the references and for the errors of the cell. A horizon is timed again until
+ * its runs have taken MOMENT. */
 static const double SECONDS = 40, REFERENCES = 20, ERRORS = 10, MOMENT = 0.1;
 
-/* Errors of which the growth can be told: above so many uncertainties, and not LOST. */
+/* The growth is fitted to errors that are larger than so many uncertainties of the reference, and smaller than
+ * LOST. */
 static const double UNCERTAINTIES = 3, LOST = 0.1;
 
 typedef struct grower {
@@ -40,7 +41,8 @@ static iso_status probe(grower *g, iso_picture backend, const iso_method *method
     return status;
 }
 
-/* Time is proportional to length, but for the closed solution; a cell is run about eight times, references twice. */
+/* As many horizons as fit into SECONDS. Time is proportional to length, except for the closed solution; a cell is run
+ * about eight times, references twice. */
 static iso_status choose_horizons(grower *g, int *horizons)
 {
     double own, series;
@@ -49,14 +51,14 @@ static iso_status choose_horizons(grower *g, int *horizons)
     if (status != ISO_OK)
         return iso_cost_is_stopped(&g->p)
                    ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request")
-                   : iso_context_fail(g->p.user, ISO_NUMERICAL, "", "the cell does not get to %g: %s", g->p.end,
+                   : iso_context_fail(g->p.user, ISO_NUMERICAL, "", "the run does not get to %g: %s", g->p.end,
                                       iso_context_message(g->p.ctx));
     const iso_method *const fine = iso_method_with_more_digits(ISO_DOUBLE_DIGITS); /* as for a reference */
     if (!fine || probe(g, g->p.scene->start.model, fine, 1e-15, &series) != ISO_OK) series = 0;
     const double unit = (c->method ? 8 * own : 0) + 2.5 * series, most = 1 + floor(log2(fmax(1, SECONDS / unit)));
     if (most >= *horizons) return ISO_OK;
     *horizons = (int)most;
-    snprintf(g->out->why, sizeof g->out->why, "longer ones would take more than %g s", SECONDS);
+    snprintf(g->out->why, sizeof g->out->why, "longer orbits would take more than %g s", SECONDS);
     return ISO_OK;
 }
 
@@ -71,7 +73,8 @@ static void fill_times(grower *g, int horizons)
 
 /* --- errors and times ------------------------------------------------------------------------------------------- */
 
-/* The largest up to each time, of the cell and of the reference; the closed solution's error has no other measure. */
+/* The largest error up to each time, and the uncertainty of the reference. The error of the closed solution is
+ * measured against the second reference, whose uncertainty is not known. */
 static void take_errors(grower *g)
 {
     const cost_reference *r = &g->reference;
@@ -144,7 +147,8 @@ static double fit(int count, const double x[], const double y[], double *slope)
     return rest / count;
 }
 
-/* A power of more than STEEP that an exponential fits better is chaos: regular orbits' errors grow like t or t^2. */
+/* The errors of regular orbits grow like t or t^2. Where the fitted power is above STEEP and an exponential fits
+ * better, the orbit is chaotic. */
 static const double STEEP = 3;
 
 static void fit_errors(const grower *g)

@@ -1,13 +1,15 @@
-/* cost_judge.c - what measured cells say: which are worth their time, and how error, time and steps go together. */
+/* cost_judge.c - from measured cells: which are worth their time, and how error, time and steps depend on each
+ * other. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "study/cost_impl.h"
 
-/* Faster by less is the same time; an error beyond LOST is no answer. */
+/* A cell is faster if another takes FASTER times as long; an error above LOST is no result; a line has stopped
+ * gaining at AT_FLOOR times its least error. */
 static const double FASTER = 1.05, LOST = 0.1, AT_FLOOR = 2;
 
-/* A fit wants points this far apart, in decades. */
+/* A fit uses pairs of points that are at least so many decades apart. */
 static const double APART = 0.3;
 
 bool iso_cost_is_measured(const iso_cost_cell *cell)
@@ -15,7 +17,7 @@ bool iso_cost_is_measured(const iso_cost_cell *cell)
     return cell->status == ISO_OK && cell->repeats > 0;
 }
 
-/* An error below the reference's uncertainty is not known to be smaller than that. */
+/* An error below the uncertainty of the reference counts as large as that. */
 static double known_error(const iso_cost *cost, const iso_cost_cell *cell)
 {
     return cell->below ? fmax(cell->error, cost->uncertainty) : cell->error;
@@ -57,14 +59,14 @@ static void find_floor(const iso_cost_cell cell[], iso_cost_line *line)
         last = i;
         if (!(cell[i].error >= line->least)) line->least = cell[i].error;
     }
-    for (int i = 0; i < last; i++) { /* what only the last reaches may go on */
+    for (int i = 0; i < last; i++) { /* the last cell may still gain */
         if (!iso_cost_is_measured(&cell[i]) || cell[i].error > AT_FLOOR * line->least || cell[i].below) continue;
         line->stops_at = cell[i].tolerance;
         return;
     }
 }
 
-/* Cells that still gain. */
+/* Whether a tighter tolerance still makes this cell's error smaller. */
 static bool gains(const iso_cost_cell *cell, const iso_cost_line *line)
 {
     const bool above = isnan(line->stops_at) || cell->error > AT_FLOOR * line->least;

@@ -1,4 +1,5 @@
-/* cost_reference.c - what errors are measured against, and how far that can be trusted. */
+/* cost_reference.c - the reference for errors, and its uncertainty: the distance from a second, independent
+ * reference. */
 #include <math.h>
 #include <stdio.h>
 
@@ -24,10 +25,10 @@ static iso_status follow(cost_problem *p, const source *s, double seconds, cost_
     const iso_status status = iso_cost_walk(p, s->backend, s->method, s->tolerance, true, seconds, track);
     if (status == ISO_OK || status == ISO_STOPPED || track->reached > 0) return status;
     return iso_cost_walk(p, s->backend, s->method, s->tolerance, false, seconds,
-                         track); /* perhaps for want of a clock */
+                         track); /* without the other clock, which may be what failed */
 }
 
-/* The first of the sources that gets to the end, else the one that gets farthest; -1: none gets anywhere. */
+/* The first of the sources that gets to the end, else the one that gets farthest; -1: none gets to any time. */
 static int best_source(cost_problem *p, const source list[], int count, double seconds, cost_track *track)
 {
     int best = -1, farthest = 0, used = -1;
@@ -37,7 +38,7 @@ static int best_source(cost_problem *p, const source list[], int count, double s
         if (follow(p, &list[i], seconds, track) == ISO_OK) return i;
         if (track->reached > farthest) farthest = track->reached, best = i;
     }
-    if (best >= 0 && best != used) follow(p, &list[best], seconds, track); /* once more, it was written over */
+    if (best >= 0 && best != used) follow(p, &list[best], seconds, track); /* again: the track holds another run */
     return best;
 }
 
@@ -65,7 +66,8 @@ static void add_fine(sources *s, iso_picture backend)
     while (count > 0) add(s, backend, fine[--count], 1e-15);
 }
 
-/* What stiff models need: the implicit witnesses, and the last of them, which goes farthest, at a looser tolerance. */
+/* What stiff models need: the implicit witnesses, and the last of them, which goes farthest, at a looser
+ * tolerance. */
 static void add_implicit(sources *s, iso_picture backend)
 {
     const iso_method *last = NULL;
@@ -94,7 +96,8 @@ static iso_status find_first(cost_problem *p, double seconds, bool may_fall_shor
     return ISO_OK;
 }
 
-/* Series in the formulation that the first was not found in; of the closed solution, in any. */
+/* A second reference by extended precision, in the formulation (ball or point) that the first does not use; if the
+ * first is the closed solution, in that of the start. */
 static bool find_by_series(cost_problem *p, const source *first, double seconds, cost_reference *r)
 {
     const iso_picture own = p->scene->start.model, other = own == ISO_BALL ? ISO_POINT : ISO_BALL;
@@ -107,8 +110,8 @@ static bool find_by_series(cost_problem *p, const source *first, double seconds,
     return true;
 }
 
-/* Another method (iso_method.witness) for the same equations, the ball's: of all runs that come as far as the first, the
- * one that is nearest to it. */
+/* Another method (iso_method.witness) for the same equations, the ball's: of all runs that come as far as the first,
+ * the one that is nearest to it. */
 static bool find_by_others(cost_problem *p, const source *first, double seconds, cost_reference *r)
 {
     static const double tolerances[] = {1e-13, 1e-14, 1e-15};
@@ -123,7 +126,8 @@ static bool find_by_others(cost_problem *p, const source *first, double seconds,
             const double off = iso_cost_distance(&r->first, &r->second);
             if (off < least) best = now, least = off;
         }
-    if (!best.method || follow(p, &best, 2 * seconds, &r->second) != ISO_OK) return false; /* r->second held the last run */
+    if (!best.method || follow(p, &best, 2 * seconds, &r->second) != ISO_OK)
+        return false; /* r->second held the last run */
     describe(&best, r->second_what);
     return true;
 }

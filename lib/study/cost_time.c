@@ -1,4 +1,4 @@
-/* cost_time.c - times on a machine that does other things as well. */
+/* cost_time.c - how long an orbit takes, measured by repeats on a machine that also does other things. */
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
@@ -7,7 +7,8 @@
 #include "base/vec3_impl.h"
 #include "study/cost_impl.h"
 
-/* Orbits that are timed together when they are short, so that the clock's own time does not show: for about SHORT. */
+/* Short orbits are timed several at once, up to TOGETHER of them, so that they take about SHORT seconds: reading the
+ * clock takes time itself. */
 enum { TOGETHER = 16 };
 static const double SHORT = 1e-4;
 
@@ -33,21 +34,22 @@ iso_status iso_cost_time(cost_problem *p, const iso_cost_cell *cell, double end,
                          double *stepping, iso_statistics *statistics)
 {
     const int count = about < SHORT / TOGETHER ? TOGETHER : about < SHORT ? (int)ceil(SHORT / about) : 1;
-    if (about < 10 * SHORT) { /* what was there before is out of the caches */
+    if (about < 10 * SHORT) { /* fills the caches, which hold the data of another cell */
         const iso_status status = run_some(p, cell, end, 1, setup, stepping, statistics);
         if (status != ISO_OK) return status;
     }
     return run_some(p, cell, end, count, setup, stepping, statistics);
 }
 
-/* Sorts. */
+/* The median of x, which is sorted by this. */
 static double median_of(int count, double x[])
 {
     gsl_sort(x, 1, (size_t)count);
     return gsl_stats_median_from_sorted_data(x, 1, (size_t)count);
 }
 
-/* The median lies between the numbers about sqrt(n)/2 places before and after the middle, two times in three. */
+/* Of n sorted times the true median lies between those about sqrt(n)/2 places before and after the middle, in two
+ * cases of three. */
 bool iso_cost_times_settled(const cost_times *times)
 {
     double x[COST_REPEATS];

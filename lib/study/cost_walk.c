@@ -7,7 +7,7 @@
 
 /* --- the scene, and its watch ----------------------------------------------------------------------------------- */
 
-/* Asked at each step: cheap, so that it does not show in what is measured. */
+/* Of so many calls one looks at the clock. It is called at each step, and must not slow down what is measured. */
 enum { CALLS = 64 };
 
 static bool go_on(void *data)
@@ -65,7 +65,7 @@ iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_s
     return ISO_OK;
 }
 
-/* The watch has the address of a problem that no longer moves. */
+/* Called for each orbit, when the problem no longer moves: the context keeps the address of its watch. */
 static void watch(cost_problem *p)
 {
     iso_context_watch(p->ctx, go_on, &p->watch);
@@ -140,7 +140,7 @@ static void follow_integrals(const keeper *k, const iso_orbit *orbit, const iso_
     }
 }
 
-/* From what the way so far took. */
+/* Whether the whole track will take longer, judged by the time that the part so far took. */
 static bool looks_longer(const cost_track *track, double took, double seconds)
 {
     const double share = track->time[track->reached - 1] / track->time[track->times - 1];

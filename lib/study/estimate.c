@@ -8,7 +8,7 @@
 #include "study/basis_impl.h"
 #include "study/frequencies_impl.h"
 
-/* What the halves cannot tell of, relative. */
+/* Relative differences between the halves of an orbit below this are rounding. */
 static const double ROUNDING = 1e-14;
 
 static const double LEAST_TURNS = 20;
@@ -17,7 +17,7 @@ typedef struct estimator {
     iso_context *ctx;
     const iso_scene *scene;
     iso_effects effects;
-    bool twin, fixed; /* whether there are other clocks; whether the length was asked for */
+    bool twin, fixed; /* whether there is a point, and so other clocks; whether the caller gave the length */
     size_t count;
     double end[ISO_CLOCKS];
     iso_frequencies *f;
@@ -37,7 +37,7 @@ static iso_status open_orbit(const estimator *e, iso_clock clock, iso_orbit **or
     return iso_orbit_create(e->ctx, &e->scene->params, &e->scene->start, &o, orbit);
 }
 
-/* n at the samples, three numbers each, from pair[]; and the mean of omega. Gives the ends of the other clocks. */
+/* n at the samples, three numbers each, and the mean of omega. In t it also finds the ends of the other clocks. */
 static iso_status sample(estimator *e, iso_clock clock, double n[], double mean[3])
 {
     iso_orbit *orbit;
@@ -68,7 +68,7 @@ static void split(const double n[], size_t count, int axis, series *s)
     }
 }
 
-/* The signals of one clock; the ball turns about the axis along which omega lies in the mean. */
+/* The signals of one clock. The axis of the estimate is that along which the mean of omega is largest. */
 static iso_status make_series(estimator *e, iso_clock clock, series *s)
 {
     double mean[3], *const n = malloc(7 * e->count * sizeof *n);
@@ -104,7 +104,7 @@ static iso_status find_drift(estimator *e, const series *s, const basis *b, size
     return status;
 }
 
-/* Beats of the frequencies, by small factors, in half of the orbit: the slowest. */
+/* How many turns the slowest small combination of the frequencies makes in half of the orbit. */
 static double slowest_beat(const basis *b, double length)
 {
     double least = b->angles == 1 ? fabs(b->frequency[0]) : INFINITY;
@@ -115,8 +115,8 @@ static double slowest_beat(const basis *b, double length)
     return least * length / 2 / (2 * ISO_PI);
 }
 
-/* The frequencies of a regular motion are found by far the better, the longer the orbit, once it has a dozen beats;
- * those of a chaotic one wander on. An integrable problem has none of those. */
+/* The longer the orbit, the smaller the drift of a regular motion's frequencies, once the orbit has a dozen beats.
+ * The frequencies of a chaotic motion go on changing. An integrable problem has no chaotic motion. */
 static iso_verdict judge(const iso_estimate *e, const basis *b, bool integrable)
 {
     static const double SAME = 1e-8, WANDERING = 1e-6, BEATS = 12;
@@ -127,7 +127,8 @@ static iso_verdict judge(const iso_estimate *e, const basis *b, bool integrable)
     return wanders && slowest_beat(b, e->length) > BEATS ? ISO_CHAOTIC : ISO_UNDECIDED;
 }
 
-/* Lines by their combinations of the frequencies as they are told, > 0: angle[0] is frequency[1]. */
+/* Names each line by its combination of the frequencies of the angles. These are > 0, and in the order of the angles,
+ * which is the reverse of that of the basis. */
 static void name_lines(iso_frequencies *f, const lines *l)
 {
     iso_estimate *e = &f->estimate;
@@ -147,7 +148,7 @@ static void name_lines(iso_frequencies *f, const lines *l)
 
 /* --- one clock after the other ---------------------------------------------------------------------------------- */
 
-/* In t: the basis, its drift, all lines. angle[0] swings, angle[1] turns. */
+/* In the clock t: finds the basis, its drift and all lines. angle[0] swings, angle[1] turns. */
 static iso_status estimate_in_t(estimator *e, const series *s, basis *b)
 {
     iso_frequencies *f = e->f;
@@ -177,7 +178,7 @@ static iso_status estimate_in_t(estimator *e, const series *s, basis *b)
     return status;
 }
 
-/* In another clock: the same lines, with frequencies about in the ratio of the clocks. */
+/* In another clock: the same lines, whose frequencies differ from those in t by about the ratio of the clocks. */
 static iso_status estimate_in(estimator *e, iso_clock clock, const basis *in_t)
 {
     const double ratio = e->end[ISO_CLOCK_T] / e->end[clock];
@@ -204,14 +205,15 @@ static iso_status estimate_in(estimator *e, iso_clock clock, const basis *in_t)
 static void say(iso_frequencies *f)
 {
     static const char *const motion[] = {
-        [ISO_REGULAR] = "regular, as far as this orbit tells",
+        [ISO_REGULAR] = "regular, as far as this orbit shows",
         [ISO_CHAOTIC] = "chaotic",
         [ISO_UNDECIDED] = "not decided: a longer orbit may tell",
         [ISO_INTEGRABLE] = "this orbit is too short to settle its frequencies",
     };
     const int axis = f->estimate.axis + 1;
     if (f->angles == 2)
-        snprintf(f->angle[0].what, sizeof f->angle[0].what, "strongest line of n%d that is no multiple of frequency 2", axis);
+        snprintf(f->angle[0].what, sizeof f->angle[0].what,
+                 "strongest line of n%d that is no multiple of frequency 2", axis);
     if (f->angles > 0)
         snprintf(f->angle[f->angles - 1].what, sizeof f->angle[0].what, "strongest line of n%d + i n%d", axis % 3 + 1,
                  (axis + 1) % 3 + 1);
@@ -220,7 +222,7 @@ static void say(iso_frequencies *f)
                                                                                   : "");
 }
 
-/* A motion that is not soon found regular is followed longer, unless its length was asked for. */
+/* A motion that is not found regular is followed over a longer orbit, unless the caller gave the length. */
 static iso_status estimate(estimator *e)
 {
     enum { LEVELS = 3, MOST = 1 << 20 };
@@ -259,7 +261,7 @@ static iso_status check_effects(iso_context *ctx, const iso_orbit *orbit)
     return without ? iso_context_fail(ctx, ISO_NOT_MAPPED, without->name, "%s", why) : ISO_OK;
 }
 
-/* n turns at the rate |k omega|; but where |k| is small omega itself turns faster, at about its own size. */
+/* n turns at the rate |k omega|. Where |k| is small omega turns faster, at a rate of about |omega|. */
 static iso_status choose_length(estimator *e, double speed, const iso_frequencies_options *o)
 {
     const double k = fabs(e->scene->params.k), turn = 2 * ISO_PI / (k * speed),
@@ -276,8 +278,8 @@ static iso_status choose_length(estimator *e, double speed, const iso_frequencie
     if ((double)e->count >= 8 * length * fast) return ISO_OK;
     return iso_context_fail(
         e->ctx, ISO_BAD_ARGUMENT, "samples",
-        "%zu samples of %g turns of the ball are fewer than 8 for each turn: take fewer turns, or more samples", e->count,
-        length * fast);
+        "%zu samples of %g turns of the ball are fewer than 8 for each turn: take fewer turns, or more samples",
+        e->count, length * fast);
 }
 
 /* Checks the scene, and chooses the length of the orbit. */

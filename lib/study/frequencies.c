@@ -1,5 +1,5 @@
-/* frequencies.c - the frequencies of a motion, see frequencies.h: from the closed solution where there is one, else the
- * estimate of estimate.c. */
+/* frequencies.c - the frequencies of a motion, see frequencies.h: from the closed solution where there is one, else
+ * the estimate of estimate.c. */
 #include "study/frequencies.h"
 
 #include <math.h>
@@ -34,8 +34,9 @@ static void say_separated(const iso_momentum *m, const double J[3], iso_momentum
 {
     const int turning = part == ISO_TURNS_ABOUT_1 ? 1 : 0, axis = m->axis[turning == 1 ? 0 : 2];
     iso_angle *turns = &f->angle[turning], *swings = &f->angle[1 - turning];
-    snprintf(f->motion, sizeof f->motion, "turns about axis %d (%s moment) and swings %s the plane perpendicular to it",
-             axis + 1, rank(J, axis), part == ISO_ON_ONE_SIDE ? "on one side of" : "through");
+    snprintf(f->motion, sizeof f->motion,
+             "turns about axis %d (%s moment) and swings %s the plane perpendicular to it", axis + 1, rank(J, axis),
+             part == ISO_ON_ONE_SIDE ? "on one side of" : "through");
     snprintf(turns->what, sizeof turns->what, "%c turns about axis %d", "uv"[turning], axis + 1);
     snprintf(swings->what, sizeof swings->what, "%c swings %s", "vu"[turning],
              part == ISO_ON_ONE_SIDE ? "towards the axis and back" : "along the axis");
@@ -55,7 +56,7 @@ static void say_symmetric(const iso_params *p, iso_frequencies *f)
     snprintf(f->angle[1].what, sizeof f->angle[1].what, "turns about axis %d", axis + 1);
 }
 
-/* Where the problem separates. */
+/* Whether the rotation about an axis is unstable, where the problem separates. */
 static bool is_unstable(const iso_field *f, int axis)
 {
     iso_bifurcation list[ISO_MOST_BIFURCATIONS];
@@ -65,7 +66,7 @@ static bool is_unstable(const iso_field *f, int axis)
     return unstable;
 }
 
-/* M along an axis, gamma in the plane across it */
+/* M lies along an axis, gamma in the plane perpendicular to it. */
 static void say_plane(const iso_field *field, const double M[3], iso_frequencies *f)
 {
     int axis = 0;
@@ -90,14 +91,15 @@ static void say(const iso_orbit *orbit, const iso_sample *start, const iso_exact
     case ISO_EXACT_SYMMETRIC: say_symmetric(&field->p, f); break;
     case ISO_EXACT_PLANE: say_plane(field, start->point, f); break;
     case ISO_EXACT_SEPARATRIX:
-        snprintf(f->motion, sizeof f->motion, "leaves an unstable rotation and comes back to it, once: the separatrix");
+        snprintf(f->motion, sizeof f->motion,
+                 "leaves an unstable rotation and comes back to it, once: the separatrix");
         break;
     case ISO_EXACT_REST: snprintf(f->motion, sizeof f->motion, "rests"); break;
     case ISO_EXACT_KINDS: break;
     }
 }
 
-/* How far the constant of separation is from those of the unstable rotations, without cancellation. */
+/* How far the constant of the separation is from those of the unstable rotations, computed without cancellation. */
 static void find_separatrices(const iso_orbit *orbit, const double point[ISO_STATE], iso_frequencies *f)
 {
     const iso_field *field = &iso_orbit_model(orbit)->field;

@@ -4,13 +4,15 @@
  *     iso_frequencies_options o = iso_frequencies_defaults();
  *     status = iso_frequencies_find(ctx, &scene, &o, &f);      f.angle[0].frequency[ISO_CLOCK_T], f.rotation
  *
- * A motion on a torus has two angles that grow uniformly in each of the clocks t, tau and s. The closed solution
- * (exact/exact.h) gives them with their actions. Elsewhere n(t) is computed over many turns and its lines are found
- * (spectrum.h): the strongest line of the pair of components that turns about an axis, and the strongest of the third
- * one which is no multiple of it. A basis of the frequencies is only determined up to integer combinations; where the
- * problem separates and the motion is not extreme, this is the basis of the closed solution. Both halves of the orbit
- * are analysed as well: where their frequencies differ, and do so hardly less for longer orbits, the motion is
- * chaotic.
+ * A motion on a torus has two angles that grow uniformly in each of the clocks t, tau and s. Where there is a closed
+ * solution (exact/exact.h), it gives their frequencies and actions. Elsewhere the frequencies are estimated:
+ * - n(t) is computed over many turns, and its lines are found (spectrum.h).
+ * - One frequency is the strongest line of the two components of n that turn about an axis. The other is the
+ *   strongest line of the third component that is no multiple of the first.
+ * - Two such frequencies are determined only up to integer combinations. Where the problem separates and the motion
+ *   is not extreme, they are those of the closed solution.
+ * - Both halves of the orbit are analysed too. If their frequencies differ, and longer orbits hardly reduce the
+ *   difference, the motion is chaotic.
  */
 #ifndef ISO_STUDY_FREQUENCIES_H
 #define ISO_STUDY_FREQUENCIES_H
@@ -49,7 +51,8 @@ typedef struct iso_resonance {
     bool met;                /* the gap is rounding (an estimate: within its error)                         */
 } iso_resonance;
 
-/* ISO_INTEGRABLE: regular because a further integral makes it so, though the estimated frequencies are not settled. */
+/* ISO_INTEGRABLE: regular because a further integral makes it so, though the estimated frequencies are not
+ * settled. */
 typedef enum iso_verdict { ISO_REGULAR, ISO_CHAOTIC, ISO_UNDECIDED, ISO_INTEGRABLE } iso_verdict;
 
 /* A line of n(t), nu = m angle[0].frequency + n angle[1].frequency where `known`. */
@@ -76,13 +79,13 @@ enum { ISO_MAX_RESONANCES = 8, ISO_SEPARATRICES = 2 };
 /* Where a motion changes its kind, at a root that meets b2 (and b3). */
 typedef struct iso_separatrix {
     char what[96];
-    double distance; /* (c - its c)/|the larger of both|; 0: on it. > 0: the root is on the near side of b: u turns
-                        back before b2, v goes through b3 */
+    double distance; /* (c - c of the separatrix)/(the larger |c| of both); 0: on it; > 0: u turns back before b2, and
+                        v goes through b3 */
 } iso_separatrix;
 
 typedef struct iso_frequencies {
     bool estimated;
-    bool unresolved;     /* estimated although there is a closed solution: it takes too many terms      */
+    bool unresolved;     /* estimated although there is a closed solution, which needs too many terms   */
     char why[256];       /* estimated: why                                                              */
     iso_exact_kind kind; /* of the closed solution                                                      */
     char motion[160];    /* in words                                                                    */
@@ -103,9 +106,12 @@ typedef struct iso_frequencies {
     iso_estimate estimate;
 } iso_frequencies;
 
-/* Errors: ISO_NOT_MAPPED about the effect by which the motion is not quasi-periodic (it takes energy, or the ball
- * rolls away), and for a ball at rest; ISO_BAD_ARGUMENT about the options (of an estimate: less
- * than 20 turns, less than 8 samples a turn or too many in all); as iso_orbit_create and iso_orbit_at. */
+/* Errors:
+ * - ISO_NOT_MAPPED about an effect that takes energy or lets the ball roll away: no such motion is quasi-periodic;
+ * - ISO_NOT_MAPPED for a ball at rest;
+ * - ISO_BAD_ARGUMENT about the options: for an estimate fewer than 20 turns, fewer than 8 samples a turn, too many
+ *   samples;
+ * - those of iso_orbit_create and iso_orbit_at. */
 iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
                                 iso_frequencies *frequencies);
 

@@ -1,5 +1,6 @@
-/* frequencies_common.c - what the closed and the estimated frequencies share: the check of the options, the orbit at its
- * start, where the motion lies in its family, and what follows from two frequencies (rotation number, resonances). */
+/* frequencies_common.c - what the closed and the estimated frequencies share: the check of the options, the orbit at
+ * its start, where the motion lies in its family, and what follows from two frequencies (rotation number,
+ * resonances). */
 #include <math.h>
 
 #include "study/frequencies_impl.h"
@@ -60,7 +61,7 @@ static void find_resonances(iso_frequencies *f)
     }
 }
 
-/* Of one angle, or where a resonance is met; estimates do not tell. */
+/* An orbit is closed if it has one angle, or if a resonance is met exactly, which an estimate cannot decide. */
 static void find_closed(iso_frequencies *f)
 {
     const iso_resonance *last = f->resonances > 0 ? &f->resonance[f->resonances - 1] : NULL;
@@ -80,7 +81,7 @@ void iso_frequencies_finish(iso_frequencies *f)
     find_closed(f);
 }
 
-/* --- where the motion is in its family -------------------------------------------------------------------------- */
+/* --- where the motion lies in its family --------------------------------------------------------------------- */
 
 /* The ball's integral beyond the energy and the constraints. */
 static const iso_integral *further_integral(const iso_orbit *orbit)
@@ -96,7 +97,7 @@ void iso_frequencies_place(const iso_orbit *orbit, const iso_sample *start, iso_
     double size;
     f->h = iso_orbit_energy(orbit);
     f->eps = iso_orbit_has_twin(orbit) ? iso_orbit_coupling(orbit) : NAN;
-    if (iso_orbit_has_twin(orbit)) { /* frequencies are asked of the point's model then */
+    if (iso_orbit_has_twin(orbit)) { /* then the model is the point's, and its level is H */
         const iso_dimension M = iso_system_point.fast_dimension;
         f->H = iso_orbit_model(orbit)->field.energy *
                iso_unit(iso_orbit_units(orbit), (iso_dimension){2 * M.J, 2 * M.J_2k, 2 * M.w});

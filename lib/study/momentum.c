@@ -1,3 +1,4 @@
+/* momentum.c - the image of the momentum map and its parts; the formulas stand in momentum.h. */
 #include "study/momentum.h"
 
 #include <math.h>
@@ -101,8 +102,8 @@ iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h
         "swings_low", "swings_high", "rotation_1",   "rotation_2",  "rotation_3",   "roots_meet"};
     *bounds = NULL;
     if (!isfinite(m->H) || !(h > 0 && isfinite(h)))
-        return iso_context_fail(ctx, ISO_NUMERICAL, "", "h = %g, H = %g is no place in the image of (h, %s)", h, m->H,
-                                m->F);
+        return iso_context_fail(ctx, ISO_NUMERICAL, "",
+                                "h = %g, H = %g: no point of the image of (h, %s) has such values", h, m->H, m->F);
     iso_status status = iso_record_create(ctx, sizeof names / sizeof *names, names, bounds);
     for (int i = 0; status == ISO_OK && i < ROWS; i++) {
         double *row;

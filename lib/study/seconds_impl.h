@@ -1,5 +1,5 @@
-/* seconds_impl.h - processor time, for what tells how long it took. That of the thread: the clock of the process ticks in
- * milliseconds where a limit of time has been set (ulimit -t, ITIMER_PROF). */
+/* seconds_impl.h - processor time of this thread, to say how long something took. (The clock of the whole process
+ * counts in milliseconds where a limit of time has been set by ulimit -t or ITIMER_PROF.) */
 #ifndef ISO_STUDY_SECONDS_IMPL_H
 #define ISO_STUDY_SECONDS_IMPL_H
 

@@ -1,3 +1,4 @@
+/* spectrum.c - the lines of a signal by frequency analysis; the definitions stand in spectrum.h. */
 #include "study/spectrum.h"
 
 #include <complex.h>
@@ -16,7 +17,7 @@ enum {
     POWER = 3,       /* p of the window */
     BLOCK = 32,      /* samples over which a phase factor is carried by products */
     ITERATIONS = 12, /* Newton's method has converged long before */
-    SWEEPS = 1       /* lines refined without the others */
+    SWEEPS = 1       /* times that each line is refined without the others */
 };
 
 /* Times are y = t/T in (-1, 1), counted from the middle; a frequency s = nu T. */
@@ -40,8 +41,8 @@ static double y_of(const analysis *z, size_t j)
 
 /* --- one line --------------------------------------------------------------------------------------------------- */
 
-/* exp(i s y_j), j = 0, 1, ..., by products; set anew now and then. (In real numbers: products of C's complex ones
- * look for infinities.) */
+/* exp(i s y_j), j = 0, 1, ...: each is the product of the one before with a constant factor; every BLOCK samples it
+ * is computed anew. (In real numbers, because the product of C's complex numbers also checks for infinities.) */
 typedef struct wave {
     double s, re, im, turn_re, turn_im;
 } wave;
@@ -82,7 +83,7 @@ static void fourier(const analysis *z, const double x[], double s, double comple
     phi[2] = -(sum[4] + I * sum[5]) / n;
 }
 
-/* The maximum of |phi|^2 near s, a zero of its slope; bins of the transform are pi apart. */
+/* The maximum of |phi|^2 near s, by Newton's method on its slope, at most two bins of the transform (pi) from s. */
 static double refine(const analysis *z, const double x[], double s)
 {
     double complex phi[3];
@@ -100,7 +101,7 @@ static double refine(const analysis *z, const double x[], double s)
     return s;
 }
 
-/* The bin of the transform of the windowed rest where it is largest, as s. */
+/* The frequency s of the largest bin of the transform of the windowed rest, and its size. */
 static double largest_bin(const analysis *z, double *size)
 {
     const size_t N = z->count;
@@ -148,7 +149,7 @@ static void add_line(const analysis *z, double x[], double s, double complex a)
     }
 }
 
-/* Line l has a frequency: what the signal has of it in the window. */
+/* <e, x> in the window, for the frequency of line l. */
 static void project(analysis *z, int l)
 {
     double complex phi[3];
@@ -156,7 +157,7 @@ static void project(analysis *z, int l)
     z->projection[l] = phi[0];
 }
 
-/* The amplitudes that fit the signal best in the window, and what they leave of it. */
+/* The amplitudes that fit the signal best in the window (least squares), and what is left of the signal. */
 static void fit(analysis *z)
 {
     const size_t n = (size_t)z->lines;
@@ -179,14 +180,14 @@ static void fit(analysis *z)
     }
 }
 
-/* False from when on a stop was asked for: the passes over many samples take long. */
+/* False once a stop was asked for. It is asked for each line, because a pass over many samples takes long. */
 static bool goes_on(analysis *z)
 {
     z->stopped = z->stopped || !iso_context_goes_on(z->ctx);
     return !z->stopped;
 }
 
-/* Whether the largest of the rest is a new line, which is then taken out. */
+/* Takes the largest line out of the rest. False: the rest is rounding, or too near to a line found before. */
 static bool take_line(analysis *z)
 {
     double size;
@@ -202,7 +203,7 @@ static bool take_line(analysis *z)
     return true;
 }
 
-/* Each line once more without the others, which pulled at it when it was found. */
+/* Refines each line once more after the others were taken out, which had shifted it when it was found. */
 static void sweep(analysis *z)
 {
     for (int l = 0; l < z->lines && goes_on(z); l++) {
@@ -255,9 +256,10 @@ iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t cou
         !isfinite(step * (double)count) || most < 1 || most > ISO_MAX_LINES)
         return iso_context_fail(
             ctx, ISO_BAD_ARGUMENT, "",
-            "a spectrum is of a power of two samples, 64 or more, has steps > 0 and 1 to %d lines", ISO_MAX_LINES);
+            "a spectrum needs a power of two samples, 64 or more, a step > 0, and 1 to %d lines", ISO_MAX_LINES);
     for (size_t j = 0; j < 2 * count; j++)
-        if (!isfinite(signal[j])) return iso_context_fail(ctx, ISO_NUMERICAL, "", "a sample is not finite");
+        if (!isfinite(signal[j]))
+            return iso_context_fail(ctx, ISO_NUMERICAL, "", "a sample of the signal is not finite");
     analysis z = {.ctx = ctx, .count = count, .signal = signal, .window = malloc(5 * count * sizeof *z.window)};
     z.table = gsl_fft_complex_wavetable_alloc(count);
     z.space = gsl_fft_complex_workspace_alloc(count);

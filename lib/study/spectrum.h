@@ -4,10 +4,10 @@
  *     |phi(nu)|,   phi(nu) = (1/2T) int_-T^T x(t) exp(-i nu t) chi_p(t) dt,
  *     chi_p(t) = 2^p (p!)^2/(2p)! (1 + cos(pi t/T))^p,   p = 3,
  *
- * found near the largest of a discrete Fourier transform and refined by Newton's method; then the amplitudes of all
- * lines found so far are fitted anew (they are not orthogonal) and taken out of x. Lines d apart disturb each other
- * like (1/dT)^(2p+1): frequencies of a signal that has a few dozen beats of each pair are exact nearly to rounding,
- * where a Fourier transform alone knows them to 1/T.
+ * First the largest bin of a discrete Fourier transform is taken, then Newton's method refines it. Then the
+ * amplitudes of all lines found so far are fitted anew (they are not orthogonal) and taken out of x. Two lines at a
+ * distance d disturb each other like (1/dT)^(2p+1). So the frequencies are exact nearly to rounding if each pair of
+ * lines beats a few dozen times in the signal; a Fourier transform alone gives them to 1/T.
  */
 #ifndef ISO_STUDY_SPECTRUM_H
 #define ISO_STUDY_SPECTRUM_H
@@ -25,10 +25,11 @@ typedef struct iso_line {
 } iso_line;
 
 /* Up to `most` <= ISO_MAX_LINES lines of the signal with real parts signal[2 j] and imaginary parts signal[2 j + 1]
- * at the times j step, j < count; count a power of 2, 64 or more. The largest come first. Ends early, *found < most,
- * where what is left is rounding (amplitudes below 1e-14 of the largest), or is not a line: the largest of it is
+ * at the times j step, j < count; count a power of 2, 64 or more. The largest come first. There are fewer (*found <
+ * most) where what is left is rounding (amplitudes below 1e-14 of the largest), or where the largest bin of it lies
  * within the resolution 4 pi/(count step) of a line found before.
- * Errors: ISO_BAD_ARGUMENT (count, step, most), ISO_NUMERICAL (a sample that is not finite), ISO_NO_MEMORY, ISO_STOPPED. */
+ * Errors: ISO_BAD_ARGUMENT (count, step, most), ISO_NUMERICAL (a sample that is not finite), ISO_NO_MEMORY,
+ * ISO_STOPPED. */
 iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t count, double step, int most,
                              iso_line line[], int *found);
 

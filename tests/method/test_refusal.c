@@ -250,8 +250,8 @@ static void check_needs(void)
                 iso_integrator *it;
                 const iso_status status =
                     iso_integrator_create(ctx, m, &o.model, &(iso_method_options){.tolerance = 1e-9}, &it);
-                gsl_test(serves != wanted || (status == ISO_OK) != serves, "%s serves the %s with k = %g: %d", m->name,
-                         iso_systems[s]->name, k[i], serves);
+                gsl_test(serves != wanted || (status == ISO_OK) != serves, "%s serves the %s with k = %g: %d",
+                         m->name, iso_systems[s]->name, k[i], serves);
                 iso_integrator_free(it);
             }
         }

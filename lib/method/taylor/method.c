@@ -76,8 +76,8 @@ static void release(iso_integrator *it)
  *     1e-10      0.69  1.58  0.77     1.56  1.66  1.02    2.82  5.2   2.7    (blanes_moan6, rk8pd, rk8pd)
  *     1e-12      0.78  1.85  0.93     1.88  2.14  1.24    4.2   8.4   4.5    (sofroniou_spaletta10, rk8pd, rk8pd)
  *
- * At 1e-4 and looser splittings are up to 1.5 times cheaper, but do not keep to their tolerance. Series do not suit stiff
- * models, nor powers of q in (24) that span many decades. */
+ * At 1e-4 and looser, splittings are up to 1.5 times cheaper, but do not keep to their tolerance. Series do not suit
+ * stiff models, nor powers of q in (24) that span many decades. */
 static iso_suits suits(const iso_model *m)
 {
     const bool steep = m->system == &iso_system_point && iso_params_steep(&m->field.p);
