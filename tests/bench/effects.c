@@ -27,15 +27,15 @@ static const double J[3] = {1.4, 2.1, 3.0};
 
 static iso_effects all_numbers(void)
 {
-    return (iso_effects){.mgb = 0.7,
-                         .up = {0, 0.6, 0.8},
-                         .quadratic = {0.3, 0.1, 0, 0.1, -0.2, 0.05, 0, 0.05, 0.1},
-                         .linear = {0.1, -0.2, 0.3},
-                         .level = 0.1,
-                         .twist = 10,
-                         .resistance = 0.01,
-                         .quaternion = {1, 0, 0, 0},
-                         .two_sided = true};
+    return (iso_effects){.number = {
+                             [ISO_GRAVITY] = {0.7, 0, 0.6, 0.8},
+                             [ISO_FIELD] = {0.3, 0.1, 0, 0.1, -0.2, 0.05, 0, 0.05, 0.1, 0.1, -0.2, 0.3},
+                             [ISO_LEVEL] = {0.1},
+                             [ISO_TWIST] = {10},
+                             [ISO_ROLLING_RESISTANCE] = {0.01},
+                             [ISO_ATTITUDE] = {1, 0, 0, 0},
+                             [ISO_REACTIONS] = {true},
+                         }};
 }
 
 static void must(iso_context *ctx, iso_status status)
@@ -90,7 +90,7 @@ static int list_runs(run runs[])
     for (int stiff = 0; stiff < 2; stiff++) { /* the contact's torque is a state */
         runs[count] =
             (run){stiff ? "twist, c = 1e8" : "twist, c = 1e2", all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};
-        runs[count].effects.twist = stiff ? 1e8 : 1e2;
+        TWIST_RESISTANCE(&runs[count].effects) = stiff ? 1e8 : 1e2;
         runs[count++].effects.on[ISO_TWIST] = true;
     }
     runs[count] = (run){"all together", all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};

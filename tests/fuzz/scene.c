@@ -21,7 +21,7 @@ static void check_sample(const iso_orbit *orbit, const iso_orbit_options *o, con
     const iso_effects effects = iso_orbit_effects(orbit);
     for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++)
         FUZZ_REQUIRE(!asked(o, &effects, c) || isfinite(iso_sample_column(sample, c)), "%s = %g at %g\n",
-                     iso_trajectory_columns[c], iso_sample_column(sample, c), time);
+                     iso_column_name(c), iso_sample_column(sample, c), time);
 }
 
 /* What `run` writes above the rows can be read back as it was. */

@@ -5,9 +5,9 @@ static iso_context *ctx;
 
 static iso_effects weight(double mgb, const double up[3])
 {
-    iso_effects e = {.mgb = mgb};
+    iso_effects e = {.number[ISO_GRAVITY] = {mgb}};
     e.on[ISO_GRAVITY] = e.on[ISO_REACTIONS] = true;
-    copy(up, e.up, 3);
+    copy(up, GRAVITY_UP(&e), 3);
     return e;
 }
 
@@ -109,13 +109,13 @@ static void touching(void)
         if (!he_is_ball(i)) continue;
         const he_answer a = he_solve(ctx, way, &l.p, &l.start, &l.e, l.top);
         /* pressure's terms are of size 3, their errors those of the state's largest, w = 3 */
-        hard_hold(way, a.status == ISO_OK ? fabs(a.at.pressure) : NAN, 9 * he_bound(way, a.steps));
+        hard_hold(way, a.status == ISO_OK ? fabs(iso_sample_get(&a.at, "pressure")) : NAN, 9 * he_bound(way, a.steps));
         if (way->method == iso_method_find("taylor"))
             hard_hold(way, isnan(loss(way, &l.p, &l.start, &l.e, 2, &steps, &answered)) && answered ? 0 : 1, 0);
         if (way->method != iso_method_find("rk8pd")) continue;
         for (int j = -50; j <= 50; j++) { /* -D (1-k) w^2 + mgb (e,n) as it comes */
             const he_answer near = he_solve(ctx, way, &l.p, &l.start, &l.e, l.top + j * 1e-9);
-            const double w = norm(near.at.ball), c = dot(near.at.vertical, near.at.ball + 3);
+            const double w = norm(near.at.ball), c = dot(sample_of(&near.at, "e"), near.at.ball + 3);
             raw += w * w / 2 - 1.5 * c < 0;
         }
     }
@@ -126,7 +126,7 @@ static void touching(void)
 static double pressure_of(const iso_sample *s, const void *data)
 {
     (void)data;
-    return s->pressure;
+    return iso_sample_get(s, "pressure");
 }
 
 static void again(void)
@@ -161,19 +161,19 @@ static double halved(const iso_params *p, const iso_start *start, const iso_effe
     iso_orbit *orbit = he_orbit(ctx, &quad, p, start, e);
     double a = 0, b = 0;
     iso_sample s = {.pressure = 1};
-    while (orbit && s.pressure >= 0 && b < end) /* pressure does not come back within 1/64 */
+    while (orbit && iso_sample_get(&s, "pressure") >= 0 && b < end) /* pressure does not come back within 1/64 */
         a = b, b += 1.0 / 64, iso_orbit_at(orbit, b, &s);
     for (int i = 0; orbit && i < 60; i++) {
         const double middle = a + (b - a) / 2;
         iso_orbit_at(orbit, middle, &s);
-        if (s.pressure > 0)
+        if (iso_sample_get(&s, "pressure") > 0)
             a = middle;
         else
             b = middle;
     }
     iso_sample before = s, after = s;
     if (orbit) iso_orbit_at(orbit, a - 1e-4, &before), iso_orbit_at(orbit, a + 1e-4, &after);
-    *slope = (after.pressure - before.pressure) / 2e-4;
+    *slope = (iso_sample_get(&after, "pressure") - iso_sample_get(&before, "pressure")) / 2e-4;
     iso_orbit_free(orbit);
     return b < end ? a : NAN;
 }
@@ -222,9 +222,9 @@ static void wall(void)
         if (!he_is_ball(i)) continue;
         const double t = loss(way, &p, &start, &e, 50, &steps, &answered);
         const he_answer begin = he_solve(ctx, way, &p, &start, &e, 0);
-        hard_hold(way, answered && isnan(t) && begin.status == ISO_OK ? fabs(begin.at.pressure) : NAN, 0);
+        hard_hold(way, answered && isnan(t) && begin.status == ISO_OK ? fabs(iso_sample_get(&begin.at, "pressure")) : NAN, 0);
         const he_answer later = he_solve(ctx, way, &p, &start, &e, 50);
-        pulled += dot(later.at.vertical, later.at.ball + 3) < 0;
+        pulled += dot(sample_of(&later.at, "e"), later.at.ball + 3) < 0;
     }
     hard_naive("ways in which (e,n) < 0 at t = 50", pulled, 0);
 }

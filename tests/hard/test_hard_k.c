@@ -273,7 +273,8 @@ static void under_effects(void)
                 question q = ask(sign * k, bodies[1], 3);
                 if (id == ISO_LEVEL && k < 5e-3) continue; /* c is no double */
                 const double g = dot_diag(q.start.y + 3, q.p.inv_J, q.start.y + 3);
-                iso_effects e = {.quadratic = {0.3}, .linear = {0, 0, 0.1}, .level = 0.1 * pow(g, 1 / q.p.k)};
+                iso_effects e = {
+                    .number = {[ISO_FIELD] = {[0] = 0.3, [11] = 0.1}, [ISO_LEVEL] = {0.1 * pow(g, 1 / q.p.k)}}};
                 e.on[id] = true;
                 q.effects = &e;
                 q.all = k > 5e-4;

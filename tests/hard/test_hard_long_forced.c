@@ -40,12 +40,12 @@ static long_scene scene_of(const forced *f)
         scene_stops(f->name, ctx);
     if (f->gravity != 0) {
         e->on[ISO_GRAVITY] = true;
-        e->mgb = f->gravity;
-        copy((double[]){0.48, 0.6, 0.64}, e->up, 3);
+        GRAVITY_MGB(e) = f->gravity;
+        copy((double[]){0.48, 0.6, 0.64}, GRAVITY_UP(e), 3);
     }
     if (f->field) add_field(e);
     if (twists) add_twist(f->twist, e);
-    e->quaternion[0] = 1;
+    QUATERNION(e)[0] = 1;
     e->on[ISO_ATTITUDE] = f->attitude;
     scene.spin = 1 / norm(scene.start.y);
     return scene;

@@ -127,16 +127,19 @@ static iso_status with_effects(iso_context *ctx, const void *data, const double 
 {
     static const double usual[AFTER_ORBIT] = {0.7, 1.4, 2.1, 3, 0.9, -0.3, -0.225, 0.36, 0.48, 0.8, 1, 1e-6, 1};
     const request r = {.model = ISO_BALL, .backend = ISO_BALL, .clock = ISO_CLOCK_T};
-    iso_effects e = {.mgb = v[MGB], .level = v[LEVEL], .twist = v[TWIST], .resistance = v[RESISTANCE]};
+    iso_effects e = {.number = {[ISO_GRAVITY] = {v[MGB]},
+                                [ISO_LEVEL] = {v[LEVEL]},
+                                [ISO_TWIST] = {v[TWIST]},
+                                [ISO_ROLLING_RESISTANCE] = {v[RESISTANCE]}}};
     iso_params p;
     iso_start start = {.model = ISO_BALL};
     iso_orbit *orbit;
     iso_sample sample;
     memcpy(e.on, data, sizeof e.on);
-    memcpy(e.up, v + UP, sizeof e.up);
-    memcpy(e.quadratic, v + QUADRATIC, sizeof e.quadratic);
-    memcpy(e.linear, v + LINEAR, sizeof e.linear);
-    memcpy(e.quaternion, v + QUATERNION, sizeof e.quaternion);
+    memcpy(GRAVITY_UP(&e), v + UP, sizeof GRAVITY_UP(&e));
+    memcpy(FIELD_QUADRATIC(&e), v + QUADRATIC, sizeof FIELD_QUADRATIC(&e));
+    memcpy(FIELD_LINEAR(&e), v + LINEAR, sizeof FIELD_LINEAR(&e));
+    memcpy(QUATERNION(&e), v + QUATERNION, sizeof QUATERNION(&e));
     memcpy(start.y, usual + STATE, sizeof start.y);
     iso_status status = iso_params_reduced(ctx, usual[K], usual + J, &p);
     if (status == ISO_OK) status = iso_params_set_D(ctx, v[D], &p);
@@ -147,9 +150,9 @@ static iso_status with_effects(iso_context *ctx, const void *data, const double 
     if (status != ISO_OK) return status;
     status = iso_orbit_at(orbit, 1, &sample);
     if (status == ISO_OK) give_sample(a, &sample, &r);
-    if (status == ISO_OK && e.on[ISO_GRAVITY]) sweep_give(a, sample.vertical, 3);
-    if (status == ISO_OK && e.on[ISO_ATTITUDE]) sweep_give(a, sample.quaternion, 13);
-    if (status == ISO_OK && e.on[ISO_REACTIONS]) sweep_give(a, sample.force, 6);
+    if (status == ISO_OK && e.on[ISO_GRAVITY]) sweep_give(a, sample_of(&sample, "e"), 3);
+    if (status == ISO_OK && e.on[ISO_ATTITUDE]) sweep_give(a, sample_of(&sample, "q"), 13);
+    if (status == ISO_OK && e.on[ISO_REACTIONS]) sweep_give(a, sample_of(&sample, "N"), 6);
     iso_orbit_free(orbit);
     return status;
 }

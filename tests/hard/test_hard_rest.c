@@ -5,7 +5,7 @@ static iso_context *ctx;
 
 static iso_effects resisting(double c_r)
 {
-    iso_effects e = {.resistance = c_r};
+    iso_effects e = {.number[ISO_ROLLING_RESISTANCE] = {c_r}};
     e.on[ISO_ROLLING_RESISTANCE] = true;
     return e;
 }
@@ -177,8 +177,8 @@ static void lowest(const char *name, double k, double mgb)
     const iso_start start = he_start();
     iso_effects e = resisting(0.3);
     e.on[ISO_GRAVITY] = true;
-    e.mgb = mgb;
-    copy((const double[]){0, 0.6, 0.8}, e.up, 3);
+    GRAVITY_MGB(&e) = mgb;
+    copy((const double[]){0, 0.6, 0.8}, GRAVITY_UP(&e), 3);
     const double least = mgb / (1 - k) > 0 ? -1 : 1;
     double naive = 0;
     hard_case(name, "angle from the lowest place, and |w|, at t = 2000",
@@ -188,7 +188,7 @@ static void lowest(const char *name, double k, double mgb)
         if (!he_is_ball(i)) continue;
         const he_answer a = he_solve(ctx, way, &ball, &start, &e, 2000);
         double away[3];
-        for (int j = 0; j < 3; j++) away[j] = a.at.vertical[j] - least * a.at.ball[3 + j];
+        for (int j = 0; j < 3; j++) away[j] = sample_of(&a.at, "e")[j] - least * a.at.ball[3 + j];
         hard_hold(way, a.status == ISO_OK ? fmax(norm(away), norm(a.at.ball)) : NAN, 1e3 * he_tolerance(way));
         naive = fmax(naive, laws_distance(start.y + 3, a.at.ball + 3));
     }
@@ -217,7 +217,7 @@ int main(void)
     const iso_effects rolling = resisting(1);
     iso_effects stiff = resisting(1);
     stiff.on[ISO_TWIST] = true;
-    stiff.twist = 1e8;
+    TWIST_RESISTANCE(&stiff) = 1e8;
     resting("c_r = 1", "w is 0 after 1800 units of 1e14", &rolling);
     resting("c_r = 1, c = 1e8", "a stiff contact with nothing left to do", &stiff);
     monotone();

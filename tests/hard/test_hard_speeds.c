@@ -105,7 +105,7 @@ static void check_rest(void)
     for (int w = 0; w < hard_ways; w++) check_resting(&hard_way[w], &start, NULL);
     hard_naive("omega times the root of h over its energy", sqrt(0.0 / iso_ball_energy(&params, start.y)), 0);
     check_studies(&start);
-    iso_effects gravity = {.on = {[ISO_GRAVITY] = true}, .mgb = 0.7, .up = {0, 0, 1}};
+    iso_effects gravity = {.on = {[ISO_GRAVITY] = true}, .number[ISO_GRAVITY] = {0.7, 0, 0, 1}};
     start = (iso_start){.model = ISO_BALL, .y = {0, 0, 0, 0, 0, -1}};
     hard_case("balance", "the same of a ball that gravity holds where it is", "it turns for ever, but not at all");
     for (int w = 0; w < hard_ways; w++)

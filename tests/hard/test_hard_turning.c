@@ -57,7 +57,7 @@ static problem make(double k, const double J[3], const double M[3], const double
                                 : iso_start_point(ctx, M, point + 3, &eps, true, &b.start);
     if (as_ball) {
         b.effects.on[ISO_LEVEL] = true;
-        b.effects.level = (dot(M, M) / 2 - depth) * k * k / b.p.det_J;
+        LEVEL_C(&b.effects) = (dot(M, M) / 2 - depth) * k * k / b.p.det_J;
     }
     if (status == ISO_OK) status = solve(&quad, &b, ISO_CLOCK_S, s, &b.truth);
     b.time = b.truth.clock[clock];

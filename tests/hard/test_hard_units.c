@@ -38,11 +38,11 @@ static scene make(double k, int force, const int scale[3])
     e->on[ISO_GRAVITY] = force == GRAVITY;
     e->on[ISO_TWIST] = force == TWIST;
     e->on[ISO_REACTIONS] = force >= GRAVITY;
-    e->quadratic[0] = 0.3 * energy, e->linear[2] = 0.1 * energy;
-    e->level = 0.3 * energy * exp2(-log2(s.J) / k); /* c of U = -c (n,J^-1 n)^(-1/k) */
-    e->mgb = (k > 1 || k < 0 ? -0.7 : 0.7) * energy;
-    e->up[1] = 0.6, e->up[2] = 0.8;
-    e->twist = s.J * s.w;
+    FIELD_QUADRATIC(e)[0] = 0.3 * energy, FIELD_LINEAR(e)[2] = 0.1 * energy;
+    LEVEL_C(e) = 0.3 * energy * exp2(-log2(s.J) / k); /* c of U = -c (n,J^-1 n)^(-1/k) */
+    GRAVITY_MGB(e) = (k > 1 || k < 0 ? -0.7 : 0.7) * energy;
+    GRAVITY_UP(e)[1] = 0.6, GRAVITY_UP(e)[2] = 0.8;
+    TWIST_RESISTANCE(e) = s.J * s.w;
     return s;
 }
 
@@ -71,7 +71,7 @@ static double difference(const answer *a, const answer *b, const scene *s, bool 
 {
     double worst = 0;
     for (int i = 0; i < 6; i++) worst = fmax(worst, fabs(a->at.ball[i] * (i < 3 ? s->w : 1) - b->at.ball[i]));
-    if (!isnan(a->at.lambda)) worst = fmax(worst, fabs(a->at.lambda * s->J * s->w * s->w - b->at.lambda));
+    if (!isnan(iso_sample_get(&a->at, "lambda"))) worst = fmax(worst, fabs(iso_sample_get(&a->at, "lambda") * s->J * s->w * s->w - iso_sample_get(&b->at, "lambda")));
     if (!both) return worst;
     const double M = factor(s, iso_system_point.fast_dimension), clock = factor(s, iso_clock_dimension(ISO_CLOCK_S));
     for (int i = 0; i < 3; i++) {

@@ -208,7 +208,7 @@ static void check_slopes(const iso_effect *effect, bool acts, double twist)
 {
     const orbit plain = orbit_rotation(ctx, 1, 1);
     iso_field f = plain.model.field;
-    f.effects.on[ISO_TWIST] = twist > 0, f.effects.twist = twist, f.p.D = 0.5;
+    f.effects.on[ISO_TWIST] = twist > 0, TWIST_RESISTANCE(&f.effects) = twist, f.p.D = 0.5;
     iso_model m = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
     if (acts)
         m.force[m.forces++] = effect;
@@ -420,7 +420,7 @@ static void check_names(void)
 /* What "auto" is for a system at this k, with this resistance to twisting (0: none). */
 static void check_auto(const iso_system *system, double k, double resistance, const char *wanted)
 {
-    iso_field f = {.p = laws_params(k, orbit_J), .effects = {.on[ISO_TWIST] = resistance > 0, .twist = resistance}};
+    iso_field f = {.p = laws_params(k, orbit_J), .effects = {.on[ISO_TWIST] = resistance > 0, .number[ISO_TWIST] = {resistance}}};
     f.p.D = 0.5;
     const iso_model m = iso_model_assemble(system, &f, system->clock, (const bool[ISO_CLOCKS]){false});
     gsl_test_str(iso_method_auto(&m)->name, wanted, "auto: %s, k = %g, c = %g", system->name, k, resistance);

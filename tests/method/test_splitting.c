@@ -155,8 +155,8 @@ static orbit with_effects(double k, bool field, double stretch)
     iso_field *const f = &o.model.field;
     double size;
     f->effects.on[ISO_FIELD] = field;
-    copy(quadratic, f->effects.quadratic, 9);
-    copy(linear, f->effects.linear, 3);
+    copy(quadratic, FIELD_QUADRATIC(&f->effects), 9);
+    copy(linear, FIELD_LINEAR(&f->effects), 3);
     for (int i = 0; i < 3; i++) o.y0[i] *= stretch;
     f->energy = iso_system_point.integrals[0].value(f, o.y0, &size);
     orbit_clocks(&o, ISO_CLOCK_S, true, true, false);

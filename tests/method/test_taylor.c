@@ -323,9 +323,9 @@ static void check_rest(const iso_method *m)
         iso_field f = {.p = laws_params(0.5, orbit_J)};
         double start[ISO_STATE] = {0}, y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
         copy(up, start + 3, 3);
-        copy(i == 2 ? beside : up, f.effects.up, 3);
-        f.effects.on[ISO_GRAVITY] = i > 0, f.effects.mgb = 0.7;
-        if (i > 0) f.energy = f.effects.mgb * dot(up, f.effects.up) / (1 - f.p.k);
+        copy(i == 2 ? beside : up, GRAVITY_UP(&f.effects), 3);
+        f.effects.on[ISO_GRAVITY] = i > 0, GRAVITY_MGB(&f.effects) = 0.7;
+        if (i > 0) f.energy = GRAVITY_MGB(&f.effects) * dot(up, GRAVITY_UP(&f.effects)) / (1 - f.p.k);
         orbit o = {.ctx = ctx,
                    .model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[3]){0, 1, 1})};
         iso_model_begin(&o.model, start, o.y0);
@@ -361,7 +361,7 @@ static void check_units(iso_picture backend)
 static void check_failure(const iso_method *m)
 {
     iso_field f = {.p = laws_params(0.5, orbit_J)};
-    f.effects.on[ISO_ROLLING_RESISTANCE] = true, f.effects.resistance = 1e9;
+    f.effects.on[ISO_ROLLING_RESISTANCE] = true, ROLLING_COEFFICIENT(&f.effects) = 1e9;
     orbit o = {.ctx = ctx, .model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[3]){0})};
     copy(beginning.y, o.y0, ISO_STATE);
     iso_integrator *it = orbit_start(&o, m, &finest);

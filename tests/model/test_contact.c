@@ -91,7 +91,7 @@ static double distance_to_rigid(const effects_case *c, double resistance)
     const double lambda = iso_reactions_at(&c->model.field, c->y).twist;
     double y[ISO_MAX_STATE], rigid[ISO_MAX_STATE], loose[ISO_MAX_STATE];
     f.effects.on[ISO_TWIST] = true;
-    f.effects.twist = resistance;
+    TWIST_RESISTANCE(&f.effects) = resistance;
     const iso_model m = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[]){false, false, false});
     copy(c->y, y, ISO_STATE);
     add_scaled(y, -lambda / resistance, y + 3);
@@ -132,7 +132,7 @@ static void orbits_to_rigid(void)
         iso_params_set_D(ctx, 0.7, &o.model.field.p);
         o.model.field.effects.on[ISO_TWIST] = true;
         for (int j = 0; j < 4; j++) {
-            o.model.field.effects.twist = resistance[j];
+            TWIST_RESISTANCE(&o.model.field.effects) = resistance[j];
             orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
             iso_model_begin(&o.model, start, o.y0);
             orbit_solve(&o, method, &(iso_method_options){.tolerance = 1e-12}, time, y);
@@ -151,8 +151,8 @@ static void stiffness(const effects_case *c, laws_worst *worst)
 {
     const iso_field *f = &c->model.field;
     const double J = min3(f->p.J), free = 1 - f->p.D / J;
-    const double spin = effects_on(c, ISO_TWIST) ? f->effects.twist / (J * free) / fmax(1, fabs(f->p.k)) : 0;
-    const double most = fmax(spin, effects_on(c, ISO_ROLLING_RESISTANCE) ? f->effects.resistance / J : 0);
+    const double spin = effects_on(c, ISO_TWIST) ? TWIST_RESISTANCE(&f->effects) / (J * free) / fmax(1, fabs(f->p.k)) : 0;
+    const double most = fmax(spin, effects_on(c, ISO_ROLLING_RESISTANCE) ? ROLLING_COEFFICIENT(&f->effects) / J : 0);
     effects_note(c, worst, fabs(iso_effects_stiffness(f) - most), 8 * DBL_EPSILON / free * most, "stiffness");
 }
 
@@ -207,7 +207,7 @@ static void note_omega(const effects_case *c, const iso_model *m, const double p
     copy(pushed, expected, 3);
     diag(f->p.inv_J, y + 3, u);
     if (!loose) add_scaled(expected, -spin / dot(y + 3, u), u);
-    if (effects_lambda(c) > 0) add_scaled(expected, -spin - y[effects_lambda(c)] / f->effects.twist, y + 3);
+    if (effects_lambda(c) > 0) add_scaled(expected, -spin - y[effects_lambda(c)] / TWIST_RESISTANCE(&f->effects), y + 3);
     cross(expected, y, across);
     effects_note(c, worst, norm(across), 16 * DBL_EPSILON * norm(y) * norm(y), "direction of w");
     if (!loose) effects_note(c, worst, fabs(dot(y, y + 3)), 4 * DBL_EPSILON * norm(y), "(w,n)");

@@ -49,7 +49,7 @@ static void forces(const effects_case *c, laws_worst *worst)
     const iso_effects *e = &c->model.field.effects;
     const bool ball = c->system == &iso_system_ball;
     const int torques = e->on[ISO_GRAVITY] + e->on[ISO_FIELD] + e->on[ISO_LEVEL] +
-                        (e->on[ISO_TWIST] && e->twist > 0) + e->on[ISO_ROLLING_RESISTANCE];
+                        (e->on[ISO_TWIST] && TWIST_RESISTANCE(e) > 0) + e->on[ISO_ROLLING_RESISTANCE];
     effects_note(c, worst, abs(c->model.forces - (ball ? torques : e->on[ISO_FIELD])), 0.5, "forces");
 }
 
@@ -66,18 +66,18 @@ static void beginnings(const effects_case *c, laws_worst *worst)
     for (int i = ISO_STATE; i < c->model.dim; i++) {
         if (i == lambda) continue;
         const bool vertical = up > 0 && i < up + 3, turned = !vertical && i < Q + 4;
-        const double expected = vertical ? e->up[i - up] : turned ? e->quaternion[i - Q] : 0;
+        const double expected = vertical ? GRAVITY_UP(e)[i - up] : turned ? QUATERNION(e)[i - Q] : 0;
         const double length = vertical || turned ? 1 : 1 + norm(c->y + Q + 4);
         effects_note(c, worst, fabs(y[i] - expected), DBL_MIN, "begin");
         effects_note(c, worst, fabs(size[i] / length - 1), 2 * DBL_EPSILON, "size");
     }
     if (lambda == 0) return;
-    const double torque = -e->twist * dot(c->y, c->y + 3);
-    effects_note(c, worst, fabs(y[lambda] - torque), 4 * DBL_EPSILON * e->twist * norm(c->y), "lambda");
-    const double resists = e->on[ISO_ROLLING_RESISTANCE] ? e->resistance * largest(c->y) : 0;
+    const double torque = -TWIST_RESISTANCE(e) * dot(c->y, c->y + 3);
+    effects_note(c, worst, fabs(y[lambda] - torque), 4 * DBL_EPSILON * TWIST_RESISTANCE(e) * norm(c->y), "lambda");
+    const double resists = e->on[ISO_ROLLING_RESISTANCE] ? ROLLING_COEFFICIENT(e) * largest(c->y) : 0;
     const double motion = 2 * iso_ball_energy(&c->model.field.p, c->y) + resists;
     effects_note(c, worst, fabs(size[lambda] - fabs(torque) - motion),
-                 8 * DBL_EPSILON * (size[lambda] + e->twist * norm(c->y)), "size of lambda");
+                 8 * DBL_EPSILON * (size[lambda] + TWIST_RESISTANCE(e) * norm(c->y)), "size of lambda");
 }
 
 /* What nothing acts on is integrated with the system's own functions, bit for bit. */
@@ -86,7 +86,7 @@ static void plain(const effects_case *c, laws_worst *worst)
     static const bool none[ISO_CLOCKS] = {false};
     const iso_effects *e = &c->model.field.effects;
     const bool ball = c->system == &iso_system_ball;
-    const bool acted_on = !iso_effects_free(e) || e->on[ISO_LEVEL];
+    const bool acted_on = !iso_effects_are_free(e) || e->on[ISO_LEVEL];
     if (ball ? acted_on : e->on[ISO_FIELD]) return;
     const iso_field bare = {.p = c->model.field.p, .eps = c->model.field.eps};
     const iso_model simplest = iso_model_assemble(c->system, &bare, c->system->clock, none);
@@ -231,18 +231,18 @@ static void written_out(const effects_case *c, laws_worst *worst)
     const iso_effects *e = &f->effects;
     const double *w = c->y, *n = c->y + 3, *up = c->y + f->at[ISO_GRAVITY], g = dot_diag(n, f->p.inv_J, n);
     double sum[3] = {0, 0, 0}, T[3] = {0, 0, 0}, C_n[3], e_n[3], U = 0;
-    for (int i = 0; i < 3; i++) C_n[i] = dot(e->quadratic + 3 * i, n);
-    if (e->on[ISO_FIELD]) U += dot(n, C_n) / 2 + dot(e->linear, n);
-    if (e->on[ISO_LEVEL]) U -= e->level * pow(g, -1 / f->p.k);
-    if (e->on[ISO_GRAVITY] && f->p.k != 1) U += e->mgb / (1 - f->p.k) * dot(n, up);
+    for (int i = 0; i < 3; i++) C_n[i] = dot(FIELD_QUADRATIC(e) + 3 * i, n);
+    if (e->on[ISO_FIELD]) U += dot(n, C_n) / 2 + dot(FIELD_LINEAR(e), n);
+    if (e->on[ISO_LEVEL]) U -= LEVEL_C(e) * pow(g, -1 / f->p.k);
+    if (e->on[ISO_GRAVITY] && f->p.k != 1) U += GRAVITY_MGB(e) / (1 - f->p.k) * dot(n, up);
     cross(up, n, e_n);
-    if (e->on[ISO_GRAVITY]) add_scaled(T, e->mgb, e_n);
-    if (e->on[ISO_TWIST]) add_scaled(T, -e->twist * dot(w, n), n);
-    if (e->on[ISO_ROLLING_RESISTANCE]) add_scaled(T, -e->resistance, w);
+    if (e->on[ISO_GRAVITY]) add_scaled(T, GRAVITY_MGB(e), e_n);
+    if (e->on[ISO_TWIST]) add_scaled(T, -TWIST_RESISTANCE(e) * dot(w, n), n);
+    if (e->on[ISO_ROLLING_RESISTANCE]) add_scaled(T, -ROLLING_COEFFICIENT(e), w);
     for (int i = 0; i < ISO_EFFECTS; i++)
         if (e->on[i] && i != ISO_FIELD && i != ISO_LEVEL && iso_effect_list[i]->torque)
             iso_effect_list[i]->torque(f, c->y, sum);
-    effects_note(c, worst, laws_distance(T, sum), 8 * DBL_EPSILON * (effects_torque_size(c) + e->twist * norm(w)),
+    effects_note(c, worst, laws_distance(T, sum), 8 * DBL_EPSILON * (effects_torque_size(c) + TWIST_RESISTANCE(e) * norm(w)),
                  "torque");
     if (f->p.k == 1 && e->on[ISO_GRAVITY]) return;
     effects_note(c, worst, fabs(U - iso_effects_potential(f, c->y)), laws_rounding(&f->p) * effects_energy_size(c),
@@ -271,14 +271,14 @@ static void accepted(const effects_case *c, laws_worst *worst)
 }
 
 /* Effects that are fine with k = 0.5 and with a tilted plane. */
-static const iso_effects sound = {.mgb = 0.7,
-                                  .up = {0, 0.6, 0.8},
-                                  .quadratic = {1, 2, 3, 2, 4, 5, 3, 5, 6},
-                                  .linear = {1, 0, 0},
-                                  .level = -0.3,
-                                  .twist = 10,
-                                  .resistance = 0.01,
-                                  .quaternion = {0.5, 0.5, 0.5, -0.5}};
+static const iso_effects sound = {.number = {
+                                      [ISO_GRAVITY] = {0.7, 0, 0.6, 0.8},
+                                      [ISO_FIELD] = {1, 2, 3, 2, 4, 5, 3, 5, 6, 1, 0, 0},
+                                      [ISO_LEVEL] = {-0.3},
+                                      [ISO_TWIST] = {10},
+                                      [ISO_ROLLING_RESISTANCE] = {0.01},
+                                      [ISO_ATTITUDE] = {0.5, 0.5, 0.5, -0.5},
+                                  }};
 static const double normal[3] = {0, 0, 1};
 
 /* Tries effects with the one in question on: refused about `field`, or accepted (NULL). */
@@ -341,20 +341,20 @@ static void refused_numbers(void)
 static void refused_combinations(void)
 {
     iso_effects e = sound, constant = sound;
-    for (int i = 0; i < 9; i++) constant.quadratic[i] = i % 4 == 0 ? 2.5 : 0;
-    for (int i = 0; i < 3; i++) constant.linear[i] = 0;
+    for (int i = 0; i < 9; i++) FIELD_QUADRATIC(&constant)[i] = i % 4 == 0 ? 2.5 : 0;
+    for (int i = 0; i < 3; i++) FIELD_LINEAR(&constant)[i] = 0;
     attempt("a constant field", 0.5, 0, ISO_FIELD, constant, "field");
-    constant.linear[2] = 1e-9;
+    FIELD_LINEAR(&constant)[2] = 1e-9;
     attempt("a field that is linear", 0.5, 0, ISO_FIELD, constant, NULL);
-    constant.linear[2] = 0, constant.quadratic[4] = 2.4;
+    FIELD_LINEAR(&constant)[2] = 0, FIELD_QUADRATIC(&constant)[4] = 2.4;
     attempt("a field that is diagonal", 0.5, 0, ISO_FIELD, constant, NULL);
-    constant.quadratic[4] = 2.5, constant.quadratic[1] = constant.quadratic[3] = 0.1;
+    FIELD_QUADRATIC(&constant)[4] = 2.5, FIELD_QUADRATIC(&constant)[1] = FIELD_QUADRATIC(&constant)[3] = 0.1;
     attempt("a field that is off the diagonal", 0.5, 0, ISO_FIELD, constant, NULL);
     attempt("twist without D", 0.5, 0, ISO_TWIST, sound, "twist");
     attempt("reactions without D", 0.5, 0, ISO_REACTIONS, sound, "reactions");
     attempt("gravity on a tilted plane", 1, 0, ISO_GRAVITY, sound, NULL);
     for (int side = -1; side <= 1; side += 2) {
-        copy((const double[]){0, 0, side}, e.up, 3);
+        copy((const double[]){0, 0, side}, GRAVITY_UP(&e), 3);
         e.on[ISO_REACTIONS] = false;
         attempt("gravity on a level plane", 1, 0.3, ISO_GRAVITY, e, "gravity");
         attempt("gravity at the top of a sphere", 0.5, 0.3, ISO_GRAVITY, e, NULL);
@@ -369,14 +369,14 @@ static void made_exact(void)
     const iso_params p = laws_params(0.5, laws_J[0]);
     iso_effects e = sound;
     e.on[ISO_GRAVITY] = e.on[ISO_FIELD] = e.on[ISO_ATTITUDE] = true;
-    scale(e.up, 1 + 9e-7);
-    for (int i = 0; i < 4; i++) e.quaternion[i] *= 1 - 9e-7;
-    e.quadratic[1] += 1e-13;
+    scale(GRAVITY_UP(&e), 1 + 9e-7);
+    for (int i = 0; i < 4; i++) QUATERNION(&e)[i] *= 1 - 9e-7;
+    FIELD_QUADRATIC(&e)[1] += 1e-13;
     gsl_test(iso_effects_check(ctx, &p, normal, &e) != ISO_OK, "nearly right is accepted");
-    for (int i = 0; i < 3; i++) gsl_test_rel(e.up[i], sound.up[i], 4 * DBL_EPSILON, "up made a unit vector");
+    for (int i = 0; i < 3; i++) gsl_test_rel(GRAVITY_UP(&e)[i], GRAVITY_UP(&sound)[i], 4 * DBL_EPSILON, "up made a unit vector");
     for (int i = 0; i < 4; i++)
-        gsl_test_rel(e.quaternion[i], sound.quaternion[i], 4 * DBL_EPSILON, "quaternion made a unit one");
-    gsl_test(e.quadratic[1] != e.quadratic[3], "C made symmetric");
+        gsl_test_rel(QUATERNION(&e)[i], QUATERNION(&sound)[i], 4 * DBL_EPSILON, "quaternion made a unit one");
+    gsl_test(FIELD_QUADRATIC(&e)[1] != FIELD_QUADRATIC(&e)[3], "C made symmetric");
 }
 
 /* The isomorphism is lost with gravity, twist and rolling resistance, and with nothing else. */

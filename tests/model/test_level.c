@@ -51,10 +51,10 @@ static void energy_lost(const effects_case *c, laws_worst *worst)
     const iso_effects *e = &f->effects;
     const double *w = c->y, *n = c->y + 3;
     double unit, power = 0, e_n[3];
-    if (e->on[ISO_ROLLING_RESISTANCE]) power -= e->resistance * dot(w, w);
-    if (e->on[ISO_TWIST]) power -= e->twist * dot(w, n) * dot(w, n);
+    if (e->on[ISO_ROLLING_RESISTANCE]) power -= ROLLING_COEFFICIENT(e) * dot(w, w);
+    if (e->on[ISO_TWIST]) power -= TWIST_RESISTANCE(e) * dot(w, n) * dot(w, n);
     cross(c->y + f->at[ISO_GRAVITY], n, e_n);
-    if (e->on[ISO_GRAVITY] && f->p.k == 1 && !e->on[ISO_ATTITUDE]) power += e->mgb * dot(w, e_n);
+    if (e->on[ISO_GRAVITY] && f->p.k == 1 && !e->on[ISO_ATTITUDE]) power += GRAVITY_MGB(e) * dot(w, e_n);
     const double slope = change(c, laws_integral(c->system, "h"), &unit);
     effects_note(c, worst, fabs(slope - power), 2 * laws_rounding(&f->p) * unit, "dh/dt");
     effects_note(c, worst, iso_effects_keep_energy(f) != (power == 0), 0.5, "energy kept");
@@ -206,7 +206,7 @@ static iso_model twin(const effects_case *c)
     static const bool none[ISO_CLOCKS] = {false};
     iso_field f = {.p = c->model.field.p, .effects = c->model.field.effects};
     f.eps = iso_coupling(&f.p, c->model.field.energy);
-    if (effects_on(c, ISO_LEVEL)) f.energy = iso_coupling(&f.p, f.effects.level);
+    if (effects_on(c, ISO_LEVEL)) f.energy = iso_coupling(&f.p, LEVEL_C(&f.effects));
     return iso_model_assemble(&iso_system_point, &f, ISO_CLOCK_S, none);
 }
 

@@ -13,10 +13,10 @@ static iso_model make_model(const orbit *o, int kind)
 {
     iso_field f = o->model.field;
     f.p.D = 0.5;
-    f.effects.on[ISO_ROLLING_RESISTANCE] = kind & RESIST, f.effects.resistance = 0.2;
-    f.effects.on[ISO_TWIST] = kind & (TWIST | STIFF), f.effects.twist = kind & STIFF ? 1e5 : kind & TWIST ? 0.3 : 0;
-    f.effects.on[ISO_FIELD] = kind & FIELD, f.effects.linear[1] = 0.4;
-    f.effects.on[ISO_GRAVITY] = kind & GRAVITY, f.effects.mgb = 0.3, f.effects.up[2] = 1;
+    f.effects.on[ISO_ROLLING_RESISTANCE] = kind & RESIST, ROLLING_COEFFICIENT(&f.effects) = 0.2;
+    f.effects.on[ISO_TWIST] = kind & (TWIST | STIFF), TWIST_RESISTANCE(&f.effects) = kind & STIFF ? 1e5 : kind & TWIST ? 0.3 : 0;
+    f.effects.on[ISO_FIELD] = kind & FIELD, FIELD_LINEAR(&f.effects)[1] = 0.4;
+    f.effects.on[ISO_GRAVITY] = kind & GRAVITY, GRAVITY_MGB(&f.effects) = 0.3, GRAVITY_UP(&f.effects)[2] = 1;
     return iso_model_assemble(o->model.system, &f, o->model.clock, (const bool[ISO_CLOCKS]){true, true, true});
 }
 
@@ -92,7 +92,7 @@ static void check_lost(const orbit *o, int kind)
                  kind);
         gsl_test(iso_model_lost(&m, y, 1e-6) != NULL, "effects %d: but not at a loose tolerance", kind);
         if (m.field.at[ISO_TWIST] == 0) continue;
-        y[m.field.at[ISO_TWIST]] = -m.field.effects.twist * dot(y, y + 3);
+        y[m.field.at[ISO_TWIST]] = -TWIST_RESISTANCE(&m.field.effects) * dot(y, y + 3);
         gsl_test(iso_model_lost(&m, y, 1e-9) != NULL, "effects %d: a stiff contact turns with its torque", kind);
     }
 }

@@ -50,7 +50,7 @@ static void note_velocities(const rolling *ball, const stencil *st)
     turned(s, normal_of(s), expected);
     scale(expected, ball->b);
     laws_note(&centre, laws_distance(found, expected), allowed, &ball->p, ball->name);
-    turned(s, s->trace, contact_turns);
+    turned(s, sample_of(s, "trace"), contact_turns);
     scale(contact_turns, -1);
     laws_note(&slip, laws_distance(found, contact_turns), allowed, &ball->p, ball->name);
 }
@@ -60,31 +60,31 @@ static void note_velocities(const rolling *ball, const stencil *st)
 static void note_place(const rolling *ball, const iso_sample *s, const iso_sample *start)
 {
     double arm[3], trace[3], n[3], n_start[3], surface[3];
-    for (int i = 0; i < 3; i++) arm[i] = s->contact[i] - s->centre[i];
-    to_space(s, s->trace, trace);
+    for (int i = 0; i < 3; i++) arm[i] = sample_of(s, "contact")[i] - sample_of(s, "centre")[i];
+    to_space(s, sample_of(s, "trace"), trace);
     laws_note(&place, laws_distance(arm, trace), 1e-13, &ball->p, "arm");
     for (int i = 0; i < 3; i++) trace[i] = -ball->b * normal_of(s)[i];
-    laws_note(&place, laws_distance(s->trace, trace), 1e-14, &ball->p, "trace");
+    laws_note(&place, laws_distance(sample_of(s, "trace"), trace), 1e-14, &ball->p, "trace");
     normal_in_space(ball, s, n);
     normal_in_space(ball, start, n_start);
     if (on_plane(ball)) {
         laws_note(&place, laws_distance(n, n_start), 1e-11, &ball->p, "normal of the plane");
-        laws_note(&place, fabs(dot(s->contact, n_start)), 1e-11, &ball->p, "in the plane");
+        laws_note(&place, fabs(dot(sample_of(s, "contact"), n_start)), 1e-11, &ball->p, "in the plane");
         return;
     }
     for (int i = 0; i < 3; i++) surface[i] = ball->a * n[i];
-    laws_note(&place, laws_distance(s->contact, surface), 1e-13 * fabs(ball->a), &ball->p, "contact");
+    laws_note(&place, laws_distance(sample_of(s, "contact"), surface), 1e-13 * fabs(ball->a), &ball->p, "contact");
 }
 
 static void note_moment(const rolling *ball, const iso_effects *e, const stencil *st, const iso_sample *start)
 {
     const iso_sample *s = middle(st);
-    const double *Q = s->quaternion;
+    const double *Q = sample_of(s, "q");
     laws_note(&unit, fabs(sqrt(Q[0] * Q[0] + dot(Q + 1, Q + 1)) - 1), 1e-13, &ball->p, ball->name);
     if (e->on[ISO_GRAVITY]) {
         double up[3], up_start[3];
-        to_space(s, s->vertical, up);
-        to_space(start, start->vertical, up_start);
+        to_space(s, sample_of(s, "e"), up);
+        to_space(start, sample_of(start, "e"), up_start);
         laws_note(&vertical, laws_distance(up, up_start), 1e-11, &ball->p, ball->name);
     }
     note_velocities(ball, st);
@@ -96,13 +96,13 @@ static void note_moment(const rolling *ball, const iso_effects *e, const stencil
 static void contact_of(const rolling *ball, const iso_sample *s, double v[3])
 {
     (void)ball;
-    copy(s->contact, v, 3);
+    copy(sample_of(s, "contact"), v, 3);
 }
 
 static void trace_of(const rolling *ball, const iso_sample *s, double v[3])
 {
     (void)ball;
-    copy(s->trace, v, 3);
+    copy(sample_of(s, "trace"), v, 3);
 }
 
 /* (x', x'', nu)/|x'|^3, positive where the curve turns left for one who stands on the side that nu points to. Both
@@ -173,7 +173,7 @@ static void check_ball(const rolling *ball, int load, iso_random *random)
     iso_orbit *orbit = scene_orbit(ctx, ball, &start, &e, NULL);
     const iso_sample begin = scene_at(ctx, orbit, 0);
     for (int i = 0; i < 4; i++)
-        laws_note(&frame, fabs(begin.quaternion[i] - e.quaternion[i]), 1e-15, &ball->p, ball->name);
+        laws_note(&frame, fabs(sample_of(&begin, "q")[i] - QUATERNION(&e)[i]), 1e-15, &ball->p, ball->name);
     for (int i = -TIMES / 3; i < TIMES; i++) {
         if (load == 3 && i < 0) continue; /* friction backwards is a run-away */
         const stencil st = stencil_around(ctx, orbit, ball, 1.3 * i + 0.2);

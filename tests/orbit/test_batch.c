@@ -71,12 +71,12 @@ static double difference(const iso_sample *a, const iso_sample *b)
                  {6, 3, true},
                  {9, 3, true},
                  {12, 3, true},
-                 {ISO_COLUMN_GRAVITY, 3, true},
-                 {ISO_COLUMN_ATTITUDE, 4, false},
-                 {ISO_COLUMN_ATTITUDE + 4, 3, false},
-                 {ISO_COLUMN_ATTITUDE + 7, 3, false},
-                 {ISO_COLUMN_ATTITUDE + 10, 3, false},
-                 {ISO_COLUMN_REACTIONS, 3, true}};
+                 {column_of("e"), 3, true},
+                 {column_of("q"), 4, false},
+                 {column_of("contact"), 3, false},
+                 {column_of("trace"), 3, false},
+                 {column_of("centre"), 3, false},
+                 {column_of("N"), 3, true}};
     double worst = 0;
     for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++)
         if (isnan(iso_sample_column(a, c)) != isnan(iso_sample_column(b, c))) return INFINITY;

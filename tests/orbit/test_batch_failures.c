@@ -114,9 +114,9 @@ static void check_failures(void)
 {
     const iso_params p = laws_params(0.5, orbit_J), steep = laws_params(-2e-3, orbit_J);
     const iso_start start = batch_usual, rest = batch_start(0, 0, 0, 0.36, 0.48, 0.8);
-    const iso_effects bad = {.on[ISO_GRAVITY] = true, .mgb = NAN, .up = {0, 0, 1}};
-    const iso_effects level = {.on[ISO_LEVEL] = true, .level = 0.3};
-    const iso_effects brake = {.on[ISO_ROLLING_RESISTANCE] = true, .resistance = 10};
+    const iso_effects bad = {.on[ISO_GRAVITY] = true, .number[ISO_GRAVITY] = {NAN, 0, 0, 1}};
+    const iso_effects level = {.on[ISO_LEVEL] = true, .number[ISO_LEVEL] = {0.3}};
+    const iso_effects brake = {.on[ISO_ROLLING_RESISTANCE] = true, .number[ISO_ROLLING_RESISTANCE] = {10}};
     iso_batch_options o = iso_batch_defaults();
     check_failure(&o, &(iso_batch_orbit){&p, &start, &bad}, 4, ISO_BAD_INPUT, "mgb", 0);
     o.show = ISO_POINT;
@@ -187,7 +187,7 @@ static void check_stiff(void)
     static batch_pool all;
     enum { COUNT = 20 };
     const double time = 10;
-    const iso_effects firm = {.on[ISO_TWIST] = true, .twist = 1e6};
+    const iso_effects firm = {.on[ISO_TWIST] = true, .number[ISO_TWIST] = {1e6}};
     const iso_start start = batch_usual;
     iso_params p = laws_params(0.5, orbit_J);
     iso_batch_options o = iso_batch_defaults();

@@ -35,7 +35,7 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, iso_pi
     if (with_t) columns[width++] = 0;
     if (with_s) columns[width++] = 2;
     for (int i = 0; i < ISO_STATE; i++) columns[width++] = (model == ISO_BALL ? 3 : 9) + i;
-    for (int i = 0; i < width; i++) names[i] = iso_trajectory_columns[columns[i]];
+    for (int i = 0; i < width; i++) names[i] = iso_column_name(columns[i]);
     o.tolerance = 1e-14;
     o.show = ISO_BOTH;
     o.carry[ISO_CLOCK_S] = true;

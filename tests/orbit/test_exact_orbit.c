@@ -330,9 +330,11 @@ static void check_effects_refused(const iso_params *p, const iso_start *start)
                    {ISO_TWIST, "backend ball"},    {ISO_ROLLING_RESISTANCE, "backend ball"},
                    {ISO_ATTITUDE, "backend ball"}, {ISO_REACTIONS, "backend ball"}};
     for (size_t i = 0; i < sizeof effects / sizeof *effects; i++) {
-        iso_effects e = {.mgb = 0.7, .up = {0, 0.6, 0.8}, .linear = {0, 0, 0.1}, .twist = 10, .resistance = 0.01};
+        iso_effects e = {.number = {[ISO_GRAVITY] = {0.7, 0, 0.6, 0.8},
+                                     [ISO_TWIST] = {10},
+                                     [ISO_ROLLING_RESISTANCE] = {0.01}}};
         iso_orbit_options o = all_of(start, ISO_EXACT, ISO_CLOCK_T);
-        e.quaternion[0] = 1;
+        QUATERNION(&e)[0] = 1;
         e.on[effects[i].effect] = true;
         o.effects = &e;
         refused(p, start, &o, iso_effect_list[effects[i].effect]->name, effects[i].instead);

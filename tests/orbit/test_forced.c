@@ -46,7 +46,7 @@ static void check_resistance(const rolling *ball, double twist, iso_random *rand
     iso_start start = scene_start(ball, random);
     double up[3];
     iso_random_direction(random, up);
-    acting = (iso_effects){.on[ISO_ROLLING_RESISTANCE] = true, .resistance = 0.11};
+    acting = (iso_effects){.on[ISO_ROLLING_RESISTANCE] = true, .number[ISO_ROLLING_RESISTANCE] = {0.11}};
     add_gravity(ball, 0.5, up, &acting);
     add_attitude(random, &acting);
     add_field(&acting);
@@ -158,7 +158,7 @@ static void check_backends(iso_random *random)
             iso_effects e = {0};
             const iso_start start = scene_start(&ball, random);
             if (kind & 1) add_field(&e);
-            if (kind & 2) e.on[ISO_LEVEL] = true, e.level = level_of(&ball.p, kind == 2 ? 0.4 : -0.3);
+            if (kind & 2) e.on[ISO_LEVEL] = true, LEVEL_C(&e) = level_of(&ball.p, kind == 2 ? 0.4 : -0.3);
             compare_backends(&ball.p, &start, &e, kind == 1 ? "field" : kind == 2 ? "level" : "both");
         }
     }
@@ -204,7 +204,7 @@ static void check_point(const iso_params *p, double size, bool plane, iso_random
     iso_orbit *point = both_shown(p, &start, NULL, ISO_POINT, ISO_CLOCK_S);
     iso_orbit *ball = both_shown(p, &start, NULL, ISO_BALL, ISO_CLOCK_S);
     compare(p, ball, point, plane ? "plane" : "space", &to_ball);
-    iso_effects e = {.on[ISO_LEVEL] = true, .level = level(p, eps, start.y) * p->k * p->k / p->det_J};
+    iso_effects e = {.on[ISO_LEVEL] = true, .number[ISO_LEVEL] = {level(p, eps, start.y) * p->k * p->k / p->det_J}};
     const iso_sample begin = scene_at(ctx, point, 0);
     iso_start as_ball = {.model = ISO_BALL};
     copy(begin.ball, as_ball.y, ISO_STATE);
@@ -309,9 +309,9 @@ static void check_reversal(const rolling *ball, const iso_effects *e, double spi
         const double allowed = 1e-10 * pace_of(&a) * pace_of(&a);
         laws_note(worst, laws_distance(a.ball, turned_w), allowed, &ball->p, "w");
         laws_note(worst, laws_distance(a.ball + 3, b.ball + 3), allowed, &ball->p, "n");
-        laws_note(worst, laws_distance(a.centre, b.centre), allowed * (1 + norm(a.centre)), &ball->p, "centre");
-        laws_note(worst, laws_distance(a.force, b.force), allowed * (1 + norm(a.force)), &ball->p, "N");
-        laws_note(worst, laws_distance(a.quaternion + 1, b.quaternion + 1), allowed, &ball->p, "Q");
+        laws_note(worst, laws_distance(sample_of(&a, "centre"), sample_of(&b, "centre")), allowed * (1 + norm(sample_of(&a, "centre"))), &ball->p, "centre");
+        laws_note(worst, laws_distance(sample_of(&a, "N"), sample_of(&b, "N")), allowed * (1 + norm(sample_of(&a, "N"))), &ball->p, "N");
+        laws_note(worst, laws_distance(sample_of(&a, "q") + 1, sample_of(&b, "q") + 1), allowed, &ball->p, "Q");
     }
     iso_orbit_free(there);
     iso_orbit_free(again);
@@ -327,12 +327,12 @@ static void check_reversals(iso_random *random)
         add_gravity(&ball, 0.5, up, &e);
         add_field(&e);
         add_attitude(random, &e);
-        e.on[ISO_LEVEL] = true, e.level = level_of(&ball.p, 0.2);
+        e.on[ISO_LEVEL] = true, LEVEL_C(&e) = level_of(&ball.p, 0.2);
         check_reversal(&ball, &e, 0, random, &reversed);
         add_twist(0, &e);
         check_reversal(&ball, &e, 0.7, random, &reversed);
         iso_effects resisted = e;
-        resisted.on[ISO_TWIST] = false, resisted.on[ISO_ROLLING_RESISTANCE] = true, resisted.resistance = 0.1;
+        resisted.on[ISO_TWIST] = false, resisted.on[ISO_ROLLING_RESISTANCE] = true, ROLLING_COEFFICIENT(&resisted) = 0.1;
         laws_worst one = {0};
         check_reversal(&ball, &resisted, 0, random, &one);
         laws_note(&not_reversed, 1 / one.ratio, 1e-6, &ball.p, ball.name);

@@ -110,7 +110,7 @@ static void check_added(const off_level *o)
     iso_orbit *orbit = create(&o->p, &o->start, ISO_AUTO, ISO_CLOCK_S);
     const iso_effects effects = iso_orbit_effects(orbit);
     const double size = (fabs(o->H) + dot(o->start.y, o->start.y)) * fabs(o->c / o->H);
-    laws_note(&levels, effects.on[ISO_LEVEL] ? fabs(effects.level - o->c) : 1, 1e-14 * size, &o->p, "c");
+    laws_note(&levels, effects.on[ISO_LEVEL] ? fabs(LEVEL_C(&effects) - o->c) : 1, 1e-14 * size, &o->p, "c");
     laws_note(&levels, iso_orbit_has_twin(orbit) ? 0 : 1, 0.5, &o->p, "twin");
     iso_orbit_free(orbit);
 }
@@ -214,7 +214,7 @@ static iso_status try_level(const off_level *o, const iso_start *start, double c
 {
     iso_orbit *orbit;
     iso_orbit_options options = iso_orbit_defaults(start);
-    const iso_effects effects = {.on[ISO_LEVEL] = true, .level = c};
+    const iso_effects effects = {.on[ISO_LEVEL] = true, .number[ISO_LEVEL] = {c}};
     options.effects = &effects;
     const iso_status status = iso_orbit_create(ctx, &o->p, start, &options, &orbit);
     *eps = status == ISO_OK ? iso_orbit_coupling(orbit) : NAN;

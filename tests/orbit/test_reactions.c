@@ -23,9 +23,9 @@ static void note_newton(const rolling *ball, const iso_effects *e, const stencil
     double found[3], force[3], up[3];
     second_derivative(ball, st, centre_of, found);
     scale(found, ball->m);
-    to_space(s, s->force, force);
-    to_space(s, s->vertical, up);
-    if (e->on[ISO_GRAVITY]) add_scaled(force, -e->mgb / ball->b, up);
+    to_space(s, sample_of(s, "N"), force);
+    to_space(s, sample_of(s, "e"), up);
+    if (e->on[ISO_GRAVITY]) add_scaled(force, -GRAVITY_MGB(e) / ball->b, up);
     laws_note(&newton, laws_distance(found, force), 1e-8 * ball->m * fabs(ball->b) * square, &ball->p, ball->name);
 }
 
@@ -35,14 +35,14 @@ static void note_euler(const rolling *ball, const iso_effects *e, const stencil 
     const iso_sample *s = middle(st);
     double found[3], torque[3], couple[3] = {0}, force[3], arm[3], dU[3], n_dU[3];
     first_derivative(ball, st, momentum, found);
-    to_space(s, s->force, force);
-    for (int i = 0; i < 3; i++) arm[i] = s->contact[i] - s->centre[i];
+    to_space(s, sample_of(s, "N"), force);
+    for (int i = 0; i < 3; i++) arm[i] = sample_of(s, "contact")[i] - sample_of(s, "centre")[i];
     cross(arm, force, torque);
-    add_scaled(couple, s->lambda, normal_of(s));
+    add_scaled(couple, iso_sample_get(s, "lambda"), normal_of(s));
     field_gradient(s, dU);
     cross(normal_of(s), dU, n_dU);
     if (e->on[ISO_FIELD]) add_scaled(couple, ball->p.k, n_dU);
-    if (e->on[ISO_ROLLING_RESISTANCE]) add_scaled(couple, -e->resistance, omega_of(s));
+    if (e->on[ISO_ROLLING_RESISTANCE]) add_scaled(couple, -ROLLING_COEFFICIENT(e), omega_of(s));
     to_space(s, couple, force);
     add_scaled(torque, 1, force);
     laws_note(&euler, laws_distance(found, torque), 1e-9 * max3(ball->p.J) * pace_of(s) * pace_of(s), &ball->p,
@@ -53,17 +53,17 @@ static void note_euler(const rolling *ball, const iso_effects *e, const stencil 
 static void note_parts(const rolling *ball, const iso_effects *e, const iso_sample *s)
 {
     double push[3], force[3], across[3];
-    for (int i = 0; i < 3; i++) push[i] = ball->side * (s->centre[i] - s->contact[i]) / fabs(ball->b);
-    to_space(s, s->force, force);
+    for (int i = 0; i < 3; i++) push[i] = ball->side * (sample_of(s, "centre")[i] - sample_of(s, "contact")[i]) / fabs(ball->b);
+    to_space(s, sample_of(s, "N"), force);
     copy(force, across, 3);
     const double pressure = remove_along(across, push), size = norm(force) + 1e-3;
-    laws_note(&parts, fabs(s->pressure - pressure), 1e-13 * size, &ball->p, "pressure");
-    laws_note(&parts, fabs(s->friction - norm(across)), 1e-13 * size, &ball->p, "friction");
+    laws_note(&parts, fabs(iso_sample_get(s, "pressure") - pressure), 1e-13 * size, &ball->p, "pressure");
+    laws_note(&parts, fabs(iso_sample_get(s, "friction") - norm(across)), 1e-13 * size, &ball->p, "friction");
     if (pressure > 1e-3 * size)
-        laws_note(&parts, fabs(s->mu - s->friction / s->pressure), 1e-13 * s->mu, &ball->p, "mu");
-    if (on_plane(ball) && !e->on[ISO_GRAVITY]) laws_note(&plane, fabs(s->pressure), 0, &ball->p, ball->name);
+        laws_note(&parts, fabs(iso_sample_get(s, "mu") - iso_sample_get(s, "friction") / iso_sample_get(s, "pressure")), 1e-13 * iso_sample_get(s, "mu"), &ball->p, "mu");
+    if (on_plane(ball) && !e->on[ISO_GRAVITY]) laws_note(&plane, fabs(iso_sample_get(s, "pressure")), 0, &ball->p, ball->name);
     if (e->on[ISO_TWIST])
-        laws_note(&twist, fabs(s->lambda + e->twist * spin_of(s)), 1e-13 * e->twist * pace_of(s), &ball->p,
+        laws_note(&twist, fabs(iso_sample_get(s, "lambda") + TWIST_RESISTANCE(e) * spin_of(s)), 1e-13 * TWIST_RESISTANCE(e) * pace_of(s), &ball->p,
                   ball->name);
 }
 
@@ -79,7 +79,7 @@ static void check_load(const rolling *ball, int load, iso_random *random)
     add_attitude(random, &e);
     if (load & WEIGHT) add_gravity(ball, 0.9, up, &e);
     if (load & FIELD) add_field(&e);
-    if (load & RESISTANCE) e.on[ISO_ROLLING_RESISTANCE] = true, e.resistance = 0.07;
+    if (load & RESISTANCE) e.on[ISO_ROLLING_RESISTANCE] = true, ROLLING_COEFFICIENT(&e) = 0.07;
     if (load & TWIST) add_twist(0.8, &e), add_scaled(start.y, -0.6, start.y + 3);
     if (load & STIFF) add_twist(1e3, &e);
     iso_orbit *orbit = scene_orbit(ctx, ball, &start, &e, NULL);
@@ -152,7 +152,7 @@ static bool check_loss(const rolling *ball, iso_random *random, double end, laws
     if (iso_orbit_lost_contact(orbit, 0, end, &found, &s) != ISO_OK) scene_stops("looking for loss of contact", ctx);
     laws_note(worst, found == !isnan(expected) ? 0 : 1, 0.5, &ball->p, "found");
     if (found) laws_note(worst, fabs(s.clock[0] - expected), 1e-11 * (1 + fabs(expected)), &ball->p, ball->name);
-    if (found) laws_note(worst, fabs(s.pressure), 1e-11 * norm(s.force), &ball->p, "pressure there");
+    if (found) laws_note(worst, fabs(iso_sample_get(&s, "pressure")), 1e-11 * norm(sample_of(&s, "N")), &ball->p, "pressure there");
     iso_orbit_free(orbit);
     return found;
 }
@@ -204,7 +204,7 @@ static void note_textbook(iso_surface surface, double A, double B, double kappa,
     bool found;
     iso_sample s;
     if (iso_orbit_lost_contact(orbit, 0, 50, &found, &s) != ISO_OK) scene_stops("looking for loss of contact", ctx);
-    const double cosine = side * dot(normal_of(&s), s.vertical);
+    const double cosine = side * dot(normal_of(&s), sample_of(&s, "e"));
     const double expected = textbook_cosine(kappa, v0 * v0 / gR, cos(theta0));
     laws_note(&textbook, found ? fabs(cosine - expected) : NAN, 1e-9, &ball.p, ball.name);
     iso_orbit_free(orbit);

@@ -62,7 +62,8 @@ static inline iso_sample *batch_run(iso_context *ctx, const iso_batch_orbit orbi
  * the series has no numbers. */
 static inline void batch_add_odd(batch_pool *all, iso_context *ctx, int i, const iso_params *p)
 {
-    static iso_effects stiff = {.on[ISO_TWIST] = true, .twist = 1e6}, wrong = {.on[ISO_GRAVITY] = true, .mgb = NAN};
+    static iso_effects stiff = {.on[ISO_TWIST] = true, .number[ISO_TWIST] = {1e6}},
+                       wrong = {.on[ISO_GRAVITY] = true, .number[ISO_GRAVITY] = {NAN}};
     iso_params loose = laws_params(0.5, p->J);
     iso_params_set_D(ctx, 0.5 * min3(p->J), &loose);
     switch (i % 8) {

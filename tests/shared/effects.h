@@ -13,6 +13,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
+#include "numbers.h"
 #include "map/state.h"
 #include "model/model.h"
 
@@ -77,22 +78,22 @@ static inline double effects_random_sign(iso_random *r, double low, double high)
 static inline iso_effects effects_random(iso_random *r, const iso_params *p, int subset, double energy, double speed,
                                          double q)
 {
-    iso_effects e = {.two_sided = iso_random_uniform(r, -1, 1) < 0};
+    iso_effects e = {.number[ISO_REACTIONS] = {iso_random_uniform(r, -1, 1) < 0}};
     double square = 0;
     for (int i = 0; i < ISO_EFFECTS; i++) e.on[i] = subset & 1 << i;
-    e.mgb = effects_random_sign(r, 0.3, 1) * energy;
-    iso_random_direction(r, e.up);
+    GRAVITY_MGB(&e) = effects_random_sign(r, 0.3, 1) * energy;
+    iso_random_direction(r, GRAVITY_UP(&e));
     for (int i = 0; i < 3; i++) {
-        e.linear[i] = iso_random_normal(r) * energy;
-        for (int j = 0; j <= i; j++) e.quadratic[3 * i + j] = e.quadratic[3 * j + i] = iso_random_normal(r) * energy;
+        FIELD_LINEAR(&e)[i] = iso_random_normal(r) * energy;
+        for (int j = 0; j <= i; j++) FIELD_QUADRATIC(&e)[3 * i + j] = FIELD_QUADRATIC(&e)[3 * j + i] = iso_random_normal(r) * energy;
     }
-    e.level = effects_random_sign(r, 0.3, 1) * energy * pow(q, -1 / p->k);
+    LEVEL_C(&e) = effects_random_sign(r, 0.3, 1) * energy * pow(q, -1 / p->k);
     const double stiff = 50 * fmax(1, fabs(p->k)) * (min3(p->J) - p->D); /* from there on lambda is a state */
-    e.twist = subset & EFFECTS_CLASSICAL ? 0 : fmin(0.9 * stiff, iso_random_uniform(r, 0.3, 1) * energy / speed);
-    if (subset & EFFECTS_STIFF) e.twist = iso_random_uniform(r, 1.1, 1000) * stiff;
-    e.resistance = iso_random_uniform(r, 0.3, 1) * energy / speed;
-    for (int i = 0; i < 4; i++) e.quaternion[i] = iso_random_normal(r), square += e.quaternion[i] * e.quaternion[i];
-    for (int i = 0; i < 4; i++) e.quaternion[i] /= sqrt(square);
+    TWIST_RESISTANCE(&e) = subset & EFFECTS_CLASSICAL ? 0 : fmin(0.9 * stiff, iso_random_uniform(r, 0.3, 1) * energy / speed);
+    if (subset & EFFECTS_STIFF) TWIST_RESISTANCE(&e) = iso_random_uniform(r, 1.1, 1000) * stiff;
+    ROLLING_COEFFICIENT(&e) = iso_random_uniform(r, 0.3, 1) * energy / speed;
+    for (int i = 0; i < 4; i++) QUATERNION(&e)[i] = iso_random_normal(r), square += QUATERNION(&e)[i] * QUATERNION(&e)[i];
+    for (int i = 0; i < 4; i++) QUATERNION(&e)[i] /= sqrt(square);
     return e;
 }
 
@@ -116,7 +117,7 @@ static inline effects_case effects_sample(const iso_system *system, const iso_pa
     const double speed = ball ? norm(start) : sqrt(2 * c.kinetic / max3(p->J));
     f.effects = effects_random(r, p, subset, c.kinetic, speed, system->q(p, start, NULL));
     if (ball && subset & EFFECTS_STIFF) { /* hardly any spin is left */
-        add_scaled(start, effects_random_sign(r, 0.2, 1) * c.kinetic / f.effects.twist, start + 3);
+        add_scaled(start, effects_random_sign(r, 0.2, 1) * c.kinetic / TWIST_RESISTANCE(&f.effects), start + 3);
     }
     c.model = iso_model_assemble(system, &f, system->clock, none);
     iso_model_begin(&c.model, start, c.y);
@@ -171,8 +172,8 @@ static inline void effects_hold(const char *name, const iso_system *system, int 
 /* of the field's U */
 static inline double effects_field_size(const iso_effects *e)
 {
-    double square = dot(e->linear, e->linear);
-    for (int i = 0; i < 9; i++) square += e->quadratic[i] * e->quadratic[i];
+    double square = dot(FIELD_LINEAR(e), FIELD_LINEAR(e));
+    for (int i = 0; i < 9; i++) square += FIELD_QUADRATIC(e)[i] * FIELD_QUADRATIC(e)[i];
     return e->on[ISO_FIELD] ? sqrt(square) : 0;
 }
 
@@ -182,9 +183,9 @@ static inline double effects_energy_size(const effects_case *c)
     const iso_field *f = &c->model.field;
     double size = c->kinetic + effects_field_size(&f->effects);
     if (effects_on(c, ISO_LEVEL)) size += fabs(iso_effect_list[ISO_LEVEL]->potential(f, c->y));
-    if (effects_on(c, ISO_GRAVITY) && f->p.k != 1) size += fabs(f->effects.mgb / (1 - f->p.k));
+    if (effects_on(c, ISO_GRAVITY) && f->p.k != 1) size += fabs(GRAVITY_MGB(&f->effects) / (1 - f->p.k));
     if (effects_on(c, ISO_GRAVITY) && f->p.k == 1 && effects_on(c, ISO_ATTITUDE))
-        size += fabs(f->effects.mgb) * norm(c->y + f->at[ISO_ATTITUDE] + 4);
+        size += fabs(GRAVITY_MGB(&f->effects)) * norm(c->y + f->at[ISO_ATTITUDE] + 4);
     return size;
 }
 
@@ -195,10 +196,10 @@ static inline double effects_torque_size(const effects_case *c)
     const iso_params *p = &c->model.field.p;
     double size = fabs(p->k) * effects_field_size(e), u[3];
     diag(p->inv_J, c->y + 3, u);
-    if (e->on[ISO_GRAVITY]) size += fabs(e->mgb);
-    if (e->on[ISO_LEVEL]) size += 2 * fabs(e->level) * pow(dot(c->y + 3, u), -1 / p->k - 1) * norm(u);
-    if (e->on[ISO_TWIST]) size += effects_lambda(c) > 0 ? fabs(c->y[effects_lambda(c)]) : e->twist * norm(c->y);
-    if (e->on[ISO_ROLLING_RESISTANCE]) size += e->resistance * norm(c->y);
+    if (e->on[ISO_GRAVITY]) size += fabs(GRAVITY_MGB(e));
+    if (e->on[ISO_LEVEL]) size += 2 * fabs(LEVEL_C(e)) * pow(dot(c->y + 3, u), -1 / p->k - 1) * norm(u);
+    if (e->on[ISO_TWIST]) size += effects_lambda(c) > 0 ? fabs(c->y[effects_lambda(c)]) : TWIST_RESISTANCE(e) * norm(c->y);
+    if (e->on[ISO_ROLLING_RESISTANCE]) size += ROLLING_COEFFICIENT(e) * norm(c->y);
     return size;
 }
 
@@ -221,7 +222,7 @@ static inline void effects_sizes(const effects_case *c, double size[ISO_MAX_STAT
     const double turning = 2 * loose * (max3(p->J) * w * w + effects_torque_size(c)) / min3(p->J);
     for (int i = 0; i < ISO_MAX_STATE; i++)
         size[i] = i >= ISO_STATE ? w : i >= 3 ? (ball ? fabs(p->k) * w : w) : ball ? turning : effects_image_size(c);
-    if (effects_lambda(c) > 0) size[effects_lambda(c)] = c->model.field.effects.twist * turning;
+    if (effects_lambda(c) > 0) size[effects_lambda(c)] = TWIST_RESISTANCE(&c->model.field.effects) * turning;
 }
 
 /* A step along the flow of 1/128 of the way on which the equations change much; see laws_step(). */

@@ -80,29 +80,29 @@ static const double scene_linear[3] = {0.2, -0.1, 0.15};
 static inline void add_gravity(const rolling *ball, double g, const double up[3], iso_effects *e)
 {
     e->on[ISO_GRAVITY] = true;
-    e->mgb = ball->m * g * ball->b;
-    copy(up, e->up, 3);
+    GRAVITY_MGB(e) = ball->m * g * ball->b;
+    copy(up, GRAVITY_UP(e), 3);
 }
 
 static inline void add_field(iso_effects *e)
 {
     e->on[ISO_FIELD] = true;
-    copy(scene_quadratic, e->quadratic, 9);
-    copy(scene_linear, e->linear, 3);
+    copy(scene_quadratic, FIELD_QUADRATIC(e), 9);
+    copy(scene_linear, FIELD_LINEAR(e), 3);
 }
 
 static inline void add_twist(double c, iso_effects *e)
 {
     e->on[ISO_TWIST] = true;
-    e->twist = c;
+    TWIST_RESISTANCE(e) = c;
 }
 
 static inline void add_attitude(iso_random *random, iso_effects *e)
 {
     double square = 0;
-    for (int i = 0; i < 4; i++) e->quaternion[i] = iso_random_normal(random);
-    for (int i = 0; i < 4; i++) square += e->quaternion[i] * e->quaternion[i];
-    for (int i = 0; i < 4; i++) e->quaternion[i] /= sqrt(square);
+    for (int i = 0; i < 4; i++) QUATERNION(e)[i] = iso_random_normal(random);
+    for (int i = 0; i < 4; i++) square += QUATERNION(e)[i] * QUATERNION(e)[i];
+    for (int i = 0; i < 4; i++) QUATERNION(e)[i] /= sqrt(square);
     e->on[ISO_ATTITUDE] = true;
 }
 
@@ -142,7 +142,7 @@ static inline iso_sample scene_at(iso_context *ctx, iso_orbit *orbit, double tim
 /* v in space: the rotation matrix of the quaternion, written out */
 static inline void to_space(const iso_sample *s, const double v[3], double in_space[3])
 {
-    const double a = s->quaternion[0], b = s->quaternion[1], c = s->quaternion[2], d = s->quaternion[3];
+    const double a = sample_of(s, "q")[0], b = sample_of(s, "q")[1], c = sample_of(s, "q")[2], d = sample_of(s, "q")[3];
     const double R[3][3] = {
         {a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)},
         {2 * (b * c + a * d), a * a - b * b + c * c - d * d, 2 * (c * d - a * b)},
@@ -178,12 +178,12 @@ static inline double energy_of(const rolling *ball, const iso_effects *e, const 
     const double *w = omega_of(s), *n = normal_of(s), spin = dot(w, n), D = ball->m * ball->b * ball->b;
     double h = -D * spin * spin / 2, dU[3];
     for (int i = 0; i < 3; i++) h += (ball->I[i] + D) * w[i] * w[i] / 2;
-    const double weight = e->mgb / ball->b; /* m g */
-    if (e->on[ISO_GRAVITY] && !on_plane(ball)) h += weight * (ball->a + ball->b) * dot(n, s->vertical);
+    const double weight = GRAVITY_MGB(e) / ball->b; /* m g */
+    if (e->on[ISO_GRAVITY] && !on_plane(ball)) h += weight * (ball->a + ball->b) * dot(n, sample_of(s, "e"));
     if (e->on[ISO_GRAVITY] && on_plane(ball)) {
         double up[3];
-        to_space(s, s->vertical, up);
-        h += weight * dot(up, s->centre);
+        to_space(s, sample_of(s, "e"), up);
+        h += weight * dot(up, sample_of(s, "centre"));
     }
     field_gradient(s, dU);
     if (e->on[ISO_FIELD]) h += (dot(n, dU) + dot(scene_linear, n)) / 2;
@@ -259,7 +259,7 @@ static inline void second_derivative(const rolling *ball, const stencil *st, see
 static inline void centre_of(const rolling *ball, const iso_sample *s, double v[3])
 {
     (void)ball;
-    copy(s->centre, v, 3);
+    copy(sample_of(s, "centre"), v, 3);
 }
 
 #endif

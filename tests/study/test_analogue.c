@@ -91,7 +91,7 @@ static void check_path(const iso_analogue *a, const iso_analogue_ball *b, const 
     iso_orbit *orbit;
     iso_sample sample;
     must(iso_analogue_scene(ctx, b, start, turns, &scene), "a scene");
-    gsl_test(scene.effects.on[ISO_LEVEL] != (b->level != 0) || scene.effects.level != b->level, "the scene's level");
+    gsl_test(scene.effects.on[ISO_LEVEL] != (b->level != 0) || LEVEL_C(&scene.effects) != b->level, "the scene's level");
     iso_orbit_options o = iso_orbit_defaults(&scene.start);
     o.backend = ISO_BALL;
     o.effects = &scene.effects;

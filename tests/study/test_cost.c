@@ -270,8 +270,8 @@ static void check_scenes(void)
     check_scene(&s, "field", true, false, 1e-13);
     s = cost_scene(ctx, 0.7, J, -20);
     s.effects.on[ISO_GRAVITY] = true;
-    s.effects.mgb = 0.5;
-    s.effects.up[2] = 1;
+    GRAVITY_MGB(&s.effects) = 0.5;
+    GRAVITY_UP(&s.effects)[2] = 1;
     check_scene(&s, "gravity, backwards", false, false, 1e-11);
     s = cost_scene(ctx, 0.7, J, 5);
     if (iso_params_set_D(ctx, 0.4, &s.params) != ISO_OK) scene_stops("D", ctx);

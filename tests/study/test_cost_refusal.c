@@ -37,12 +37,12 @@ static void check_refusals(void)
     o.method = iso_method_find("strang");
     refuse(&s, &o, ISO_BAD_ARGUMENT, "method");
     s.effects.on[ISO_GRAVITY] = true;
-    s.effects.mgb = 1;
-    s.effects.up[2] = 1;
+    GRAVITY_MGB(&s.effects) = 1;
+    GRAVITY_UP(&s.effects)[2] = 1;
     o.method = NULL;
     o.backend = ISO_POINT;
     refuse(&s, &o, ISO_NOT_MAPPED, "gravity");
-    s.effects.mgb = NAN;
+    GRAVITY_MGB(&s.effects) = NAN;
     refuse(&s, &all, ISO_BAD_INPUT, "mgb");
     gsl_test(iso_cost_grow(ctx, &s, &(iso_cost_cell){0}, 0, &growth) != ISO_BAD_ARGUMENT ||
                  strcmp(iso_context_field(ctx), "horizons") != 0,

@@ -98,7 +98,7 @@ static void check_stiff(double c)
 {
     iso_params p = laws_params(-0.6, J);
     const iso_start start = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
-    iso_effects effects = {.on[ISO_TWIST] = true, .twist = c};
+    iso_effects effects = {.on[ISO_TWIST] = true, .number[ISO_TWIST] = {c}};
     iso_orbit_options o = iso_orbit_defaults(&start);
     if (iso_params_set_D(ctx, 0.4, &p) != ISO_OK) give_up("D");
     o.effects = &effects;

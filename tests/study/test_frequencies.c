@@ -279,12 +279,12 @@ static void check_refusals(void)
     const double J[3] = {1, 2, 3}, w[3] = {1, 0, 0}, n[3] = {0, 0.6, 0.8};
     iso_scene scene = scene_from(0.5, J, w, n);
     scene.effects.on[ISO_ROLLING_RESISTANCE] = true;
-    scene.effects.resistance = 0.1;
+    ROLLING_COEFFICIENT(&scene.effects) = 0.1;
     refuses(&scene, &o, ISO_NOT_MAPPED, "rolling_resistance");
     scene = scene_from(1, J, w, n);
     scene.effects.on[ISO_GRAVITY] = true;
-    scene.effects.mgb = 1;
-    scene.effects.up[0] = 1;
+    GRAVITY_MGB(&scene.effects) = 1;
+    GRAVITY_UP(&scene.effects)[0] = 1;
     refuses(&scene, &o, ISO_NOT_MAPPED, "gravity");
     scene = scene_from(0.5, J, (double[]){0, 0, 0}, n);
     refuses(&scene, &o, ISO_NOT_MAPPED, "angular_velocity");
@@ -347,11 +347,11 @@ static void check_image(int i, iso_random *random, laws_worst *worst)
     iso_system_ball.sample(&field, random, y);
     if (i % 4 == 0) {
         field.effects.on[ISO_LEVEL] = true;
-        field.effects.level = iso_random_uniform(random, -6, 0.3) * field.energy;
+        LEVEL_C(&field.effects) = iso_random_uniform(random, -6, 0.3) * field.energy;
     }
     iso_momentum m;
     const double h = iso_system_ball.integrals[0].value(&field, y, &size_h);
-    if (!(h > 0) || !iso_momentum_make(&field.p, iso_coupling(&field.p, field.effects.level), &m)) return;
+    if (!(h > 0) || !iso_momentum_make(&field.p, iso_coupling(&field.p, LEVEL_C(&field.effects)), &m)) return;
     const double F = laws_integral(&iso_system_ball, m.F)->value(&field, y, &size);
     const iso_momentum_part part = iso_momentum_find(&m, h, F);
     const bool some = iso_momentum_interval(&m, h, part, &low, &high);

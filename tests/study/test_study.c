@@ -208,7 +208,7 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, int fi
         if (o.carry[c]) columns[width++] = c;
     }
     for (int c = first; c <= last; c++) columns[width++] = c;
-    for (int c = 0; c < width; c++) names[c] = iso_trajectory_columns[columns[c]];
+    for (int c = 0; c < width; c++) names[c] = iso_column_name(columns[c]);
     o.tolerance = 1e-14;
     o.show = first < 9 ? last > 9 ? ISO_BOTH : ISO_BALL : start->model == ISO_BALL ? ISO_BOTH : ISO_POINT;
     must(iso_orbit_create(ctx, p, start, &o, &orbit), "an orbit");
