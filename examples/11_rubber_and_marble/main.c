@@ -19,9 +19,11 @@ static const char *const names[CONTACTS] = {"rubber", "c = 10", "c = 0"};
 /* The orbit of one contact; NULL with a message in the context. */
 static iso_orbit *open_orbit(iso_context *ctx, const iso_params *p, int contact)
 {
-    const iso_effects effects = {.on[ISO_TWIST] = contact > 0, .twist = contact == 1 ? 10 : 0};
+    const double resistance = contact == 1 ? 10 : 0;
+    iso_effects effects = iso_effects_default();
     iso_start start;
     iso_orbit *orbit = NULL;
+    if (contact > 0 && iso_effects_set(ctx, &effects, "twist", "resistance", 1, &resistance)) return NULL;
     if (iso_start_ball(ctx, (double[]){0.9, -0.3, -0.225}, (double[]){0.36, 0.48, 0.8}, ISO_SPIN_REFUSE, &start))
         return NULL;
     iso_orbit_options options = iso_orbit_defaults(&start);

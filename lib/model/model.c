@@ -100,6 +100,14 @@ static void add_states(iso_model *m)
     }
 }
 
+static const iso_effect *find_without_formula(const iso_model *m)
+{
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (m->field.effects.on[e] && m->system == &iso_system_ball && iso_effect_list[e]->torque)
+            return iso_effect_list[e];
+    return NULL;
+}
+
 /* Writes down the equations of the effects that act, or have states. */
 static void record(iso_model *m)
 {
@@ -119,7 +127,7 @@ static void record(iso_model *m)
 /* Whether an effect has a torque in the place of a formula. */
 static bool has_torques(const iso_model *m)
 {
-    return m->field.motion.torques || iso_model_without_formula(m) != NULL;
+    return m->field.motion.torques || m->without_formula != NULL;
 }
 
 /* The plainest functions that do it. */
@@ -143,10 +151,7 @@ const char *iso_model_too_large(const iso_model *m)
 
 const iso_effect *iso_model_without_formula(const iso_model *m)
 {
-    for (int e = 0; e < ISO_EFFECTS; e++)
-        if (m->field.effects.on[e] && m->system == &iso_system_ball && iso_effect_list[e]->torque)
-            return iso_effect_list[e];
-    return NULL;
+    return m->without_formula;
 }
 
 iso_model iso_model_assemble(const iso_system *system, const iso_field *field, iso_clock clock,
@@ -155,6 +160,7 @@ iso_model iso_model_assemble(const iso_system *system, const iso_field *field, i
     iso_model m = {.system = system, .field = *field, .clock = clock, .moving = ISO_STATE};
     add_states(&m);
     record(&m);
+    m.without_formula = find_without_formula(&m);
     m.contact = iso_contact_of(&m.field);
     choose_equations(&m);
     for (iso_clock c = 0; c < ISO_CLOCKS; c++)

@@ -32,6 +32,7 @@ struct iso_model {
     const struct iso_contact *contact;
     int followers;
     const iso_effect *follower[ISO_EFFECTS];
+    const iso_effect *without_formula; /* the first effect whose equations are no formula; NULL: none */
 };
 
 /* Assembles. Of field->effects the point takes what has an image, the ball everything; field->at is filled in. carry[c]

@@ -90,7 +90,7 @@ static int list_runs(run runs[])
     for (int stiff = 0; stiff < 2; stiff++) { /* the contact's torque is a state */
         runs[count] =
             (run){stiff ? "twist, c = 1e8" : "twist, c = 1e2", all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};
-        TWIST_RESISTANCE(&runs[count].effects) = stiff ? 1e8 : 1e2;
+        runs[count].effects.number[ISO_TWIST][0] = stiff ? 1e8 : 1e2;
         runs[count++].effects.on[ISO_TWIST] = true;
     }
     runs[count] = (run){"all together", all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};

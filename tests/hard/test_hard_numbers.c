@@ -4,6 +4,7 @@
 
 #include "hard.h"
 #include "isoroll.h"
+#include "numbers.h"
 #include "sweep.h"
 
 /* --- the ball and its start ------------------------------------------------------------------------------------- */
@@ -136,10 +137,10 @@ static iso_status with_effects(iso_context *ctx, const void *data, const double 
     iso_orbit *orbit;
     iso_sample sample;
     memcpy(e.on, data, sizeof e.on);
-    memcpy(GRAVITY_UP(&e), v + UP, sizeof GRAVITY_UP(&e));
-    memcpy(FIELD_QUADRATIC(&e), v + QUADRATIC, sizeof FIELD_QUADRATIC(&e));
-    memcpy(FIELD_LINEAR(&e), v + LINEAR, sizeof FIELD_LINEAR(&e));
-    memcpy(QUATERNION(&e), v + QUATERNION, sizeof QUATERNION(&e));
+    memcpy(GRAVITY_UP(&e), v + UP, 3 * sizeof *v);
+    memcpy(FIELD_QUADRATIC(&e), v + QUADRATIC, 9 * sizeof *v);
+    memcpy(FIELD_LINEAR(&e), v + LINEAR, 3 * sizeof *v);
+    memcpy(QUATERNION(&e), v + QUATERNION, 4 * sizeof *v);
     memcpy(start.y, usual + STATE, sizeof start.y);
     iso_status status = iso_params_reduced(ctx, usual[K], usual + J, &p);
     if (status == ISO_OK) status = iso_params_set_D(ctx, v[D], &p);

@@ -1,5 +1,6 @@
 /* Rolling resistance until rest: w falls through the whole range of doubles, then the ball stands still. */
 #include "hard_effects.h"
+#include "numbers.h"
 
 static iso_context *ctx;
 

@@ -167,6 +167,7 @@ static double variational_exponent(const rotation *r)
     enum { STEPS = 2000, TURNS = 12 };
     static const double part[4] = {0, 0.5, 0.5, 1}, weight[4] = {1 / 6.0, 1 / 3.0, 1 / 3.0, 1 / 6.0};
     const iso_field field = {.p = r->p};
+    const iso_model ball = iso_model_assemble(&iso_system_ball, &field, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
     const iso_start tiny = beside(r, 1e-30); /* in the plane but for the disturbance */
     double x[ISO_STATE] = {0}, before = 0, h = r->turn / STEPS;
     for (int i = 0; i < ISO_STATE; i++)
@@ -179,7 +180,7 @@ static double variational_exponent(const rotation *r)
             double y[ISO_STATE] = {0}, jac[ISO_STATE * ISO_STATE], z[ISO_STATE];
             y[r->axis] = tiny.y[r->axis];
             y[3 + r->in[0]] = cos(angle), y[3 + r->in[1]] = -sin(angle);
-            iso_system_ball.jacobian(&field, y, jac);
+            ball.jacobian(&ball, y, jac);
             for (int j = 0; j < ISO_STATE; j++) z[j] = x[j] + part[s] * h * f[j];
             for (int j = 0; j < ISO_STATE; j++) {
                 f[j] = 0;

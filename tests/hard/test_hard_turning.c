@@ -7,6 +7,7 @@
 #include "hard.h"
 #include "hard_loss.h"
 #include "map/state.h"
+#include "numbers.h"
 
 static iso_context *ctx;
 static const double J_three[3] = {1.4, 2.1, 3.0};

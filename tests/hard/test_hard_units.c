@@ -6,6 +6,7 @@
 
 #include "base/vec3_impl.h"
 #include "hard.h"
+#include "numbers.h"
 
 static iso_context *ctx;
 enum { K = 5, SCALES = 6 };

@@ -1,9 +1,9 @@
-/* Taylor series in lanes, lib/method/lanes_impl.h: the states of each code, and that no lane feels another. */
+/* Taylor series in lanes, lib/method/taylor/lanes_impl.h: the states of each code, and that no lane feels another. */
 #include <stdlib.h>
 #include <string.h>
 
 #include "effects.h"
-#include "method/lanes_impl.h"
+#include "method/taylor/lanes_impl.h"
 #include "orbits.h"
 
 enum { ROWS = 4, CODES = 8 };

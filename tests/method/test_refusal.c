@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "numbers.h"
 #include "orbits.h"
 
 static iso_context *ctx;
@@ -189,40 +190,27 @@ static void check_systems(void)
         }
 }
 
-/* A torque without slopes: an explicit method can simulate it, an implicit one cannot. */
-static void drag(const iso_field *f, const double y[], double T[3])
-{
-    (void)f;
-    for (int i = 0; i < 3; i++) T[i] -= 0.1 * y[i];
-}
+/* An effect whose equations are no formula: a method that calls the right-hand side can simulate it; one that needs slopes
+ * or series cannot. */
+static const iso_effect no_formula = {.name = "drag"};
 
-static void stand_still(const iso_field *f, const double y[], double dy[])
-{
-    (void)f, (void)y, (void)dy;
-}
-
-static const iso_effect unsloped_torque = {.name = "drag", .torque = drag};
-static const iso_effect unsloped_states = {.name = "memory", .rates = stand_still};
-
-static void check_slopes(const iso_effect *effect, bool acts, double twist)
+static void check_formulas(double twist)
 {
     const orbit plain = orbit_rotation(ctx, 1, 1);
+    const iso_effect *effect = &no_formula;
     iso_field f = plain.model.field;
     f.effects.on[ISO_TWIST] = twist > 0, TWIST_RESISTANCE(&f.effects) = twist, f.p.D = 0.5;
     iso_model m = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
-    if (acts)
-        m.force[m.forces++] = effect;
-    else
-        m.follower[m.followers++] = effect;
+    m.without_formula = effect;
     const iso_method *best = iso_method_auto(&m);
-    gsl_test(!best || best->implicit, "%s: auto takes %s", effect->name, best ? best->name : "nothing");
+    gsl_test(!best || best->implicit || best->own_equations, "%s: auto takes %s", effect->name, best ? best->name : "nothing");
     for (int i = 0; best && iso_methods[i]; i++) {
         const iso_method *method = iso_methods[i];
         char why[ISO_WHY_SIZE] = "";
         iso_integrator *it = (iso_integrator *)&beyond; /* must become NULL */
         if (method->system) continue;
         const bool serves = iso_method_serves(method, &m, why);
-        gsl_test(serves == method->implicit, "%s without slopes: %s %s", effect->name, method->name, why);
+        gsl_test(serves == (method->implicit || method->own_equations), "%s without a formula: %s %s", effect->name, method->name, why);
         if (serves) continue;
         const iso_status status =
             iso_integrator_create(ctx, method, &m, &(iso_method_options){.tolerance = 1e-9}, &it);
@@ -230,6 +218,19 @@ static void check_slopes(const iso_effect *effect, bool acts, double twist)
         gsl_test(status != ISO_BAD_ARGUMENT || it || strcmp(iso_context_field(ctx), "method") != 0 ||
                      !strstr(words, method->name) || !strstr(words, effect->name) || !strstr(words, best->name),
                  "refused: %s", words);
+    }
+}
+
+/* Equations that there was no room for: no method may simulate what is left of them. */
+static void check_room(void)
+{
+    orbit crowded = orbit_rotation(ctx, 1, 1);
+    char why[ISO_WHY_SIZE] = "";
+    crowded.model.field.motion.overrun = true;
+    for (int i = 0; iso_methods[i]; i++) {
+        if (iso_methods[i]->system) continue;
+        gsl_test(iso_method_serves(iso_methods[i], &crowded.model, why) || !strstr(why, "more lines"), "no room: %s %s",
+                 iso_methods[i]->name, why);
     }
 }
 
@@ -255,10 +256,9 @@ static void check_needs(void)
                 iso_integrator_free(it);
             }
         }
-    check_slopes(&unsloped_torque, true, 0);
-    check_slopes(&unsloped_torque, true, 1e4);
-    check_slopes(&unsloped_states, false, 0);
-    check_slopes(&unsloped_states, false, 1e4);
+    check_formulas(0);
+    check_formulas(1e4);
+    check_room();
 }
 
 /* References: methods with more digits than a double, one after the other, and witnesses by their places. */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "length.h"
+#include "numbers.h"
 #include "orbits.h"
 
 static iso_context *ctx;

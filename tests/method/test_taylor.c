@@ -1,10 +1,10 @@
-/* The Taylor series of lib/method/taylor.c: recurrences, orders, processors, the way back, long runs. */
+/* The Taylor series of lib/method/taylor/: recurrences, orders, processors, the way back, long runs. */
 #include <float.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "effects.h"
-#include "method/taylor_impl.h"
+#include "method/taylor/code_impl.h"
 #include "orbit/orbit.h"
 #include "orbits.h"
 

@@ -9,19 +9,23 @@
 
 /* --- rigid ----------------------------------------------------------------------------------------------------- */
 
-/* Without torques it is the free ball (9), Jacobian and all. */
+/* Without torques it is the free ball (9), Jacobian and all: also where the contact takes up an effect of nothing. */
 static void rigid_is_free(const effects_case *c, laws_worst *worst)
 {
     if (c->subset != 0) return;
     const iso_field *f = &c->model.field;
     const double none[3] = {0, 0, 0}, bound = 4 * DBL_EPSILON;
     double own[ISO_STATE], dy[ISO_STATE], slope[ISO_STATE * ISO_STATE], jac[ISO_STATE * ISO_STATE] = {0};
+    iso_field nothing = *f;
     double size[ISO_MAX_STATE];
     effects_sizes(c, size);
     iso_system_ball.rhs(f, c->y, own);
-    iso_system_ball.jacobian(f, c->y, slope);
+    nothing.effects.on[ISO_FIELD] = true;
+    memset(nothing.effects.number[ISO_FIELD], 0, sizeof nothing.effects.number[ISO_FIELD]);
+    const iso_model m = iso_model_assemble(&iso_system_ball, &nothing, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
+    iso_model_slopes(&c->model, c->y, slope);
     iso_contact_rigid.solve(f, c->y, none, dy);
-    iso_contact_rigid.slope(f, c->y, none, ISO_STATE, jac);
+    iso_model_slopes(&m, c->y, jac);
     for (int i = 0; i < ISO_STATE; i++) {
         effects_note(c, worst, fabs(own[i] - dy[i]), bound * size[i], "rhs");
         for (int j = 0; j < ISO_STATE; j++)

@@ -46,11 +46,16 @@ static void states(const effects_case *c, laws_worst *worst)
 /* What is added up at each call: the ball's torques, none from a contact that twists freely; the point's field. */
 static void forces(const effects_case *c, laws_worst *worst)
 {
-    const iso_effects *e = &c->model.field.effects;
-    const bool ball = c->system == &iso_system_ball;
+    const iso_field *f = &c->model.field;
+    const iso_effects *e = &f->effects;
     const int torques = e->on[ISO_GRAVITY] + e->on[ISO_FIELD] + e->on[ISO_LEVEL] +
                         (e->on[ISO_TWIST] && TWIST_RESISTANCE(e) > 0) + e->on[ISO_ROLLING_RESISTANCE];
-    effects_note(c, worst, abs(c->model.forces - (ball ? torques : e->on[ISO_FIELD])), 0.5, "forces");
+    int written = 0;
+    for (int i = 0; i < f->motion.lines; i++) written += f->motion.line[i].operation == ISO_R_TORQUE;
+    if (c->system == &iso_system_ball)
+        effects_note(c, worst, abs(written - torques), 0.5, "torques");
+    else
+        effects_note(c, worst, abs((f->energy_formula.lines > 0) - e->on[ISO_FIELD]), 0.5, "image");
 }
 
 /* The start: the six numbers, `up`, `quaternion`, the rest 0; sizes: 1, and of the way 1 more than it is long. */
@@ -96,7 +101,7 @@ static void plain(const effects_case *c, laws_worst *worst)
     effects_note(c, worst, memcmp(own, dy, sizeof own), 0.5, "rhs");
     if (ball && e->on[ISO_ATTITUDE]) return;
     const bool same = c->model.rhs == simplest.rhs && c->model.own_rhs == simplest.rhs &&
-                      c->model.jacobian == simplest.jacobian && c->model.own_jacobian == simplest.jacobian;
+                      c->model.jacobian == simplest.jacobian;
     effects_note(c, worst, same && c->model.dim == ISO_STATE ? 0 : 1, 0.5, "functions");
 }
 
@@ -169,12 +174,13 @@ static void rhs_clocks(const effects_case *c, laws_worst *worst)
 typedef struct potential_of {
     const effects_case *c;
     const iso_effect *effect;
+    iso_field alone;
 } potential_of;
 
 static void potential(const void *data, const double y[], double U[])
 {
     const potential_of *of = data;
-    U[0] = of->effect->potential(&of->c->model.field, y);
+    U[0] = iso_effects_potential(&of->alone, y);
 }
 
 /* T of U: a turn of the ball about e_i, and all that it moves with it, costs -T_i. */
@@ -210,12 +216,12 @@ static void torques_from_potentials(const effects_case *c, laws_worst *worst)
     const iso_params *p = &c->model.field.p;
     const double h = laws_reach(p) / (128 * fmax(1, fabs(p->k)));
     for (int e = 0; e < ISO_EFFECTS; e++) {
-        const potential_of of = {c, iso_effect_list[e]};
-        if (!effects_on(c, e) || !of.effect->potential) continue;
+        if (!effects_on(c, e) || !iso_effect_list[e]->potential) continue;
+        const potential_of of = {c, iso_effect_list[e], effects_alone(c, (iso_effect_id)e)};
         if (e == ISO_GRAVITY && p->k == 1 && !effects_on(c, ISO_ATTITUDE)) continue; /* nobody knows the height */
         const double allowed = 2 * laws_rounding(p) * effects_energy_size(c) / h;
-        double T[3] = {0, 0, 0}, expected[3];
-        of.effect->torque(&c->model.field, c->y, T);
+        double T[3], expected[3], dy[ISO_MAX_STATE];
+        iso_effects_torque(&of.alone, c->y, T, dy);
         torque_of_potential(&of, h, expected);
         effects_note(c, worst, laws_distance(T, expected), allowed, of.effect->name);
         if (e == ISO_GRAVITY) continue;
@@ -239,9 +245,13 @@ static void written_out(const effects_case *c, laws_worst *worst)
     if (e->on[ISO_GRAVITY]) add_scaled(T, GRAVITY_MGB(e), e_n);
     if (e->on[ISO_TWIST]) add_scaled(T, -TWIST_RESISTANCE(e) * dot(w, n), n);
     if (e->on[ISO_ROLLING_RESISTANCE]) add_scaled(T, -ROLLING_COEFFICIENT(e), w);
-    for (int i = 0; i < ISO_EFFECTS; i++)
-        if (e->on[i] && i != ISO_FIELD && i != ISO_LEVEL && iso_effect_list[i]->torque)
-            iso_effect_list[i]->torque(f, c->y, sum);
+    for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) {
+        if (!e->on[i] || i == ISO_FIELD || i == ISO_LEVEL) continue;
+        const iso_field alone = effects_alone(c, i);
+        double own[3], dy[ISO_MAX_STATE];
+        iso_effects_torque(&alone, c->y, own, dy);
+        add_scaled(sum, 1, own);
+    }
     effects_note(c, worst, laws_distance(T, sum), 8 * DBL_EPSILON * (effects_torque_size(c) + TWIST_RESISTANCE(e) * norm(w)),
                  "torque");
     if (f->p.k == 1 && e->on[ISO_GRAVITY]) return;
@@ -261,11 +271,11 @@ static void accepted(const effects_case *c, laws_worst *worst)
     const bool constant = e.on[ISO_LEVEL] && J[0] == J[1] && J[1] == J[2]; /* a level that is refused */
     const iso_status status = iso_effects_check(ctx, &c->model.field.p, c->y + 3, &e);
     effects_note(c, worst, (status != ISO_OK) != constant, 0.5, constant ? "accepted" : "refused");
-    for (int i = 0; i < ISO_EFFECTS; i++)
+    for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
         for (const iso_effect_number *n = iso_effect_list[i]->numbers; n && n->name; n++)
             for (int j = 0; j < n->count; j++) {
-                const double *old = iso_effect_values(&c->model.field.effects, n);
-                const double *new = iso_effect_values(&e, n);
+                const double *old = iso_effect_values(&c->model.field.effects, i, n);
+                const double *new = iso_effect_values(&e, i, n);
                 effects_note(c, worst, fabs(new[j] - old[j]), 4 * DBL_EPSILON * fabs(old[j]), n->name);
             }
 }
@@ -300,7 +310,7 @@ static void attempt_number(iso_effect_id id, const char *number, int index, doub
 {
     iso_effects e = sound;
     for (const iso_effect_number *n = iso_effect_list[id]->numbers; n->name; n++)
-        if (strcmp(n->name, number) == 0) iso_effect_values(&e, n)[index] = value;
+        if (strcmp(n->name, number) == 0) iso_effect_values(&e, id, n)[index] = value;
     char what[64];
     snprintf(what, sizeof what, "%s %s[%d] = %g", iso_effect_list[id]->name, number, index, value);
     attempt(what, 0.5, 0.3, id, e, field);
@@ -379,6 +389,63 @@ static void made_exact(void)
     gsl_test(FIELD_QUADRATIC(&e)[1] != FIELD_QUADRATIC(&e)[3], "C made symmetric");
 }
 
+/* --- rows -------------------------------------------------------------------------------------------------------- */
+
+static void complete(const iso_effect *e, bool holds, const char *what)
+{
+    gsl_test(!holds, "the row of %s: %s", e->name, what);
+}
+
+/* The numbers of the group called `name`; 0: there is none. */
+static int group_size(const iso_effect *e, const char *name)
+{
+    for (const iso_effect_column *g = e->columns; g && g->name; g++)
+        if (strcmp(g->name, name) == 0) return g->count;
+    return 0;
+}
+
+static void complete_numbers(const iso_effect *e)
+{
+    for (const iso_effect_number *n = e->numbers; n && n->name; n++) {
+        complete(e, n->at >= 0 && n->count > 0 && n->at + n->count <= ISO_EFFECT_NUMBERS, n->name);
+        complete(e, !n->turns_with || group_size(e, n->turns_with) == n->count, "what a number turns with");
+        for (const iso_effect_number *m = e->numbers; m < n; m++)
+            complete(e, strcmp(m->name, n->name) != 0 && (m->at + m->count <= n->at || n->at + n->count <= m->at),
+                     "numbers apart");
+    }
+}
+
+static void complete_columns(const iso_effect *e)
+{
+    bool acts = false;
+    for (const iso_effect_column *g = e->columns; g && g->name; g++) {
+        complete(e, g->count > 0 && g->column, g->name);
+        complete(e, !g->sized_by || group_size(e, g->sized_by) > 0, "what a column is sized by");
+        acts = acts || g->moves;
+        for (int i = 0; i < g->count; i++) complete(e, iso_column_find(g->column[i]) >= 0, g->column[i]);
+    }
+    complete(e, !e->columns || e->show, "columns are shown");
+    complete(e, !acts || e->needs_radius, "what moves is a length");
+}
+
+/* Every row says all that its parts need. */
+static void complete_rows(void)
+{
+    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++) {
+        const iso_effect *e = iso_effect_list[id];
+        complete(e, e->name && *e->name && e->doc && *e->doc, "name and doc");
+        complete(e, iso_effect_find(e->name) == id, "its name is its own");
+        complete(e, e->observes || e->motion || e->torque, "what acts has equations");
+        complete(e, e->observes || e->work, "what acts says what it does to the energy");
+        complete(e, !e->states || (e->begin && e->states_doc && e->size && e->motion), "states begin, and have a size");
+        complete(e, !e->time_to_rest || e->stiffness, "what ends motion is as fast as it says");
+        complete_numbers(e);
+        complete_columns(e);
+    }
+    gsl_test(iso_effect_columns() > ISO_EFFECT_COLUMNS, "room for the columns of all effects");
+    gsl_test(iso_columns_count() != ISO_COLUMN_EFFECTS + iso_effect_columns(), "all columns have a name");
+}
+
 /* The isomorphism is lost with gravity, twist and rolling resistance, and with nothing else. */
 static void breaking(const effects_case *c, laws_worst *worst)
 {
@@ -406,6 +473,7 @@ int main(void)
     effects_hold("torques and potentials written out", &iso_system_ball, 1, written_out);
     effects_hold("every subset is accepted", &iso_system_ball, 1, accepted);
     effects_hold("what breaks the isomorphism", &iso_system_ball, 1, breaking);
+    complete_rows();
     refused_numbers();
     refused_combinations();
     made_exact();

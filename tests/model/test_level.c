@@ -274,7 +274,7 @@ static void potentials_mapped(const effects_case *c, laws_worst *worst)
     double image[ISO_STATE], size;
     iso_ball_to_point(p, c->y, image);
     const double q = point.system->q(p, image, NULL), G = p->k * p->k / p->det_J * pow(q, 1 / p->k);
-    const double U = effects_on(c, ISO_FIELD) ? iso_effect_list[ISO_FIELD]->potential(f, c->y) : 0;
+    const double U = effects_potential(c, ISO_FIELD);
     const double allowed = 2 * laws_rounding(p) * effects_energy_size(c) / G;
     effects_note(c, worst, fabs(iso_effects_image(&point.field, image) - U / G), allowed, "U/G");
     const double H = point.system->integrals[0].value(&point.field, image, &size);
@@ -313,11 +313,11 @@ static void scaled_and_back(const effects_case *c, laws_worst *worst)
     for (int u = 0; u < 3; u++) {
         iso_units_choose(&c->model.field.p, norm(c->y) * J_unit[u], &units);
         const iso_effects there = iso_effects_scaled(e, &units, -1), back = iso_effects_scaled(&there, &units, 1);
-        for (int i = 0; i < ISO_EFFECTS; i++)
+        for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
             for (const iso_effect_number *n = iso_effect_list[i]->numbers; n && n->name; n++)
                 for (int j = 0; j < n->count; j++) {
-                    const double x = iso_effect_values(e, n)[j];
-                    const double again = iso_effect_values(&back, n)[j];
+                    const double x = iso_effect_values(e, i, n)[j];
+                    const double again = iso_effect_values(&back, i, n)[j];
                     const bool exact = n->dimension.J_2k == 0 || rint(1 / k) == 1 / k;
                     effects_note(c, worst, fabs(again - x), exact ? DBL_MIN : 4 * DBL_EPSILON * fabs(x), n->name);
                 }

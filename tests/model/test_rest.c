@@ -2,6 +2,7 @@
 #include <float.h>
 
 #include "model/rest_impl.h"
+#include "numbers.h"
 #include "orbits.h"
 
 enum { RESIST = 1, TWIST = 2, STIFF = 4, FIELD = 8, GRAVITY = 16, KINDS = 32 };

@@ -61,7 +61,7 @@ static iso_status orbit_alone(const iso_batch_orbit *one, const iso_batch_option
 /* Largest difference: of a vector relative to its length, or to 1. */
 static double difference(const iso_sample *a, const iso_sample *b)
 {
-    static const struct {
+    const struct {
         int at, count;
         bool relative;
     } parts[] = {{0, 1, true},

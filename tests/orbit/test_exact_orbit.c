@@ -7,6 +7,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
+#include "numbers.h"
 #include "orbit/batch.h"
 #include "orbit/orbit.h"
 

@@ -58,7 +58,7 @@ static void check_resistance(const rolling *ball, double twist, iso_random *rand
         const double spin = spin_of(s), w_w = dot(omega_of(s), omega_of(s));
         double slope[3];
         first_derivative(ball, &st, energy_seen, slope);
-        laws_note(worst, fabs(slope[0] + acting.resistance * w_w + twist * spin * spin),
+        laws_note(worst, fabs(slope[0] + ROLLING_COEFFICIENT(&acting) * w_w + twist * spin * spin),
                   1e-10 * pace_of(s) * pace_of(s) * pace_of(s), &ball->p, ball->name);
     }
     iso_orbit_free(orbit);

@@ -110,7 +110,8 @@ static void check_newton(iso_random *random)
 
 static double pressure_at(iso_orbit *orbit, double time)
 {
-    return scene_at(ctx, orbit, time).pressure;
+    const iso_sample s = scene_at(ctx, orbit, time);
+    return iso_sample_get(&s, "pressure");
 }
 
 /* The first change of sign from + to - on samples 1/200 apart, then halved to rounding; NaN: there is none up to

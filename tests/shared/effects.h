@@ -15,6 +15,7 @@
 #include "laws.h"
 #include "numbers.h"
 #include "map/state.h"
+#include "model/effects_impl.h"
 #include "model/model.h"
 
 enum {
@@ -177,12 +178,29 @@ static inline double effects_field_size(const iso_effects *e)
     return e->on[ISO_FIELD] ? sqrt(square) : 0;
 }
 
+/* The field with one of its effects alone, whose states stay where they are: its own torque and potential. */
+static inline iso_field effects_alone(const effects_case *c, iso_effect_id id)
+{
+    iso_field f = c->model.field;
+    for (int e = 0; e < ISO_EFFECTS; e++) f.effects.on[e] = e == (int)id && f.effects.on[e];
+    iso_effects_record_motion(&f, false, &f.motion);
+    iso_effects_record_energy(&f, &f.energy_formula);
+    return f;
+}
+
+/* U of one effect */
+static inline double effects_potential(const effects_case *c, iso_effect_id id)
+{
+    const iso_field f = effects_alone(c, id);
+    return effects_on(c, id) ? iso_effects_potential(&f, c->y) : 0;
+}
+
 /* of the energy */
 static inline double effects_energy_size(const effects_case *c)
 {
     const iso_field *f = &c->model.field;
     double size = c->kinetic + effects_field_size(&f->effects);
-    if (effects_on(c, ISO_LEVEL)) size += fabs(iso_effect_list[ISO_LEVEL]->potential(f, c->y));
+    if (effects_on(c, ISO_LEVEL)) size += fabs(effects_potential(c, ISO_LEVEL));
     if (effects_on(c, ISO_GRAVITY) && f->p.k != 1) size += fabs(GRAVITY_MGB(&f->effects) / (1 - f->p.k));
     if (effects_on(c, ISO_GRAVITY) && f->p.k == 1 && effects_on(c, ISO_ATTITUDE))
         size += fabs(GRAVITY_MGB(&f->effects)) * norm(c->y + f->at[ISO_ATTITUDE] + 4);

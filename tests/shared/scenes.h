@@ -12,6 +12,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
+#include "numbers.h"
 #include "orbit/orbit.h"
 
 /* --- balls ------------------------------------------------------------------------------------------------------ */

@@ -11,6 +11,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
+#include "numbers.h"
 #include "study/analogue.h"
 
 static iso_context *ctx;

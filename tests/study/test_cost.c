@@ -8,6 +8,7 @@
 
 #include "base/vec3_impl.h"
 #include "costs.h"
+#include "numbers.h"
 #include "method/integrator_impl.h"
 #include "reference.h"
 #include "study/cost_impl.h"

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "costs.h"
+#include "numbers.h"
 
 static iso_context *ctx;
 

@@ -9,6 +9,7 @@
 #include "base/vec3_impl.h"
 #include "exact/coordinates.h"
 #include "laws.h"
+#include "numbers.h"
 #include "map/state.h"
 #include "study/frequencies.h"
 

@@ -194,7 +194,7 @@ static void check_compare(void)
 
 enum { ROWS = 9 };
 
-/* An orbit's record with the columns first ... last of iso_trajectory_columns, and the clocks before them: t, T for
+/* An orbit's record with the columns first ... last of a trajectory, and the clocks before them: t, T for
  * tau, s. */
 static iso_record *record_of(const iso_params *p, const iso_start *start, int first, int last, const char *clocks)
 {
