@@ -161,7 +161,7 @@ static double halved(const iso_params *p, const iso_start *start, const iso_effe
     const hard_road quad = he_quad();
     iso_orbit *orbit = he_orbit(ctx, &quad, p, start, e);
     double a = 0, b = 0;
-    iso_sample s = {{0}};
+    iso_sample s = {.clock = {0}};
     iso_sample_set_column(&s, iso_column_find("pressure"), 1);
     while (orbit && iso_sample_get(&s, "pressure") >= 0 && b < end) /* pressure does not come back within 1/64 */
         a = b, b += 1.0 / 64, iso_orbit_at(orbit, b, &s);

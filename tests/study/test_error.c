@@ -6,6 +6,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
+#include "numbers.h"
 #include "reference.h"
 #include "study/error.h"
 
@@ -132,7 +133,7 @@ static void random_scene(iso_random *random, iso_params *p, iso_effects *effects
     *p = laws_params(1, (const double[]){400, exp(iso_random_uniform(random, 0, log(400))), 1});
     *effects = (iso_effects){.on[ISO_FIELD] = true};
     for (int i = 0; i < 3; i++) {
-        effects->linear[i] = 0.3 * iso_random_normal(random);
+        FIELD_LINEAR(effects)[i] = 0.3 * iso_random_normal(random);
         omega[i] = iso_random_normal(random);
     }
     iso_random_direction(random, n);

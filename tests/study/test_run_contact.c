@@ -6,7 +6,7 @@ static int column_of(const iso_scene *scene, const char *name)
     int columns[ISO_MAX_COLUMNS];
     const int count = iso_scene_columns(scene, columns);
     for (int c = 0; c < count; c++)
-        if (strcmp(iso_trajectory_columns[columns[c]], name) == 0) return c;
+        if (strcmp(iso_column_name(columns[c]), name) == 0) return c;
     give_up("a column is missing");
     return -1;
 }
