@@ -240,6 +240,7 @@ const iso_system iso_system_ball = {
     .integrals = integrals,
     .rhs = rhs,
     .q = ball_q,
+    .energy = energy,
     .project = project,
     .speed = speed,
     .sample = sample,

@@ -192,6 +192,7 @@ const iso_system iso_system_point = {
     .integrals = integrals,
     .rhs = rhs,
     .q = point_q,
+    .energy = energy,
     .project = project,
     .speed = speed,
     .sample = sample,

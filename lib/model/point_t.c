@@ -87,6 +87,7 @@ const iso_system iso_system_point_t = {
     .integrals = integrals,
     .rhs = rhs,
     .q = point_q,
+    .energy = energy,
     .project = project,
     .speed = speed,
     .sample = sample,

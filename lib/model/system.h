@@ -53,6 +53,9 @@ typedef struct iso_system {
     /* q = (gamma, J gamma), which fixes all clock rates, and its gradient (may be NULL). */
     double (*q)(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE]);
 
+    /* The energy, h or H; *size as in iso_integral. It is also one of the integrals. */
+    double (*energy)(const iso_field *f, const double y[], double *size);
+
     /* Restores the unit vector, orthogonality and f->energy; gives the relative size of the correction. y is the state of
      * the whole model. */
     double (*project)(const iso_field *f, double y[]);

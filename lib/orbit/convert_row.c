@@ -41,7 +41,7 @@ static double off_level(const iso_conversion *c, const double own[ISO_STATE], do
     field.eps = eps;
     const double c_own = iso_effects_level(&field.effects);
     const double level = iso_effects_have_level(&c->effects) ? iso_coupling(&field.p, c_own) : 0;
-    const double H = iso_system_point.integrals[0].value(&field, own, &size);
+    const double H = iso_system_point.energy(&field, own, &size);
     return H == level ? 0 : (H - level) / fmax(size, fabs(level));
 }
 
@@ -51,7 +51,7 @@ static iso_status check_energy(iso_conversion *c, conversion_row *r)
 {
     double size;
     if (c->from == ISO_BALL) {
-        const double h = iso_system_ball.integrals[0].value(&iso_orbit_model(c->first)->field, r->own, &size);
+        const double h = iso_system_ball.energy(&iso_orbit_model(c->first)->field, r->own, &size);
         if (c->summary.energy.line == 0) c->energy = h;
         iso_worst_note(&c->summary.energy, h == c->energy ? 0 : (h - c->energy) / size, r->line);
         return ISO_OK;

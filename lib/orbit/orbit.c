@@ -76,7 +76,7 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     const iso_field field = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
     o->model = iso_model_assemble(o->system, &field, opt->clock, opt->carry);
     iso_model_begin(&o->model, six, y);
-    if (ball) o->model.field.energy = iso_system_ball.integrals[0].value(&o->model.field, y, &size);
+    if (ball) o->model.field.energy = iso_system_ball.energy(&o->model.field, y, &size);
     if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
     see_rest(o, y);
     return ISO_OK;
@@ -245,7 +245,7 @@ static iso_status check_drift(const iso_orbit *o, const double y[])
 {
     double size;
     if (o->options.method->projects || !iso_effects_keep_energy(&o->model.field)) return ISO_OK;
-    const double energy = o->model.system->integrals[0].value(&o->model.field, y, &size);
+    const double energy = o->model.system->energy(&o->model.field, y, &size);
     const double drift = size > 0 ? fabs(energy - o->model.field.energy) / size : 0;
     if (drift <= fmax(1e-3, 1e4 * o->options.tolerance)) return ISO_OK;
     return iso_context_fail(

@@ -91,7 +91,7 @@ static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start
     for (int i = 0; i < 3; i++) y[i] /= o->units.w;
     iso_field field = {.p = o->units.own, .effects = o->effects};
     leave_out_broken(&field.effects);
-    o->h = iso_system_ball.integrals[0].value(&field, y, &size);
+    o->h = iso_system_ball.energy(&field, y, &size);
     o->eps = iso_coupling(&o->units.own, o->h);
     o->level = stated_level(&o->units.own, &o->effects);
 }
@@ -119,12 +119,12 @@ static bool find_level(iso_orbit *o, const iso_start *start, iso_field *field, d
     if (isnan(start->eps)) {
         field->eps = 0;
         const double rest =
-            iso_system_point.integrals[0].value(field, y, &size) - level; /* M^2/2 + V of the effects */
+            iso_system_point.energy(field, y, &size) - level; /* M^2/2 + V of the effects */
         field->eps = rest * pow(dot_diag(y + 3, field->p.J, y + 3), 1 / field->p.k);
         return true;
     }
     field->eps = start->eps / iso_unit(&o->units, iso_dimension_eps);
-    const double H = iso_system_point.integrals[0].value(field, y, &size);
+    const double H = iso_system_point.energy(field, y, &size);
     if (fabs(H - level) <= 1e-9 * fmax(size, fabs(level))) return iso_system_point.project(field, y), true;
     o->level = H;
     return !stated;

@@ -119,7 +119,7 @@ static keeper find_integrals(const iso_orbit *orbit, const iso_sample *start, co
     track->energy_drift = track->constraint_drift = NAN;
     for (int i = 0; i < k.count; i++) {
         if (k.list[i]->known != ISO_ANY_VALUE) track->constraint_drift = 0;
-        if (k.list[i] != &iso_system_ball.integrals[0]) continue;
+        if (k.list[i]->value != iso_system_ball.energy) continue;
         track->energy_drift = 0;
         k.energy = iso_orbit_integral(orbit, &iso_system_ball, k.list[i], start, &size);
     }
@@ -130,7 +130,7 @@ static void follow_integrals(const keeper *k, const iso_orbit *orbit, const iso_
 {
     for (int i = 0; i < k->count; i++) {
         const iso_integral *integral = k->list[i];
-        const bool energy = integral == &iso_system_ball.integrals[0];
+        const bool energy = integral->value == iso_system_ball.energy;
         double size;
         if (!energy && integral->known == ISO_ANY_VALUE) continue;
         const double value = iso_orbit_integral(orbit, &iso_system_ball, integral, sample, &size);

@@ -281,7 +281,7 @@ static void constant_of(const laws_case *c, laws_worst *worst)
     copy(c->y, y, ISO_STATE);
     if (f.p.k == -1) scale(y, iso_random_uniform(c->random, 0.5, 2));
     make_unit(y + 3);
-    if (f.p.k == -1) f.energy = c->system->integrals[0].value(&f, y, &size);
+    if (f.p.k == -1) f.energy = c->system->energy(&f, y, &size);
     note_constant(&f, y, worst);
     for (int axis = 0; axis < 3; axis++)
         for (double by = 1e-2; by > 1e-10; by /= 100) note_next_to_plane(c, &f, axis, by, worst);

@@ -50,7 +50,7 @@ static void check_orbit(int i, const orbit *point, double *worst, double *worst_
             const double error = fabs(clocks[o.model.carry[c]] / expected[ISO_STATE + c] - 1);
             *worst_clock = fmax(*worst_clock, error);
         }
-        const double H = iso_system_point.integrals[0].value(&o.model.field, y, &size);
+        const double H = iso_system_point.energy(&o.model.field, y, &size);
         *worst_energy = fmax(*worst_energy, fmax(fabs(H) / size, fabs(norm(y + 3) - 1)));
     }
     iso_integrator_free(it);
@@ -153,7 +153,7 @@ static void check_homoclinic(void)
         for (int j = 0; j < 4; j++) {
             iso_exact_at(ctx, exact, ISO_CLOCK_T, (j % 2 ? -1 : 1) * pow(10, 3 + 3 * j), y, clocks);
             away = fmax(away, fmax(fabs(y[4]), fmax(fabs(y[0]), fabs(y[2]))));
-            energy = fmax(energy, fabs(iso_system_point.integrals[0].value(&o.model.field, y, &size)) / size);
+            energy = fmax(energy, fabs(iso_system_point.energy(&o.model.field, y, &size)) / size);
         }
         iso_integrator_free(it);
         iso_exact_free(exact);

@@ -75,7 +75,7 @@ static void note_energy(const orbit *o, bool plane, iso_random *random, laws_wor
 {
     const iso_field *f = &o->model.field;
     double y[ISO_STATE], clocks[ISO_CLOCKS], size, first, along = NAN;
-    const double H0 = iso_system_point.integrals[0].value(f, o->y0, &first);
+    const double H0 = iso_system_point.energy(f, o->y0, &first);
     iso_exact *exact;
     if (iso_exact_create(ctx, f, o->y0, exact_clocks, &exact) != ISO_OK) return;
     int axis = 0;
@@ -83,7 +83,7 @@ static void note_energy(const orbit *o, bool plane, iso_random *random, laws_wor
     for (int i = 0; i < TIMES; i++) {
         const double time = iso_random_uniform(random, -20, 20) * o->unit;
         if (iso_exact_at(ctx, exact, ISO_CLOCK_S, time, y, clocks) != ISO_OK) y[0] = NAN;
-        const double H = iso_system_point.integrals[0].value(f, y, &size);
+        const double H = iso_system_point.energy(f, y, &size);
         laws_note(worst, fabs(H - H0) / fmax(size, first), (8 + 8 / fabs(f->p.k)) * DBL_EPSILON, &f->p, "H");
         if (i == 0) along = y[axis];
         if (!plane) laws_note(worst, fabs(y[axis] - along), 0, &f->p, "M along the axis");

@@ -100,7 +100,7 @@ static void note_invariants(const orbit *o, const states *s, const char *name, b
     for (int j = 0; j < TIMES; j++) {
         const double *y = s->y[j];
         double size;
-        const double H = iso_system_point.integrals[0].value(&o->model.field, y, &size);
+        const double H = iso_system_point.energy(&o->model.field, y, &size);
         laws_note(&b->invariants, fabs(H - o->model.field.energy) / size, 1e-14, p, name);
         laws_note(&b->invariants, fabs(norm(y + 3) - 1), 1e-14, p, name);
         laws_note(&b->invariants, fabs(dot(y, y + 3)) / norm(y), 1e-14, p, name);

@@ -198,7 +198,7 @@ static double naive(const question *q, const iso_system *system, double step)
     iso_integrator *it = NULL;
     iso_sample truth;
     iso_field f = {.p = q->p};
-    f.energy = iso_system_ball.integrals[0].value(&f, q->start.y, &size);
+    f.energy = iso_system_ball.energy(&f, q->start.y, &size);
     f.eps = iso_coupling(&q->p, f.energy);
     copy(q->start.y, y, ISO_STATE);
     if (system == &iso_system_point) f.energy = 0, iso_ball_to_point(&q->p, y, y);

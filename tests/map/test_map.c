@@ -98,7 +98,7 @@ static void integrals(const laws_case *c, laws_worst *worst)
             const double I = i->value(&c->field, c->y, &size), twin = j->value(&f, point, &point_size);
             laws_note(worst, fabs(I - twin), 2 * laws_rounding(p) * (fabs(I) + point_size), p, i->name);
         }
-    const double H = iso_system_point.integrals[0].value(&f, point, &size);
+    const double H = iso_system_point.energy(&f, point, &size);
     laws_note(worst, fabs(H), 2 * laws_rounding(p) * size, p, "H = 0");
 }
 

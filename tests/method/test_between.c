@@ -70,7 +70,7 @@ static void leave_level(orbit *o)
 {
     double unused;
     scale(o->y0, 1.1);
-    o->model.field.energy = iso_system_point.integrals[0].value(&o->model.field, o->y0, &unused);
+    o->model.field.energy = iso_system_point.energy(&o->model.field, o->y0, &unused);
 }
 
 /* Both systems, all k and J of the laws, and (point) off H = 0; 1/1000 to 1/60 of a turn, where nothing is declined. */

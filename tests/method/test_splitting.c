@@ -23,7 +23,7 @@ static orbit sample(double k, unsigned long seed)
 static double energy_of(const orbit *o, const double y[])
 {
     double size;
-    const double H = iso_system_point.integrals[0].value(&o->model.field, y, &size);
+    const double H = iso_system_point.energy(&o->model.field, y, &size);
     return (H - o->model.field.energy) / size;
 }
 
@@ -159,7 +159,7 @@ static orbit with_effects(double k, bool field, double stretch)
     copy(quadratic, FIELD_QUADRATIC(&f->effects), 9);
     copy(linear, FIELD_LINEAR(&f->effects), 3);
     for (int i = 0; i < 3; i++) o.y0[i] *= stretch;
-    f->energy = iso_system_point.integrals[0].value(f, o.y0, &size);
+    f->energy = iso_system_point.energy(f, o.y0, &size);
     orbit_clocks(&o, ISO_CLOCK_S, true, true, false);
     return o;
 }

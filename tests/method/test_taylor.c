@@ -272,7 +272,7 @@ static void check_drift(const iso_system *system, double k)
         iso_integrator_last(it, &t, y);
         if (t == last) continue;
         last = t;
-        const double H = system->integrals[0].value(&o.model.field, y, &size);
+        const double H = system->energy(&o.model.field, y, &size);
         const long double n2 = (long double)y[3] * y[3] + (long double)y[4] * y[4] + (long double)y[5] * y[5];
         const long double wn = (long double)y[0] * y[3] + (long double)y[1] * y[4] + (long double)y[2] * y[5];
         energy = isnan(energy) ? NAN : fmax(energy, fabs(H - o.model.field.energy) / size);
@@ -293,7 +293,7 @@ static void check_second(const iso_system *system, double k, iso_clock clock, do
     orbit o = orbit_sample(ctx, system, k, orbit_J, seed);
     double square[2] = {0, 0}, worst = 0, size;
     scale(o.y0, stretch);
-    if (stretch != 1) o.model.field.energy = system->integrals[0].value(&o.model.field, o.y0, &size);
+    if (stretch != 1) o.model.field.energy = system->energy(&o.model.field, o.y0, &size);
     orbit_clocks(&o, clock, false, false, false);
     iso_integrator *it = orbit_start(&o, taylor, &finest);
     const double start = F->value(&o.model.field, o.y0, &size);

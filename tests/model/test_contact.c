@@ -215,7 +215,7 @@ static void note_omega(const effects_case *c, const iso_model *m, const double p
     cross(expected, y, across);
     effects_note(c, worst, norm(across), 16 * DBL_EPSILON * norm(y) * norm(y), "direction of w");
     if (!loose) effects_note(c, worst, fabs(dot(y, y + 3)), 4 * DBL_EPSILON * norm(y), "(w,n)");
-    const double U = iso_effects_potential(f, y), h = iso_system_ball.integrals[0].value(f, y, &unused);
+    const double U = iso_effects_potential(f, y), h = iso_system_ball.energy(f, y, &unused);
     const double falling = fmax(fabs(U), iso_effects_strength(f, y));
     const bool keeps = iso_effects_keep_energy(f), fast = h - U > 0.2 * falling, still = h - U < 0.05 * falling;
     if (keeps && fast && f->energy > U) effects_note(c, worst, fabs(h - f->energy), 4 * eps * size, "energy");
@@ -230,7 +230,7 @@ static void project_pushed(const effects_case *c, double push, bool slow, laws_w
     copy(c->y, y, m.moving);
     if (slow) scale(y, 0.01);
     if (slow && lambda > 0) y[lambda] *= 0.01;
-    m.field.energy = iso_system_ball.integrals[0].value(&m.field, y, &unused);
+    m.field.energy = iso_system_ball.energy(&m.field, y, &unused);
     for (int i = m.moving; i < m.dim; i++) y[i] = iso_random_normal(c->random);
     const double w = norm(y);
     for (int i = 0; i < m.moving; i++)

@@ -59,7 +59,7 @@ static void off_the_level(const laws_case *c, laws_worst *worst)
         laws_case moved = *c;
         double size;
         scale(moved.y, stretch[i]);
-        moved.field.energy = c->system->integrals[0].value(&moved.field, moved.y, &size);
+        moved.field.energy = c->system->energy(&moved.field, moved.y, &size);
         note_holding(&moved, worst);
     }
 }
@@ -120,7 +120,7 @@ static void note_restored(const laws_case *c, const double y[ISO_STATE], double 
 {
     const iso_params *p = &c->field.p;
     double size;
-    const double energy = c->system->integrals[0].value(&c->field, y, &size);
+    const double energy = c->system->energy(&c->field, y, &size);
     laws_note(worst, fabs(norm(y + 3) - 1), 2 * DBL_EPSILON, p, "unit");
     laws_note(worst, fabs(dot(y, y + 3)), spin * DBL_EPSILON * norm(y), p, "orthogonal");
     laws_note(worst, fabs(energy - c->field.energy), 2 * laws_rounding(p) * size, p, "energy");
@@ -189,7 +189,7 @@ static laws_case off_the_level_by(const laws_case *c, double stretch, double pus
     laws_case moved = *c;
     double size;
     scale(moved.y, stretch);
-    moved.field.energy = c->system->integrals[0].value(&moved.field, moved.y, &size);
+    moved.field.energy = c->system->energy(&moved.field, moved.y, &size);
     copy(moved.y, pushed, ISO_STATE);
     scale(pushed + 3, 1 + 1e-8);
     add_scaled(pushed, 1e-8 * norm(pushed), c->y + 3);

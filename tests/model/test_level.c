@@ -277,7 +277,7 @@ static void potentials_mapped(const effects_case *c, laws_worst *worst)
     const double U = effects_potential(c, ISO_FIELD);
     const double allowed = 2 * laws_rounding(p) * effects_energy_size(c) / G;
     effects_note(c, worst, fabs(iso_effects_image(&point.field, image) - U / G), allowed, "U/G");
-    const double H = point.system->integrals[0].value(&point.field, image, &size);
+    const double H = point.system->energy(&point.field, image, &size);
     effects_note(c, worst, fabs(H - point.field.energy), allowed, "H");
 }
 

@@ -220,7 +220,7 @@ static void check_conserved(iso_picture backend)
                      energy = iso_ball_energy(&all.p[i], all.start[i].y);
         iso_field f = {.p = all.p[i], .eps = iso_coupling(&all.p[i], energy)};
         double size;
-        const double now = system->integrals[0].value(&f, y, &size), before = backend == ISO_BALL ? energy : 0;
+        const double now = system->energy(&f, y, &size), before = backend == ISO_BALL ? energy : 0;
         const long double n2 = (long double)y[3] * y[3] + (long double)y[4] * y[4] + (long double)y[5] * y[5];
         const long double wn = (long double)y[0] * y[3] + (long double)y[1] * y[4] + (long double)y[2] * y[5];
         laws_note(&worst, (double)fabsl(sqrtl(n2) - 1), 3e-16, &f.p, "|n|");

@@ -101,7 +101,7 @@ static inline iso_effects effects_random(iso_random *r, const iso_params *p, int
 static inline void effects_set_energy(effects_case *c)
 {
     double unused;
-    c->model.field.energy = c->system->integrals[0].value(&c->model.field, c->y, &unused);
+    c->model.field.energy = c->system->energy(&c->model.field, c->y, &unused);
 }
 
 static inline effects_case effects_sample(const iso_system *system, const iso_params *p, int subset, iso_random *r)

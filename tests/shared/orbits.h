@@ -66,7 +66,7 @@ static inline orbit orbit_of(iso_context *ctx, const effects_case *c, int varian
     copy(c->y, o.y0, c->model.dim);
     if (point && variant / (2 * ISO_CLOCKS) % 2 == 1) scale(o.y0, 1.1);
     double unused;
-    f->energy = c->system->integrals[0].value(f, o.y0, &unused);
+    f->energy = c->system->energy(f, o.y0, &unused);
     if (fabs(f->energy) < 1e-12 * c->kinetic) f->energy = 0;
     orbit_clocks(&o, clock, all && clock != ISO_CLOCK_T, all && clock != ISO_CLOCK_TAU, all && clock != ISO_CLOCK_S);
     return o;

@@ -351,7 +351,7 @@ static void check_image(int i, iso_random *random, laws_worst *worst)
         LEVEL_C(&field.effects) = iso_random_uniform(random, -6, 0.3) * field.energy;
     }
     iso_momentum m;
-    const double h = iso_system_ball.integrals[0].value(&field, y, &size_h);
+    const double h = iso_system_ball.energy(&field, y, &size_h);
     if (!(h > 0) || !iso_momentum_make(&field.p, iso_coupling(&field.p, LEVEL_C(&field.effects)), &m)) return;
     const double F = laws_integral(&iso_system_ball, m.F)->value(&field, y, &size);
     const iso_momentum_part part = iso_momentum_find(&m, h, F);

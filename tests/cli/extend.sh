@@ -1,0 +1,156 @@
+# extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral. Every
+# backend and method either simulates the new effect, and all agree, or refuses it by name.
+. "$(dirname "$0")/lib.sh"
+copy=$work/copy
+recipes=$source/tests/extend
+mkdir "$copy"
+cp -r "$source/lib" "$source/apps" "$source/CMakeLists.txt" "$copy/"
+
+# The lines that the documents ask for.
+sed -i 's/^    X(CLOCK, clock)$/    X(CLOCK, clock) X(DRAG, drag)/' "$copy/lib/model/effect_list.h"
+sed -i 's/    X(strang)/    X(kutta38) X(strang)/' "$copy/lib/method/methods_impl.h"
+# The functions of the integral stand above the table of ball.c, its row is the first.
+awk -v functions="$recipes/integral_round.c" '
+    /^static const iso_integral integrals\[\]/ {
+        while ((getline line < functions) > 0) print line
+        print
+        print "    {.name = \"omega.omega\", .doc = \"omega^2, three equal moments\", .dimension = {0, 0, 2},"
+        print "     .holds = is_round, .value = omega_square},"
+        next
+    }
+    { print }' "$source/lib/model/ball.c" >"$copy/lib/model/ball.c"
+cp "$recipes/effect_drag.c" "$copy/lib/model/"
+cp "$recipes/kutta38.c" "$copy/lib/method/"
+
+build() {
+    checks=$((checks + 1))
+    if ! { cmake -S "$copy" -B "$work/build" -DCMAKE_C_COMPILER="${CC:-cc}" -DISO_WERROR=ON -DBUILD_TESTING=OFF &&
+        cmake --build "$work/build" --target isoroll_command -j 2; } >"$work/build.log" 2>&1; then
+        fail "$1 does not compile"
+        grep -E 'error|warning' "$work/build.log" | head -n 5 >&2
+        finish
+    fi
+    isoroll=$work/build/isoroll
+}
+
+# holds NAME: the last `explain` lists the integral among those that hold
+holds() {
+    sed '/^integrals that do not hold/,$d' out | grep -q "^  ball  $1 "
+}
+
+build "the recipes"
+run 0 list effects
+grep -q '^  drag ' out || fail "list effects has no drag"
+run 0 list methods
+grep -q '^  kutta38 ' out || fail "list methods has no kutta38"
+awk 'NF > 2 && $1 != "name" && /^  / { print $1 }' out >methods
+[ "$(wc -l <methods)" -gt 20 ] || fail "list methods has fewer than 20 rows"
+
+cat >drag.yaml <<'EOF'
+reduced: {k: 0.5, J: [1.4, 2.1, 3.0]}
+initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}
+time:    {end: 10, step: 10}
+effects: {drag: {c: 0.3}}
+EOF
+
+# difference FILE FILE: the largest difference of the numbers in the last rows
+difference() {
+    tail -q -n 1 "$1" "$2" | awk -F, '
+        NR == 1 { for (i = 1; i <= NF; i++) first[i] = $i }
+        NR == 2 { for (i = 1; i <= NF; i++) { d = $i - first[i]; if (d < 0) d = -d; if (d > most) most = d } }
+        END { print most + 0 }'
+}
+
+# --- the effect: a formula -----------------------------------------------------------------------------------------
+
+run 0 run drag.yaml --tol 1e-13 -o reference.csv
+grep -q '^# method: taylor$' reference.csv || fail "auto does not take taylor for a formula"
+while read -r method; do
+    checks=$((checks + 1))
+    if "$isoroll" run drag.yaml --method "$method" --tol 1e-9 --backend ball -o "$method.csv" 2>err; then
+        off=$(difference reference.csv "$method.csv")
+        awk -v off="$off" 'BEGIN { exit !(off < 1e-5) }' || fail "$method: drag differs by $off"
+    else
+        grep -q -E "'drag'|for the point" err || fail "$method refuses drag without its name"
+        says "isoroll"
+    fi
+done <methods
+grep -q kutta38 methods && [ -s kutta38.csv ] || fail "kutta38 does not simulate drag"
+for backend in point exact; do
+    "$isoroll" run drag.yaml --backend $backend >out 2>err && fail "backend $backend takes drag"
+    grep -q "'drag'" err || fail "backend $backend refuses drag without its name"
+done
+run 3 compare drag.yaml
+grep -q "'drag'" err || fail "compare refuses drag without its name"
+run 0 check reference.csv --max 1e-10
+run 0 explain drag.yaml
+holds h && fail "explain lists the energy as conserved"
+holds omega.n || fail "explain does not list what drag conserves"
+grep -q "'drag' breaks it" out || fail "explain does not tell that drag breaks the isomorphism"
+grep -q '^# drag.c: ' reference.csv || fail "the file does not state drag.c"
+run 3 convert --to point reference.csv
+grep -q "'drag'" err || fail "convert refuses drag without its name"
+
+# Three equal moments: omega keeps its direction, |omega| = w/(1 + c w t/J).
+cat >round.yaml <<'EOF'
+reduced: {k: 1, J: [2, 2, 2]}
+initial: {normal: [0, 0, 1], angular_velocity: [3, 4, 0]}
+time:    {end: 10, step: 10}
+effects: {drag: {c: 0.3}}
+EOF
+run 0 run round.yaml --tol 1e-14 -o round.csv
+tail -n 1 round.csv | awk -F, '{ w = sqrt($2 * $2 + $3 * $3 + $4 * $4) * (1 + 0.3 * 5 * 10 / 2) / 5 - 1
+    exit !(w < 1e-12 && w > -1e-12) }' || fail "drag is not that of the closed form"
+
+printf 'reduced: {k: 1, J: [2, 2, 2]}\n' >bad.yaml
+sed -n '2,3p' round.yaml >>bad.yaml
+echo 'effects: {drag: {c: -1}}' >>bad.yaml
+run 3 run bad.yaml
+says "'c' is negative"
+
+# --- the integral --------------------------------------------------------------------------------------------------
+
+sed '/effects/d' round.yaml >free.yaml
+run 0 explain free.yaml
+holds omega.omega || fail "explain does not list the new integral"
+run 0 explain drag.yaml
+holds omega.omega && fail "explain lists the new integral where it does not hold"
+run 0 run free.yaml -o free.csv
+run 0 check free.csv --max 1e-12
+grep -q 'ball omega.omega' out || fail "check does not look at the new integral"
+
+# --- breaking the effect -------------------------------------------------------------------------------------------
+
+# No formula: what needs one refuses, auto takes what does not.
+cp "$recipes/effect_drag_plain.c" "$copy/lib/model/effect_drag.c"
+build "the effect without a formula"
+run 0 run drag.yaml --tol 1e-13 -o plain.csv
+grep -q '^# method: taylor' plain.csv && fail "taylor simulates an effect without a formula"
+off=$(difference reference.csv plain.csv)
+awk -v off="$off" 'BEGIN { exit !(off < 1e-9) }' || fail "drag without a formula differs by $off"
+for method in taylor taylor_extended bdf bsimp; do
+    "$isoroll" run drag.yaml --method $method >out 2>err && fail "$method simulates an effect without a formula"
+    grep -q "'drag'" err || fail "$method does not name the effect it refuses"
+done
+
+# No word on the energy: nobody takes it for conserved.
+sed -e '/\.work = /d' "$recipes/effect_drag.c" >"$copy/lib/model/effect_drag.c"
+build "the effect without its work"
+run 0 explain drag.yaml
+holds h && fail "explain lists the energy of an effect that does not state its work"
+run 0 run drag.yaml --tol 1e-13 -o silent.csv
+cmp -s silent.csv reference.csv || fail "the effect without its work moves otherwise"
+
+# No reason why the isomorphism breaks, and no image: it is broken all the same.
+sed -e '/\.breaks = /d' "$recipes/effect_drag.c" >"$copy/lib/model/effect_drag.c"
+build "the effect without a reason"
+run 3 compare drag.yaml
+grep -q "'drag'" err || fail "compare takes an effect without an image"
+
+# No equations: refused by name.
+sed -e '/\.motion = /d' -e 's/^static void motion/__attribute__((unused)) static void motion/' \
+    "$recipes/effect_drag.c" >"$copy/lib/model/effect_drag.c"
+build "the effect without equations"
+run 3 run drag.yaml
+grep -q "the row of 'drag' is not complete" err || fail "an effect without equations is not refused by name"
+finish
