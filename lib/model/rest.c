@@ -53,12 +53,13 @@ const char *iso_model_speeds_up(const iso_model *m, const double y0[], const dou
  * An error of this constraint is motion that resistance does not take out. */
 static double broken(const iso_model *m, const double y[])
 {
-    double copied[ISO_MAX_STATE], worst = 0;
-    if (!iso_effects_twist(&m->field.effects)) return fabs(dot(y, y + 3)) / m->system->speed(&m->field, y);
-    copy(y, copied, m->dim);
+    const double speed = m->system->speed(&m->field, y);
+    double restored[ISO_MAX_STATE];
+    if (!iso_effects_twist(&m->field.effects)) return fabs(dot(y, y + 3)) / speed;
+    copy(y, restored, m->dim);
     for (int i = 0; i < m->followers; i++)
-        if (m->follower[i]->restore) worst = fmax(worst, m->follower[i]->restore(&m->field, copied));
-    return worst;
+        if (m->follower[i]->restore) m->follower[i]->restore(&m->field, restored);
+    return fabs(dot(restored, y + 3) - dot(y, y + 3)) / speed;
 }
 
 const char *iso_model_lost(const iso_model *m, const double y[], double tolerance)
