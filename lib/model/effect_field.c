@@ -57,12 +57,11 @@ static void image(iso_formula *F, const iso_field *f)
     const iso_scalar P = times_c(F, constant(F, 0.5), dot_of(F, z, C_z)), L = dot_c(F, l, z);
     const iso_scalar V_P = mul(F, q_a, P), V_L = mul(F, q_b, L);
     const iso_scalar along = quotient_of(F, add(F, times_c(F, a, V_P), times_c(F, b, V_L)), q);
-    const iso_vector J_gamma = by_c(F, constant_J(F), formula_gamma(F));
+    const iso_vector push = by_c(F, root_J, add_v(F, scale_v(F, q_a, C_z), scale_c(F, q_b, l)));
+    const iso_vector twice_J_gamma = times_v(F, constant(F, 2), by_c(F, constant_J(F), formula_gamma(F)));
     add_potential(F, scale, V_P);
     add_potential(F, scale, V_L);
-    add_gradient(F, scale, by_c(F, root_J, scale_v(F, q_a, C_z)));
-    add_gradient(F, scale, by_c(F, root_J, scale_c(F, q_b, l)));
-    add_gradient(F, mul_c(F, constant(F, 2), scale), scale_v(F, along, J_gamma));
+    add_gradient(F, scale, add_v(F, push, scale_v(F, along, twice_J_gamma)));
 }
 
 static double strength(const iso_field *f, const double y[])

@@ -114,6 +114,10 @@ static inline real half_power(real a, int twice)
 /* a^p for a > 0. Most powers are halves of small integers, and those of all lanes the same. */
 static inline real raised(real a, real p)
 {
+#ifdef ROUND_POWERS_ONCE /* by the C library: slower */
+    for (int i = 0; i < LANES; i++) LANE(a, i) = POW(LANE(a, i), LANE(p, i));
+    return a;
+#endif
     const NUMBER first = LANE(p, 0);
     const bool small = first >= -4 && first <= 4;
     const int twice = small ? (int)(2 * first) : 0;
