@@ -72,15 +72,15 @@ sort -s -t "$(printf '\t')" -V -k1,1 "$build"/tests/hard_*.tsv >"$work/all.tsv"
 # --- one line for each case
 awk -F '\t' '
     function flush(i) {
-        if (cases) printf "\n## %s\n\n| case | must hold | bound | worst |\n|---|---|---|---|\n", topic
-        for (i = 1; i <= cases; i++) printf "| %s | %s | %s | %s |\n", name[i], quantity[i], bound(i), worst[i]
+        if (cases) printf "\n## %s\n\n| case | bound | worst |\n|---|---|---|\n", topic
+        for (i = 1; i <= cases; i++) printf "| %s | %s | %s |\n", name[i], bound(i), worst[i]
         cases = 0
         split("", seen); split("", worst); split("", least); split("", most)
     }
     function bound(i) { return !(i in most) ? "" : least[i] + 0 == most[i] + 0 ? most[i] : least[i] " to " most[i] }
     { gsub(/\|/, "\\|") }
     $1 != topic { flush(); topic = $1 }
-    $3 == "case" { if (!($2 in seen)) { name[++cases] = $2; seen[$2] = cases; quantity[cases] = $4 } next }
+    $3 == "case" { if (!($2 in seen)) { name[++cases] = $2; seen[$2] = cases } next }
     { c = seen[$2] }
     $3 == "hold" {
         if (!(c in most) || $7 + 0 > most[c] + 0) most[c] = $7

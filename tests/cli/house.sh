@@ -23,7 +23,7 @@ find lib apps examples -name '*.[ch]' ! -path lib/isoroll.h -exec awk '
     BEGIN { n = split("base 0 model 1 map 2 method 2 exact 2 orbit 3 study 4 io 4", f)
             for (i = 1; i < n; i += 2) floor[f[i]] = f[i + 1] }
     /^[ \t]*#[ \t]*include[ \t]*"/ {
-        split($0, quoted, "\""); split(FILENAME, from, "/"); path = quoted[2]; shape = "floor/name.h"
+        split($0, quoted, "\""); split(FILENAME, from, "/"); path = quoted[2]; shape = "floor/name.h or floor/room/name.h"
         if (from[1] == "lib" && FILENAME ~ /\.h$/ && FILENAME !~ /_impl\.h$/) {
             shape = "../floor/name.h or name.h"
             if (path !~ /\//) path = from[2] "/" path
@@ -34,7 +34,7 @@ find lib apps examples -name '*.[ch]' ! -path lib/isoroll.h -exec awk '
         if (from[1] != "lib") {
             if (quoted[2] ~ /\/.*_impl\.h$/) print FILENAME ":" FNR ": " quoted[2] " is private to lib"
         } else if (!(from[2] in floor)) print FILENAME ": lib/" from[2] " is no floor"
-        else if (!(to[1] in floor) || path !~ /^[a-z]+\/[a-z0-9_]+\.h$/)
+        else if (!(to[1] in floor) || path !~ /^[a-z]+\/([a-z]+\/)?[a-z0-9_]+\.h$/)
             print FILENAME ":" FNR ": " quoted[2] " is not " shape
         else if (to[1] != from[2] && floor[to[1]] >= floor[from[2]])
             print FILENAME ":" FNR ": " from[2] " is not above " to[1]
