@@ -73,7 +73,7 @@ sort -s -t "$(printf '\t')" -V -k1,1 "$build"/tests/hard_*.tsv >"$work/all.tsv"
 awk -F '\t' '
     function flush(i) {
         if (cases) printf "\n## %s\n\n| case | bound | worst |\n|---|---|---|\n", topic
-        for (i = 1; i <= cases; i++) printf "| %s | %s | %s |\n", name[i], bound(i), worst[i]
+        for (i = 1; i <= cases; i++) printf "| %s | %s | %s |\n", substr(name[i], 1, 70), bound(i), worst[i]
         cases = 0
         split("", seen); split("", worst); split("", least); split("", most)
     }
