@@ -15,15 +15,9 @@
 void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE]);
 void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], double ball[ISO_STATE]);
 
-/* The states of iso_system_point_t, (p, gamma) with p = M/NN = J^(1/2) w, likewise. */
+/* The states of iso_system_point_t, (p, gamma) with p = M/NN = J^(1/2) w, likewise. To the point: model/system.h. */
 void iso_ball_to_point_t(const iso_params *p, const double ball[ISO_STATE], double y[ISO_STATE]);
 void iso_point_t_to_ball(const iso_params *p, const double y[ISO_STATE], double ball[ISO_STATE]);
-void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE]);
-void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE]);
-
-/* eps = h det J / k^2 (24), and back. */
-double iso_coupling(const iso_params *p, double h);
-double iso_energy(const iso_params *p, double eps);
 
 /* Energies: of the ball h = (w,Jw)/2, and the ball's energy of a point on the level H = 0, (k^2/det J) q^(1/k) M^2/2. */
 double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE]);

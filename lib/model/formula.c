@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-void iso_formula_begin(iso_formula *F, int kind, bool series)
+void iso_formula_begin(iso_formula *F, iso_formula_kind kind, bool series)
 {
     F->kind = kind;
     F->series = series;

@@ -137,6 +137,16 @@ iso_status iso_params_physical(iso_context *ctx, const iso_body *b, iso_params *
     return ISO_OK;
 }
 
+double iso_coupling(const iso_params *p, double h)
+{
+    return h * p->det_J / (p->k * p->k);
+}
+
+double iso_energy(const iso_params *p, double eps)
+{
+    return eps / p->det_J * (p->k * p->k);
+}
+
 int iso_params_sign_of_radius(const iso_params *p)
 {
     return p->k > 1 || p->k < 0 ? -1 : 1;

@@ -52,6 +52,10 @@ iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *params);
  * inequality I_i <= I_j + I_l broken by more than rounding, radii that give no k). */
 iso_status iso_params_physical(iso_context *ctx, const iso_body *body, iso_params *params);
 
+/* Coupling of the point and energy of the ball: eps = h det J / k^2 (24), and back. */
+double iso_coupling(const iso_params *params, double h);
+double iso_energy(const iso_params *params, double eps);
+
 /* The sign of the ball's radius b: -1 inside a sphere and of a shell, else 1. */
 int iso_params_sign_of_radius(const iso_params *params);
 

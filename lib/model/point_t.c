@@ -15,6 +15,32 @@
 #include "base/vec3_impl.h"
 #include "model/system.h"
 
+/* NN of (18), from gamma in both directions. Were it taken from n one way and from gamma the other way, the rounding
+ * of n -> gamma would change it by a fixed factor, and w would drift by that factor at each round trip. */
+static double momentum_factor(const iso_params *p, const double gamma[3])
+{
+    const double q = dot_diag(gamma, p->J, gamma) / dot(gamma, gamma);
+    return sqrt(p->det_J) / p->k * pow(q, -1 / (2 * p->k));
+}
+
+void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE])
+{
+    const double NN = momentum_factor(p, point + 3);
+    for (int i = 0; i < 3; i++) {
+        y[i] = point[i] / NN;
+        y[3 + i] = point[3 + i];
+    }
+}
+
+void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE])
+{
+    const double NN = momentum_factor(p, y + 3);
+    for (int i = 0; i < 3; i++) {
+        point[i] = NN * y[i];
+        point[3 + i] = y[3 + i];
+    }
+}
+
 static double point_q(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE])
 {
     return iso_system_point.q(p, y, gradient);

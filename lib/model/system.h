@@ -73,6 +73,10 @@ extern const iso_system iso_system_ball, iso_system_point;
  * Not in the registry. */
 extern const iso_system iso_system_point_t;
 
+/* Its states and those of the point, (M, gamma) with M = NN p (18). The two may be one array. */
+void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], double y[ISO_STATE]);
+void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE]);
+
 /* The registry, ended by NULL. */
 extern const iso_system *const iso_systems[];
 
