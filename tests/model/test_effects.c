@@ -389,63 +389,6 @@ static void made_exact(void)
     gsl_test(FIELD_QUADRATIC(&e)[1] != FIELD_QUADRATIC(&e)[3], "C made symmetric");
 }
 
-/* --- rows -------------------------------------------------------------------------------------------------------- */
-
-static void complete(const iso_effect *e, bool holds, const char *what)
-{
-    gsl_test(!holds, "the row of %s: %s", e->name, what);
-}
-
-/* The numbers of the group called `name`; 0: there is none. */
-static int group_size(const iso_effect *e, const char *name)
-{
-    for (const iso_effect_column *g = e->columns; g && g->name; g++)
-        if (strcmp(g->name, name) == 0) return g->count;
-    return 0;
-}
-
-static void complete_numbers(const iso_effect *e)
-{
-    for (const iso_effect_number *n = e->numbers; n && n->name; n++) {
-        complete(e, n->at >= 0 && n->count > 0 && n->at + n->count <= ISO_EFFECT_NUMBERS, n->name);
-        complete(e, !n->turns_with || group_size(e, n->turns_with) == n->count, "what a number turns with");
-        for (const iso_effect_number *m = e->numbers; m < n; m++)
-            complete(e, strcmp(m->name, n->name) != 0 && (m->at + m->count <= n->at || n->at + n->count <= m->at),
-                     "numbers apart");
-    }
-}
-
-static void complete_columns(const iso_effect *e)
-{
-    bool acts = false;
-    for (const iso_effect_column *g = e->columns; g && g->name; g++) {
-        complete(e, g->count > 0 && g->column, g->name);
-        complete(e, !g->sized_by || group_size(e, g->sized_by) > 0, "what a column is sized by");
-        acts = acts || g->moves;
-        for (int i = 0; i < g->count; i++) complete(e, iso_column_find(g->column[i]) >= 0, g->column[i]);
-    }
-    complete(e, !e->columns || e->show, "columns are shown");
-    complete(e, !acts || e->needs_radius, "what moves is a length");
-}
-
-/* Every row says all that its parts need. */
-static void complete_rows(void)
-{
-    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++) {
-        const iso_effect *e = iso_effect_list[id];
-        complete(e, e->name && *e->name && e->doc && *e->doc, "name and doc");
-        complete(e, iso_effect_find(e->name) == id, "its name is its own");
-        complete(e, e->observes || e->motion || e->torque, "what acts has equations");
-        complete(e, e->observes || e->work, "what acts says what it does to the energy");
-        complete(e, !e->states || (e->begin && e->states_doc && e->size && e->motion), "states begin, and have a size");
-        complete(e, !e->time_to_rest || e->stiffness, "what ends motion is as fast as it says");
-        complete_numbers(e);
-        complete_columns(e);
-    }
-    gsl_test(iso_effect_columns() > ISO_EFFECT_COLUMNS, "room for the columns of all effects");
-    gsl_test(iso_columns_count() != ISO_COLUMN_EFFECTS + iso_effect_columns(), "all columns have a name");
-}
-
 /* The isomorphism is lost with gravity, twist and rolling resistance, and with nothing else. */
 static void breaking(const effects_case *c, laws_worst *worst)
 {
@@ -473,7 +416,6 @@ int main(void)
     effects_hold("torques and potentials written out", &iso_system_ball, 1, written_out);
     effects_hold("every subset is accepted", &iso_system_ball, 1, accepted);
     effects_hold("what breaks the isomorphism", &iso_system_ball, 1, breaking);
-    complete_rows();
     refused_numbers();
     refused_combinations();
     made_exact();
