@@ -130,7 +130,8 @@ const iso_effect *iso_effects_without_frequencies(const iso_field *f, const char
     int e = 0;
     const iso_effect *effect;
     *why = NULL;
-    while (!*why && (effect = next_on(&f->effects, &e))) *why = effect->no_frequencies ? effect->no_frequencies(f) : NULL;
+    while (!*why && (effect = next_on(&f->effects, &e)))
+        *why = effect->no_frequencies ? effect->no_frequencies(f) : NULL;
     return *why ? effect : NULL;
 }
 

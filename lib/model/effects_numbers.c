@@ -27,8 +27,7 @@ iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *e
                            const double values[])
 {
     const iso_effect_id e = iso_effect_find(effect);
-    if (e == ISO_EFFECTS)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect, "there is no effect '%s'", effect);
+    if (e == ISO_EFFECTS) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect, "there is no effect '%s'", effect);
     effects->on[e] = true;
     if (!name) return ISO_OK;
     for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
@@ -130,10 +129,11 @@ static iso_status check_D(iso_context *ctx, const iso_params *p, const char *eff
         return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
                                 "'%s' needs m b^2, which does not fit a double: use other units", effect);
     if (body && p->D >= min3(p->J))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
-                                "'%s' needs the moments about the centre, which are less than the last digit of m b^2 "
-                                "= %g: give a ball with larger ones",
-                                effect, p->D);
+        return iso_context_fail(
+            ctx, ISO_BAD_INPUT, effect,
+            "'%s' needs the moments about the centre, which are less than the last digit of m b^2 "
+            "= %g: give a ball with larger ones",
+            effect, p->D);
     if (p->D > 0) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect,
                             "'%s' needs the ball's mass and radius: give D = m b^2 ('%s: {D: ...}'), or a ball and a "

@@ -51,7 +51,8 @@ static void complete_rows(void)
         complete(e, iso_effect_find(e->name) == id, "its name is its own");
         complete(e, e->observes || e->motion || e->torque, "what acts has equations");
         complete(e, e->observes || e->work, "what acts says what it does to the energy");
-        complete(e, !e->states || (e->begin && e->states_doc && e->size && e->motion), "states begin, and have a size");
+        complete(e, !e->states || (e->begin && e->states_doc && e->size && e->motion),
+                 "states begin, and have a size");
         complete(e, !e->time_to_rest || e->stiffness, "what ends motion is as fast as it says");
         complete_numbers(e);
         complete_columns(e);

@@ -100,8 +100,8 @@ static void plain(const effects_case *c, laws_worst *worst)
     c->model.rhs(&c->model, c->y, dy);
     effects_note(c, worst, memcmp(own, dy, sizeof own), 0.5, "rhs");
     if (ball && e->on[ISO_ATTITUDE]) return;
-    const bool same = c->model.rhs == simplest.rhs && c->model.own_rhs == simplest.rhs &&
-                      c->model.jacobian == simplest.jacobian;
+    const bool same =
+        c->model.rhs == simplest.rhs && c->model.own_rhs == simplest.rhs && c->model.jacobian == simplest.jacobian;
     effects_note(c, worst, same && c->model.dim == ISO_STATE ? 0 : 1, 0.5, "functions");
 }
 
@@ -252,8 +252,8 @@ static void written_out(const effects_case *c, laws_worst *worst)
         iso_effects_torque(&alone, c->y, own, dy);
         add_scaled(sum, 1, own);
     }
-    effects_note(c, worst, laws_distance(T, sum), 8 * DBL_EPSILON * (effects_torque_size(c) + TWIST_RESISTANCE(e) * norm(w)),
-                 "torque");
+    effects_note(c, worst, laws_distance(T, sum),
+                 8 * DBL_EPSILON * (effects_torque_size(c) + TWIST_RESISTANCE(e) * norm(w)), "torque");
     if (f->p.k == 1 && e->on[ISO_GRAVITY]) return;
     effects_note(c, worst, fabs(U - iso_effects_potential(f, c->y)), laws_rounding(&f->p) * effects_energy_size(c),
                  "U");
@@ -383,7 +383,8 @@ static void made_exact(void)
     for (int i = 0; i < 4; i++) QUATERNION(&e)[i] *= 1 - 9e-7;
     FIELD_QUADRATIC(&e)[1] += 1e-13;
     gsl_test(iso_effects_check(ctx, &p, normal, &e) != ISO_OK, "nearly right is accepted");
-    for (int i = 0; i < 3; i++) gsl_test_rel(GRAVITY_UP(&e)[i], GRAVITY_UP(&sound)[i], 4 * DBL_EPSILON, "up made a unit vector");
+    for (int i = 0; i < 3; i++)
+        gsl_test_rel(GRAVITY_UP(&e)[i], GRAVITY_UP(&sound)[i], 4 * DBL_EPSILON, "up made a unit vector");
     for (int i = 0; i < 4; i++)
         gsl_test_rel(QUATERNION(&e)[i], QUATERNION(&sound)[i], 4 * DBL_EPSILON, "quaternion made a unit one");
     gsl_test(FIELD_QUADRATIC(&e)[1] != FIELD_QUADRATIC(&e)[3], "C made symmetric");
