@@ -25,6 +25,8 @@ extern "C" {
 
 /* model: what moves */
 #include "model/params.h"
+#include "model/effect_list.h"
+#include "model/formula.h"
 #include "model/field.h"
 #include "model/system.h"
 #include "model/effect.h"

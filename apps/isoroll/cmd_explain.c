@@ -57,8 +57,7 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
     const bool pulled = iso_effects_have_image(&effects);
     printf("isomorphism\n");
     if (!breaking)
-        printf("  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s, %s\n", -1 / p->k,
-               pulled ? " + U/G" : "",
+        printf("  point on a sphere: V = -eps (gamma,J gamma)^(%.6g)%s, %s\n", -1 / p->k, pulled ? " + U/G" : "",
                pulled ? "in a field: see the integrals below" : kind);
     if (iso_orbit_has_twin(orbit))
         printf("  holds: this orbit has both models, (18) and the clocks t, tau, s%s\n",

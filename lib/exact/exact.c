@@ -42,8 +42,8 @@ static iso_status check_numbers(iso_context *ctx, const iso_field *f, const doub
     const double q = dot_diag(g, f->p.J, g) / square, fall = f->eps * pow(q, -1 / f->p.k), M2 = dot(point, point);
     const bool on_level = f->energy == 0 ? M2 > 0 : fabs(M2 / 2 - fall - f->energy) <= 1e-6 * (M2 / 2 + fall);
     if (isfinite(fall) && on_level) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_level_name(),
-                            "this start is not on the level H = %g", f->energy);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, iso_level_name(), "this start is not on the level H = %g",
+                            f->energy);
 }
 
 static iso_status check(iso_context *ctx, const iso_field *f, const double point[ISO_STATE])

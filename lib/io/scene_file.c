@@ -184,7 +184,7 @@ static iso_status make_effects(iso_draft *d, iso_picture model)
 static iso_status make_start(iso_draft *d, iso_picture model)
 {
     iso_scene *s = &d->scene;
-    const iso_spin spin = d->project                         ? ISO_SPIN_REMOVE
+    const iso_spin spin = d->project                       ? ISO_SPIN_REMOVE
                           : iso_effects_twist(&s->effects) ? ISO_SPIN_KEEP
                                                            : ISO_SPIN_REFUSE;
     const double *eps = find(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;

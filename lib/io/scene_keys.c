@@ -16,11 +16,11 @@ typedef struct entry {
     iso_status (*read)(iso_draft *d, const struct entry *e, const yaml_node_t *key, const yaml_node_t *value);
     size_t offset;
     bool required;
-    const struct entry *section; /* read_section: the keys inside       */
-    const char *(*word)(int);    /* read_word: the names of an enum ... */
-    unsigned words;              /* ... and which of them (1 << value)  */
-    iso_picture model;           /* of `initial`: whose start this is   */
-    iso_effect_id effect;        /* read_effect, read_effect_number: which effect ... */
+    const struct entry *section;     /* read_section: the keys inside       */
+    const char *(*word)(int);        /* read_word: the names of an enum ... */
+    unsigned words;                  /* ... and which of them (1 << value)  */
+    iso_picture model;               /* of `initial`: whose start this is   */
+    iso_effect_id effect;            /* read_effect, read_effect_number: which effect ... */
     const iso_effect_number *number; /* ... and which number of it */
 } entry;
 
@@ -253,7 +253,6 @@ static iso_status read_section(iso_draft *d, const entry *e, const yaml_node_t *
     return read_mapping(d, e->section, name, key, value);
 }
 
-
 /* ---- The tables: adding a key is adding its line ---- */
 
 #define AT(member) .offset = offsetof(iso_draft, member)
@@ -309,7 +308,8 @@ static iso_status read_effect(iso_draft *d, const entry *e, const yaml_node_t *k
     const entry with_keys = {e->name, .section = keys};
     int count = 0;
     for (const iso_effect_number *n = effect->numbers; n && n->name && count < ISO_EFFECT_NUMBERS; n++)
-        keys[count++] = (entry){n->name, read_effect_number, .required = n->required, .effect = e->effect, .number = n};
+        keys[count++] =
+            (entry){n->name, read_effect_number, .required = n->required, .effect = e->effect, .number = n};
     if (effect->needs_D) keys[count] = (entry){"D", read_D, AT(D)};
     d->scene.effects.on[e->effect] = true;
     return read_section(d, &with_keys, key, value);

@@ -137,7 +137,8 @@ static iso_status read_effect(iso_context *ctx, const iso_record *r, iso_effect_
     for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
         if (n->scene_only) continue;
         line_key(key, iso_effect_list[e], n);
-        if (iso_record_get_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, e, n), &status)) continue;
+        if (iso_record_get_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, e, n), &status))
+            continue;
         if (status != ISO_OK) return status;
         return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "effect '%s' needs a line '# %s: ...'",
                                 iso_effect_list[e]->name, key);
@@ -215,11 +216,11 @@ static iso_status refuse_spin(iso_context *ctx, iso_picture model, double along,
 {
     char text[64];
     const bool ball = model == ISO_BALL;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                            "%s has a part %.3g of its size along %s: this is no %s (a right angle to %g is expected%s)",
-                            ball ? "omega" : "M", along, ball ? "n" : "gamma",
-                            ball ? "rubber ball's motion" : "point on a sphere", tolerance,
-                            advice(fabs(along), text));
+    return iso_context_fail(
+        ctx, ISO_BAD_INPUT, "",
+        "%s has a part %.3g of its size along %s: this is no %s (a right angle to %g is expected%s)",
+        ball ? "omega" : "M", along, ball ? "n" : "gamma", ball ? "rubber ball's motion" : "point on a sphere",
+        tolerance, advice(fabs(along), text));
 }
 
 iso_status iso_start_from_row(iso_context *ctx, iso_picture model, const double y[ISO_STATE], const double *eps,
@@ -233,9 +234,9 @@ iso_status iso_start_from_row(iso_context *ctx, iso_picture model, const double 
     if (isfinite(exact) && exact > 0 && !is_near) return refuse_length(ctx, model, exact, tolerance);
     if (is_near) scale(unit, 1 / length);
     const double along = size > 0 ? y[0] / size * unit[0] + y[1] / size * unit[1] + y[2] / size * unit[2] : 0;
-    const iso_status status =
-        model == ISO_BALL ? iso_start_ball(ctx, y, unit, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start)
-                          : iso_start_point(ctx, y, unit, eps, true, start);
+    const iso_status status = model == ISO_BALL
+                                  ? iso_start_ball(ctx, y, unit, twists ? ISO_SPIN_KEEP : ISO_SPIN_REMOVE, start)
+                                  : iso_start_point(ctx, y, unit, eps, true, start);
     if (status != ISO_OK || twists || fabs(along) <= tolerance) return status;
     return refuse_spin(ctx, model, along, tolerance);
 }

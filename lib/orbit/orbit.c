@@ -209,10 +209,11 @@ static iso_status check_steps(const iso_orbit *o, double turns)
     const iso_field *f = &o->model.field;
     const double stiffness = iso_effects_stiffness(f), steps = stiffness * fmin(turns, iso_effects_moving(f));
     if (o->options.method->implicit || !(stiffness > ISO_STIFF && steps > MOST_STIFF_STEPS)) return ISO_OK;
-    return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "method",
-                            "this model is stiff: what resists acts %.1g times as fast as the ball turns, and %s, which is "
-                            "explicit, would take about %.1g steps: take bdf or bsimp",
-                            stiffness, o->options.method->name, steps);
+    return iso_context_fail(
+        o->ctx, ISO_BAD_ARGUMENT, "method",
+        "this model is stiff: what resists acts %.1g times as fast as the ball turns, and %s, which is "
+        "explicit, would take about %.1g steps: take bdf or bsimp",
+        stiffness, o->options.method->name, steps);
 }
 
 /* Beyond 1e15 turns a double does not tell one part of a turn from another (and no one would live to see it). */

@@ -33,9 +33,10 @@ static bool show_effect(const iso_orbit *o, const iso_effect *effect, const doub
 static iso_status out_of_range(const iso_orbit *o, const iso_sample *s, int column)
 {
     while (isfinite(s->effect[column])) column++;
-    return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
-                            "%s is out of the range of doubles in these units: use other units of mass, length or time",
-                            iso_effect_column_name(column, NULL, NULL, NULL));
+    return iso_context_fail(
+        o->ctx, ISO_NUMERICAL, "",
+        "%s is out of the range of doubles in these units: use other units of mass, length or time",
+        iso_effect_column_name(column, NULL, NULL, NULL));
 }
 
 iso_status iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *s)

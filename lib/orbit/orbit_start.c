@@ -118,8 +118,7 @@ static bool find_level(iso_orbit *o, const iso_start *start, iso_field *field, d
     field->energy = level;
     if (isnan(start->eps)) {
         field->eps = 0;
-        const double rest =
-            iso_system_point.energy(field, y, &size) - level; /* M^2/2 + V of the effects */
+        const double rest = iso_system_point.energy(field, y, &size) - level; /* M^2/2 + V of the effects */
         field->eps = rest * pow(dot_diag(y + 3, field->p.J, y + 3), 1 / field->p.k);
         return true;
     }
@@ -170,7 +169,8 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
     const bool by_point = o->options.backend != ISO_BALL;
     const bool point = by_point || o->options.show != ISO_BALL || start->model == ISO_POINT;
     const double *n = start->y + 3; /* a point's gamma: only gravity asks, which a point has not */
-    if (start->model == ISO_POINT && isnan(iso_effects_level(e))) iso_effects_set_level(e, false, NAN); /* as it comes */
+    if (start->model == ISO_POINT && isnan(iso_effects_level(e)))
+        iso_effects_set_level(e, false, NAN); /* as it comes */
     if (o->options.backend == ISO_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (breaking && point)
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, breaking->name,
@@ -267,9 +267,10 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
     const bool level = need.ball || start->model == ISO_BALL; /* the ball's is asked for, and may not fit a double */
     const iso_effects in_users_units = iso_orbit_effects(o);
     if (level && iso_effects_have_level(&o->effects) && !isnormal(iso_effects_level(&in_users_units)))
-        return iso_context_fail(o->ctx, ISO_NUMERICAL, "c",
-                                "level: c of the ball is out of the range of doubles in these units: use other units, or "
-                                "ask for the point in its time s alone");
+        return iso_context_fail(
+            o->ctx, ISO_NUMERICAL, "c",
+            "level: c of the ball is out of the range of doubles in these units: use other units, or "
+            "ask for the point in its time s alone");
     if (all_finite(y, ISO_STATE) && isfinite(o->h) && (!need.point || isfinite(o->eps))) return ISO_OK;
     return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
                             "the start is out of the range of doubles in the ball's own units");

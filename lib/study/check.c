@@ -79,7 +79,7 @@ static iso_effects effects_of(const checker *c, iso_picture model)
 {
     if (model == ISO_BALL) return c->effects;
     iso_effects effects = iso_effects_acting(&c->effects);
-    if (iso_record_get(c->record, "eps") || iso_record_get(c->record, "h")) 
+    if (iso_record_get(c->record, "eps") || iso_record_get(c->record, "h"))
         iso_effects_set_level(&effects, iso_effects_have_level(&effects), NAN);
     return effects;
 }

@@ -110,7 +110,8 @@ static void touching(void)
         if (!he_is_ball(i)) continue;
         const he_answer a = he_solve(ctx, way, &l.p, &l.start, &l.e, l.top);
         /* pressure's terms are of size 3, their errors those of the state's largest, w = 3 */
-        hard_hold(way, a.status == ISO_OK ? fabs(iso_sample_get(&a.at, "pressure")) : NAN, 9 * he_bound(way, a.steps));
+        hard_hold(way, a.status == ISO_OK ? fabs(iso_sample_get(&a.at, "pressure")) : NAN,
+                  9 * he_bound(way, a.steps));
         if (way->method == iso_method_find("taylor"))
             hard_hold(way, isnan(loss(way, &l.p, &l.start, &l.e, 2, &steps, &answered)) && answered ? 0 : 1, 0);
         if (way->method != iso_method_find("rk8pd")) continue;
@@ -224,7 +225,9 @@ static void wall(void)
         if (!he_is_ball(i)) continue;
         const double t = loss(way, &p, &start, &e, 50, &steps, &answered);
         const he_answer begin = he_solve(ctx, way, &p, &start, &e, 0);
-        hard_hold(way, answered && isnan(t) && begin.status == ISO_OK ? fabs(iso_sample_get(&begin.at, "pressure")) : NAN, 0);
+        hard_hold(way,
+                  answered && isnan(t) && begin.status == ISO_OK ? fabs(iso_sample_get(&begin.at, "pressure")) : NAN,
+                  0);
         const he_answer later = he_solve(ctx, way, &p, &start, &e, 50);
         pulled += dot(sample_of(&later.at, "e"), later.at.ball + 3) < 0;
     }

@@ -72,7 +72,9 @@ static double difference(const answer *a, const answer *b, const scene *s, bool 
 {
     double worst = 0;
     for (int i = 0; i < 6; i++) worst = fmax(worst, fabs(a->at.ball[i] * (i < 3 ? s->w : 1) - b->at.ball[i]));
-    if (!isnan(iso_sample_get(&a->at, "lambda"))) worst = fmax(worst, fabs(iso_sample_get(&a->at, "lambda") * s->J * s->w * s->w - iso_sample_get(&b->at, "lambda")));
+    if (!isnan(iso_sample_get(&a->at, "lambda")))
+        worst = fmax(worst,
+                     fabs(iso_sample_get(&a->at, "lambda") * s->J * s->w * s->w - iso_sample_get(&b->at, "lambda")));
     if (!both) return worst;
     const double M = factor(s, iso_system_point.fast_dimension), clock = factor(s, iso_clock_dimension(ISO_CLOCK_S));
     for (int i = 0; i < 3; i++) {

@@ -155,7 +155,8 @@ static void stiffness(const effects_case *c, laws_worst *worst)
 {
     const iso_field *f = &c->model.field;
     const double J = min3(f->p.J), free = 1 - f->p.D / J;
-    const double spin = effects_on(c, ISO_TWIST) ? TWIST_RESISTANCE(&f->effects) / (J * free) / fmax(1, fabs(f->p.k)) : 0;
+    const double spin =
+        effects_on(c, ISO_TWIST) ? TWIST_RESISTANCE(&f->effects) / (J * free) / fmax(1, fabs(f->p.k)) : 0;
     const double most = fmax(spin, effects_on(c, ISO_ROLLING_RESISTANCE) ? ROLLING_COEFFICIENT(&f->effects) / J : 0);
     effects_note(c, worst, fabs(iso_effects_stiffness(f) - most), 8 * DBL_EPSILON / free * most, "stiffness");
 }
@@ -211,7 +212,8 @@ static void note_omega(const effects_case *c, const iso_model *m, const double p
     copy(pushed, expected, 3);
     diag(f->p.inv_J, y + 3, u);
     if (!loose) add_scaled(expected, -spin / dot(y + 3, u), u);
-    if (effects_lambda(c) > 0) add_scaled(expected, -spin - y[effects_lambda(c)] / TWIST_RESISTANCE(&f->effects), y + 3);
+    if (effects_lambda(c) > 0)
+        add_scaled(expected, -spin - y[effects_lambda(c)] / TWIST_RESISTANCE(&f->effects), y + 3);
     cross(expected, y, across);
     effects_note(c, worst, norm(across), 16 * DBL_EPSILON * norm(y) * norm(y), "direction of w");
     if (!loose) effects_note(c, worst, fabs(dot(y, y + 3)), 4 * DBL_EPSILON * norm(y), "(w,n)");

@@ -100,8 +100,8 @@ static void plain(const effects_case *c, laws_worst *worst)
     c->model.rhs(&c->model, c->y, dy);
     effects_note(c, worst, memcmp(own, dy, sizeof own), 0.5, "rhs");
     if (ball && e->on[ISO_ATTITUDE]) return;
-    const bool same = c->model.rhs == simplest.rhs && c->model.own_rhs == simplest.rhs &&
-                      c->model.jacobian == simplest.jacobian;
+    const bool same =
+        c->model.rhs == simplest.rhs && c->model.own_rhs == simplest.rhs && c->model.jacobian == simplest.jacobian;
     effects_note(c, worst, same && c->model.dim == ISO_STATE ? 0 : 1, 0.5, "functions");
 }
 
@@ -252,8 +252,8 @@ static void written_out(const effects_case *c, laws_worst *worst)
         iso_effects_torque(&alone, c->y, own, dy);
         add_scaled(sum, 1, own);
     }
-    effects_note(c, worst, laws_distance(T, sum), 8 * DBL_EPSILON * (effects_torque_size(c) + TWIST_RESISTANCE(e) * norm(w)),
-                 "torque");
+    effects_note(c, worst, laws_distance(T, sum),
+                 8 * DBL_EPSILON * (effects_torque_size(c) + TWIST_RESISTANCE(e) * norm(w)), "torque");
     if (f->p.k == 1 && e->on[ISO_GRAVITY]) return;
     effects_note(c, worst, fabs(U - iso_effects_potential(f, c->y)), laws_rounding(&f->p) * effects_energy_size(c),
                  "U");
@@ -383,67 +383,11 @@ static void made_exact(void)
     for (int i = 0; i < 4; i++) QUATERNION(&e)[i] *= 1 - 9e-7;
     FIELD_QUADRATIC(&e)[1] += 1e-13;
     gsl_test(iso_effects_check(ctx, &p, normal, &e) != ISO_OK, "nearly right is accepted");
-    for (int i = 0; i < 3; i++) gsl_test_rel(GRAVITY_UP(&e)[i], GRAVITY_UP(&sound)[i], 4 * DBL_EPSILON, "up made a unit vector");
+    for (int i = 0; i < 3; i++)
+        gsl_test_rel(GRAVITY_UP(&e)[i], GRAVITY_UP(&sound)[i], 4 * DBL_EPSILON, "up made a unit vector");
     for (int i = 0; i < 4; i++)
         gsl_test_rel(QUATERNION(&e)[i], QUATERNION(&sound)[i], 4 * DBL_EPSILON, "quaternion made a unit one");
     gsl_test(FIELD_QUADRATIC(&e)[1] != FIELD_QUADRATIC(&e)[3], "C made symmetric");
-}
-
-/* --- rows -------------------------------------------------------------------------------------------------------- */
-
-static void complete(const iso_effect *e, bool holds, const char *what)
-{
-    gsl_test(!holds, "the row of %s: %s", e->name, what);
-}
-
-/* The numbers of the group called `name`; 0: there is none. */
-static int group_size(const iso_effect *e, const char *name)
-{
-    for (const iso_effect_column *g = e->columns; g && g->name; g++)
-        if (strcmp(g->name, name) == 0) return g->count;
-    return 0;
-}
-
-static void complete_numbers(const iso_effect *e)
-{
-    for (const iso_effect_number *n = e->numbers; n && n->name; n++) {
-        complete(e, n->at >= 0 && n->count > 0 && n->at + n->count <= ISO_EFFECT_NUMBERS, n->name);
-        complete(e, !n->turns_with || group_size(e, n->turns_with) == n->count, "what a number turns with");
-        for (const iso_effect_number *m = e->numbers; m < n; m++)
-            complete(e, strcmp(m->name, n->name) != 0 && (m->at + m->count <= n->at || n->at + n->count <= m->at),
-                     "numbers apart");
-    }
-}
-
-static void complete_columns(const iso_effect *e)
-{
-    bool acts = false;
-    for (const iso_effect_column *g = e->columns; g && g->name; g++) {
-        complete(e, g->count > 0 && g->column, g->name);
-        complete(e, !g->sized_by || group_size(e, g->sized_by) > 0, "what a column is sized by");
-        acts = acts || g->moves;
-        for (int i = 0; i < g->count; i++) complete(e, iso_column_find(g->column[i]) >= 0, g->column[i]);
-    }
-    complete(e, !e->columns || e->show, "columns are shown");
-    complete(e, !acts || e->needs_radius, "what moves is a length");
-}
-
-/* Every row says all that its parts need. */
-static void complete_rows(void)
-{
-    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++) {
-        const iso_effect *e = iso_effect_list[id];
-        complete(e, e->name && *e->name && e->doc && *e->doc, "name and doc");
-        complete(e, iso_effect_find(e->name) == id, "its name is its own");
-        complete(e, e->observes || e->motion || e->torque, "what acts has equations");
-        complete(e, e->observes || e->work, "what acts says what it does to the energy");
-        complete(e, !e->states || (e->begin && e->states_doc && e->size && e->motion), "states begin, and have a size");
-        complete(e, !e->time_to_rest || e->stiffness, "what ends motion is as fast as it says");
-        complete_numbers(e);
-        complete_columns(e);
-    }
-    gsl_test(iso_effect_columns() > ISO_EFFECT_COLUMNS, "room for the columns of all effects");
-    gsl_test(iso_columns_count() != ISO_COLUMN_EFFECTS + iso_effect_columns(), "all columns have a name");
 }
 
 /* The isomorphism is lost with gravity, twist and rolling resistance, and with nothing else. */
@@ -473,7 +417,6 @@ int main(void)
     effects_hold("torques and potentials written out", &iso_system_ball, 1, written_out);
     effects_hold("every subset is accepted", &iso_system_ball, 1, accepted);
     effects_hold("what breaks the isomorphism", &iso_system_ball, 1, breaking);
-    complete_rows();
     refused_numbers();
     refused_combinations();
     made_exact();

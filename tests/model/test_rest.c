@@ -15,7 +15,9 @@ static iso_model make_model(const orbit *o, int kind)
     iso_field f = o->model.field;
     f.p.D = 0.5;
     f.effects.on[ISO_ROLLING_RESISTANCE] = kind & RESIST, ROLLING_COEFFICIENT(&f.effects) = 0.2;
-    f.effects.on[ISO_TWIST] = kind & (TWIST | STIFF), TWIST_RESISTANCE(&f.effects) = kind & STIFF ? 1e5 : kind & TWIST ? 0.3 : 0;
+    f.effects.on[ISO_TWIST] = kind & (TWIST | STIFF), TWIST_RESISTANCE(&f.effects) = kind & STIFF   ? 1e5
+                                                                                     : kind & TWIST ? 0.3
+                                                                                                    : 0;
     f.effects.on[ISO_FIELD] = kind & FIELD, FIELD_LINEAR(&f.effects)[1] = 0.4;
     f.effects.on[ISO_GRAVITY] = kind & GRAVITY, GRAVITY_MGB(&f.effects) = 0.3, GRAVITY_UP(&f.effects)[2] = 1;
     return iso_model_assemble(o->model.system, &f, o->model.clock, (const bool[ISO_CLOCKS]){true, true, true});

@@ -309,8 +309,10 @@ static void check_reversal(const rolling *ball, const iso_effects *e, double spi
         const double allowed = 1e-10 * pace_of(&a) * pace_of(&a);
         laws_note(worst, laws_distance(a.ball, turned_w), allowed, &ball->p, "w");
         laws_note(worst, laws_distance(a.ball + 3, b.ball + 3), allowed, &ball->p, "n");
-        laws_note(worst, laws_distance(sample_of(&a, "centre"), sample_of(&b, "centre")), allowed * (1 + norm(sample_of(&a, "centre"))), &ball->p, "centre");
-        laws_note(worst, laws_distance(sample_of(&a, "N"), sample_of(&b, "N")), allowed * (1 + norm(sample_of(&a, "N"))), &ball->p, "N");
+        laws_note(worst, laws_distance(sample_of(&a, "centre"), sample_of(&b, "centre")),
+                  allowed * (1 + norm(sample_of(&a, "centre"))), &ball->p, "centre");
+        laws_note(worst, laws_distance(sample_of(&a, "N"), sample_of(&b, "N")),
+                  allowed * (1 + norm(sample_of(&a, "N"))), &ball->p, "N");
         laws_note(worst, laws_distance(sample_of(&a, "q") + 1, sample_of(&b, "q") + 1), allowed, &ball->p, "Q");
     }
     iso_orbit_free(there);
@@ -332,7 +334,8 @@ static void check_reversals(iso_random *random)
         add_twist(0, &e);
         check_reversal(&ball, &e, 0.7, random, &reversed);
         iso_effects resisted = e;
-        resisted.on[ISO_TWIST] = false, resisted.on[ISO_ROLLING_RESISTANCE] = true, ROLLING_COEFFICIENT(&resisted) = 0.1;
+        resisted.on[ISO_TWIST] = false, resisted.on[ISO_ROLLING_RESISTANCE] = true,
+        ROLLING_COEFFICIENT(&resisted) = 0.1;
         laws_worst one = {0};
         check_reversal(&ball, &resisted, 0, random, &one);
         laws_note(&not_reversed, 1 / one.ratio, 1e-6, &ball.p, ball.name);

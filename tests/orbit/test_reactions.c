@@ -53,18 +53,22 @@ static void note_euler(const rolling *ball, const iso_effects *e, const stencil 
 static void note_parts(const rolling *ball, const iso_effects *e, const iso_sample *s)
 {
     double push[3], force[3], across[3];
-    for (int i = 0; i < 3; i++) push[i] = ball->side * (sample_of(s, "centre")[i] - sample_of(s, "contact")[i]) / fabs(ball->b);
+    for (int i = 0; i < 3; i++)
+        push[i] = ball->side * (sample_of(s, "centre")[i] - sample_of(s, "contact")[i]) / fabs(ball->b);
     to_space(s, sample_of(s, "N"), force);
     copy(force, across, 3);
     const double pressure = remove_along(across, push), size = norm(force) + 1e-3;
     laws_note(&parts, fabs(iso_sample_get(s, "pressure") - pressure), 1e-13 * size, &ball->p, "pressure");
     laws_note(&parts, fabs(iso_sample_get(s, "friction") - norm(across)), 1e-13 * size, &ball->p, "friction");
     if (pressure > 1e-3 * size)
-        laws_note(&parts, fabs(iso_sample_get(s, "mu") - iso_sample_get(s, "friction") / iso_sample_get(s, "pressure")), 1e-13 * iso_sample_get(s, "mu"), &ball->p, "mu");
-    if (on_plane(ball) && !e->on[ISO_GRAVITY]) laws_note(&plane, fabs(iso_sample_get(s, "pressure")), 0, &ball->p, ball->name);
+        laws_note(&parts,
+                  fabs(iso_sample_get(s, "mu") - iso_sample_get(s, "friction") / iso_sample_get(s, "pressure")),
+                  1e-13 * iso_sample_get(s, "mu"), &ball->p, "mu");
+    if (on_plane(ball) && !e->on[ISO_GRAVITY])
+        laws_note(&plane, fabs(iso_sample_get(s, "pressure")), 0, &ball->p, ball->name);
     if (e->on[ISO_TWIST])
-        laws_note(&twist, fabs(iso_sample_get(s, "lambda") + TWIST_RESISTANCE(e) * spin_of(s)), 1e-13 * TWIST_RESISTANCE(e) * pace_of(s), &ball->p,
-                  ball->name);
+        laws_note(&twist, fabs(iso_sample_get(s, "lambda") + TWIST_RESISTANCE(e) * spin_of(s)),
+                  1e-13 * TWIST_RESISTANCE(e) * pace_of(s), &ball->p, ball->name);
 }
 
 /* Bits of `load`: weight, field, rolling resistance, a contact that twists, and one too stiff to do so much. */
@@ -153,7 +157,9 @@ static bool check_loss(const rolling *ball, iso_random *random, double end, laws
     if (iso_orbit_lost_contact(orbit, 0, end, &found, &s) != ISO_OK) scene_stops("looking for loss of contact", ctx);
     laws_note(worst, found == !isnan(expected) ? 0 : 1, 0.5, &ball->p, "found");
     if (found) laws_note(worst, fabs(s.clock[0] - expected), 1e-11 * (1 + fabs(expected)), &ball->p, ball->name);
-    if (found) laws_note(worst, fabs(iso_sample_get(&s, "pressure")), 1e-11 * norm(sample_of(&s, "N")), &ball->p, "pressure there");
+    if (found)
+        laws_note(worst, fabs(iso_sample_get(&s, "pressure")), 1e-11 * norm(sample_of(&s, "N")), &ball->p,
+                  "pressure there");
     iso_orbit_free(orbit);
     return found;
 }

@@ -13,10 +13,10 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "numbers.h"
 #include "map/state.h"
 #include "model/effects_impl.h"
 #include "model/model.h"
+#include "numbers.h"
 
 enum {
     EFFECTS_CLASSICAL =
@@ -86,14 +86,17 @@ static inline iso_effects effects_random(iso_random *r, const iso_params *p, int
     iso_random_direction(r, GRAVITY_UP(&e));
     for (int i = 0; i < 3; i++) {
         FIELD_LINEAR(&e)[i] = iso_random_normal(r) * energy;
-        for (int j = 0; j <= i; j++) FIELD_QUADRATIC(&e)[3 * i + j] = FIELD_QUADRATIC(&e)[3 * j + i] = iso_random_normal(r) * energy;
+        for (int j = 0; j <= i; j++)
+            FIELD_QUADRATIC(&e)[3 * i + j] = FIELD_QUADRATIC(&e)[3 * j + i] = iso_random_normal(r) * energy;
     }
     LEVEL_C(&e) = effects_random_sign(r, 0.3, 1) * energy * pow(q, -1 / p->k);
     const double stiff = 50 * fmax(1, fabs(p->k)) * (min3(p->J) - p->D); /* from there on lambda is a state */
-    TWIST_RESISTANCE(&e) = subset & EFFECTS_CLASSICAL ? 0 : fmin(0.9 * stiff, iso_random_uniform(r, 0.3, 1) * energy / speed);
+    TWIST_RESISTANCE(&e) =
+        subset & EFFECTS_CLASSICAL ? 0 : fmin(0.9 * stiff, iso_random_uniform(r, 0.3, 1) * energy / speed);
     if (subset & EFFECTS_STIFF) TWIST_RESISTANCE(&e) = iso_random_uniform(r, 1.1, 1000) * stiff;
     ROLLING_COEFFICIENT(&e) = iso_random_uniform(r, 0.3, 1) * energy / speed;
-    for (int i = 0; i < 4; i++) QUATERNION(&e)[i] = iso_random_normal(r), square += QUATERNION(&e)[i] * QUATERNION(&e)[i];
+    for (int i = 0; i < 4; i++)
+        QUATERNION(&e)[i] = iso_random_normal(r), square += QUATERNION(&e)[i] * QUATERNION(&e)[i];
     for (int i = 0; i < 4; i++) QUATERNION(&e)[i] /= sqrt(square);
     return e;
 }
@@ -216,7 +219,8 @@ static inline double effects_torque_size(const effects_case *c)
     diag(p->inv_J, c->y + 3, u);
     if (e->on[ISO_GRAVITY]) size += fabs(GRAVITY_MGB(e));
     if (e->on[ISO_LEVEL]) size += 2 * fabs(LEVEL_C(e)) * pow(dot(c->y + 3, u), -1 / p->k - 1) * norm(u);
-    if (e->on[ISO_TWIST]) size += effects_lambda(c) > 0 ? fabs(c->y[effects_lambda(c)]) : TWIST_RESISTANCE(e) * norm(c->y);
+    if (e->on[ISO_TWIST])
+        size += effects_lambda(c) > 0 ? fabs(c->y[effects_lambda(c)]) : TWIST_RESISTANCE(e) * norm(c->y);
     if (e->on[ISO_ROLLING_RESISTANCE]) size += ROLLING_COEFFICIENT(e) * norm(c->y);
     return size;
 }

@@ -19,15 +19,15 @@ static inline double *number_of(const iso_effects *effects, iso_effect_id id, co
     abort();
 }
 
-#define GRAVITY_MGB(e)         (*number_of((e), ISO_GRAVITY, "mgb"))
-#define GRAVITY_UP(e)          number_of((e), ISO_GRAVITY, "up")
-#define FIELD_QUADRATIC(e)     number_of((e), ISO_FIELD, "quadratic")
-#define FIELD_LINEAR(e)        number_of((e), ISO_FIELD, "linear")
-#define LEVEL_C(e)             (*number_of((e), ISO_LEVEL, "c"))
-#define TWIST_RESISTANCE(e)    (*number_of((e), ISO_TWIST, "resistance"))
+#define GRAVITY_MGB(e) (*number_of((e), ISO_GRAVITY, "mgb"))
+#define GRAVITY_UP(e) number_of((e), ISO_GRAVITY, "up")
+#define FIELD_QUADRATIC(e) number_of((e), ISO_FIELD, "quadratic")
+#define FIELD_LINEAR(e) number_of((e), ISO_FIELD, "linear")
+#define LEVEL_C(e) (*number_of((e), ISO_LEVEL, "c"))
+#define TWIST_RESISTANCE(e) (*number_of((e), ISO_TWIST, "resistance"))
 #define ROLLING_COEFFICIENT(e) (*number_of((e), ISO_ROLLING_RESISTANCE, "coefficient"))
-#define QUATERNION(e)          number_of((e), ISO_ATTITUDE, "quaternion")
-#define TWO_SIDED(e)           (*number_of((e), ISO_REACTIONS, "two_sided"))
+#define QUATERNION(e) number_of((e), ISO_ATTITUDE, "quaternion")
+#define TWO_SIDED(e) (*number_of((e), ISO_REACTIONS, "two_sided"))
 
 /* The column where a group of an effect begins ... */
 static inline int column_of(const char *group)

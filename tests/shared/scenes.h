@@ -143,7 +143,8 @@ static inline iso_sample scene_at(iso_context *ctx, iso_orbit *orbit, double tim
 /* v in space: the rotation matrix of the quaternion, written out */
 static inline void to_space(const iso_sample *s, const double v[3], double in_space[3])
 {
-    const double a = sample_of(s, "q")[0], b = sample_of(s, "q")[1], c = sample_of(s, "q")[2], d = sample_of(s, "q")[3];
+    const double a = sample_of(s, "q")[0], b = sample_of(s, "q")[1], c = sample_of(s, "q")[2],
+                 d = sample_of(s, "q")[3];
     const double R[3][3] = {
         {a * a + b * b - c * c - d * d, 2 * (b * c - a * d), 2 * (b * d + a * c)},
         {2 * (b * c + a * d), a * a - b * b + c * c - d * d, 2 * (c * d - a * b)},
