@@ -14,7 +14,6 @@
 #include "exact/form_impl.h"
 #include "exact/latitude_impl.h"
 #include "exact/series_impl.h"
-#include "map/state.h"
 
 /* Where the rates of a clock differ by more than exp(MOST_SHARP), its series has no digits
  * left where they are small. */
