@@ -55,8 +55,15 @@ enum {
 enum { ISO_GIVEN_BASE, ISO_GIVEN_SPIN, ISO_GIVEN_SCALARS };
 enum { ISO_GIVEN_OMEGA, ISO_GIVEN_N, ISO_GIVEN_U, ISO_GIVEN_OMEGA_DOT, ISO_GIVEN_VECTORS };
 
+typedef enum iso_formula_kind {
+    ISO_FORMULA_NONE,
+    ISO_FORMULA_MOTION,
+    ISO_FORMULA_ENERGY,
+    ISO_FORMULA_IMAGE
+} iso_formula_kind;
+
 typedef struct iso_formula {
-    enum { ISO_FORMULA_NONE, ISO_FORMULA_MOTION, ISO_FORMULA_ENERGY, ISO_FORMULA_IMAGE } kind;
+    iso_formula_kind kind;
     bool series;  /* derived states are formulas here, not states                    */
     bool overrun; /* there was no room for all of it: it must not be used            */
     bool late;    /* some lines need omega', which follows from the torque           */

@@ -192,7 +192,7 @@ static inline iso_field effects_alone(const effects_case *c, iso_effect_id id)
 static inline double effects_potential(const effects_case *c, iso_effect_id id)
 {
     const iso_field f = effects_alone(c, id);
-    return effects_on(c, id) ? iso_effects_potential(&f, c->y) : 0;
+    return effects_on(c, (int)id) ? iso_effects_potential(&f, c->y) : 0;
 }
 
 /* of the energy */
