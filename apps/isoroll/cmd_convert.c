@@ -9,7 +9,7 @@
 typedef struct options {
     file_options from;
     const char *output;
-    iso_picture to;               /* -1: not given  */
+    iso_model_kind to;               /* -1: not given  */
     double tolerance, max_defect; /* NAN: not given */
     int digits;
     bool shift_J, strict, quiet;
@@ -216,7 +216,7 @@ static int run(iso_context *ctx, const void *options_given)
 
 static const options defaults = {.from = FILE_OPTIONS_UNSET,
                                  .output = "-",
-                                 .to = (iso_picture)-1,
+                                 .to = (iso_model_kind)-1,
                                  .tolerance = NAN,
                                  .max_defect = NAN,
                                  .digits = 17};

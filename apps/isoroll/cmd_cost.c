@@ -85,7 +85,7 @@ static bool has_name(const iso_plot_work *work, int in_panel, int *names, const 
 }
 
 /* Adds the lines of one backend, the fastest first. `error` and `seconds` hold the numbers of all cells. */
-static void add_panel(const iso_cost *cost, const iso_cost_line *const line[], iso_picture backend,
+static void add_panel(const iso_cost *cost, const iso_cost_line *const line[], iso_backend backend,
                       const double *error, const double *seconds, iso_plot_work *work, iso_plot_series *series,
                       int *names)
 {
@@ -94,7 +94,7 @@ static void add_panel(const iso_cost *cost, const iso_cost_line *const line[], i
         const iso_cost_line *one = line[l];
         if (!one->method || one->backend != backend) continue;
         const bool named = has_name(work, in_panel++, names, one->method->name);
-        series[work->count++] = (iso_plot_series){.panel = iso_picture_name((int)backend),
+        series[work->count++] = (iso_plot_series){.panel = iso_backend_name((int)backend),
                                                   .name = named ? one->method->name : NULL,
                                                   .count = one->count,
                                                   .error = error + one->first,
@@ -120,8 +120,8 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_cost_line *
         seconds[i] = c->total;
         if (!c->method) work.closed[0] = error[i], work.closed[1] = seconds[i];
     }
-    add_panel(cost, line, ISO_BALL, error, seconds, &work, series, &names);
-    add_panel(cost, line, ISO_POINT, error, seconds, &work, series, &names);
+    add_panel(cost, line, ISO_BACKEND_BALL, error, seconds, &work, series, &names);
+    add_panel(cost, line, ISO_BACKEND_POINT, error, seconds, &work, series, &names);
     const iso_status status = iso_plot_cost(ctx, o->plot, &work);
     free(error);
     return status;

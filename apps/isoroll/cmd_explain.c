@@ -83,7 +83,7 @@ static iso_status explain_exact(iso_context *ctx, const iso_scene *scene, const 
     iso_effects effects;
     iso_orbit *orbit;
     iso_orbit_options o = iso_scene_orbit_options(scene, columns, count, &effects);
-    o.backend = ISO_EXACT;
+    o.backend = ISO_BACKEND_EXACT;
     o.method = NULL;
     printf("closed solution (--backend exact)\n");
     const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
@@ -106,7 +106,7 @@ static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const
 {
     const iso_model *m = iso_orbit_model(orbit);
     printf("%s: backend %s, %d states, in the clock %s\n", iso_orbit_exact(orbit) ? "evaluated" : "integrated",
-           iso_picture_name((int)iso_orbit_backend(orbit)), m->dim, iso_clock_name(m->clock));
+           iso_backend_name((int)iso_orbit_backend(orbit)), m->dim, iso_clock_name(m->clock));
     for (int i = 0, first = 0; i < m->dim; i++) { /* states with the same reason share a line */
         const char *reason = reason_of(m, i);
         if (i + 1 < m->dim && strcmp(reason, reason_of(m, i + 1)) == 0) continue;

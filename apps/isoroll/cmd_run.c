@@ -59,13 +59,13 @@ static bool go_on(void *data)
 static void tell(const iso_run_result *r)
 {
     const iso_statistics *s = &r->statistics;
-    if (r->backend == ISO_EXACT) {
+    if (r->backend == ISO_BACKEND_EXACT) {
         complain("%zu rows; backend exact: %ld states", r->rows, s->states);
         return;
     }
     complain("%zu rows; backend %s, method %s: %ld steps, %ld rejected, %ld right-hand sides, %ld Jacobians; largest "
              "correction by projection %.2g",
-             r->rows, iso_picture_name((int)r->backend), r->method->name, s->steps, s->rejected, s->rhs, s->jacobians,
+             r->rows, iso_backend_name((int)r->backend), r->method->name, s->steps, s->rejected, s->rhs, s->jacobians,
              s->correction);
 }
 

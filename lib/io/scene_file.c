@@ -76,19 +76,19 @@ static iso_status check_surface(iso_draft *d)
 }
 
 /* `initial` states the start of the scene's model and nothing of the other's. */
-static iso_status check_initial(iso_draft *d, iso_picture model)
+static iso_status check_initial(iso_draft *d, iso_model_kind model)
 {
     const yaml_node_t *initial, *key;
     const char *what = model == ISO_BALL ? "a ball starts from 'normal' and 'angular_velocity'"
                                          : "a point starts from 'gamma' and 'M'";
     const char *name;
-    iso_picture whose;
+    iso_shown whose;
     find(d, "initial", NULL, &initial, NULL);
     for (int i = 0; iso_draft_initial_key(i, &name, &whose); i++) {
         const bool present = find(d, "initial", name, &key, NULL);
-        if (whose == model && !present)
+        if ((int)whose == (int)model && !present)
             return iso_yaml_fail(&d->yaml, initial->start_mark, "missing '%s' in 'initial': %s", name, what);
-        if (whose != model && whose != ISO_BOTH && present)
+        if ((int)whose != (int)model && whose != ISO_SHOW_BOTH && present)
             return iso_yaml_fail(&d->yaml, key->start_mark, "'%s' does not belong here: %s", name, what);
     }
     return ISO_OK;
@@ -158,7 +158,7 @@ static bool effect_has_key(const void *scene, const char *key)
 
 /* What an effect says in words of the ball becomes its numbers. A failure is put at the key it is about, or at that of the
  * effect where it is about a key that is not there. */
-static iso_status complete_effect(iso_draft *d, iso_picture model, const yaml_node_t *effects, iso_effect_id e)
+static iso_status complete_effect(iso_draft *d, iso_model_kind model, const yaml_node_t *effects, iso_effect_id e)
 {
     const iso_effect *effect = iso_effect_list[e];
     const effect_section section = {d, effects, effect->name};
@@ -171,7 +171,7 @@ static iso_status complete_effect(iso_draft *d, iso_picture model, const yaml_no
     return iso_yaml_fail(&d->yaml, key->start_mark, "%s", iso_context_message(d->yaml.ctx));
 }
 
-static iso_status make_effects(iso_draft *d, iso_picture model)
+static iso_status make_effects(iso_draft *d, iso_model_kind model)
 {
     const yaml_node_t *effects;
     iso_status status = ISO_OK;
@@ -181,7 +181,7 @@ static iso_status make_effects(iso_draft *d, iso_picture model)
     return status;
 }
 
-static iso_status make_start(iso_draft *d, iso_picture model)
+static iso_status make_start(iso_draft *d, iso_model_kind model)
 {
     iso_scene *s = &d->scene;
     const iso_spin spin = d->project                         ? ISO_SPIN_REMOVE
@@ -201,7 +201,7 @@ static iso_status make_scene(iso_draft *d)
     iso_status status = iso_draft_read_keys(d);
     if (status == ISO_OK) status = check_sections(d, &name);
     if (status != ISO_OK) return status;
-    const iso_picture model = strcmp(name, "point") == 0 ? ISO_POINT : ISO_BALL;
+    const iso_model_kind model = strcmp(name, "point") == 0 ? ISO_POINT : ISO_BALL;
     if ((status = check_surface(d)) != ISO_OK) return status;
     if ((status = check_initial(d, model)) != ISO_OK) return status;
     if ((status = check_time(d)) != ISO_OK) return status;
@@ -209,15 +209,15 @@ static iso_status make_scene(iso_draft *d)
     if ((status = make_D(d)) != ISO_OK) return status;
     if ((status = make_effects(d, model)) != ISO_OK) return status;
     if ((status = make_start(d, model)) != ISO_OK) return status;
-    d->scene.backend = (iso_picture)d->backend;
-    d->scene.as = (iso_picture)d->as;
+    d->scene.backend = (iso_backend)d->backend;
+    d->scene.as = (iso_shown)d->as;
     return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, iso_scene_check_columns(d->yaml.ctx, &d->scene));
 }
 
 iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_draft d = {.yaml = {.ctx = ctx, .name = name}, .backend = ISO_AUTO, .as = ISO_AUTO};
+    iso_draft d = {.yaml = {.ctx = ctx, .name = name}, .backend = ISO_BACKEND_AUTO, .as = ISO_SHOW_START};
     d.scene = iso_scene_default();
     d.D = NAN;
     iso_status status = iso_yaml_load(&d.yaml, text, length);

@@ -50,7 +50,8 @@ _Static_assert((int)ISO_MAX_STATE <= (int)ISO_TRAJECTORY_COLUMNS, "a sample has 
 
 iso_batch_options iso_batch_defaults(void)
 {
-    return (iso_batch_options){.backend = ISO_AUTO, .tolerance = 1e-12, .clock = ISO_CLOCK_T, .show = ISO_BALL};
+    return (iso_batch_options){
+        .backend = ISO_BACKEND_AUTO, .tolerance = 1e-12, .clock = ISO_CLOCK_T, .show = ISO_SHOW_BALL};
 }
 
 const char *iso_batch_vectors(int i, int *lanes)
@@ -74,7 +75,7 @@ static void note(worker *w, size_t i, iso_status status)
     snprintf(w->field, sizeof w->field, "%s", iso_context_field(w->ctx));
 }
 
-static iso_orbit_options options_of(const batch *b, size_t i, iso_picture backend)
+static iso_orbit_options options_of(const batch *b, size_t i, iso_backend backend)
 {
     const iso_batch_options *o = b->options;
     return (iso_orbit_options){.effects = b->orbits[i].effects,
@@ -86,7 +87,7 @@ static iso_orbit_options options_of(const batch *b, size_t i, iso_picture backen
                                .carry = {o->carry[0], o->carry[1], o->carry[2]}};
 }
 
-static iso_status prepare_as(worker *w, size_t i, member *m, iso_picture backend)
+static iso_status prepare_as(worker *w, size_t i, member *m, iso_backend backend)
 {
     const iso_batch_orbit *orbit = &w->b->orbits[i];
     memset(&m->orbit, 0, sizeof m->orbit);
@@ -99,8 +100,8 @@ static iso_status prepare_as(worker *w, size_t i, member *m, iso_picture backend
 static iso_status prepare(worker *w, size_t i, member *m)
 {
     const batch *b = w->b;
-    const bool try_point = b->options->backend == ISO_AUTO && fabs(b->orbits[i].params->k) >= 0.125;
-    iso_status status = try_point ? prepare_as(w, i, m, ISO_POINT) : ISO_NOT_MAPPED;
+    const bool try_point = b->options->backend == ISO_BACKEND_AUTO && fabs(b->orbits[i].params->k) >= 0.125;
+    iso_status status = try_point ? prepare_as(w, i, m, ISO_BACKEND_POINT) : ISO_NOT_MAPPED;
     if (status != ISO_OK) status = prepare_as(w, i, m, b->options->backend);
     return status == ISO_OK && b->rows > 0 ? iso_orbit_check_time(&m->orbit, b->times[b->rows - 1]) : status;
 }
@@ -225,7 +226,7 @@ static void *work(void *data)
 static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_lane_code *code, const double times[],
                         size_t rows)
 {
-    if (o->backend == ISO_EXACT)
+    if (o->backend == ISO_BACKEND_EXACT)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
                                 "a batch integrates: backend exact is for single orbits, which share nothing");
     if (iso_tolerance_check(ctx, o->tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;

@@ -22,18 +22,18 @@ typedef struct iso_batch_orbit {
 
 /* As in iso_orbit_options, for all orbits. */
 typedef struct iso_batch_options {
-    iso_picture backend; /* ISO_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the ball;
-                            not ISO_EXACT, whose orbits have nothing to do together: iso_orbit                 */
+    iso_backend backend; /* ISO_BACKEND_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the
+                            ball; not ISO_BACKEND_EXACT, whose orbits have nothing to do together: iso_orbit   */
     double tolerance;
     long max_steps;      /* of each orbit; 0: no bound                                                         */
     iso_clock clock;
-    iso_picture show;
+    iso_shown show;
     bool carry[ISO_CLOCKS];
     int threads;         /* 0: as many as there are processors to run on                                       */
     const char *vectors; /* "avx512", "avx2", "plain"; NULL: the widest of this processor                      */
 } iso_batch_options;
 
-/* Balls in their time t; backend ISO_AUTO, tolerance 1e-12, no bound on the steps, all processors. */
+/* Balls in their time t; backend ISO_BACKEND_AUTO, tolerance 1e-12, no bound on the steps, all processors. */
 iso_batch_options iso_batch_defaults(void);
 
 /* Fills samples[i rows + j] with orbit i at times[j], in the options' clock: none before 0 and growing, or none after

@@ -77,11 +77,11 @@ static iso_status refuse_effect(const iso_conversion *c)
 static iso_status find_columns(iso_conversion *c)
 {
     int columns[ISO_STATE];
-    const iso_picture to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
+    const iso_model_kind to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
     const iso_status status = iso_record_find_state(c->ctx, c->in, c->from, c->state);
     if (status != ISO_OK && iso_record_find_state(c->ctx, c->in, to, columns) == ISO_OK)
         return iso_context_fail(c->ctx, ISO_BAD_INPUT, "columns", "this is a %s's trajectory already",
-                                iso_picture_name((int)to));
+                                iso_model_kind_name((int)to));
     if (status != ISO_OK) return iso_record_find_state(c->ctx, c->in, c->from, c->state);
     c->own = c->from == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     c->other = c->from == ISO_BALL ? ISO_CLOCK_S : ISO_CLOCK_T;
@@ -104,9 +104,9 @@ static iso_status read_lines(iso_conversion *c)
     return status;
 }
 
-iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header, iso_picture to,
-                                 const iso_conversion_options *options, const iso_conversion_target *target,
-                                 iso_conversion **conversion)
+iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
+                                 iso_model_kind to, const iso_conversion_options *options,
+                                 const iso_conversion_target *target, iso_conversion **conversion)
 {
     iso_conversion *c = *conversion = calloc(1, sizeof *c);
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a conversion");
@@ -169,7 +169,7 @@ static iso_status stop_at(void *data, size_t line, iso_status why, const char *w
     return iso_context_fail(((whole *)data)->ctx, why, "", "row %zu: %s", line, words);
 }
 
-iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_picture to,
+iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
                        double tolerance, iso_record **out)
 {
     ISO_DEFAULT_ARITHMETIC;

@@ -21,7 +21,7 @@ struct iso_conversion {
     const iso_params *params;
     const iso_record *in;
     iso_conversion_target target;
-    iso_picture from;
+    iso_model_kind from;
     double tolerance;
     bool shift_J;
     iso_params shifted;           /* what params then points to                                          */

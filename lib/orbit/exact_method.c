@@ -87,5 +87,5 @@ const iso_method iso_method_exact = {.name = "exact",
 
 const iso_exact *iso_orbit_exact(const iso_orbit *o)
 {
-    return o->options.backend == ISO_EXACT ? o->integrator->data : NULL;
+    return o->options.backend == ISO_BACKEND_EXACT ? o->integrator->data : NULL;
 }

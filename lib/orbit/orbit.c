@@ -11,10 +11,10 @@
 
 iso_orbit_options iso_orbit_defaults(const iso_start *start)
 {
-    return (iso_orbit_options){.backend = ISO_AUTO,
+    return (iso_orbit_options){.backend = ISO_BACKEND_AUTO,
                                .tolerance = 1e-12,
                                .clock = start->model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S,
-                               .show = start->model};
+                               .show = (iso_shown)start->model};
 }
 
 _Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double),
@@ -41,12 +41,13 @@ void iso_sample_set_column(iso_sample *sample, int column, double value)
 /* --- making an orbit --------------------------------------------------------------------------------------------- */
 
 /* Effects that only the ball shows need the ball, and some methods are for one system. */
-static iso_picture choose_backend(const iso_orbit_options *opt, const iso_start *start)
+static iso_backend choose_backend(const iso_orbit_options *opt, const iso_start *start)
 {
     const iso_effects *e = opt->effects;
-    if (opt->backend != ISO_AUTO) return opt->backend;
-    if (opt->method && opt->method->system) return opt->method->system == &iso_system_ball ? ISO_BALL : ISO_POINT;
-    return e && (iso_effects_breaking(e) || iso_effects_ball_only(e)) ? ISO_BALL : start->model;
+    if (opt->backend != ISO_BACKEND_AUTO) return opt->backend;
+    if (opt->method && opt->method->system)
+        return opt->method->system == &iso_system_ball ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
+    return e && (iso_effects_breaking(e) || iso_effects_ball_only(e)) ? ISO_BACKEND_BALL : (iso_backend)start->model;
 }
 
 /* Whether a start stays where it is: then any time is known without steps. */
@@ -63,8 +64,8 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     iso_orbit_options *opt = &o->options;
     double six[ISO_STATE], size;
     opt->backend = choose_backend(opt, start);
-    const bool ball = opt->backend == ISO_BALL, exact = opt->backend == ISO_EXACT;
-    if ((!ball && !exact && opt->backend != ISO_POINT) || (int)opt->show < 0 || opt->show > ISO_BOTH)
+    const bool ball = opt->backend == ISO_BACKEND_BALL, exact = opt->backend == ISO_BACKEND_EXACT;
+    if ((!ball && !exact && opt->backend != ISO_BACKEND_POINT) || (int)opt->show < 0 || opt->show > ISO_SHOW_BOTH)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "backend",
                                 "an orbit is found by backend ball, point or exact, "
                                 "and shown as ball, point or both");
@@ -190,13 +191,13 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
     s->clock[o->model.clock] = time;
     for (int i = 0; status == ISO_OK && i < o->model.carried; i++)
         status = sample_clock(o, time, o->model.carry[i], y[o->model.moving + i], s);
-    if (o->options.show != ISO_POINT) {
+    if (o->options.show != ISO_SHOW_POINT) {
         const bool vanishes = iso_effects_stiffness(&o->model.field) > 0;
         as_ball(o, y, s->ball);
         if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, vanishes, s->ball, 3);
         if (status == ISO_OK && o->system == &iso_system_ball) status = iso_orbit_sample_effects(o, y, s);
     }
-    if (status == ISO_OK && o->options.show != ISO_BALL) status = sample_point(o, y, s);
+    if (status == ISO_OK && o->options.show != ISO_SHOW_BALL) status = sample_point(o, y, s);
     return status;
 }
 
@@ -345,7 +346,7 @@ iso_statistics iso_orbit_statistics(const iso_orbit *o)
     return iso_integrator_statistics(o->integrator);
 }
 
-iso_picture iso_orbit_backend(const iso_orbit *o)
+iso_backend iso_orbit_backend(const iso_orbit *o)
 {
     return o->options.backend;
 }

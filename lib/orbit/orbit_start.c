@@ -17,7 +17,7 @@ static void set_units(iso_orbit *o, const iso_params *p, double speed)
 static iso_status check_units(const iso_orbit *o, const iso_start *start)
 {
     const iso_orbit_options *opt = &o->options;
-    const bool M = start->model == ISO_POINT || (opt->show != ISO_BALL && !opt->gamma_alone);
+    const bool M = start->model == ISO_POINT || (opt->show != ISO_SHOW_BALL && !opt->gamma_alone);
     bool fits = !M || isnormal(o->unit_M);
     for (int c = 0; c < ISO_CLOCKS; c++)
         fits = fits && ((c != (int)opt->clock && !opt->carry[c]) || isnormal(o->unit_clock[c]));
@@ -167,11 +167,11 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
 {
     iso_effects *e = &o->effects;
     const iso_effect *breaking = iso_effects_breaking(e), *only_ball = iso_effects_ball_only(e);
-    const bool by_point = o->options.backend != ISO_BALL;
-    const bool point = by_point || o->options.show != ISO_BALL || start->model == ISO_POINT;
+    const bool by_point = o->options.backend != ISO_BACKEND_BALL;
+    const bool point = by_point || o->options.show != ISO_SHOW_BALL || start->model == ISO_POINT;
     const double *n = start->y + 3; /* a point's gamma: only gravity asks, which a point has not */
     if (start->model == ISO_POINT && isnan(iso_effects_level(e))) iso_effects_set_level(e, false, NAN); /* as it comes */
-    if (o->options.backend == ISO_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
+    if (o->options.backend == ISO_BACKEND_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (breaking && point)
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, breaking->name,
                                 "'%s' breaks the isomorphism: %s. There is no such point; the ball alone can be had",
@@ -187,8 +187,8 @@ static const iso_system *choose_system(const iso_orbit *o)
 {
     const iso_params *p = &o->units.own;
     const iso_method *method = o->options.method;
-    const bool bound = o->options.backend == ISO_EXACT || (method && method->system);
-    if (o->options.backend == ISO_BALL) return &iso_system_ball;
+    const bool bound = o->options.backend == ISO_BACKEND_EXACT || (method && method->system);
+    if (o->options.backend == ISO_BACKEND_BALL) return &iso_system_ball;
     if (bound || o->level != 0 || iso_effects_have_image(&o->effects) || p->k == -1) return &iso_system_point;
     return iso_params_steep(p) ? &iso_system_point_t : &iso_system_point;
 }
@@ -209,17 +209,17 @@ typedef struct needs {
 static needs what_is_needed(const iso_orbit_options *opt, const iso_start *start)
 {
     const bool other_clocks = opt->carry[ISO_CLOCK_TAU] || opt->carry[ISO_CLOCK_S];
-    const bool point = opt->backend != ISO_BALL || opt->show != ISO_BALL;
-    const bool M = opt->show != ISO_BALL && !opt->gamma_alone;
+    const bool point = opt->backend != ISO_BACKEND_BALL || opt->show != ISO_SHOW_BALL;
+    const bool M = opt->show != ISO_SHOW_BALL && !opt->gamma_alone;
     return (needs){
-        .ball = opt->backend == ISO_BALL || opt->show != ISO_POINT || opt->clock != ISO_CLOCK_S ||
+        .ball = opt->backend == ISO_BACKEND_BALL || opt->show != ISO_SHOW_POINT || opt->clock != ISO_CLOCK_S ||
                 opt->carry[ISO_CLOCK_T] || opt->carry[ISO_CLOCK_TAU],
         .point = point,
         .powers = M || start->model == ISO_POINT || opt->clock != ISO_CLOCK_T || other_clocks,
     };
 }
 
-static void to_system(const iso_orbit *o, iso_picture model, double y[ISO_STATE])
+static void to_system(const iso_orbit *o, iso_model_kind model, double y[ISO_STATE])
 {
     const iso_params *own = &o->units.own;
     const bool ball = model == ISO_BALL;

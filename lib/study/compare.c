@@ -62,14 +62,14 @@ static void follow_drifts(const runner *r, int which, const iso_sample *sample)
 /* --- one backend ------------------------------------------------------------------------------------------------ */
 
 /* The scene's method if it can integrate the backend's model; NULL: auto. */
-static const iso_method *method_for(const iso_scene *scene, iso_picture backend)
+static const iso_method *method_for(const iso_scene *scene, iso_backend backend)
 {
     const iso_method *m = iso_method_find(scene->method);
-    const iso_system *const system = backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
-    return !m || backend == ISO_EXACT || (m->system && m->system != system) ? NULL : m;
+    const iso_system *const system = backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
+    return !m || backend == ISO_BACKEND_EXACT || (m->system && m->system != system) ? NULL : m;
 }
 
-static iso_status open_backend(runner *r, iso_picture backend)
+static iso_status open_backend(runner *r, iso_backend backend)
 {
     const int which = r->out->runs;
     iso_backend_run *run = &r->out->run[which];
@@ -84,7 +84,7 @@ static iso_status open_backend(runner *r, iso_picture backend)
     o.backend = run->backend = backend;
     o.method = method_for(r->scene, backend);
     o.tolerance = r->scene->tolerance;
-    o.show = ISO_BOTH;
+    o.show = ISO_SHOW_BOTH;
     for (int clock = 0; clock < ISO_CLOCKS; clock++) o.carry[clock] = true;
     const double begin = processor_seconds();
     status = iso_orbit_create(r->ctx, &r->scene->params, &r->scene->start, &o, &r->orbit[which]);
@@ -102,7 +102,7 @@ static iso_status open_backend(runner *r, iso_picture backend)
 /* It is no failure if there is no closed solution, or if it cannot be found. */
 static iso_status open_exact(runner *r)
 {
-    const iso_status status = open_backend(r, ISO_EXACT);
+    const iso_status status = open_backend(r, ISO_BACKEND_EXACT);
     if (status != ISO_BAD_ARGUMENT && status != ISO_NUMERICAL) return status;
     snprintf(r->out->no_exact, sizeof r->out->no_exact, "%s", iso_context_message(r->ctx));
     return ISO_OK;
@@ -202,9 +202,9 @@ iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a comparison");
     runner r = {.ctx = ctx, .scene = scene, .effects = iso_effects_acting(&scene->effects), .out = c};
     iso_status status = iso_scene_check_times(ctx, scene);
-    if (status == ISO_OK) status = open_backend(&r, ISO_BALL);
+    if (status == ISO_OK) status = open_backend(&r, ISO_BACKEND_BALL);
     if (status == ISO_OK) status = iso_orbit_check_time(r.orbit[ISO_BALL], scene->end);
-    if (status == ISO_OK) status = open_backend(&r, ISO_POINT);
+    if (status == ISO_OK) status = open_backend(&r, ISO_BACKEND_POINT);
     if (status == ISO_OK) status = open_exact(&r);
     if (status == ISO_OK) status = take_rows(&r, progress, data);
     for (int b = 0; b < ISO_BACKENDS; b++) iso_orbit_free(r.orbit[b]);

@@ -39,7 +39,7 @@ typedef struct measurer {
 
 iso_cost_options iso_cost_defaults(void)
 {
-    return (iso_cost_options){.backend = ISO_AUTO};
+    return (iso_cost_options){.backend = ISO_BACKEND_AUTO};
 }
 
 static double elapsed(const measurer *m)
@@ -55,7 +55,7 @@ static void tell(measurer *m, const char *what)
 
 /* --- which cells ------------------------------------------------------------------------------------------------ */
 
-static iso_cost_line *add_line(measurer *m, iso_picture backend, const iso_method *method, int count)
+static iso_cost_line *add_line(measurer *m, iso_backend backend, const iso_method *method, int count)
 {
     iso_cost *c = m->out;
     iso_cost_line *line = &c->line[c->lines++];
@@ -79,10 +79,10 @@ static iso_cost_line *add_line(measurer *m, iso_picture backend, const iso_metho
 }
 
 /* Whether this backend and method can compute the scene at all. */
-static bool serves(measurer *m, iso_picture backend, const iso_method *method)
+static bool serves(measurer *m, iso_backend backend, const iso_method *method)
 {
     iso_orbit *orbit;
-    const iso_system *system = backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
+    const iso_system *system = backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
     if (method && method->system && method->system != system) return false;
     const iso_status status = iso_cost_orbit_open(&m->p, backend, method, 1e-6, false, &orbit);
     iso_orbit_free(orbit);
@@ -92,17 +92,18 @@ static bool serves(measurer *m, iso_picture backend, const iso_method *method)
 static void list_lines(measurer *m)
 {
     const iso_cost_options *o = m->options;
-    for (int backend = ISO_BALL; backend <= ISO_POINT; backend++) {
-        if ((o->backend != ISO_AUTO && (int)o->backend != backend) || !serves(m, (iso_picture)backend, NULL))
+    for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
+        if ((o->backend != ISO_BACKEND_AUTO && o->backend != backend) || !serves(m, backend, NULL))
             continue;
-        if (o->method && serves(m, (iso_picture)backend, o->method))
-            add_line(m, (iso_picture)backend, o->method, m->tolerances);
+        if (o->method && serves(m, backend, o->method))
+            add_line(m, backend, o->method, m->tolerances);
         for (int i = 0; !o->method && iso_methods[i] && m->out->lines < MOST_LINES - 1; i++)
-            if (!iso_methods[i]->reference && serves(m, (iso_picture)backend, iso_methods[i]))
-                add_line(m, (iso_picture)backend, iso_methods[i], m->tolerances);
+            if (!iso_methods[i]->reference && serves(m, backend, iso_methods[i]))
+                add_line(m, backend, iso_methods[i], m->tolerances);
     }
-    if ((o->backend == ISO_AUTO || o->backend == ISO_EXACT) && !o->method && serves(m, ISO_EXACT, NULL))
-        add_line(m, ISO_EXACT, NULL, 1);
+    if ((o->backend == ISO_BACKEND_AUTO || o->backend == ISO_BACKEND_EXACT) && !o->method &&
+        serves(m, ISO_BACKEND_EXACT, NULL))
+        add_line(m, ISO_BACKEND_EXACT, NULL, 1);
 }
 
 static iso_status choose_cells(measurer *m)
@@ -126,13 +127,13 @@ static iso_status choose_cells(measurer *m)
 static void take_errors(measurer *m, const cost_track *track, iso_cost_cell *cell)
 {
     const cost_reference *r = &m->reference;
-    const cost_track *against = cell->backend == ISO_EXACT ? &r->second : &r->first;
-    cell->error = cell->backend == ISO_EXACT && !r->doubted ? NAN : iso_cost_distance(track, against);
+    const cost_track *against = cell->backend == ISO_BACKEND_EXACT ? &r->second : &r->first;
+    cell->error = cell->backend == ISO_BACKEND_EXACT && !r->doubted ? NAN : iso_cost_distance(track, against);
     cell->energy_drift = track->energy_drift;
     cell->constraint_drift = track->constraint_drift;
     cell->statistics = track->statistics;
     cell->below = cell->error < 3 * r->uncertainty;
-    if (cell->backend == ISO_EXACT) cell->below = false;
+    if (cell->backend == ISO_BACKEND_EXACT) cell->below = false;
 }
 
 static void fail(iso_cost_cell *cell, iso_status status, const char *words)
@@ -161,8 +162,8 @@ static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double 
         cell->why[0] = 0;
         take_errors(m, &track, cell);
         if (iso_cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, true, 2 * seconds, &track) == ISO_OK)
-            cell->clock_error = iso_cost_clock_distance(&track, cell->backend == ISO_EXACT ? &m->reference.second
-                                                                                           : &m->reference.first);
+            cell->clock_error = iso_cost_clock_distance(
+                &track, cell->backend == ISO_BACKEND_EXACT ? &m->reference.second : &m->reference.first);
     } else if (status != ISO_STOPPED) {
         fail(cell, status, iso_context_message(m->p.ctx));
     } else if (!iso_cost_is_stopped(&m->p)) {

@@ -76,7 +76,7 @@ void iso_cost_problem_close(cost_problem *p)
     iso_context_free(p->ctx);
 }
 
-iso_status iso_cost_orbit_open(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance,
+iso_status iso_cost_orbit_open(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
                                bool carry, iso_orbit **orbit)
 {
     iso_orbit_options o = iso_orbit_defaults(&p->scene->start);
@@ -84,7 +84,7 @@ iso_status iso_cost_orbit_open(cost_problem *p, iso_picture backend, const iso_m
     o.backend = backend;
     o.method = method;
     if (method) o.tolerance = tolerance;
-    o.show = ISO_BALL;
+    o.show = ISO_SHOW_BALL;
     o.carry[p->other] = carry;
     watch(p);
     return iso_orbit_create(p->ctx, &p->scene->params, &p->scene->start, &o, orbit);
@@ -167,7 +167,7 @@ static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_t
     return ISO_OK;
 }
 
-iso_status iso_cost_walk(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance, bool carry,
+iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance, bool carry,
                          double seconds, cost_track *track)
 {
     iso_orbit *orbit;

@@ -40,7 +40,10 @@ iso_orbit_options iso_scene_orbit_options(const iso_scene *scene, const int colu
     leave_out_unseen(effects, columns, count);
     ball = ball || iso_effects_ball_only(effects); /* to see where contact is lost */
     o.effects = effects;
-    o.show = ball && point ? ISO_BOTH : ball ? ISO_BALL : point ? ISO_POINT : scene->start.model;
+    o.show = ball && point ? ISO_SHOW_BOTH
+             : ball        ? ISO_SHOW_BALL
+             : point       ? ISO_SHOW_POINT
+                           : (iso_shown)scene->start.model;
     o.gamma_alone = point && !M;
     o.backend = scene->backend;
     o.method = iso_method_find(scene->method);
@@ -102,13 +105,13 @@ static iso_status describe(const runner *r, iso_record **header)
 {
     const char *names[ISO_MAX_COLUMNS];
     const iso_scene *scene = r->scene;
-    const iso_picture as = scene->as == ISO_AUTO ? scene->start.model : scene->as;
+    const iso_shown as = scene->as == ISO_SHOW_START ? (iso_shown)scene->start.model : scene->as;
     for (int i = 0; i < r->count; i++) names[i] = iso_column_name(r->columns[i]);
     iso_status status = iso_record_create(r->ctx, (size_t)r->count, names, header);
     if (status == ISO_OK)
-        status = iso_record_describe(r->ctx, *header, iso_picture_name((int)as), &scene->params, r->orbit);
+        status = iso_record_describe(r->ctx, *header, iso_shown_name((int)as), &scene->params, r->orbit);
     if (status == ISO_OK)
-        status = iso_record_set(r->ctx, *header, "backend", iso_picture_name((int)iso_orbit_backend(r->orbit)));
+        status = iso_record_set(r->ctx, *header, "backend", iso_backend_name((int)iso_orbit_backend(r->orbit)));
     if (status == ISO_OK) status = iso_record_set(r->ctx, *header, "method", iso_orbit_method(r->orbit)->name);
     if (status == ISO_OK && !iso_orbit_exact(r->orbit))
         status = iso_record_set_numbers(r->ctx, *header, "tolerance", 1, &scene->tolerance);

@@ -58,7 +58,7 @@ typedef struct iso_run_sink {
 typedef struct iso_run_result {
     size_t asked, rows; /* times asked for, and rows that the sink has taken                                       */
     /* of the orbit; method is NULL if there is no orbit */
-    iso_picture backend; /* ISO_BALL, ISO_POINT, ISO_EXACT                                                         */
+    iso_backend backend; /* that has found the orbit, not ISO_BACKEND_AUTO                                         */
     const iso_method *method;
     iso_clock clock; /* that of the times                                                                          */
     iso_statistics statistics;

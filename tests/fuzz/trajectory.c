@@ -28,7 +28,7 @@ static void use(iso_context *ctx, const iso_record *record)
         iso_record *out = NULL;
         long steps = STEPS;
         iso_context_watch(ctx, fuzz_goes_on, &steps);
-        status = iso_convert(ctx, &params, record, (iso_picture)to, 1e-12, &out);
+        status = iso_convert(ctx, &params, record, (iso_model_kind)to, 1e-12, &out);
         if (status != ISO_OK)
             fuzz_failed(ctx, status);
         else

@@ -106,7 +106,7 @@ static iso_sample solve(const hard_road *way, const rotation *r, const iso_start
 /* Whether a way has the orbit: closed solutions are not for every k off a plane. */
 static bool served(const hard_road *way, double k)
 {
-    return way->backend != ISO_EXACT || fabs(k) == 1;
+    return way->backend != ISO_BACKEND_EXACT || fabs(k) == 1;
 }
 
 /* --- naive: in axes that are not the principal ones ------------------------------------------------------------- */
@@ -303,7 +303,7 @@ static void check_escape(void)
     hard_naive("in axes that are not principal, from 1e-30",
                rate_error(&r, 1e-30, turns, naive_at(&r, &start, turns)), 1e-2);
     iso_sample s;
-    const hard_road exact = {ISO_EXACT, NULL, 1e-12};
+    const hard_road exact = {ISO_BACKEND_EXACT, NULL, 1e-12};
     const rotation other = rotation_about(-0.4, 1);
     const iso_start from = beside(&other, 1e-15);
     hard_case("leaving it, k = -0.4", "no answer, and the reason", "there is no second integral");
@@ -366,7 +366,7 @@ static near_orbit next_to(double distance, int i, iso_random *random)
     } while (!exact_next_to(&n.o, i % 2 ? 1 : -1, J_three, g, distance * (i / 2 % 2 ? 1 : -1), 1));
     const double eps = 1;
     const rotation r = rotation_about(n.o.model.field.p.k, 1);
-    const hard_road quad = {ISO_POINT, iso_method_find("taylor_quad"), 1e-15};
+    const hard_road quad = {ISO_BACKEND_POINT, iso_method_find("taylor_quad"), 1e-15};
     const double root = sqrt(2 * eps), fast = n.o.model.field.p.k == 1 ? root / sqrt(1.4) : root * sqrt(3.0);
     n.growth = 1000, n.radians = log(n.growth) / r.exponent * M_PI;
     n.s = n.radians / fast; /* at most so many radians */
@@ -407,7 +407,8 @@ static void check_next_to(void)
  * Here is one in binary: b2 - b1 = b3 - b2, gamma1 = gamma3. */
 static void check_on(void)
 {
-    const hard_road exact = {ISO_EXACT, NULL, 1e-12}, steps = {ISO_POINT, iso_method_find("rk8pd"), 1e-12};
+    const hard_road exact = {ISO_BACKEND_EXACT, NULL, 1e-12},
+                    steps = {ISO_BACKEND_POINT, iso_method_find("rk8pd"), 1e-12};
     const double J[2][3] = {{1, 2, 3}, {6, 3, 2}}, M[3] = {0.3, -0.8, -0.3}, gamma[3] = {M_SQRT1_2, 0, M_SQRT1_2};
     double worst = 0, naive = 0;
     hard_case("on the separatrix", "omega and n across the plane at t = 1e6, relative to the rotation",

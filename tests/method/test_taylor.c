@@ -163,13 +163,13 @@ enum { GEOMETRIES = 5 };
 static const double geometries[GEOMETRIES] = {-1, 1, 0.5, 0.75, -0.4};
 static const iso_start beginning = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
 
-static iso_orbit *orbit_by(const iso_method *m, double k, const iso_start *start, iso_picture backend,
+static iso_orbit *orbit_by(const iso_method *m, double k, const iso_start *start, iso_backend backend,
                            double tolerance)
 {
     const iso_params p = laws_params(k, orbit_J);
     iso_orbit_options o = iso_orbit_defaults(start);
     iso_orbit *path;
-    o.method = m, o.backend = backend, o.tolerance = tolerance, o.show = ISO_BOTH;
+    o.method = m, o.backend = backend, o.tolerance = tolerance, o.show = ISO_SHOW_BOTH;
     if (iso_orbit_create(ctx, &p, start, &o, &path) == ISO_OK) return path;
     gsl_test(1, "an orbit is refused: %s", iso_context_message(ctx));
     exit(gsl_test_summary());
@@ -192,10 +192,11 @@ static double apart(const iso_sample *a, const double b[ISO_STATE])
 
 /* The best tolerance's error at t = 1000, by long double from the same start, and the way to t = 100 and back. What
  * the rounding of the point's start makes of the orbit is all that the two backends may differ by in long double. */
-static void check_long(double k, iso_picture backend, double bound)
+static void check_long(double k, iso_backend backend, double bound)
 {
     iso_orbit *truth = orbit_by(extended, k, &beginning, backend, 1e-15);
-    iso_orbit *other = orbit_by(extended, k, &beginning, backend == ISO_BALL ? ISO_POINT : ISO_BALL, 1e-15);
+    iso_orbit *other =
+        orbit_by(extended, k, &beginning, backend == ISO_BACKEND_BALL ? ISO_BACKEND_POINT : ISO_BACKEND_BALL, 1e-15);
     const iso_sample end = sample_at(truth, 1000), same = sample_at(other, 1000);
     double best = INFINITY;
     for (double tolerance = 1e-15; tolerance < 2e-12; tolerance *= 10) {
@@ -204,7 +205,7 @@ static void check_long(double k, iso_picture backend, double bound)
         best = fmin(best, apart(&s, end.ball));
         iso_orbit_free(path);
     }
-    const char *name = backend == ISO_BALL ? "ball" : "point";
+    const char *name = backend == ISO_BACKEND_BALL ? "ball" : "point";
     gsl_test(!(best < bound), "%s, k = %g, t = 1000: %.1e, allowed %.0e", name, k, best, bound);
     gsl_test(!(apart(&end, same.ball) < 1e-12), "k = %g: ball and point in long double, %.1e", k,
              apart(&end, same.ball));
@@ -225,7 +226,7 @@ static double third(const iso_sample *s, const void *data)
     return s->ball[5];
 }
 
-static void check_events(double k, iso_picture backend)
+static void check_events(double k, iso_backend backend)
 {
     iso_orbit *orbits[2] = {orbit_by(taylor, k, &beginning, backend, 1e-15),
                             orbit_by(iso_method_find("rk8pd"), k, &beginning, backend, 1e-15)};
@@ -245,7 +246,7 @@ static void check_events(double k, iso_picture backend)
 }
 
 /* What is asked, and in which order, does not matter by a bit. */
-static void check_asking(double k, iso_picture backend)
+static void check_asking(double k, iso_backend backend)
 {
     static const double times[] = {3, -7.25, 11.5, 0.01, 40, 39.5, -2};
     iso_orbit *busy = orbit_by(taylor, k, &beginning, backend, 1e-15);
@@ -338,7 +339,7 @@ static void check_rest(const iso_method *m)
 }
 
 /* (w, t) -> (c w, t/c) is the same curve. */
-static void check_units(iso_picture backend)
+static void check_units(iso_backend backend)
 {
     static const double cs[] = {1e-150, 3e-77, 7e-4, 1e9, 1e150};
     iso_orbit *path = orbit_by(taylor, 0.75, &beginning, backend, 1e-15);
@@ -398,8 +399,8 @@ int main(void)
     check_processors();
     check_quad();
     for (int i = 0; i < GEOMETRIES; i++)
-        for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
-            check_long(geometries[i], backend, backend == ISO_BALL ? 2e-12 : 1e-12);
+        for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
+            check_long(geometries[i], backend, backend == ISO_BACKEND_BALL ? 2e-12 : 1e-12);
             check_events(geometries[i], backend);
             check_asking(geometries[i], backend);
         }
@@ -417,8 +418,8 @@ int main(void)
         check_second(&iso_system_ball, -1, ISO_CLOCK_T, 1, "F_shell", seed);
     check_rest(taylor);
     check_rest(extended);
-    check_units(ISO_BALL);
-    check_units(ISO_POINT);
+    check_units(ISO_BACKEND_BALL);
+    check_units(ISO_BACKEND_POINT);
     check_failure(taylor);
     iso_context_free(ctx);
     exit(gsl_test_summary());

@@ -94,11 +94,11 @@ static void check_path(const iso_analogue *a, const iso_analogue_ball *b, const 
     must(iso_analogue_scene(ctx, b, start, turns, &scene), "a scene");
     gsl_test(scene.effects.on[ISO_LEVEL] != (b->level != 0) || LEVEL_C(&scene.effects) != b->level, "the scene's level");
     iso_orbit_options o = iso_orbit_defaults(&scene.start);
-    o.backend = ISO_BALL;
+    o.backend = ISO_BACKEND_BALL;
     o.effects = &scene.effects;
     o.tolerance = 1e-14;
     o.clock = ISO_CLOCK_S;
-    o.show = ISO_BOTH;
+    o.show = ISO_SHOW_BOTH;
     o.carry[ISO_CLOCK_T] = true;
     must(iso_orbit_create(ctx, &scene.params, &scene.start, &o, &orbit), "an orbit");
     double y[ISO_STATE];

@@ -28,20 +28,20 @@ static void check_refusals(void)
     s.end = INFINITY;
     refuse(&s, &all, ISO_BAD_ARGUMENT, "end");
     s.end = 10;
-    o.backend = ISO_EXACT;
+    o.backend = ISO_BACKEND_EXACT;
     refuse(&s, &o, ISO_BAD_ARGUMENT, "k");
     o = all;
     o.tolerance = 0.5;
     refuse(&s, &o, ISO_BAD_ARGUMENT, "tolerance");
     o = all;
-    o.backend = ISO_BALL;
+    o.backend = ISO_BACKEND_BALL;
     o.method = iso_method_find("strang");
     refuse(&s, &o, ISO_BAD_ARGUMENT, "method");
     s.effects.on[ISO_GRAVITY] = true;
     GRAVITY_MGB(&s.effects) = 1;
     GRAVITY_UP(&s.effects)[2] = 1;
     o.method = NULL;
-    o.backend = ISO_POINT;
+    o.backend = ISO_BACKEND_POINT;
     refuse(&s, &o, ISO_NOT_MAPPED, "gravity");
     GRAVITY_MGB(&s.effects) = NAN;
     refuse(&s, &all, ISO_BAD_INPUT, "mgb");
@@ -87,7 +87,7 @@ static void check_stops(void)
              "stopped later, there is what was measured");
     iso_cost_free(c);
     left = 3;
-    const iso_cost_cell cell = {.backend = ISO_BALL, .method = iso_method_find("rk8pd"), .tolerance = 1e-9};
+    const iso_cost_cell cell = {.backend = ISO_BACKEND_BALL, .method = iso_method_find("rk8pd"), .tolerance = 1e-9};
     gsl_test(iso_cost_grow(ctx, &s, &cell, 4, &growth) != ISO_STOPPED, "growth is stopped");
     iso_context_watch(ctx, NULL, NULL);
 }

@@ -29,7 +29,7 @@ static void check_kind(int kind)
     gsl_test(grid->rows != iso_scene_rows(&scene) || grid->result.asked != grid->rows, "scene %d: all rows", kind);
     for (size_t i = 0; i < grid->rows; i++) wrong += different(&scene, grid, i, iso_scene_time(&scene, i));
     gsl_test(wrong, "scene %d: %zu rows, each the one of an orbit asked for it alone", kind, grid->rows);
-    gsl_test(grid->wrong_progress || (scene.backend != ISO_EXACT && scene.end != 0 && !(grid->part > 0.5)),
+    gsl_test(grid->wrong_progress || (scene.backend != ISO_BACKEND_EXACT && scene.end != 0 && !(grid->part > 0.5)),
              "scene %d: progress is a part, to %g", kind, grid->part);
     free(grid);
     const size_t count = shuffle(&scene, 0.001, times);
@@ -45,13 +45,13 @@ static void check_result(void)
 {
     static const struct expected {
         int kind;
-        iso_picture backend;
+        iso_backend backend;
         const char *method;
         iso_clock clock;
-    } list[] = {{0, ISO_BALL, "taylor", ISO_CLOCK_T},
-                {1, ISO_EXACT, "exact", ISO_CLOCK_T},
-                {4, ISO_BALL, "rk8pd", ISO_CLOCK_T},
-                {7, ISO_POINT, "taylor", ISO_CLOCK_S}};
+    } list[] = {{0, ISO_BACKEND_BALL, "taylor", ISO_CLOCK_T},
+                {1, ISO_BACKEND_EXACT, "exact", ISO_CLOCK_T},
+                {4, ISO_BACKEND_BALL, "rk8pd", ISO_CLOCK_T},
+                {7, ISO_BACKEND_POINT, "taylor", ISO_CLOCK_S}};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         const iso_scene scene = parse(kinds[list[i].kind]);
         kept *k = run(&scene, NULL, 0);
@@ -59,7 +59,7 @@ static void check_result(void)
         gsl_test(r->backend != list[i].backend || r->clock != list[i].clock || !r->method ||
                      strcmp(r->method->name, list[i].method) != 0,
                  "scene %d: the orbit is found by %s", list[i].kind, list[i].method);
-        gsl_test((r->statistics.steps > 0) == (r->backend == ISO_EXACT), "scene %d: %ld steps", list[i].kind,
+        gsl_test((r->statistics.steps > 0) == (r->backend == ISO_BACKEND_EXACT), "scene %d: %ld steps", list[i].kind,
                  r->statistics.steps);
         gsl_test(r->lost[0] || r->lost[1] || k->notes != 0, "scene %d: no contact is lost", list[i].kind);
         free(k);

@@ -210,7 +210,9 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, int fi
     for (int c = first; c <= last; c++) columns[width++] = c;
     for (int c = 0; c < width; c++) names[c] = iso_column_name(columns[c]);
     o.tolerance = 1e-14;
-    o.show = first < 9 ? last > 9 ? ISO_BOTH : ISO_BALL : start->model == ISO_BALL ? ISO_BOTH : ISO_POINT;
+    o.show = first < 9                  ? last > 9 ? ISO_SHOW_BOTH : ISO_SHOW_BALL
+             : start->model == ISO_BALL ? ISO_SHOW_BOTH
+                                        : ISO_SHOW_POINT;
     must(iso_orbit_create(ctx, p, start, &o, &orbit), "an orbit");
     must(iso_record_create(ctx, (size_t)width, names, &record), "a record");
     for (int i = 0; i < ROWS; i++) {
