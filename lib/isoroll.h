@@ -25,7 +25,7 @@ extern "C" {
 
 /* model: what moves */
 #include "model/params.h"
-#include "model/field.h"
+#include "model/problem.h"
 #include "model/system.h"
 #include "model/effect.h"
 #include "model/model.h"

@@ -12,7 +12,7 @@ struct iso_context {
     SUNContext sun; /* made when the first SUNDIALS method asks for it */
     iso_watch watch;
     char message[1024];
-    char field[32];
+    char about[32];
 };
 
 const char *iso_status_text(iso_status status)
@@ -58,12 +58,12 @@ const char *iso_context_message(const iso_context *ctx)
     return ctx->message;
 }
 
-const char *iso_context_field(const iso_context *ctx)
+const char *iso_context_about(const iso_context *ctx)
 {
-    return ctx->field;
+    return ctx->about;
 }
 
-iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *field, const char *format, ...)
+iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *about, const char *format, ...)
 {
     va_list args;
     char message[sizeof ctx->message]; /* the arguments may point into the old message */
@@ -71,7 +71,7 @@ iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *fie
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
     snprintf(ctx->message, sizeof ctx->message, "%s", message);
-    if (field != ctx->field) snprintf(ctx->field, sizeof ctx->field, "%s", field); /* else it stays */
+    if (about != ctx->about) snprintf(ctx->about, sizeof ctx->about, "%s", about); /* else it stays */
     return status;
 }
 

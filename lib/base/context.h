@@ -35,11 +35,11 @@ const char *iso_context_message(const iso_context *ctx);
 
 /* The name of the input quantity the last failure is about ("inertia", "normal", ...); "" when there is none.
  * Readers of files use it to point at the place where that quantity was written. */
-const char *iso_context_field(const iso_context *ctx);
+const char *iso_context_about(const iso_context *ctx);
 
-/* Records a failure about `field` ("" for none) in printf's words and returns `status`, so that a check reads
+/* Records a failure about `about` ("" for none) in printf's words and returns `status`, so that a check reads
  * `return iso_context_fail(ctx, ISO_BAD_INPUT, "mass", "...", ...)`. */
-iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *field, const char *format, ...)
+iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *about, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 4, 5)))
 #endif

@@ -233,7 +233,7 @@ static int symmetry_axis(const iso_params *p)
     return -1;
 }
 
-static bool serves(const iso_field *f, const double point[ISO_STATE])
+static bool serves(const iso_problem *f, const double point[ISO_STATE])
 {
     return across_plane(point) >= 0 || symmetry_axis(&f->p) >= 0;
 }
@@ -256,7 +256,7 @@ static real take_state(revolution *r, const double point[ISO_STATE], real g[3], 
     return r->plane ? 0 : M[0];
 }
 
-static void take_body(revolution *r, const iso_field *f, const double point[ISO_STATE])
+static void take_body(revolution *r, const iso_problem *f, const double point[ISO_STATE])
 {
     const int plane = across_plane(point), next = (plane + 1) % 3, last = (plane + 2) % 3;
     const int nearer =
@@ -275,7 +275,7 @@ static void take_body(revolution *r, const iso_field *f, const double point[ISO_
 /* In a plane on H = 0 the moving ball's energy J omega^2/2 = h is all of it: omega is a constant, and M goes like
  * NN ~ q^(-1/(2k)). Computed from there the state's omega is that constant again to rounding, for every k; computed
  * from gamma' it has the rounding errors of a power, 1/(2k) times as many. */
-static void take_spin(revolution *r, const iso_field *f, const double point[ISO_STATE])
+static void take_spin(revolution *r, const iso_problem *f, const double point[ISO_STATE])
 {
     r->params = f->p;
     r->even = r->plane && f->energy == 0;
@@ -311,7 +311,8 @@ static void find_longitude(revolution *r, const real g[3], const real d[3])
     r->turned[1] = length > 0 ? r->turned[1] / length : 0;
 }
 
-static iso_status make(const iso_field *f, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS], void **data)
+static iso_status make(const iso_problem *f, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
+                       void **data)
 {
     (void)clocks; /* all of them cost little */
     real g[3], d[3];

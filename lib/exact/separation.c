@@ -385,15 +385,15 @@ void iso_separation_release(separation *s)
     for (int i = 0; i < 2; i++) iso_oscillation_release(&s->coordinate[i]);
 }
 
-bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE])
+bool iso_separation_make(separation *s, const iso_problem *problem, const double point[ISO_STATE])
 {
     moment m;
     memset(s, 0, sizeof *s);
-    s->k = (int)field->p.k;
-    s->eps = field->eps;
-    s->det = (real)field->p.J[0] * field->p.J[1] * field->p.J[2];
-    sort_axes(s, field->p.J);
-    s->energy = field->energy;
+    s->k = (int)problem->p.k;
+    s->eps = problem->eps;
+    s->det = (real)problem->p.J[0] * problem->p.J[1] * problem->p.J[2];
+    sort_axes(s, problem->p.J);
+    s->energy = problem->energy;
     take_state(s, s->energy, point, &m);
     find_roots(s, &m);
     if (m.gap < 1e-3L * (s->off[2] - s->off[0])) {

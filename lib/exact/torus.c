@@ -334,7 +334,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
 
 /* --- the form --------------------------------------------------------------------------------------------------- */
 
-static bool serves(const iso_field *f, const double point[ISO_STATE])
+static bool serves(const iso_problem *f, const double point[ISO_STATE])
 {
     (void)point;
     return f->p.k == -1 || (f->p.k == 1 && f->energy == 0);
@@ -353,14 +353,14 @@ static void release(void *data)
     free(x);
 }
 
-static iso_status make(const iso_field *field, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
+static iso_status make(const iso_problem *problem, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
                        void **data)
 {
     torus *x = *data = calloc(1, sizeof *x);
     iso_status status = ISO_OK;
     angles a;
     if (!x) return ISO_NO_MEMORY;
-    if (!iso_separation_make(&x->s, field, point)) return why_not(&x->s);
+    if (!iso_separation_make(&x->s, problem, point)) return why_not(&x->s);
     for (iso_clock c = 0; c < ISO_CLOCKS && status == ISO_OK; c++) {
         torus_clock *const clock = &x->clock[c];
         if (!clocks[c]) continue;

@@ -107,18 +107,18 @@ static iso_status check_time(iso_draft *d)
 
 /* Values that a failure calls otherwise than the scene, or that stand in another section than the rest. */
 static const struct {
-    const char *field, *section, *key;
+    const char *about, *section, *key;
 } elsewhere[] = {{"surface_radius", "surface", "radius"}, {"eps", "point", "eps"}};
 
 /* Repeats the last failure at the value it is about, or at the section's key when that value is not written. */
 static iso_status fail_at_field(iso_draft *d, iso_status status, const char *section)
 {
-    const char *field = iso_context_field(d->yaml.ctx);
+    const char *about = iso_context_about(d->yaml.ctx);
     const yaml_node_t *place = d->root;
     if (status != ISO_BAD_INPUT) return status;
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
-        if (strcmp(field, elsewhere[i].field) == 0) section = elsewhere[i].section, field = elsewhere[i].key;
-    if (!find(d, section, field, NULL, &place)) find(d, section, NULL, &place, NULL);
+        if (strcmp(about, elsewhere[i].about) == 0) section = elsewhere[i].section, about = elsewhere[i].key;
+    if (!find(d, section, about, NULL, &place)) find(d, section, NULL, &place, NULL);
     return iso_yaml_fail(&d->yaml, place->start_mark, "%s", iso_context_message(d->yaml.ctx));
 }
 
@@ -166,7 +166,7 @@ static iso_status complete_effect(iso_draft *d, iso_model_kind model, const yaml
     const iso_status status = effect->complete(d->yaml.ctx, &d->scene.params, model == ISO_POINT,
                                                d->scene.effects.number[e], effect_has_key, &section);
     if (status != ISO_BAD_INPUT) return status;
-    if (!find_effect_key(d, effects, effect->name, iso_context_field(d->yaml.ctx), &key))
+    if (!find_effect_key(d, effects, effect->name, iso_context_about(d->yaml.ctx), &key))
         iso_yaml_find(&d->yaml, effects, effect->name, &key, NULL);
     return iso_yaml_fail(&d->yaml, key->start_mark, "%s", iso_context_message(d->yaml.ctx));
 }

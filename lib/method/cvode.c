@@ -150,7 +150,7 @@ static iso_status within(iso_integrator *it, double dt, double y[])
 /* For the stiffest models: see ISO_VERY_STIFF. */
 static iso_suits bdf_suits(const iso_model *m)
 {
-    const double stiffness = iso_effects_stiffness(&m->field);
+    const double stiffness = iso_effects_stiffness(&m->problem);
     return stiffness > ISO_VERY_STIFF ? ISO_BEST : stiffness > ISO_STIFF ? ISO_WELL : ISO_NEVER;
 }
 

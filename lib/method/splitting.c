@@ -163,15 +163,15 @@ static inline void drift(double h, state *z)
  * dt/ds = 1/(G N) = (det J/k^2) q^(-1/k - 1 + 1/(2k)):     one power, v = q^(-1/k), gives them all. */
 static inline void kick(const iso_model *m, bool clocks, double h, state *z)
 {
-    const iso_params *p = &m->field.p;
+    const iso_params *p = &m->problem.p;
     const double *J = p->J, *gamma = z->y + 3, k = p->k, q = dot_diag(gamma, J, gamma);
     const double v = k == -1 ? q : k == 1 ? 1 / q : pow(q, -1 / k), v_q = k == -1 ? 1 : k == 1 ? v * v : v / q;
-    const double a = h * (2 * m->field.eps / k) * v_q;
+    const double a = h * (2 * m->problem.eps / k) * v_q;
     double push[3] = {a * ((J[2] - J[1]) * (gamma[1] * gamma[2])), a * ((J[0] - J[2]) * (gamma[2] * gamma[0])),
                       a * ((J[1] - J[0]) * (gamma[0] * gamma[1]))};
-    if (m->field.energy_formula.lines > 0) {
+    if (m->problem.energy_formula.lines > 0) {
         double dV[3], T[3];
-        iso_formula_image(&m->field.energy_formula, p, z->y, dV);
+        iso_formula_image(&m->problem.energy_formula, p, z->y, dV);
         cross(gamma, dV, T);
         add_scaled(push, h, T);
     }
@@ -237,7 +237,7 @@ static double difference(const state a[LOOKS], const state b[LOOKS], double spee
  * extrapolated beyond the last by the order; but no step is longer than a radian. */
 static double choose_step(iso_integrator *it, bool clocks)
 {
-    const double speed = it->model.system->speed(&it->model.field, it->at_right);
+    const double speed = it->model.system->speed(&it->model.problem, it->at_right);
     const double may = RADIANS * it->options.tolerance / 2, way = it->direction * RADIANS / speed;
     double n = FIRST_TRIAL, before, now = INFINITY;
     state coarse[LOOKS], fine[LOOKS];
@@ -348,11 +348,11 @@ static iso_status within(iso_integrator *it, double dt, double y[])
     state z;
     for (int i = 0; i < MAX_ITERATIONS; i++) {
         part(it, ds, reached, &z);
-        const double miss = dt - z.clock[m->clock], q = m->system->q(&m->field.p, reached, NULL);
+        const double miss = dt - z.clock[m->clock], q = m->system->q(&m->problem.p, reached, NULL);
         /* at least one correction: a short dt is wanted exact relative to itself, not to the step */
         if (miss == 0 || (i > 0 && !(fabs(miss) > DBL_EPSILON * fabs(it->h)))) break;
-        ds +=
-            miss * iso_clock_rate(&m->field.p, ISO_CLOCK_S, q, NULL) / iso_clock_rate(&m->field.p, m->clock, q, NULL);
+        ds += miss * iso_clock_rate(&m->problem.p, ISO_CLOCK_S, q, NULL) /
+              iso_clock_rate(&m->problem.p, m->clock, q, NULL);
     }
     if (!isfinite(ds)) return iso_integrator_stopped(it, "the time is not reached");
     copy(reached, y, m->dim);

@@ -10,17 +10,17 @@
 #define ISO_MODEL_CONTACT_IMPL_H
 
 #include "base/vec3_impl.h"
-#include "model/field.h"
+#include "model/problem.h"
 
 typedef struct iso_contact {
-    void (*solve)(const iso_field *f, const double y[], const double T[3], double dy[]);
-    double (*twist)(const iso_field *f, const double y[], const double T[3]);
+    void (*solve)(const iso_problem *f, const double y[], const double T[3], double dy[]);
+    double (*twist)(const iso_problem *f, const double y[], const double T[3]);
 } iso_contact;
 
 extern const iso_contact iso_contact_rigid, iso_contact_loose;
 
-/* The contact that a field's effects make. */
-const iso_contact *iso_contact_of(const iso_field *f);
+/* The contact that a problem's effects make. */
+const iso_contact *iso_contact_of(const iso_problem *f);
 
 /* K of a loose contact, the momentum about it. */
 static inline void contact_momentum(const iso_params *p, const double y[], double K[3])

@@ -17,24 +17,24 @@
 /* Where its numbers are. A scene states g of a body, or mgb of a reduced ball. */
 enum { MGB, UP, G = UP + 3 };
 
-static double mgb(const iso_field *f)
+static double mgb(const iso_problem *f)
 {
     return f->effects.number[ISO_GRAVITY][MGB];
 }
 
-static const double *vertical(const iso_field *f, const double y[])
+static const double *vertical(const iso_problem *f, const double y[])
 {
     return y + f->at[ISO_GRAVITY];
 }
 
-static void motion(iso_formula *F, const iso_field *f)
+static void motion(iso_formula *F, const iso_problem *f)
 {
     const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]);
     add_torque(F, constant(F, mgb(f)), cross_of(F, e, formula_n(F)));
     set_rate_v(F, e, constant(F, 1), cross_of(F, e, formula_omega(F)));
 }
 
-static void potential(iso_formula *F, const iso_field *f)
+static void potential(iso_formula *F, const iso_problem *f)
 {
     const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]);
     if (!iso_is_plane(f)) {
@@ -47,58 +47,58 @@ static void potential(iso_formula *F, const iso_field *f)
 }
 
 /* On a plane the height is a state of `attitude`. */
-static iso_work work(const iso_field *f)
+static iso_work work(const iso_problem *f)
 {
     return iso_is_plane(f) && !f->effects.on[ISO_ATTITUDE] ? ISO_WORK_UNKNOWN : ISO_WORK_NONE;
 }
 
-static const char *no_frequencies(const iso_field *f)
+static const char *no_frequencies(const iso_problem *f)
 {
     return iso_is_plane(f) ? "on a tilted plane the ball rolls away ever faster: its motion has no frequencies" : NULL;
 }
 
-static void begin(const iso_field *f, double y[])
+static void begin(const iso_problem *f, double y[])
 {
     copy(f->effects.number[ISO_GRAVITY] + UP, y + f->at[ISO_GRAVITY], 3);
 }
 
-static void size(const iso_field *f, const double y[], double size[])
+static void size(const iso_problem *f, const double y[], double size[])
 {
     (void)y;
     for (int i = 0; i < 3; i++) size[f->at[ISO_GRAVITY] + i] = 1;
 }
 
-static double strength(const iso_field *f, const double y[])
+static double strength(const iso_problem *f, const double y[])
 {
     (void)y;
     return fabs(mgb(f));
 }
 
 /* next to k = 1 the potential is a large constant, and its changes are lost in it */
-static double range(const iso_field *f, const double y[])
+static double range(const iso_problem *f, const double y[])
 {
     (void)y;
     return iso_is_plane(f) ? fabs(mgb(f)) : fabs(mgb(f) / (1 - f->p.k));
 }
 
-static double vertical_length(const iso_field *f, const double y[], double *value_size)
+static double vertical_length(const iso_problem *f, const double y[], double *value_size)
 {
     *value_size = 1;
     return norm(vertical(f, y));
 }
 
-static double slope_of_plane(const iso_field *f, const double y[], double *value_size)
+static double slope_of_plane(const iso_problem *f, const double y[], double *value_size)
 {
     *value_size = 1;
     return dot(vertical(f, y), y + 3);
 }
 
-static void show(const iso_field *f, const double y[], double columns[])
+static void show(const iso_problem *f, const double y[], double columns[])
 {
     copy(vertical(f, y), columns, 3);
 }
 
-static void recall(const iso_field *f, const double columns[], double y[])
+static void recall(const iso_problem *f, const double columns[], double y[])
 {
     copy(columns, y + f->at[ISO_GRAVITY], 3);
 }

@@ -36,7 +36,7 @@ typedef struct worker {
     batch *b;
     iso_context *ctx, *asks; /* its own; the caller's, for the thread that may ask it (else NULL) */
     size_t failed;           /* the first of its orbits that failed, with its message in ctx; else count */
-    char message[1024], field[32];
+    char message[1024], about[32];
     pthread_t thread;
 } worker;
 
@@ -72,7 +72,7 @@ static void note(worker *w, size_t i, iso_status status)
     if (status == ISO_OK || i >= w->failed) return;
     w->failed = i;
     snprintf(w->message, sizeof w->message, "%s", iso_context_message(w->ctx));
-    snprintf(w->field, sizeof w->field, "%s", iso_context_field(w->ctx));
+    snprintf(w->about, sizeof w->about, "%s", iso_context_about(w->ctx));
 }
 
 static iso_orbit_options options_of(const batch *b, size_t i, iso_backend backend)
@@ -124,7 +124,7 @@ static iso_status solve_alone(worker *w, size_t i)
 
 static bool is_for_lanes(const member *m)
 {
-    return !m->orbit.rests && iso_effects_stiffness(&m->orbit.model.field) <= ISO_STIFF;
+    return !m->orbit.rests && iso_effects_stiffness(&m->orbit.model.problem) <= ISO_STIFF;
 }
 
 /* --- a chunk of them -------------------------------------------------------------------------------------------- */
@@ -289,7 +289,7 @@ static iso_status run(iso_context *ctx, batch *b, worker workers[], size_t threa
     if (!memory) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", b->count);
     if (atomic_load(&b->stopped)) return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
     if (first->failed == b->count) return ISO_OK;
-    return iso_context_fail(ctx, b->status[first->failed], first->field, "orbit %zu: %s", first->failed,
+    return iso_context_fail(ctx, b->status[first->failed], first->about, "orbit %zu: %s", first->failed,
                             first->message);
 }
 

@@ -30,10 +30,10 @@ static iso_status start(iso_integrator *it)
     clocks[m->clock] = true;
     for (int i = 0; i < m->carried; i++) clocks[m->carry[i]] = true;
     release(it);
-    const iso_status status = iso_exact_create(it->ctx, &m->field, it->y0, clocks, &exact);
+    const iso_status status = iso_exact_create(it->ctx, &m->problem, it->y0, clocks, &exact);
     it->data = exact;
     if (status != ISO_BAD_ARGUMENT) return status;
-    return iso_context_fail(it->ctx, status, iso_context_field(it->ctx), "%s: take backend point",
+    return iso_context_fail(it->ctx, status, iso_context_about(it->ctx), "%s: take backend point",
                             iso_context_message(it->ctx));
 }
 

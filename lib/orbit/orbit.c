@@ -74,10 +74,10 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
                                 "backend exact does not integrate: leave the method out, or take backend point");
     iso_status status = iso_orbit_find_start(o, p, start, six);
     if (status != ISO_OK) return status;
-    const iso_field field = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
-    o->model = iso_model_assemble(o->system, &field, opt->clock, opt->carry);
+    const iso_problem problem = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
+    o->model = iso_model_assemble(o->system, &problem, opt->clock, opt->carry);
     iso_model_begin(&o->model, six, y);
-    if (ball) o->model.field.energy = iso_system_ball.energy(&o->model.field, y, &size);
+    if (ball) o->model.problem.energy = iso_system_ball.energy(&o->model.problem, y, &size);
     if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
     see_rest(o, y);
     return ISO_OK;
@@ -192,7 +192,7 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
     for (int i = 0; status == ISO_OK && i < o->model.carried; i++)
         status = sample_clock(o, time, o->model.carry[i], y[o->model.moving + i], s);
     if (o->options.show != ISO_SHOW_POINT) {
-        const bool vanishes = iso_effects_stiffness(&o->model.field) > 0;
+        const bool vanishes = iso_effects_stiffness(&o->model.problem) > 0;
         as_ball(o, y, s->ball);
         if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, vanishes, s->ball, 3);
         if (status == ISO_OK && o->system == &iso_system_ball) status = iso_orbit_sample_effects(o, y, s);
@@ -207,7 +207,7 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
 
 static iso_status check_steps(const iso_orbit *o, double turns)
 {
-    const iso_field *f = &o->model.field;
+    const iso_problem *f = &o->model.problem;
     const double stiffness = iso_effects_stiffness(f), steps = stiffness * fmin(turns, iso_effects_moving(f));
     if (o->options.method->implicit || !(stiffness > ISO_STIFF && steps > MOST_STIFF_STEPS)) return ISO_OK;
     return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "method",
@@ -245,9 +245,9 @@ iso_status iso_orbit_check_time(const iso_orbit *o, double time)
 static iso_status check_drift(const iso_orbit *o, const double y[])
 {
     double size;
-    if (o->options.method->projects || !iso_effects_keep_energy(&o->model.field)) return ISO_OK;
-    const double energy = o->model.system->energy(&o->model.field, y, &size);
-    const double drift = size > 0 ? fabs(energy - o->model.field.energy) / size : 0;
+    if (o->options.method->projects || !iso_effects_keep_energy(&o->model.problem)) return ISO_OK;
+    const double energy = o->model.system->energy(&o->model.problem, y, &size);
+    const double drift = size > 0 ? fabs(energy - o->model.problem.energy) / size : 0;
     if (drift <= fmax(1e-3, 1e4 * o->options.tolerance)) return ISO_OK;
     return iso_context_fail(
         o->ctx, ISO_NUMERICAL, "",
@@ -314,7 +314,7 @@ static double pressure(const iso_sample *sample, const void *data)
 iso_status iso_orbit_lost_contact(iso_orbit *o, double from, double to, bool *lost, iso_sample *sample)
 {
     *lost = false;
-    if (o->model.field.p.k == 1)
+    if (o->model.problem.p.k == 1)
         return ISO_OK; /* on a plane the pressure is mgb (e,n), an integral: what it changes by is error */
     return iso_orbit_event(o, pressure, NULL, to < 0 ? 1 : -1, from, to, lost, sample);
 }
@@ -391,8 +391,8 @@ double iso_orbit_integral(const iso_orbit *o, const iso_system *system, const is
                           const iso_sample *sample, double *size)
 {
     double y[ISO_MAX_STATE];
-    iso_field field = o->model.field;
-    field.eps = o->eps;
+    iso_problem problem = o->model.problem;
+    problem.eps = o->eps;
     iso_orbit_state_of(o, system, sample, y);
-    return integral->value(&field, y, size);
+    return integral->value(&problem, y, size);
 }

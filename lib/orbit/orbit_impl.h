@@ -20,7 +20,8 @@ struct iso_orbit {
 };
 
 /* Sets o->units, o->effects, o->h, o->eps, o->level and o->system from a start and what o->options ask for (the
- * backend not ISO_BACKEND_AUTO), and gives the start in that system's variables and own units. Errors: those of iso_orbit_create. */
+ * backend not ISO_BACKEND_AUTO), and gives the start in that system's variables and own units. Errors: those of
+ * iso_orbit_create. */
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE]);
 
 /* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model.

@@ -60,9 +60,9 @@ static iso_status check_powers(const iso_orbit *o, const iso_start *start)
 /* The speed that the potentials can give the ball, in the caller's units. */
 static double falling_speed(const iso_orbit *o, const iso_params *p, const double n[3])
 {
-    const iso_field field = {.p = *p, .effects = o->effects};
+    const iso_problem problem = {.p = *p, .effects = o->effects};
     const double y[ISO_STATE] = {0, 0, 0, n[0], n[1], n[2]};
-    const double speed = sqrt(2 * iso_effects_strength(&field, y) / max3(p->J));
+    const double speed = sqrt(2 * iso_effects_strength(&problem, y) / max3(p->J));
     return isfinite(speed) ? speed : 0;
 }
 
@@ -89,9 +89,9 @@ static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start
     o->effects = iso_effects_scaled(&o->effects, &o->units, -1);
     copy(start->y, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= o->units.w;
-    iso_field field = {.p = o->units.own, .effects = o->effects};
-    leave_out_broken(&field.effects);
-    o->h = iso_system_ball.energy(&field, y, &size);
+    iso_problem problem = {.p = o->units.own, .effects = o->effects};
+    leave_out_broken(&problem.effects);
+    o->h = iso_system_ball.energy(&problem, y, &size);
     o->eps = iso_coupling(&o->units.own, o->h);
     o->level = stated_level(&o->units.own, &o->effects);
 }
@@ -109,23 +109,23 @@ static double point_speed(const iso_params *p, const iso_start *start)
 
 /* The point's coupling, stated or such that H is the level stated (or 0); and its level H, which is the one stated if it
  * is that to 1e-9 of its terms. False: it is not. */
-static bool find_level(iso_orbit *o, const iso_start *start, iso_field *field, double y[ISO_STATE])
+static bool find_level(iso_orbit *o, const iso_start *start, iso_problem *problem, double y[ISO_STATE])
 {
     const bool stated = iso_effects_have_level(&o->effects);
-    const double level = stated_level(&field->p, &o->effects);
+    const double level = stated_level(&problem->p, &o->effects);
     double size;
     o->level = level;
-    field->energy = level;
+    problem->energy = level;
     if (isnan(start->eps)) {
-        field->eps = 0;
+        problem->eps = 0;
         const double rest =
-            iso_system_point.energy(field, y, &size) - level; /* M^2/2 + V of the effects */
-        field->eps = rest * pow(dot_diag(y + 3, field->p.J, y + 3), 1 / field->p.k);
+            iso_system_point.energy(problem, y, &size) - level; /* M^2/2 + V of the effects */
+        problem->eps = rest * pow(dot_diag(y + 3, problem->p.J, y + 3), 1 / problem->p.k);
         return true;
     }
-    field->eps = start->eps / iso_unit(&o->units, iso_dimension_eps);
-    const double H = iso_system_point.energy(field, y, &size);
-    if (fabs(H - level) <= 1e-9 * fmax(size, fabs(level))) return iso_system_point.project(field, y), true;
+    problem->eps = start->eps / iso_unit(&o->units, iso_dimension_eps);
+    const double H = iso_system_point.energy(problem, y, &size);
+    if (fabs(H - level) <= 1e-9 * fmax(size, fabs(level))) return iso_system_point.project(problem, y), true;
     o->level = H;
     return !stated;
 }
@@ -137,12 +137,12 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
     o->effects = iso_effects_scaled(&o->effects, &o->units, -1);
     copy(start->y, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= o->unit_M;
-    iso_field field = {.p = o->units.own, .effects = o->effects};
+    iso_problem problem = {.p = o->units.own, .effects = o->effects};
     const double stated = iso_effects_level(&o->effects);
-    const bool agrees = find_level(o, start, &field, y);
-    o->eps = field.eps;
-    o->h = iso_energy(&field.p, field.eps);
-    iso_effects_set_level(&o->effects, o->level != 0, iso_energy(&field.p, o->level));
+    const bool agrees = find_level(o, start, &problem, y);
+    o->eps = problem.eps;
+    o->h = iso_energy(&problem.p, problem.eps);
+    iso_effects_set_level(&o->effects, o->level != 0, iso_energy(&problem.p, o->level));
     if (agrees) return ISO_OK;
     const double unit = iso_unit(&o->units, iso_level_dimension());
     return iso_context_fail(o->ctx, ISO_BAD_INPUT, "c",

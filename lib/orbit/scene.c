@@ -235,7 +235,7 @@ static const iso_place *find_place(const iso_scene *scene, const char *key)
 
 iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status)
 {
-    const iso_place *at = status == ISO_OK ? NULL : find_place(scene, iso_context_field(ctx));
+    const iso_place *at = status == ISO_OK ? NULL : find_place(scene, iso_context_about(ctx));
     if (!at) return status;
     return iso_context_fail(ctx, status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status, "", "%s:%d:%d: %s", name,
                             at->line, at->column, iso_context_message(ctx));

@@ -119,7 +119,7 @@ static void expect_integrals(const checker *c, iso_model_kind model, const iso_o
     const double claimed = iso_effects_have_level(&c->effects) ? iso_coupling(own, level) : 0;
     const bool twin = c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || has_model(c, ISO_BALL);
     *e = (expectations){.system = system_of(model), .first = first};
-    e->count = iso_integrals_holding(e->system, &iso_orbit_model(first)->field, e->integral, ISO_MAX_INTEGRALS);
+    e->count = iso_integrals_holding(e->system, &iso_orbit_model(first)->problem, e->integral, ISO_MAX_INTEGRALS);
     for (int i = 0; i < e->count; i++) {
         double size;
         const bool on_level = twin && strcmp(e->integral[i]->name, "H") == 0;

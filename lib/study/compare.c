@@ -35,7 +35,7 @@ static void list_drifts(runner *r, int which, const iso_sample *start)
     iso_backend_run *run = &r->out->run[which];
     for (int s = 0; iso_systems[s]; s++) {
         const iso_integral *list[ISO_MAX_INTEGRALS];
-        const int count = iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->field, list,
+        const int count = iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->problem, list,
                                                 ISO_MAX_INTEGRALS - run->drifts);
         for (int i = 0; i < count; i++) {
             double size;

@@ -115,7 +115,7 @@ static keeper find_integrals(const iso_orbit *orbit, const iso_sample *start, co
 {
     keeper k;
     double size;
-    k.count = iso_integrals_holding(&iso_system_ball, &iso_orbit_model(orbit)->field, k.list, ISO_MAX_INTEGRALS);
+    k.count = iso_integrals_holding(&iso_system_ball, &iso_orbit_model(orbit)->problem, k.list, ISO_MAX_INTEGRALS);
     track->energy_drift = track->constraint_drift = NAN;
     for (int i = 0; i < k.count; i++) {
         if (k.list[i]->known != ISO_ANY_VALUE) track->constraint_drift = 0;

@@ -252,9 +252,10 @@ static iso_status estimate(estimator *e)
 /* Errors: ISO_NOT_MAPPED where n(t) is not quasi-periodic. */
 static iso_status check_effects(iso_context *ctx, const iso_orbit *orbit)
 {
-    const iso_field *field = &iso_orbit_model(orbit)->field;
+    const iso_problem *problem = &iso_orbit_model(orbit)->problem;
     const char *why;
-    const iso_effect *taking = iso_effects_taking_energy(field), *without = iso_effects_without_frequencies(field, &why);
+    const iso_effect *taking = iso_effects_taking_energy(problem),
+                     *without = iso_effects_without_frequencies(problem, &why);
     if (taking)
         return iso_context_fail(ctx, ISO_NOT_MAPPED, taking->name,
                                 "'%s' takes energy from the ball: its motion has no frequencies", taking->name);
@@ -291,7 +292,8 @@ static iso_status prepare(estimator *e, const iso_frequencies_options *o)
     if (status == ISO_OK) status = check_effects(e->ctx, orbit);
     if (status == ISO_OK) {
         const double moving = norm(start.ball), falling = iso_orbit_units(orbit)->w;
-        const double speed = iso_effects_pull(&iso_orbit_model(orbit)->field.effects) ? fmax(moving, falling) : moving;
+        const double speed =
+            iso_effects_pull(&iso_orbit_model(orbit)->problem.effects) ? fmax(moving, falling) : moving;
         e->twin = iso_orbit_has_twin(orbit);
         iso_frequencies_place(orbit, &start, e->f);
         status = speed > 0 ? choose_length(e, speed, o)

@@ -33,11 +33,11 @@ static void make_starts(iso_context *ctx, double k)
 {
     static const double J[3] = {1.4, 2.1, 3.0};
     if (iso_params_reduced(ctx, k, J, &params) != ISO_OK) stop(ctx);
-    iso_field field = {.p = params};
+    iso_problem problem = {.p = params};
     iso_random *random = iso_random_create(1);
     for (int i = 0; i < ORBITS; i++) {
         starts[i].model = ISO_BALL;
-        iso_system_ball.sample(&field, random, starts[i].y);
+        iso_system_ball.sample(&problem, random, starts[i].y);
         const double scale = sqrt(0.81 / iso_ball_energy(&params, starts[i].y));
         for (int j = 0; j < 3; j++) starts[i].y[j] *= scale;
     }

@@ -44,11 +44,11 @@ static void look(const iso_orbit *orbit, const iso_sample *sample)
 {
     const iso_model *m = iso_orbit_model(orbit);
     double size;
-    (void)iso_effects_stiffness(&m->field);
+    (void)iso_effects_stiffness(&m->problem);
     (void)iso_orbit_coupling(orbit), (void)iso_orbit_has_twin(orbit), (void)iso_orbit_statistics(orbit);
     if (iso_orbit_exact(orbit)) (void)iso_exact_describe(iso_orbit_exact(orbit));
     for (const iso_integral *i = m->system->integrals; i->name; i++)
-        if (!i->holds || i->holds(&m->field)) (void)iso_orbit_integral(orbit, m->system, i, sample, &size);
+        if (!i->holds || i->holds(&m->problem)) (void)iso_orbit_integral(orbit, m->system, i, sample, &size);
 }
 
 static void follow(iso_context *ctx, const iso_scene *scene, iso_orbit *orbit, const iso_orbit_options *o)

@@ -198,7 +198,7 @@ static double naive(const question *q, const iso_system *system, double step)
     double y[ISO_STATE], size;
     iso_integrator *it = NULL;
     iso_sample truth;
-    iso_field f = {.p = q->p};
+    iso_problem f = {.p = q->p};
     f.energy = iso_system_ball.energy(&f, q->start.y, &size);
     f.eps = iso_coupling(&q->p, f.energy);
     copy(q->start.y, y, ISO_STATE);

@@ -204,13 +204,13 @@ static double sensitivity(const long_scene *scene, double spins, double state[IS
 static double plainly_projected(const long_scene *scene, double spins, const double right[ISO_STATE])
 {
     enum { PARTS = 2 };
-    const iso_field f = {.p = scene->p};
+    const iso_problem f = {.p = scene->p};
     iso_model model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[]){false, false, false});
     const double *J = scene->p.J;
     double y[ISO_STATE];
     iso_integrator *it;
     copy(scene->start.y, y, ISO_STATE);
-    model.field.energy = dot_diag(y, J, y) / 2;
+    model.problem.energy = dot_diag(y, J, y) / 2;
     if (iso_integrator_create(ctx, iso_method_find("taylor"), &model,
                               &(iso_method_options){.tolerance = 1e-15, .no_projection = true}, &it) != ISO_OK)
         scene_stops("taylor", ctx);
@@ -219,7 +219,7 @@ static double plainly_projected(const long_scene *scene, double spins, const dou
         if (iso_integrator_at(it, scene->spin / PARTS, y) != ISO_OK) scene_stops("taylor", ctx);
         make_unit(y + 3);
         remove_along(y, y + 3);
-        scale(y, sqrt(2 * model.field.energy / dot_diag(y, J, y)));
+        scale(y, sqrt(2 * model.problem.energy / dot_diag(y, J, y)));
     }
     iso_integrator_free(it);
     return hard_error(y, right);
@@ -252,7 +252,7 @@ static void finest_phase(double k)
 /* A random orbit in the system's own clock; gives the time of a radian of the unit vector. */
 static double sampled(const iso_system *system, double k, iso_model *model, double y[ISO_STATE])
 {
-    iso_field f = {.p = laws_params(k, (double[]){1.4, 2.1, 3.0})};
+    iso_problem f = {.p = laws_params(k, (double[]){1.4, 2.1, 3.0})};
     iso_random *random = iso_random_create(8);
     double dy[ISO_STATE];
     system->sample(&f, random, y);
@@ -298,7 +298,7 @@ static void clocks(void)
 /* gamma'' = (2 eps/k) q^(-1-1/k) [(1-k) q gamma - J gamma] */
 static int second_order(double s, const double y[], double dy[], void *model)
 {
-    const iso_field *f = &((const iso_model *)model)->field;
+    const iso_problem *f = &((const iso_model *)model)->problem;
     const double k = f->p.k, *J = f->p.J, *gamma = y + 3, q = dot_diag(gamma, J, gamma);
     const double a = 2 * f->eps / k * pow(q, -1 - 1 / k);
     (void)s;

@@ -183,7 +183,7 @@ static iso_model make_model(const iso_system *system)
 {
     static const double usual[3] = {1.4, 2.1, 3};
     const bool carry[ISO_CLOCKS] = {false};
-    iso_field f = {.eps = system == &iso_system_point ? 0.3 : 0, .energy = 0.7};
+    iso_problem f = {.eps = system == &iso_system_point ? 0.3 : 0, .energy = 0.7};
     if (iso_params_reduced(NULL, -1, usual, &f.p) != ISO_OK) abort();
     return iso_model_assemble(system, &f, system->clock, carry);
 }
@@ -208,7 +208,7 @@ static iso_status integrator(iso_context *ctx, const void *data, const double v[
 static iso_status exact(iso_context *ctx, const void *data, const double v[], sweep_answer *a)
 {
     const bool clocks[ISO_CLOCKS] = {true, true, true};
-    iso_field f = {.eps = v[10], .energy = v[11]};
+    iso_problem f = {.eps = v[10], .energy = v[11]};
     iso_exact *x;
     double point[4 * ISO_STATE], shown[4 * ISO_CLOCKS], angle[2];
     (void)data;

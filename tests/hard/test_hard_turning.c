@@ -311,7 +311,7 @@ static void check_coordinates(void)
             gsl_test(1, "no closed solution: %s", iso_context_message(ctx));
             return;
         }
-        iso_field field = iso_orbit_model(path)->field; /* in own units */
+        iso_problem of_path = iso_orbit_model(path)->problem; /* in own units */
         const double unit = iso_unit(iso_orbit_units(path), iso_system_point.fast_dimension);
         for (int i = 0; i <= STEPS; i++) {
             iso_sample s;
@@ -320,11 +320,11 @@ static void check_coordinates(void)
             if (iso_orbit_at(path, ds * i, &s) != ISO_OK) gsl_test(1, "%s", iso_context_message(ctx));
             copy(s.point, y, ISO_STATE);
             scale(y, 1 / unit);
-            iso_separation_coordinates(&field.p, y, &at);
-            iso_separation_point(&field.p, &at, z);
+            iso_separation_coordinates(&of_path.p, y, &at);
+            iso_separation_point(&of_path.p, &at, z);
             back = hard_worse(laws_distance(z + 3, y + 3) + laws_distance(z, y) / (norm(y) + DBL_MIN), back);
-            naive = fmax(naive, naive_round_trip(field.p.k == 1 ? field.p.inv_J : field.p.J, y + 3));
-            const double c = iso_separation_constant(&field, &at, excess);
+            naive = fmax(naive, naive_round_trip(of_path.p.k == 1 ? of_path.p.inv_J : of_path.p.J, y + 3));
+            const double c = iso_separation_constant(&of_path, &at, excess);
             if (i == 0) of_start = c;
             constant = hard_worse(fabs(c / of_start - 1), constant);
             double may = 0; /* an angle moves at speed/length, the length at either end of the step */

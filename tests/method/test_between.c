@@ -30,7 +30,7 @@ static int declined;
 static void check_interval(const orbit *o, double h)
 {
     const iso_model *m = &o->model;
-    const iso_params *p = &m->field.p;
+    const iso_params *p = &m->problem.p;
     iso_between *b = create(m);
     iso_gap gap, back, off;
     double y[2][ISO_MAX_STATE], moved[ISO_STATE];
@@ -70,7 +70,7 @@ static void leave_level(orbit *o)
 {
     double unused;
     scale(o->y0, 1.1);
-    o->model.field.energy = iso_system_point.energy(&o->model.field, o->y0, &unused);
+    o->model.problem.energy = iso_system_point.energy(&o->model.problem, o->y0, &unused);
 }
 
 /* Both systems, all k and J of the laws, and (point) off H = 0; 1/1000 to 1/60 of a turn, where nothing is declined. */
@@ -81,7 +81,7 @@ static void test_dense(void)
             for (int s = 0; s < 2; s++) {
                 if (fabs(laws_k[k]) < 0.2 && laws_J[j][0] * laws_J[j][2] >= 1000) continue; /* powers of 1e30 */
                 orbit o = orbit_sample(ctx, iso_systems[s], laws_k[k], laws_J[j], (unsigned long)(31 * k + j));
-                const double reach = laws_reach(&o.model.field.p);
+                const double reach = laws_reach(&o.model.problem.p);
                 if (o.model.system == &iso_system_point && j % 3 == 0) leave_level(&o);
                 orbit_clocks(&o, o.model.system->clock, true, s == 0, false);
                 if (o.model.system == &iso_system_ball) orbit_clocks(&o, ISO_CLOCK_T, false, true, true);
@@ -124,7 +124,7 @@ static void test_other_equations(void)
     double y[2][ISO_MAX_STATE], f[ISO_MAX_STATE], g[ISO_MAX_STATE], d[3];
     const double h = 1e-3 * o.unit;
     follow(&o, h, y);
-    other.model.field.p = laws_params(0.51, orbit_J);
+    other.model.problem.p = laws_params(0.51, orbit_J);
     orbit_clocks(&other, ISO_CLOCK_T, false, false, true);
     iso_between *b = create(&other.model);
     o.model.rhs(&o.model, o.y0, f);

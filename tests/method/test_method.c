@@ -40,7 +40,7 @@ static void note(laws_worst *worst, const orbit *o, const iso_method *m, double 
 {
     char what[64];
     snprintf(what, sizeof what, "%s %s", m->name, o->model.system->name);
-    laws_note(worst, error, bound, &o->model.field.p, what);
+    laws_note(worst, error, bound, &o->model.problem.p, what);
 }
 
 /* For what must be so exactly. */
@@ -128,7 +128,7 @@ static void any_order_of_times(const orbit *o, const iso_method *m, laws_worst *
 
 static void starting_again(const orbit *o, const iso_method *m, laws_worst *worst)
 {
-    const orbit other = orbit_sample(ctx, o->model.system, o->model.field.p.k, orbit_J, 99);
+    const orbit other = orbit_sample(ctx, o->model.system, o->model.problem.p.k, orbit_J, 99);
     iso_integrator *it = start(o, m);
     double y[ISO_MAX_STATE], first[ISO_MAX_STATE];
     iso_integrator_at(it, 0, y);
@@ -167,11 +167,11 @@ static void statistics(const orbit *o, const iso_method *m, laws_worst *worst)
 /* How far energy, spin and length, the first three integrals of either system, are from where they belong. */
 static double defect(const orbit *o, const double y[])
 {
-    const double proper[3] = {o->model.field.energy, 0, 1};
+    const double proper[3] = {o->model.problem.energy, 0, 1};
     double defects[3];
     for (int i = 0; i < 3; i++) {
         double size;
-        const double value = o->model.system->integrals[i].value(&o->model.field, y, &size);
+        const double value = o->model.system->integrals[i].value(&o->model.problem, y, &size);
         defects[i] = (value - proper[i]) / size;
     }
     return laws_max(3, defects);
@@ -220,9 +220,9 @@ static double quadrature(const orbit *o, iso_clock clock, double t)
         double x, weight, y[ISO_MAX_STATE];
         gsl_integration_glfixed_point(0, t, i, &x, &weight, rule);
         iso_integrator_at(it, x, y);
-        const double q = o->model.system->q(&o->model.field.p, y, NULL);
-        sum += weight * iso_clock_rate(&o->model.field.p, clock, q, NULL) /
-               iso_clock_rate(&o->model.field.p, o->model.clock, q, NULL);
+        const double q = o->model.system->q(&o->model.problem.p, y, NULL);
+        sum += weight * iso_clock_rate(&o->model.problem.p, clock, q, NULL) /
+               iso_clock_rate(&o->model.problem.p, o->model.clock, q, NULL);
     }
     iso_integrator_free(it);
     gsl_integration_glfixed_table_free(rule);
@@ -268,7 +268,7 @@ static void rest(const orbit *moving, const iso_method *m, laws_worst *worst)
     orbit o = *moving;
     double y[ISO_MAX_STATE];
     scale(o.y0, 0);
-    o.model.field.energy = o.model.field.eps = 0;
+    o.model.problem.energy = o.model.problem.eps = 0;
     iso_integrator *it = start(&o, m);
     note_true(worst, &o, m, iso_integrator_at(it, 1000, y) == ISO_OK);
     note_true(worst, &o, m, norm(y) == 0);

@@ -39,7 +39,7 @@ static void differences(const effects_case *c, const iso_method *m, laws_worst *
     static int variant;
     const orbit o = orbit_of(ctx, c, variant++);
     const bool stiff = effects_lambda(c) > 0;
-    const double rate = iso_effects_stiffness(&c->model.field);
+    const double rate = iso_effects_stiffness(&c->model.problem);
     const double unit = orbit_stretch(c, &o) / (stiff ? rate : 1), bound = 1e-12 * (stiff ? rate : 1), forward = 1;
     course way = {orbit_start(&o, m, &finest), false}, *const data = &way;
     for (int i = stiff ? 1 : -2; i <= 3; i += 4) {
@@ -273,10 +273,10 @@ static void check_drift(const iso_system *system, double k)
         iso_integrator_last(it, &t, y);
         if (t == last) continue;
         last = t;
-        const double H = system->energy(&o.model.field, y, &size);
+        const double H = system->energy(&o.model.problem, y, &size);
         const long double n2 = (long double)y[3] * y[3] + (long double)y[4] * y[4] + (long double)y[5] * y[5];
         const long double wn = (long double)y[0] * y[3] + (long double)y[1] * y[4] + (long double)y[2] * y[5];
-        energy = isnan(energy) ? NAN : fmax(energy, fabs(H - o.model.field.energy) / size);
+        energy = isnan(energy) ? NAN : fmax(energy, fabs(H - o.model.problem.energy) / size);
         constraints = fmax(constraints, (double)fmaxl(fabsl(sqrtl(n2) - 1), fabsl(wn) / (long double)norm(y)));
     }
     gsl_test(!(constraints < 3e-16 && energy < 2e-15), "%s, k = %g, 10^4 radians: constraints %.1e, energy %.1e",
@@ -294,23 +294,23 @@ static void check_second(const iso_system *system, double k, iso_clock clock, do
     orbit o = orbit_sample(ctx, system, k, orbit_J, seed);
     double square[2] = {0, 0}, worst = 0, size;
     scale(o.y0, stretch);
-    if (stretch != 1) o.model.field.energy = system->energy(&o.model.field, o.y0, &size);
+    if (stretch != 1) o.model.problem.energy = system->energy(&o.model.problem, o.y0, &size);
     orbit_clocks(&o, clock, false, false, false);
     iso_integrator *it = orbit_start(&o, taylor, &finest);
-    const double start = F->value(&o.model.field, o.y0, &size);
+    const double start = F->value(&o.model.problem, o.y0, &size);
     for (int i = 1; i <= RADIANS; i++) {
         double y[ISO_MAX_STATE] = {NAN};
         iso_integrator_at(it, i * o.unit, y);
-        const double off = fabs(F->value(&o.model.field, y, &size) - start) / size;
+        const double off = fabs(F->value(&o.model.problem, y, &size) - start) / size;
         worst = off <= worst ? worst : off;
         if (i <= TENTH) square[0] += off * off / TENTH;
         if (i > RADIANS - TENTH) square[1] += off * off / TENTH;
     }
     const double first = sqrt(square[0]), last = sqrt(square[1]);
-    const bool holds = F->holds(&o.model.field);
+    const bool holds = F->holds(&o.model.problem);
     gsl_test(holds ? !(worst < 1e-14 && last < 1.5 * first + 1e-16) : !(worst > 1e-2),
              "%s, k = %g, %s, H = %.2g: %s %s to %.1e, rms %.1e at first, %.1e at last", system->name, k,
-             iso_clock_name(clock), o.model.field.energy, name, holds ? "keeps" : "drifts", worst, first, last);
+             iso_clock_name(clock), o.model.problem.energy, name, holds ? "keeps" : "drifts", worst, first, last);
     iso_integrator_free(it);
 }
 
@@ -321,7 +321,7 @@ static void check_rest(const iso_method *m)
 {
     static const double up[3] = {0.6, 0, 0.8}, beside[3] = {0, 0.6, 0.8};
     for (int i = 0; i < 3; i++) {
-        iso_field f = {.p = laws_params(0.5, orbit_J)};
+        iso_problem f = {.p = laws_params(0.5, orbit_J)};
         double start[ISO_STATE] = {0}, y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
         copy(up, start + 3, 3);
         copy(i == 2 ? beside : up, GRAVITY_UP(&f.effects), 3);
@@ -361,7 +361,7 @@ static void check_units(iso_backend backend)
 /* Backwards, a resistance makes the ball faster without end: a failure in words, and a last good state before it. */
 static void check_failure(const iso_method *m)
 {
-    iso_field f = {.p = laws_params(0.5, orbit_J)};
+    iso_problem f = {.p = laws_params(0.5, orbit_J)};
     f.effects.on[ISO_ROLLING_RESISTANCE] = true, ROLLING_COEFFICIENT(&f.effects) = 1e9;
     orbit o = {.ctx = ctx, .model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[3]){0})};
     copy(beginning.y, o.y0, ISO_STATE);

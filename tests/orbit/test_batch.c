@@ -218,7 +218,7 @@ static void check_conserved(iso_backend backend)
     for (int i = 0; i < all.count; i++) {
         const double *y = backend == ISO_BACKEND_BALL ? samples[i].ball : samples[i].point,
                      energy = iso_ball_energy(&all.p[i], all.start[i].y);
-        iso_field f = {.p = all.p[i], .eps = iso_coupling(&all.p[i], energy)};
+        iso_problem f = {.p = all.p[i], .eps = iso_coupling(&all.p[i], energy)};
         double size;
         const double now = system->energy(&f, y, &size), before = backend == ISO_BACKEND_BALL ? energy : 0;
         const long double n2 = (long double)y[3] * y[3] + (long double)y[4] * y[4] + (long double)y[5] * y[5];

@@ -43,14 +43,14 @@ static void check_refusals(void)
         iso_batch_options o = iso_batch_defaults();
         o.tolerance = tolerances[i];
         const iso_status status = refused(o, &time, 1);
-        gsl_test(status != ISO_BAD_ARGUMENT || strcmp(iso_context_field(ctx), "tolerance") != 0, "tolerance %g: %s",
+        gsl_test(status != ISO_BAD_ARGUMENT || strcmp(iso_context_about(ctx), "tolerance") != 0, "tolerance %g: %s",
                  o.tolerance, iso_context_message(ctx));
     }
     for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
         iso_batch_options o = iso_batch_defaults();
         o.threads = threads[i];
         const iso_status status = refused(o, &time, 1);
-        gsl_test(status != ISO_BAD_ARGUMENT || strcmp(iso_context_field(ctx), "threads") != 0, "%s",
+        gsl_test(status != ISO_BAD_ARGUMENT || strcmp(iso_context_about(ctx), "threads") != 0, "%s",
                  iso_context_message(ctx));
     }
     iso_batch_options o = iso_batch_defaults();

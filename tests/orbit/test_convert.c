@@ -102,7 +102,7 @@ static double state_ulps(const iso_record *a, const iso_record *b, const char *c
 
 static iso_start random_start(const iso_params *p, iso_random *random)
 {
-    iso_field f = {.p = *p};
+    iso_problem f = {.p = *p};
     iso_start start = {.model = ISO_BALL};
     iso_system_ball.sample(&f, random, start.y);
     return start;
@@ -334,9 +334,9 @@ static void check_missing_lines(void)
     iso_params p;
     iso_record *r;
     must(iso_record_create(ctx, 1, names, &r), "a record");
-    gsl_test(iso_record_params(ctx, r, &p) != ISO_BAD_INPUT || strcmp(iso_context_field(ctx), "k") != 0, "no k");
+    gsl_test(iso_record_params(ctx, r, &p) != ISO_BAD_INPUT || strcmp(iso_context_about(ctx), "k") != 0, "no k");
     must(iso_record_set(ctx, r, "k", "-1"), "a line");
-    gsl_test(iso_record_params(ctx, r, &p) != ISO_BAD_INPUT || strcmp(iso_context_field(ctx), "J") != 0, "no J");
+    gsl_test(iso_record_params(ctx, r, &p) != ISO_BAD_INPUT || strcmp(iso_context_about(ctx), "J") != 0, "no J");
     must(iso_record_set(ctx, r, "J", "1 2"), "a line");
     gsl_test(iso_record_params(ctx, r, &p) != ISO_BAD_INPUT, "two moments: %s", iso_context_message(ctx));
     must(iso_record_set(ctx, r, "J", "1 2 3"), "a line");

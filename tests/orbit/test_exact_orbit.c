@@ -88,7 +88,7 @@ static problem make_problem(int i, iso_random *random)
     if (i >= SEPARATED) return make_special(i - SEPARATED);
     problem o = {.p = laws_params(i % 2 ? 1 : -1, shapes[i / 2])};
     const bool ball = i / 2 % 2 == 0;
-    iso_field f = {.p = o.p};
+    iso_problem f = {.p = o.p};
     o.start.model = ball ? ISO_BALL : ISO_POINT;
     (ball ? &iso_system_ball : &iso_system_point)->sample(&f, random, o.start.y);
     o.start.eps = ball ? 0 : f.eps;
@@ -173,7 +173,7 @@ static void check_far(const problem *o, laws_worst *worst)
     for (int s = 0; iso_systems[s]; s++) {
         const iso_integral *list[ISO_MAX_INTEGRALS];
         const int count =
-            iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->field, list, ISO_MAX_INTEGRALS);
+            iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->problem, list, ISO_MAX_INTEGRALS);
         for (int i = 0; i < 2 * count; i++) {
             const iso_integral *integral = list[i / 2];
             double size;
@@ -316,7 +316,7 @@ static void refused(const iso_params *p, const iso_start *start, const iso_orbit
 {
     iso_orbit *orbit;
     const iso_status status = iso_orbit_create(ctx, p, start, o, &orbit);
-    gsl_test(status != ISO_BAD_ARGUMENT || orbit || strcmp(iso_context_field(ctx), about) != 0 ||
+    gsl_test(status != ISO_BAD_ARGUMENT || orbit || strcmp(iso_context_about(ctx), about) != 0 ||
                  !strstr(iso_context_message(ctx), words),
              "refused for \"%s\": %s", about, status == ISO_OK ? "done" : iso_context_message(ctx));
     iso_orbit_free(orbit);
@@ -382,7 +382,7 @@ static void check_errors(const problem *o)
     batch.backend = ISO_BACKEND_EXACT;
     iso_sample s;
     gsl_test(iso_batch_run(ctx, &one, 1, &batch, (double[]){1}, 1, &s, NULL) != ISO_BAD_ARGUMENT ||
-                 strcmp(iso_context_field(ctx), "backend") != 0,
+                 strcmp(iso_context_about(ctx), "backend") != 0,
              "a batch refuses: %s", iso_context_message(ctx));
 }
 

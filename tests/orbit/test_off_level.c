@@ -232,7 +232,7 @@ static void check_stated(void)
     gsl_test(try_level(&o, &o.start, o.c, &eps) != ISO_OK, "the point's own level");
     gsl_test_rel(eps, o.eps, 1e-14, "its coupling");
     gsl_test(try_level(&o, &o.start, o.c * (1 + 1e-6), &eps) != ISO_BAD_INPUT ||
-                 strcmp(iso_context_field(ctx), "c") != 0,
+                 strcmp(iso_context_about(ctx), "c") != 0,
              "another level: %s", iso_context_message(ctx));
     iso_start open = o.start;
     open.eps = NAN;

@@ -82,7 +82,7 @@ static inline void long_look(const iso_orbit *orbit, const iso_sample *s, bool f
 {
     const iso_system *system = iso_orbit_backend(orbit) == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
     const iso_integral *list[ISO_MAX_INTEGRALS];
-    const int count = iso_integrals_holding(system, &iso_orbit_model(orbit)->field, list, ISO_MAX_INTEGRALS);
+    const int count = iso_integrals_holding(system, &iso_orbit_model(orbit)->problem, list, ISO_MAX_INTEGRALS);
     for (int i = 0; i < count; i++) {
         const int quantity = long_quantity(list[i]);
         double size;

@@ -356,9 +356,9 @@ static void refusals(void)
     for (size_t i = 0; i < sizeof refusal / sizeof *refusal; i++) {
         const struct refusal *r = &refusal[i];
         const iso_status status = iso_analogue_find(ctx, &r->problem, 1, 1, &a);
-        gsl_test(status != r->status || strcmp(iso_context_field(ctx), r->field) != 0 ||
+        gsl_test(status != r->status || strcmp(iso_context_about(ctx), r->field) != 0 ||
                      !strstr(iso_context_message(ctx), r->words),
-                 "refused (%s: %s): %s", r->field, r->words, iso_context_message(ctx));
+                 "refused (%s: %s): %s", r->problem, r->words, iso_context_message(ctx));
     }
 }
 

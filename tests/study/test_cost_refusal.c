@@ -14,7 +14,7 @@ static void refuse(const iso_scene *s, const iso_cost_options *o, iso_status sta
 {
     iso_cost *c;
     const iso_status got = iso_cost_measure(ctx, s, o, &c);
-    gsl_test(got != status || c || strcmp(iso_context_field(ctx), field) != 0, "refused about '%s': %s", field,
+    gsl_test(got != status || c || strcmp(iso_context_about(ctx), field) != 0, "refused about '%s': %s", field,
              iso_context_message(ctx));
 }
 
@@ -46,7 +46,7 @@ static void check_refusals(void)
     GRAVITY_MGB(&s.effects) = NAN;
     refuse(&s, &all, ISO_BAD_INPUT, "mgb");
     gsl_test(iso_cost_grow(ctx, &s, &(iso_cost_cell){0}, 0, &growth) != ISO_BAD_ARGUMENT ||
-                 strcmp(iso_context_field(ctx), "horizons") != 0,
+                 strcmp(iso_context_about(ctx), "horizons") != 0,
              "no horizons are refused");
 }
 

@@ -187,7 +187,7 @@ static void check_refusals(void)
         {"no times", "times", odd, 0}, {"a time that is NaN", "times", odd, 2}, {"a far time", "end", far, 2}};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         kept *k = run(&scene, list[i].times, list[i].count);
-        gsl_test(k->status != ISO_BAD_ARGUMENT || k->headers || strcmp(iso_context_field(ctx), list[i].field) != 0,
+        gsl_test(k->status != ISO_BAD_ARGUMENT || k->headers || strcmp(iso_context_about(ctx), list[i].field) != 0,
                  "%s: %s", list[i].what, iso_context_message(ctx));
         free(k);
     }

@@ -18,7 +18,7 @@ const iso_lane_code *iso_lane_code_find(const char *name)
 
 bool iso_lanes_alike(const iso_model *a, const iso_model *b)
 {
-    const iso_field *f = &a->field, *g = &b->field;
+    const iso_problem *f = &a->problem, *g = &b->problem;
     bool alike = a->system == b->system && a->clock == b->clock && a->dim == b->dim && a->carried == b->carried &&
                  (f->p.k == -1) == (g->p.k == -1) && (f->p.k == 1) == (g->p.k == 1) &&
                  (f->energy == 0) == (g->energy == 0);

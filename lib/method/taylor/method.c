@@ -80,8 +80,8 @@ static void release(iso_integrator *it)
  * stiff models, nor powers of q in (24) that span many decades. */
 static iso_suits suits(const iso_model *m)
 {
-    const bool steep = m->system == &iso_system_point && iso_params_steep(&m->field.p);
-    return steep || iso_effects_stiffness(&m->field) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_BEST;
+    const bool steep = m->system == &iso_system_point && iso_params_steep(&m->problem.p);
+    return steep || iso_effects_stiffness(&m->problem) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_BEST;
 }
 
 #define TAYLOR                                                                                                       \

@@ -56,7 +56,7 @@ static inline real pass_time(const form *T, real x, real gained[ISO_CLOCKS])
 /* States that omega and n give at any time, in doubles: no equation here reads them. */
 static void find_derived(const form *T, state *s)
 {
-    const iso_field *f = &T->shape.field;
+    const iso_problem *f = &T->shape.problem;
     for (int lane = 0; lane < LANES; lane++) {
         double y[ISO_MAX_STATE] = {0};
         for (int i = 0; i < 3; i++) y[i] = (double)LANE(s->w[i], lane), y[3 + i] = (double)LANE(s->n[i], lane);
