@@ -269,7 +269,7 @@ static iso_status create(iso_integrator *it)
     splitting *d = it->data = calloc(1, sizeof *d);
     if (!d) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for %s", it->method->name);
     d->clocks = m->clock != ISO_CLOCK_S;
-    for (int c = 0; c < m->carried; c++) d->clocks = d->clocks || m->carry[c] != ISO_CLOCK_S;
+    for (int c = 0; c < m->clocks; c++) d->clocks = d->clocks || m->clock_of[c] != ISO_CLOCK_S;
     return ISO_OK;
 }
 
@@ -305,8 +305,8 @@ static void move(iso_integrator *it, const schedule *s, double ds, double y[], d
     z->clock[ISO_CLOCK_S] = ds;
     copy(z->y, y, ISO_STATE);
     copy(z->rest, rest, ISO_STATE);
-    for (int c = 0; c < it->model.carried; c++)
-        add(&y[ISO_STATE + c], &rest[ISO_STATE + c], z->clock[it->model.carry[c]]);
+    for (int c = 0; c < it->model.clocks; c++)
+        add(&y[ISO_STATE + c], &rest[ISO_STATE + c], z->clock[it->model.clock_of[c]]);
 }
 
 static iso_status step(iso_integrator *it, double y[], double *h)

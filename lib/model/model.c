@@ -59,7 +59,7 @@ static void rhs_clocks(const iso_model *m, const double y[], double dy[])
         const double r = rate(m, m->system->clock, q, &exponent);
         for (int i = 0; i < m->moving; i++) dy[i] *= r;
     }
-    for (int c = 0; c < m->carried; c++) dy[m->moving + c] = rate(m, m->carry[c], q, &exponent);
+    for (int c = 0; c < m->clocks; c++) dy[m->moving + c] = rate(m, m->clock_of[c], q, &exponent);
 }
 
 static void own_jacobian(const iso_model *m, const double y[], double jac[])
@@ -79,8 +79,8 @@ static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
     for (int i = 0; i < m->moving; i++)
         for (int j = 0; j < m->moving; j++)
             jac[m->dim * i + j] = r * (own[m->moving * i + j] + f[i] * exponent / q * dq[j]);
-    for (int c = 0; c < m->carried; c++) {
-        const double r_c = rate(m, m->carry[c], q, &exponent);
+    for (int c = 0; c < m->clocks; c++) {
+        const double r_c = rate(m, m->clock_of[c], q, &exponent);
         for (int j = 0; j < m->moving; j++) jac[m->dim * (m->moving + c) + j] = r_c * exponent / q * dq[j];
     }
 }
@@ -155,7 +155,7 @@ const iso_effect *iso_model_without_formula(const iso_model *m)
 }
 
 iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,
-                             const bool carry[ISO_CLOCKS])
+                             const bool with_clock[ISO_CLOCKS])
 {
     iso_model m = {.system = system, .problem = *problem, .clock = clock, .moving = ISO_STATE};
     add_states(&m);
@@ -164,9 +164,9 @@ iso_model iso_model_assemble(const iso_system *system, const iso_problem *proble
     m.contact = iso_contact_of(&m.problem);
     choose_equations(&m);
     for (iso_clock c = 0; c < ISO_CLOCKS; c++)
-        if (carry[c] && c != clock) m.carry[m.carried++] = c;
-    m.dim = m.moving + m.carried;
-    const bool plain = clock == system->clock && m.carried == 0;
+        if (with_clock[c] && c != clock) m.clock_of[m.clocks++] = c;
+    m.dim = m.moving + m.clocks;
+    const bool plain = clock == system->clock && m.clocks == 0;
     m.rhs = plain ? m.own_rhs : rhs_clocks;
     m.jacobian = plain ? own_jacobian : jacobian_clocks;
     return m;
@@ -185,7 +185,7 @@ const char *iso_model_state_name(const iso_model *m, int i, const char **reason)
     *reason = "";
     if (i < ISO_STATE) return m->system->state[i];
     *reason = "clock: a column, or the effect clock, asks for it";
-    if (i >= m->moving) return iso_clock_name(m->carry[i - m->moving]);
+    if (i >= m->moving) return iso_clock_name(m->clock_of[i - m->moving]);
     iso_effect_id last = ISO_EFFECTS;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         if (m->problem.at[e] > 0 && m->problem.at[e] <= i) last = e;
@@ -239,10 +239,10 @@ void iso_model_size(const iso_model *m, const double y[], double size[])
     for (int i = ISO_STATE; i < m->moving; i++) size[i] = 1 + fabs(y[i]);
     for (int i = 0; i < m->followers; i++)
         if (m->follower[i]->size) m->follower[i]->size(&m->problem, y, size);
-    if (m->carried == 0) return;
+    if (m->clocks == 0) return;
     const double q = m->system->q(&m->problem.p, y, NULL);
-    for (int c = 0; c < m->carried; c++) {
+    for (int c = 0; c < m->clocks; c++) {
         double exponent;
-        size[m->moving + c] = fabs(y[m->moving + c]) + rate(m, m->carry[c], q, &exponent);
+        size[m->moving + c] = fabs(y[m->moving + c]) + rate(m, m->clock_of[c], q, &exponent);
     }
 }

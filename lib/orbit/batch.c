@@ -51,7 +51,7 @@ _Static_assert((int)ISO_MAX_STATE <= (int)ISO_TRAJECTORY_COLUMNS, "a sample has 
 iso_batch_options iso_batch_defaults(void)
 {
     return (iso_batch_options){
-        .backend = ISO_BACKEND_AUTO, .tolerance = 1e-12, .clock = ISO_CLOCK_T, .show = ISO_SHOW_BALL};
+        .backend = ISO_BACKEND_AUTO, .tolerance = 1e-12, .clock = ISO_CLOCK_T, .shown = ISO_SHOW_BALL};
 }
 
 const char *iso_batch_vectors(int i, int *lanes)
@@ -83,8 +83,8 @@ static iso_orbit_options options_of(const batch *b, size_t i, iso_backend backen
                                .tolerance = o->tolerance,
                                .max_steps = o->max_steps,
                                .clock = o->clock,
-                               .show = o->show,
-                               .carry = {o->carry[0], o->carry[1], o->carry[2]}};
+                               .shown = o->shown,
+                               .with_clock = {o->with_clock[0], o->with_clock[1], o->with_clock[2]}};
 }
 
 static iso_status prepare_as(worker *w, size_t i, member *m, iso_backend backend)

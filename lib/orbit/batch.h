@@ -27,8 +27,8 @@ typedef struct iso_batch_options {
     double tolerance;
     long max_steps;      /* of each orbit; 0: no bound                                                         */
     iso_clock clock;
-    iso_shown show;
-    bool carry[ISO_CLOCKS];
+    iso_shown shown;
+    bool with_clock[ISO_CLOCKS];
     int threads;         /* 0: as many as there are processors to run on                                       */
     const char *vectors; /* "avx512", "avx2", "plain"; NULL: the widest of this processor                      */
 } iso_batch_options;

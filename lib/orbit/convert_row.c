@@ -28,7 +28,7 @@ iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, b
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &c->effects;
     o.tolerance = c->tolerance;
-    o.carry[c->other] = clock;
+    o.with_clock[c->other] = clock;
     o.max_steps = ISO_MAX_ROW_STEPS;
     return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
 }

@@ -28,7 +28,7 @@ static iso_status start(iso_integrator *it)
     bool clocks[ISO_CLOCKS] = {false};
     iso_exact *exact;
     clocks[m->clock] = true;
-    for (int i = 0; i < m->carried; i++) clocks[m->carry[i]] = true;
+    for (int i = 0; i < m->clocks; i++) clocks[m->clock_of[i]] = true;
     release(it);
     const iso_status status = iso_exact_create(it->ctx, &m->problem, it->y0, clocks, &exact);
     it->data = exact;
@@ -44,7 +44,7 @@ static iso_status at(iso_integrator *it, double t, double y[])
     it->statistics.states++;
     const iso_status status = iso_exact_at(it->ctx, it->data, m->clock, t, state, clocks);
     if (status != ISO_OK) return status;
-    for (int i = 0; i < m->carried; i++) state[m->moving + i] = clocks[m->carry[i]];
+    for (int i = 0; i < m->clocks; i++) state[m->moving + i] = clocks[m->clock_of[i]];
     if (!all_finite(state, m->dim)) return iso_integrator_stopped(it, "the closed solution is not finite");
     copy(state, y, m->dim);
     return ISO_OK;

@@ -14,7 +14,7 @@ iso_orbit_options iso_orbit_defaults(const iso_start *start)
     return (iso_orbit_options){.backend = ISO_BACKEND_AUTO,
                                .tolerance = 1e-12,
                                .clock = start->model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S,
-                               .show = (iso_shown)start->model};
+                               .shown = (iso_shown)start->model};
 }
 
 _Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double),
@@ -65,7 +65,7 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     double six[ISO_STATE], size;
     opt->backend = choose_backend(opt, start);
     const bool ball = opt->backend == ISO_BACKEND_BALL, exact = opt->backend == ISO_BACKEND_EXACT;
-    if ((!ball && !exact && opt->backend != ISO_BACKEND_POINT) || (int)opt->show < 0 || opt->show > ISO_SHOW_BOTH)
+    if ((!ball && !exact && opt->backend != ISO_BACKEND_POINT) || (int)opt->shown < 0 || opt->shown > ISO_SHOW_BOTH)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "backend",
                                 "an orbit is found by backend ball, point or exact, "
                                 "and shown as ball, point or both");
@@ -75,7 +75,7 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     iso_status status = iso_orbit_find_start(o, p, start, six);
     if (status != ISO_OK) return status;
     const iso_problem problem = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
-    o->model = iso_model_assemble(o->system, &problem, opt->clock, opt->carry);
+    o->model = iso_model_assemble(o->system, &problem, opt->clock, opt->with_clock);
     iso_model_begin(&o->model, six, y);
     if (ball) o->model.problem.energy = iso_system_ball.energy(&o->model.problem, y, &size);
     if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
@@ -189,15 +189,15 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
     iso_status status = ISO_OK;
     iso_sample_blank(s);
     s->clock[o->model.clock] = time;
-    for (int i = 0; status == ISO_OK && i < o->model.carried; i++)
-        status = sample_clock(o, time, o->model.carry[i], y[o->model.moving + i], s);
-    if (o->options.show != ISO_SHOW_POINT) {
+    for (int i = 0; status == ISO_OK && i < o->model.clocks; i++)
+        status = sample_clock(o, time, o->model.clock_of[i], y[o->model.moving + i], s);
+    if (o->options.shown != ISO_SHOW_POINT) {
         const bool vanishes = iso_effects_stiffness(&o->model.problem) > 0;
         as_ball(o, y, s->ball);
         if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, vanishes, s->ball, 3);
         if (status == ISO_OK && o->system == &iso_system_ball) status = iso_orbit_sample_effects(o, y, s);
     }
-    if (status == ISO_OK && o->options.show != ISO_SHOW_BALL) status = sample_point(o, y, s);
+    if (status == ISO_OK && o->options.shown != ISO_SHOW_BALL) status = sample_point(o, y, s);
     return status;
 }
 
@@ -296,7 +296,7 @@ iso_status iso_orbit_event(iso_orbit *o, double (*g)(const iso_sample *sample, c
     *found = false;
     iso_status status = to_own_time(o, from, &begin);
     if (status == ISO_OK) status = to_own_time(o, to, &end);
-    if (status == ISO_OK && o->rests && o->model.carried == 0) return ISO_OK; /* nothing passes anything */
+    if (status == ISO_OK && o->rests && o->model.clocks == 0) return ISO_OK; /* nothing passes anything */
     if (status == ISO_OK) status = iso_integrator_event(o->integrator, &event, begin, end, found, &own_time, y);
     if (status == ISO_OK) status = sampled;
     if (status != ISO_OK) *found = false;

@@ -27,9 +27,9 @@ typedef struct iso_orbit_options {
     double tolerance;         /* of the method                                                             */
     long max_steps;           /* after which a call fails with ISO_NUMERICAL; 0: no bound                  */
     iso_clock clock;          /* the clock in which times are asked                                        */
-    iso_shown show;           /* the models filled into samples, not ISO_SHOW_START                        */
+    iso_shown shown;          /* the models filled into samples, not ISO_SHOW_START                        */
     bool gamma_alone;         /* of the point gamma is filled in, which always fits a double, but not M    */
-    bool carry[ISO_CLOCKS];   /* other clocks filled into samples                                          */
+    bool with_clock[ISO_CLOCKS]; /* other clocks filled into samples                                       */
 } iso_orbit_options;
 
 /* Backend and clock of the start's own model, which is also shown; method auto, tolerance 1e-12, no

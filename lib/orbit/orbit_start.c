@@ -17,10 +17,10 @@ static void set_units(iso_orbit *o, const iso_params *p, double speed)
 static iso_status check_units(const iso_orbit *o, const iso_start *start)
 {
     const iso_orbit_options *opt = &o->options;
-    const bool M = start->model == ISO_POINT || (opt->show != ISO_SHOW_BALL && !opt->gamma_alone);
+    const bool M = start->model == ISO_POINT || (opt->shown != ISO_SHOW_BALL && !opt->gamma_alone);
     bool fits = !M || isnormal(o->unit_M);
     for (int c = 0; c < ISO_CLOCKS; c++)
-        fits = fits && ((c != (int)opt->clock && !opt->carry[c]) || isnormal(o->unit_clock[c]));
+        fits = fits && ((c != (int)opt->clock && !opt->with_clock[c]) || isnormal(o->unit_clock[c]));
     if (fits) return ISO_OK;
     return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
                             "M (about %g) or a clock (s about %g) does not fit a double in these units: use other "
@@ -168,7 +168,7 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
     iso_effects *e = &o->effects;
     const iso_effect *breaking = iso_effects_breaking(e), *only_ball = iso_effects_ball_only(e);
     const bool by_point = o->options.backend != ISO_BACKEND_BALL;
-    const bool point = by_point || o->options.show != ISO_SHOW_BALL || start->model == ISO_POINT;
+    const bool point = by_point || o->options.shown != ISO_SHOW_BALL || start->model == ISO_POINT;
     const double *n = start->y + 3; /* a point's gamma: only gravity asks, which a point has not */
     if (start->model == ISO_POINT && isnan(iso_effects_level(e))) iso_effects_set_level(e, false, NAN); /* as it comes */
     if (o->options.backend == ISO_BACKEND_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
@@ -208,12 +208,12 @@ typedef struct needs {
 
 static needs what_is_needed(const iso_orbit_options *opt, const iso_start *start)
 {
-    const bool other_clocks = opt->carry[ISO_CLOCK_TAU] || opt->carry[ISO_CLOCK_S];
-    const bool point = opt->backend != ISO_BACKEND_BALL || opt->show != ISO_SHOW_BALL;
-    const bool M = opt->show != ISO_SHOW_BALL && !opt->gamma_alone;
+    const bool other_clocks = opt->with_clock[ISO_CLOCK_TAU] || opt->with_clock[ISO_CLOCK_S];
+    const bool point = opt->backend != ISO_BACKEND_BALL || opt->shown != ISO_SHOW_BALL;
+    const bool M = opt->shown != ISO_SHOW_BALL && !opt->gamma_alone;
     return (needs){
-        .ball = opt->backend == ISO_BACKEND_BALL || opt->show != ISO_SHOW_POINT || opt->clock != ISO_CLOCK_S ||
-                opt->carry[ISO_CLOCK_T] || opt->carry[ISO_CLOCK_TAU],
+        .ball = opt->backend == ISO_BACKEND_BALL || opt->shown != ISO_SHOW_POINT || opt->clock != ISO_CLOCK_S ||
+                opt->with_clock[ISO_CLOCK_T] || opt->with_clock[ISO_CLOCK_TAU],
         .point = point,
         .powers = M || start->model == ISO_POINT || opt->clock != ISO_CLOCK_T || other_clocks,
     };

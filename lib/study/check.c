@@ -177,10 +177,10 @@ static iso_status next_sample(const checker *c, iso_model_kind model, int clock,
     o.tolerance = c->tolerance;
     o.clock = (iso_clock)clock;
     o.max_steps = ISO_MAX_ROW_STEPS;
-    for (int k = 0; k < ISO_CLOCKS; k++) o.carry[k] = k != clock && c->columns[k] >= 0;
+    for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = k != clock && c->columns[k] >= 0;
     status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
     if (status == ISO_NOT_MAPPED) {
-        for (int k = 0; k < ISO_CLOCKS; k++) o.carry[k] = false;
+        for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = false;
         status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
     }
     if (status == ISO_OK)

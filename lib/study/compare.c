@@ -84,8 +84,8 @@ static iso_status open_backend(runner *r, iso_backend backend)
     o.backend = run->backend = backend;
     o.method = method_for(r->scene, backend);
     o.tolerance = r->scene->tolerance;
-    o.show = ISO_SHOW_BOTH;
-    for (int clock = 0; clock < ISO_CLOCKS; clock++) o.carry[clock] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int clock = 0; clock < ISO_CLOCKS; clock++) o.with_clock[clock] = true;
     const double begin = processor_seconds();
     status = iso_orbit_create(r->ctx, &r->scene->params, &r->scene->start, &o, &r->orbit[which]);
     if (status != ISO_OK) return status;

@@ -29,7 +29,7 @@ iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_s
 void iso_cost_problem_close(cost_problem *p);
 
 iso_status iso_cost_orbit_open(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
-                               bool carry, iso_orbit **orbit);
+                               bool with_clock, iso_orbit **orbit);
 
 /* From now on everything that uses p->ctx stops after so many seconds. */
 void iso_cost_allow(cost_problem *p, double seconds);
@@ -55,8 +55,8 @@ iso_status iso_cost_track_make(cost_problem *p, int times, const double time[], 
 void iso_cost_track_free(cost_track *track);
 
 /* Fills the track. Gives up (ISO_STOPPED) as soon as it looks as if it took longer than so many seconds. */
-iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance, bool carry,
-                         double seconds, cost_track *track);
+iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
+                         bool with_clock, double seconds, cost_track *track);
 
 /* Distances of two tracks: in row i; the largest over the rows that both reached; of the clock, relative to its
  * largest value. */

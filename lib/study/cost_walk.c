@@ -77,15 +77,15 @@ void iso_cost_problem_close(cost_problem *p)
 }
 
 iso_status iso_cost_orbit_open(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
-                               bool carry, iso_orbit **orbit)
+                               bool with_clock, iso_orbit **orbit)
 {
     iso_orbit_options o = iso_orbit_defaults(&p->scene->start);
     o.effects = &p->effects;
     o.backend = backend;
     o.method = method;
     if (method) o.tolerance = tolerance;
-    o.show = ISO_SHOW_BALL;
-    o.carry[p->other] = carry;
+    o.shown = ISO_SHOW_BALL;
+    o.with_clock[p->other] = with_clock;
     watch(p);
     return iso_orbit_create(p->ctx, &p->scene->params, &p->scene->start, &o, orbit);
 }
@@ -167,14 +167,14 @@ static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_t
     return ISO_OK;
 }
 
-iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance, bool carry,
-                         double seconds, cost_track *track)
+iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
+                         bool with_clock, double seconds, cost_track *track)
 {
     iso_orbit *orbit;
     track->reached = 0;
     track->seconds = 0;
     iso_cost_allow(p, 1.5 * seconds);
-    iso_status status = iso_cost_orbit_open(p, backend, method, tolerance, carry, &orbit);
+    iso_status status = iso_cost_orbit_open(p, backend, method, tolerance, with_clock, &orbit);
     if (status == ISO_OK) {
         status = walk(p, orbit, seconds, track);
         track->statistics = iso_orbit_statistics(orbit);

@@ -30,10 +30,10 @@ static iso_status open_orbit(const estimator *e, iso_clock clock, iso_orbit **or
     iso_orbit_options o = iso_orbit_defaults(&e->scene->start);
     o.effects = &e->effects;
     o.clock = clock;
-    o.show = ISO_SHOW_BALL;
+    o.shown = ISO_SHOW_BALL;
     o.backend = e->twin ? ISO_BACKEND_AUTO : ISO_BACKEND_BALL;
     o.tolerance = fmin(e->scene->tolerance, 1e-13);
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = e->twin && clock == ISO_CLOCK_T && c != (int)clock;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = e->twin && clock == ISO_CLOCK_T && c != (int)clock;
     return iso_orbit_create(e->ctx, &e->scene->params, &e->scene->start, &o, orbit);
 }
 

@@ -30,7 +30,7 @@ iso_orbit_options iso_scene_orbit_options(const iso_scene *scene, const int colu
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     bool ball = false, point = false, M = false;
     for (int i = 0; i < count; i++) {
-        if (columns[i] < ISO_CLOCKS) o.carry[columns[i]] = true;
+        if (columns[i] < ISO_CLOCKS) o.with_clock[columns[i]] = true;
         ball = ball || (columns[i] >= ISO_COLUMN_BALL && columns[i] < ISO_COLUMN_POINT) ||
                columns[i] >= ISO_COLUMN_EFFECTS;
         point = point || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_EFFECTS);
@@ -40,7 +40,7 @@ iso_orbit_options iso_scene_orbit_options(const iso_scene *scene, const int colu
     leave_out_unseen(effects, columns, count);
     ball = ball || iso_effects_ball_only(effects); /* to see where contact is lost */
     o.effects = effects;
-    o.show = ball && point ? ISO_SHOW_BOTH
+    o.shown = ball && point ? ISO_SHOW_BOTH
              : ball        ? ISO_SHOW_BALL
              : point       ? ISO_SHOW_POINT
                            : (iso_shown)scene->start.model;

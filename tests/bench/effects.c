@@ -70,7 +70,7 @@ static void measure(iso_context *ctx, const iso_params *p, run *r)
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &r->effects;
     o.backend = r->backend;
-    o.carry[ISO_CLOCK_TAU] = o.carry[ISO_CLOCK_S] = r->effects.on[ISO_CLOCK];
+    o.with_clock[ISO_CLOCK_TAU] = o.with_clock[ISO_CLOCK_S] = r->effects.on[ISO_CLOCK];
     must(ctx, iso_orbit_create(ctx, p, &start, &o, &orbit));
     time_rhs(orbit, r);
     const double begin = bench_milliseconds();

@@ -44,10 +44,10 @@ static void check_orbit(int i, const orbit *point, double *worst, double *worst_
         double expected[ISO_MAX_STATE], y[ISO_MAX_STATE], clocks[ISO_CLOCKS], size;
         iso_exact_at(ctx, exact, clock, time, y, clocks);
         if (iso_integrator_at(it, time, expected) != ISO_OK) expected[0] = NAN;
-        copy(expected + ISO_STATE, y + ISO_STATE, o.model.carried);
+        copy(expected + ISO_STATE, y + ISO_STATE, o.model.clocks);
         *worst = fmax(*worst, isfinite(y[0]) ? orbit_error(&o, y, expected) : INFINITY);
-        for (int c = 0; c < o.model.carried; c++) {
-            const double error = fabs(clocks[o.model.carry[c]] / expected[ISO_STATE + c] - 1);
+        for (int c = 0; c < o.model.clocks; c++) {
+            const double error = fabs(clocks[o.model.clock_of[c]] / expected[ISO_STATE + c] - 1);
             *worst_clock = fmax(*worst_clock, error);
         }
         const double H = iso_system_point.energy(&o.model.problem, y, &size);

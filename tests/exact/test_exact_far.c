@@ -115,7 +115,7 @@ static void note_restart(const orbit *o, const iso_exact *exact, double t1, laws
         if (iso_exact_at(ctx, exact, ISO_CLOCK_T, t1 + t2[i], y, c) != ISO_OK) y[0] = NAN;
         if (iso_exact_at(ctx, again, ISO_CLOCK_T, t2[i], z, c2) != ISO_OK) z[0] = NAN;
         orbit state = *o;
-        state.model.dim = ISO_STATE, state.model.carried = 0;
+        state.model.dim = ISO_STATE, state.model.clocks = 0;
         const double allowed = 5e-14 * (1 + fabs(t2[i]) / o->unit) + (double)(16 * LDBL_EPSILON * fabs(t1) / o->unit);
         laws_note(states, orbit_error(&state, y, z), allowed, p, "");
         for (int j = 0; j < ISO_CLOCKS; j++)

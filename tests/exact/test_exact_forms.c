@@ -36,7 +36,7 @@ static void note_grid(const orbit *o, const iso_exact *exact, iso_clock clock, d
         double y[ISO_STATE], wanted[ISO_CLOCKS];
         if (iso_exact_at(ctx, exact, clock, time, y, wanted) != ISO_OK) y[0] = NAN;
         orbit state = *o;
-        state.model.dim = ISO_STATE, state.model.carried = 0;
+        state.model.dim = ISO_STATE, state.model.clocks = 0;
         const double allowed = near + 4 * DBL_EPSILON * fabs(time) / o->unit;
         laws_note(worst, orbit_error(&state, points + ISO_STATE * i, y), allowed, p, "state");
         for (int k = 0; k < ISO_CLOCKS; k++)

@@ -59,7 +59,7 @@ static double clock_difference(const orbit *o, const states *a, const states *b)
 {
     double most = 0;
     for (int j = 0; j < TIMES; j++)
-        for (int c = ISO_STATE; c < ISO_STATE + o->model.carried; c++) {
+        for (int c = ISO_STATE; c < ISO_STATE + o->model.clocks; c++) {
             const double error = fabs(a->y[j][c] / b->y[j][c] - 1);
             if (!(error <= most)) most = error;
         }
@@ -141,7 +141,7 @@ static void check_orbit(const orbit *start, int i, exact_family family, book *b)
     for (int j = 0; j < TIMES; j++) {
         times[j] = (i / ISO_CLOCKS % 2 ? -1 : 1) * (j + 1) * (i % 10 ? NEAR : FAR) / TIMES * o.unit;
         if (iso_exact_at(ctx, exact, clock, times[j], s.y[j], clocks) != ISO_OK) s.y[j][0] = NAN;
-        for (int c = 0; c < o.model.carried; c++) s.y[j][ISO_STATE + c] = clocks[o.model.carry[c]];
+        for (int c = 0; c < o.model.clocks; c++) s.y[j][ISO_STATE + c] = clocks[o.model.clock_of[c]];
     }
     note_errors(&o, &s, times, family, b);
     note_invariants(&o, &s, exact_names[family], b);

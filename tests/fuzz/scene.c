@@ -10,10 +10,10 @@ enum { STEPS = 2000, NAME_LENGTH = 6 /* "scene:" */ };
 /* Whether a column was asked for: an effect's is filled where the effect is. */
 static bool asked(const iso_orbit_options *o, const iso_effects *effects, int column)
 {
-    if (column < ISO_CLOCKS) return o->carry[column] || column == (int)o->clock;
-    if (column < ISO_COLUMN_POINT) return o->show != ISO_SHOW_POINT;
-    if (column < ISO_COLUMN_EFFECTS) return o->show != ISO_SHOW_BALL;
-    return o->show != ISO_SHOW_POINT && effects->on[iso_column_effect(column)];
+    if (column < ISO_CLOCKS) return o->with_clock[column] || column == (int)o->clock;
+    if (column < ISO_COLUMN_POINT) return o->shown != ISO_SHOW_POINT;
+    if (column < ISO_COLUMN_EFFECTS) return o->shown != ISO_SHOW_BALL;
+    return o->shown != ISO_SHOW_POINT && effects->on[iso_column_effect(column)];
 }
 
 static void check_sample(const iso_orbit *orbit, const iso_orbit_options *o, const iso_sample *sample, double time)
@@ -66,7 +66,7 @@ static void follow(iso_context *ctx, const iso_scene *scene, iso_orbit *orbit, c
         check_sample(orbit, o, &sample, times[i]);
         look(orbit, &sample);
     }
-    if (!scene->effects.on[ISO_REACTIONS] || o->show == ISO_SHOW_POINT) return;
+    if (!scene->effects.on[ISO_REACTIONS] || o->shown == ISO_SHOW_POINT) return;
     const iso_status status = iso_orbit_lost_contact(orbit, 0, scene->end, &lost, &sample);
     if (status != ISO_OK) fuzz_failed(ctx, status);
     if (status == ISO_OK && lost) check_sample(orbit, o, &sample, scene->end);
@@ -100,10 +100,10 @@ static void solve(iso_context *ctx, const iso_scene *scene)
     o.method = iso_method_find(scene->method);
     o.tolerance = scene->tolerance;
     o.max_steps = STEPS;
-    if (scene->as == ISO_SHOW_BALL || scene->as == ISO_SHOW_POINT || scene->as == ISO_SHOW_BOTH) o.show = scene->as;
+    if (scene->as == ISO_SHOW_BALL || scene->as == ISO_SHOW_POINT || scene->as == ISO_SHOW_BOTH) o.shown = scene->as;
     ask(ctx, scene, &o);
-    o.show = ISO_SHOW_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     ask(ctx, scene, &o);
     o.backend = ISO_BACKEND_EXACT;
     o.method = NULL;

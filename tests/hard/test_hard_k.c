@@ -54,10 +54,10 @@ static iso_status solve(const hard_road *way, const question *q, iso_sample *s)
     o.method = way->method;
     o.tolerance = way->tolerance;
     o.clock = q->clock;
-    o.show = ISO_SHOW_BOTH;
+    o.shown = ISO_SHOW_BOTH;
     o.gamma_alone = !q->all;
     o.max_steps = 1000000;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = q->all;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = q->all;
     iso_status status = iso_orbit_create(ctx, &q->p, &q->start, &o, &orbit);
     if (status == ISO_OK) status = iso_orbit_at(orbit, q->time, s);
     if (status == ISO_OK) iso_orbit_free(orbit);

@@ -75,8 +75,8 @@ static iso_status make_orbit(iso_context *ctx, const request *r, const double v[
     memcpy(start.y, v + STATE, sizeof start.y);
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = effects, o.backend = r->backend, o.tolerance = v[TOLERANCE], o.clock = r->clock, o.max_steps = 20000;
-    if (r->both) o.show = ISO_SHOW_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = r->both;
+    if (r->both) o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = r->both;
     return iso_orbit_create(ctx, &p, &start, &o, orbit);
 }
 
@@ -169,7 +169,7 @@ static iso_status batch(iso_context *ctx, const void *data, const double v[], sw
     if (status != ISO_OK) return status;
     memcpy(start.y, v + STATE, sizeof start.y);
     iso_batch_options o = iso_batch_defaults();
-    o.tolerance = v[TOLERANCE], o.max_steps = 20000, o.backend = r->backend, o.show = (iso_shown)r->model;
+    o.tolerance = v[TOLERANCE], o.max_steps = 20000, o.backend = r->backend, o.shown = (iso_shown)r->model;
     o.threads = 1, o.clock = r->clock;
     status = iso_batch_run(ctx, &(iso_batch_orbit){&p, &start, NULL}, 1, &o, (double[]){v[TIME], v[AFTER_ORBIT]}, 2,
                            samples, NULL);
@@ -182,10 +182,10 @@ static iso_status batch(iso_context *ctx, const void *data, const double v[], sw
 static iso_model make_model(const iso_system *system)
 {
     static const double usual[3] = {1.4, 2.1, 3};
-    const bool carry[ISO_CLOCKS] = {false};
+    const bool with_clock[ISO_CLOCKS] = {false};
     iso_problem f = {.eps = system == &iso_system_point ? 0.3 : 0, .energy = 0.7};
     if (iso_params_reduced(NULL, -1, usual, &f.p) != ISO_OK) abort();
-    return iso_model_assemble(system, &f, system->clock, carry);
+    return iso_model_assemble(system, &f, system->clock, with_clock);
 }
 
 /* y, time, tolerance, fixed step */

@@ -21,8 +21,8 @@ static iso_orbit *open_orbit(const hard_road *way, bool both, iso_clock clock)
     iso_orbit *orbit = NULL;
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.backend = way->backend, o.method = way->method, o.tolerance = way->tolerance, o.clock = clock;
-    if (both) o.show = ISO_SHOW_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = both;
+    if (both) o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = both;
     const iso_status status = iso_orbit_create(ctx, &params, &start, &o, &orbit);
     gsl_test(status != ISO_OK, "an orbit by %s: %s", way->method ? way->method->name : "exact",
              iso_context_message(ctx));

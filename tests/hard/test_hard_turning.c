@@ -306,7 +306,7 @@ static void check_coordinates(void)
         iso_conical last = {.length = {1, 1}};
         iso_orbit *path;
         iso_orbit_options options = iso_orbit_defaults(&b.start);
-        options.backend = exact.backend, options.show = ISO_SHOW_POINT;
+        options.backend = exact.backend, options.shown = ISO_SHOW_POINT;
         if (iso_orbit_create(ctx, &b.p, &b.start, &options, &path) != ISO_OK) {
             gsl_test(1, "no closed solution: %s", iso_context_message(ctx));
             return;

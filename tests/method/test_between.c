@@ -43,8 +43,8 @@ static void check_interval(const orbit *o, double h)
         return;
     }
     const double rounding = laws_rounding(p);
-    for (int i = 0; i < m->carried; i++) {
-        const iso_clock clock = m->carry[i];
+    for (int i = 0; i < m->clocks; i++) {
+        const iso_clock clock = m->clock_of[i];
         const double gained = y[1][m->moving + i], error = fabs(gap.gained[clock] - gained);
         laws_note(&gains, error / fabs(gained), 40 * rounding, p, iso_clock_name(clock));
         laws_note(&estimates, error, gap.error[clock] + 40 * rounding * fabs(gained), p, iso_clock_name(clock));
@@ -54,8 +54,9 @@ static void check_interval(const orbit *o, double h)
     iso_between_take(b, y[1]);
     iso_between_take(b, y[0]);
     laws_note(&reversals,
-              iso_between_measure(b, -h, 0, &back) ? fabs(back.gained[m->carry[0]] + gap.gained[m->carry[0]]) : NAN,
-              40 * rounding * fabs(gap.gained[m->carry[0]]), p, "back");
+              iso_between_measure(b, -h, 0, &back) ? fabs(back.gained[m->clock_of[0]] + gap.gained[m->clock_of[0]])
+                                                   : NAN,
+              40 * rounding * fabs(gap.gained[m->clock_of[0]]), p, "back");
     /* a sample beside the orbit has the defect by which it is beside it, to first order in the way */
     copy(y[1], moved, ISO_STATE);
     scale(moved, 1 + 1e-6);

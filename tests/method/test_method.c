@@ -235,11 +235,11 @@ static void carried_clocks(const orbit *plain, const iso_method *m, laws_worst *
     double y[ISO_MAX_STATE];
     orbit_clocks(&o, o.model.clock, true, true, true);
     solve(&o, m, -TURN * o.unit, y);
-    for (int c = 0; c < o.model.carried; c++) {
-        const double expected = quadrature(plain, o.model.carry[c], -TURN * o.unit);
+    for (int c = 0; c < o.model.clocks; c++) {
+        const double expected = quadrature(plain, o.model.clock_of[c], -TURN * o.unit);
         note(worst, &o, m, fabs(y[ISO_STATE + c] / expected - 1), allowed(m));
     }
-    note_true(worst, &o, m, o.model.carried == 2);
+    note_true(worst, &o, m, o.model.clocks == 2);
 }
 
 /* The same state when the orbit runs in another clock and is asked at what that clock showed. */
@@ -249,14 +249,14 @@ static void other_clocks(const orbit *plain, const iso_method *m, laws_worst *wo
     double y[ISO_MAX_STATE];
     orbit_clocks(&o, o.model.clock, true, true, true);
     solve(&o, m, TURN * o.unit, y);
-    for (int c = 0; c < o.model.carried; c++) {
+    for (int c = 0; c < o.model.clocks; c++) {
         orbit other = *plain;
         double same[ISO_MAX_STATE];
-        orbit_clocks(&other, o.model.carry[c], true, true, true);
+        orbit_clocks(&other, o.model.clock_of[c], true, true, true);
         solve(&other, m, y[ISO_STATE + c], same);
         note(worst, &o, m, orbit_error(plain, same, y), 6 * allowed(m));
-        for (int i = 0; i < other.model.carried; i++)
-            if (other.model.carry[i] == o.model.clock)
+        for (int i = 0; i < other.model.clocks; i++)
+            if (other.model.clock_of[i] == o.model.clock)
                 note(worst, &o, m, fabs(same[ISO_STATE + i] / (TURN * o.unit) - 1), 4 * allowed(m));
     }
 }

@@ -169,7 +169,7 @@ static iso_orbit *orbit_by(const iso_method *m, double k, const iso_start *start
     const iso_params p = laws_params(k, orbit_J);
     iso_orbit_options o = iso_orbit_defaults(start);
     iso_orbit *path;
-    o.method = m, o.backend = backend, o.tolerance = tolerance, o.show = ISO_SHOW_BOTH;
+    o.method = m, o.backend = backend, o.tolerance = tolerance, o.shown = ISO_SHOW_BOTH;
     if (iso_orbit_create(ctx, &p, start, &o, &path) == ISO_OK) return path;
     gsl_test(1, "an orbit is refused: %s", iso_context_message(ctx));
     exit(gsl_test_summary());

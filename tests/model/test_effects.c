@@ -23,8 +23,8 @@ static void states(const effects_case *c, laws_worst *worst)
     const bool gravity = ball && effects_on(c, ISO_GRAVITY), attitude = ball && effects_on(c, ISO_ATTITUDE);
     const bool stiff = ball && c->subset & EFFECTS_STIFF;
     for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
-        const bool carry[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
-        const iso_model m = iso_model_assemble(c->system, f, ISO_CLOCK_TAU, carry);
+        const bool with_clock[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
+        const iso_model m = iso_model_assemble(c->system, f, ISO_CLOCK_TAU, with_clock);
         int dim = 0;
         while (dim < ISO_STATE) note_state(c, &m, dim, c->system->state[dim], worst), dim++;
         effects_note(c, worst, abs(m.problem.at[ISO_GRAVITY] - (gravity ? dim : 0)), 0.5, "place of e");
@@ -34,8 +34,8 @@ static void states(const effects_case *c, laws_worst *worst)
         effects_note(c, worst, abs(m.problem.at[ISO_ATTITUDE] - (attitude ? dim : 0)), 0.5, "place of Q");
         for (int i = 3; i < (f->p.k == 1 ? 10 : 7) && attitude; i++) note_state(c, &m, dim++, added[i], worst);
         effects_note(c, worst, abs(m.moving - dim), 0.5, "moving");
-        if (carry[ISO_CLOCK_T]) note_state(c, &m, dim++, "t", worst);
-        if (carry[ISO_CLOCK_S]) note_state(c, &m, dim++, "s", worst);
+        if (with_clock[ISO_CLOCK_T]) note_state(c, &m, dim++, "t", worst);
+        if (with_clock[ISO_CLOCK_S]) note_state(c, &m, dim++, "s", worst);
         effects_note(c, worst, abs(m.dim - dim), 0.5, "dim");
         for (int e = 0; e < ISO_EFFECTS; e++)
             if (e != ISO_GRAVITY && e != ISO_ATTITUDE && e != ISO_TWIST)
@@ -143,8 +143,8 @@ static void jacobian_clocks(const effects_case *c, laws_worst *worst)
 {
     for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++)
         for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
-            const bool carry[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
-            const iso_model m = iso_model_assemble(c->system, &c->model.problem, clock, carry);
+            const bool with_clock[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
+            const iso_model m = iso_model_assemble(c->system, &c->model.problem, clock, with_clock);
             if (!(asked & 1 << clock)) check_jacobian(c, &m, worst);
         }
 }
@@ -164,8 +164,8 @@ static void rhs_clocks(const effects_case *c, laws_worst *worst)
         m.rhs(&m, y, dy);
         for (int i = 0; i < m.moving; i++)
             effects_note(c, worst, fabs(dy[i] - own[i] * own_rate / rate), 8 * DBL_EPSILON * fabs(dy[i]), "state");
-        for (int i = 0; i < m.carried; i++)
-            effects_note(c, worst, fabs(dy[m.moving + i] * rate / iso_clock_rate(p, m.carry[i], q, NULL) - 1),
+        for (int i = 0; i < m.clocks; i++)
+            effects_note(c, worst, fabs(dy[m.moving + i] * rate / iso_clock_rate(p, m.clock_of[i], q, NULL) - 1),
                          8 * DBL_EPSILON, "clock");
     }
 }

@@ -60,8 +60,8 @@ static void jacobian_clocks(const laws_case *c, laws_worst *worst)
 {
     for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++)
         for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
-            const bool carry[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
-            const iso_model m = iso_model_assemble(c->system, &c->problem, clock, carry);
+            const bool with_clock[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
+            const iso_model m = iso_model_assemble(c->system, &c->problem, clock, with_clock);
             check_jacobian(c, &m, worst);
         }
 }
@@ -81,8 +81,8 @@ static void rhs_clocks(const laws_case *c, laws_worst *worst)
     c->system->rhs(&c->problem, c->y, own);
     for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++)
         for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
-            const bool carry[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
-            const iso_model m = iso_model_assemble(c->system, &c->problem, clock, carry);
+            const bool with_clock[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
+            const iso_model m = iso_model_assemble(c->system, &c->problem, clock, with_clock);
             const double rate = written_rate(p, c->system->clock, q) / written_rate(p, clock, q);
             double y[ISO_MAX_STATE] = {0};
             int dim = ISO_STATE;
@@ -92,7 +92,7 @@ static void rhs_clocks(const laws_case *c, laws_worst *worst)
                 laws_note(worst, fabs(dy[i] - rate * own[i]), 4 * laws_rounding(p) * fabs(rate * own[i]) + DBL_MIN, p,
                           "state");
             for (iso_clock other = 0; other < ISO_CLOCKS; other++) {
-                if (!carry[other] || other == clock) continue;
+                if (!with_clock[other] || other == clock) continue;
                 const double expected = written_rate(p, other, q) / written_rate(p, clock, q);
                 laws_note(worst, fabs(dy[dim++] - expected), 4 * laws_rounding(p) * expected, p, "clock");
             }

@@ -48,7 +48,7 @@ static void check_way(const iso_model *m, const double start[])
         gsl_test(!(fabs(once[i] - start[i] - moved) <= 4 * DBL_EPSILON * fabs(moved) + ISO_REST),
                  "state %d: %g after %g", i, once[i], start[i]);
     }
-    gsl_test(!(largest(once) == 0 && m->carried > 0 && f[m->moving] > 0), "only clocks go on");
+    gsl_test(!(largest(once) == 0 && m->clocks > 0 && f[m->moving] > 0), "only clocks go on");
     gsl_test(!iso_model_at_rest(m, once), "what rests, rests");
 }
 

@@ -47,8 +47,8 @@ static iso_status orbit_alone(const iso_batch_orbit *one, const iso_batch_option
                            .tolerance = b->tolerance,
                            .max_steps = b->max_steps,
                            .clock = b->clock,
-                           .show = b->show,
-                           .carry = {b->carry[0], b->carry[1], b->carry[2]}};
+                           .shown = b->shown,
+                           .with_clock = {b->with_clock[0], b->with_clock[1], b->with_clock[2]}};
     iso_status status = iso_orbit_create(ctx, one->params, one->start, &o, &path);
     for (int i = 0; i < rows; i++) {
         for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) iso_sample_set_column(&out[i], c, NAN);
@@ -112,7 +112,7 @@ static void compare(const batch_pool *all, const iso_batch_options *o, const dou
         const iso_status expected = orbit_alone(&all->orbit[i], o, o->backend, times, rows, truth);
         if (expected != ISO_OK) first = expected;
         snprintf(name, sizeof name, "orbit %d, backend %d, clock %d, show %d, J = %g", i, (int)o->backend,
-                 (int)o->clock, (int)o->show, p->J[0]);
+                 (int)o->clock, (int)o->shown, p->J[0]);
         laws_note(&statuses, abs((int)status[i] - (int)expected), 0.5, p, name);
         for (int j = 0; j < rows; j++)
             laws_note(&right, difference(&samples[i * rows + j], &truth[j]), allowed(p), p, name);
@@ -134,8 +134,8 @@ static void check_right(void)
         o.backend = (const iso_backend[]){ISO_BACKEND_AUTO, ISO_BACKEND_BALL, ISO_BACKEND_POINT}[variant % 3];
         o.clock = (iso_clock)(variant / 3 % 3);
         o.vectors = iso_batch_vectors(variant % codes, NULL);
-        o.show = (iso_shown)(variant / 9 % 4 % 3);
-        for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = variant % 2 == 0;
+        o.shown = (iso_shown)(variant / 9 % 4 % 3);
+        for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = variant % 2 == 0;
         const bool t_alone = o.clock == ISO_CLOCK_T;
         const double J_unit = t_alone ? units[variant / 9] : 1, speed = t_alone ? units[(variant / 9 + 2) % 4] : 1;
         const double sign = variant % 4 < 2 ? 1 : -1, unit = sign / speed;
@@ -211,7 +211,7 @@ static void check_conserved(iso_backend backend)
     iso_batch_options o = iso_batch_defaults();
     iso_status status[BATCH_ORBITS], whole;
     static const double ks[] = {1, -1, 0.5, -0.4, 0.75, 1.5};
-    o.tolerance = 1e-15, o.backend = backend, o.show = (iso_shown)backend;
+    o.tolerance = 1e-15, o.backend = backend, o.shown = (iso_shown)backend;
     all.count = 0;
     for (int i = 0; i < BATCH_ORBITS; i++) batch_add_random(&all, dice, ks[i % 6], orbit_J, 1, 1, ISO_CLOCK_T, 0);
     iso_sample *samples = batch_run(ctx, all.orbit, all.count, &o, &time, 1, status, &whole);
@@ -246,7 +246,7 @@ int main(void)
     for (int i = 0; (o.vectors = iso_batch_vectors(i, NULL)) != NULL; i++)
         for (o.backend = ISO_BACKEND_BALL; o.backend <= ISO_BACKEND_POINT; o.backend++) check_bits(&o);
     o.backend = ISO_BACKEND_AUTO, o.clock = ISO_CLOCK_S, o.tolerance = 1e-15;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     check_bits(&o);
     laws_report(&bits, "no orbit feels another, by a bit");
     check_conserved(ISO_BACKEND_BALL);

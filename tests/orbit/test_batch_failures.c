@@ -119,9 +119,9 @@ static void check_failures(void)
     const iso_effects brake = {.on[ISO_ROLLING_RESISTANCE] = true, .number[ISO_ROLLING_RESISTANCE] = {10}};
     iso_batch_options o = iso_batch_defaults();
     check_failure(&o, &(iso_batch_orbit){&p, &start, &bad}, 4, ISO_BAD_INPUT, "mgb", 0);
-    o.show = ISO_SHOW_POINT;
+    o.shown = ISO_SHOW_POINT;
     check_failure(&o, &(iso_batch_orbit){&p, &rest, NULL}, 4, ISO_NOT_MAPPED, "at rest", 0);
-    o.show = ISO_SHOW_BALL;
+    o.shown = ISO_SHOW_BALL;
     o.max_steps = 2000;
     check_failure(&o, &(iso_batch_orbit){&p, &start, &brake}, -40, ISO_NUMERICAL, "more steps than allowed", 2);
     o.max_steps = 0;
@@ -135,7 +135,7 @@ static void check_range(void)
     static batch_pool one;
     const double J[3] = {1e200, 4e200, 9e200}, times[] = {1e-7, 3e-7, 5e-7, 7e-7, 9e-7};
     iso_batch_options o = iso_batch_defaults();
-    o.show = ISO_SHOW_BOTH;
+    o.shown = ISO_SHOW_BOTH;
     int failed = 0, wrong = 0;
     for (int i = 0; i < 40; i++) {
         iso_status status, whole;
@@ -219,7 +219,7 @@ static void check_rest(double k, iso_backend backend)
     iso_batch_options o = iso_batch_defaults();
     iso_start rest = batch_start(0, 0, 0, 0.36, 0.48, 0.8);
     iso_status status[COUNT], whole;
-    o.backend = backend, o.show = (iso_shown)backend, o.threads = 1;
+    o.backend = backend, o.shown = (iso_shown)backend, o.threads = 1;
     rest.model = (iso_model_kind)backend, rest.eps = NAN;
     all.count = 0;
     for (int i = 0; i < COUNT; i++)

@@ -37,8 +37,8 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, iso_mo
     for (int i = 0; i < ISO_STATE; i++) columns[width++] = (model == ISO_BALL ? 3 : 9) + i;
     for (int i = 0; i < width; i++) names[i] = iso_column_name(columns[i]);
     o.tolerance = 1e-14;
-    o.show = ISO_SHOW_BOTH;
-    o.carry[ISO_CLOCK_S] = true;
+    o.shown = ISO_SHOW_BOTH;
+    o.with_clock[ISO_CLOCK_S] = true;
     must(iso_orbit_create(ctx, p, start, &o, &orbit), "an orbit");
     must(iso_record_create(ctx, (size_t)width, names, &record), "a record");
     for (int i = 0; i < count; i++) {

@@ -26,8 +26,8 @@ static iso_orbit_options all_of(const iso_start *start, iso_backend backend, iso
     o.backend = backend;
     o.clock = clock;
     o.tolerance = 1e-14;
-    o.show = ISO_SHOW_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     return o;
 }
 
@@ -145,19 +145,19 @@ static void check_shows(const problem *o)
 {
     iso_orbit *all = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
     const iso_sample whole = at(all, 7);
-    for (iso_shown show = ISO_SHOW_BALL; show <= ISO_SHOW_BOTH; show++) {
+    for (iso_shown shown = ISO_SHOW_BALL; shown <= ISO_SHOW_BOTH; shown++) {
         iso_orbit_options less = all_of(&o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
-        less.show = show;
-        less.carry[ISO_CLOCK_TAU] = false;
+        less.shown = shown;
+        less.with_clock[ISO_CLOCK_TAU] = false;
         iso_orbit *orbit = create_with(&o->p, &o->start, &less);
         iso_sample wanted = whole;
         wanted.clock[ISO_CLOCK_TAU] = NAN;
         for (int i = 0; i < ISO_STATE; i++) {
-            if (show == ISO_SHOW_POINT) wanted.ball[i] = NAN;
-            if (show == ISO_SHOW_BALL) wanted.point[i] = NAN;
+            if (shown == ISO_SHOW_POINT) wanted.ball[i] = NAN;
+            if (shown == ISO_SHOW_BALL) wanted.point[i] = NAN;
         }
         const iso_sample s = at(orbit, 7);
-        gsl_test(!same(&s, &wanted), "what is shown of %s", iso_shown_name((int)show));
+        gsl_test(!same(&s, &wanted), "what is shown of %s", iso_shown_name((int)shown));
         iso_orbit_free(orbit);
     }
     iso_orbit_free(all);
@@ -374,7 +374,7 @@ static void check_errors(const problem *o)
     check_effects_refused(&o->p, &ball);
     other.method = iso_method_find("taylor");
     refused(&o->p, &ball, &other, "method", "backend exact does not integrate");
-    other = exact, other.show = (iso_shown)4;
+    other = exact, other.shown = (iso_shown)4;
     refused(&o->p, &ball, &other, "backend", "shown as ball, point or both");
     refused(&o->p, &neither, &exact, "", "starts as a ball or as a point");
     iso_batch_options batch = iso_batch_defaults();

@@ -93,8 +93,8 @@ static iso_orbit *both_shown(const iso_params *p, const iso_start *start, const 
     o.backend = backend;
     o.tolerance = 1e-14;
     o.clock = clock;
-    o.show = ISO_SHOW_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
     return orbit;
 }

@@ -36,8 +36,8 @@ static iso_orbit *create(const iso_params *p, const iso_start *start, iso_backen
     o.backend = backend;
     o.clock = clock;
     o.tolerance = 1e-14;
-    o.show = ISO_SHOW_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) give_up("an orbit is refused");
     return orbit;
 }

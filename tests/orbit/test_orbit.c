@@ -30,8 +30,8 @@ static iso_orbit_options all_of(const iso_start *start, iso_backend backend, iso
     o.backend = backend;
     o.clock = clock;
     o.tolerance = tolerance;
-    o.show = ISO_SHOW_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     return o;
 }
 
@@ -260,7 +260,7 @@ static void check_rest(void)
     const iso_start start = {.model = ISO_BALL, .y = {0, 0, 0, 0.6, 0, 0.8}};
     iso_orbit_options o = iso_orbit_defaults(&start);
     iso_orbit *orbit;
-    o.carry[ISO_CLOCK_S] = o.carry[ISO_CLOCK_TAU] = true;
+    o.with_clock[ISO_CLOCK_S] = o.with_clock[ISO_CLOCK_TAU] = true;
     if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) give_up("a ball at rest");
     const iso_sample s = at(orbit, 100);
     const double q = 1 / dot_diag(start.y + 3, p.inv_J, start.y + 3);
@@ -268,9 +268,9 @@ static void check_rest(void)
     gsl_test_rel(s.clock[ISO_CLOCK_S], 100 * iso_clock_rate(&p, ISO_CLOCK_S, q, NULL), 1e-13,
                  "at rest s runs evenly");
     iso_orbit_free(orbit);
-    o.show = ISO_SHOW_BOTH;
+    o.shown = ISO_SHOW_BOTH;
     refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "at rest", "at rest: as both");
-    o.show = ISO_SHOW_BALL, o.backend = ISO_BACKEND_POINT;
+    o.shown = ISO_SHOW_BALL, o.backend = ISO_BACKEND_POINT;
     refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "at rest", "at rest: backend point");
 }
 

@@ -38,7 +38,7 @@ static iso_orbit_options ball_and_s(const iso_start *start, iso_backend backend,
     iso_orbit_options o = iso_orbit_defaults(start);
     o.backend = backend;
     o.tolerance = tolerance;
-    o.carry[ISO_CLOCK_S] = start->model == ISO_BALL;
+    o.with_clock[ISO_CLOCK_S] = start->model == ISO_BALL;
     return o;
 }
 
@@ -128,7 +128,7 @@ static void check_events(double k, double w, iso_clock clock, int direction, law
     for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
         iso_orbit_options o = ball_and_s(&start, b, 1e-14);
         o.clock = clock;
-        o.carry[ISO_CLOCK_T] = true;
+        o.with_clock[ISO_CLOCK_T] = true;
         orbit[b] = create(&p, &start, &o);
     }
     const double end = iso_unit(iso_orbit_units(orbit[0]), iso_clock_dimension(clock)) * 1000;
@@ -226,11 +226,11 @@ static void check_range(double k, double J, double w, const char *word)
     iso_orbit_free(orbit);
     for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
         o.backend = b;
-        o.show = ISO_SHOW_BOTH;
+        o.shown = ISO_SHOW_BOTH;
         refused(try_create(&p, &start, &o), ISO_NUMERICAL, word, "its point");
     }
     o = iso_orbit_defaults(&start);
-    o.carry[ISO_CLOCK_S] = true;
+    o.with_clock[ISO_CLOCK_S] = true;
     refused(try_create(&p, &start, &o), ISO_NUMERICAL, word, "its s");
 }
 

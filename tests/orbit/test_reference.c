@@ -37,7 +37,7 @@ static void note_row(const trial *run, const reference *r, iso_backend backend, 
     o.backend = backend;
     o.method = iso_method_find(run->method);
     o.tolerance = run->tolerance;
-    o.carry[ISO_CLOCK_S] = true;
+    o.with_clock[ISO_CLOCK_S] = true;
     snprintf(where, sizeof where, "%s t=%g", iso_backend_name((int)backend), r->t);
     if (iso_orbit_create(ctx, &r->p, &r->start, &o, &orbit) != ISO_OK || iso_orbit_at(orbit, r->t, &s) != ISO_OK) {
         gsl_test(1, "%s, backend %s: %s", run->method, where, iso_context_message(ctx));

@@ -106,8 +106,8 @@ iso_status hard_solve(iso_context *ctx, const hard_road *way, const iso_params *
     o.tolerance = way->tolerance;
     o.clock = clock;
     o.max_steps = 10000000;
-    if (both) o.show = ISO_SHOW_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = both;
+    if (both) o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = both;
     iso_status status = iso_orbit_create(ctx, p, start, &o, &orbit);
     if (status != ISO_OK) return status;
     status = iso_orbit_at(orbit, time, sample);

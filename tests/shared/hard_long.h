@@ -58,7 +58,7 @@ static inline iso_status long_create(iso_context *ctx, const long_scene *scene, 
     o.method = way->method;
     o.tolerance = way->tolerance;
     o.clock = ISO_CLOCK_T;
-    o.show = way->backend == ISO_BACKEND_BALL ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
+    o.shown = way->backend == ISO_BACKEND_BALL ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
     return iso_orbit_create(ctx, &scene->p, &scene->start, &o, orbit);
 }
 

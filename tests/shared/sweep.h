@@ -37,11 +37,11 @@ static inline void sweep_give(sweep_answer *a, const double x[], int count)
 }
 
 /* The columns of a sample that are shown. */
-static inline void sweep_give_sample(sweep_answer *a, const iso_sample *sample, iso_shown show)
+static inline void sweep_give_sample(sweep_answer *a, const iso_sample *sample, iso_shown shown)
 {
     sweep_give(a, sample->clock, 1);
-    if (show != ISO_SHOW_POINT) sweep_give(a, sample->ball, ISO_STATE);
-    if (show != ISO_SHOW_BALL) sweep_give(a, sample->point, ISO_STATE);
+    if (shown != ISO_SHOW_POINT) sweep_give(a, sample->ball, ISO_STATE);
+    if (shown != ISO_SHOW_BALL) sweep_give(a, sample->point, ISO_STATE);
 }
 
 /* Stops long work: no call here should take more than a moment. */

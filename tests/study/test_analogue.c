@@ -98,8 +98,8 @@ static void check_path(const iso_analogue *a, const iso_analogue_ball *b, const 
     o.effects = &scene.effects;
     o.tolerance = 1e-14;
     o.clock = ISO_CLOCK_S;
-    o.show = ISO_SHOW_BOTH;
-    o.carry[ISO_CLOCK_T] = true;
+    o.shown = ISO_SHOW_BOTH;
+    o.with_clock[ISO_CLOCK_T] = true;
     must(iso_orbit_create(ctx, &scene.params, &scene.start, &o, &orbit), "an orbit");
     double y[ISO_STATE];
     copy(start, y, ISO_STATE);

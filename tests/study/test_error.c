@@ -74,7 +74,7 @@ static void check_references(const char *method, double tolerance, iso_backend b
         o.backend = backend;
         o.method = iso_method_find(method);
         o.tolerance = tolerance;
-        o.carry[ISO_CLOCK_S] = true;
+        o.with_clock[ISO_CLOCK_S] = true;
         trial *run = try(&r->p, &r->start, &o, r->t, 5);
         snprintf(where, sizeof where, "t = %g", r->t);
         snprintf(title, sizeof title, "%s at %g, backend %s", method, tolerance, iso_backend_name((int)backend));

@@ -204,13 +204,13 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, int fi
     iso_orbit *orbit;
     iso_record *record;
     for (int c = 0; c < ISO_CLOCKS; c++) {
-        o.carry[c] = strchr(clocks, "tTs"[c]) != NULL;
-        if (o.carry[c]) columns[width++] = c;
+        o.with_clock[c] = strchr(clocks, "tTs"[c]) != NULL;
+        if (o.with_clock[c]) columns[width++] = c;
     }
     for (int c = first; c <= last; c++) columns[width++] = c;
     for (int c = 0; c < width; c++) names[c] = iso_column_name(columns[c]);
     o.tolerance = 1e-14;
-    o.show = first < 9                  ? last > 9 ? ISO_SHOW_BOTH : ISO_SHOW_BALL
+    o.shown = first < 9                  ? last > 9 ? ISO_SHOW_BOTH : ISO_SHOW_BALL
              : start->model == ISO_BALL ? ISO_SHOW_BOTH
                                         : ISO_SHOW_POINT;
     must(iso_orbit_create(ctx, p, start, &o, &orbit), "an orbit");

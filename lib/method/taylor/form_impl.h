@@ -94,7 +94,7 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
         T->is_point ? call_point(T) : call_effective_ball(T);
     T->own = T->is_point && !T->in_t ? ISO_CLOCK_S : ISO_CLOCK_T;
     call_clock(T, m->clock);
-    for (int i = 0; i < m->carried; i++) call_clock(T, m->carry[i]);
+    for (int i = 0; i < m->clocks; i++) call_clock(T, m->clock_of[i]);
     if (T->clocks > 0) make_rule(&T->rule);
 }
 
@@ -178,7 +178,7 @@ static void load(form *T, int lane, const double y[])
         cross_product(s->n, s->w, turned);
         for (int i = 0; i < 3; i++) LANE(s->w[i], lane) = LANE(turned[i], lane) / LANE(speed, lane);
     }
-    for (int i = 0; i < m->carried; i++) LANE(s->clock[m->carry[i]], lane) = y[m->moving + i];
+    for (int i = 0; i < m->clocks; i++) LANE(s->clock[m->clock_of[i]], lane) = y[m->moving + i];
 }
 
 static vector packed(const real a[3])

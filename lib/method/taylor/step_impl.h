@@ -38,7 +38,7 @@ static void store(const form *T, int lane, const state *s, double y[])
         cross_product(s->w, s->n, M);
         for (int i = 0; i < 3; i++) y[i] = (double)(LANE(M[i], lane) * LANE(speed, lane));
     }
-    for (int i = 0; i < m->carried; i++) y[m->moving + i] = (double)LANE(s->clock[m->carry[i]], lane);
+    for (int i = 0; i < m->clocks; i++) y[m->moving + i] = (double)LANE(s->clock[m->clock_of[i]], lane);
 }
 
 /* How far the clocks go on from 0 to x; gives the relative error of that, estimated. */
@@ -87,10 +87,10 @@ static void state_at(const form *T, real x, state *s)
             s->own[at] = number(S->scalar + node, S->order, x);
     }
     if (T->has_derived) find_derived(T, s);
-    if (m->carried == 0) return;
+    if (m->clocks == 0) return;
     real gained[ISO_CLOCKS];
     pass_time(T, x, gained);
-    for (int i = 0; i < m->carried; i++) s->clock[m->carry[i]] = T->clock[m->carry[i]] + gained[m->carry[i]];
+    for (int i = 0; i < m->clocks; i++) s->clock[m->clock_of[i]] = T->clock[m->clock_of[i]] + gained[m->clock_of[i]];
 }
 
 /* --- steps ------------------------------------------------------------------------------------------------------ */
