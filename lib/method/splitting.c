@@ -339,7 +339,7 @@ static void part(iso_integrator *it, double ds, double y[], state *z)
 }
 
 /* Newton's method on the clock of the model; in s it has nothing to do. */
-static iso_status within(iso_integrator *it, double dt, double y[])
+static iso_status dense(iso_integrator *it, double dt, double y[])
 {
     enum { MAX_ITERATIONS = 20 };
     const iso_model *m = &it->model;
@@ -362,7 +362,7 @@ static iso_status within(iso_integrator *it, double dt, double y[])
 #define SPLITTING                                                                                                    \
     .family = "splitting", .own_equations = true, .system = &iso_system_point,                                       \
     .system_why = "the ball's equations do not split into flows that are known exactly", .steps_in_s = true,         \
-    .fixed = true, .create = create, .start = start, .step = step, .within = within, .free = release
+    .fixed = true, .create = create, .start = start, .step = step, .dense = dense, .free = release
 
 const iso_method iso_method_strang = {
     .name = "strang", .order = 2, .variant = STRANG, .doc = "Strang's splitting", SPLITTING};

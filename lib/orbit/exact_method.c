@@ -50,7 +50,7 @@ static iso_status at(iso_integrator *it, double t, double y[])
     return ISO_OK;
 }
 
-static iso_status within(iso_integrator *it, double dt, double y[])
+static iso_status dense(iso_integrator *it, double dt, double y[])
 {
     return at(it, it->left.head + (it->left.tail + dt), y);
 }
@@ -81,7 +81,7 @@ const iso_method iso_method_exact = {.name = "exact",
                                      .create = create,
                                      .start = start,
                                      .step = step,
-                                     .within = within,
+                                     .dense = dense,
                                      .at = at,
                                      .free = release};
 

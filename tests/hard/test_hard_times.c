@@ -209,8 +209,8 @@ static void check_orders(void)
 
 /* --- ends of steps ---------------------------------------------------------------------------------------------- */
 
-/* The state at the end of a step is the method's, beside it what a leap or a polynomial says from the step's other
- * end: apart by an error of a step each, in each component at most `tolerance` of its size, times max J/min J
+/* The state at the end of a step is the method's, beside it what dense output or a polynomial says from the step's
+ * other end: apart by an error of a step each, in each component at most `tolerance` of its size, times max J/min J
  * from model to model; to rounding. */
 static double allowed_jump(const hard_road *way)
 {
@@ -315,7 +315,7 @@ static void check_many(void)
               "a step for each row would be 1e6 of them");
     for (int w = 0; w < hard_ways; w++) {
         const iso_method *m = hard_way[w].method;
-        if (m && strcmp(m->name, "taylor") != 0) continue; /* others leap to each row: the same code, slower */
+        if (m && strcmp(m->name, "taylor") != 0) continue; /* others take a step to each row: the same code, slower */
         iso_orbit *orbit = open_orbit(&hard_way[w], false, ISO_CLOCK_T),
                   *alone = open_orbit(&hard_way[w], false, ISO_CLOCK_T);
         iso_sample row = {.clock = {0}};

@@ -116,7 +116,7 @@ static void check_order(const iso_method *m, const iso_system *system, iso_clock
 static iso_method method_of(const iso_taylor_code *code)
 {
     iso_method m = *taylor;
-    m.create = code->create, m.start = code->start, m.step = code->step, m.within = code->within;
+    m.create = code->create, m.start = code->start, m.step = code->step, m.dense = code->dense;
     return m;
 }
 

@@ -58,9 +58,9 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     return code_of(it)->step(it, y, h);
 }
 
-static iso_status within(iso_integrator *it, double dt, double y[])
+static iso_status dense(iso_integrator *it, double dt, double y[])
 {
-    return code_of(it)->within(it, dt, y);
+    return code_of(it)->dense(it, dt, y);
 }
 
 static void release(iso_integrator *it)
@@ -86,7 +86,7 @@ static iso_suits suits(const iso_model *m)
 
 #define TAYLOR                                                                                                       \
     .family = "isoroll", .own_equations = true, .projects = true, .fixed = true, .start = start, .step = step,       \
-    .within = within, .free = release
+    .dense = dense, .free = release
 
 const iso_method iso_method_taylor = {.name = "taylor",
                                       .doc = "Taylor series by recurrences, order 6-28 from the tolerance",

@@ -54,7 +54,7 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     return arrive_at(it, own->length, &T->now, y);
 }
 
-static iso_status within(iso_integrator *it, double dt, double y[])
+static iso_status dense(iso_integrator *it, double dt, double y[])
 {
     single *own = it->data;
     state s;
