@@ -39,7 +39,7 @@ extern "C" {
 
 /* method: integrators behind one table */
 #include "method/method.h"
-#include "method/between.h"
+#include "method/two_point.h"
 
 /* exact: separated coordinates; any time at the same cost, for k = 1 and k = -1 */
 #include "exact/coordinates.h"

@@ -13,7 +13,8 @@ static iso_status begin(iso_conversion *c, const conversion_row *r)
 {
     iso_record *header;
     iso_status status = ISO_OK;
-    if (c->own_column >= 0) status = iso_between_create(c->ctx, iso_orbit_model(c->first), c->tolerance, &c->between);
+    if (c->own_column >= 0)
+        status = iso_two_point_create(c->ctx, iso_orbit_model(c->first), c->tolerance, &c->quadrature);
     if (status == ISO_OK) status = iso_conversion_describe(c, r->time, &header);
     if (status != ISO_OK) return status;
     status = c->target.header(c->target.data, header);
@@ -40,7 +41,7 @@ iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line
     c->good++;
     if (!c->begun) status = begin(c, &r);
     if (status != ISO_OK) return status;
-    return c->between ? iso_conversion_follow(c, &r) : iso_conversion_emit(c, &r);
+    return c->quadrature ? iso_conversion_follow(c, &r) : iso_conversion_emit(c, &r);
 }
 
 iso_status iso_conversion_skip(iso_conversion *c)
@@ -53,8 +54,8 @@ iso_status iso_conversion_skip(iso_conversion *c)
 iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_status status = c->between ? iso_conversion_settle(c) : ISO_OK;
-    c->summary.checked = c->between != NULL;
+    iso_status status = c->quadrature ? iso_conversion_settle(c) : ISO_OK;
+    c->summary.checked = c->quadrature != NULL;
     c->summary.clock = c->other;
     if (summary) *summary = c->summary;
     if (status != ISO_OK || c->begun) return status;
@@ -131,7 +132,7 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
 void iso_conversion_free(iso_conversion *c)
 {
     if (!c) return;
-    iso_between_free(c->between);
+    iso_two_point_free(c->quadrature);
     iso_orbit_free(c->first);
     free(c->first_words);
     free(c);

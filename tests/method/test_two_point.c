@@ -1,16 +1,16 @@
-/* test_between.c - from sample to sample by the equations of motion (method/between.h): the clock's gain against an
- * integrated one, the estimate of its error, the defect of samples that lie on no orbit, and where it declines. */
+/* test_two_point.c - from sample to sample by the equations of motion (method/two_point.h): the clock's gain against
+ * an integrated one, the estimate of its error, the defect of samples that lie on no orbit, and where it declines. */
 #include <string.h>
 
-#include "method/between.h"
+#include "method/two_point.h"
 #include "orbits.h"
 
 static iso_context *ctx;
 
-static iso_between *create(const iso_model *model)
+static iso_two_point *create(const iso_model *model)
 {
-    iso_between *b;
-    if (iso_between_create(ctx, model, 1e-14, &b) == ISO_OK) return b;
+    iso_two_point *b;
+    if (iso_two_point_create(ctx, model, 1e-14, &b) == ISO_OK) return b;
     gsl_test(1, "a way between samples: %s", iso_context_message(ctx));
     exit(gsl_test_summary());
 }
@@ -31,15 +31,15 @@ static void check_interval(const orbit *o, double h)
 {
     const iso_model *m = &o->model;
     const iso_params *p = &m->problem.p;
-    iso_between *b = create(m);
+    iso_two_point *b = create(m);
     iso_gap gap, back, off;
     double y[2][ISO_MAX_STATE], moved[ISO_STATE];
     follow(o, h, y);
-    iso_between_take(b, y[0]);
-    iso_between_take(b, y[1]);
-    if (!iso_between_measure(b, h, 0, &gap)) {
+    iso_two_point_add(b, y[0]);
+    iso_two_point_add(b, y[1]);
+    if (!iso_two_point_measure(b, h, 0, &gap)) {
         declined++;
-        iso_between_free(b);
+        iso_two_point_free(b);
         return;
     }
     const double rounding = laws_rounding(p);
@@ -51,20 +51,20 @@ static void check_interval(const orbit *o, double h)
     }
     laws_note(&defects, gap.defect, 1e-12 + 40 * rounding, p, m->system->name);
     /* backwards: the same, with the other sign */
-    iso_between_take(b, y[1]);
-    iso_between_take(b, y[0]);
+    iso_two_point_add(b, y[1]);
+    iso_two_point_add(b, y[0]);
     laws_note(&reversals,
-              iso_between_measure(b, -h, 0, &back) ? fabs(back.gained[m->clock_of[0]] + gap.gained[m->clock_of[0]])
+              iso_two_point_measure(b, -h, 0, &back) ? fabs(back.gained[m->clock_of[0]] + gap.gained[m->clock_of[0]])
                                                    : NAN,
               40 * rounding * fabs(gap.gained[m->clock_of[0]]), p, "back");
     /* a sample beside the orbit has the defect by which it is beside it, to first order in the way */
     copy(y[1], moved, ISO_STATE);
     scale(moved, 1 + 1e-6);
-    iso_between_take(b, y[0]);
-    iso_between_take(b, moved);
-    if (iso_between_measure(b, h, 1e-4, &off))
+    iso_two_point_add(b, y[0]);
+    iso_two_point_add(b, moved);
+    if (iso_two_point_measure(b, h, 1e-4, &off))
         laws_note(&offsets, fabs(off.defect - 1e-6), 1e-6 * (0.2 + 2 * h / o->unit), p, "beside");
-    iso_between_free(b);
+    iso_two_point_free(b);
 }
 
 static void leave_level(orbit *o)
@@ -74,7 +74,7 @@ static void leave_level(orbit *o)
     o->model.problem.energy = iso_system_point.energy(&o->model.problem, o->y0, &unused);
 }
 
-/* Both systems, all k and J of the laws, and (point) off H = 0; 1/1000 to 1/60 of a turn, where nothing is declined. */
+/* Both systems, all k and J of the laws, and (point) off H = 0; 1/1000 to 1/60 of a turn, where none is declined. */
 static void test_dense(void)
 {
     for (int k = 0; k < LAWS_K; k++)
@@ -127,16 +127,16 @@ static void test_other_equations(void)
     follow(&o, h, y);
     other.model.problem.p = laws_params(0.51, orbit_J);
     orbit_clocks(&other, ISO_CLOCK_T, false, false, true);
-    iso_between *b = create(&other.model);
+    iso_two_point *b = create(&other.model);
     o.model.rhs(&o.model, o.y0, f);
     other.model.rhs(&other.model, o.y0, g);
     for (int i = 0; i < 3; i++) d[i] = h * (f[3 + i] - g[3 + i]);
-    iso_between_take(b, y[0]);
-    iso_between_take(b, y[1]);
-    gsl_test(!iso_between_measure(b, h, 1e-3, &gap), "an interval of another ball is measured");
+    iso_two_point_add(b, y[0]);
+    iso_two_point_add(b, y[1]);
+    gsl_test(!iso_two_point_measure(b, h, 1e-3, &gap), "an interval of another ball is measured");
     gsl_test_rel(norm(gap.motion + 3), norm(d), 0.05, "and has the defect of its equations");
     gsl_test(gap.defect < 1e-8, "which is no rounding: %.2g", gap.defect);
-    iso_between_free(b);
+    iso_two_point_free(b);
 }
 
 int main(void)
