@@ -81,10 +81,10 @@ static iso_status take_rows(filter *f, iso_conversion_summary *summary)
     double row[ISO_TRAJECTORY_COLUMNS];
     iso_status status = ISO_OK;
     bool more = true;
-    iso_context_watch(f->ctx, not_interrupted, NULL);
+    iso_context_set_monitor(f->ctx, not_interrupted, NULL);
     while (status == ISO_OK && more && !interrupted()) status = take_row(f, row, &more);
     if (status == ISO_OK && more) status = iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request");
-    iso_context_watch(f->ctx, NULL, NULL);
+    iso_context_set_monitor(f->ctx, NULL, NULL);
     const bool settle = status == ISO_OK || status == ISO_STOPPED;
     const iso_status ended = settle ? iso_conversion_end(f->conversion, summary) : status;
     return status == ISO_OK ? ended : status;

@@ -202,7 +202,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = prepare(ctx, o, &scene, &csv);
     const iso_cost_options how = options_of(o);
     stop_gently();
-    iso_context_watch(ctx, not_interrupted, NULL);
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &how, &cost);
     int result = finish_scene(ctx, &o->scene, &scene, status);
     const int measured = cost ? cost_count(cost, iso_cost_is_measured) : 0;
@@ -220,7 +220,7 @@ static int run(iso_context *ctx, const void *options_given)
     } else {
         iso_output_close(ctx, csv, false);
     }
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     iso_cost_free(cost);
     return result;
 }

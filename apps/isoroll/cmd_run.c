@@ -125,9 +125,9 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     how.times = asked->list;
     how.count = asked->count;
     how.errors = o->verbose;
-    iso_context_watch(ctx, go_on, NULL);
+    iso_context_set_monitor(ctx, go_on, NULL);
     const iso_status status = iso_run(ctx, scene, &how, &sink, &r);
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     if (!t.opened) return finish_scene(ctx, &o->scene, scene, status);
     const int result = close_file(&t, status, &r);
     if (o->verbose && result != EXIT_FILE) tell_errors(&r);

@@ -49,7 +49,7 @@ int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scen
 /* Prints the effects that act, with their numbers and, if wanted, what they are. Prints nothing where none acts. */
 void print_effects(const iso_effects *effects, bool docs);
 
-/* For iso_context_watch: false once the user has asked to stop. */
+/* For iso_context_set_monitor: false once the user has asked to stop. */
 bool not_interrupted(void *unused);
 
 #endif

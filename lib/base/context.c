@@ -6,11 +6,11 @@
 
 #include "base/room_impl.h"
 #include "base/sundials_impl.h"
-#include "base/watch_impl.h"
+#include "base/monitor_impl.h"
 
 struct iso_context {
     SUNContext sun; /* made when the first SUNDIALS method asks for it */
-    iso_watch watch;
+    iso_monitor monitor;
     char message[1024];
     char about[32];
 };
@@ -38,19 +38,19 @@ void iso_context_free(iso_context *ctx)
     free(ctx);
 }
 
-void iso_context_watch(iso_context *ctx, bool (*go_on)(void *data), void *data)
+void iso_context_set_monitor(iso_context *ctx, bool (*go_on)(void *data), void *data)
 {
-    ctx->watch = (iso_watch){go_on, data};
+    ctx->monitor = (iso_monitor){go_on, data};
 }
 
-iso_watch iso_context_watched(const iso_context *ctx)
+iso_monitor iso_context_monitor(const iso_context *ctx)
 {
-    return ctx->watch;
+    return ctx->monitor;
 }
 
 bool iso_context_goes_on(const iso_context *ctx)
 {
-    return iso_watch_goes_on(&ctx->watch);
+    return iso_monitor_goes_on(&ctx->monitor);
 }
 
 const char *iso_context_message(const iso_context *ctx)

@@ -25,9 +25,9 @@ void iso_context_free(iso_context *ctx);
 
 /* Long work asks `go_on` now and then, at each step of an integrator at least, and ends with ISO_STOPPED when it answers
  * false: for Ctrl-C, a time limit, or to show progress. NULL, as at the beginning: nobody is asked. */
-void iso_context_watch(iso_context *ctx, bool (*go_on)(void *data), void *data);
+void iso_context_set_monitor(iso_context *ctx, bool (*go_on)(void *data), void *data);
 
-/* What `go_on` answers; true when nobody watches. */
+/* What `go_on` answers; true without a monitor. */
 bool iso_context_goes_on(const iso_context *ctx);
 
 /* What went wrong last, one line without a newline; "" when nothing did. Valid until the next failing call. */

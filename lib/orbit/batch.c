@@ -246,7 +246,7 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_
     return ISO_OK;
 }
 
-/* Waits for a thread, and meanwhile asks the caller's watch. */
+/* Waits for a thread, and meanwhile asks the caller's monitor. */
 static void *await(worker *asking, pthread_t thread)
 {
     enum { SLICE = 20000000 }; /* nanoseconds */
@@ -279,7 +279,7 @@ static iso_status run(iso_context *ctx, batch *b, worker workers[], size_t threa
         if (!workers[i].ctx)
             threads = i;
         else
-            iso_context_watch(workers[i].ctx, going_on, &workers[i]);
+            iso_context_set_monitor(workers[i].ctx, going_on, &workers[i]);
     }
     const bool memory = threads > 0 && work_together(workers, threads);
     for (size_t i = 0; i < threads; i++) {

@@ -225,7 +225,7 @@ static void time_cell(measurer *m, iso_cost_cell *cell, cost_times *times, doubl
                                             &times->setup[n], &times->stepping[n], &cell->statistics);
     if (status == ISO_OK)
         times->count++;
-    else if (!m->p.watch.stopped)
+    else if (!m->p.monitor.stopped)
         fail(cell, status, iso_context_message(m->p.ctx));
 }
 

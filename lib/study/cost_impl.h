@@ -5,13 +5,13 @@
 #include "study/cost.h"
 #include "study/seconds_impl.h"
 
-/* What may end a run: the caller's own watch, or a limit of processor time. */
-typedef struct cost_watch {
+/* What may end a run: the caller's own monitor, or a limit of processor time. */
+typedef struct cost_monitor {
     iso_context *user;
     double deadline; /* in processor_seconds(); infinite: no limit */
     unsigned calls;
     bool stopped, late; /* by the caller; by the time */
-} cost_watch;
+} cost_monitor;
 
 /* A scene, with a context of its own: a cell that fails leaves no failure in the caller's context. */
 typedef struct cost_problem {
@@ -20,7 +20,7 @@ typedef struct cost_problem {
     iso_effects effects;    /* that act on the motion                                */
     iso_clock clock, other; /* the clock of the scene's times, and the clock whose error is measured */
     double end;
-    cost_watch watch;
+    cost_monitor monitor;
 } cost_problem;
 
 /* The caller's refusals, in the caller's context. Errors: those of iso_cost_measure about the scene. */

@@ -5,14 +5,14 @@
 #include "base/vec3_impl.h"
 #include "study/cost_impl.h"
 
-/* --- the scene, and its watch ----------------------------------------------------------------------------------- */
+/* --- the scene, and its monitor --------------------------------------------------------------------------------- */
 
 /* Of so many calls one looks at the clock. It is called at each step, and must not slow down what is measured. */
 enum { CALLS = 64 };
 
 static bool go_on(void *data)
 {
-    cost_watch *w = data;
+    cost_monitor *w = data;
     if (w->stopped || w->late) return false;
     if (w->calls++ % CALLS != 0) return true;
     w->stopped = !iso_context_goes_on(w->user);
@@ -22,15 +22,15 @@ static bool go_on(void *data)
 
 void iso_cost_allow(cost_problem *p, double seconds)
 {
-    p->watch.deadline = processor_seconds() + seconds;
-    p->watch.late = false;
-    p->watch.calls = 0;
+    p->monitor.deadline = processor_seconds() + seconds;
+    p->monitor.late = false;
+    p->monitor.calls = 0;
 }
 
 bool iso_cost_is_stopped(cost_problem *p)
 {
-    if (!p->watch.stopped) p->watch.stopped = !iso_context_goes_on(p->user);
-    return p->watch.stopped;
+    if (!p->monitor.stopped) p->monitor.stopped = !iso_context_goes_on(p->user);
+    return p->monitor.stopped;
 }
 
 static iso_status check_scene(iso_context *ctx, const iso_scene *scene, const iso_cost_options *o)
@@ -54,7 +54,7 @@ iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_s
                                  const iso_cost_options *o)
 {
     *p = (cost_problem){.user = user, .scene = scene, .effects = iso_effects_acting(&scene->effects)};
-    p->watch = (cost_watch){.user = user, .deadline = INFINITY};
+    p->monitor = (cost_monitor){.user = user, .deadline = INFINITY};
     p->clock = iso_orbit_defaults(&scene->start).clock;
     p->other = p->clock == ISO_CLOCK_T ? ISO_CLOCK_S : ISO_CLOCK_T;
     p->end = scene->end;
@@ -65,10 +65,10 @@ iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_s
     return ISO_OK;
 }
 
-/* Called for each orbit, when the problem no longer moves: the context keeps the address of its watch. */
-static void watch(cost_problem *p)
+/* Called for each orbit, when the problem no longer moves: the context keeps the address of its monitor. */
+static void set_monitor(cost_problem *p)
 {
-    iso_context_watch(p->ctx, go_on, &p->watch);
+    iso_context_set_monitor(p->ctx, go_on, &p->monitor);
 }
 
 void iso_cost_problem_close(cost_problem *p)
@@ -86,7 +86,7 @@ iso_status iso_cost_orbit_open(cost_problem *p, iso_backend backend, const iso_m
     if (method) o.tolerance = tolerance;
     o.shown = ISO_SHOW_BALL;
     o.with_clock[p->other] = with_clock;
-    watch(p);
+    set_monitor(p);
     return iso_orbit_create(p->ctx, &p->scene->params, &p->scene->start, &o, orbit);
 }
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/watch_impl.h"
+#include "base/monitor_impl.h"
 #include "orbit/description.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
@@ -73,7 +73,7 @@ typedef struct runner {
     const iso_run_sink *sink;
     iso_run_options options;
     iso_run_result *result;
-    iso_watch watch; /* the caller's */
+    iso_monitor monitor; /* the caller's */
     int columns[ISO_MAX_COLUMNS], count;
     iso_effects effects;
     iso_orbit_options how; /* the orbit's */
@@ -331,14 +331,14 @@ static iso_status work(runner *r)
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
-/* The context's watch during the run: shows how far it is, then asks the caller's watch. */
-static bool watch(void *data)
+/* The context's monitor during the run: shows how far it is, then asks the caller's monitor. */
+static bool monitor(void *data)
 {
     const runner *r = data;
     const iso_run_sink *sink = r->sink;
     if (sink->progress && r->orbit && r->farthest != 0)
         sink->progress(sink->data, fmin(fabs(iso_orbit_reached(r->orbit) / r->farthest), 1));
-    return iso_watch_goes_on(&r->watch);
+    return iso_monitor_goes_on(&r->monitor);
 }
 
 static iso_status check(runner *r)
@@ -380,16 +380,16 @@ iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_optio
     iso_run_result unused;
     runner r = {.ctx = ctx, .scene = scene, .sink = sink, .result = result ? result : &unused};
     r.options = options ? *options : iso_run_defaults();
-    r.watch = iso_context_watched(ctx);
+    r.monitor = iso_context_monitor(ctx);
     *r.result = (iso_run_result){.error_status = ISO_BAD_ARGUMENT, .error_words = "errors were not asked for"};
     iso_status status = check(&r);
     if (status == ISO_OK) status = sort_times(&r);
     if (status == ISO_OK) status = open_orbit(&r);
     if (status == ISO_OK) open_errors(&r);
     if (status == ISO_OK) status = give_header(&r);
-    iso_context_watch(ctx, watch, &r);
+    iso_context_set_monitor(ctx, monitor, &r);
     if (status == ISO_OK) status = work(&r);
-    iso_context_watch(ctx, r.watch.go_on, r.watch.data);
+    iso_context_set_monitor(ctx, r.monitor.go_on, r.monitor.data);
     close_run(&r);
     return status;
 }

@@ -75,7 +75,7 @@ typedef struct iso_run_result {
  * - Where the ball loses contact, the sink gets the row of this moment in the place of the first time beyond it.
  *   Times still farther from the start have no row.
  * - After a failure or a stop the sink has every row that was found before.
- * - The context's watch is asked at each step and before each row; it can stop the run.
+ * - The context's monitor is asked at each step and before each row; it can stop the run.
  * - options NULL: iso_run_defaults(). result may be NULL; else it is always filled, after an error, too.
  *
  * Errors before the header:

@@ -77,7 +77,7 @@ static void ask(iso_context *ctx, const iso_scene *scene, iso_orbit_options *o)
 {
     iso_orbit *orbit;
     long steps = STEPS;
-    iso_context_watch(ctx, fuzz_goes_on, &steps);
+    iso_context_set_monitor(ctx, fuzz_goes_on, &steps);
     const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, o, &orbit);
     if (status == ISO_OK) {
         check_description(ctx, scene, orbit);
@@ -88,7 +88,7 @@ static void ask(iso_context *ctx, const iso_scene *scene, iso_orbit_options *o)
         (void)iso_scene_blame(ctx, scene, "scene", status);
         fuzz_failed(ctx, status);
     }
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
 }
 
 /* As the scene says, then everything there is, then the closed solution. */

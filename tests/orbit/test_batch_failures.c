@@ -266,9 +266,9 @@ static void check_stopped(int threads)
     int wrong = 0, stopped = 0, done = 0, early = 0;
     for (long asks = 0; asks < 30000; asks = asks + asks / 2 + 1) {
         long left = asks;
-        iso_context_watch(ctx, some_times, &left);
+        iso_context_set_monitor(ctx, some_times, &left);
         iso_sample *samples = batch_run(ctx, orbits, COUNT, &o, times, ROWS, status, &whole);
-        iso_context_watch(ctx, NULL, NULL);
+        iso_context_set_monitor(ctx, NULL, NULL);
         bool all_done = true;
         for (int i = 0; i < COUNT; i++) {
             const iso_sample *a = &samples[i * ROWS], *b = &truth[i % all.count * ROWS];

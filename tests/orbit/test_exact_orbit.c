@@ -355,9 +355,9 @@ static void check_times(const problem *o)
     iso_sample s;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         gsl_test(iso_orbit_at(orbit, wrong[i], &s) != ISO_BAD_ARGUMENT, "t = %g is refused", wrong[i]);
-    iso_context_watch(ctx, never, NULL);
+    iso_context_set_monitor(ctx, never, NULL);
     gsl_test(iso_orbit_at(orbit, 3, &s) != ISO_STOPPED, "stopped on request");
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     gsl_test(iso_orbit_at(orbit, 3, &s) != ISO_OK || iso_orbit_reached(orbit) != 3, "and goes on");
     iso_orbit_free(orbit);
 }

@@ -80,7 +80,7 @@ static void check_stops(void)
     iso_cost_growth growth;
     int left = 0;
     o.quick = true;
-    iso_context_watch(ctx, count_down, &left);
+    iso_context_set_monitor(ctx, count_down, &left);
     gsl_test(iso_cost_measure(ctx, &s, &o, &c) != ISO_STOPPED || c, "stopped at once, nothing is told");
     left = 2000;
     gsl_test(iso_cost_measure(ctx, &s, &o, &c) != ISO_STOPPED || !c || c->complete || c->cells == 0,
@@ -89,7 +89,7 @@ static void check_stops(void)
     left = 3;
     const iso_cost_cell cell = {.backend = ISO_BACKEND_BALL, .method = iso_method_find("rk8pd"), .tolerance = 1e-9};
     gsl_test(iso_cost_grow(ctx, &s, &cell, 4, &growth) != ISO_STOPPED, "growth is stopped");
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
 }
 
 int main(void)

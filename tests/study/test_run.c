@@ -1,5 +1,5 @@
 /* test_run.c - iso_run (study/run.h): every row is that of a new orbit asked for this time alone. Times come in any
- * order; the sink, the watch or a failure may end the run early. */
+ * order; the sink, the monitor or a failure may end the run early. */
 #include "runs.h"
 
 /* Scenes of every kind, none of which loses contact. */
@@ -122,8 +122,8 @@ static void check_sink_stops(void)
     free(whole);
 }
 
-/* Stopped by the watch: whatever was found is there, in the order asked for. */
-static void check_watch_stops(bool ordered)
+/* Stopped by the monitor: whatever was found is there, in the order asked for. */
+static void check_monitor_stops(bool ordered)
 {
     const iso_scene scene = parse(kinds[4]);
     double times[MOST];
@@ -133,7 +133,7 @@ static void check_watch_stops(bool ordered)
     bool done = false;
     for (int asked = 0; !done && asked < 100000; asked++) {
         int left = asked;
-        iso_context_watch(ctx, some_times, &left);
+        iso_context_set_monitor(ctx, some_times, &left);
         kept *k = run(&scene, ordered ? NULL : times, count);
         done = k->status == ISO_OK;
         bool right = done || k->status == ISO_STOPPED, mine = iso_context_goes_on(ctx) == (left >= 0);
@@ -145,7 +145,7 @@ static void check_watch_stops(bool ordered)
         if (!done) most = k->rows > most ? k->rows : most, least = k->rows < least ? k->rows : least;
         free(k);
     }
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     gsl_test(!done || least != 0 || most + 1 < whole->rows, "stopped anywhere, %s: the rows before are there, to %zu",
              ordered ? "on the grid" : "with times in any order", most);
     free(whole);
@@ -249,8 +249,8 @@ int main(void)
     check_result();
     check_order();
     check_sink_stops();
-    check_watch_stops(true);
-    check_watch_stops(false);
+    check_monitor_stops(true);
+    check_monitor_stops(false);
     check_failure();
     check_refusals();
     check_errors();

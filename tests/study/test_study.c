@@ -120,9 +120,9 @@ static void check_interruptions(void)
     for (int asked = 0; asked < 100000 && !whole; asked += 1 + asked / 50) {
         iso_comparison *c;
         int left = asked;
-        iso_context_watch(ctx, some_times, &left);
+        iso_context_set_monitor(ctx, some_times, &left);
         const iso_status status = iso_compare(ctx, &scene, NULL, NULL, &c);
-        iso_context_watch(ctx, NULL, NULL);
+        iso_context_set_monitor(ctx, NULL, NULL);
         whole = status == ISO_OK;
         gsl_test(!whole && status != ISO_STOPPED, "interrupted: %s", iso_context_message(ctx));
         for (int b = 0; c && b < c->runs; b++)
