@@ -13,7 +13,7 @@
     X(ISO_BAD_INPUT, "bad input")                /* a scene or file says something that cannot be      */            \
     X(ISO_NOT_MAPPED, "outside the isomorphism") /* the other model has no such orbit                  */            \
     X(ISO_NUMERICAL, "numerical failure")        /* integration stopped, or a result is not finite     */            \
-    X(ISO_STOPPED, "stopped on request")         /* iso_context_set_monitor() answered false                 */      \
+    X(ISO_STOPPED, "stopped on request")         /* iso_context_set_monitor() answered false           */            \
     X(ISO_FILE_TROUBLE, "file trouble")          /* cannot open, read, write or rename                 */            \
     X(ISO_NO_MEMORY, "out of memory")            /* malloc gave none                                   */            \
     X(ISO_CLOSED_PIPE, "closed pipe")            /* the reader of what we write has gone               */

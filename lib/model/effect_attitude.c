@@ -1,9 +1,9 @@
 /* effect_attitude.c - how the ball stands and where it is: asked for, it acts on nothing.
  *
  *     Q' = Q (0,w)/2,     |Q| = 1          R(Q): from body to space axes
- *     x' = R (w x n)                       on a plane: way of the centre, in units of b
+ *     x' = R (w x n)                       on a plane: displacement of the centre, in units of b
  *
- * On a sphere no way has to be integrated: the contact is at a R n, the centre at (a+b) R n.
+ * On a sphere no displacement has to be integrated: the contact is at a R n, the centre at (a+b) R n.
  */
 #include <math.h>
 
@@ -30,7 +30,7 @@ iso_vector iso_in_space(iso_formula *F, const iso_problem *f, iso_vector v)
     return add_v(F, v, times_v(F, constant(F, 2), turned));
 }
 
-const double *iso_way(const iso_problem *f, const double y[])
+const double *iso_displacement(const iso_problem *f, const double y[])
 {
     return y + f->at[ISO_ATTITUDE] + 4;
 }
@@ -44,8 +44,8 @@ static void motion(iso_formula *F, const iso_problem *f)
     set_rate(F, q0, constant(F, -0.5), dot_of(F, q, omega));
     set_rate_v(F, q, constant(F, 0.5), add_v(F, scale_v(F, q0, omega), cross_of(F, q, omega)));
     if (!iso_is_plane(f)) return;
-    const iso_vector way = vector_state(F, at + 4);
-    set_rate_v(F, way, constant(F, 1), iso_in_space(F, f, cross_of(F, omega, formula_n(F))));
+    const iso_vector displacement = vector_state(F, at + 4);
+    set_rate_v(F, displacement, constant(F, 1), iso_in_space(F, f, cross_of(F, omega, formula_n(F))));
 }
 
 static void begin(const iso_problem *f, double y[])
@@ -59,7 +59,7 @@ static void size(const iso_problem *f, const double y[], double size[])
 {
     const int at = f->at[ISO_ATTITUDE];
     for (int i = 0; i < 4; i++) size[at + i] = 1;
-    for (int i = 4; iso_is_plane(f) && i < 7; i++) size[at + i] = 1 + norm(iso_way(f, y));
+    for (int i = 4; iso_is_plane(f) && i < 7; i++) size[at + i] = 1 + norm(iso_displacement(f, y));
 }
 
 static double unit_quaternion(const iso_problem *f, const double y[], double *value_size)
@@ -84,7 +84,7 @@ static void show(const iso_problem *f, const double y[], double columns[])
     copy(Q, columns, 4);
     iso_turn_to_space(Q, n, space_n);
     for (int i = 0; i < 3; i++) {
-        contact[i] = iso_is_plane(f) ? iso_way(f, y)[i] : radius_a(&f->p) * space_n[i];
+        contact[i] = iso_is_plane(f) ? iso_displacement(f, y)[i] : radius_a(&f->p) * space_n[i];
         trace[i] = -b * n[i];
         centre[i] = contact[i] + b * space_n[i];
     }

@@ -4,7 +4,7 @@
  *
  * The weight -m g e acts at the centre, b n above the contact. With the signed radius b this holds on all surfaces, and
  * the potential energy is m g (a+b)(n,e) = mgb/(1-k) (n,e). On a plane (k = 1) it is the height of the centre, m g (E,x),
- * with the vertical E in space and the way x, which only `attitude` knows.
+ * with the vertical E in space and the displacement x, which only `attitude` knows.
  */
 #include <float.h>
 #include <math.h>
@@ -41,8 +41,8 @@ static void potential(iso_formula *F, const iso_problem *f)
         const iso_constant less = sub_c(F, constant(F, 1), constant_k(F));
         add_energy(F, div_c(F, constant(F, mgb(f)), less), dot_of(F, formula_n(F), e));
     } else if (f->at[ISO_ATTITUDE] > 0) {
-        const iso_vector way = vector_state(F, f->at[ISO_ATTITUDE] + 4);
-        add_energy(F, constant(F, mgb(f)), dot_of(F, iso_in_space(F, f, e), way));
+        const iso_vector displacement = vector_state(F, f->at[ISO_ATTITUDE] + 4);
+        add_energy(F, constant(F, mgb(f)), dot_of(F, iso_in_space(F, f, e), displacement));
     }
 }
 

@@ -136,7 +136,7 @@ static void choose_equations(iso_model *m)
     const bool ball = m->system == &iso_system_ball;
     m->own_rhs = free_rhs;
     if (ball && m->followers > 0) m->own_rhs = free_rhs_followed;
-    if (ball && (has_torques(m) || m->contact == &iso_contact_loose)) m->own_rhs = ball_rhs;
+    if (ball && (has_torques(m) || m->contact == &iso_contact_twisting)) m->own_rhs = ball_rhs;
     if (!ball && m->problem.energy_formula.lines > 0) m->own_rhs = point_rhs;
 }
 

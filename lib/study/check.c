@@ -261,11 +261,11 @@ static void check_effects(checker *c, const iso_sample *flow, size_t row)
 }
 
 /* Whether the record has what an effect that acts on nothing begins with: the numbers that turn with the ball, and on a
- * plane the way, without which the height is not known. */
+ * plane the displacement, without which the height is not known. */
 static bool has_beginning(const checker *c, iso_effect_id id)
 {
-    const int way = column_of(id, NULL);
-    bool has = c->params->k != 1 || way < 0 || c->columns[way] >= 0;
+    const int displacement = column_of(id, NULL);
+    bool has = c->params->k != 1 || displacement < 0 || c->columns[displacement] >= 0;
     for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
         if (n->turns_with) has = has && c->columns[column_of(id, n->turns_with)] >= 0;
     return has;

@@ -57,7 +57,7 @@ static void rigid_equation(const effects_case *c, laws_worst *worst)
     effects_note(c, worst, fabs(dot(dy, y + 3)), 8 * DBL_EPSILON * forces / min3(f->p.J), "(w',n)");
 }
 
-/* --- loose ----------------------------------------------------------------------------------------------------- */
+/* --- twisting -------------------------------------------------------------------------------------------------- */
 
 static void momentum(const void *params, const double y[], double K[])
 {
@@ -67,22 +67,22 @@ static void momentum(const void *params, const double y[], double K[])
 }
 
 /* K' = K x w + T by differences of K along the flow, for any spin */
-static void loose_equation(const effects_case *c, laws_worst *worst)
+static void twisting_equation(const effects_case *c, laws_worst *worst)
 {
     const iso_params *p = &c->model.problem.p;
     double T[3], y[ISO_STATE], dy[ISO_STATE], K[3], K_dot[3], expected[3];
     copy(c->y, y, ISO_STATE);
     add_scaled(y, iso_random_normal(c->random), y + 3);
     torque_on(c, T);
-    iso_contact_loose.solve(&c->model.problem, y, T, dy);
+    iso_contact_twisting.solve(&c->model.problem, y, T, dy);
     momentum(p, y, K);
     cross(K, y, expected);
     add_scaled(expected, 1, T);
     const double way = norm(dy) / norm(y) + norm(dy + 3), h = 1 / (128 * way);
     laws_slope(momentum, p, 3, ISO_STATE, y, dy, h, K_dot);
-    const double w = norm(y), forces = max3(p->J) * w * w + norm(T), loose = 1 / (1 - p->D / min3(p->J));
+    const double w = norm(y), forces = max3(p->J) * w * w + norm(T), twisting = 1 / (1 - p->D / min3(p->J));
     effects_note(c, worst, laws_distance(K_dot, expected),
-                 4 * DBL_EPSILON * (max3(p->J) * w / h + laws_spread(p) * loose * forces), "K'");
+                 4 * DBL_EPSILON * (max3(p->J) * w / h + laws_spread(p) * twisting * forces), "K'");
     cross(y + 3, y, K);
     scale(K, p->k);
     effects_note(c, worst, laws_distance(K, dy + 3), 4 * DBL_EPSILON * norm(K), "n'");
@@ -93,7 +93,7 @@ static double distance_to_rigid(const effects_case *c, double resistance)
 {
     iso_problem f = c->model.problem;
     const double lambda = iso_reactions_at(&c->model.problem, c->y).twist;
-    double y[ISO_MAX_STATE], rigid[ISO_MAX_STATE], loose[ISO_MAX_STATE];
+    double y[ISO_MAX_STATE], rigid[ISO_MAX_STATE], twisting[ISO_MAX_STATE];
     f.effects.on[ISO_TWIST] = true;
     TWIST_RESISTANCE(&f.effects) = resistance;
     const iso_model m = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[]){false, false, false});
@@ -103,12 +103,12 @@ static double distance_to_rigid(const effects_case *c, double resistance)
     if (c->model.problem.at[ISO_ATTITUDE] > 0 && m.problem.p.k == 1) /* the same way, which moves nothing */
         copy(c->y + c->model.problem.at[ISO_ATTITUDE] + 4, y + m.problem.at[ISO_ATTITUDE] + 4, 3);
     c->model.rhs(&c->model, c->y, rigid);
-    m.rhs(&m, y, loose);
-    return laws_distance(rigid, loose);
+    m.rhs(&m, y, twisting);
+    return laws_distance(rigid, twisting);
 }
 
 /* c -> infinity: w' tends to that of the rubber ball like 1/c, whatever else acts. */
-static void loose_to_rigid(const effects_case *c, laws_worst *worst)
+static void twisting_to_rigid(const effects_case *c, laws_worst *worst)
 {
     if (effects_on(c, ISO_TWIST) || laws_spread(&c->model.problem.p) > 3) return;
     const double unit = 1e4 * c->kinetic / norm(c->y);
@@ -206,15 +206,15 @@ static void note_omega(const effects_case *c, const iso_model *m, const double p
 {
     const iso_problem *f = &m->problem;
     const double eps = laws_rounding(&f->p), spin = dot(pushed, y + 3), size = effects_energy_size(c);
-    const bool loose = effects_on(c, ISO_TWIST);
+    const bool twisting = effects_on(c, ISO_TWIST);
     double expected[3], u[3], across[3], unused;
     copy(pushed, expected, 3);
     diag(f->p.inv_J, y + 3, u);
-    if (!loose) add_scaled(expected, -spin / dot(y + 3, u), u);
+    if (!twisting) add_scaled(expected, -spin / dot(y + 3, u), u);
     if (effects_lambda(c) > 0) add_scaled(expected, -spin - y[effects_lambda(c)] / TWIST_RESISTANCE(&f->effects), y + 3);
     cross(expected, y, across);
     effects_note(c, worst, norm(across), 16 * DBL_EPSILON * norm(y) * norm(y), "direction of w");
-    if (!loose) effects_note(c, worst, fabs(dot(y, y + 3)), 4 * DBL_EPSILON * norm(y), "(w,n)");
+    if (!twisting) effects_note(c, worst, fabs(dot(y, y + 3)), 4 * DBL_EPSILON * norm(y), "(w,n)");
     const double U = iso_effects_potential(f, y), h = iso_system_ball.energy(f, y, &unused);
     const double falling = fmax(fabs(U), iso_effects_strength(f, y));
     const bool keeps = iso_effects_keep_energy(f), fast = h - U > 0.2 * falling, still = h - U < 0.05 * falling;
@@ -282,8 +282,8 @@ int main(void)
     gsl_test_verbose(1);
     effects_hold("rigid contact without torques is free", &iso_system_ball, 1, rigid_is_free);
     effects_hold("rigid contact: J w' = J w x w + T + lambda n", &iso_system_ball, 1, rigid_equation);
-    effects_hold("loose contact: K' = K x w + T", &iso_system_ball, 1, loose_equation);
-    effects_hold("loose contact tends to the rigid one", &iso_system_ball, 1, loose_to_rigid);
+    effects_hold("twisting contact: K' = K x w + T", &iso_system_ball, 1, twisting_equation);
+    effects_hold("twisting contact tends to the rigid one", &iso_system_ball, 1, twisting_to_rigid);
     orbits_to_rigid();
     effects_hold("stiffness", &iso_system_ball, 1, stiffness);
     bounds_of_D();

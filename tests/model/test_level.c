@@ -75,7 +75,7 @@ static bool on_plane(const effects_case *c)
 }
 
 /* (Jw x n)^2 = (K x n)^2 stays on a plane however the contact twists; only a level spoils it. */
-static bool on_plane_unless_loose(const effects_case *c)
+static bool on_plane_unless_twisting(const effects_case *c)
 {
     return on_plane(c) &&
            (c->subset & 0xff & ~(1 << ISO_ATTITUDE | 1 << ISO_REACTIONS | 1 << ISO_CLOCK)) != 1 << ISO_TWIST;
@@ -107,7 +107,7 @@ static bool anywhere(const effects_case *c)
     return true;
 }
 
-static bool loose(const effects_case *c)
+static bool twisting(const effects_case *c)
 {
     return c->subset & 1 << ISO_TWIST;
 }
@@ -120,13 +120,13 @@ static bool has_weight(const effects_case *c)
 static drift_of drifts[] = {
     {.name = "h", .could_hold = anywhere},
     {.name = "omega.n", .could_hold = anywhere},
-    {.name = "F_plane", .could_hold = on_plane_unless_loose},
+    {.name = "F_plane", .could_hold = on_plane_unless_twisting},
     {.name = "F_shell", .could_hold = on_shell},
     {.name = "F_axis1", .could_hold = has_axis1},
     {.name = "F_axis2", .could_hold = has_axis2},
     {.name = "F_axis3", .could_hold = has_axis3},
-    {.name = "K.K", .could_hold = loose},
-    {.name = "K.n", .could_hold = loose},
+    {.name = "K.K", .could_hold = twisting},
+    {.name = "K.n", .could_hold = twisting},
     {.name = "K.e", .could_hold = has_weight},
     {.name = "e.n", .could_hold = anywhere},
 };

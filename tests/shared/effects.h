@@ -235,9 +235,9 @@ static inline double effects_image_size(const effects_case *c)
 static inline void effects_sizes(const effects_case *c, double size[ISO_MAX_STATE])
 {
     const iso_params *p = &c->model.problem.p;
-    const double w = norm(c->y), loose = effects_on(c, ISO_TWIST) ? 1 / (1 - p->D / min3(p->J)) : 1;
+    const double w = norm(c->y), twisting = effects_on(c, ISO_TWIST) ? 1 / (1 - p->D / min3(p->J)) : 1;
     const bool ball = c->system == &iso_system_ball;
-    const double turning = 2 * loose * (max3(p->J) * w * w + effects_torque_size(c)) / min3(p->J);
+    const double turning = 2 * twisting * (max3(p->J) * w * w + effects_torque_size(c)) / min3(p->J);
     for (int i = 0; i < ISO_MAX_STATE; i++)
         size[i] = i >= ISO_STATE ? w : i >= 3 ? (ball ? fabs(p->k) * w : w) : ball ? turning : effects_image_size(c);
     if (effects_lambda(c) > 0) size[effects_lambda(c)] = TWIST_RESISTANCE(&c->model.problem.effects) * turning;
@@ -252,7 +252,8 @@ static inline double effects_step(const effects_case *c)
     return laws_reach(&c->model.problem.p) / (128 * way);
 }
 
-/* The same along one component alone. A loose contact divides by 1 - D (n,J^-1 n), which has a zero near |n| = 1. */
+/* The same along one component alone. A twisting contact divides by 1 - D (n,J^-1 n), which has a zero near |n| =
+ * 1. */
 static inline double effects_step_of(const effects_case *c, int i)
 {
     const iso_params *p = &c->model.problem.p;

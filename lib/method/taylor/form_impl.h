@@ -45,7 +45,7 @@ static void call_effective_ball(form *T)
     for (int e = 0; e < ISO_EFFECTS; e++)
         T->has_derived = T->has_derived || (f->at[e] > 0 && iso_effect_list[e]->states->kind == ISO_STATE_DERIVED);
     call_ball(&T->S, T->twists, T->motion.lines > 0 ? &T->motion : NULL);
-    call(&T->S, T->twists ? poles_of_loose : poles_of_rigid);
+    call(&T->S, T->twists ? poles_of_twisting : poles_of_rigid);
 }
 
 /* In the ball's time the powers cancel, for free points on H = 0; k = -1 is polynomial in s. */
