@@ -142,7 +142,7 @@ static int tell_choice(const cost_report *r)
     return EXIT_DONE;
 }
 
-static int tell(const options *o, const iso_cost_line *const line[], const cost_report *r)
+static int print_report(const options *o, const iso_cost_line *const line[], const cost_report *r)
 {
     const bool lost = !r->cost->complete || cost_count(r->cost, cost_is_failed) > 0;
     const bool failed = isnan(r->want) ? lost : !iso_cost_choose(r->cost, r->want);
@@ -164,7 +164,7 @@ static int report(iso_context *ctx, const options *o, cost_report *r, iso_output
     if (!line) return complain("out of memory"), iso_output_close(ctx, csv, false), EXIT_NUMERICAL;
     if (o->horizons > 0 && r->cost->complete) grow(ctx, o, line, r);
     progress_end();
-    int result = tell(o, line, r);
+    int result = print_report(o, line, r);
     if (csv) {
         cost_write_csv(r, iso_output_stream(csv));
         result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));

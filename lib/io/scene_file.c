@@ -13,7 +13,7 @@ enum { LARGEST_FILE = 16 << 20 };
 /* ---- What must hold between keys ---- */
 
 /* The key and value of root -> section (-> name if not NULL). */
-static bool find(iso_draft *d, const char *section, const char *name, const yaml_node_t **key,
+static bool find_key(iso_draft *d, const char *section, const char *name, const yaml_node_t **key,
                  const yaml_node_t **value)
 {
     const yaml_node_t *mapping;
@@ -38,7 +38,7 @@ static iso_status check_sections(iso_draft *d, const char **model)
     const yaml_node_t *key, *surface, *last = NULL;
     *model = NULL;
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
-        if (!find(d, models[i], NULL, &key, NULL)) continue;
+        if (!find_key(d, models[i], NULL, &key, NULL)) continue;
         if (*model)
             return iso_yaml_fail(
                 &d->yaml, key->start_mark.index > last->start_mark.index ? key->start_mark : last->start_mark,
@@ -46,7 +46,7 @@ static iso_status check_sections(iso_draft *d, const char **model)
         *model = models[i];
         last = key;
     }
-    const bool has_surface = find(d, "surface", NULL, &surface, NULL);
+    const bool has_surface = find_key(d, "surface", NULL, &surface, NULL);
     if (has_surface && !*model)
         return iso_yaml_fail(&d->yaml, surface->start_mark, "'surface' needs a 'ball' that rolls on it");
     if (!*model)
@@ -65,8 +65,8 @@ static iso_status check_sections(iso_draft *d, const char **model)
 static iso_status check_surface(iso_draft *d)
 {
     const yaml_node_t *surface, *radius;
-    if (!find(d, "surface", NULL, &surface, NULL)) return ISO_OK;
-    const bool has_radius = find(d, "surface", "radius", &radius, NULL), plane = d->surface == ISO_PLANE;
+    if (!find_key(d, "surface", NULL, &surface, NULL)) return ISO_OK;
+    const bool has_radius = find_key(d, "surface", "radius", &radius, NULL), plane = d->surface == ISO_PLANE;
     if (plane && has_radius)
         return iso_yaml_fail(&d->yaml, radius->start_mark, "a plane has no 'radius': take it out");
     if (!plane && !has_radius)
@@ -83,9 +83,9 @@ static iso_status check_initial(iso_draft *d, iso_model_kind model)
                                          : "a point starts from 'gamma' and 'M'";
     const char *name;
     iso_shown whose;
-    find(d, "initial", NULL, &initial, NULL);
+    find_key(d, "initial", NULL, &initial, NULL);
     for (int i = 0; iso_draft_initial_key(i, &name, &whose); i++) {
-        const bool present = find(d, "initial", name, &key, NULL);
+        const bool present = find_key(d, "initial", name, &key, NULL);
         if ((int)whose == (int)model && !present)
             return iso_yaml_fail(&d->yaml, initial->start_mark, "missing '%s' in 'initial': %s", name, what);
         if ((int)whose != (int)model && whose != ISO_SHOW_BOTH && present)
@@ -97,7 +97,8 @@ static iso_status check_initial(iso_draft *d, iso_model_kind model)
 static iso_status check_time(iso_draft *d)
 {
     const yaml_node_t *step;
-    if (!find(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS) return ISO_OK;
+    if (!find_key(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS)
+        return ISO_OK;
     return iso_yaml_fail(&d->yaml, step->start_mark,
                          "a step of %g to the end %g is more than %g rows: give a larger 'step'", d->scene.step,
                          d->scene.end, ISO_MOST_ROWS);
@@ -118,7 +119,7 @@ static iso_status fail_at_field(iso_draft *d, iso_status status, const char *sec
     if (status != ISO_BAD_INPUT) return status;
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
         if (strcmp(about, elsewhere[i].about) == 0) section = elsewhere[i].section, about = elsewhere[i].key;
-    if (!find(d, section, about, NULL, &place)) find(d, section, NULL, &place, NULL);
+    if (!find_key(d, section, about, NULL, &place)) find_key(d, section, NULL, &place, NULL);
     return iso_yaml_fail(&d->yaml, place->start_mark, "%s", iso_context_message(d->yaml.ctx));
 }
 
@@ -175,7 +176,7 @@ static iso_status make_effects(iso_draft *d, iso_model_kind model)
 {
     const yaml_node_t *effects;
     iso_status status = ISO_OK;
-    if (!find(d, "effects", NULL, NULL, &effects)) return ISO_OK;
+    if (!find_key(d, "effects", NULL, NULL, &effects)) return ISO_OK;
     for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++)
         if (d->scene.effects.on[e] && iso_effect_list[e]->complete) status = complete_effect(d, model, effects, e);
     return status;
@@ -187,7 +188,7 @@ static iso_status make_start(iso_draft *d, iso_model_kind model)
     const iso_spin spin = d->project                         ? ISO_SPIN_REMOVE
                           : iso_effects_twist(&s->effects) ? ISO_SPIN_KEEP
                                                            : ISO_SPIN_REFUSE;
-    const double *eps = find(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;
+    const double *eps = find_key(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;
     const iso_status status = model == ISO_BALL
                                   ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, spin, &s->start)
                                   : iso_start_point(d->yaml.ctx, d->M, d->gamma, eps, d->project, &s->start);

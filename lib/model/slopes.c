@@ -24,11 +24,11 @@ static void call_system(series *S, const iso_model *m)
     if (m->system == &iso_system_ball) {
         call_ball(S, iso_effects_twist(&f->effects), f->motion.lines > 0 ? &f->motion : NULL);
     } else if (m->system == &iso_system_point_t) {
-        call(S, point_p);
+        add_recurrence(S, point_p);
     } else {
-        call(S, point_24);
+        add_recurrence(S, point_24);
         S->formula = f->energy_formula.lines > 0 ? &f->energy_formula : NULL;
-        if (S->formula) call(S, point_24_effects);
+        if (S->formula) add_recurrence(S, point_24_effects);
     }
 }
 

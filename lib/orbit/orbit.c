@@ -51,7 +51,7 @@ static iso_backend choose_backend(const iso_orbit_options *opt, const iso_start 
 }
 
 /* Whether a start stays where it is: then any time is known without steps. */
-static void see_rest(iso_orbit *o, const double y[])
+static void find_rest(iso_orbit *o, const double y[])
 {
     o->rests = true;
     copy(y, o->still, o->model.dim);
@@ -79,7 +79,7 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     iso_model_begin(&o->model, six, y);
     if (ball) o->model.problem.energy = iso_system_ball.energy(&o->model.problem, y, &size);
     if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
-    see_rest(o, y);
+    find_rest(o, y);
     return ISO_OK;
 }
 

@@ -108,7 +108,7 @@ static iso_status open_exact(runner *r)
     return ISO_OK;
 }
 
-static iso_status find(runner *r, int which, size_t i, iso_sample *sample)
+static iso_status find_sample(runner *r, int which, size_t i, iso_sample *sample)
 {
     iso_backend_run *run = &r->out->run[which];
     const double begin = processor_seconds();
@@ -130,20 +130,21 @@ static iso_status keep(runner *r, int which, size_t i, const iso_sample *sample)
 }
 
 /* A row is kept only when every backend has found it: so all have the same rows when one of them fails. */
-static iso_status take_row(runner *r, size_t i)
+static iso_status add_row(runner *r, size_t i)
 {
     iso_sample sample[ISO_BACKENDS];
     iso_status status = ISO_OK;
-    for (int which = 0; status == ISO_OK && which < r->out->runs; which++) status = find(r, which, i, &sample[which]);
+    for (int which = 0; status == ISO_OK && which < r->out->runs; which++)
+        status = find_sample(r, which, i, &sample[which]);
     for (int which = 0; status == ISO_OK && which < r->out->runs; which++) status = keep(r, which, i, &sample[which]);
     return status;
 }
 
-static iso_status take_rows(runner *r, bool (*progress)(double part, void *data), void *data)
+static iso_status add_rows(runner *r, bool (*progress)(double part, void *data), void *data)
 {
     const size_t rows = iso_scene_rows(r->scene);
     for (size_t i = 0; i < rows; i++) {
-        const iso_status status = take_row(r, i);
+        const iso_status status = add_row(r, i);
         if (status != ISO_OK) return status;
         if (progress && !progress((double)(i + 1) / (double)rows, data)) break;
     }
@@ -206,7 +207,7 @@ iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress
     if (status == ISO_OK) status = iso_orbit_check_time(r.orbit[ISO_BALL], scene->end);
     if (status == ISO_OK) status = open_backend(&r, ISO_BACKEND_POINT);
     if (status == ISO_OK) status = open_exact(&r);
-    if (status == ISO_OK) status = take_rows(&r, progress, data);
+    if (status == ISO_OK) status = add_rows(&r, progress, data);
     for (int b = 0; b < ISO_BACKENDS; b++) iso_orbit_free(r.orbit[b]);
     const iso_record *rows = c->runs > 0 ? c->run[c->runs - 1].trajectory : NULL;
     if (rows && iso_record_rows(rows) > 0 && (status == ISO_OK || status == ISO_NUMERICAL || status == ISO_STOPPED)) {

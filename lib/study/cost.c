@@ -47,7 +47,7 @@ static double elapsed(const measurer *m)
     return processor_seconds() - m->begin;
 }
 
-static void tell(measurer *m, const char *what)
+static void report_progress(measurer *m, const char *what)
 {
     m->share = fmax(m->share, fmin(1, elapsed(m) / m->seconds));
     if (m->options->progress) m->options->progress(m->share, what, m->options->data);
@@ -124,7 +124,7 @@ static iso_status choose_cells(measurer *m)
 /* --- errors ----------------------------------------------------------------------------------------------------- */
 
 /* The closed solution is compared with the second reference, because the first may be itself. */
-static void take_errors(measurer *m, const cost_track *track, iso_cost_cell *cell)
+static void measure_errors(measurer *m, const cost_track *track, iso_cost_cell *cell)
 {
     const cost_reference *r = &m->reference;
     const cost_track *against = cell->backend == ISO_BACKEND_EXACT ? &r->second : &r->first;
@@ -160,7 +160,7 @@ static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double 
     if (status == ISO_OK) {
         cell->status = ISO_OK;
         cell->why[0] = 0;
-        take_errors(m, &track, cell);
+        measure_errors(m, &track, cell);
         if (iso_cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, true, 2 * seconds, &track) == ISO_OK)
             cell->clock_error = iso_cost_clock_distance(
                 &track, cell->backend == ISO_BACKEND_EXACT ? &m->reference.second : &m->reference.first);
@@ -208,7 +208,7 @@ static void check_cells(measurer *m, double about[])
             iso_cost_cell *cell = &m->out->cell[line->first + i];
             check_cell(m, cell, share_of(m, left--), &about[line->first + i]);
             if (cell->status == ISO_OK) m->promised += repeats_of(about[line->first + i]);
-            tell(m, cell->method ? cell->method->name : "exact");
+            report_progress(m, cell->method ? cell->method->name : "exact");
             if (cell->status != ISO_STOPPED || iso_cost_is_stopped(&m->p)) continue;
             alive[l] = false;
             give_up(m, line, i + 1);
@@ -241,7 +241,7 @@ static void time_cells(measurer *m, const double about[])
             if (cell->status != ISO_OK || iso_cost_times_settled(&m->times[i])) continue;
             time_cell(m, cell, &m->times[i], about[i]);
             open++;
-            tell(m, "times");
+            report_progress(m, "times");
         }
     }
 }
@@ -280,7 +280,7 @@ static iso_status find_reference(measurer *m)
     m->time = calloc((size_t)times, sizeof *m->time);
     if (!m->time) return iso_context_fail(m->p.user, ISO_NO_MEMORY, "", "no memory for %d times", times);
     for (int i = 0; i < times; i++) m->time[i] = i + 1 == times ? m->p.end : m->p.end * ((i + 1.0) / times);
-    tell(m, "reference");
+    report_progress(m, "reference");
     const iso_status status =
         iso_cost_reference_find(&m->p, times, m->time, REFERENCES * m->seconds, false, &m->reference);
     if (status != ISO_OK) return status;
@@ -325,7 +325,7 @@ iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_
         status = measure(&m);
         m.out->seconds = elapsed(&m);
         m.share = 1;
-        tell(&m, "done");
+        report_progress(&m, "done");
     }
     iso_cost_reference_free(&m.reference);
     free(m.time);

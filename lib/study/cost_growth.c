@@ -75,7 +75,7 @@ static void fill_times(grower *g, int horizons)
 
 /* The largest error up to each time, and the uncertainty of the reference. The error of the closed solution is
  * measured against the second reference, whose uncertainty is not known. */
-static void take_errors(grower *g)
+static void measure_errors(grower *g)
 {
     const cost_reference *r = &g->reference;
     const cost_track *against = g->cell.backend == ISO_BACKEND_EXACT ? &r->second : &r->first;
@@ -102,7 +102,7 @@ static iso_status find_errors(grower *g, int horizons)
     if (status != ISO_OK)
         snprintf(g->out->why, sizeof g->out->why, "%.159s",
                  status == ISO_STOPPED ? "it would take too long" : iso_context_message(g->p.ctx));
-    take_errors(g);
+    measure_errors(g);
     return ISO_OK;
 }
 
@@ -120,7 +120,7 @@ static bool time_horizon(grower *g, double end, cost_times *times)
     return times->count > 0;
 }
 
-static void take_horizons(grower *g)
+static void measure_horizons(grower *g)
 {
     iso_cost_growth *out = g->out;
     for (int h = 0; h < g->track.reached / TIMES; h++) {
@@ -191,7 +191,7 @@ static iso_status grow(grower *g, int horizons)
     snprintf(g->out->reference, sizeof g->out->reference, "%s",
              g->cell.backend == ISO_BACKEND_EXACT ? g->reference.second_what : g->reference.what);
     snprintf(g->out->second, sizeof g->out->second, "%s", g->reference.second_what);
-    take_horizons(g);
+    measure_horizons(g);
     fit_errors(g);
     fit_seconds(g->out);
     return iso_cost_is_stopped(&g->p) ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request") : ISO_OK;

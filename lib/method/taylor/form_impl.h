@@ -45,7 +45,7 @@ static void call_effective_ball(form *T)
     for (int e = 0; e < ISO_EFFECTS; e++)
         T->has_derived = T->has_derived || (f->at[e] > 0 && iso_effect_list[e]->states->kind == ISO_STATE_DERIVED);
     call_ball(&T->S, T->twists, T->motion.lines > 0 ? &T->motion : NULL);
-    call(&T->S, T->twists ? poles_of_twisting : poles_of_rigid);
+    add_recurrence(&T->S, T->twists ? poles_of_twisting : poles_of_rigid);
 }
 
 /* In the ball's time the powers cancel, for free points on H = 0; k = -1 is polynomial in s. */
@@ -56,8 +56,8 @@ static void call_point(form *T)
     S->formula = T->in_field ? &T->shape.problem.energy_formula : NULL;
     T->is_neumann = f->p.k == -1 && !T->in_field;
     T->in_t = !T->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1;
-    call(S, T->in_t ? point_t : T->is_neumann ? neumann : point_s);
-    if (T->in_field) call(S, point_effects);
+    add_recurrence(S, T->in_t ? point_t : T->is_neumann ? neumann : point_s);
+    if (T->in_field) add_recurrence(S, point_effects);
 }
 
 static void call_clock(form *T, iso_clock clock)
@@ -89,7 +89,7 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     S->order = order_for(T->tolerance);
     set_counts(S);
     if (T->is_point_t)
-        call(S, point_p);
+        add_recurrence(S, point_p);
     else
         T->is_point ? call_point(T) : call_effective_ball(T);
     T->own = T->is_point && !T->in_t ? ISO_CLOCK_S : ISO_CLOCK_T;

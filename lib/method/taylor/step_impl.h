@@ -42,7 +42,7 @@ static void store(const form *T, int lane, const state *s, double y[])
 }
 
 /* How far the clocks go on from 0 to x; gives the relative error of that, estimated. */
-static inline real pass_time(const form *T, real x, real gained[ISO_CLOCKS])
+static inline real integrate_clocks(const form *T, real x, real gained[ISO_CLOCKS])
 {
     real doubt = zero;
     gained[T->own] = x;
@@ -89,7 +89,7 @@ static void state_at(const form *T, real x, state *s)
     if (T->has_derived) find_derived(T, s);
     if (m->clocks == 0) return;
     real gained[ISO_CLOCKS];
-    pass_time(T, x, gained);
+    integrate_clocks(T, x, gained);
     for (int i = 0; i < m->clocks; i++) s->clock[m->clock_of[i]] = T->clock[m->clock_of[i]] + gained[m->clock_of[i]];
 }
 
@@ -173,7 +173,8 @@ static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
         h = choose(near < h, near, h);
     }
     for (int i = 0;; i++) {
-        const real doubt = pass_time(T, direction * h, gained); /* NaN where the polynomial is no rate any more */
+        const real doubt =
+            integrate_clocks(T, direction * h, gained); /* NaN where the polynomial is no rate any more */
         const mask good = doubt <= tolerance, close = doubt < spread((NUMBER)1e10);
         if (i == 40 || !any(other(good))) return direction * h;
         const real less = rough_root(tolerance / larger(doubt, least), 2 * NODES);
@@ -182,14 +183,14 @@ static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
 }
 
 /* The x at which the model's clock has gone on by dt: Newton's method. */
-static real find(const form *T, real dt, real guess)
+static real solve_for_time(const form *T, real dt, real guess)
 {
     const iso_clock c = T->shape.clock;
     if (c == T->own) return dt;
     real x = guess, gained[ISO_CLOCKS];
     mask far = everywhere();
     for (int i = 0; i < 20 && any(far); i++) {
-        pass_time(T, x, gained);
+        integrate_clocks(T, x, gained);
         const real q = number(T->S.base, T->S.order - 1, x);
         const real step = (gained[c] - dt) / (T->rate[c] * raised(q, T->power[c]));
         x = choose(far, x - step, x);

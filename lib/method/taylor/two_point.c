@@ -72,7 +72,7 @@ void iso_two_point_add(iso_two_point *b, const double y[ISO_STATE])
 }
 
 /* The coefficients at a sample, up to p. */
-static void know(iso_two_point *b, sample *s, int p)
+static void compute_coefficients(iso_two_point *b, sample *s, int p)
 {
     form *T = &b->T;
     series *S = &T->S;
@@ -148,8 +148,8 @@ bool iso_two_point_measure(iso_two_point *b, double h, double noise, iso_gap *ga
     double left;
     if (b->declines) return false;
     for (;; b->p++, b->easy = 0) {
-        know(b, b->left, b->p);
-        know(b, b->right, b->p);
+        compute_coefficients(b, b->left, b->p);
+        compute_coefficients(b, b->right, b->p);
         measure(b, h, noise, gap, &left);
         if (left <= 1) break;
         if (b->p == HIGHEST || !(left < 1e100)) return false;

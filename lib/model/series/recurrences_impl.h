@@ -244,7 +244,7 @@ static inline void expand(series *S)
 
 /* --- what both uses set up -------------------------------------------------------------------------------------- */
 
-static inline void call(series *S, recurrence *term)
+static inline void add_recurrence(series *S, recurrence *term)
 {
     S->term[S->terms++] = term;
 }
@@ -254,10 +254,10 @@ static inline void call_ball(series *S, bool twists, const iso_formula *formula)
 {
     const bool effective = formula && formula->lines > 0;
     S->formula = effective ? formula : NULL;
-    call(S, twists ? twisting_ball : ball);
-    if (effective) call(S, effects);
-    call(S, twists ? twisting : effective && formula->torques ? forced : rigid);
-    if (effective && formula->late) call(S, late_effects);
+    add_recurrence(S, twists ? twisting_ball : ball);
+    if (effective) add_recurrence(S, effects);
+    add_recurrence(S, twists ? twisting : effective && formula->torques ? forced : rigid);
+    if (effective && formula->late) add_recurrence(S, late_effects);
 }
 
 /* n, 1/n */
