@@ -27,7 +27,7 @@ extern "C" {
 #include "model/params.h"
 #include "model/effect_list.h"
 #include "model/formula.h"
-#include "model/field.h"
+#include "model/problem.h"
 #include "model/system.h"
 #include "model/effect.h"
 #include "model/model.h"
@@ -41,7 +41,7 @@ extern "C" {
 
 /* method: integrators behind one table */
 #include "method/method.h"
-#include "method/between.h"
+#include "method/two_point.h"
 
 /* exact: separated coordinates; any time at the same cost, for k = 1 and k = -1 */
 #include "exact/coordinates.h"

@@ -215,9 +215,9 @@ static int run(iso_context *ctx, const void *options_given)
     if (usage) return EXIT_USAGE;
     iso_status status = stated ? ISO_OK : problem_of_scene(ctx, o, &t);
     stop_gently();
-    iso_context_watch(ctx, not_interrupted, NULL);
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = answer(ctx, o, &t);
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     return finish(ctx, status);
 }
 

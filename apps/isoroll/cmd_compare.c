@@ -14,7 +14,7 @@ typedef struct options {
 
 static const char *backend_name(const iso_comparison *c, int run)
 {
-    return iso_picture_name((int)c->run[run].backend);
+    return iso_backend_name((int)c->run[run].backend);
 }
 
 /* --- the table
@@ -46,7 +46,7 @@ static size_t shown_row(size_t i, size_t shown, size_t rows)
 
 /* The larger difference of a model's two vectors in a row. Run `point`: from the ball. Run `exact`: from the ball
  * or the point, whichever is larger. */
-static double row_difference(const iso_comparison *c, int run, iso_picture model, size_t row)
+static double row_difference(const iso_comparison *c, int run, iso_model_kind model, size_t row)
 {
     const int first = model == ISO_BALL ? 1 : 3;
     double most = 0;
@@ -58,7 +58,7 @@ static double row_difference(const iso_comparison *c, int run, iso_picture model
 }
 
 /* Prints one model's six numbers by every backend, each with its difference from the backends above it. */
-static void print_model(const iso_comparison *c, iso_picture model, size_t shown, size_t rows)
+static void print_model(const iso_comparison *c, iso_model_kind model, size_t shown, size_t rows)
 {
     static const char *const titles[] = {"the ball", "the point"};
     const int first = model == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
@@ -271,9 +271,9 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = scene_with_options(ctx, &o->scene, &scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     stop_gently();
-    iso_context_watch(ctx, not_interrupted, NULL);
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_compare(ctx, &scene, show, NULL, &c);
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     int result = finish_scene(ctx, &o->scene, &scene, status);
     progress_end();
     if (!c) return result;

@@ -9,7 +9,7 @@
 typedef struct options {
     file_options from;
     const char *output;
-    iso_picture to;               /* -1: not given  */
+    iso_model_kind to;               /* -1: not given  */
     double tolerance, max_defect; /* NAN: not given */
     int digits;
     bool shift_J, strict, quiet;
@@ -67,7 +67,7 @@ static iso_status put_bad(void *data, size_t line, iso_status why, const char *w
 }
 
 /* One row from in to out. */
-static iso_status take_row(filter *f, double row[], bool *more)
+static iso_status filter_row(filter *f, double row[], bool *more)
 {
     const iso_status status = iso_trajectory_next(f->ctx, f->in, row, more);
     if (status == ISO_OK) return *more ? iso_conversion_put(f->conversion, row, iso_trajectory_line(f->in)) : ISO_OK;
@@ -76,15 +76,15 @@ static iso_status take_row(filter *f, double row[], bool *more)
     return iso_conversion_skip(f->conversion);
 }
 
-static iso_status take_rows(filter *f, iso_conversion_summary *summary)
+static iso_status filter_rows(filter *f, iso_conversion_summary *summary)
 {
     double row[ISO_TRAJECTORY_COLUMNS];
     iso_status status = ISO_OK;
     bool more = true;
-    iso_context_watch(f->ctx, not_interrupted, NULL);
-    while (status == ISO_OK && more && !interrupted()) status = take_row(f, row, &more);
+    iso_context_set_monitor(f->ctx, not_interrupted, NULL);
+    while (status == ISO_OK && more && !interrupted()) status = filter_row(f, row, &more);
     if (status == ISO_OK && more) status = iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request");
-    iso_context_watch(f->ctx, NULL, NULL);
+    iso_context_set_monitor(f->ctx, NULL, NULL);
     const bool settle = status == ISO_OK || status == ISO_STOPPED;
     const iso_status ended = settle ? iso_conversion_end(f->conversion, summary) : status;
     return status == ISO_OK ? ended : status;
@@ -106,7 +106,7 @@ static iso_status write_clock(filter *f, const iso_conversion_summary *s)
     return iso_trajectory_write_line(f->ctx, f->out, key, text);
 }
 
-static void tell(const filter *f, const iso_conversion_summary *s)
+static void report_summary(const filter *f, const iso_conversion_summary *s)
 {
     complain("%s: %zu rows, %zu bad; worst: constraint %.2g (line %zu), energy %.2g (line %zu)", f->name, s->rows,
              s->bad, s->constraint.value, s->constraint.line, s->energy.value, s->energy.line);
@@ -171,7 +171,7 @@ static int finish_filter(filter *f, iso_status status, const iso_conversion_summ
     if (closed != ISO_OK) return result == EXIT_DONE ? finish(f->ctx, closed) : result;
     if (status == ISO_STOPPED) complain("interrupted: %zu rows were converted", s->rows - s->bad);
     if (status != ISO_OK) return result;
-    if (!f->o->quiet) tell(f, s);
+    if (!f->o->quiet) report_summary(f, s);
     return judge(f, s) ? EXIT_DONE : EXIT_SOME_FAILED;
 }
 
@@ -206,7 +206,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = open_filter(&f, &params);
     int result;
     if (status == ISO_OK)
-        result = finish_filter(&f, take_rows(&f, &summary), &summary);
+        result = finish_filter(&f, filter_rows(&f, &summary), &summary);
     else
         result = finish(ctx, status);
     iso_conversion_free(f.conversion);
@@ -216,7 +216,7 @@ static int run(iso_context *ctx, const void *options_given)
 
 static const options defaults = {.from = FILE_OPTIONS_UNSET,
                                  .output = "-",
-                                 .to = (iso_picture)-1,
+                                 .to = (iso_model_kind)-1,
                                  .tolerance = NAN,
                                  .max_defect = NAN,
                                  .digits = 17};

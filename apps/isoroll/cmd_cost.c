@@ -85,7 +85,7 @@ static bool has_name(const iso_plot_work *work, int in_panel, int *names, const 
 }
 
 /* Adds the lines of one backend, the fastest first. `error` and `seconds` hold the numbers of all cells. */
-static void add_panel(const iso_cost *cost, const iso_cost_line *const line[], iso_picture backend,
+static void add_panel(const iso_cost *cost, const iso_cost_line *const line[], iso_backend backend,
                       const double *error, const double *seconds, iso_plot_work *work, iso_plot_series *series,
                       int *names)
 {
@@ -94,7 +94,7 @@ static void add_panel(const iso_cost *cost, const iso_cost_line *const line[], i
         const iso_cost_line *one = line[l];
         if (!one->method || one->backend != backend) continue;
         const bool named = has_name(work, in_panel++, names, one->method->name);
-        series[work->count++] = (iso_plot_series){.panel = iso_picture_name((int)backend),
+        series[work->count++] = (iso_plot_series){.panel = iso_backend_name((int)backend),
                                                   .name = named ? one->method->name : NULL,
                                                   .count = one->count,
                                                   .error = error + one->first,
@@ -120,8 +120,8 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_cost_line *
         seconds[i] = c->total;
         if (!c->method) work.closed[0] = error[i], work.closed[1] = seconds[i];
     }
-    add_panel(cost, line, ISO_BALL, error, seconds, &work, series, &names);
-    add_panel(cost, line, ISO_POINT, error, seconds, &work, series, &names);
+    add_panel(cost, line, ISO_BACKEND_BALL, error, seconds, &work, series, &names);
+    add_panel(cost, line, ISO_BACKEND_POINT, error, seconds, &work, series, &names);
     const iso_status status = iso_plot_cost(ctx, o->plot, &work);
     free(error);
     return status;
@@ -142,7 +142,7 @@ static int tell_choice(const cost_report *r)
     return EXIT_DONE;
 }
 
-static int tell(const options *o, const iso_cost_line *const line[], const cost_report *r)
+static int print_report(const options *o, const iso_cost_line *const line[], const cost_report *r)
 {
     const bool lost = !r->cost->complete || cost_count(r->cost, cost_is_failed) > 0;
     const bool failed = isnan(r->want) ? lost : !iso_cost_choose(r->cost, r->want);
@@ -164,7 +164,7 @@ static int report(iso_context *ctx, const options *o, cost_report *r, iso_output
     if (!line) return complain("out of memory"), iso_output_close(ctx, csv, false), EXIT_NUMERICAL;
     if (o->horizons > 0 && r->cost->complete) grow(ctx, o, line, r);
     progress_end();
-    int result = tell(o, line, r);
+    int result = print_report(o, line, r);
     if (csv) {
         cost_write_csv(r, iso_output_stream(csv));
         result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
@@ -202,7 +202,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = prepare(ctx, o, &scene, &csv);
     const iso_cost_options how = options_of(o);
     stop_gently();
-    iso_context_watch(ctx, not_interrupted, NULL);
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &how, &cost);
     int result = finish_scene(ctx, &o->scene, &scene, status);
     const int measured = cost ? cost_count(cost, iso_cost_is_measured) : 0;
@@ -220,7 +220,7 @@ static int run(iso_context *ctx, const void *options_given)
     } else {
         iso_output_close(ctx, csv, false);
     }
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     iso_cost_free(cost);
     return result;
 }

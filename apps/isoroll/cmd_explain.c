@@ -82,7 +82,7 @@ static iso_status explain_exact(iso_context *ctx, const iso_scene *scene, const 
     iso_effects effects;
     iso_orbit *orbit;
     iso_orbit_options o = iso_scene_orbit_options(scene, columns, count, &effects);
-    o.backend = ISO_EXACT;
+    o.backend = ISO_BACKEND_EXACT;
     o.method = NULL;
     printf("closed solution (--backend exact)\n");
     const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
@@ -105,7 +105,7 @@ static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const
 {
     const iso_model *m = iso_orbit_model(orbit);
     printf("%s: backend %s, %d states, in the clock %s\n", iso_orbit_exact(orbit) ? "evaluated" : "integrated",
-           iso_picture_name((int)iso_orbit_backend(orbit)), m->dim, iso_clock_name(m->clock));
+           iso_backend_name((int)iso_orbit_backend(orbit)), m->dim, iso_clock_name(m->clock));
     for (int i = 0, first = 0; i < m->dim; i++) { /* states with the same reason share a line */
         const char *reason = reason_of(m, i);
         if (i + 1 < m->dim && strcmp(reason, reason_of(m, i + 1)) == 0) continue;
@@ -128,12 +128,12 @@ static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const
     printf("\n\n");
 }
 
-static bool holds(const iso_integral *integral, const iso_field *f)
+static bool holds(const iso_integral *integral, const iso_problem *f)
 {
     return !integral->holds || integral->holds(f);
 }
 
-static void explain_integral(const char *whose, const iso_integral *i, const iso_field *f, bool wanted)
+static void explain_integral(const char *whose, const iso_integral *i, const iso_problem *f, bool wanted)
 {
     if (holds(i, f) == wanted) printf("  %-5s %-10s %s\n", whose, i->name, i->doc);
 }
@@ -141,7 +141,7 @@ static void explain_integral(const char *whose, const iso_integral *i, const iso
 /* The integrals of both models. Without a twin: of the integrated model alone. */
 static void explain_integrals(const iso_orbit *orbit)
 {
-    const iso_field *f = &iso_orbit_model(orbit)->field;
+    const iso_problem *f = &iso_orbit_model(orbit)->problem;
     const iso_system *only = iso_orbit_has_twin(orbit) ? NULL : iso_orbit_model(orbit)->system;
     for (int wanted = 1; wanted >= 0; wanted--) {
         printf(wanted ? "integrals that hold\n" : "integrals that do not hold here\n");
@@ -182,14 +182,14 @@ static double cost(const iso_model *m, const double y[])
 static iso_status explain_cost(iso_context *ctx, const iso_model *m)
 {
     static const bool none[ISO_CLOCKS] = {false};
-    iso_field field = {.p = m->field.p};
+    iso_problem problem = {.p = m->problem.p};
     double six[ISO_STATE], y[ISO_MAX_STATE];
     iso_random *random = iso_random_create(1);
     if (!random) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sample");
-    iso_system_ball.sample(&field, random, six);
-    const iso_model free_ball = iso_model_assemble(&iso_system_ball, &field, ISO_CLOCK_T, none);
+    iso_system_ball.sample(&problem, random, six);
+    const iso_model free_ball = iso_model_assemble(&iso_system_ball, &problem, ISO_CLOCK_T, none);
     const double reference = cost(&free_ball, six);
-    m->system->sample(&field, random, six);
+    m->system->sample(&problem, random, six);
     iso_random_free(random);
     iso_model_begin(m, six, y);
     printf("\ncost of a right-hand side: %.2f times the free ball's in its own time (measured)\n",

@@ -272,7 +272,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = iso_scene_read(ctx, o->scene.file, &scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     stop_gently();
-    iso_context_watch(ctx, not_interrupted, NULL);
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &how, &f);
     int result = finish_scene(ctx, &o->scene, &scene, status);
     if (status == ISO_OK) {
@@ -282,7 +282,7 @@ static int run(iso_context *ctx, const void *options_given)
             result = EXIT_NUMERICAL;
         if (o->plot && result == EXIT_DONE) result = finish(ctx, draw(ctx, o, &scene, &f));
     }
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     return result;
 }
 

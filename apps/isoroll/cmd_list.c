@@ -21,14 +21,13 @@ static void list_systems(void)
 static void list_backends(void)
 {
     static const char *const docs[] = {
-        [ISO_BALL] = "integrates the ball (9)",
-        [ISO_POINT] = "integrates the point (24)",
-        [ISO_AUTO] =
+        [ISO_BACKEND_BALL] = "integrates the ball (9)",
+        [ISO_BACKEND_POINT] = "integrates the point (24)",
+        [ISO_BACKEND_AUTO] =
             "chooses: the model of the start; the ball if an effect needs it; the model that the method is for",
-        [ISO_EXACT] = "evaluates the closed solution, where there is one; every time costs the same",
+        [ISO_BACKEND_EXACT] = "evaluates the closed solution, where there is one; every time costs the same",
     };
-    for (int i = 0; iso_picture_name(i); i++)
-        if (i != ISO_BOTH) printf("  %-22s %s\n", iso_picture_name(i), docs[i]);
+    for (int i = 0; iso_backend_name(i); i++) printf("  %-22s %s\n", iso_backend_name(i), docs[i]);
 }
 
 static void list_integrals(void)

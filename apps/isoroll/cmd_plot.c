@@ -16,7 +16,7 @@ typedef struct parts {
 } parts;
 
 /* The model of the file; the ball if it has both. */
-static iso_picture model_of(const iso_record *record)
+static iso_model_kind model_of(const iso_record *record)
 {
     return iso_record_find(record, "n1") >= 0 && iso_record_find(record, "omega1") >= 0 ? ISO_BALL : ISO_POINT;
 }
@@ -25,7 +25,7 @@ static iso_picture model_of(const iso_record *record)
  * twin. */
 static iso_status pair_clocks(iso_context *ctx, parts *p)
 {
-    const iso_picture model = model_of(p->file);
+    const iso_model_kind model = model_of(p->file);
     const char *names[] = {model == ISO_BALL ? "t" : "s", model == ISO_BALL ? "s" : "t"};
     const int own = iso_record_find(p->file, names[0]), here = iso_record_find(p->file, names[1]);
     const int there = p->twin ? iso_record_find(p->twin, names[1]) : -1;
@@ -45,7 +45,7 @@ static iso_status pair_clocks(iso_context *ctx, parts *p)
 static iso_status find_twin(iso_context *ctx, const iso_params *params, parts *p)
 {
     if (iso_record_find(p->file, "n1") >= 0 && iso_record_find(p->file, "gamma1") >= 0) return ISO_OK;
-    const iso_picture to = model_of(p->file) == ISO_BALL ? ISO_POINT : ISO_BALL;
+    const iso_model_kind to = model_of(p->file) == ISO_BALL ? ISO_POINT : ISO_BALL;
     const iso_status status = iso_convert(ctx, params, p->file, to, 1e-12, &p->twin);
     if (status != ISO_NOT_MAPPED) return status;
     complain("%s is drawn alone: %s", to == ISO_POINT ? "the ball" : "the point", iso_context_message(ctx));

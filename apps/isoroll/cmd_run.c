@@ -56,16 +56,16 @@ static bool go_on(void *data)
     return !interrupted();
 }
 
-static void tell(const iso_run_result *r)
+static void report_run(const iso_run_result *r)
 {
     const iso_statistics *s = &r->statistics;
-    if (r->backend == ISO_EXACT) {
+    if (r->backend == ISO_BACKEND_EXACT) {
         complain("%zu rows; backend exact: %ld states", r->rows, s->states);
         return;
     }
     complain("%zu rows; backend %s, method %s: %ld steps, %ld rejected, %ld right-hand sides, %ld Jacobians; largest "
              "correction by projection %.2g",
-             r->rows, iso_picture_name((int)r->backend), r->method->name, s->steps, s->rejected, s->rhs, s->jacobians,
+             r->rows, iso_backend_name((int)r->backend), r->method->name, s->steps, s->rejected, s->rhs, s->jacobians,
              s->correction);
 }
 
@@ -76,7 +76,7 @@ static double rounded_up(double x)
     return ceil(x / unit) * unit;
 }
 
-static void tell_error(const char *what, const char *clock, const iso_error_of *e)
+static void report_error(const char *what, const char *clock, const iso_error_of *e)
 {
     if (!isnan(e->worst))
         complain("error of %s at most %.2g, at %s = %.6g; %.2g at the end", what, rounded_up(e->worst), clock,
@@ -92,9 +92,9 @@ static void tell_errors(const iso_run_result *r)
         complain("error not known: %s", r->error_words);
         return;
     }
-    tell_error("(omega, n)", clock, &e->state[ISO_BALL]);
-    tell_error("(M, gamma)", clock, &e->state[ISO_POINT]);
-    for (int c = 0; c < ISO_CLOCKS; c++) tell_error(iso_clock_name((iso_clock)c), clock, &e->clock[c]);
+    report_error("(omega, n)", clock, &e->state[ISO_BALL]);
+    report_error("(M, gamma)", clock, &e->state[ISO_POINT]);
+    for (int c = 0; c < ISO_CLOCKS; c++) report_error(iso_clock_name((iso_clock)c), clock, &e->clock[c]);
     complain(
         "errors are relative, in %zu rows: from the same orbit by %s at tolerance %.2g, in %.2g s; of the first, "
         "%.2g is the rounding of the start",
@@ -109,7 +109,7 @@ static int close_file(const target *t, iso_status status, const iso_run_result *
     if (!t->writer) return result;
     const iso_status closed = iso_trajectory_close(t->ctx, t->writer, keep);
     if (closed != ISO_OK) return result == EXIT_DONE ? finish(t->ctx, closed) : result;
-    if (t->o->verbose) tell(r);
+    if (t->o->verbose) report_run(r);
     if (result == EXIT_NUMERICAL || status == ISO_STOPPED)
         complain("%s%zu of %zu rows were written", status == ISO_STOPPED ? "interrupted: " : "", keep ? r->rows : 0,
                  r->asked);
@@ -125,9 +125,9 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     how.times = asked->list;
     how.count = asked->count;
     how.errors = o->verbose;
-    iso_context_watch(ctx, go_on, NULL);
+    iso_context_set_monitor(ctx, go_on, NULL);
     const iso_status status = iso_run(ctx, scene, &how, &sink, &r);
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     if (!t.opened) return finish_scene(ctx, &o->scene, scene, status);
     const int result = close_file(&t, status, &r);
     if (o->verbose && result != EXIT_FILE) tell_errors(&r);

@@ -29,7 +29,7 @@ static void put_cell(FILE *to, const iso_cost_cell *c)
                              c->median, c->slowest,     c->total};
     const long counts[] = {c->repeats,        c->statistics.steps,     c->statistics.rejected,
                            c->statistics.rhs, c->statistics.jacobians, c->statistics.states};
-    fprintf(to, "%s,%s", iso_picture_name((int)c->backend), c->method ? c->method->name : "");
+    fprintf(to, "%s,%s", iso_backend_name((int)c->backend), c->method ? c->method->name : "");
     put(to, c->tolerance);
     for (size_t i = 0; i < sizeof result / sizeof *result; i++) put(to, measured ? result[i] : (double)NAN);
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) fprintf(to, ",%ld", counts[i]);
@@ -61,7 +61,7 @@ static json_t *cell_of(const iso_cost_cell *c)
 {
     const iso_statistics *s = &c->statistics;
     const bool measured = iso_cost_is_measured(c);
-    json_t *o = json_pack("{s:s, s:o, s:o, s:b, s:o}", "backend", iso_picture_name((int)c->backend), "method",
+    json_t *o = json_pack("{s:s, s:o, s:o, s:b, s:o}", "backend", iso_backend_name((int)c->backend), "method",
                           method_of(c->method), "tolerance", json_number(c->tolerance), "measured", (int)measured,
                           "failure", measured ? json_null() : json_string(c->why));
     if (!o || !measured) return o;
@@ -92,7 +92,7 @@ static json_t *lines_of(const iso_cost *c)
         const iso_cost_line *l = &c->line[i];
         json_array_append_new(list,
                               json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "backend",
-                                        iso_picture_name((int)l->backend), "method", method_of(l->method),
+                                        iso_backend_name((int)l->backend), "method", method_of(l->method),
                                         "time_of_a_digit", json_number(l->digit), "order", json_number(l->order),
                                         "least_error", json_number(l->least), "stops_at", json_number(l->stops_at)));
     }

@@ -52,7 +52,7 @@ const iso_cost_line **cost_sort_lines(const iso_cost *cost)
 
 const char *cost_options_of(const iso_cost_cell *cell, char words[COST_OPTIONS])
 {
-    const char *backend = iso_picture_name((int)cell->backend);
+    const char *backend = iso_backend_name((int)cell->backend);
     if (cell->method)
         snprintf(words, COST_OPTIONS, "--backend %s --method %s --tol %g", backend, cell->method->name,
                  cell->tolerance);

@@ -42,7 +42,7 @@ static void print_name(const iso_cost_cell *c)
 {
     char tolerance[16] = "-";
     if (c->method) snprintf(tolerance, sizeof tolerance, "%g", c->tolerance);
-    printf(" %-5s  %-22s %7s ", iso_picture_name((int)c->backend), method_name(c->method), tolerance);
+    printf(" %-5s  %-22s %7s ", iso_backend_name((int)c->backend), method_name(c->method), tolerance);
 }
 
 static void print_cell(const iso_cost_cell *c)
@@ -120,7 +120,7 @@ static void print_lines(const iso_cost *cost, const iso_cost_line *const line[])
     for (int l = 0; l < cost->lines; l++) {
         const iso_cost_line *m = line[l];
         if (!m->method || isnan(m->least)) continue;
-        printf("  %-5s  %-22s", iso_picture_name((int)m->backend), m->method->name);
+        printf("  %-5s  %-22s", iso_backend_name((int)m->backend), m->method->name);
         print_time_to(cost, m, 1e-6);
         print_time_to(cost, m, 1e-9);
         print_time_to(cost, m, 1e-12);

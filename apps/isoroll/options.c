@@ -58,29 +58,35 @@ bool set_vector(void *at, const char *text)
     return true;
 }
 
-/* One word of a list, each the name of an iso_picture. */
-static bool set_picture(void *at, const char *text, const char *(*word)(int i))
+/* The value of a word that the option takes: its place among the names of the enumeration. -1: no such word. */
+static int value_of(const char *text, const char *(*word)(int i), const char *(*name)(int value))
 {
-    int i = 0;
+    int i = 0, value = 0;
     while (word(i) && strcmp(text, word(i)) != 0) i++;
-    for (int p = 0; word(i) && iso_picture_name(p); p++)
-        if (strcmp(text, iso_picture_name(p)) == 0) return *(iso_picture *)at = (iso_picture)p, true;
-    return false;
+    if (!word(i)) return -1;
+    while (name(value) && strcmp(text, name(value)) != 0) value++;
+    return name(value) ? value : -1;
 }
 
 bool set_backend(void *at, const char *text)
 {
-    return set_picture(at, text, backend_word);
+    const int value = value_of(text, backend_word, iso_backend_name);
+    if (value >= 0) *(iso_backend *)at = (iso_backend)value;
+    return value >= 0;
 }
 
 bool set_as(void *at, const char *text)
 {
-    return set_picture(at, text, as_word);
+    const int value = value_of(text, as_word, iso_shown_name);
+    if (value >= 0) *(iso_shown *)at = (iso_shown)value;
+    return value >= 0;
 }
 
 bool set_target(void *at, const char *text)
 {
-    return set_picture(at, text, target_word);
+    const int value = value_of(text, target_word, iso_model_kind_name);
+    if (value >= 0) *(iso_model_kind *)at = (iso_model_kind)value;
+    return value >= 0;
 }
 
 bool set_method(void *at, const char *text)

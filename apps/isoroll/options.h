@@ -49,9 +49,9 @@ bool set_count(void *at, const char *text);     /* double, a whole number from 1
 bool set_tolerance(void *at, const char *text); /* double, as the methods take it       */
 bool set_vector(void *at, const char *text);    /* double[3], three numbers and commas  */
 bool set_method(void *at, const char *text);    /* const char *, a method or auto       */
-bool set_backend(void *at, const char *text);   /* iso_picture: ball, point, exact, auto */
-bool set_as(void *at, const char *text);        /* iso_picture: ball, point, both       */
-bool set_target(void *at, const char *text);    /* iso_picture: ball, point             */
+bool set_backend(void *at, const char *text);   /* iso_backend: ball, point, exact, auto */
+bool set_as(void *at, const char *text);        /* iso_shown: ball, point, both         */
+bool set_target(void *at, const char *text);    /* iso_model_kind: ball, point          */
 bool set_digits(void *at, const char *text);    /* int, 1 to 17, or ISO_HEXADECIMAL     */
 
 /* Lists of words. */

@@ -58,5 +58,5 @@ iso_status name_the_file(iso_context *ctx, const char *file, iso_status status)
     const char *name = strcmp(file, "-") == 0 ? "<stdin>" : file;
     const char *message = iso_context_message(ctx);
     if (strncmp(message, name, strlen(name)) == 0) return status;
-    return iso_context_fail(ctx, status, iso_context_field(ctx), "%s: %s", name, message);
+    return iso_context_fail(ctx, status, iso_context_about(ctx), "%s: %s", name, message);
 }

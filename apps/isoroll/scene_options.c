@@ -19,9 +19,9 @@ iso_status scene_with_options(iso_context *ctx, const scene_options *o, iso_scen
 
 int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scene, iso_status status)
 {
-    const char *field = iso_context_field(ctx);
-    const bool time = strcmp(field, "end") == 0 || strcmp(field, "step") == 0;
-    const bool method = strcmp(field, "method") == 0 && o->method;
+    const char *about = iso_context_about(ctx);
+    const bool time = strcmp(about, "end") == 0 || strcmp(about, "step") == 0;
+    const bool method = strcmp(about, "method") == 0 && o->method;
     const bool from_option = method || (time && (!isnan(o->end) || !isnan(o->step)));
     const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
     return finish(ctx, from_option ? status : iso_scene_blame(ctx, scene, name, status));

@@ -10,13 +10,14 @@
 typedef struct scene_options {
     const char *file;
     const char *method;          /* NULL: as the scene says */
-    iso_picture backend, as;     /* -1: as the scene says   */
+    iso_backend backend;         /* -1: as the scene says   */
+    iso_shown as;                /* likewise                */
     double tolerance, end, step; /* NAN: as the scene says  */
 } scene_options;
 
 #define SCENE_OPTIONS_UNSET                                                                                          \
     {                                                                                                                \
-        .file = "-", .backend = (iso_picture)-1, .as = (iso_picture)-1, .tolerance = NAN, .end = NAN, .step = NAN    \
+        .file = "-", .backend = (iso_backend)-1, .as = (iso_shown)-1, .tolerance = NAN, .end = NAN, .step = NAN    \
     }
 
 /* Rows of these; `scene` is the place of a scene_options in the struct `type`. */
@@ -48,7 +49,7 @@ int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scen
 /* Prints the effects that act, with their numbers and, if wanted, what they are. Prints nothing where none acts. */
 void print_effects(const iso_effects *effects, bool docs);
 
-/* For iso_context_watch: false once the user has asked to stop. */
+/* For iso_context_set_monitor: false once the user has asked to stop. */
 bool not_interrupted(void *unused);
 
 #endif

@@ -27,7 +27,7 @@ static double F(const iso_params *p, const double w[3], const double n[3])
 }
 
 /* The ball at t = 10, found by integrating the model `backend`. */
-static iso_status ask(iso_context *ctx, const iso_params *p, const iso_start *start, iso_picture backend,
+static iso_status ask(iso_context *ctx, const iso_params *p, const iso_start *start, iso_backend backend,
                       iso_sample *at)
 {
     iso_orbit *orbit;
@@ -50,7 +50,7 @@ int main(void)
     iso_start start;
     iso_sample a, b;
     if (!ctx || iso_params_physical(ctx, &globe, &p) || iso_start_ball(ctx, w, n, false, &start) ||
-        ask(ctx, &p, &start, ISO_BALL, &a) || ask(ctx, &p, &start, ISO_POINT, &b)) {
+        ask(ctx, &p, &start, ISO_BACKEND_BALL, &a) || ask(ctx, &p, &start, ISO_BACKEND_POINT, &b)) {
         fprintf(stderr, "twice: %s\n", ctx ? iso_context_message(ctx) : "no memory");
         return 1;
     }

@@ -24,12 +24,12 @@ static int chaotic(iso_context *ctx, double k)
     static iso_sample samples[BALLS];
     iso_params p;
     if (iso_params_reduced(ctx, k, J, &p) != ISO_OK) return -1;
-    iso_field field = {.p = p};
+    iso_problem problem = {.p = p};
     iso_random *random = iso_random_create(1);
     for (int i = 0; random && i < BALLS; i += 2) {
         iso_start *one = &starts[i], *other = &starts[i + 1];
         one->model = ISO_BALL;
-        iso_system_ball.sample(&field, random, one->y);
+        iso_system_ball.sample(&problem, random, one->y);
         const double scale = sqrt(1 / iso_ball_energy(&p, one->y));
         for (int c = 0; c < 3; c++) one->y[c] *= scale;
         *other = *one;

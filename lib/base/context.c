@@ -6,13 +6,13 @@
 
 #include "base/room_impl.h"
 #include "base/sundials_impl.h"
-#include "base/watch_impl.h"
+#include "base/monitor_impl.h"
 
 struct iso_context {
     SUNContext sun; /* made when the first SUNDIALS method asks for it */
-    iso_watch watch;
+    iso_monitor monitor;
     char message[1024];
-    char field[32];
+    char about[32];
 };
 
 const char *iso_status_text(iso_status status)
@@ -38,19 +38,19 @@ void iso_context_free(iso_context *ctx)
     free(ctx);
 }
 
-void iso_context_watch(iso_context *ctx, bool (*go_on)(void *data), void *data)
+void iso_context_set_monitor(iso_context *ctx, bool (*go_on)(void *data), void *data)
 {
-    ctx->watch = (iso_watch){go_on, data};
+    ctx->monitor = (iso_monitor){go_on, data};
 }
 
-iso_watch iso_context_watched(const iso_context *ctx)
+iso_monitor iso_context_monitor(const iso_context *ctx)
 {
-    return ctx->watch;
+    return ctx->monitor;
 }
 
 bool iso_context_goes_on(const iso_context *ctx)
 {
-    return iso_watch_goes_on(&ctx->watch);
+    return iso_monitor_goes_on(&ctx->monitor);
 }
 
 const char *iso_context_message(const iso_context *ctx)
@@ -58,12 +58,12 @@ const char *iso_context_message(const iso_context *ctx)
     return ctx->message;
 }
 
-const char *iso_context_field(const iso_context *ctx)
+const char *iso_context_about(const iso_context *ctx)
 {
-    return ctx->field;
+    return ctx->about;
 }
 
-iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *field, const char *format, ...)
+iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *about, const char *format, ...)
 {
     va_list args;
     char message[sizeof ctx->message]; /* the arguments may point into the old message */
@@ -71,7 +71,7 @@ iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *fie
     vsnprintf(message, sizeof message, format, args);
     va_end(args);
     snprintf(ctx->message, sizeof ctx->message, "%s", message);
-    if (field != ctx->field) snprintf(ctx->field, sizeof ctx->field, "%s", field); /* else it stays */
+    if (about != ctx->about) snprintf(ctx->about, sizeof ctx->about, "%s", about); /* else it stays */
     return status;
 }
 

@@ -25,9 +25,9 @@ void iso_context_free(iso_context *ctx);
 
 /* Long work asks `go_on` now and then, at each step of an integrator at least, and ends with ISO_STOPPED when it answers
  * false: for Ctrl-C, a time limit, or to show progress. NULL, as at the beginning: nobody is asked. */
-void iso_context_watch(iso_context *ctx, bool (*go_on)(void *data), void *data);
+void iso_context_set_monitor(iso_context *ctx, bool (*go_on)(void *data), void *data);
 
-/* What `go_on` answers; true when nobody watches. */
+/* What `go_on` answers; true without a monitor. */
 bool iso_context_goes_on(const iso_context *ctx);
 
 /* What went wrong last, one line without a newline; "" when nothing did. Valid until the next failing call. */
@@ -35,11 +35,11 @@ const char *iso_context_message(const iso_context *ctx);
 
 /* The name of the input quantity the last failure is about ("inertia", "normal", ...); "" when there is none.
  * Readers of files use it to point at the place where that quantity was written. */
-const char *iso_context_field(const iso_context *ctx);
+const char *iso_context_about(const iso_context *ctx);
 
-/* Records a failure about `field` ("" for none) in printf's words and returns `status`, so that a check reads
+/* Records a failure about `about` ("" for none) in printf's words and returns `status`, so that a check reads
  * `return iso_context_fail(ctx, ISO_BAD_INPUT, "mass", "...", ...)`. */
-iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *field, const char *format, ...)
+iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *about, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 4, 5)))
 #endif

@@ -7,16 +7,16 @@
 #define ISO_BASE_STATUS_H
 
 /*      name            text                              when                                               */
-#define ISO_STATUS_LIST(X)                                                                                     \
-    X(ISO_OK,           "done")                        /* the answer is complete                             */ \
-    X(ISO_BAD_ARGUMENT, "bad argument")                /* a call with numbers or names it does not take      */ \
-    X(ISO_BAD_INPUT,    "bad input")                   /* a scene or file says something that cannot be      */ \
-    X(ISO_NOT_MAPPED,   "outside the isomorphism")     /* the other model has no such orbit                  */ \
-    X(ISO_NUMERICAL,    "numerical failure")           /* integration stopped, or a result is not finite     */ \
-    X(ISO_STOPPED,      "stopped on request")          /* iso_context_watch() answered false                 */ \
-    X(ISO_FILE_TROUBLE, "file trouble")                /* cannot open, read, write or rename                 */ \
-    X(ISO_NO_MEMORY,    "out of memory")               /* malloc gave none                                   */ \
-    X(ISO_CLOSED_PIPE,  "closed pipe")                 /* the reader of what we write has gone               */
+#define ISO_STATUS_LIST(X)                                                                                           \
+    X(ISO_OK, "done")                            /* the answer is complete                             */            \
+    X(ISO_BAD_ARGUMENT, "bad argument")          /* a call with numbers or names it does not take      */            \
+    X(ISO_BAD_INPUT, "bad input")                /* a scene or file says something that cannot be      */            \
+    X(ISO_NOT_MAPPED, "outside the isomorphism") /* the other model has no such orbit                  */            \
+    X(ISO_NUMERICAL, "numerical failure")        /* integration stopped, or a result is not finite     */            \
+    X(ISO_STOPPED, "stopped on request")         /* iso_context_set_monitor() answered false           */            \
+    X(ISO_FILE_TROUBLE, "file trouble")          /* cannot open, read, write or rename                 */            \
+    X(ISO_NO_MEMORY, "out of memory")            /* malloc gave none                                   */            \
+    X(ISO_CLOSED_PIPE, "closed pipe")            /* the reader of what we write has gone               */
 
 typedef enum iso_status {
 #define ISO_STATUS_ENUM(name, text) name,

@@ -35,11 +35,11 @@ typedef struct potential {
     double b[3], eps, H;
 } potential;
 
-static potential potential_of(const iso_field *field, const double b[3])
+static potential potential_of(const iso_problem *problem, const double b[3])
 {
-    const double k = field->p.k;
-    const bool separates = k == -1 || (k == 1 && field->energy == 0);
-    return (potential){k == -1, separates, {b[0], b[1], b[2]}, field->eps, field->energy};
+    const double k = problem->p.k;
+    const bool separates = k == -1 || (k == 1 && problem->energy == 0);
+    return (potential){k == -1, separates, {b[0], b[1], b[2]}, problem->eps, problem->energy};
 }
 
 /* (R(x) - R(y))/(x - y) */
@@ -57,9 +57,9 @@ static double value(const potential *f, double z)
 
 /* R(b_j) + c is R(b_j) - R(u) - speed1^2 (v - u)/2 and R(b_j) - R(v) + speed2^2 (v - u)/2; c is then taken from the
  * b_j where no terms cancel. */
-double iso_separation_constant(const iso_field *field, const iso_conical *at, double excess[3])
+double iso_separation_constant(const iso_problem *problem, const iso_conical *at, double excess[3])
 {
-    const potential f = potential_of(field, at->b);
+    const potential f = potential_of(problem, at->b);
     if (!f.separates) {
         for (int j = 0; excess && j < 3; j++) excess[j] = NAN;
         return NAN;
@@ -102,11 +102,11 @@ static int insert(iso_bifurcation list[], int count, iso_bifurcation one)
 }
 
 /* Motion needs R(u) <= -c <= R(v) for some u and v: -c is between R(b1) and the summit. */
-int iso_bifurcations(const iso_field *field, iso_bifurcation list[ISO_MOST_BIFURCATIONS])
+int iso_bifurcations(const iso_problem *problem, iso_bifurcation list[ISO_MOST_BIFURCATIONS])
 {
     iso_conical at;
-    iso_conical_from_vector(moments(&field->p), (const double[]){0, 0, 1}, NULL, &at); /* for b and the axes */
-    const potential f = potential_of(field, at.b);
+    iso_conical_from_vector(moments(&problem->p), (const double[]){0, 0, 1}, NULL, &at); /* for b and the axes */
+    const potential f = potential_of(problem, at.b);
     if (!f.separates || !(f.eps > 0) || !(slope(&f, f.b[0], f.b[1]) > 0)) return 0;
     const double top = summit(&f), z[ISO_MOST_BIFURCATIONS] = {f.b[0], f.b[1], f.b[2], top};
     int count = 0;

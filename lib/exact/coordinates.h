@@ -2,9 +2,9 @@
  *
  *     iso_conical at;
  *     double excess[3];
- *     iso_separation_coordinates(&field.p, point, &at);            (M, gamma) -> angles of u and v, and back
- *     iso_separation_point(&field.p, &at, point);
- *     double c = iso_separation_constant(&field, &at, excess);     excess[1] > 0: u librates, < 0: v librates
+ *     iso_separation_coordinates(&problem.p, point, &at);         (M, gamma) -> angles of u and v, and back
+ *     iso_separation_point(&problem.p, &at, point);
+ *     double c = iso_separation_constant(&problem, &at, excess);  excess[1] > 0: u librates, < 0: v librates
  *
  * u <= v are the coordinates of gamma (model/conical.h) in b = 1/J for k = 1, where they are 1/mu and 1/lam of the
  * ball (map/reduction.h), and in b = J for other k. The problem separates in them at k = -1 and at k = 1, H = 0.
@@ -26,7 +26,7 @@
 void iso_separation_coordinates(const iso_params *p, const double point[ISO_STATE], iso_conical *c);
 void iso_separation_point(const iso_params *p, const iso_conical *c, double point[ISO_STATE]);
 
-/* The constant of 2 A(z) p_z^2 = R(z) + c, z = u and v of a point on the level H = field->energy with coupling eps:
+/* The constant of 2 A(z) p_z^2 = R(z) + c, z = u and v of a point on the level H = problem->energy with coupling eps:
  *
  *     k = -1:  R(z) = eps z (b1 + b2 + b3 - z) + H z,        k = 1, H = 0:  R(z) = -eps b1 b2 b3/z.
  *
@@ -34,7 +34,7 @@ void iso_separation_point(const iso_params *p, const iso_conical *c, double poin
  * cancellation of that sum: excess[0] <= 0, and R + c has a root between b1 and b2 where excess[1] > 0 (u librates
  * below it), between b2 and b3 where excess[1] < 0 (v librates above it); excess[1] = 0 is the separatrix. NaN, c as
  * well, for other k and levels. */
-double iso_separation_constant(const iso_field *field, const iso_conical *at, double excess[3]);
+double iso_separation_constant(const iso_problem *problem, const iso_conical *at, double excess[3]);
 
 /* A value of c at which the motion changes its kind. */
 typedef struct iso_bifurcation {
@@ -46,8 +46,8 @@ typedef struct iso_bifurcation {
 
 enum { ISO_MOST_BIFURCATIONS = 4 };
 
-/* All of them for field->p, eps > 0 and energy, c descending; gives their number, 0 for other k and levels and where
- * no motion has this energy. Equal moments give one. */
-int iso_bifurcations(const iso_field *field, iso_bifurcation list[ISO_MOST_BIFURCATIONS]);
+/* All of them for problem->p, eps > 0 and energy, c descending; gives their number, 0 for other k and levels and
+ * where no motion has this energy. Equal moments give one. */
+int iso_bifurcations(const iso_problem *problem, iso_bifurcation list[ISO_MOST_BIFURCATIONS]);
 
 #endif

@@ -32,7 +32,7 @@ struct iso_exact {
 };
 
 /* Errors: numbers that are not finite or out of range, and a state that is not on the level. */
-static iso_status check_numbers(iso_context *ctx, const iso_field *f, const double point[ISO_STATE])
+static iso_status check_numbers(iso_context *ctx, const iso_problem *f, const double point[ISO_STATE])
 {
     const double *g = point + 3, square = dot(g, g);
     if (!all_finite(point, ISO_STATE) || !(square > 0))
@@ -46,7 +46,7 @@ static iso_status check_numbers(iso_context *ctx, const iso_field *f, const doub
                             f->energy);
 }
 
-static iso_status check(iso_context *ctx, const iso_field *f, const double point[ISO_STATE])
+static iso_status check(iso_context *ctx, const iso_problem *f, const double point[ISO_STATE])
 {
     for (int e = 0; e < ISO_EFFECTS; e++) {
         const iso_effect *effect = iso_effect_list[e];
@@ -58,7 +58,7 @@ static iso_status check(iso_context *ctx, const iso_field *f, const double point
     return check_numbers(ctx, f, point);
 }
 
-static const iso_form *form_for(const iso_field *f, const double point[ISO_STATE])
+static const iso_form *form_for(const iso_problem *f, const double point[ISO_STATE])
 {
     for (int i = 0; forms[i]; i++)
         if (forms[i]->serves(f, point)) return forms[i];
@@ -67,7 +67,7 @@ static const iso_form *form_for(const iso_field *f, const double point[ISO_STATE
 
 /* The form for a start. Where only a start in a principal plane has a form, components that are zero but for rounding
  * are set to zero first. */
-static iso_status find_form(iso_context *ctx, const iso_field *f, double point[ISO_STATE], const iso_form **form)
+static iso_status find_form(iso_context *ctx, const iso_problem *f, double point[ISO_STATE], const iso_form **form)
 {
     double snapped[ISO_STATE], size[2];
     *form = form_for(f, point);
@@ -87,7 +87,7 @@ static iso_status find_form(iso_context *ctx, const iso_field *f, double point[I
 
 /* A time so short that gamma turns by a tenth of a radian at most, and the clocks' rates change
  * by a tenth at most. */
-static void find_moments(const iso_field *f, const double point[ISO_STATE], double moment[ISO_CLOCKS])
+static void find_moments(const iso_problem *f, const double point[ISO_STATE], double moment[ISO_CLOCKS])
 {
     const iso_params *p = &f->p;
     double force[ISO_STATE];
@@ -142,7 +142,7 @@ enum { STEPS_A_TURN = 32, MOST_TURNS = 20000 };
 
 /* Goes away from time 0 until gamma has stayed in the plane of the unstable rotation, to rounding, for a whole turn.
  * The rotation begins there. */
-static iso_status find_end(iso_context *ctx, const iso_field *f, const iso_exact *x, int axis, int direction,
+static iso_status find_end(iso_context *ctx, const iso_problem *f, const iso_exact *x, int axis, int direction,
                            homoclinic_end *end)
 {
     const int clock = x->has[ISO_CLOCK_T] ? ISO_CLOCK_T : x->has[ISO_CLOCK_S] ? ISO_CLOCK_S : ISO_CLOCK_TAU;
@@ -187,9 +187,9 @@ static bool begins(const iso_exact *x, const double point[ISO_STATE])
     return true;
 }
 
-static iso_status make(iso_context *ctx, const iso_field *field, const double point[ISO_STATE], iso_exact *x)
+static iso_status make(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE], iso_exact *x)
 {
-    iso_status status = x->form->make(field, point, x->has, &x->data);
+    iso_status status = x->form->make(problem, point, x->has, &x->data);
     if (status == ISO_NO_MEMORY) return iso_context_fail(ctx, status, "", "no memory for a closed solution");
     if (status != ISO_OK)
         return iso_context_fail(ctx, status, "",
@@ -199,15 +199,15 @@ static iso_status make(iso_context *ctx, const iso_field *field, const double po
         return iso_context_fail(ctx, ISO_NUMERICAL, "",
                                 "the closed solution has too few digits: a body too extreme, or "
                                 "an orbit that comes to rest");
-    x->params = field->p;
-    find_moments(field, point, x->moment);
+    x->params = problem->p;
+    find_moments(problem, point, x->moment);
     const int axis = x->form->unstable(x->data);
     if (axis < 0) return status;
-    status = find_end(ctx, field, x, axis, -1, &x->past);
-    return status == ISO_OK ? find_end(ctx, field, x, axis, 1, &x->future) : status;
+    status = find_end(ctx, problem, x, axis, -1, &x->past);
+    return status == ISO_OK ? find_end(ctx, problem, x, axis, 1, &x->future) : status;
 }
 
-iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const double point[ISO_STATE],
+iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE],
                             const bool clocks[ISO_CLOCKS], iso_exact **exact)
 {
     ISO_DEFAULT_ARITHMETIC;
@@ -215,14 +215,14 @@ iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const doub
     double start[ISO_STATE];
     *exact = NULL;
     copy(point, start, ISO_STATE);
-    iso_status status = check(ctx, field, start);
-    if (status == ISO_OK) status = find_form(ctx, field, start, &form);
+    iso_status status = check(ctx, problem, start);
+    if (status == ISO_OK) status = find_form(ctx, problem, start, &form);
     if (status != ISO_OK) return status;
     iso_exact *x = calloc(1, sizeof *x);
     if (!x) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a closed solution");
     x->form = form;
     for (int c = 0; c < ISO_CLOCKS; c++) x->has[c] = clocks[c];
-    status = make(ctx, field, start, x);
+    status = make(ctx, problem, start, x);
     if (status != ISO_OK) return iso_exact_free(x), status;
     *exact = x;
     return ISO_OK;

@@ -1,7 +1,7 @@
 /* exact.h - the closed solution of the free problem: the state at any time, always at the same cost.
  *
  *     iso_exact *exact;
- *     iso_exact_create(ctx, &field, point, all_clocks, &exact);    field: k, J, eps and the level H
+ *     iso_exact_create(ctx, &problem, point, all_clocks, &exact); problem: k, J, eps and the level H
  *     iso_exact_at(ctx, exact, ISO_CLOCK_T, 1e6, y, clocks);       the point a million units of the ball's time later
  *     iso_exact_free(exact);
  *
@@ -31,7 +31,7 @@ typedef struct iso_exact iso_exact;
  * a separatrix or for extreme bodies.
  * Errors: ISO_BAD_ARGUMENT where there is no closed solution: about "k" (and unequal moments), "eps" (not > 0), or
  * the name of an effect that acts; ISO_NUMERICAL: too many terms would be needed; ISO_NO_MEMORY. */
-iso_status iso_exact_create(iso_context *ctx, const iso_field *field, const double point[ISO_STATE],
+iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE],
                             const bool clocks[ISO_CLOCKS], iso_exact **exact);
 void iso_exact_free(iso_exact *exact);
 

@@ -12,11 +12,11 @@ typedef struct form_place {
 } form_place;
 
 typedef struct iso_form {
-    bool (*serves)(const iso_field *field, const double point[ISO_STATE]);
+    bool (*serves)(const iso_problem *problem, const double point[ISO_STATE]);
 
     /* Makes *data. Errors: ISO_NUMERICAL (too many terms would be needed), ISO_NO_MEMORY. The caller writes the
      * message. */
-    iso_status (*make)(const iso_field *field, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
+    iso_status (*make)(const iso_problem *problem, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
                        void **data);
     void (*free)(void *data);
 

@@ -11,7 +11,7 @@ typedef struct rest {
 } rest;
 
 /* M = 0, and gamma x J gamma with it */
-static bool serves(const iso_field *f, const double y[ISO_STATE])
+static bool serves(const iso_problem *f, const double y[ISO_STATE])
 {
     const double *g = y + 3, *J = f->p.J;
     for (int i = 0; i < 3; i++) {
@@ -21,7 +21,7 @@ static bool serves(const iso_field *f, const double y[ISO_STATE])
     return true;
 }
 
-static iso_status make(const iso_field *f, const double y[ISO_STATE], const bool clocks[ISO_CLOCKS], void **data)
+static iso_status make(const iso_problem *f, const double y[ISO_STATE], const bool clocks[ISO_CLOCKS], void **data)
 {
     rest *r = *data = calloc(1, sizeof *r);
     if (!r) return ISO_NO_MEMORY;

@@ -232,13 +232,13 @@ static int symmetry_axis(const iso_params *p)
     return -1;
 }
 
-static bool serves(const iso_field *f, const double point[ISO_STATE])
+static bool serves(const iso_problem *f, const double point[ISO_STATE])
 {
     return across_plane(point) >= 0 || symmetry_axis(&f->p) >= 0;
 }
 
 /* gamma, gamma' = gamma x M on |gamma| = 1, (M,gamma) = 0 and the level H = 0; gives M_x. */
-static real take_state(revolution *r, const double point[ISO_STATE], real g[3], real d[3])
+static real read_state(revolution *r, const double point[ISO_STATE], real g[3], real d[3])
 {
     real M[3], length = 0, along = 0, M2 = 0;
     for (int i = 0; i < 3; i++) g[i] = point[3 + r->axis[i]], M[i] = point[r->axis[i]], length += g[i] * g[i];
@@ -255,7 +255,7 @@ static real take_state(revolution *r, const double point[ISO_STATE], real g[3], 
     return r->plane ? 0 : M[0];
 }
 
-static void take_body(revolution *r, const iso_field *f, const double point[ISO_STATE])
+static void read_body(revolution *r, const iso_problem *f, const double point[ISO_STATE])
 {
     const int plane = across_plane(point), next = (plane + 1) % 3, last = (plane + 2) % 3;
     const int nearer =
@@ -274,7 +274,7 @@ static void take_body(revolution *r, const iso_field *f, const double point[ISO_
 /* In a plane on H = 0 the moving ball's energy J omega^2/2 = h is all of it: omega is a constant, and M goes like
  * NN ~ q^(-1/(2k)). Computed from there the state's omega is that constant again to rounding, for every k; computed
  * from gamma' it has the rounding errors of a power, 1/(2k) times as many. */
-static void take_spin(revolution *r, const iso_field *f, const double point[ISO_STATE])
+static void read_spin(revolution *r, const iso_problem *f, const double point[ISO_STATE])
 {
     r->params = f->p;
     r->even = r->plane && f->energy == 0;
@@ -310,15 +310,16 @@ static void find_longitude(revolution *r, const real g[3], const real d[3])
     r->turned[1] = length > 0 ? r->turned[1] / length : 0;
 }
 
-static iso_status make(const iso_field *f, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS], void **data)
+static iso_status make(const iso_problem *f, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
+                       void **data)
 {
     (void)clocks; /* all of them cost little */
     real g[3], d[3];
     revolution *r = *data = calloc(1, sizeof *r);
     if (!r) return ISO_NO_MEMORY;
-    take_body(r, f, point);
-    take_spin(r, f, point);
-    r->x.Mx = take_state(r, point, g, d);
+    read_body(r, f, point);
+    read_spin(r, f, point);
+    r->x.Mx = read_state(r, point, g, d);
     r->sense = r->x.Mx > 0 ? -1 : 1;
     iso_latitude_range(&r->x);
     const latitude *x = &r->x;
@@ -382,7 +383,7 @@ static bool angles_of(const void *data, const double point[ISO_STATE], double an
     revolution other = *r;
     real g[3], d[3], unused;
     double own[ISO_STATE];
-    const real Mx = take_state(&other, point, g, d);
+    const real Mx = read_state(&other, point, g, d);
     find_start(&other);
     const real along = other.start - r->start + (other.half == r->half ? 0 : 2 * ISO_PI_LONG);
     const real s = growing_at(r, ISO_CLOCK_S, along, &unused) / r->of[ISO_CLOCK_S].mean;

@@ -110,7 +110,7 @@ static real form(const separation *s, int power, const real x[3], const real y[3
 
 /* gamma and M in long double and in the order of b. They are put on |gamma| = 1 and (M,gamma) = 0 and, if the level
  * is H = 0, also on that level. The signs of M's components are those of the caller's axes. */
-static void take_state(const separation *s, real energy, const double point[ISO_STATE], moment *m)
+static void read_state(const separation *s, real energy, const double point[ISO_STATE], moment *m)
 {
     real *gamma = m->gamma, *M = m->M;
     for (int i = 0; i < 3; i++) M[i] = point[s->axis[i]], gamma[i] = point[3 + s->axis[i]];
@@ -385,16 +385,16 @@ void iso_separation_release(separation *s)
     for (int i = 0; i < 2; i++) iso_oscillation_release(&s->coordinate[i]);
 }
 
-bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE])
+bool iso_separation_make(separation *s, const iso_problem *problem, const double point[ISO_STATE])
 {
     moment m;
     memset(s, 0, sizeof *s);
-    s->k = (int)field->p.k;
-    s->eps = field->eps;
-    s->det = (real)field->p.J[0] * field->p.J[1] * field->p.J[2];
-    sort_axes(s, field->p.J);
-    s->energy = field->energy;
-    take_state(s, s->energy, point, &m);
+    s->k = (int)problem->p.k;
+    s->eps = problem->eps;
+    s->det = (real)problem->p.J[0] * problem->p.J[1] * problem->p.J[2];
+    sort_axes(s, problem->p.J);
+    s->energy = problem->energy;
+    read_state(s, s->energy, point, &m);
     find_roots(s, &m);
     if (m.gap < 1e-3L * (s->off[2] - s->off[0])) {
         const int unstable = s->unstable;
@@ -426,7 +426,7 @@ bool iso_separation_angles(const separation *s, const double point[ISO_STATE], r
     moment m;
     real X, Y;
     double sign[3];
-    take_state(s, s->energy, point, &m);
+    read_state(s, s->energy, point, &m);
     find_gap(s, &m, &X, &Y);
     if (!(m.gap > 0)) return false;
     find_coordinates(s, &m);

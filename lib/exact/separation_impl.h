@@ -41,7 +41,7 @@ typedef struct separation {
 } separation;
 
 /* From (M, gamma); released whatever comes of it. False: too many terms would be needed. */
-bool iso_separation_make(separation *s, const iso_field *field, const double point[ISO_STATE]);
+bool iso_separation_make(separation *s, const iso_problem *problem, const double point[ISO_STATE]);
 void iso_separation_release(separation *s);
 
 /* The angles of u and v at a state of the same torus; false: of one turning the other way, or at an umbilic. */

@@ -100,7 +100,7 @@ static bool integrate(const separation *s, torus_clock *c, const double d[], int
 
 /* enough[0]: whether the last eighth of the terms in m is as small as the rounding errors of a rate of size `most`;
  * enough[1]: the same in n. If not, the grid of (2) is too coarse. */
-static void see_tails(const double d[], int M, int N, double most, bool enough[2])
+static void find_tails(const double d[], int M, int N, double most, bool enough[2])
 {
     enough[0] = enough[1] = true;
     for (int m = 0; m <= M; m++)
@@ -131,7 +131,7 @@ static iso_status make_clock(const separation *s, iso_clock clock, torus_clock *
     c->mean = mean / M / N;
     for (int j = 0; room && j <= M; j++) iso_cosine_series(d + j * columns, N, 1, work);
     for (int l = 0; room && l <= N; l++) iso_cosine_series(d + l, M, columns, work);
-    if (room) see_tails(d, M, N, (double)most, enough);
+    if (room) find_tails(d, M, N, (double)most, enough);
     if (room && enough[0] && enough[1]) room = integrate(s, c, d, M, N);
     free(d);
     free(work);
@@ -334,7 +334,7 @@ static void find(const void *data, iso_clock clock, real time, form_place *p)
 
 /* --- the form --------------------------------------------------------------------------------------------------- */
 
-static bool serves(const iso_field *f, const double point[ISO_STATE])
+static bool serves(const iso_problem *f, const double point[ISO_STATE])
 {
     (void)point;
     return f->p.k == -1 || (f->p.k == 1 && f->energy == 0);
@@ -353,14 +353,14 @@ static void release(void *data)
     free(x);
 }
 
-static iso_status make(const iso_field *field, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
+static iso_status make(const iso_problem *problem, const double point[ISO_STATE], const bool clocks[ISO_CLOCKS],
                        void **data)
 {
     torus *x = *data = calloc(1, sizeof *x);
     iso_status status = ISO_OK;
     angles a;
     if (!x) return ISO_NO_MEMORY;
-    if (!iso_separation_make(&x->s, field, point)) return why_not(&x->s);
+    if (!iso_separation_make(&x->s, problem, point)) return why_not(&x->s);
     for (iso_clock c = 0; c < ISO_CLOCKS && status == ISO_OK; c++) {
         torus_clock *const clock = &x->clock[c];
         if (!clocks[c]) continue;

@@ -67,7 +67,7 @@ static iso_status fill(csv *c)
 }
 
 /* Reads on to the end of a line of which the buffer holds the beginning. */
-static iso_status pass_line(csv *c)
+static iso_status skip_line(csv *c)
 {
     const char *end = NULL;
     iso_status status = ISO_OK;
@@ -98,7 +98,7 @@ static iso_status next_line(csv *c, bool *more)
     c->line[c->length] = '\0';
     c->number += *more;
     if (c->length >= LONGEST_LINE) {
-        const iso_status status = end ? ISO_OK : pass_line(c);
+        const iso_status status = end ? ISO_OK : skip_line(c);
         if (status != ISO_OK) return status;
         return fail(c, c->line, "this line is longer than 64 KiB: is this a trajectory file?", "");
     }
@@ -184,7 +184,7 @@ static field next_field(char separator, char **rest)
 }
 
 /* A column with an unknown name. In a file of isoroll it is a mistake; in other files it is ignored. */
-static iso_status pass_over(csv *c, const field *f, bool named)
+static iso_status skip_column(csv *c, const field *f, bool named)
 {
     char quoted[ISO_QUOTE_SIZE], suggested[ISO_SUGGEST_SIZE], detail[ISO_QUOTE_SIZE + ISO_SUGGEST_SIZE + 8];
     iso_text_quote(quoted, f->text, f->length);
@@ -222,7 +222,7 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
             return fail(c, f.text, "expected a line of column names such as t,omega1,omega2,... before the numbers",
                         "");
         if (known < 0) {
-            status = pass_over(c, &f, named);
+            status = skip_column(c, &f, named);
             continue;
         }
         for (size_t i = 0; i < count; i++)
@@ -232,7 +232,7 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
     }
     char *first = line;
     const field f = next_field(separator, &first);
-    if (status == ISO_OK && count == 0) status = pass_over(c, &f, true);
+    if (status == ISO_OK && count == 0) status = skip_column(c, &f, true);
     return status == ISO_OK ? iso_trajectory_name_columns(c->ctx, c->r, count, names) : status;
 }
 

@@ -74,8 +74,8 @@ static hid_t open_set(hid_t file, const char *group, const char *name)
 }
 
 /* Adds a dataset of `count` columns (id < 0: there is none). It must have as many rows as the others. */
-static iso_status take_set(iso_context *ctx, iso_trajectory_reader *r, hid_t id, const char *name, int first,
-                           int count, const char *names[], size_t *columns)
+static iso_status add_set(iso_context *ctx, iso_trajectory_reader *r, hid_t id, const char *name, int first,
+                          int count, const char *names[], size_t *columns)
 {
     iso_hdf5_store *s = r->data;
     hsize_t size[2] = {0, 1};
@@ -105,11 +105,10 @@ static iso_status find_sets(iso_context *ctx, iso_trajectory_reader *r)
     for (int p = 0; status == ISO_OK && p < count; p++) {
         const iso_hdf5_part *part = &parts[p];
         const hid_t whole = open_set(s->file, part->group, part->name);
-        status = take_set(ctx, r, whole, part->name, part->first, part->count, names, &columns);
+        status = add_set(ctx, r, whole, part->name, part->first, part->count, names, &columns);
         for (int i = 0; status == ISO_OK && whole < 0 && part->count > 1 && i < part->count; i++) {
             const char *name = iso_column_name(part->first + i);
-            status =
-                take_set(ctx, r, open_set(s->file, part->group, name), name, part->first + i, 1, names, &columns);
+            status = add_set(ctx, r, open_set(s->file, part->group, name), name, part->first + i, 1, names, &columns);
         }
     }
     if (status == ISO_OK && columns == 0)

@@ -47,7 +47,7 @@ static bool has_closed(const iso_plot_work *w)
 }
 
 /* The index of a name among `count`, which grows when it is new; -1: no room. */
-static int find(const char *names[], int *count, int room, const char *name)
+static int find_name(const char *names[], int *count, int room, const char *name)
 {
     for (int i = 0; i < *count; i++)
         if (strcmp(names[i], name) == 0) return i;
@@ -79,8 +79,8 @@ static bool lay_out(const iso_plot_work *w, layout *l)
     for (int s = 0; s < w->count; s++) {
         const iso_plot_series *one = &w->series[s];
         if (!has_points(one)) continue;
-        if (find(l->panel, &l->panels, ISO_PLOT_PANELS, one->panel) < 0) return false;
-        if (one->name && find(l->name, &l->names, ISO_PLOT_NAMES, one->name) < 0) return false;
+        if (find_name(l->panel, &l->panels, ISO_PLOT_PANELS, one->panel) < 0) return false;
+        if (one->name && find_name(l->name, &l->names, ISO_PLOT_NAMES, one->name) < 0) return false;
         l->others = l->others || !one->name;
         for (int i = 0; i < one->count; i++)
             if (is_drawn(one, i)) widen(l, one->error[i], one->seconds[i]);
@@ -149,7 +149,8 @@ static void put_lines(FILE *f, const iso_plot_work *w, layout *l, int panel)
                 continue;
             fprintf(f, "%s $series%d with ", comma, s);
             if (named)
-                fprintf(f, "linespoints ps 0.75 %s", strokes[find(l->name, &l->names, ISO_PLOT_NAMES, one->name)]);
+                fprintf(f, "linespoints ps 0.75 %s",
+                        strokes[find_name(l->name, &l->names, ISO_PLOT_NAMES, one->name)]);
             else
                 fputs(OTHER, f);
             comma = ",";

@@ -13,7 +13,7 @@ enum { LARGEST_FILE = 16 << 20 };
 /* ---- What must hold between keys ---- */
 
 /* The key and value of root -> section (-> name if not NULL). */
-static bool find(iso_draft *d, const char *section, const char *name, const yaml_node_t **key,
+static bool find_key(iso_draft *d, const char *section, const char *name, const yaml_node_t **key,
                  const yaml_node_t **value)
 {
     const yaml_node_t *mapping;
@@ -38,7 +38,7 @@ static iso_status check_sections(iso_draft *d, const char **model)
     const yaml_node_t *key, *surface, *last = NULL;
     *model = NULL;
     for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
-        if (!find(d, models[i], NULL, &key, NULL)) continue;
+        if (!find_key(d, models[i], NULL, &key, NULL)) continue;
         if (*model)
             return iso_yaml_fail(
                 &d->yaml, key->start_mark.index > last->start_mark.index ? key->start_mark : last->start_mark,
@@ -46,7 +46,7 @@ static iso_status check_sections(iso_draft *d, const char **model)
         *model = models[i];
         last = key;
     }
-    const bool has_surface = find(d, "surface", NULL, &surface, NULL);
+    const bool has_surface = find_key(d, "surface", NULL, &surface, NULL);
     if (has_surface && !*model)
         return iso_yaml_fail(&d->yaml, surface->start_mark, "'surface' needs a 'ball' that rolls on it");
     if (!*model)
@@ -65,8 +65,8 @@ static iso_status check_sections(iso_draft *d, const char **model)
 static iso_status check_surface(iso_draft *d)
 {
     const yaml_node_t *surface, *radius;
-    if (!find(d, "surface", NULL, &surface, NULL)) return ISO_OK;
-    const bool has_radius = find(d, "surface", "radius", &radius, NULL), plane = d->surface == ISO_PLANE;
+    if (!find_key(d, "surface", NULL, &surface, NULL)) return ISO_OK;
+    const bool has_radius = find_key(d, "surface", "radius", &radius, NULL), plane = d->surface == ISO_PLANE;
     if (plane && has_radius)
         return iso_yaml_fail(&d->yaml, radius->start_mark, "a plane has no 'radius': take it out");
     if (!plane && !has_radius)
@@ -76,19 +76,19 @@ static iso_status check_surface(iso_draft *d)
 }
 
 /* `initial` states the start of the scene's model and nothing of the other's. */
-static iso_status check_initial(iso_draft *d, iso_picture model)
+static iso_status check_initial(iso_draft *d, iso_model_kind model)
 {
     const yaml_node_t *initial, *key;
     const char *what = model == ISO_BALL ? "a ball starts from 'normal' and 'angular_velocity'"
                                          : "a point starts from 'gamma' and 'M'";
     const char *name;
-    iso_picture whose;
-    find(d, "initial", NULL, &initial, NULL);
+    iso_shown whose;
+    find_key(d, "initial", NULL, &initial, NULL);
     for (int i = 0; iso_draft_initial_key(i, &name, &whose); i++) {
-        const bool present = find(d, "initial", name, &key, NULL);
-        if (whose == model && !present)
+        const bool present = find_key(d, "initial", name, &key, NULL);
+        if ((int)whose == (int)model && !present)
             return iso_yaml_fail(&d->yaml, initial->start_mark, "missing '%s' in 'initial': %s", name, what);
-        if (whose != model && whose != ISO_BOTH && present)
+        if ((int)whose != (int)model && whose != ISO_SHOW_BOTH && present)
             return iso_yaml_fail(&d->yaml, key->start_mark, "'%s' does not belong here: %s", name, what);
     }
     return ISO_OK;
@@ -97,7 +97,8 @@ static iso_status check_initial(iso_draft *d, iso_picture model)
 static iso_status check_time(iso_draft *d)
 {
     const yaml_node_t *step;
-    if (!find(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS) return ISO_OK;
+    if (!find_key(d, "time", "step", NULL, &step) || fabs(d->scene.end) / d->scene.step <= ISO_MOST_ROWS)
+        return ISO_OK;
     return iso_yaml_fail(&d->yaml, step->start_mark,
                          "a step of %g to the end %g is more than %g rows: give a larger 'step'", d->scene.step,
                          d->scene.end, ISO_MOST_ROWS);
@@ -107,18 +108,18 @@ static iso_status check_time(iso_draft *d)
 
 /* Values that a failure calls otherwise than the scene, or that stand in another section than the rest. */
 static const struct {
-    const char *field, *section, *key;
+    const char *about, *section, *key;
 } elsewhere[] = {{"surface_radius", "surface", "radius"}, {"eps", "point", "eps"}};
 
 /* Repeats the last failure at the value it is about, or at the section's key when that value is not written. */
 static iso_status fail_at_field(iso_draft *d, iso_status status, const char *section)
 {
-    const char *field = iso_context_field(d->yaml.ctx);
+    const char *about = iso_context_about(d->yaml.ctx);
     const yaml_node_t *place = d->root;
     if (status != ISO_BAD_INPUT) return status;
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
-        if (strcmp(field, elsewhere[i].field) == 0) section = elsewhere[i].section, field = elsewhere[i].key;
-    if (!find(d, section, field, NULL, &place)) find(d, section, NULL, &place, NULL);
+        if (strcmp(about, elsewhere[i].about) == 0) section = elsewhere[i].section, about = elsewhere[i].key;
+    if (!find_key(d, section, about, NULL, &place)) find_key(d, section, NULL, &place, NULL);
     return iso_yaml_fail(&d->yaml, place->start_mark, "%s", iso_context_message(d->yaml.ctx));
 }
 
@@ -158,7 +159,7 @@ static bool effect_has_key(const void *scene, const char *key)
 
 /* What an effect says in words of the ball becomes its numbers. A failure is put at the key it is about, or at that of the
  * effect where it is about a key that is not there. */
-static iso_status complete_effect(iso_draft *d, iso_picture model, const yaml_node_t *effects, iso_effect_id e)
+static iso_status complete_effect(iso_draft *d, iso_model_kind model, const yaml_node_t *effects, iso_effect_id e)
 {
     const iso_effect *effect = iso_effect_list[e];
     const effect_section section = {d, effects, effect->name};
@@ -166,28 +167,28 @@ static iso_status complete_effect(iso_draft *d, iso_picture model, const yaml_no
     const iso_status status = effect->complete(d->yaml.ctx, &d->scene.params, model == ISO_POINT,
                                                d->scene.effects.number[e], effect_has_key, &section);
     if (status != ISO_BAD_INPUT) return status;
-    if (!find_effect_key(d, effects, effect->name, iso_context_field(d->yaml.ctx), &key))
+    if (!find_effect_key(d, effects, effect->name, iso_context_about(d->yaml.ctx), &key))
         iso_yaml_find(&d->yaml, effects, effect->name, &key, NULL);
     return iso_yaml_fail(&d->yaml, key->start_mark, "%s", iso_context_message(d->yaml.ctx));
 }
 
-static iso_status make_effects(iso_draft *d, iso_picture model)
+static iso_status make_effects(iso_draft *d, iso_model_kind model)
 {
     const yaml_node_t *effects;
     iso_status status = ISO_OK;
-    if (!find(d, "effects", NULL, NULL, &effects)) return ISO_OK;
+    if (!find_key(d, "effects", NULL, NULL, &effects)) return ISO_OK;
     for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++)
         if (d->scene.effects.on[e] && iso_effect_list[e]->complete) status = complete_effect(d, model, effects, e);
     return status;
 }
 
-static iso_status make_start(iso_draft *d, iso_picture model)
+static iso_status make_start(iso_draft *d, iso_model_kind model)
 {
     iso_scene *s = &d->scene;
     const iso_spin spin = d->project                       ? ISO_SPIN_REMOVE
                           : iso_effects_twist(&s->effects) ? ISO_SPIN_KEEP
                                                            : ISO_SPIN_REFUSE;
-    const double *eps = find(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;
+    const double *eps = find_key(d, "point", "eps", NULL, NULL) ? &d->eps : NULL;
     const iso_status status = model == ISO_BALL
                                   ? iso_start_ball(d->yaml.ctx, d->angular_velocity, d->normal, spin, &s->start)
                                   : iso_start_point(d->yaml.ctx, d->M, d->gamma, eps, d->project, &s->start);
@@ -201,7 +202,7 @@ static iso_status make_scene(iso_draft *d)
     iso_status status = iso_draft_read_keys(d);
     if (status == ISO_OK) status = check_sections(d, &name);
     if (status != ISO_OK) return status;
-    const iso_picture model = strcmp(name, "point") == 0 ? ISO_POINT : ISO_BALL;
+    const iso_model_kind model = strcmp(name, "point") == 0 ? ISO_POINT : ISO_BALL;
     if ((status = check_surface(d)) != ISO_OK) return status;
     if ((status = check_initial(d, model)) != ISO_OK) return status;
     if ((status = check_time(d)) != ISO_OK) return status;
@@ -209,15 +210,15 @@ static iso_status make_scene(iso_draft *d)
     if ((status = make_D(d)) != ISO_OK) return status;
     if ((status = make_effects(d, model)) != ISO_OK) return status;
     if ((status = make_start(d, model)) != ISO_OK) return status;
-    d->scene.backend = (iso_picture)d->backend;
-    d->scene.as = (iso_picture)d->as;
+    d->scene.backend = (iso_backend)d->backend;
+    d->scene.as = (iso_shown)d->as;
     return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, iso_scene_check_columns(d->yaml.ctx, &d->scene));
 }
 
 iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_draft d = {.yaml = {.ctx = ctx, .name = name}, .backend = ISO_AUTO, .as = ISO_AUTO};
+    iso_draft d = {.yaml = {.ctx = ctx, .name = name}, .backend = ISO_BACKEND_AUTO, .as = ISO_SHOW_START};
     d.scene = iso_scene_default();
     d.D = NAN;
     iso_status status = iso_yaml_load(&d.yaml, text, length);

@@ -19,7 +19,7 @@ typedef struct entry {
     const struct entry *section;     /* read_section: the keys inside       */
     const char *(*word)(int);        /* read_word: the names of an enum ... */
     unsigned words;                  /* ... and which of them (1 << value)  */
-    iso_picture model;               /* of `initial`: whose start this is   */
+    iso_shown model;                 /* of `initial`: whose start this is   */
     iso_effect_id effect;            /* read_effect, read_effect_number: which effect ... */
     const iso_effect_number *number; /* ... and which number of it */
 } entry;
@@ -286,11 +286,11 @@ static const entry point_keys[] = {
 };
 
 static const entry initial_keys[] = {
-    {"normal", read_vector, AT(normal), .model = ISO_BALL},
-    {"angular_velocity", read_vector, AT(angular_velocity), .model = ISO_BALL},
-    {"gamma", read_vector, AT(gamma), .model = ISO_POINT},
-    {"M", read_vector, AT(M), .model = ISO_POINT},
-    {"project", read_flag, AT(project), .model = ISO_BOTH},
+    {"normal", read_vector, AT(normal), .model = ISO_SHOW_BALL},
+    {"angular_velocity", read_vector, AT(angular_velocity), .model = ISO_SHOW_BALL},
+    {"gamma", read_vector, AT(gamma), .model = ISO_SHOW_POINT},
+    {"M", read_vector, AT(M), .model = ISO_SHOW_POINT},
+    {"project", read_flag, AT(project), .model = ISO_SHOW_BOTH},
     {0},
 };
 
@@ -325,14 +325,14 @@ static iso_status read_effects(iso_draft *d, const entry *e, const yaml_node_t *
 }
 
 static const entry solver_keys[] = {
-    {"backend", read_word, AT(backend), .word = iso_picture_name, .words = ~BIT(ISO_BOTH)},
+    {"backend", read_word, AT(backend), .word = iso_backend_name, .words = ~0u},
     {"method", read_method, AT(scene.method)},
     {"tolerance", read_tolerance, AT(scene.tolerance)},
     {0},
 };
 
 static const entry output_keys[] = {
-    {"as", read_word, AT(as), .word = iso_picture_name, .words = BIT(ISO_BALL) | BIT(ISO_POINT) | BIT(ISO_BOTH)},
+    {"as", read_word, AT(as), .word = iso_shown_name, .words = ~BIT(ISO_SHOW_START)},
     {"columns", .read = read_columns},
     {0},
 };
@@ -350,7 +350,7 @@ static const entry scene_keys[] = {
     {0},
 };
 
-bool iso_draft_initial_key(int i, const char **name, iso_picture *model)
+bool iso_draft_initial_key(int i, const char **name, iso_shown *model)
 {
     *name = initial_keys[i].name;
     *model = initial_keys[i].model;

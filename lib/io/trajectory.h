@@ -52,7 +52,7 @@ iso_record *iso_trajectory_header(iso_trajectory_reader *reader);
 
 /* The next row into row[], as many numbers as the header has columns; *more false: there is none.
  * Errors: ISO_BAD_INPUT, a row that is none: the next call goes on behind it; ISO_FILE_TROUBLE, ISO_NO_MEMORY;
- * ISO_STOPPED when a signal comes while a pipe is waited for and the context's watch says so. */
+ * ISO_STOPPED when a signal comes while a pipe is waited for and the context's monitor says so. */
 iso_status iso_trajectory_next(iso_context *ctx, iso_trajectory_reader *reader, double row[], bool *more);
 
 /* The line of the file at which the row read last stands (HDF5: the row's number). */

@@ -134,8 +134,8 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     return ISO_OK;
 }
 
-/* By BDF's own interpolant: the steps may be too long for a leap by an explicit method. */
-static iso_status within(iso_integrator *it, double dt, double y[])
+/* By BDF's own interpolant: the steps may be too long for dense output by an explicit method. */
+static iso_status dense(iso_integrator *it, double dt, double y[])
 {
     cvode *c = it->data;
     sunrealtype t;
@@ -150,7 +150,7 @@ static iso_status within(iso_integrator *it, double dt, double y[])
 /* For the stiffest models: see ISO_VERY_STIFF. */
 static iso_suits bdf_suits(const iso_model *m)
 {
-    const double stiffness = iso_effects_stiffness(&m->field);
+    const double stiffness = iso_effects_stiffness(&m->problem);
     return stiffness > ISO_VERY_STIFF ? ISO_BEST : stiffness > ISO_STIFF ? ISO_WELL : ISO_NEVER;
 }
 
@@ -160,5 +160,5 @@ const iso_method iso_method_adams = {
     .name = "adams", .variant = CV_ADAMS, .doc = "CVODE, variable-order Adams-Moulton, orders 1-12", CVODE_METHOD};
 const iso_method iso_method_bdf = {
     .name = "bdf", .variant = CV_BDF, .implicit = true, .projects = true, .suits = bdf_suits,
-    .witness = 4, .within = within,
+    .witness = 4, .dense = dense,
     .doc = "CVODE, variable-order BDF, orders 1-5, analytic Jacobian, projection", CVODE_METHOD};

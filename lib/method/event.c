@@ -6,8 +6,8 @@
  * - Where g has the same sign at both ends of a part, but goes towards zero at one end and away from it at the other,
  *   there may be two zeros. The extremum of g between them, a zero of its slope, is found first, and divides the
  *   part.
- * - At the end of a step the method's own state and that of a leap differ by the error of the step. A zero that falls
- *   into this gap is found once, and at the end of the step.
+ * - At the end of a step the method's own state and that of dense output differ by the error of the step. A zero
+ *   that falls into this gap is found once, and at the end of the step.
  */
 #include <float.h>
 #include <gsl/gsl_errno.h>
@@ -24,7 +24,7 @@ typedef struct search {
     iso_integrator *it;
     const iso_event *event;
     double nearby;     /* a time in which the state hardly changes */
-    iso_status status; /* of the leaps                             */
+    iso_status status; /* of dense output                          */
 } search;
 
 /* One place of the current step: dt from its left end, g and its slope in growing time. */

@@ -52,14 +52,14 @@ static iso_status step(iso_integrator *it, double y[], double *h)
 /* It serves every model, and among the library's explicit methods needs the least time (the table in taylor.c). */
 static iso_suits rk8pd_suits(const iso_model *m)
 {
-    return iso_effects_stiffness(&m->field) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_WELL;
+    return iso_effects_stiffness(&m->problem) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_WELL;
 }
 
 /* Of the methods for stiff models the most exact for its time; from ISO_VERY_STIFF on bdf needs fewer right-hand
  * sides. */
 static iso_suits bsimp_suits(const iso_model *m)
 {
-    const double stiffness = iso_effects_stiffness(&m->field);
+    const double stiffness = iso_effects_stiffness(&m->problem);
     return stiffness > ISO_VERY_STIFF ? ISO_WELL : stiffness > ISO_STIFF ? ISO_BEST : ISO_NEVER;
 }
 

@@ -1,5 +1,5 @@
 /* gsl_loop.c - a model as GSL's ode-initval2 sees it, and GSL's loop over steps: for the methods of gsl.c and for
- * leaps. */
+ * dense output. */
 #include "method/gsl_impl.h"
 
 #include <float.h>

@@ -43,7 +43,7 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a fixed step must be finite and >= 0, not %g",
                                 o.fixed_step);
     if (check_method(ctx, method, model, &o) != ISO_OK) return ISO_BAD_ARGUMENT;
-    if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of leaps to times between the steps */
+    if (o.fixed_step > 0 && o.tolerance == 0) o.tolerance = 1e-14; /* of dense output */
     if (iso_tolerance_check(ctx, o.tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
     iso_integrator *it = calloc(1, sizeof *it);
     if (!it) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an integrator");
@@ -52,7 +52,7 @@ iso_status iso_integrator_create(iso_context *ctx, const iso_method *method, con
     it->model = *model;
     it->options = o;
     iso_status status = method->create(it);
-    if (status == ISO_OK && !method->within) status = iso_leaper_create(it);
+    if (status == ISO_OK && !method->dense) status = iso_dense_create(it);
     if (status != ISO_OK) return iso_integrator_free(it), status;
     *integrator = it;
     return ISO_OK;
@@ -62,7 +62,7 @@ void iso_integrator_free(iso_integrator *it)
 {
     if (!it) return;
     it->method->free(it);
-    iso_leaper_free(it->leaper);
+    iso_dense_free(it->dense);
     free(it);
 }
 
@@ -182,7 +182,7 @@ iso_status iso_integrator_within(iso_integrator *it, double dt, double y[])
         copy(it->at_left, y, it->model.dim);
         return rest(it, dt, y), ISO_OK;
     }
-    if (dt != 0 && dt != it->h) return it->method->within ? it->method->within(it, dt, y) : iso_leap(it, dt, y);
+    if (dt != 0 && dt != it->h) return it->method->dense ? it->method->dense(it, dt, y) : iso_dense_at(it, dt, y);
     copy(dt == 0 ? it->at_left : it->at_right, y, it->model.dim);
     return ISO_OK;
 }

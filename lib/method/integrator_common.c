@@ -1,4 +1,5 @@
-/* integrator_common.c - what methods, leaps and the search for events use of an integrator. It calls none of them. */
+/* integrator_common.c - what methods, dense output and the search for events use of an integrator. It calls none of
+ * them. */
 #include <math.h>
 
 #include "base/finite_impl.h"

@@ -5,7 +5,7 @@
 #include "base/sum_impl.h"
 #include "method/method.h"
 
-typedef struct iso_leaper iso_leaper;
+typedef struct iso_dense iso_dense;
 
 /* A time as an unevaluated sum of two doubles. */
 typedef struct iso_instant {
@@ -44,7 +44,7 @@ struct iso_integrator {
     double at_left[ISO_MAX_STATE], at_right[ISO_MAX_STATE];
 
     void *data;         /* the method's own                                                           */
-    iso_leaper *leaper; /* reaches times within a step; NULL where the method does                    */
+    iso_dense *dense;   /* reaches times within a step; NULL where the method does                    */
 };
 
 /* The contract of iso_method.step: y holds the state at the end of the last step (and, after start, at time 0);
@@ -80,12 +80,12 @@ iso_status iso_integrator_reach(iso_integrator *it, int direction, double t);
 /* t minus the time of the step's left end: exact but for the last bit. */
 double iso_integrator_since(const iso_integrator *it, double t);
 
-/* The state at dt from the step's left end: an end of the step, or a leap. */
+/* The state at dt from the step's left end: an end of the step, or dense output. */
 iso_status iso_integrator_within(iso_integrator *it, double dt, double y[]);
 
-/* leap.c: from at_left by dt, |dt| <= |h|, at the integrator's tolerance. Created into it->leaper. */
-iso_status iso_leaper_create(iso_integrator *it);
-void iso_leaper_free(iso_leaper *leaper);
-iso_status iso_leap(iso_integrator *it, double dt, double y[]);
+/* dense.c: from at_left by dt, |dt| <= |h|, at the integrator's tolerance. Created into it->dense. */
+iso_status iso_dense_create(iso_integrator *it);
+void iso_dense_free(iso_dense *dense);
+iso_status iso_dense_at(iso_integrator *it, double dt, double y[]);
 
 #endif

@@ -8,7 +8,7 @@
  *
  * Times are those of the model's independent clock. The contract:
  * - A method takes its own steps. A time between their ends is reached from the left end of the step: by the method
- *   itself where it can (`within`), else by a leap with GSL's rk8pd (bsimp for stiff models) at the same tolerance,
+ *   itself where it can (`dense`), else by steps of GSL's rk8pd (bsimp for stiff models) at the same tolerance,
  *   as a rule 13 right-hand sides. So a state depends on the method and the tolerance, never on which other times
  *   were asked.
  * - `tolerance` bounds the estimated error of one step in units of iso_model_size(): of the largest component for
@@ -42,7 +42,7 @@ typedef struct iso_method_options {
 } iso_method_options;
 
 typedef struct iso_statistics {
-    long steps, rejected, rhs, jacobians; /* rhs includes the leaps to output times                    */
+    long steps, rejected, rhs, jacobians; /* rhs includes dense output                                 */
     long states;                          /* found without steps, by iso_method.at                     */
     double correction;                    /* largest relative correction by projection                 */
 } iso_statistics;
@@ -81,8 +81,8 @@ typedef struct iso_method {
     iso_status (*create)(iso_integrator *it);
     iso_status (*start)(iso_integrator *it);
     iso_status (*step)(iso_integrator *it, double y[], double *h);
-    /* The state at dt from the step's left end, |dt| < |h|, by the method itself; NULL: by a leap. */
-    iso_status (*within)(iso_integrator *it, double dt, double y[]);
+    /* The state at dt from the step's left end, |dt| < |h|, by the method itself; NULL: by dense.c. */
+    iso_status (*dense)(iso_integrator *it, double dt, double y[]);
     /* The state at any time t but 0, without steps; NULL: by steps. With it iso_integrator_start calls `start` once,
      * and only a search for events calls `step`. */
     iso_status (*at)(iso_integrator *it, double t, double y[]);

@@ -40,7 +40,7 @@ static bool has_room(const iso_model *model, char why[ISO_WHY_SIZE])
  * none. */
 static bool has_even_steps(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE])
 {
-    const iso_params *p = &model->field.p;
+    const iso_params *p = &model->problem.p;
     if (!method->steps_in_s || !iso_params_steep(p) || p->k == -1) return true;
     snprintf(
         why, ISO_WHY_SIZE,

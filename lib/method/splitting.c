@@ -163,15 +163,15 @@ static inline void drift(double h, state *z)
  * dt/ds = 1/(G N) = (det J/k^2) q^(-1/k - 1 + 1/(2k)):     one power, v = q^(-1/k), gives them all. */
 static inline void kick(const iso_model *m, bool clocks, double h, state *z)
 {
-    const iso_params *p = &m->field.p;
+    const iso_params *p = &m->problem.p;
     const double *J = p->J, *gamma = z->y + 3, k = p->k, q = dot_diag(gamma, J, gamma);
     const double v = k == -1 ? q : k == 1 ? 1 / q : pow(q, -1 / k), v_q = k == -1 ? 1 : k == 1 ? v * v : v / q;
-    const double a = h * (2 * m->field.eps / k) * v_q;
+    const double a = h * (2 * m->problem.eps / k) * v_q;
     double push[3] = {a * ((J[2] - J[1]) * (gamma[1] * gamma[2])), a * ((J[0] - J[2]) * (gamma[2] * gamma[0])),
                       a * ((J[1] - J[0]) * (gamma[0] * gamma[1]))};
-    if (m->field.energy_formula.lines > 0) {
+    if (m->problem.energy_formula.lines > 0) {
         double dV[3], T[3];
-        iso_formula_image(&m->field.energy_formula, p, z->y, dV);
+        iso_formula_image(&m->problem.energy_formula, p, z->y, dV);
         cross(gamma, dV, T);
         add_scaled(push, h, T);
     }
@@ -237,7 +237,7 @@ static double difference(const state a[LOOKS], const state b[LOOKS], double spee
  * extrapolated beyond the last by the order; but no step is longer than a radian. */
 static double choose_step(iso_integrator *it, bool clocks)
 {
-    const double speed = it->model.system->speed(&it->model.field, it->at_right);
+    const double speed = it->model.system->speed(&it->model.problem, it->at_right);
     const double may = RADIANS * it->options.tolerance / 2, way = it->direction * RADIANS / speed;
     double n = FIRST_TRIAL, before, now = INFINITY;
     state coarse[LOOKS], fine[LOOKS];
@@ -269,7 +269,7 @@ static iso_status create(iso_integrator *it)
     splitting *d = it->data = calloc(1, sizeof *d);
     if (!d) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for %s", it->method->name);
     d->clocks = m->clock != ISO_CLOCK_S;
-    for (int c = 0; c < m->carried; c++) d->clocks = d->clocks || m->carry[c] != ISO_CLOCK_S;
+    for (int c = 0; c < m->clocks; c++) d->clocks = d->clocks || m->clock_of[c] != ISO_CLOCK_S;
     return ISO_OK;
 }
 
@@ -305,8 +305,8 @@ static void move(iso_integrator *it, const schedule *s, double ds, double y[], d
     z->clock[ISO_CLOCK_S] = ds;
     copy(z->y, y, ISO_STATE);
     copy(z->rest, rest, ISO_STATE);
-    for (int c = 0; c < it->model.carried; c++)
-        add(&y[ISO_STATE + c], &rest[ISO_STATE + c], z->clock[it->model.carry[c]]);
+    for (int c = 0; c < it->model.clocks; c++)
+        add(&y[ISO_STATE + c], &rest[ISO_STATE + c], z->clock[it->model.clock_of[c]]);
 }
 
 static iso_status step(iso_integrator *it, double y[], double *h)
@@ -339,7 +339,7 @@ static void part(iso_integrator *it, double ds, double y[], state *z)
 }
 
 /* Newton's method on the clock of the model; in s it has nothing to do. */
-static iso_status within(iso_integrator *it, double dt, double y[])
+static iso_status dense(iso_integrator *it, double dt, double y[])
 {
     enum { MAX_ITERATIONS = 20 };
     const iso_model *m = &it->model;
@@ -348,11 +348,11 @@ static iso_status within(iso_integrator *it, double dt, double y[])
     state z;
     for (int i = 0; i < MAX_ITERATIONS; i++) {
         part(it, ds, reached, &z);
-        const double miss = dt - z.clock[m->clock], q = m->system->q(&m->field.p, reached, NULL);
+        const double miss = dt - z.clock[m->clock], q = m->system->q(&m->problem.p, reached, NULL);
         /* at least one correction: a short dt is wanted exact relative to itself, not to the step */
         if (miss == 0 || (i > 0 && !(fabs(miss) > DBL_EPSILON * fabs(it->h)))) break;
-        ds +=
-            miss * iso_clock_rate(&m->field.p, ISO_CLOCK_S, q, NULL) / iso_clock_rate(&m->field.p, m->clock, q, NULL);
+        ds += miss * iso_clock_rate(&m->problem.p, ISO_CLOCK_S, q, NULL) /
+              iso_clock_rate(&m->problem.p, m->clock, q, NULL);
     }
     if (!isfinite(ds)) return iso_integrator_stopped(it, "the time is not reached");
     copy(reached, y, m->dim);
@@ -362,7 +362,7 @@ static iso_status within(iso_integrator *it, double dt, double y[])
 #define SPLITTING                                                                                                    \
     .family = "splitting", .own_equations = true, .system = &iso_system_point,                                       \
     .system_why = "the ball's equations do not split into flows that are known exactly", .steps_in_s = true,         \
-    .fixed = true, .create = create, .start = start, .step = step, .within = within, .free = release
+    .fixed = true, .create = create, .start = start, .step = step, .dense = dense, .free = release
 
 const iso_method iso_method_strang = {
     .name = "strang", .order = 2, .variant = STRANG, .doc = "Strang's splitting", SPLITTING};

@@ -2,15 +2,15 @@
 #ifndef ISO_MODEL_ATTITUDE_IMPL_H
 #define ISO_MODEL_ATTITUDE_IMPL_H
 
-#include "model/field.h"
+#include "model/problem.h"
 
 /* The vector v of body axes in space axes, by the quaternion Q (its rotation times |Q|^2). */
 void iso_turn_to_space(const double Q[4], const double v[3], double in_space[3]);
 
 /* The same as a formula. */
-iso_vector iso_in_space(iso_formula *F, const iso_field *f, iso_vector v);
+iso_vector iso_in_space(iso_formula *F, const iso_problem *f, iso_vector v);
 
-/* On a plane: the way of the centre in space axes since time 0, in units of b. */
-const double *iso_way(const iso_field *f, const double y[]);
+/* On a plane: the displacement of the centre in space axes since time 0, in units of b. */
+const double *iso_displacement(const iso_problem *f, const double y[]);
 
 #endif

@@ -29,7 +29,7 @@ static double along_normal(const iso_params *p, const double y[])
     return dot_diag(y, (const double[]){p->J[0] - least, p->J[1] - least, p->J[2] - least}, y + 3);
 }
 
-static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STATE])
+static void rhs(const iso_problem *f, const double y[ISO_STATE], double dy[ISO_STATE])
 {
     const iso_params *p = &f->p;
     const double *w = y, *n = y + 3;
@@ -57,7 +57,7 @@ static double ball_q(const iso_params *p, const double y[ISO_STATE], double grad
 }
 
 /* kinetic energy; a ball that is free to twist has (K,w)/2, K = J w - D (w,n) n */
-static inline double kinetic(const iso_field *f, const double y[])
+static inline double kinetic(const iso_problem *f, const double y[])
 {
     const double T = dot_diag(y, f->p.J, y) / 2;
     if (!iso_effects_twist(&f->effects)) return T;
@@ -65,26 +65,26 @@ static inline double kinetic(const iso_field *f, const double y[])
     return T - f->p.D * spin * spin / 2;
 }
 
-static double energy(const iso_field *f, const double y[], double *size)
+static double energy(const iso_problem *f, const double y[], double *size)
 {
     const double T = kinetic(f, y), U = iso_effects_potential(f, y);
     *size = T + fmax(fabs(U), iso_effects_range(f, y));
     return T + U;
 }
 
-static bool is_rigid(const iso_field *f)
+static bool is_rigid(const iso_problem *f)
 {
     return !iso_effects_twist(&f->effects);
 }
 
-static double spin(const iso_field *f, const double y[], double *size)
+static double spin(const iso_problem *f, const double y[], double *size)
 {
     (void)f;
     *size = norm(y);
     return dot(y, y + 3);
 }
 
-static double normal_length(const iso_field *f, const double y[], double *size)
+static double normal_length(const iso_problem *f, const double y[], double *size)
 {
     (void)f;
     *size = 1;
@@ -92,7 +92,7 @@ static double normal_length(const iso_field *f, const double y[], double *size)
 }
 
 /* with a level, + 2 c det J (u,u)/g: the point's 2 H (gamma,J^-1 gamma) */
-static double f_plane(const iso_field *f, const double y[], double *size)
+static double f_plane(const iso_problem *f, const double y[], double *size)
 {
     double Jw[3], K[3], u[3];
     diag(f->p.J, y, Jw);
@@ -106,7 +106,7 @@ static double f_plane(const iso_field *f, const double y[], double *size)
 }
 
 /* (11), with n^2 = 1 and (w,Jw) = 2h, which a level has a part in */
-static double f_shell(const iso_field *f, const double y[], double *size)
+static double f_shell(const iso_problem *f, const double y[], double *size)
 {
     const double *n = y + 3;
     double Jw[3], u[3], h_size;
@@ -118,24 +118,24 @@ static double f_shell(const iso_field *f, const double y[], double *size)
 }
 
 /* g^(1/(2k)) w_axis, for a body that is symmetric about that axis */
-static double f_axis(const iso_field *f, const double y[], int axis, double *size)
+static double f_axis(const iso_problem *f, const double y[], int axis, double *size)
 {
     const double density = pow(ball_q(&f->p, y, NULL), -1 / (2 * f->p.k));
     *size = density * norm(y);
     return density * y[axis];
 }
 
-static double f_axis1(const iso_field *f, const double y[], double *size)
+static double f_axis1(const iso_problem *f, const double y[], double *size)
 {
     return f_axis(f, y, 0, size);
 }
 
-static double f_axis2(const iso_field *f, const double y[], double *size)
+static double f_axis2(const iso_problem *f, const double y[], double *size)
 {
     return f_axis(f, y, 1, size);
 }
 
-static double f_axis3(const iso_field *f, const double y[], double *size)
+static double f_axis3(const iso_problem *f, const double y[], double *size)
 {
     return f_axis(f, y, 2, size);
 }
@@ -153,7 +153,7 @@ static double remove_spin(const iso_params *p, double y[])
  * (w,n) = 0 by taking the spin out of w, h by scaling w. The spin is taken out along J^-1 n, as the contact's torque
  * would: along n a rounding error of a light axis would be a large one of a heavy one's Jw. h is left out where the ball
  * hardly moves: there a small error of h would be a large one of w. */
-static double project(const iso_field *f, double y[])
+static double project(const iso_problem *f, double y[])
 {
     const double length_error = make_unit(y + 3) - 1, moving = fmax(norm(y), largest(y));
     double correction = fabs(length_error);
@@ -171,13 +171,13 @@ static double project(const iso_field *f, double y[])
 
 /* |w|, or what it would be if the potentials moved it: a ball may turn back. One that resistance brings to rest has soon
  * a w whose square is no double any more. */
-static double speed(const iso_field *f, const double y[])
+static double speed(const iso_problem *f, const double y[])
 {
     if (iso_effects_none(&f->effects)) return norm(y);
     return fmax(fmax(norm(y), largest(y)), sqrt(2 * iso_effects_strength(f, y) / max3(f->p.J)));
 }
 
-static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
+static void sample(iso_problem *f, iso_random *r, double y[ISO_STATE])
 {
     double unused;
     iso_random_direction(r, y + 3);

@@ -5,7 +5,7 @@
  *     w' = that of the free ball (ball.c) + J^-1 T - (T,u)/g u              so that (w',n) = 0
  *     lambda = -(J w x w + T, u)/g
  *
- * loose: with s = (w,n), A = J - D n n^T, and (w,n') = 0
+ * twisting: with s = (w,n), A = J - D n n^T, and (w,n') = 0
  *
  *     A w' = x,     x = K x w + T + D s n'
  *     A^-1 x = J^-1 x + D (u,x)/(1 - D g) u                                  (Sherman-Morrison)
@@ -15,7 +15,7 @@
 #include "base/vec3_impl.h"
 #include "model/effect.h"
 
-static void turn_of_normal(const iso_field *f, const double y[], double n_dot[3])
+static void turn_of_normal(const iso_problem *f, const double y[], double n_dot[3])
 {
     cross(y + 3, y, n_dot);
     scale(n_dot, f->p.k);
@@ -30,7 +30,7 @@ static double resisted(const iso_params *p, const double n[3], const double x[3]
     return -dot(x, u) / dot(n, u);
 }
 
-static void rigid_solve(const iso_field *f, const double y[], const double T[3], double dy[])
+static void rigid_solve(const iso_problem *f, const double y[], const double T[3], double dy[])
 {
     double u[3];
     const double lambda = resisted(&f->p, y + 3, T, u);
@@ -38,7 +38,7 @@ static void rigid_solve(const iso_field *f, const double y[], const double T[3],
     for (int i = 0; i < 3; i++) dy[i] += f->p.inv_J[i] * T[i] + lambda * u[i];
 }
 
-static double rigid_twist(const iso_field *f, const double y[], const double T[3])
+static double rigid_twist(const iso_problem *f, const double y[], const double T[3])
 {
     double Jw[3], u[3], x[3];
     diag(f->p.J, y, Jw);
@@ -47,7 +47,7 @@ static double rigid_twist(const iso_field *f, const double y[], const double T[3
     return resisted(&f->p, y + 3, x, u);
 }
 
-/* --- loose -------------------------------------------------------------------------------------------------------- */
+/* --- twisting ---------------------------------------------------------------------------------------------------- */
 
 /* v = A^-1 x */
 static void solve_A(const iso_params *p, const double n[3], const double x[3], double v[3])
@@ -58,7 +58,7 @@ static void solve_A(const iso_params *p, const double n[3], const double x[3], d
     for (int i = 0; i < 3; i++) v[i] = p->inv_J[i] * x[i] + along * u[i];
 }
 
-static void loose_solve(const iso_field *f, const double y[], const double T[3], double dy[])
+static void twisting_solve(const iso_problem *f, const double y[], const double T[3], double dy[])
 {
     double K[3], x[3];
     contact_momentum(&f->p, y, K);
@@ -69,15 +69,16 @@ static void loose_solve(const iso_field *f, const double y[], const double T[3],
     solve_A(&f->p, y + 3, x, dy);
 }
 
-static double loose_twist(const iso_field *f, const double y[], const double T[3])
+static double twisting_twist(const iso_problem *f, const double y[], const double T[3])
 {
     (void)T;
     return iso_effects_twist_torque(f, y);
 }
 
-const iso_contact iso_contact_rigid = {rigid_solve, rigid_twist}, iso_contact_loose = {loose_solve, loose_twist};
+const iso_contact iso_contact_rigid = {rigid_solve, rigid_twist},
+                  iso_contact_twisting = {twisting_solve, twisting_twist};
 
-const iso_contact *iso_contact_of(const iso_field *f)
+const iso_contact *iso_contact_of(const iso_problem *f)
 {
-    return iso_effects_twist(&f->effects) ? &iso_contact_loose : &iso_contact_rigid;
+    return iso_effects_twist(&f->effects) ? &iso_contact_twisting : &iso_contact_rigid;
 }

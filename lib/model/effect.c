@@ -20,18 +20,18 @@ iso_effect_id iso_effect_find(const char *name)
     return (iso_effect_id)e;
 }
 
-bool iso_is_plane(const iso_field *f)
+bool iso_is_plane(const iso_problem *f)
 {
     return f->p.k == 1;
 }
 
-iso_work iso_no_work(const iso_field *f)
+iso_work iso_no_work(const iso_problem *f)
 {
     (void)f;
     return ISO_WORK_NONE;
 }
 
-iso_work iso_work_lost(const iso_field *f)
+iso_work iso_work_lost(const iso_problem *f)
 {
     (void)f;
     return ISO_WORK_LOST;
@@ -125,7 +125,7 @@ bool iso_effects_are_free(const iso_effects *effects)
     return !iso_effects_beyond_level(effects);
 }
 
-const iso_effect *iso_effects_without_frequencies(const iso_field *f, const char **why)
+const iso_effect *iso_effects_without_frequencies(const iso_problem *f, const char **why)
 {
     int e = 0;
     const iso_effect *effect;
@@ -151,7 +151,7 @@ bool iso_effects_pull(const iso_effects *effects)
     return pulls;
 }
 
-bool iso_effects_keep(const iso_field *f, iso_further integral)
+bool iso_effects_keep(const iso_problem *f, iso_further integral)
 {
     const iso_effect *effect;
     bool keep = true;
@@ -160,13 +160,13 @@ bool iso_effects_keep(const iso_field *f, iso_further integral)
     return keep;
 }
 
-static iso_work work_of(const iso_field *f, const iso_effect *effect)
+static iso_work work_of(const iso_problem *f, const iso_effect *effect)
 {
     if (effect->work) return effect->work(f);
     return effect->observes ? ISO_WORK_NONE : ISO_WORK_UNKNOWN;
 }
 
-bool iso_effects_keep_energy(const iso_field *f)
+bool iso_effects_keep_energy(const iso_problem *f)
 {
     const iso_effect *effect;
     bool keep = true;
@@ -174,7 +174,7 @@ bool iso_effects_keep_energy(const iso_field *f)
     return keep;
 }
 
-const iso_effect *iso_effects_taking_energy(const iso_field *f)
+const iso_effect *iso_effects_taking_energy(const iso_problem *f)
 {
     int e = 0;
     const iso_effect *effect;
@@ -185,7 +185,7 @@ const iso_effect *iso_effects_taking_energy(const iso_field *f)
 
 /* --- writing their equations down --------------------------------------------------------------------------------------- */
 
-int iso_effect_states(const iso_effect *effect, const iso_field *f)
+int iso_effect_states(const iso_effect *effect, const iso_problem *f)
 {
     int count = 0;
     for (const iso_effect_state *s = effect->states; s && s->name; s++)
@@ -194,7 +194,7 @@ int iso_effect_states(const iso_effect *effect, const iso_field *f)
 }
 
 /* What kind of state stands at y[at]. */
-static uint8_t kind_at(const iso_field *f, int at)
+static uint8_t kind_at(const iso_problem *f, int at)
 {
     for (int e = 0; e < ISO_EFFECTS; e++) {
         int here = f->at[e];
@@ -207,13 +207,13 @@ static uint8_t kind_at(const iso_field *f, int at)
     return ISO_STATE_ANY;
 }
 
-static void finish_formula(const iso_field *f, iso_formula *F)
+static void finish_formula(const iso_problem *f, iso_formula *F)
 {
     for (int i = 0; i < F->states; i++) F->state[i].kind = kind_at(f, F->state[i].at);
     iso_formula_finish(F, &f->p);
 }
 
-void iso_effects_record_motion(const iso_field *f, bool series, iso_formula *F)
+void iso_effects_record_motion(const iso_problem *f, bool series, iso_formula *F)
 {
     const iso_effect *effect;
     iso_formula_begin(F, ISO_FORMULA_MOTION, series);
@@ -222,7 +222,7 @@ void iso_effects_record_motion(const iso_field *f, bool series, iso_formula *F)
     finish_formula(f, F);
 }
 
-void iso_effects_record_energy(const iso_field *f, iso_formula *F)
+void iso_effects_record_energy(const iso_problem *f, iso_formula *F)
 {
     const iso_effect *effect;
     iso_formula_begin(F, ISO_FORMULA_ENERGY, false);
@@ -231,7 +231,7 @@ void iso_effects_record_energy(const iso_field *f, iso_formula *F)
     finish_formula(f, F);
 }
 
-void iso_effects_record_image(const iso_field *f, iso_formula *F)
+void iso_effects_record_image(const iso_problem *f, iso_formula *F)
 {
     const iso_effect *effect;
     iso_formula_begin(F, ISO_FORMULA_IMAGE, false);
@@ -242,7 +242,7 @@ void iso_effects_record_image(const iso_field *f, iso_formula *F)
 
 /* --- sums ----------------------------------------------------------------------------------------------------------- */
 
-void iso_effects_torque(const iso_field *f, const double y[], double T[3], double dy[])
+void iso_effects_torque(const iso_problem *f, const double y[], double T[3], double dy[])
 {
     const iso_effect *effect;
     T[0] = T[1] = T[2] = 0;
@@ -251,9 +251,9 @@ void iso_effects_torque(const iso_field *f, const double y[], double T[3], doubl
         if (effect->torque) effect->torque(f, y, T);
 }
 
-double iso_effects_twist_torque(const iso_field *f, const double y[])
+double iso_effects_twist_torque(const iso_problem *f, const double y[])
 {
-    iso_field twisting = *f;
+    iso_problem twisting = *f;
     double T[3], dy[ISO_MAX_STATE];
     for (int e = 0; e < ISO_EFFECTS; e++) twisting.effects.on[e] = f->effects.on[e] && iso_effect_list[e]->twists;
     iso_effects_record_motion(&twisting, false, &twisting.motion);
@@ -261,7 +261,7 @@ double iso_effects_twist_torque(const iso_field *f, const double y[])
     return dot(T, y + 3) / dot(y + 3, y + 3);
 }
 
-double iso_effects_potential(const iso_field *f, const double y[])
+double iso_effects_potential(const iso_problem *f, const double y[])
 {
     if (iso_effects_none(&f->effects)) return 0;
     if (f->energy_formula.kind == ISO_FORMULA_ENERGY) return iso_formula_energy(&f->energy_formula, &f->p, y);
@@ -270,7 +270,7 @@ double iso_effects_potential(const iso_field *f, const double y[])
     return iso_formula_energy(&F, &f->p, y);
 }
 
-double iso_effects_image(const iso_field *f, const double y[])
+double iso_effects_image(const iso_problem *f, const double y[])
 {
     if (iso_effects_none(&f->effects)) return 0;
     if (f->energy_formula.kind == ISO_FORMULA_IMAGE) return iso_formula_image(&f->energy_formula, &f->p, y, NULL);
@@ -279,7 +279,7 @@ double iso_effects_image(const iso_field *f, const double y[])
     return iso_formula_image(&F, &f->p, y, NULL);
 }
 
-double iso_effects_strength(const iso_field *f, const double y[])
+double iso_effects_strength(const iso_problem *f, const double y[])
 {
     const iso_effect *effect;
     double most = 0;
@@ -288,7 +288,7 @@ double iso_effects_strength(const iso_field *f, const double y[])
     return most;
 }
 
-double iso_effects_largest(const iso_field *f, const double y[])
+double iso_effects_largest(const iso_problem *f, const double y[])
 {
     const iso_effect *effect;
     double most = 0;
@@ -297,12 +297,12 @@ double iso_effects_largest(const iso_field *f, const double y[])
     return most;
 }
 
-double iso_effects_range(const iso_field *f, const double y[])
+double iso_effects_range(const iso_problem *f, const double y[])
 {
     return fmax(iso_effects_strength(f, y), iso_effects_largest(f, y));
 }
 
-double iso_effects_stiffness(const iso_field *f)
+double iso_effects_stiffness(const iso_problem *f)
 {
     const iso_effect *effect;
     double most = 0;
@@ -312,7 +312,7 @@ double iso_effects_stiffness(const iso_field *f)
 }
 
 /* Everything that acts takes motion away, and something does. */
-static bool only_resisted(const iso_field *f)
+static bool only_resisted(const iso_problem *f)
 {
     const iso_effect *effect;
     bool only = true;
@@ -321,7 +321,7 @@ static bool only_resisted(const iso_field *f)
     return only && iso_effects_stiffness(f) > 0;
 }
 
-double iso_effects_moving(const iso_field *f)
+double iso_effects_moving(const iso_problem *f)
 {
     const iso_effect *effect;
     double least = INFINITY;
@@ -331,12 +331,12 @@ double iso_effects_moving(const iso_field *f)
     return least;
 }
 
-bool iso_effects_at_rest(const iso_field *f, const double y[])
+bool iso_effects_at_rest(const iso_problem *f, const double y[])
 {
     return largest(y) < ISO_REST && only_resisted(f);
 }
 
-int iso_integrals_holding(const iso_system *system, const iso_field *f, const iso_integral *list[], int most)
+int iso_integrals_holding(const iso_system *system, const iso_problem *f, const iso_integral *list[], int most)
 {
     const iso_effect *effect;
     int count = 0;

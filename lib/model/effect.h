@@ -64,7 +64,8 @@ typedef struct iso_effect_state {
         ISO_STATE_INTEGRAL, /* no other rate depends on it                                                          */
         ISO_STATE_DERIVED   /* `begin` gives it at any time, from omega and n                                       */
     } kind;
-    bool (*there)(const iso_field *f); /* whether the effect has them here; NULL: always                            */
+    bool (*there)(
+        const iso_problem *f); /* whether the effect has them here; NULL: always                            */
 } iso_effect_state;
 
 /* What the effect does to the ball's energy. */
@@ -89,9 +90,9 @@ typedef struct iso_effect {
     bool twists;              /* the contact is not rigid: (omega,n) is free                                        */
     bool clocks;              /* it asks for the clocks as columns, and for nothing else                            */
     bool is_level;            /* its potential is the energy level of the point: no force on the point              */
-    iso_work (*work)(const iso_field *f);                        /* NULL: unknown, of an observer none              */
-    bool (*keeps)(const iso_field *f, iso_further integral);     /* NULL: none, of an observer all                  */
-    const char *(*no_frequencies)(const iso_field *f);           /* why n(t) is not quasi-periodic; NULL: it may be */
+    iso_work (*work)(const iso_problem *f);                    /* NULL: unknown, of an observer none              */
+    bool (*keeps)(const iso_problem *f, iso_further integral); /* NULL: none, of an observer all                  */
+    const char *(*no_frequencies)(const iso_problem *f);       /* why n(t) is not quasi-periodic; NULL: it may be */
 
     /* --- its numbers and columns --- */
     const iso_effect_number *numbers; /* ended by a row without a name; NULL: none                                  */
@@ -105,29 +106,35 @@ typedef struct iso_effect {
     /* Why a scene leaves one of its columns empty; NULL, or answering NULL: it does not. */
     const char *(*empty)(const iso_params *p, const iso_effects *effects, const char *column);
     /* Its columns, one after the other, in own units; and back: the states from the columns. */
-    void (*show)(const iso_field *f, const double y[], double columns[]);
-    void (*recall)(const iso_field *f, const double columns[], double y[]);
+    void (*show)(const iso_problem *f, const double y[], double columns[]);
+    void (*recall)(const iso_problem *f, const double columns[], double y[]);
 
     /* --- its equations, see formula.h --- */
-    void (*motion)(iso_formula *F, const iso_field *f);    /* torque on the ball, rates of its states        */
-    void (*potential)(iso_formula *F, const iso_field *f); /* U                                              */
-    void (*image)(iso_formula *F, const iso_field *f);     /* V and dV/dgamma of the point                   */
+    void (*motion)(iso_formula *F, const iso_problem *f);    /* torque on the ball, rates of its states        */
+    void (*potential)(iso_formula *F, const iso_problem *f); /* U                                              */
+    void (*image)(iso_formula *F, const iso_problem *f);     /* V and dV/dgamma of the point                   */
     /* In place of `motion`, where the formulas do not have what it takes: adds MQ to T. Then only methods that need
      * nothing but y' take the effect; others refuse it by name. */
-    void (*torque)(const iso_field *f, const double y[], double T[3]);
+    void (*torque)(const iso_problem *f, const double y[], double T[3]);
 
     /* --- its states --- */
     const iso_effect_state *states;                 /* ended by a row without a name; NULL: none                    */
     const char *states_doc;                         /* why they are there                                           */
-    void (*begin)(const iso_field *f, double y[]);  /* at the start                                                 */
-    void (*size)(const iso_field *f, const double y[], double size[]);  /* for error control                        */
-    double (*restore)(const iso_field *f, double y[]); /* constraints that are no unit vectors; the relative correction */
+    void (*begin)(const iso_problem *f,
+                  double y[]); /* at the start                                                 */
+    void (*size)(const iso_problem *f, const double y[],
+                 double size[]); /* for error control                        */
+    double (*restore)(const iso_problem *f,
+                      double y[]); /* constraints that are no unit vectors; the relative correction */
 
     /* --- sizes --- */
-    double (*strength)(const iso_field *f, const double y[]); /* how large U is made, for the speed it can give     */
-    double (*range)(const iso_field *f, const double y[]);    /* how large U can be, if more than that              */
-    double (*stiffness)(const iso_field *f);    /* how many times faster than the ball turns it makes motion die away */
-    double (*time_to_rest)(const iso_field *f); /* until motion is less than ISO_REST; NULL: it does not end it     */
+    double (*strength)(const iso_problem *f,
+                       const double y[]);                    /* how large U is made, for the speed it can give     */
+    double (*range)(const iso_problem *f, const double y[]); /* how large U can be, if more than that              */
+    double (*stiffness)(
+        const iso_problem *f); /* how many times faster than the ball turns it makes motion die away */
+    double (*time_to_rest)(
+        const iso_problem *f); /* until motion is less than ISO_REST; NULL: it does not end it     */
 
     const iso_integral *integrals; /* that come with it, ended by a row without a name; NULL: none                  */
 } iso_effect;
@@ -190,7 +197,7 @@ const iso_effect *iso_effects_ball_only(const iso_effects *effects);
 const iso_effect *iso_effects_beyond_level(const iso_effects *effects);
 
 /* The first effect with which n(t) has no frequencies, and why; NULL: none. */
-const iso_effect *iso_effects_without_frequencies(const iso_field *f, const char **why);
+const iso_effect *iso_effects_without_frequencies(const iso_problem *f, const char **why);
 
 /* Whether a run ends where contact is lost; and whether the pressure of the contact changes where it begins at 0. */
 bool iso_effects_watch_contact(const iso_effects *effects);
@@ -202,13 +209,13 @@ bool iso_effects_clocks(const iso_effects *effects); /* the clocks are asked for
 bool iso_effects_need_D(const iso_effects *effects);
 bool iso_effects_need_radius(const iso_effects *effects);
 
-/* Sums over the effects of a field: potential energy of the ball, and of the image of a point; the size of what makes
- * them, for error control. */
-double iso_effects_potential(const iso_field *f, const double y[]);
-double iso_effects_image(const iso_field *f, const double y[]);
-double iso_effects_strength(const iso_field *f, const double y[]);
-double iso_effects_range(const iso_field *f, const double y[]);
-double iso_effects_largest(const iso_field *f, const double y[]); /* that of `range` alone */
+/* Sums over the effects of a problem: potential energy of the ball, and of the image of a point; the size of what
+ * makes them, for error control. */
+double iso_effects_potential(const iso_problem *f, const double y[]);
+double iso_effects_image(const iso_problem *f, const double y[]);
+double iso_effects_strength(const iso_problem *f, const double y[]);
+double iso_effects_range(const iso_problem *f, const double y[]);
+double iso_effects_largest(const iso_problem *f, const double y[]); /* that of `range` alone */
 
 /* Whether nothing acts but a level, which the isomorphism turns into a constant. */
 bool iso_effects_are_free(const iso_effects *effects);
@@ -220,33 +227,33 @@ bool iso_effects_have_image(const iso_effects *effects);
 bool iso_effects_pull(const iso_effects *effects);
 
 /* Whether one of the further integrals survives all effects. */
-bool iso_effects_keep(const iso_field *f, iso_further integral);
+bool iso_effects_keep(const iso_problem *f, iso_further integral);
 
 /* Whether the energy is conserved, and known from the state: on a plane the height is a state of `attitude`. */
-bool iso_effects_keep_energy(const iso_field *f);
+bool iso_effects_keep_energy(const iso_problem *f);
 
 /* All torques on the ball but the contact's; the rates of effects' states in dy. */
-void iso_effects_torque(const iso_field *f, const double y[], double T[3], double dy[]);
+void iso_effects_torque(const iso_problem *f, const double y[], double T[3], double dy[]);
 
 /* lambda of the torque lambda n by which a contact that is not rigid resists twisting. */
-double iso_effects_twist_torque(const iso_field *f, const double y[]);
+double iso_effects_twist_torque(const iso_problem *f, const double y[]);
 
 /* The first effect that takes energy away; NULL: none. */
-const iso_effect *iso_effects_taking_energy(const iso_field *f);
+const iso_effect *iso_effects_taking_energy(const iso_problem *f);
 
 /* How many times faster than the ball turns, in its own units, the effects make motion die away: the largest of them.
  * Above ISO_STIFF explicit methods are held up; the torque of a contact that alone is as stiff is a state, lambda. */
 enum { ISO_STIFF = 50 };
-double iso_effects_stiffness(const iso_field *f);
+double iso_effects_stiffness(const iso_problem *f);
 
 /* The turns of the ball, in its own units, for which it moves at most before resistance has brought it to rest, all the
  * way through the range of doubles; infinite where nothing does, or something keeps it moving. */
-double iso_effects_moving(const iso_field *f);
+double iso_effects_moving(const iso_problem *f);
 
 /* In own units a ball that turns more slowly than this, and only loses motion, is at rest: a tolerance of that is still a
  * normal double. */
 #define ISO_REST 1e-290
-bool iso_effects_at_rest(const iso_field *f, const double y[]);
+bool iso_effects_at_rest(const iso_problem *f, const double y[]);
 
 /* --- columns ------------------------------------------------------------------------------------------------------- */
 
@@ -266,8 +273,8 @@ int iso_effect_first_column(iso_effect_id id);
 
 enum { ISO_MAX_INTEGRALS = 24 };
 
-/* The integrals of a system that hold for a field, those of its effects last: at most `most` into list, and how many
- * there are. */
-int iso_integrals_holding(const iso_system *system, const iso_field *f, const iso_integral *list[], int most);
+/* The integrals of a system that hold for a problem, those of its effects last: at most `most` into list, and how
+ * many there are. */
+int iso_integrals_holding(const iso_system *system, const iso_problem *f, const iso_integral *list[], int most);
 
 #endif

@@ -1,9 +1,9 @@
 /* effect_attitude.c - how the ball stands and where it is: asked for, it acts on nothing.
  *
  *     Q' = Q (0,w)/2,     |Q| = 1          R(Q): from body to space axes
- *     x' = R (w x n)                       on a plane: way of the centre, in units of b
+ *     x' = R (w x n)                       on a plane: displacement of the centre, in units of b
  *
- * On a sphere no way has to be integrated: the contact is at a R n, the centre at (a+b) R n.
+ * On a sphere no displacement has to be integrated: the contact is at a R n, the centre at (a+b) R n.
  */
 #include <math.h>
 
@@ -22,7 +22,7 @@ void iso_turn_to_space(const double Q[4], const double v[3], double in_space[3])
         in_space[i] = (Q[0] * Q[0] - dot(q, q)) * v[i] + 2 * dot(q, v) * q[i] + 2 * Q[0] * q_v[i];
 }
 
-iso_vector iso_in_space(iso_formula *F, const iso_field *f, iso_vector v)
+iso_vector iso_in_space(iso_formula *F, const iso_problem *f, iso_vector v)
 {
     const iso_scalar q0 = scalar_state(F, f->at[ISO_ATTITUDE]);
     const iso_vector q = vector_state(F, f->at[ISO_ATTITUDE] + 1), b = cross_of(F, q, v);
@@ -30,13 +30,13 @@ iso_vector iso_in_space(iso_formula *F, const iso_field *f, iso_vector v)
     return add_v(F, v, times_v(F, constant(F, 2), turned));
 }
 
-const double *iso_way(const iso_field *f, const double y[])
+const double *iso_displacement(const iso_problem *f, const double y[])
 {
     return y + f->at[ISO_ATTITUDE] + 4;
 }
 
 /* q0' = -(q,w)/2,  q' = (q0 w + q x w)/2 */
-static void motion(iso_formula *F, const iso_field *f)
+static void motion(iso_formula *F, const iso_problem *f)
 {
     const int at = f->at[ISO_ATTITUDE];
     const iso_vector omega = formula_omega(F), q = vector_state(F, at + 1);
@@ -44,25 +44,25 @@ static void motion(iso_formula *F, const iso_field *f)
     set_rate(F, q0, constant(F, -0.5), dot_of(F, q, omega));
     set_rate_v(F, q, constant(F, 0.5), add_v(F, scale_v(F, q0, omega), cross_of(F, q, omega)));
     if (!iso_is_plane(f)) return;
-    const iso_vector way = vector_state(F, at + 4);
-    set_rate_v(F, way, constant(F, 1), iso_in_space(F, f, cross_of(F, omega, formula_n(F))));
+    const iso_vector displacement = vector_state(F, at + 4);
+    set_rate_v(F, displacement, constant(F, 1), iso_in_space(F, f, cross_of(F, omega, formula_n(F))));
 }
 
-static void begin(const iso_field *f, double y[])
+static void begin(const iso_problem *f, double y[])
 {
     double *Q = y + f->at[ISO_ATTITUDE];
     copy(f->effects.number[ISO_ATTITUDE], Q, 4);
     for (int i = 4; iso_is_plane(f) && i < 7; i++) Q[i] = 0;
 }
 
-static void size(const iso_field *f, const double y[], double size[])
+static void size(const iso_problem *f, const double y[], double size[])
 {
     const int at = f->at[ISO_ATTITUDE];
     for (int i = 0; i < 4; i++) size[at + i] = 1;
-    for (int i = 4; iso_is_plane(f) && i < 7; i++) size[at + i] = 1 + norm(iso_way(f, y));
+    for (int i = 4; iso_is_plane(f) && i < 7; i++) size[at + i] = 1 + norm(iso_displacement(f, y));
 }
 
-static double unit_quaternion(const iso_field *f, const double y[], double *value_size)
+static double unit_quaternion(const iso_problem *f, const double y[], double *value_size)
 {
     const double *Q = y + f->at[ISO_ATTITUDE];
     *value_size = 1;
@@ -77,20 +77,20 @@ static double radius_a(const iso_params *p)
 
 /* Quaternion, contact in space, contact on the ball, centre. The contact goes round the fixed sphere at a R n; on a plane
  * it goes with the centre, b x. */
-static void show(const iso_field *f, const double y[], double columns[])
+static void show(const iso_problem *f, const double y[], double columns[])
 {
     const double *n = y + 3, *Q = y + f->at[ISO_ATTITUDE], b = iso_params_sign_of_radius(&f->p);
     double *contact = columns + 4, *trace = columns + 7, *centre = columns + 10, space_n[3];
     copy(Q, columns, 4);
     iso_turn_to_space(Q, n, space_n);
     for (int i = 0; i < 3; i++) {
-        contact[i] = iso_is_plane(f) ? iso_way(f, y)[i] : radius_a(&f->p) * space_n[i];
+        contact[i] = iso_is_plane(f) ? iso_displacement(f, y)[i] : radius_a(&f->p) * space_n[i];
         trace[i] = -b * n[i];
         centre[i] = contact[i] + b * space_n[i];
     }
 }
 
-static void recall(const iso_field *f, const double columns[], double y[])
+static void recall(const iso_problem *f, const double columns[], double y[])
 {
     double *Q = y + f->at[ISO_ATTITUDE];
     copy(columns, Q, 4);

@@ -17,23 +17,23 @@
 /* Where its numbers are: C by rows, and l. */
 enum { QUADRATIC = 0, LINEAR = 9 };
 
-static const double *quadratic(const iso_field *f)
+static const double *quadratic(const iso_problem *f)
 {
     return f->effects.number[ISO_FIELD] + QUADRATIC;
 }
 
-static const double *linear(const iso_field *f)
+static const double *linear(const iso_problem *f)
 {
     return f->effects.number[ISO_FIELD] + LINEAR;
 }
 
-static void motion(iso_formula *F, const iso_field *f)
+static void motion(iso_formula *F, const iso_problem *f)
 {
     const iso_vector n = formula_n(F), C_n = matrix_c(F, constants(F, 9, quadratic(f)), n);
     add_torque(F, constant_k(F), cross_of(F, n, plus_v(F, constants(F, 3, linear(f)), C_n)));
 }
 
-static void potential(iso_formula *F, const iso_field *f)
+static void potential(iso_formula *F, const iso_problem *f)
 {
     const iso_vector n = formula_n(F), C_n = matrix_c(F, constants(F, 9, quadratic(f)), n);
     add_energy(F, constant(F, 0.5), dot_of(F, n, C_n));
@@ -47,7 +47,7 @@ static iso_constant over_G(iso_formula *F)
     return div_c(F, mul_c(F, mul_c(F, J, J2), J3), mul_c(F, k, k));
 }
 
-static void image(iso_formula *F, const iso_field *f)
+static void image(iso_formula *F, const iso_problem *f)
 {
     const iso_constant C = constants(F, 9, quadratic(f)), l = constants(F, 3, linear(f)), root_J = constant_root_J(F);
     const iso_constant scale = over_G(F), exponent = div_c(F, constant(F, -1), constant_k(F));
@@ -64,7 +64,7 @@ static void image(iso_formula *F, const iso_field *f)
     add_gradient(F, scale, add_v(F, push, scale_v(F, along, twice_J_gamma)));
 }
 
-static double strength(const iso_field *f, const double y[])
+static double strength(const iso_problem *f, const double y[])
 {
     double most = largest(linear(f));
     (void)y;
@@ -73,7 +73,7 @@ static double strength(const iso_field *f, const double y[])
 }
 
 /* Symmetric about an axis: C = diag with two equal entries, l along the axis. */
-static bool is_symmetric(const iso_field *f, int axis)
+static bool is_symmetric(const iso_problem *f, int axis)
 {
     const int j = (axis + 1) % 3, k = (axis + 2) % 3;
     const double *C = quadratic(f), *l = linear(f);
@@ -81,7 +81,7 @@ static bool is_symmetric(const iso_field *f, int axis)
            l[k] == 0;
 }
 
-static bool keeps(const iso_field *f, iso_further integral)
+static bool keeps(const iso_problem *f, iso_further integral)
 {
     return integral >= ISO_F_AXIS1 && is_symmetric(f, (int)integral - ISO_F_AXIS1);
 }

@@ -4,7 +4,7 @@
  *
  * The weight -m g e acts at the centre, b n above the contact. With the signed radius b this holds on all surfaces, and
  * the potential energy is m g (a+b)(n,e) = mgb/(1-k) (n,e). On a plane (k = 1) it is the height of the centre, m g (E,x),
- * with the vertical E in space and the way x, which only `attitude` knows.
+ * with the vertical E in space and the displacement x, which only `attitude` knows.
  */
 #include <float.h>
 #include <math.h>
@@ -17,88 +17,88 @@
 /* Where its numbers are. A scene states g of a body, or mgb of a reduced ball. */
 enum { MGB, UP, G = UP + 3 };
 
-static double mgb(const iso_field *f)
+static double mgb(const iso_problem *f)
 {
     return f->effects.number[ISO_GRAVITY][MGB];
 }
 
-static const double *vertical(const iso_field *f, const double y[])
+static const double *vertical(const iso_problem *f, const double y[])
 {
     return y + f->at[ISO_GRAVITY];
 }
 
-static void motion(iso_formula *F, const iso_field *f)
+static void motion(iso_formula *F, const iso_problem *f)
 {
     const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]);
     add_torque(F, constant(F, mgb(f)), cross_of(F, e, formula_n(F)));
     set_rate_v(F, e, constant(F, 1), cross_of(F, e, formula_omega(F)));
 }
 
-static void potential(iso_formula *F, const iso_field *f)
+static void potential(iso_formula *F, const iso_problem *f)
 {
     const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]);
     if (!iso_is_plane(f)) {
         const iso_constant less = sub_c(F, constant(F, 1), constant_k(F));
         add_energy(F, div_c(F, constant(F, mgb(f)), less), dot_of(F, formula_n(F), e));
     } else if (f->at[ISO_ATTITUDE] > 0) {
-        const iso_vector way = vector_state(F, f->at[ISO_ATTITUDE] + 4);
-        add_energy(F, constant(F, mgb(f)), dot_of(F, iso_in_space(F, f, e), way));
+        const iso_vector displacement = vector_state(F, f->at[ISO_ATTITUDE] + 4);
+        add_energy(F, constant(F, mgb(f)), dot_of(F, iso_in_space(F, f, e), displacement));
     }
 }
 
 /* On a plane the height is a state of `attitude`. */
-static iso_work work(const iso_field *f)
+static iso_work work(const iso_problem *f)
 {
     return iso_is_plane(f) && !f->effects.on[ISO_ATTITUDE] ? ISO_WORK_UNKNOWN : ISO_WORK_NONE;
 }
 
-static const char *no_frequencies(const iso_field *f)
+static const char *no_frequencies(const iso_problem *f)
 {
     return iso_is_plane(f) ? "on a tilted plane the ball rolls away ever faster: its motion has no frequencies" : NULL;
 }
 
-static void begin(const iso_field *f, double y[])
+static void begin(const iso_problem *f, double y[])
 {
     copy(f->effects.number[ISO_GRAVITY] + UP, y + f->at[ISO_GRAVITY], 3);
 }
 
-static void size(const iso_field *f, const double y[], double size[])
+static void size(const iso_problem *f, const double y[], double size[])
 {
     (void)y;
     for (int i = 0; i < 3; i++) size[f->at[ISO_GRAVITY] + i] = 1;
 }
 
-static double strength(const iso_field *f, const double y[])
+static double strength(const iso_problem *f, const double y[])
 {
     (void)y;
     return fabs(mgb(f));
 }
 
 /* next to k = 1 the potential is a large constant, and its changes are lost in it */
-static double range(const iso_field *f, const double y[])
+static double range(const iso_problem *f, const double y[])
 {
     (void)y;
     return iso_is_plane(f) ? fabs(mgb(f)) : fabs(mgb(f) / (1 - f->p.k));
 }
 
-static double vertical_length(const iso_field *f, const double y[], double *value_size)
+static double vertical_length(const iso_problem *f, const double y[], double *value_size)
 {
     *value_size = 1;
     return norm(vertical(f, y));
 }
 
-static double slope_of_plane(const iso_field *f, const double y[], double *value_size)
+static double slope_of_plane(const iso_problem *f, const double y[], double *value_size)
 {
     *value_size = 1;
     return dot(vertical(f, y), y + 3);
 }
 
-static void show(const iso_field *f, const double y[], double columns[])
+static void show(const iso_problem *f, const double y[], double columns[])
 {
     copy(vertical(f, y), columns, 3);
 }
 
-static void recall(const iso_field *f, const double columns[], double y[])
+static void recall(const iso_problem *f, const double columns[], double y[])
 {
     copy(columns, y + f->at[ISO_GRAVITY], 3);
 }

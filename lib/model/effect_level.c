@@ -3,7 +3,7 @@
  *     U = -c g^(-1/k),  g = (n, J^-1 n):     MQ = k n x dU/dn = 2 c g^(-1/k - 1) n x J^-1 n
  *
  * On the point U/G = -c det J/k^2 is a constant. No force comes of it: the point's equations are those of the free ball's
- * twin, on the level H = c det J/k^2 in place of 0. That level is the field's `energy`; nothing else is simulated.
+ * twin, on the level H = c det J/k^2 in place of 0. That level is the problem's `energy`; nothing else is simulated.
  */
 #include <math.h>
 
@@ -11,7 +11,7 @@
 #include "model/effects_impl.h"
 #include "model/formula_impl.h"
 
-static double c_of(const iso_field *f)
+static double c_of(const iso_problem *f)
 {
     return f->effects.number[ISO_LEVEL][0];
 }
@@ -22,24 +22,24 @@ static iso_constant exponent(iso_formula *F)
     return div_c(F, constant(F, -1), constant_k(F));
 }
 
-static void motion(iso_formula *F, const iso_field *f)
+static void motion(iso_formula *F, const iso_problem *f)
 {
     const iso_scalar power = power_of(F, formula_g(F), sub_c(F, exponent(F), constant(F, 1)));
     const iso_vector n_u = cross_of(F, formula_n(F), formula_u(F));
     add_torque(F, constant(F, 2 * c_of(f)), scale_v(F, power, n_u));
 }
 
-static void potential(iso_formula *F, const iso_field *f)
+static void potential(iso_formula *F, const iso_problem *f)
 {
     add_energy(F, constant(F, -c_of(f)), power_of(F, formula_g(F), exponent(F)));
 }
 
-static double strength(const iso_field *f, const double y[])
+static double strength(const iso_problem *f, const double y[])
 {
     return fabs(c_of(f)) * pow(dot_diag(y + 3, f->p.inv_J, y + 3), -1 / f->p.k);
 }
 
-static bool keeps(const iso_field *f, iso_further integral)
+static bool keeps(const iso_problem *f, iso_further integral)
 {
     (void)f;
     (void)integral;

@@ -16,7 +16,7 @@ enum { TWO_SIDED = 0 };
 
 /* w x n' + w x (w x n) = (1-k) w x (w x n) = (1-k) [ (w,n) w - w^2 n ]. The parts along n and across are found one by one:
  * on a plane without weight the first is exactly 0. */
-iso_reactions iso_reactions_at(const iso_field *f, const double y[])
+iso_reactions iso_reactions_at(const iso_problem *f, const double y[])
 {
     const double *w = y, *n = y + 3, D = f->p.D, k = f->p.k, spin = dot(w, n);
     const double side = k > 1 ? -1 : 1; /* inside a sphere the support is on the other side of the centre */
@@ -44,7 +44,7 @@ iso_reactions iso_reactions_at(const iso_field *f, const double y[])
     return r;
 }
 
-static void show(const iso_field *f, const double y[], double columns[])
+static void show(const iso_problem *f, const double y[], double columns[])
 {
     const iso_reactions r = iso_reactions_at(f, y);
     copy(r.force, columns, 3);

@@ -5,24 +5,24 @@
 #include "model/effects_impl.h"
 #include "model/formula_impl.h"
 
-static double coefficient(const iso_field *f)
+static double coefficient(const iso_problem *f)
 {
     return f->effects.number[ISO_ROLLING_RESISTANCE][0];
 }
 
-static void motion(iso_formula *F, const iso_field *f)
+static void motion(iso_formula *F, const iso_problem *f)
 {
     add_torque(F, constant(F, -coefficient(f)), formula_omega(F));
 }
 
 /* (J w)' = -c_r w + ... */
-static double stiffness(const iso_field *f)
+static double stiffness(const iso_problem *f)
 {
     return coefficient(f) / min3(f->p.J);
 }
 
 /* The slowest direction has the largest moment. */
-static double time_to_rest(const iso_field *f)
+static double time_to_rest(const iso_problem *f)
 {
     return -log(ISO_REST) * max3(f->p.J) / coefficient(f) * fmax(1, fabs(f->p.k));
 }

@@ -21,24 +21,24 @@
 #include "model/effects_impl.h"
 #include "model/formula_impl.h"
 
-static double c_of(const iso_field *f)
+static double c_of(const iso_problem *f)
 {
     return f->effects.number[ISO_TWIST][0];
 }
 
 /* (w,n)' = -c (n, A^-1 n) (w,n) + ..., A = J - D n n^T: spin dies away at the rate c g/(1 - D g), g = (n, J^-1 n) */
-static double stiffness(const iso_field *f)
+static double stiffness(const iso_problem *f)
 {
     const double g = 1 / min3(f->p.J);
     return c_of(f) * g / (1 - f->p.D * g) / fmax(1, fabs(f->p.k));
 }
 
-static bool is_stiff(const iso_field *f)
+static bool is_stiff(const iso_problem *f)
 {
     return stiffness(f) > ISO_STIFF;
 }
 
-static void motion(iso_formula *F, const iso_field *f)
+static void motion(iso_formula *F, const iso_problem *f)
 {
     const iso_vector n = formula_n(F);
     if (c_of(f) == 0) return; /* the classical ball twists freely */
@@ -53,22 +53,22 @@ static void motion(iso_formula *F, const iso_field *f)
 }
 
 /* lambda, which omega and n give at any time */
-static void begin(const iso_field *f, double y[])
+static void begin(const iso_problem *f, double y[])
 {
     if (f->at[ISO_TWIST] > 0) y[f->at[ISO_TWIST]] = -c_of(f) * dot(y, y + 3);
 }
 
 /* That of the torques of the motion, (Jw,w), or of other resistance, which are more when little motion is left. */
-static void size(const iso_field *f, const double y[], double size[])
+static void size(const iso_problem *f, const double y[], double size[])
 {
-    iso_field others = *f;
+    iso_problem others = *f;
     others.effects.on[ISO_TWIST] = false;
     const double resists = iso_effects_stiffness(&others) * min3(f->p.J);
     const double moves = dot_diag(y, f->p.J, y) + resists * largest(y);
     size[f->at[ISO_TWIST]] = fmax(fabs(y[f->at[ISO_TWIST]]) + moves, ISO_REST);
 }
 
-static double restore(const iso_field *f, double y[])
+static double restore(const iso_problem *f, double y[])
 {
     if (f->at[ISO_TWIST] == 0) return 0;
     const double length = norm(y + 3), speed = norm(y); /* n is made a unit vector after this */
@@ -77,13 +77,13 @@ static double restore(const iso_field *f, double y[])
     return speed > 0 ? fabs(error) / speed : 0;
 }
 
-static iso_work work(const iso_field *f)
+static iso_work work(const iso_problem *f)
 {
     return c_of(f) > 0 ? ISO_WORK_LOST : ISO_WORK_NONE;
 }
 
 /* On a plane the torque along n leaves Jw x n alone; a level's part of F_plane changes with it. */
-static bool keeps(const iso_field *f, iso_further integral)
+static bool keeps(const iso_problem *f, iso_further integral)
 {
     return integral == ISO_F_PLANE && !iso_effects_have_level(&f->effects);
 }
@@ -91,7 +91,7 @@ static bool keeps(const iso_field *f, iso_further integral)
 /* --- integrals of the classical ball, whose momentum about the contact stands still in space ------------------------- */
 
 /* K, and the size of its terms */
-static double momentum(const iso_field *f, const double y[], double K[3])
+static double momentum(const iso_problem *f, const double y[], double K[3])
 {
     double Jw[3];
     diag(f->p.J, y, Jw);
@@ -99,7 +99,7 @@ static double momentum(const iso_field *f, const double y[], double K[3])
     return norm(Jw);
 }
 
-static double momentum_square(const iso_field *f, const double y[], double *value_size)
+static double momentum_square(const iso_problem *f, const double y[], double *value_size)
 {
     double K[3];
     const double size = momentum(f, y, K);
@@ -107,14 +107,14 @@ static double momentum_square(const iso_field *f, const double y[], double *valu
     return dot(K, K);
 }
 
-static double momentum_normal(const iso_field *f, const double y[], double *value_size)
+static double momentum_normal(const iso_problem *f, const double y[], double *value_size)
 {
     double K[3];
     *value_size = momentum(f, y, K);
     return dot(K, y + 3);
 }
 
-static double momentum_up(const iso_field *f, const double y[], double *value_size)
+static double momentum_up(const iso_problem *f, const double y[], double *value_size)
 {
     double K[3];
     *value_size = momentum(f, y, K);
@@ -122,7 +122,7 @@ static double momentum_up(const iso_field *f, const double y[], double *value_si
 }
 
 /* No torque acts, or only the weight's. */
-static bool is_classical(const iso_field *f)
+static bool is_classical(const iso_problem *f)
 {
     iso_effects others = iso_effects_acting(&f->effects);
     others.on[ISO_TWIST] = others.on[ISO_GRAVITY] = false;
@@ -131,13 +131,13 @@ static bool is_classical(const iso_field *f)
     return c_of(f) == 0;
 }
 
-static bool keeps_square(const iso_field *f)
+static bool keeps_square(const iso_problem *f)
 {
     return is_classical(f) && !f->effects.on[ISO_GRAVITY];
 }
 
 /* (K,n)' = (MQ,n) where k = 1: the torques of potentials are orthogonal to n. */
-static bool keeps_normal(const iso_field *f)
+static bool keeps_normal(const iso_problem *f)
 {
     bool orthogonal = true;
     for (int e = 0; e < ISO_EFFECTS; e++) {
@@ -147,7 +147,7 @@ static bool keeps_normal(const iso_field *f)
     return f->p.k == 1 && c_of(f) == 0 && orthogonal;
 }
 
-static bool keeps_up(const iso_field *f)
+static bool keeps_up(const iso_problem *f)
 {
     return is_classical(f) && f->effects.on[ISO_GRAVITY];
 }

@@ -18,17 +18,17 @@ static inline bool iso_effects_none(const iso_effects *effects)
 }
 
 /* How many states an effect has here. */
-int iso_effect_states(const iso_effect *effect, const iso_field *f);
+int iso_effect_states(const iso_effect *effect, const iso_problem *f);
 
 /* Writes down the equations of all effects: the ball's motion (`series`: derived states are formulas) and energy, or the
- * image on the point. field->at must be set. */
-void iso_effects_record_motion(const iso_field *f, bool series, iso_formula *F);
-void iso_effects_record_energy(const iso_field *f, iso_formula *F);
-void iso_effects_record_image(const iso_field *f, iso_formula *F);
+ * image on the point. problem->at must be set. */
+void iso_effects_record_motion(const iso_problem *f, bool series, iso_formula *F);
+void iso_effects_record_energy(const iso_problem *f, iso_formula *F);
+void iso_effects_record_image(const iso_problem *f, iso_formula *F);
 
 /* For the rows: states that are there on a plane alone, and what many of them answer. */
-bool iso_is_plane(const iso_field *f);
-iso_work iso_no_work(const iso_field *f);
-iso_work iso_work_lost(const iso_field *f);
+bool iso_is_plane(const iso_problem *f);
+iso_work iso_no_work(const iso_problem *f);
+iso_work iso_work_lost(const iso_problem *f);
 
 #endif

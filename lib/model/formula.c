@@ -6,7 +6,7 @@
 
 void iso_formula_begin(iso_formula *F, iso_formula_kind kind, bool series)
 {
-    F->kind = kind;
+    F->kind = (iso_formula_kind)kind;
     F->series = series;
     F->overrun = F->late = F->torques = false;
     F->constants = F->lines = F->states = 0;

@@ -13,7 +13,7 @@
 
 #include "params.h"
 
-struct iso_field;
+struct iso_problem;
 
 /* What the calls hand on: a number that does not change along an orbit, a number, and a vector of R^3 that do.
  * A constant vector is three constants, a constant matrix nine, by rows. */

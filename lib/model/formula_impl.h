@@ -2,7 +2,7 @@
  *
  * A function of the effect's row writes its equations down as a formula, with the calls below:
  *
- *     static void motion(iso_formula *F, const iso_field *f)            MQ = mgb e x n,  e' = e x omega
+ *     static void motion(iso_formula *F, const iso_problem *f)            MQ = mgb e x n,  e' = e x omega
  *     {
  *         const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]), n = formula_n(F), omega = formula_omega(F);
  *         add_torque(F, constant(F, numbers(f)->mgb), cross_of(F, e, n));

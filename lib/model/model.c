@@ -10,30 +10,30 @@
 
 static void free_rhs(const iso_model *m, const double y[], double dy[])
 {
-    m->system->rhs(&m->field, y, dy);
+    m->system->rhs(&m->problem, y, dy);
 }
 
 /* Effects that have states, but no torques. */
 static void free_rhs_followed(const iso_model *m, const double y[], double dy[])
 {
     double T[3];
-    m->system->rhs(&m->field, y, dy);
-    iso_effects_torque(&m->field, y, T, dy);
+    m->system->rhs(&m->problem, y, dy);
+    iso_effects_torque(&m->problem, y, T, dy);
 }
 
 static void ball_rhs(const iso_model *m, const double y[], double dy[])
 {
     double T[3];
-    iso_effects_torque(&m->field, y, T, dy);
-    m->contact->solve(&m->field, y, T, dy);
-    if (m->field.motion.late) iso_formula_late_rates(&m->field.motion, &m->field.p, y, dy);
+    iso_effects_torque(&m->problem, y, T, dy);
+    m->contact->solve(&m->problem, y, T, dy);
+    if (m->problem.motion.late) iso_formula_late_rates(&m->problem.motion, &m->problem.p, y, dy);
 }
 
 static void point_rhs(const iso_model *m, const double y[], double dy[])
 {
     double dV[3], gamma_dV[3];
-    m->system->rhs(&m->field, y, dy);
-    iso_formula_image(&m->field.energy_formula, &m->field.p, y, dV);
+    m->system->rhs(&m->problem, y, dy);
+    iso_formula_image(&m->problem.energy_formula, &m->problem.p, y, dV);
     cross(y + 3, dV, gamma_dV);
     add_scaled(dy, 1, gamma_dV);
 }
@@ -44,8 +44,8 @@ static void point_rhs(const iso_model *m, const double y[], double dy[])
 static double rate(const iso_model *m, iso_clock clock, double q, double *exponent)
 {
     double e, e_independent;
-    const double numerator = iso_clock_rate(&m->field.p, clock, q, &e);
-    const double denominator = iso_clock_rate(&m->field.p, m->clock, q, &e_independent);
+    const double numerator = iso_clock_rate(&m->problem.p, clock, q, &e);
+    const double denominator = iso_clock_rate(&m->problem.p, m->clock, q, &e_independent);
     *exponent = e - e_independent;
     return numerator / denominator;
 }
@@ -53,13 +53,13 @@ static double rate(const iso_model *m, iso_clock clock, double q, double *expone
 static void rhs_clocks(const iso_model *m, const double y[], double dy[])
 {
     double exponent;
-    const double q = m->system->q(&m->field.p, y, NULL);
+    const double q = m->system->q(&m->problem.p, y, NULL);
     m->own_rhs(m, y, dy);
     if (m->clock != m->system->clock) {
         const double r = rate(m, m->system->clock, q, &exponent);
         for (int i = 0; i < m->moving; i++) dy[i] *= r;
     }
-    for (int c = 0; c < m->carried; c++) dy[m->moving + c] = rate(m, m->carry[c], q, &exponent);
+    for (int c = 0; c < m->clocks; c++) dy[m->moving + c] = rate(m, m->clock_of[c], q, &exponent);
 }
 
 static void own_jacobian(const iso_model *m, const double y[], double jac[])
@@ -71,7 +71,7 @@ static void own_jacobian(const iso_model *m, const double y[], double jac[])
 static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
 {
     double f[ISO_MAX_STATE], own[ISO_MAX_STATE * ISO_MAX_STATE], dq[ISO_MAX_STATE] = {0}, exponent;
-    const double q = m->system->q(&m->field.p, y, dq);
+    const double q = m->system->q(&m->problem.p, y, dq);
     m->own_rhs(m, y, f);
     iso_model_slopes(m, y, own);
     for (int i = 0; i < m->dim * m->dim; i++) jac[i] = 0;
@@ -79,8 +79,8 @@ static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
     for (int i = 0; i < m->moving; i++)
         for (int j = 0; j < m->moving; j++)
             jac[m->dim * i + j] = r * (own[m->moving * i + j] + f[i] * exponent / q * dq[j]);
-    for (int c = 0; c < m->carried; c++) {
-        const double r_c = rate(m, m->carry[c], q, &exponent);
+    for (int c = 0; c < m->clocks; c++) {
+        const double r_c = rate(m, m->clock_of[c], q, &exponent);
         for (int j = 0; j < m->moving; j++) jac[m->dim * (m->moving + c) + j] = r_c * exponent / q * dq[j];
     }
 }
@@ -91,10 +91,10 @@ static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
 static void add_states(iso_model *m)
 {
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
-        const int states = iso_effect_states(iso_effect_list[e], &m->field);
-        m->field.at[e] = 0;
-        if (!m->field.effects.on[e] || states == 0 || m->system != &iso_system_ball) continue;
-        m->field.at[e] = m->moving;
+        const int states = iso_effect_states(iso_effect_list[e], &m->problem);
+        m->problem.at[e] = 0;
+        if (!m->problem.effects.on[e] || states == 0 || m->system != &iso_system_ball) continue;
+        m->problem.at[e] = m->moving;
         m->moving += states;
         m->follower[m->followers++] = iso_effect_list[e];
     }
@@ -103,7 +103,7 @@ static void add_states(iso_model *m)
 static const iso_effect *find_without_formula(const iso_model *m)
 {
     for (int e = 0; e < ISO_EFFECTS; e++)
-        if (m->field.effects.on[e] && m->system == &iso_system_ball && iso_effect_list[e]->torque)
+        if (m->problem.effects.on[e] && m->system == &iso_system_ball && iso_effect_list[e]->torque)
             return iso_effect_list[e];
     return NULL;
 }
@@ -111,7 +111,7 @@ static const iso_effect *find_without_formula(const iso_model *m)
 /* Writes down the equations of the effects that act, or have states. */
 static void record(iso_model *m)
 {
-    iso_field *f = &m->field;
+    iso_problem *f = &m->problem;
     f->motion.kind = f->energy_formula.kind = ISO_FORMULA_NONE;
     f->motion.lines = f->energy_formula.lines = 0;
     f->motion.late = f->motion.torques = f->motion.overrun = f->energy_formula.overrun = false;
@@ -127,7 +127,7 @@ static void record(iso_model *m)
 /* Whether an effect has a torque in the place of a formula. */
 static bool has_torques(const iso_model *m)
 {
-    return m->field.motion.torques || m->without_formula != NULL;
+    return m->problem.motion.torques || m->without_formula != NULL;
 }
 
 /* The plainest functions that do it. */
@@ -136,13 +136,13 @@ static void choose_equations(iso_model *m)
     const bool ball = m->system == &iso_system_ball;
     m->own_rhs = free_rhs;
     if (ball && m->followers > 0) m->own_rhs = free_rhs_followed;
-    if (ball && (has_torques(m) || m->contact == &iso_contact_loose)) m->own_rhs = ball_rhs;
-    if (!ball && m->field.energy_formula.lines > 0) m->own_rhs = point_rhs;
+    if (ball && (has_torques(m) || m->contact == &iso_contact_twisting)) m->own_rhs = ball_rhs;
+    if (!ball && m->problem.energy_formula.lines > 0) m->own_rhs = point_rhs;
 }
 
 const char *iso_model_too_large(const iso_model *m)
 {
-    const iso_field *f = &m->field;
+    const iso_problem *f = &m->problem;
     if (m->moving > ISO_STATE + ISO_MOST_EFFECT_STATES) return "the effects have more states than there is room for";
     if (f->motion.overrun || f->energy_formula.overrun)
         return "the equations of the effects have more lines than there is room for (formula.h)";
@@ -154,19 +154,19 @@ const iso_effect *iso_model_without_formula(const iso_model *m)
     return m->without_formula;
 }
 
-iso_model iso_model_assemble(const iso_system *system, const iso_field *field, iso_clock clock,
-                             const bool carry[ISO_CLOCKS])
+iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,
+                             const bool with_clock[ISO_CLOCKS])
 {
-    iso_model m = {.system = system, .field = *field, .clock = clock, .moving = ISO_STATE};
+    iso_model m = {.system = system, .problem = *problem, .clock = clock, .moving = ISO_STATE};
     add_states(&m);
     record(&m);
     m.without_formula = find_without_formula(&m);
-    m.contact = iso_contact_of(&m.field);
+    m.contact = iso_contact_of(&m.problem);
     choose_equations(&m);
     for (iso_clock c = 0; c < ISO_CLOCKS; c++)
-        if (carry[c] && c != clock) m.carry[m.carried++] = c;
-    m.dim = m.moving + m.carried;
-    const bool plain = clock == system->clock && m.carried == 0;
+        if (with_clock[c] && c != clock) m.clock_of[m.clocks++] = c;
+    m.dim = m.moving + m.clocks;
+    const bool plain = clock == system->clock && m.clocks == 0;
     m.rhs = plain ? m.own_rhs : rhs_clocks;
     m.jacobian = plain ? own_jacobian : jacobian_clocks;
     return m;
@@ -176,7 +176,7 @@ void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y
 {
     copy(start, y, ISO_STATE);
     for (int i = 0; i < m->followers; i++)
-        if (m->follower[i]->begin) m->follower[i]->begin(&m->field, y);
+        if (m->follower[i]->begin) m->follower[i]->begin(&m->problem, y);
     for (int i = m->moving; i < m->dim; i++) y[i] = 0;
 }
 
@@ -185,14 +185,14 @@ const char *iso_model_state_name(const iso_model *m, int i, const char **reason)
     *reason = "";
     if (i < ISO_STATE) return m->system->state[i];
     *reason = "clock: a column, or the effect clock, asks for it";
-    if (i >= m->moving) return iso_clock_name(m->carry[i - m->moving]);
+    if (i >= m->moving) return iso_clock_name(m->clock_of[i - m->moving]);
     iso_effect_id last = ISO_EFFECTS;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (m->field.at[e] > 0 && m->field.at[e] <= i) last = e;
+        if (m->problem.at[e] > 0 && m->problem.at[e] <= i) last = e;
     *reason = iso_effect_list[last]->states_doc;
-    i -= m->field.at[last];
+    i -= m->problem.at[last];
     for (const iso_effect_state *s = iso_effect_list[last]->states; s->name; s++) {
-        if (s->there && !s->there(&m->field)) continue;
+        if (s->there && !s->there(&m->problem)) continue;
         if (i < s->count) return s->name[i];
         i -= s->count;
     }
@@ -202,7 +202,7 @@ const char *iso_model_state_name(const iso_model *m, int i, const char **reason)
 /* --- sizes ---------------------------------------------------------------------------------------------------------- */
 
 /* Makes unit vectors of the states that are, and restores the effect's other constraints; the largest correction. */
-static double restore_states(const iso_field *f, iso_effect_id id, double y[])
+static double restore_states(const iso_problem *f, iso_effect_id id, double y[])
 {
     const iso_effect *effect = iso_effect_list[id];
     double correction = 0, *x = y + f->at[id];
@@ -221,16 +221,16 @@ static double restore_states(const iso_field *f, iso_effect_id id, double y[])
 double iso_model_project(const iso_model *m, double y[])
 {
     double correction = 0;
-    if (m->followers == 0) return m->system->project(&m->field, y);
+    if (m->followers == 0) return m->system->project(&m->problem, y);
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) /* first: the energy of the ball may ask for the vertical */
-        if (m->field.at[e] > 0) correction = fmax(correction, restore_states(&m->field, e, y));
-    return fmax(correction, m->system->project(&m->field, y));
+        if (m->problem.at[e] > 0) correction = fmax(correction, restore_states(&m->problem, e, y));
+    return fmax(correction, m->system->project(&m->problem, y));
 }
 
 void iso_model_size(const iso_model *m, const double y[], double size[])
 {
     /* a state at rest has no size: any positive number does, since nothing moves */
-    const double speed = fmax(m->system->speed(&m->field, y), ISO_REST);
+    const double speed = fmax(m->system->speed(&m->problem, y), ISO_REST);
     const double length = norm(y + 3);
     for (int i = 0; i < 3; i++) {
         size[i] = speed;
@@ -238,11 +238,11 @@ void iso_model_size(const iso_model *m, const double y[], double size[])
     }
     for (int i = ISO_STATE; i < m->moving; i++) size[i] = 1 + fabs(y[i]);
     for (int i = 0; i < m->followers; i++)
-        if (m->follower[i]->size) m->follower[i]->size(&m->field, y, size);
-    if (m->carried == 0) return;
-    const double q = m->system->q(&m->field.p, y, NULL);
-    for (int c = 0; c < m->carried; c++) {
+        if (m->follower[i]->size) m->follower[i]->size(&m->problem, y, size);
+    if (m->clocks == 0) return;
+    const double q = m->system->q(&m->problem.p, y, NULL);
+    for (int c = 0; c < m->clocks; c++) {
         double exponent;
-        size[m->moving + c] = fabs(y[m->moving + c]) + rate(m, m->carry[c], q, &exponent);
+        size[m->moving + c] = fabs(y[m->moving + c]) + rate(m, m->clock_of[c], q, &exponent);
     }
 }

@@ -18,12 +18,12 @@ enum { ISO_MOST_EFFECT_STATES = 16, ISO_MAX_STATE = ISO_STATE + ISO_MOST_EFFECT_
 typedef struct iso_model iso_model;
 struct iso_model {
     const iso_system *system;
-    iso_field field;
+    iso_problem problem;
     iso_clock clock;               /* the independent variable                                  */
     int moving;                    /* states of the system and of the effects                   */
-    int carried;                   /* number of clocks that are states, after those             */
-    iso_clock carry[ISO_CLOCKS];   /* which                                                     */
-    int dim;                       /* moving + carried                                          */
+    int clocks;                    /* number of clocks that are states, after those             */
+    iso_clock clock_of[ISO_CLOCKS]; /* which                                                    */
+    int dim;                       /* moving + clocks                                           */
     void (*rhs)(const iso_model *m, const double y[], double dy[]);       /* y' = f(y)          */
     void (*jacobian)(const iso_model *m, const double y[], double jac[]); /* row-major dim x dim */
 
@@ -35,10 +35,10 @@ struct iso_model {
     const iso_effect *without_formula; /* the first effect whose equations are no formula; NULL: none */
 };
 
-/* Assembles. Of field->effects the point takes what has an image, the ball everything; field->at is filled in. carry[c]
- * asks for clock c as a state; the independent clock is never one. */
-iso_model iso_model_assemble(const iso_system *system, const iso_field *field, iso_clock clock,
-                             const bool carry[ISO_CLOCKS]);
+/* Assembles. Of problem->effects the point takes what has an image, the ball everything; problem->at is filled in.
+ * with_clock[c] asks for clock c as a state; the independent clock is never one. */
+iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,
+                             const bool with_clock[ISO_CLOCKS]);
 
 /* Why the model cannot be simulated: more effects than there is room for; NULL: it can. */
 const char *iso_model_too_large(const iso_model *m);

@@ -24,13 +24,13 @@ static double point_q(const iso_params *p, const double y[ISO_STATE], double gra
     return dot_diag(gamma, p->J, gamma);
 }
 
-static double torque_factor(const iso_field *f, double q)
+static double torque_factor(const iso_problem *f, double q)
 {
     const double k = f->p.k;
     return 2 * f->eps / k * (k == -1 ? 1 : pow(q, -1 - 1 / k));
 }
 
-static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STATE])
+static void rhs(const iso_problem *f, const double y[ISO_STATE], double dy[ISO_STATE])
 {
     const double *M = y, *gamma = y + 3;
     double Jgamma[3];
@@ -41,27 +41,27 @@ static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STA
 }
 
 /* V, and the size of its terms, which may cancel */
-static double potential(const iso_field *f, const double y[], double *size)
+static double potential(const iso_problem *f, const double y[], double *size)
 {
     const double V = -f->eps * pow(point_q(&f->p, y, NULL), -1 / f->p.k), image = iso_effects_image(f, y);
     *size = fabs(V) + fabs(image);
     return V + image;
 }
 
-static double energy(const iso_field *f, const double y[], double *size)
+static double energy(const iso_problem *f, const double y[], double *size)
 {
     const double T = dot(y, y) / 2, V = potential(f, y, size);
     *size += T;
     return T + V;
 }
 
-static double spin(const iso_field *f, const double y[], double *size)
+static double spin(const iso_problem *f, const double y[], double *size)
 {
     *size = iso_system_point.speed(f, y);
     return dot(y, y + 3);
 }
 
-static double gamma_length(const iso_field *f, const double y[], double *size)
+static double gamma_length(const iso_problem *f, const double y[], double *size)
 {
     (void)f;
     *size = 1;
@@ -69,7 +69,7 @@ static double gamma_length(const iso_field *f, const double y[], double *size)
 }
 
 /* (gamma', J^-1 gamma') + 2 H (gamma, J^-1 gamma), where (gamma', J^-1 gamma')' = -2 H (gamma, J^-1 gamma)' */
-static double f_plane(const iso_field *f, const double y[], double *size)
+static double f_plane(const iso_problem *f, const double y[], double *size)
 {
     const double *M = y, *gamma = y + 3, *inv_J = f->p.inv_J;
     double velocity[3], H_size;
@@ -81,7 +81,7 @@ static double f_plane(const iso_field *f, const double y[], double *size)
 }
 
 /* Neumann's integral (M, J M)/det J + 2 eps (gamma, J^-1 gamma) */
-static double f_shell(const iso_field *f, const double y[], double *size)
+static double f_shell(const iso_problem *f, const double y[], double *size)
 {
     const double *M = y, *gamma = y + 3;
     const double kinetic = dot_diag(M, f->p.J, M) / f->p.det_J,
@@ -91,30 +91,30 @@ static double f_shell(const iso_field *f, const double y[], double *size)
 }
 
 /* M_axis, divided by what (18) multiplies with: the ball's integral of the same name */
-static double f_axis(const iso_field *f, const double y[], int axis, double *size)
+static double f_axis(const iso_problem *f, const double y[], int axis, double *size)
 {
     const double factor = f->p.k / (sqrt(f->p.det_J) * f->p.root_J[axis]);
     *size = fabs(factor) * iso_system_point.speed(f, y);
     return factor * y[axis];
 }
 
-static double f_axis1(const iso_field *f, const double y[], double *size)
+static double f_axis1(const iso_problem *f, const double y[], double *size)
 {
     return f_axis(f, y, 0, size);
 }
 
-static double f_axis2(const iso_field *f, const double y[], double *size)
+static double f_axis2(const iso_problem *f, const double y[], double *size)
 {
     return f_axis(f, y, 1, size);
 }
 
-static double f_axis3(const iso_field *f, const double y[], double *size)
+static double f_axis3(const iso_problem *f, const double y[], double *size)
 {
     return f_axis(f, y, 2, size);
 }
 
 /* As for the ball: where M is small, as it is at turning points, scaling it is no way to restore H. */
-static double project(const iso_field *f, double y[])
+static double project(const iso_problem *f, double y[])
 {
     const double length_error = make_unit(y + 3) - 1;
     const double size = iso_system_point.speed(f, y);
@@ -129,7 +129,7 @@ static double project(const iso_field *f, double y[])
 }
 
 /* |M|, or what it would be on the level H = 0: off that level M goes through zero */
-static double speed(const iso_field *f, const double y[])
+static double speed(const iso_problem *f, const double y[])
 {
     double falling;
     potential(f, y, &falling);
@@ -137,7 +137,7 @@ static double speed(const iso_field *f, const double y[])
 }
 
 /* On the level H = 0, for a ball that spins at about one turn per unit of time. */
-static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
+static void sample(iso_problem *f, iso_random *r, double y[ISO_STATE])
 {
     f->eps = iso_random_uniform(r, 0.5, 2) * f->p.det_J / (f->p.k * f->p.k);
     f->energy = 0;

@@ -46,7 +46,7 @@ static double point_q(const iso_params *p, const double y[ISO_STATE], double gra
     return iso_system_point.q(p, y, gradient);
 }
 
-static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STATE])
+static void rhs(const iso_problem *f, const double y[ISO_STATE], double dy[ISO_STATE])
 {
     const double *p = y, *gamma = y + 3, r = 1 / sqrt(f->p.det_J);
     double Jgamma[3], c[3];
@@ -59,26 +59,26 @@ static void rhs(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STA
 }
 
 /* The ball's, from eps = h det J/k^2 */
-static double ball_energy(const iso_field *f)
+static double ball_energy(const iso_problem *f)
 {
     return f->eps / f->p.det_J * (f->p.k * f->p.k);
 }
 
 /* H = G (p^2/2 - h) in units of G */
-static double energy(const iso_field *f, const double y[], double *size)
+static double energy(const iso_problem *f, const double y[], double *size)
 {
     const double T = dot(y, y) / 2, h = ball_energy(f);
     *size = T + h;
     return T - h;
 }
 
-static double speed(const iso_field *f, const double y[])
+static double speed(const iso_problem *f, const double y[])
 {
     (void)f;
     return norm(y);
 }
 
-static double project(const iso_field *f, double y[])
+static double project(const iso_problem *f, double y[])
 {
     const double length_error = make_unit(y + 3) - 1, size = norm(y);
     if (size == 0) return fabs(length_error);
@@ -89,7 +89,7 @@ static double project(const iso_field *f, double y[])
 }
 
 /* At about one turn per unit of time. */
-static void sample(iso_field *f, iso_random *r, double y[ISO_STATE])
+static void sample(iso_problem *f, iso_random *r, double y[ISO_STATE])
 {
     iso_random_direction(r, y + 3);
     iso_random_direction(r, y);

@@ -9,7 +9,7 @@
 #ifndef ISO_MODEL_REACTIONS_H
 #define ISO_MODEL_REACTIONS_H
 
-#include "field.h"
+#include "problem.h"
 
 typedef struct iso_reactions {
     double force[3]; /* |b| N in body axes [energy]                                                        */
@@ -20,7 +20,7 @@ typedef struct iso_reactions {
     double twist;    /* lambda [energy]                                                                     */
 } iso_reactions;
 
-/* At a state y of the ball's model with this field; field->p.D > 0. */
-iso_reactions iso_reactions_at(const iso_field *field, const double y[]);
+/* At a state y of the ball's model in this problem; problem->p.D > 0. */
+iso_reactions iso_reactions_at(const iso_problem *problem, const double y[]);
 
 #endif

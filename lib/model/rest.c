@@ -12,12 +12,12 @@
 
 static bool is_resisted(const iso_model *m)
 {
-    return m->system == &iso_system_ball && iso_effects_stiffness(&m->field) > 0;
+    return m->system == &iso_system_ball && iso_effects_stiffness(&m->problem) > 0;
 }
 
 bool iso_model_at_rest(const iso_model *m, const double y[])
 {
-    return m->system == &iso_system_ball && iso_effects_at_rest(&m->field, y);
+    return m->system == &iso_system_ball && iso_effects_at_rest(&m->problem, y);
 }
 
 /* The derivatives of a state at rest are constant, so y + dt f(y) is exact. omega, which is below the bound of
@@ -27,7 +27,7 @@ void iso_model_rest(const iso_model *m, double dt, double y[])
     double f[ISO_MAX_STATE];
     for (int i = 0; i < 3; i++) y[i] = 0;
     for (int i = 0; i < m->followers; i++)
-        if (m->follower[i]->states->kind == ISO_STATE_DERIVED) m->follower[i]->begin(&m->field, y);
+        if (m->follower[i]->states->kind == ISO_STATE_DERIVED) m->follower[i]->begin(&m->problem, y);
     m->rhs(m, y, f);
     for (int i = 0; i < m->dim; i++) y[i] += dt * f[i];
 }
@@ -38,7 +38,7 @@ enum { MOST_GROWTH = 10000 };
 const char *iso_model_speeds_up(const iso_model *m, const double y0[], const double y[])
 {
     if (!is_resisted(m)) return NULL;
-    const double before = m->system->speed(&m->field, y0), now = m->system->speed(&m->field, y);
+    const double before = m->system->speed(&m->problem, y0), now = m->system->speed(&m->problem, y);
     if (now <= MOST_GROWTH * before) return NULL;
     return "backwards in time resistance drives the ball, without end: "
            "it turns more than 10000 times as fast as at the start";
@@ -53,12 +53,12 @@ const char *iso_model_speeds_up(const iso_model *m, const double y0[], const dou
  * An error of this constraint is motion that resistance does not take out. */
 static double broken(const iso_model *m, const double y[])
 {
-    const double speed = m->system->speed(&m->field, y);
+    const double speed = m->system->speed(&m->problem, y);
     double restored[ISO_MAX_STATE];
-    if (!iso_effects_twist(&m->field.effects)) return fabs(dot(y, y + 3)) / speed;
+    if (!iso_effects_twist(&m->problem.effects)) return fabs(dot(y, y + 3)) / speed;
     copy(y, restored, m->dim);
     for (int i = 0; i < m->followers; i++)
-        if (m->follower[i]->restore) m->follower[i]->restore(&m->field, restored);
+        if (m->follower[i]->restore) m->follower[i]->restore(&m->problem, restored);
     return fabs(dot(restored, y + 3) - dot(y, y + 3)) / speed;
 }
 

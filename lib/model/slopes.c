@@ -18,28 +18,28 @@ enum { MOST = 1 };
 
 static void call_system(series *S, const iso_model *m)
 {
-    const iso_field *f = &m->field;
+    const iso_problem *f = &m->problem;
     S->terms = 0;
     S->formula = NULL;
     if (m->system == &iso_system_ball) {
         call_ball(S, iso_effects_twist(&f->effects), f->motion.lines > 0 ? &f->motion : NULL);
     } else if (m->system == &iso_system_point_t) {
-        call(S, point_p);
+        add_recurrence(S, point_p);
     } else {
-        call(S, point_24);
+        add_recurrence(S, point_24);
         S->formula = f->energy_formula.lines > 0 ? &f->energy_formula : NULL;
-        if (S->formula) call(S, point_24_effects);
+        if (S->formula) add_recurrence(S, point_24_effects);
     }
 }
 
 static void set_numbers(series *S, const iso_model *m)
 {
-    const iso_params *p = &m->field.p;
+    const iso_params *p = &m->problem.p;
     const bool is_t = m->system == &iso_system_point_t;
     for (int i = 0; i < KEPT; i++) S->count[i] = S->inverse[i] = spread(1); /* the terms then give plain rates */
     for (int lane = 0; lane < LANES; lane++) set_ball(S, lane, p, S->formula);
     S->alpha = spread(is_t ? 1 / sqrt(p->det_J) : -1 - 1 / p->k);
-    S->coupling = spread(2 * m->field.eps / p->k);
+    S->coupling = spread(2 * m->problem.eps / p->k);
 }
 
 /* Where the coefficients of state y[i] stand. */
@@ -59,9 +59,9 @@ static real *coefficients(series *S, const iso_formula *F, int i, int n)
 static void set_states(series *S, const iso_model *m, const double y[], int first)
 {
     for (int i = 0; i < m->moving; i++) {
-        real *at = coefficients(S, &m->field.motion, i, 1);
+        real *at = coefficients(S, &m->problem.motion, i, 1);
         if (!at) continue;
-        *coefficients(S, &m->field.motion, i, 0) = spread(y[i]);
+        *coefficients(S, &m->problem.motion, i, 0) = spread(y[i]);
         for (int lane = 0; lane < LANES; lane++) LANE(*at, lane) = i == first + lane;
     }
 }
@@ -77,7 +77,7 @@ void iso_model_slopes(const iso_model *m, const double y[], double jac[])
         set_states(&S, m, y, first); /* a term of coefficient 0 has put the rates there */
         for (int i = 0; i < S.terms; i++) S.term[i](&S, 1);
         for (int i = 0; i < m->moving; i++) {
-            const real *slope = coefficients(&S, &m->field.motion, i, 2);
+            const real *slope = coefficients(&S, &m->problem.motion, i, 2);
             for (int lane = 0; lane < LANES && first + lane < m->moving; lane++)
                 jac[m->moving * i + first + lane] = slope ? LANE(*slope, lane) : 0;
         }

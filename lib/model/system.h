@@ -14,7 +14,7 @@
 #include <stddef.h>
 
 #include "../base/random.h"
-#include "field.h"
+#include "problem.h"
 
 enum { ISO_STATE = 6 }; /* numbers in a state of either system: two vectors of R^3 */
 
@@ -36,8 +36,8 @@ typedef struct iso_integral {
     const char *name, *doc;
     iso_dimension dimension;
     enum { ISO_ANY_VALUE, ISO_ZERO, ISO_ONE } known; /* constraints have a known value     */
-    bool (*holds)(const iso_field *f); /* for which k, J and effects; NULL: always */
-    double (*value)(const iso_field *f, const double y[], double *size);
+    bool (*holds)(const iso_problem *f); /* for which k, J and effects; NULL: always */
+    double (*value)(const iso_problem *f, const double y[], double *size);
 } iso_integral;
 
 typedef struct iso_system {
@@ -48,23 +48,23 @@ typedef struct iso_system {
     bool has_recurrences;          /* its equations stand in series/recurrences_impl.h, for slopes and series */
     const iso_integral *integrals; /* ended by a row without a name                                        */
 
-    void (*rhs)(const iso_field *f, const double y[ISO_STATE], double dy[ISO_STATE]);
+    void (*rhs)(const iso_problem *f, const double y[ISO_STATE], double dy[ISO_STATE]);
 
     /* q = (gamma, J gamma), which fixes all clock rates, and its gradient (may be NULL). */
     double (*q)(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE]);
 
     /* The energy, h or H; *size as in iso_integral. It is also one of the integrals. */
-    double (*energy)(const iso_field *f, const double y[], double *size);
+    double (*energy)(const iso_problem *f, const double y[], double *size);
 
     /* Restores the unit vector, orthogonality and f->energy; gives the relative size of the correction. y is the state of
      * the whole model. */
-    double (*project)(const iso_field *f, double y[]);
+    double (*project)(const iso_problem *f, double y[]);
 
     /* The size of the first vector against which its errors are measured. */
-    double (*speed)(const iso_field *f, const double y[]);
+    double (*speed)(const iso_problem *f, const double y[]);
 
     /* A random valid state of order one; sets f->eps and f->energy to match (f->p given). */
-    void (*sample)(iso_field *f, iso_random *r, double y[ISO_STATE]);
+    void (*sample)(iso_problem *f, iso_random *r, double y[ISO_STATE]);
 } iso_system;
 
 extern const iso_system iso_system_ball, iso_system_point;

@@ -36,7 +36,7 @@ typedef struct worker {
     batch *b;
     iso_context *ctx, *asks; /* its own; the caller's, for the thread that may ask it (else NULL) */
     size_t failed;           /* the first of its orbits that failed, with its message in ctx; else count */
-    char message[1024], field[32];
+    char message[1024], about[32];
     pthread_t thread;
 } worker;
 
@@ -50,7 +50,8 @@ _Static_assert((int)ISO_MAX_STATE <= (int)ISO_TRAJECTORY_COLUMNS, "a sample has 
 
 iso_batch_options iso_batch_defaults(void)
 {
-    return (iso_batch_options){.backend = ISO_AUTO, .tolerance = 1e-12, .clock = ISO_CLOCK_T, .show = ISO_BALL};
+    return (iso_batch_options){
+        .backend = ISO_BACKEND_AUTO, .tolerance = 1e-12, .clock = ISO_CLOCK_T, .shown = ISO_SHOW_BALL};
 }
 
 const char *iso_batch_vectors(int i, int *lanes)
@@ -71,10 +72,10 @@ static void note(worker *w, size_t i, iso_status status)
     if (status == ISO_OK || i >= w->failed) return;
     w->failed = i;
     snprintf(w->message, sizeof w->message, "%s", iso_context_message(w->ctx));
-    snprintf(w->field, sizeof w->field, "%s", iso_context_field(w->ctx));
+    snprintf(w->about, sizeof w->about, "%s", iso_context_about(w->ctx));
 }
 
-static iso_orbit_options options_of(const batch *b, size_t i, iso_picture backend)
+static iso_orbit_options options_of(const batch *b, size_t i, iso_backend backend)
 {
     const iso_batch_options *o = b->options;
     return (iso_orbit_options){.effects = b->orbits[i].effects,
@@ -82,11 +83,11 @@ static iso_orbit_options options_of(const batch *b, size_t i, iso_picture backen
                                .tolerance = o->tolerance,
                                .max_steps = o->max_steps,
                                .clock = o->clock,
-                               .show = o->show,
-                               .carry = {o->carry[0], o->carry[1], o->carry[2]}};
+                               .shown = o->shown,
+                               .with_clock = {o->with_clock[0], o->with_clock[1], o->with_clock[2]}};
 }
 
-static iso_status prepare_as(worker *w, size_t i, member *m, iso_picture backend)
+static iso_status prepare_as(worker *w, size_t i, member *m, iso_backend backend)
 {
     const iso_batch_orbit *orbit = &w->b->orbits[i];
     memset(&m->orbit, 0, sizeof m->orbit);
@@ -99,8 +100,8 @@ static iso_status prepare_as(worker *w, size_t i, member *m, iso_picture backend
 static iso_status prepare(worker *w, size_t i, member *m)
 {
     const batch *b = w->b;
-    const bool try_point = b->options->backend == ISO_AUTO && fabs(b->orbits[i].params->k) >= 0.125;
-    iso_status status = try_point ? prepare_as(w, i, m, ISO_POINT) : ISO_NOT_MAPPED;
+    const bool try_point = b->options->backend == ISO_BACKEND_AUTO && fabs(b->orbits[i].params->k) >= 0.125;
+    iso_status status = try_point ? prepare_as(w, i, m, ISO_BACKEND_POINT) : ISO_NOT_MAPPED;
     if (status != ISO_OK) status = prepare_as(w, i, m, b->options->backend);
     return status == ISO_OK && b->rows > 0 ? iso_orbit_check_time(&m->orbit, b->times[b->rows - 1]) : status;
 }
@@ -123,7 +124,7 @@ static iso_status solve_alone(worker *w, size_t i)
 
 static bool is_for_lanes(const member *m)
 {
-    return !m->orbit.rests && iso_effects_stiffness(&m->orbit.model.field) <= ISO_STIFF;
+    return !m->orbit.rests && iso_effects_stiffness(&m->orbit.model.problem) <= ISO_STIFF;
 }
 
 /* --- a chunk of them -------------------------------------------------------------------------------------------- */
@@ -225,7 +226,7 @@ static void *work(void *data)
 static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_lane_code *code, const double times[],
                         size_t rows)
 {
-    if (o->backend == ISO_EXACT)
+    if (o->backend == ISO_BACKEND_EXACT)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
                                 "a batch integrates: backend exact is for single orbits, which share nothing");
     if (iso_tolerance_check(ctx, o->tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
@@ -245,7 +246,7 @@ static iso_status check(iso_context *ctx, const iso_batch_options *o, const iso_
     return ISO_OK;
 }
 
-/* Waits for a thread, and meanwhile asks the caller's watch. */
+/* Waits for a thread, and meanwhile asks the caller's monitor. */
 static void *await(worker *asking, pthread_t thread)
 {
     enum { SLICE = 20000000 }; /* nanoseconds */
@@ -278,7 +279,7 @@ static iso_status run(iso_context *ctx, batch *b, worker workers[], size_t threa
         if (!workers[i].ctx)
             threads = i;
         else
-            iso_context_watch(workers[i].ctx, going_on, &workers[i]);
+            iso_context_set_monitor(workers[i].ctx, going_on, &workers[i]);
     }
     const bool memory = threads > 0 && work_together(workers, threads);
     for (size_t i = 0; i < threads; i++) {
@@ -288,7 +289,7 @@ static iso_status run(iso_context *ctx, batch *b, worker workers[], size_t threa
     if (!memory) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", b->count);
     if (atomic_load(&b->stopped)) return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
     if (first->failed == b->count) return ISO_OK;
-    return iso_context_fail(ctx, b->status[first->failed], first->field, "orbit %zu: %s", first->failed,
+    return iso_context_fail(ctx, b->status[first->failed], first->about, "orbit %zu: %s", first->failed,
                             first->message);
 }
 

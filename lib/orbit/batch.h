@@ -22,26 +22,26 @@ typedef struct iso_batch_orbit {
 
 /* As in iso_orbit_options, for all orbits. */
 typedef struct iso_batch_options {
-    iso_picture backend; /* ISO_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the ball;
-                            not ISO_EXACT, whose orbits have nothing to do together: iso_orbit                 */
+    iso_backend backend; /* ISO_BACKEND_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the
+                            ball; not ISO_BACKEND_EXACT, whose orbits have nothing to do together: iso_orbit   */
     double tolerance;
     long max_steps;      /* of each orbit; 0: no bound                                                         */
     iso_clock clock;
-    iso_picture show;
-    bool carry[ISO_CLOCKS];
+    iso_shown shown;
+    bool with_clock[ISO_CLOCKS];
     int threads;         /* 0: as many as there are processors to run on                                       */
     const char *vectors; /* "avx512", "avx2", "plain"; NULL: the widest of this processor                      */
 } iso_batch_options;
 
-/* Balls in their time t; backend ISO_AUTO, tolerance 1e-12, no bound on the steps, all processors. */
+/* Balls in their time t; backend ISO_BACKEND_AUTO, tolerance 1e-12, no bound on the steps, all processors. */
 iso_batch_options iso_batch_defaults(void);
 
 /* Fills samples[i rows + j] with orbit i at times[j], in the options' clock: none before 0 and growing, or none after
  * 0 and falling. status[i] (may be NULL) says how orbit i went; the rows that it has not reached are NaN in every
  * column. Gives ISO_OK, or the status of the first orbit that failed, with its number and reason in the message
  * (numbers from 0); the others go on. Errors of one orbit: those of iso_orbit_create and iso_orbit_at. Errors of all:
- * ISO_BAD_ARGUMENT (backend, tolerance, times, threads, vectors), ISO_NO_MEMORY, ISO_STOPPED by the context's watch (asked by
- * the calling thread alone): status and rows of what is done by then are valid. */
+ * ISO_BAD_ARGUMENT (backend, tolerance, times, threads, vectors), ISO_NO_MEMORY, ISO_STOPPED by the context's monitor
+ * (asked by the calling thread alone): status and rows of what is done by then are valid. */
 iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
                          const iso_batch_options *options, const double times[], size_t rows, iso_sample samples[],
                          iso_status status[]);

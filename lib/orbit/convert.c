@@ -13,7 +13,8 @@ static iso_status begin(iso_conversion *c, const conversion_row *r)
 {
     iso_record *header;
     iso_status status = ISO_OK;
-    if (c->own_column >= 0) status = iso_between_create(c->ctx, iso_orbit_model(c->first), c->tolerance, &c->between);
+    if (c->own_column >= 0)
+        status = iso_two_point_create(c->ctx, iso_orbit_model(c->first), c->tolerance, &c->quadrature);
     if (status == ISO_OK) status = iso_conversion_describe(c, r->time, &header);
     if (status != ISO_OK) return status;
     status = c->target.header(c->target.data, header);
@@ -40,7 +41,7 @@ iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line
     c->good++;
     if (!c->begun) status = begin(c, &r);
     if (status != ISO_OK) return status;
-    return c->between ? iso_conversion_follow(c, &r) : iso_conversion_emit(c, &r);
+    return c->quadrature ? iso_conversion_follow(c, &r) : iso_conversion_emit(c, &r);
 }
 
 iso_status iso_conversion_skip(iso_conversion *c)
@@ -53,8 +54,8 @@ iso_status iso_conversion_skip(iso_conversion *c)
 iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_status status = c->between ? iso_conversion_settle(c) : ISO_OK;
-    c->summary.checked = c->between != NULL;
+    iso_status status = c->quadrature ? iso_conversion_settle(c) : ISO_OK;
+    c->summary.checked = c->quadrature != NULL;
     c->summary.clock = c->other;
     if (summary) *summary = c->summary;
     if (status != ISO_OK || c->begun) return status;
@@ -77,11 +78,11 @@ static iso_status refuse_effect(const iso_conversion *c)
 static iso_status find_columns(iso_conversion *c)
 {
     int columns[ISO_STATE];
-    const iso_picture to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
+    const iso_model_kind to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
     const iso_status status = iso_record_find_state(c->ctx, c->in, c->from, c->state);
     if (status != ISO_OK && iso_record_find_state(c->ctx, c->in, to, columns) == ISO_OK)
         return iso_context_fail(c->ctx, ISO_BAD_INPUT, "columns", "this is a %s's trajectory already",
-                                iso_picture_name((int)to));
+                                iso_model_kind_name((int)to));
     if (status != ISO_OK) return iso_record_find_state(c->ctx, c->in, c->from, c->state);
     c->own = c->from == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     c->other = c->from == ISO_BALL ? ISO_CLOCK_S : ISO_CLOCK_T;
@@ -104,9 +105,9 @@ static iso_status read_lines(iso_conversion *c)
     return status;
 }
 
-iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header, iso_picture to,
-                                 const iso_conversion_options *options, const iso_conversion_target *target,
-                                 iso_conversion **conversion)
+iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
+                                 iso_model_kind to, const iso_conversion_options *options,
+                                 const iso_conversion_target *target, iso_conversion **conversion)
 {
     iso_conversion *c = *conversion = calloc(1, sizeof *c);
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a conversion");
@@ -131,7 +132,7 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
 void iso_conversion_free(iso_conversion *c)
 {
     if (!c) return;
-    iso_between_free(c->between);
+    iso_two_point_free(c->quadrature);
     iso_orbit_free(c->first);
     free(c->first_words);
     free(c);
@@ -169,7 +170,7 @@ static iso_status stop_at(void *data, size_t line, iso_status why, const char *w
     return iso_context_fail(((whole *)data)->ctx, why, "", "row %zu: %s", line, words);
 }
 
-iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_picture to,
+iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
                        double tolerance, iso_record **out)
 {
     ISO_DEFAULT_ARITHMETIC;

@@ -19,7 +19,7 @@ enum { ISO_MAX_ROW_STEPS = 10000000 };
  *     status = iso_conversion_end(c, &summary);
  *     iso_conversion_free(c);
  *
- * Two-point Taylor quadrature (method/between.h) gives the gain of the other clock between two rows. It also shows
+ * Two-point Taylor quadrature (method/two_point.h) gives the gain of the other clock between two rows. It also shows
  * whether the two rows lie on one orbit. Where they are too far apart for it, the orbit is integrated. If a row does
  * not lie on the orbit of the row before it, it is held until the next row shows which of the two is damaged. Sums of
  * times are compensated. */
@@ -74,9 +74,9 @@ typedef struct iso_conversion_options {
  * - none, if the header has no clock.
  * Errors: ISO_BAD_INPUT about columns or lines, ISO_NOT_MAPPED about an effect that breaks the isomorphism,
  * ISO_BAD_ARGUMENT (shift_J without a point, or with k other than -1), ISO_NO_MEMORY. */
-iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header, iso_picture to,
-                                 const iso_conversion_options *options, const iso_conversion_target *target,
-                                 iso_conversion **conversion);
+iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
+                                 iso_model_kind to, const iso_conversion_options *options,
+                                 const iso_conversion_target *target, iso_conversion **conversion);
 void iso_conversion_free(iso_conversion *conversion);
 
 /* The next row. A point off the level H = 0 becomes a ball in the potential of the effect `level`, which the lines
@@ -99,7 +99,7 @@ iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary
  * - ISO_NOT_MAPPED: a row is at rest; the M of a point does not fit eps or h of the record and the energy of the
  *   first row; or an effect breaks the isomorphism;
  * - ISO_NUMERICAL, ISO_NO_MEMORY. */
-iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_picture to,
+iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
                        double tolerance, iso_record **out);
 
 #endif

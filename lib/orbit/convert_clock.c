@@ -63,7 +63,7 @@ static iso_status integrate(const iso_conversion *c, const conversion_row *a, co
 /* From a to b by quadrature, whose last two samples they must be. False: they are too far apart. */
 static bool measure(iso_conversion *c, const conversion_row *a, const conversion_row *b, iso_gap *gap)
 {
-    if (!iso_between_measure(c->between, (b->time - a->time) / c->unit_own, c->typical, gap)) return false;
+    if (!iso_two_point_measure(c->quadrature, (b->time - a->time) / c->unit_own, c->typical, gap)) return false;
     gap->gained[c->other] *= c->unit_other;
     gap->error[c->other] *= c->unit_other;
     gap->defect = fmax(gap->defect, fabs(late(c, a, b, gap)));
@@ -73,8 +73,8 @@ static bool measure(iso_conversion *c, const conversion_row *a, const conversion
 /* The same, with the samples given again. */
 static bool measure_anew(iso_conversion *c, const conversion_row *a, const conversion_row *b, iso_gap *gap)
 {
-    iso_between_take(c->between, a->own);
-    iso_between_take(c->between, b->own);
+    iso_two_point_add(c->quadrature, a->own);
+    iso_two_point_add(c->quadrature, b->own);
     return measure(c, a, b, gap);
 }
 
@@ -275,7 +275,7 @@ static iso_status decide(iso_conversion *c, const conversion_row *next)
     const verdict v = weigh(c, &held, next, &w);
     const iso_status status = carry_out(c, &held, v, &w);
     c->marks = marks;
-    iso_between_take(c->between, c->last.own);
+    iso_two_point_add(c->quadrature, c->last.own);
     return status == ISO_OK ? release_marks(c) : status;
 }
 
@@ -287,12 +287,12 @@ iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row)
     if (!c->has_last) {
         c->has_last = true;
         c->last = *row;
-        iso_between_take(c->between, row->own);
+        iso_two_point_add(c->quadrature, row->own);
         c->unwritten = true;
         if (c->summary.computed) c->last.out[0] = c->sum;
         return ISO_OK;
     }
-    iso_between_take(c->between, row->own);
+    iso_two_point_add(c->quadrature, row->own);
     if (in_order(c, &c->last, row) && measure(c, &c->last, row, &gap) && !breaks_off(c, gap.defect))
         return accept(c, row, &gap, false);
     c->held = *row;

@@ -3,7 +3,7 @@
 #ifndef ISO_ORBIT_CONVERT_IMPL_H
 #define ISO_ORBIT_CONVERT_IMPL_H
 
-#include "method/between.h"
+#include "method/two_point.h"
 #include "orbit/convert.h"
 
 /* A good row. */
@@ -21,7 +21,7 @@ struct iso_conversion {
     const iso_params *params;
     const iso_record *in;
     iso_conversion_target target;
-    iso_picture from;
+    iso_model_kind from;
     double tolerance;
     bool shift_J;
     iso_params shifted;           /* what params then points to                                          */
@@ -41,7 +41,7 @@ struct iso_conversion {
     double unit_from, unit_to;       /* of the fast vectors   */
     double unit_own, unit_other;     /* of the clocks         */
     double energy;                   /* of the first row      */
-    iso_between *between;            /* NULL without own clock */
+    iso_two_point *quadrature;       /* NULL without own clock */
     conversion_row last, held;       /* the last accepted; one that breaks off from it */
     bool has_last, is_held;
     bool unwritten;                  /* the last is the first, and not written: it may be damaged      */

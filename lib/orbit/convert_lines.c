@@ -12,7 +12,7 @@ static const char *const origin_line[] = {[ISO_CLOCK_T] = "t0", [ISO_CLOCK_S] = 
 
 /* h and eps are those that the record states, if its first row agrees up to its digits; else those of the first
  * row. */
-static iso_status describe_energy(const iso_conversion *c, iso_picture to, iso_record *out)
+static iso_status describe_energy(const iso_conversion *c, iso_model_kind to, iso_record *out)
 {
     double stated;
     iso_status status = ISO_OK;
@@ -23,7 +23,8 @@ static iso_status describe_energy(const iso_conversion *c, iso_picture to, iso_r
     char key[ISO_NAME_SIZE];
     snprintf(key, sizeof key, "%s.c", iso_level_name());
     const bool named = !iso_effects_have_level(&c->effects) || iso_record_get(out, key);
-    return iso_record_describe(c->ctx, out, iso_picture_name((int)to), c->params, agrees && named ? NULL : c->first);
+    return iso_record_describe(c->ctx, out, iso_model_kind_name((int)to), c->params,
+                               agrees && named ? NULL : c->first);
 }
 
 /* Lines that do not hold for the result: of the ball's columns, of how a clock was computed. */
@@ -41,7 +42,7 @@ static bool is_left_behind(const char *key)
     return false;
 }
 
-static iso_status set_lines(const iso_conversion *c, iso_picture to, double begin, iso_record *out)
+static iso_status set_lines(const iso_conversion *c, iso_model_kind to, double begin, iso_record *out)
 {
     const char *key, *value, *origin = origin_line[c->own];
     iso_status status = ISO_OK;
@@ -65,7 +66,7 @@ static iso_status find_origin(iso_conversion *c)
 
 iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record **header)
 {
-    const iso_picture to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
+    const iso_model_kind to = c->from == ISO_BALL ? ISO_POINT : ISO_BALL;
     const iso_system *target = to == ISO_BALL ? &iso_system_ball : &iso_system_point;
     const int has_clock = c->own_column >= 0 || c->other_column >= 0;
     const char *names[1 + ISO_STATE] = {iso_clock_name(c->other)};

@@ -28,7 +28,7 @@ iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, b
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &c->effects;
     o.tolerance = c->tolerance;
-    o.carry[c->other] = clock;
+    o.with_clock[c->other] = clock;
     o.max_steps = ISO_MAX_ROW_STEPS;
     return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
 }
@@ -37,11 +37,11 @@ iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *row, b
 static double off_level(const iso_conversion *c, const double own[ISO_STATE], double eps)
 {
     double size;
-    iso_field field = iso_orbit_model(c->first)->field;
-    field.eps = eps;
-    const double c_own = iso_effects_level(&field.effects);
-    const double level = iso_effects_have_level(&c->effects) ? iso_coupling(&field.p, c_own) : 0;
-    const double H = iso_system_point.energy(&field, own, &size);
+    iso_problem problem = iso_orbit_model(c->first)->problem;
+    problem.eps = eps;
+    const double c_own = iso_effects_level(&problem.effects);
+    const double level = iso_effects_have_level(&c->effects) ? iso_coupling(&problem.p, c_own) : 0;
+    const double H = iso_system_point.energy(&problem, own, &size);
     return H == level ? 0 : (H - level) / fmax(size, fabs(level));
 }
 
@@ -51,14 +51,14 @@ static iso_status check_energy(iso_conversion *c, conversion_row *r)
 {
     double size;
     if (c->from == ISO_BALL) {
-        const double h = iso_system_ball.energy(&iso_orbit_model(c->first)->field, r->own, &size);
+        const double h = iso_system_ball.energy(&iso_orbit_model(c->first)->problem, r->own, &size);
         if (c->summary.energy.line == 0) c->energy = h;
         iso_worst_note(&c->summary.energy, h == c->energy ? 0 : (h - c->energy) / size, r->line);
         return ISO_OK;
     }
     const bool stated = !isnan(c->stated_eps);
     const double eps = stated ? c->stated_eps / iso_unit(&c->units, iso_dimension_eps)
-                              : iso_orbit_model(c->first)->field.eps; /* the first row's */
+                              : iso_orbit_model(c->first)->problem.eps; /* the first row's */
     const double off = off_level(c, r->own, eps);
     r->other_energy =
         stated && !(fabs(off) <= fmax(1e-3, iso_conversion_digits(c))); /* methods of low order reach that */

@@ -76,14 +76,14 @@ iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *
                             has_k ? "J" : "k", has_k ? "J: J1 J2 J3" : "k: K", has_k ? "J J1,J2,J3" : "k K");
 }
 
-iso_status iso_record_find_state(iso_context *ctx, const iso_record *r, iso_picture model, int columns[ISO_STATE])
+iso_status iso_record_find_state(iso_context *ctx, const iso_record *r, iso_model_kind model, int columns[ISO_STATE])
 {
     ISO_DEFAULT_ARITHMETIC;
     const char *const *names = (model == ISO_BALL ? &iso_system_ball : &iso_system_point)->state;
     const char *missing;
     if (iso_record_find_all(r, ISO_STATE, names, columns, &missing)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "the trajectory has no column '%s', which a %s has",
-                            missing, iso_picture_name((int)model));
+                            missing, iso_model_kind_name((int)model));
 }
 
 bool iso_record_coupling(iso_context *ctx, const iso_record *r, const iso_params *p, double *eps, iso_status *status)
@@ -205,14 +205,14 @@ static const char *advice(double off, char text[64])
     return text;
 }
 
-static iso_status refuse_length(iso_context *ctx, iso_picture model, double length, double tolerance)
+static iso_status refuse_length(iso_context *ctx, iso_model_kind model, double length, double tolerance)
 {
     char text[64];
     return iso_context_fail(ctx, ISO_BAD_INPUT, "", "|%s| = %.10g: a unit vector to %g is expected%s",
                             model == ISO_BALL ? "n" : "gamma", length, tolerance, advice(fabs(length - 1), text));
 }
 
-static iso_status refuse_spin(iso_context *ctx, iso_picture model, double along, double tolerance)
+static iso_status refuse_spin(iso_context *ctx, iso_model_kind model, double along, double tolerance)
 {
     char text[64];
     const bool ball = model == ISO_BALL;
@@ -223,7 +223,7 @@ static iso_status refuse_spin(iso_context *ctx, iso_picture model, double along,
         tolerance, advice(fabs(along), text));
 }
 
-iso_status iso_start_from_row(iso_context *ctx, iso_picture model, const double y[ISO_STATE], const double *eps,
+iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const double y[ISO_STATE], const double *eps,
                               bool twists, double tolerance, iso_start *start)
 {
     double unit[3];
@@ -241,8 +241,8 @@ iso_status iso_start_from_row(iso_context *ctx, iso_picture model, const double 
     return refuse_spin(ctx, model, along, tolerance);
 }
 
-iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_picture model, size_t row,
-                            iso_start *start, iso_effects *effects)
+iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_model_kind model,
+                            size_t row, iso_start *start, iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
     int columns[ISO_STATE];

@@ -31,21 +31,21 @@ bool iso_record_coupling(iso_context *ctx, const iso_record *record, const iso_p
                          iso_status *status);
 
 /* The six columns of a model. Errors: ISO_BAD_INPUT about "columns". */
-iso_status iso_record_find_state(iso_context *ctx, const iso_record *record, iso_picture model,
+iso_status iso_record_find_state(iso_context *ctx, const iso_record *record, iso_model_kind model,
                                  int columns[ISO_STATE]);
 
 /* Six numbers of a row as the start of an orbit in `model`; eps of a point, or NULL. Rows of others have few
  * digits: `tolerance` says how far |n| (|gamma|) may be from 1, and how large a part of omega along n (of M along
  * gamma) may be, relative to omega. A ball that twists may have any such part.
  * Errors: ISO_BAD_INPUT: not within the tolerance (the message names one that takes the row), or no state at all. */
-iso_status iso_start_from_row(iso_context *ctx, iso_picture model, const double y[ISO_STATE], const double *eps,
+iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const double y[ISO_STATE], const double *eps,
                               bool twists, double tolerance, iso_start *start);
 
 /* Row `row` of a record as the start of an orbit in `model`, whose columns it must have; of `effects`, those of the
  * record, `up` and `quaternion` become the row's. A point's coupling is the record's eps (or that of its h), or
  * without these lines the one with which H is 0, or the level's.
  * Errors: ISO_BAD_INPUT with the row: a missing column, a row that is no state. */
-iso_status iso_record_start(iso_context *ctx, const iso_record *record, const iso_params *params, iso_picture model,
-                            size_t row, iso_start *start, iso_effects *effects);
+iso_status iso_record_start(iso_context *ctx, const iso_record *record, const iso_params *params,
+                            iso_model_kind model, size_t row, iso_start *start, iso_effects *effects);
 
 #endif

@@ -28,12 +28,12 @@ static iso_status start(iso_integrator *it)
     bool clocks[ISO_CLOCKS] = {false};
     iso_exact *exact;
     clocks[m->clock] = true;
-    for (int i = 0; i < m->carried; i++) clocks[m->carry[i]] = true;
+    for (int i = 0; i < m->clocks; i++) clocks[m->clock_of[i]] = true;
     release(it);
-    const iso_status status = iso_exact_create(it->ctx, &m->field, it->y0, clocks, &exact);
+    const iso_status status = iso_exact_create(it->ctx, &m->problem, it->y0, clocks, &exact);
     it->data = exact;
     if (status != ISO_BAD_ARGUMENT) return status;
-    return iso_context_fail(it->ctx, status, iso_context_field(it->ctx), "%s: take backend point",
+    return iso_context_fail(it->ctx, status, iso_context_about(it->ctx), "%s: take backend point",
                             iso_context_message(it->ctx));
 }
 
@@ -44,13 +44,13 @@ static iso_status at(iso_integrator *it, double t, double y[])
     it->statistics.states++;
     const iso_status status = iso_exact_at(it->ctx, it->data, m->clock, t, state, clocks);
     if (status != ISO_OK) return status;
-    for (int i = 0; i < m->carried; i++) state[m->moving + i] = clocks[m->carry[i]];
+    for (int i = 0; i < m->clocks; i++) state[m->moving + i] = clocks[m->clock_of[i]];
     if (!all_finite(state, m->dim)) return iso_integrator_stopped(it, "the closed solution is not finite");
     copy(state, y, m->dim);
     return ISO_OK;
 }
 
-static iso_status within(iso_integrator *it, double dt, double y[])
+static iso_status dense(iso_integrator *it, double dt, double y[])
 {
     return at(it, it->left.head + (it->left.tail + dt), y);
 }
@@ -81,11 +81,11 @@ const iso_method iso_method_exact = {.name = "exact",
                                      .create = create,
                                      .start = start,
                                      .step = step,
-                                     .within = within,
+                                     .dense = dense,
                                      .at = at,
                                      .free = release};
 
 const iso_exact *iso_orbit_exact(const iso_orbit *o)
 {
-    return o->options.backend == ISO_EXACT ? o->integrator->data : NULL;
+    return o->options.backend == ISO_BACKEND_EXACT ? o->integrator->data : NULL;
 }

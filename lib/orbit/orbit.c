@@ -11,10 +11,10 @@
 
 iso_orbit_options iso_orbit_defaults(const iso_start *start)
 {
-    return (iso_orbit_options){.backend = ISO_AUTO,
+    return (iso_orbit_options){.backend = ISO_BACKEND_AUTO,
                                .tolerance = 1e-12,
                                .clock = start->model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S,
-                               .show = start->model};
+                               .shown = (iso_shown)start->model};
 }
 
 _Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double),
@@ -41,16 +41,17 @@ void iso_sample_set_column(iso_sample *sample, int column, double value)
 /* --- making an orbit --------------------------------------------------------------------------------------------- */
 
 /* Effects that only the ball shows need the ball, and some methods are for one system. */
-static iso_picture choose_backend(const iso_orbit_options *opt, const iso_start *start)
+static iso_backend choose_backend(const iso_orbit_options *opt, const iso_start *start)
 {
     const iso_effects *e = opt->effects;
-    if (opt->backend != ISO_AUTO) return opt->backend;
-    if (opt->method && opt->method->system) return opt->method->system == &iso_system_ball ? ISO_BALL : ISO_POINT;
-    return e && (iso_effects_breaking(e) || iso_effects_ball_only(e)) ? ISO_BALL : start->model;
+    if (opt->backend != ISO_BACKEND_AUTO) return opt->backend;
+    if (opt->method && opt->method->system)
+        return opt->method->system == &iso_system_ball ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
+    return e && (iso_effects_breaking(e) || iso_effects_ball_only(e)) ? ISO_BACKEND_BALL : (iso_backend)start->model;
 }
 
 /* Whether a start stays where it is: then any time is known without steps. */
-static void see_rest(iso_orbit *o, const double y[])
+static void find_rest(iso_orbit *o, const double y[])
 {
     o->rests = true;
     copy(y, o->still, o->model.dim);
@@ -63,8 +64,8 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
     iso_orbit_options *opt = &o->options;
     double six[ISO_STATE], size;
     opt->backend = choose_backend(opt, start);
-    const bool ball = opt->backend == ISO_BALL, exact = opt->backend == ISO_EXACT;
-    if ((!ball && !exact && opt->backend != ISO_POINT) || (int)opt->show < 0 || opt->show > ISO_BOTH)
+    const bool ball = opt->backend == ISO_BACKEND_BALL, exact = opt->backend == ISO_BACKEND_EXACT;
+    if ((!ball && !exact && opt->backend != ISO_BACKEND_POINT) || (int)opt->shown < 0 || opt->shown > ISO_SHOW_BOTH)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "backend",
                                 "an orbit is found by backend ball, point or exact, "
                                 "and shown as ball, point or both");
@@ -73,12 +74,12 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
                                 "backend exact does not integrate: leave the method out, or take backend point");
     iso_status status = iso_orbit_find_start(o, p, start, six);
     if (status != ISO_OK) return status;
-    const iso_field field = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
-    o->model = iso_model_assemble(o->system, &field, opt->clock, opt->carry);
+    const iso_problem problem = {.p = o->units.own, .eps = o->eps, .energy = o->level, .effects = o->effects};
+    o->model = iso_model_assemble(o->system, &problem, opt->clock, opt->with_clock);
     iso_model_begin(&o->model, six, y);
-    if (ball) o->model.field.energy = iso_system_ball.energy(&o->model.field, y, &size);
+    if (ball) o->model.problem.energy = iso_system_ball.energy(&o->model.problem, y, &size);
     if (!opt->method) opt->method = exact ? &iso_method_exact : iso_method_auto(&o->model);
-    see_rest(o, y);
+    find_rest(o, y);
     return ISO_OK;
 }
 
@@ -188,15 +189,15 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
     iso_status status = ISO_OK;
     iso_sample_blank(s);
     s->clock[o->model.clock] = time;
-    for (int i = 0; status == ISO_OK && i < o->model.carried; i++)
-        status = sample_clock(o, time, o->model.carry[i], y[o->model.moving + i], s);
-    if (o->options.show != ISO_POINT) {
-        const bool vanishes = iso_effects_stiffness(&o->model.field) > 0;
+    for (int i = 0; status == ISO_OK && i < o->model.clocks; i++)
+        status = sample_clock(o, time, o->model.clock_of[i], y[o->model.moving + i], s);
+    if (o->options.shown != ISO_SHOW_POINT) {
+        const bool vanishes = iso_effects_stiffness(&o->model.problem) > 0;
         as_ball(o, y, s->ball);
         if (status == ISO_OK) status = to_users_units(o, "omega", o->units.w, vanishes, s->ball, 3);
         if (status == ISO_OK && o->system == &iso_system_ball) status = iso_orbit_sample_effects(o, y, s);
     }
-    if (status == ISO_OK && o->options.show != ISO_BALL) status = sample_point(o, y, s);
+    if (status == ISO_OK && o->options.shown != ISO_SHOW_BALL) status = sample_point(o, y, s);
     return status;
 }
 
@@ -206,7 +207,7 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
 
 static iso_status check_steps(const iso_orbit *o, double turns)
 {
-    const iso_field *f = &o->model.field;
+    const iso_problem *f = &o->model.problem;
     const double stiffness = iso_effects_stiffness(f), steps = stiffness * fmin(turns, iso_effects_moving(f));
     if (o->options.method->implicit || !(stiffness > ISO_STIFF && steps > MOST_STIFF_STEPS)) return ISO_OK;
     return iso_context_fail(
@@ -245,9 +246,9 @@ iso_status iso_orbit_check_time(const iso_orbit *o, double time)
 static iso_status check_drift(const iso_orbit *o, const double y[])
 {
     double size;
-    if (o->options.method->projects || !iso_effects_keep_energy(&o->model.field)) return ISO_OK;
-    const double energy = o->model.system->energy(&o->model.field, y, &size);
-    const double drift = size > 0 ? fabs(energy - o->model.field.energy) / size : 0;
+    if (o->options.method->projects || !iso_effects_keep_energy(&o->model.problem)) return ISO_OK;
+    const double energy = o->model.system->energy(&o->model.problem, y, &size);
+    const double drift = size > 0 ? fabs(energy - o->model.problem.energy) / size : 0;
     if (drift <= fmax(1e-3, 1e4 * o->options.tolerance)) return ISO_OK;
     return iso_context_fail(
         o->ctx, ISO_NUMERICAL, "",
@@ -296,7 +297,7 @@ iso_status iso_orbit_event(iso_orbit *o, double (*g)(const iso_sample *sample, c
     *found = false;
     iso_status status = to_own_time(o, from, &begin);
     if (status == ISO_OK) status = to_own_time(o, to, &end);
-    if (status == ISO_OK && o->rests && o->model.carried == 0) return ISO_OK; /* nothing passes anything */
+    if (status == ISO_OK && o->rests && o->model.clocks == 0) return ISO_OK; /* nothing passes anything */
     if (status == ISO_OK) status = iso_integrator_event(o->integrator, &event, begin, end, found, &own_time, y);
     if (status == ISO_OK) status = sampled;
     if (status != ISO_OK) *found = false;
@@ -314,7 +315,7 @@ static double pressure(const iso_sample *sample, const void *data)
 iso_status iso_orbit_lost_contact(iso_orbit *o, double from, double to, bool *lost, iso_sample *sample)
 {
     *lost = false;
-    if (o->model.field.p.k == 1)
+    if (o->model.problem.p.k == 1)
         return ISO_OK; /* on a plane the pressure is mgb (e,n), an integral: what it changes by is error */
     return iso_orbit_event(o, pressure, NULL, to < 0 ? 1 : -1, from, to, lost, sample);
 }
@@ -346,7 +347,7 @@ iso_statistics iso_orbit_statistics(const iso_orbit *o)
     return iso_integrator_statistics(o->integrator);
 }
 
-iso_picture iso_orbit_backend(const iso_orbit *o)
+iso_backend iso_orbit_backend(const iso_orbit *o)
 {
     return o->options.backend;
 }
@@ -391,8 +392,8 @@ double iso_orbit_integral(const iso_orbit *o, const iso_system *system, const is
                           const iso_sample *sample, double *size)
 {
     double y[ISO_MAX_STATE];
-    iso_field field = o->model.field;
-    field.eps = o->eps;
+    iso_problem problem = o->model.problem;
+    problem.eps = o->eps;
     iso_orbit_state_of(o, system, sample, y);
-    return integral->value(&field, y, size);
+    return integral->value(&problem, y, size);
 }

@@ -21,15 +21,15 @@ typedef struct iso_orbit iso_orbit;
 
 typedef struct iso_orbit_options {
     const iso_effects *effects; /* what acts on the ball, in the caller's units; NULL: nothing             */
-    iso_picture backend;      /* the model that is integrated, or ISO_EXACT; ISO_AUTO: the model of the
-                                 start, the ball where effects need it, the one that the method is for     */
-    const iso_method *method; /* NULL: iso_method_auto(); with ISO_EXACT always                            */
+    iso_backend backend;      /* what finds the orbit; ISO_BACKEND_AUTO: steps of the model of the start,
+                                 of the ball where effects need it, of the model that the method is for    */
+    const iso_method *method; /* NULL: iso_method_auto(); with ISO_BACKEND_EXACT always                    */
     double tolerance;         /* of the method                                                             */
     long max_steps;           /* after which a call fails with ISO_NUMERICAL; 0: no bound                  */
     iso_clock clock;          /* the clock in which times are asked                                        */
-    iso_picture show;         /* the models filled into samples: ISO_BALL, ISO_POINT, ISO_BOTH             */
+    iso_shown shown;          /* the models filled into samples, not ISO_SHOW_START                        */
     bool gamma_alone;         /* of the point gamma is filled in, which always fits a double, but not M    */
-    bool carry[ISO_CLOCKS];   /* other clocks filled into samples                                          */
+    bool with_clock[ISO_CLOCKS]; /* other clocks filled into samples                                       */
 } iso_orbit_options;
 
 /* Backend and clock of the start's own model, which is also shown; method auto, tolerance 1e-12, no
@@ -53,12 +53,12 @@ void iso_sample_set_column(iso_sample *sample, int column, double value);
 
 /* A point's orbit has a ball at every energy: off the level H = 0 in the potential of the effect `level`, which is then
  * added. Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a free ball at rest (h = 0) has
- * no point, nor a ball with an effect that breaks the isomorphism (named by iso_context_field); ISO_BAD_INPUT for numbers
- * of effects that make no sense (iso_effects_check); ISO_NUMERICAL where M or a clock asked for does not fit a double in
- * the caller's units, or k is too extreme for powers q^(1/(2k)) of them, or q^(1/k) of a point off H = 0 and of methods
- * that are for (24) alone: the ball and gamma in t, free, can be had by all others for every k;
- * ISO_BAD_ARGUMENT, for ISO_EXACT about "method", or what the closed solution is not for (iso_exact_create); and its
- * ISO_NUMERICAL; ISO_NO_MEMORY. */
+ * no point, nor a ball with an effect that breaks the isomorphism (named by iso_context_about); ISO_BAD_INPUT for
+ * numbers of effects that make no sense (iso_effects_check); ISO_NUMERICAL where M or a clock asked for does not fit
+ * a double in the caller's units, or k is too extreme for powers q^(1/(2k)) of them, or q^(1/k) of a point off H = 0
+ * and of methods that are for (24) alone: the ball and gamma in t, free, can be had by all others for every k;
+ * ISO_BAD_ARGUMENT, for ISO_BACKEND_EXACT about "method", or what the closed solution is not for (iso_exact_create);
+ * and its ISO_NUMERICAL; ISO_NO_MEMORY. */
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
                             const iso_orbit_options *options, iso_orbit **orbit);
 void iso_orbit_free(iso_orbit *orbit);
@@ -94,13 +94,13 @@ iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);
 
 iso_statistics iso_orbit_statistics(const iso_orbit *orbit);
 
-/* What the orbit is made of: the backend (not ISO_AUTO), the assembled model in own units, the units, the method. */
-iso_picture iso_orbit_backend(const iso_orbit *orbit);
+/* What the orbit is made of: the backend (not ISO_BACKEND_AUTO), the model in own units, the units, the method. */
+iso_backend iso_orbit_backend(const iso_orbit *orbit);
 const iso_model *iso_orbit_model(const iso_orbit *orbit);
 const iso_units *iso_orbit_units(const iso_orbit *orbit);
 const iso_method *iso_orbit_method(const iso_orbit *orbit);
 
-/* The closed solution behind an orbit of backend ISO_EXACT, in own units; NULL for other backends. */
+/* The closed solution behind an orbit of backend ISO_BACKEND_EXACT, in own units; NULL for other backends. */
 const iso_exact *iso_orbit_exact(const iso_orbit *orbit);
 
 /* Whether the orbit has both models: no effect that breaks the isomorphism, and a ball that moves. */

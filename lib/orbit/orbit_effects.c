@@ -19,7 +19,7 @@ static bool show_effect(const iso_orbit *o, const iso_effect *effect, const doub
     double own[ISO_EFFECT_COLUMNS];
     bool fits = true;
     int i = 0;
-    effect->show(&o->model.field, y, own);
+    effect->show(&o->model.problem, y, own);
     for (const iso_effect_column *group = effect->columns; group && group->name; group++) {
         const double unit = unit_of(o, group);
         for (const int end = i + group->count; i < end; i++) {
@@ -43,7 +43,7 @@ iso_status iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sa
 {
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         const iso_effect *effect = iso_effect_list[e];
-        if (!o->model.field.effects.on[e] || !effect->show) continue;
+        if (!o->model.problem.effects.on[e] || !effect->show) continue;
         const int first = iso_effect_first_column(e);
         if (!show_effect(o, effect, y, s->effect + first)) return out_of_range(o, s, first);
     }
@@ -59,7 +59,7 @@ static void recall_effect(const iso_orbit *o, const iso_effect *effect, const do
         const double unit = unit_of(o, group);
         for (const int end = i + group->count; i < end; i++) own[i] = from[i] / unit;
     }
-    effect->recall(&o->model.field, own, y);
+    effect->recall(&o->model.problem, own, y);
 }
 
 static bool is_derived(const iso_effect *effect)
@@ -72,7 +72,7 @@ static bool is_derived(const iso_effect *effect)
 
 void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_sample *s, double y[])
 {
-    const iso_field *f = &o->model.field;
+    const iso_problem *f = &o->model.problem;
     const bool ball = system == &iso_system_ball;
     copy(ball ? s->ball : s->point, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= ball ? o->units.w : o->unit_M;

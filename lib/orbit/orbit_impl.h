@@ -19,8 +19,9 @@ struct iso_orbit {
     iso_integrator *integrator;
 };
 
-/* Sets o->units, o->effects, o->h, o->eps, o->level and o->system from a start and what o->options ask for (backend not
- * ISO_AUTO), and gives the start in that system's variables and own units. Errors: those of iso_orbit_create. */
+/* Sets o->units, o->effects, o->h, o->eps, o->level and o->system from a start and what o->options ask for (the
+ * backend not ISO_BACKEND_AUTO), and gives the start in that system's variables and own units. Errors: those of
+ * iso_orbit_create. */
 iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_start *start, double y[ISO_STATE]);
 
 /* All of an orbit but the integrator: o->ctx and o->options say what is asked for; gives the start of its model.
@@ -37,7 +38,7 @@ iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const cha
 /* From now on the orbit may take this many steps, counted from its start; 0: any number. */
 void iso_orbit_allow_steps(iso_orbit *o, long max_steps);
 
-/* The method of backend ISO_EXACT: a model of the point is found by its closed solution. */
+/* The method of backend ISO_BACKEND_EXACT: a model of the point is found by its closed solution. */
 extern const iso_method iso_method_exact;
 
 /* NaN in every column. */

@@ -17,10 +17,10 @@ static void set_units(iso_orbit *o, const iso_params *p, double speed)
 static iso_status check_units(const iso_orbit *o, const iso_start *start)
 {
     const iso_orbit_options *opt = &o->options;
-    const bool M = start->model == ISO_POINT || (opt->show != ISO_BALL && !opt->gamma_alone);
+    const bool M = start->model == ISO_POINT || (opt->shown != ISO_SHOW_BALL && !opt->gamma_alone);
     bool fits = !M || isnormal(o->unit_M);
     for (int c = 0; c < ISO_CLOCKS; c++)
-        fits = fits && ((c != (int)opt->clock && !opt->carry[c]) || isnormal(o->unit_clock[c]));
+        fits = fits && ((c != (int)opt->clock && !opt->with_clock[c]) || isnormal(o->unit_clock[c]));
     if (fits) return ISO_OK;
     return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
                             "M (about %g) or a clock (s about %g) does not fit a double in these units: use other "
@@ -60,9 +60,9 @@ static iso_status check_powers(const iso_orbit *o, const iso_start *start)
 /* The speed that the potentials can give the ball, in the caller's units. */
 static double falling_speed(const iso_orbit *o, const iso_params *p, const double n[3])
 {
-    const iso_field field = {.p = *p, .effects = o->effects};
+    const iso_problem problem = {.p = *p, .effects = o->effects};
     const double y[ISO_STATE] = {0, 0, 0, n[0], n[1], n[2]};
-    const double speed = sqrt(2 * iso_effects_strength(&field, y) / max3(p->J));
+    const double speed = sqrt(2 * iso_effects_strength(&problem, y) / max3(p->J));
     return isfinite(speed) ? speed : 0;
 }
 
@@ -89,9 +89,9 @@ static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start
     o->effects = iso_effects_scaled(&o->effects, &o->units, -1);
     copy(start->y, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= o->units.w;
-    iso_field field = {.p = o->units.own, .effects = o->effects};
-    leave_out_broken(&field.effects);
-    o->h = iso_system_ball.energy(&field, y, &size);
+    iso_problem problem = {.p = o->units.own, .effects = o->effects};
+    leave_out_broken(&problem.effects);
+    o->h = iso_system_ball.energy(&problem, y, &size);
     o->eps = iso_coupling(&o->units.own, o->h);
     o->level = stated_level(&o->units.own, &o->effects);
 }
@@ -109,22 +109,22 @@ static double point_speed(const iso_params *p, const iso_start *start)
 
 /* The point's coupling, stated or such that H is the level stated (or 0); and its level H, which is the one stated if it
  * is that to 1e-9 of its terms. False: it is not. */
-static bool find_level(iso_orbit *o, const iso_start *start, iso_field *field, double y[ISO_STATE])
+static bool find_level(iso_orbit *o, const iso_start *start, iso_problem *problem, double y[ISO_STATE])
 {
     const bool stated = iso_effects_have_level(&o->effects);
-    const double level = stated_level(&field->p, &o->effects);
+    const double level = stated_level(&problem->p, &o->effects);
     double size;
     o->level = level;
-    field->energy = level;
+    problem->energy = level;
     if (isnan(start->eps)) {
-        field->eps = 0;
-        const double rest = iso_system_point.energy(field, y, &size) - level; /* M^2/2 + V of the effects */
-        field->eps = rest * pow(dot_diag(y + 3, field->p.J, y + 3), 1 / field->p.k);
+        problem->eps = 0;
+        const double rest = iso_system_point.energy(problem, y, &size) - level; /* M^2/2 + V of the effects */
+        problem->eps = rest * pow(dot_diag(y + 3, problem->p.J, y + 3), 1 / problem->p.k);
         return true;
     }
-    field->eps = start->eps / iso_unit(&o->units, iso_dimension_eps);
-    const double H = iso_system_point.energy(field, y, &size);
-    if (fabs(H - level) <= 1e-9 * fmax(size, fabs(level))) return iso_system_point.project(field, y), true;
+    problem->eps = start->eps / iso_unit(&o->units, iso_dimension_eps);
+    const double H = iso_system_point.energy(problem, y, &size);
+    if (fabs(H - level) <= 1e-9 * fmax(size, fabs(level))) return iso_system_point.project(problem, y), true;
     o->level = H;
     return !stated;
 }
@@ -136,12 +136,12 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
     o->effects = iso_effects_scaled(&o->effects, &o->units, -1);
     copy(start->y, y, ISO_STATE);
     for (int i = 0; i < 3; i++) y[i] /= o->unit_M;
-    iso_field field = {.p = o->units.own, .effects = o->effects};
+    iso_problem problem = {.p = o->units.own, .effects = o->effects};
     const double stated = iso_effects_level(&o->effects);
-    const bool agrees = find_level(o, start, &field, y);
-    o->eps = field.eps;
-    o->h = iso_energy(&field.p, field.eps);
-    iso_effects_set_level(&o->effects, o->level != 0, iso_energy(&field.p, o->level));
+    const bool agrees = find_level(o, start, &problem, y);
+    o->eps = problem.eps;
+    o->h = iso_energy(&problem.p, problem.eps);
+    iso_effects_set_level(&o->effects, o->level != 0, iso_energy(&problem.p, o->level));
     if (agrees) return ISO_OK;
     const double unit = iso_unit(&o->units, iso_level_dimension());
     return iso_context_fail(o->ctx, ISO_BAD_INPUT, "c",
@@ -166,12 +166,12 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
 {
     iso_effects *e = &o->effects;
     const iso_effect *breaking = iso_effects_breaking(e), *only_ball = iso_effects_ball_only(e);
-    const bool by_point = o->options.backend != ISO_BALL;
-    const bool point = by_point || o->options.show != ISO_BALL || start->model == ISO_POINT;
+    const bool by_point = o->options.backend != ISO_BACKEND_BALL;
+    const bool point = by_point || o->options.shown != ISO_SHOW_BALL || start->model == ISO_POINT;
     const double *n = start->y + 3; /* a point's gamma: only gravity asks, which a point has not */
     if (start->model == ISO_POINT && isnan(iso_effects_level(e)))
         iso_effects_set_level(e, false, NAN); /* as it comes */
-    if (o->options.backend == ISO_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
+    if (o->options.backend == ISO_BACKEND_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
     if (breaking && point)
         return iso_context_fail(o->ctx, ISO_NOT_MAPPED, breaking->name,
                                 "'%s' breaks the isomorphism: %s. There is no such point; the ball alone can be had",
@@ -187,8 +187,8 @@ static const iso_system *choose_system(const iso_orbit *o)
 {
     const iso_params *p = &o->units.own;
     const iso_method *method = o->options.method;
-    const bool bound = o->options.backend == ISO_EXACT || (method && method->system);
-    if (o->options.backend == ISO_BALL) return &iso_system_ball;
+    const bool bound = o->options.backend == ISO_BACKEND_EXACT || (method && method->system);
+    if (o->options.backend == ISO_BACKEND_BALL) return &iso_system_ball;
     if (bound || o->level != 0 || iso_effects_have_image(&o->effects) || p->k == -1) return &iso_system_point;
     return iso_params_steep(p) ? &iso_system_point_t : &iso_system_point;
 }
@@ -208,18 +208,18 @@ typedef struct needs {
 
 static needs what_is_needed(const iso_orbit_options *opt, const iso_start *start)
 {
-    const bool other_clocks = opt->carry[ISO_CLOCK_TAU] || opt->carry[ISO_CLOCK_S];
-    const bool point = opt->backend != ISO_BALL || opt->show != ISO_BALL;
-    const bool M = opt->show != ISO_BALL && !opt->gamma_alone;
+    const bool other_clocks = opt->with_clock[ISO_CLOCK_TAU] || opt->with_clock[ISO_CLOCK_S];
+    const bool point = opt->backend != ISO_BACKEND_BALL || opt->shown != ISO_SHOW_BALL;
+    const bool M = opt->shown != ISO_SHOW_BALL && !opt->gamma_alone;
     return (needs){
-        .ball = opt->backend == ISO_BALL || opt->show != ISO_POINT || opt->clock != ISO_CLOCK_S ||
-                opt->carry[ISO_CLOCK_T] || opt->carry[ISO_CLOCK_TAU],
+        .ball = opt->backend == ISO_BACKEND_BALL || opt->shown != ISO_SHOW_POINT || opt->clock != ISO_CLOCK_S ||
+                opt->with_clock[ISO_CLOCK_T] || opt->with_clock[ISO_CLOCK_TAU],
         .point = point,
         .powers = M || start->model == ISO_POINT || opt->clock != ISO_CLOCK_T || other_clocks,
     };
 }
 
-static void to_system(const iso_orbit *o, iso_picture model, double y[ISO_STATE])
+static void to_system(const iso_orbit *o, iso_model_kind model, double y[ISO_STATE])
 {
     const iso_params *own = &o->units.own;
     const bool ball = model == ISO_BALL;

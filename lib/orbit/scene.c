@@ -47,10 +47,26 @@ iso_effect_id iso_column_effect(int column)
 
 /* --- starts ----------------------------------------------------------------------------------------------------------- */
 
-const char *iso_picture_name(int picture)
+const char *iso_model_kind_name(int kind)
 {
-    static const char *const names[] = {"ball", "point", "both", "auto", "exact"};
-    return picture >= 0 && picture < (int)(sizeof names / sizeof *names) ? names[picture] : NULL;
+    static const char *const names[] = {[ISO_BALL] = "ball", [ISO_POINT] = "point"};
+    return kind >= 0 && kind < (int)(sizeof names / sizeof *names) ? names[kind] : NULL;
+}
+
+const char *iso_backend_name(int backend)
+{
+    static const char *const names[] = {[ISO_BACKEND_BALL] = "ball",
+                                        [ISO_BACKEND_POINT] = "point",
+                                        [ISO_BACKEND_AUTO] = "auto",
+                                        [ISO_BACKEND_EXACT] = "exact"};
+    return backend >= 0 && backend < (int)(sizeof names / sizeof *names) ? names[backend] : NULL;
+}
+
+const char *iso_shown_name(int shown)
+{
+    static const char *const names[] = {
+        [ISO_SHOW_BALL] = "ball", [ISO_SHOW_POINT] = "point", [ISO_SHOW_BOTH] = "both", [ISO_SHOW_START] = "auto"};
+    return shown >= 0 && shown < (int)(sizeof names / sizeof *names) ? names[shown] : NULL;
 }
 
 /* A unit vector and a vector orthogonal to it, from numbers typed by hand. */
@@ -115,8 +131,11 @@ iso_status iso_start_point(iso_context *ctx, const double M[3], const double gam
 
 iso_scene iso_scene_default(void)
 {
-    return (iso_scene){
-        .effects = iso_effects_default(), .backend = ISO_AUTO, .method = "auto", .tolerance = 1e-12, .as = ISO_AUTO};
+    return (iso_scene){.effects = iso_effects_default(),
+                       .backend = ISO_BACKEND_AUTO,
+                       .method = "auto",
+                       .tolerance = 1e-12,
+                       .as = ISO_SHOW_START};
 }
 
 enum { USUAL_STEPS = 100 };
@@ -169,12 +188,12 @@ static bool is_filled(const iso_scene *scene, int column)
 /* The columns of a picture are runs of the list: t, omega, n; s, M, gamma; or all of it; the ball's with those of effects. */
 static bool is_default(const iso_scene *scene, int c)
 {
-    const iso_picture as = scene->as == ISO_AUTO ? scene->start.model : scene->as;
+    const iso_shown as = scene->as == ISO_SHOW_START ? (iso_shown)scene->start.model : scene->as;
     const bool ball = c == ISO_CLOCK_T || (c >= ISO_COLUMN_BALL && c < ISO_COLUMN_POINT) || c >= ISO_COLUMN_EFFECTS;
     const bool point = c == ISO_CLOCK_S || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
     if (!is_filled(scene, c)) return false;
     if (c < ISO_CLOCKS && iso_effects_clocks(&scene->effects)) return true;
-    return as == ISO_BOTH || (as == ISO_BALL && ball) || (as == ISO_POINT && point);
+    return as == ISO_SHOW_BOTH || (as == ISO_SHOW_BALL && ball) || (as == ISO_SHOW_POINT && point);
 }
 
 int iso_scene_columns(const iso_scene *scene, int columns[])
@@ -216,7 +235,7 @@ static const iso_place *find_place(const iso_scene *scene, const char *key)
 
 iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status)
 {
-    const iso_place *at = status == ISO_OK ? NULL : find_place(scene, iso_context_field(ctx));
+    const iso_place *at = status == ISO_OK ? NULL : find_place(scene, iso_context_about(ctx));
     if (!at) return status;
     return iso_context_fail(ctx, status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status, "", "%s:%d:%d: %s", name,
                             at->line, at->column, iso_context_message(ctx));

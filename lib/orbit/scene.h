@@ -10,16 +10,35 @@
 
 #include "../model/effect.h"
 
-/* The two models, in which an orbit can be computed and shown; ISO_EXACT: not computed by steps but the closed
- * solution of the point, a backend alone. */
-typedef enum iso_picture { ISO_BALL, ISO_POINT, ISO_BOTH, ISO_AUTO, ISO_EXACT } iso_picture;
+/* Ball and point have the same values in the three enumerations, so that a cast leads from one to another. */
 
-/* "ball", "point", "both", "auto", "exact"; NULL past the end. */
-const char *iso_picture_name(int picture);
+/* The two models. */
+typedef enum iso_model_kind { ISO_BALL, ISO_POINT } iso_model_kind;
+
+/* What finds an orbit: steps of the ball or of the point, or the closed solution of the point. */
+typedef enum iso_backend {
+    ISO_BACKEND_BALL,
+    ISO_BACKEND_POINT,
+    ISO_BACKEND_AUTO, /* chosen by start, effects and method */
+    ISO_BACKEND_EXACT
+} iso_backend;
+
+/* Whose states are given or written. */
+typedef enum iso_shown {
+    ISO_SHOW_BALL,
+    ISO_SHOW_POINT,
+    ISO_SHOW_BOTH,
+    ISO_SHOW_START /* the model of the start; of a scene only */
+} iso_shown;
+
+/* "ball", "point"; "ball", "point", "auto", "exact"; "ball", "point", "both", "auto". NULL past the end. */
+const char *iso_model_kind_name(int kind);
+const char *iso_backend_name(int backend);
+const char *iso_shown_name(int shown);
 
 /* Where an orbit starts (its clock at 0), in one of the models. */
 typedef struct iso_start {
-    iso_picture model;   /* ISO_BALL or ISO_POINT                                                        */
+    iso_model_kind model; /* of y                                                                        */
     double y[ISO_STATE]; /* omega [1/time], n; or M, gamma                                               */
     double eps;          /* coupling of the point's potential (24); NAN: the one with which H = 0, where
                             the point has a free ball; not read for a ball                               */
@@ -57,10 +76,10 @@ typedef struct iso_scene {
     iso_effects effects;        /* what acts on the ball beyond (9), or is asked of it                     */
     double end;                 /* last time, in t for a ball's start, in s for a point's; < 0: backwards  */
     double step;                /* between output rows, > 0; 0: a hundredth of |end|                       */
-    iso_picture backend;        /* what finds the orbit: ISO_BALL, ISO_POINT, ISO_EXACT, ISO_AUTO          */
+    iso_backend backend;        /* what finds the orbit                                                   */
     char method[ISO_NAME_SIZE]; /* a name of iso_methods, or "auto"                                        */
     double tolerance;           /* largest relative error of one step, in [1e-15, 0.1]                     */
-    iso_picture as;             /* what is written: ISO_BALL, ISO_POINT or ISO_BOTH                        */
+    iso_shown as;               /* whose states are written                                               */
     size_t columns;             /* names of the columns wanted; 0: those of `as`                           */
     char column[ISO_MAX_COLUMNS][ISO_NAME_SIZE];
     int places; /* of what was read from a file, 0 for a scene filled by hand                              */
@@ -72,7 +91,7 @@ typedef struct iso_scene {
  * ISO_BAD_ARGUMENT. Gives the status. */
 iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
 
-/* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_AUTO (the model of the start). */
+/* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_SHOW_START (the model of the start). */
 iso_scene iso_scene_default(void);
 
 /* More rows than this in a scene file are a mistake in `step`. */

@@ -348,7 +348,7 @@ iso_status iso_analogue_scene(iso_context *ctx, const iso_analogue_ball *ball, c
     iso_orbit_options o = iso_orbit_defaults(&s.start);
     o.effects = &s.effects;
     o.clock = ISO_CLOCK_S;
-    o.carry[ISO_CLOCK_T] = true;
+    o.with_clock[ISO_CLOCK_T] = true;
     status = iso_orbit_create(ctx, &s.params, &s.start, &o, &orbit);
     if (status != ISO_OK) return status;
     status = iso_orbit_at(orbit, s_end, &sample);

@@ -24,7 +24,7 @@ typedef struct checker {
 static const int first_column[] = {
     [ISO_BALL] = ISO_COLUMN_BALL, [ISO_POINT] = ISO_COLUMN_POINT}; /* of a trajectory */
 
-static const iso_system *system_of(iso_picture model)
+static const iso_system *system_of(iso_model_kind model)
 {
     return model == ISO_BALL ? &iso_system_ball : &iso_system_point;
 }
@@ -47,14 +47,14 @@ static void note(checker *c, const char *name, const char *what, double value, s
     at->row = row + 1;
 }
 
-static bool has_model(const checker *c, iso_picture model)
+static bool has_model(const checker *c, iso_model_kind model)
 {
     for (int i = 0; i < ISO_STATE; i++)
         if (c->columns[first_column[model] + i] < 0) return false;
     return true;
 }
 
-static void read_state(const checker *c, iso_picture model, size_t row, double y[ISO_STATE])
+static void read_state(const checker *c, iso_model_kind model, size_t row, double y[ISO_STATE])
 {
     const double *x = iso_record_const_row(c->record, row);
     for (int i = 0; i < ISO_STATE; i++) y[i] = x[c->columns[first_column[model] + i]];
@@ -75,7 +75,7 @@ static double read_clock(const checker *c, int clock, size_t row)
 
 /* The effects of a model's orbit. A point shows nothing that belongs to the ball alone, and its level follows from
  * each row if eps is known. */
-static iso_effects effects_of(const checker *c, iso_picture model)
+static iso_effects effects_of(const checker *c, iso_model_kind model)
 {
     if (model == ISO_BALL) return c->effects;
     iso_effects effects = iso_effects_acting(&c->effects);
@@ -112,14 +112,14 @@ static double integral_drift(const checker *c, const expectations *e, int i, siz
 
 /* An integral should keep the value of the first row. There are two exceptions: a constraint has its own exact value;
  * and where the record has a ball's columns or clocks, H of the point must be 0, or the level that it states. */
-static void expect_integrals(const checker *c, iso_picture model, const iso_orbit *first, expectations *e)
+static void expect_integrals(const checker *c, iso_model_kind model, const iso_orbit *first, expectations *e)
 {
     const iso_params *own = &iso_orbit_units(first)->own;
     const double level = iso_effects_level(&c->effects) / iso_unit(iso_orbit_units(first), iso_level_dimension());
     const double claimed = iso_effects_have_level(&c->effects) ? iso_coupling(own, level) : 0;
     const bool twin = c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || has_model(c, ISO_BALL);
     *e = (expectations){.system = system_of(model), .first = first};
-    e->count = iso_integrals_holding(e->system, &iso_orbit_model(first)->field, e->integral, ISO_MAX_INTEGRALS);
+    e->count = iso_integrals_holding(e->system, &iso_orbit_model(first)->problem, e->integral, ISO_MAX_INTEGRALS);
     for (int i = 0; i < e->count; i++) {
         double size;
         const bool on_level = twin && strcmp(e->integral[i]->name, "H") == 0;
@@ -128,7 +128,7 @@ static void expect_integrals(const checker *c, iso_picture model, const iso_orbi
     }
 }
 
-static void check_integrals(checker *c, iso_picture model, const iso_orbit *first)
+static void check_integrals(checker *c, iso_model_kind model, const iso_orbit *first)
 {
     char name[sizeof c->out->residual[0].name];
     expectations e;
@@ -154,7 +154,7 @@ static double distance(const double a[ISO_STATE], const double b[ISO_STATE])
 }
 
 /* The clock to follow: the model's own if the record has it, else the first one there; -1: the record has none. */
-static int clock_to_follow(const checker *c, iso_picture model)
+static int clock_to_follow(const checker *c, iso_model_kind model)
 {
     const int own = (int)system_of(model)->clock;
     if (c->columns[own] >= 0) return own;
@@ -165,7 +165,7 @@ static int clock_to_follow(const checker *c, iso_picture model)
 
 /* Integrates `row` to the time of the next row. The record's other clocks are integrated, too, where the orbit has
  * them: a point with H not 0 has no free ball and no time t. */
-static iso_status next_sample(const checker *c, iso_picture model, int clock, size_t row, iso_sample *sample)
+static iso_status next_sample(const checker *c, iso_model_kind model, int clock, size_t row, iso_sample *sample)
 {
     iso_start start;
     iso_effects effects = effects_of(c, model);
@@ -177,10 +177,10 @@ static iso_status next_sample(const checker *c, iso_picture model, int clock, si
     o.tolerance = c->tolerance;
     o.clock = (iso_clock)clock;
     o.max_steps = ISO_MAX_ROW_STEPS;
-    for (int k = 0; k < ISO_CLOCKS; k++) o.carry[k] = k != clock && c->columns[k] >= 0;
+    for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = k != clock && c->columns[k] >= 0;
     status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
     if (status == ISO_NOT_MAPPED) {
-        for (int k = 0; k < ISO_CLOCKS; k++) o.carry[k] = false;
+        for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = false;
         status = iso_orbit_create(c->ctx, c->params, &start, &o, &orbit);
     }
     if (status == ISO_OK)
@@ -261,11 +261,11 @@ static void check_effects(checker *c, const iso_sample *flow, size_t row)
 }
 
 /* Whether the record has what an effect that acts on nothing begins with: the numbers that turn with the ball, and on a
- * plane the way, without which the height is not known. */
+ * plane the displacement, without which the height is not known. */
 static bool has_beginning(const checker *c, iso_effect_id id)
 {
-    const int way = column_of(id, NULL);
-    bool has = c->params->k != 1 || way < 0 || c->columns[way] >= 0;
+    const int displacement = column_of(id, NULL);
+    bool has = c->params->k != 1 || displacement < 0 || c->columns[displacement] >= 0;
     for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
         if (n->turns_with) has = has && c->columns[column_of(id, n->turns_with)] >= 0;
     return has;
@@ -288,7 +288,7 @@ static void choose_observers(checker *c)
             c->effects.on[e] = (c->effects.on[e] && has_beginning(c, e)) || is_shown(c, e);
 }
 
-static iso_status check_step(checker *c, iso_picture model, int clock, size_t row)
+static iso_status check_step(checker *c, iso_model_kind model, int clock, size_t row)
 {
     iso_sample sample;
     double next[ISO_STATE];
@@ -296,7 +296,7 @@ static iso_status check_step(checker *c, iso_picture model, int clock, size_t ro
     const iso_status status = next_sample(c, model, clock, row, &sample);
     if (status != ISO_OK) return status;
     read_state(c, model, row + 1, next);
-    snprintf(name, sizeof name, "%s flow", iso_picture_name((int)model));
+    snprintf(name, sizeof name, "%s flow", iso_model_kind_name((int)model));
     note(c, name, "each row integrated to the next", distance(model == ISO_BALL ? sample.ball : sample.point, next),
          row + 1);
     check_effects(c, &sample, row + 1);
@@ -310,7 +310,7 @@ static iso_status check_step(checker *c, iso_picture model, int clock, size_t ro
     return ISO_OK;
 }
 
-static iso_status check_flow(checker *c, iso_picture model)
+static iso_status check_flow(checker *c, iso_model_kind model)
 {
     const int clock = clock_to_follow(c, model);
     for (size_t row = 0; clock >= 0 && row + 1 < iso_record_rows(c->record); row++) {
@@ -338,7 +338,7 @@ static void check_map(checker *c)
 }
 
 /* The orbit of the first row. Every row must be a valid start. */
-static iso_status open_first(checker *c, iso_picture model, iso_orbit **first)
+static iso_status open_first(checker *c, iso_model_kind model, iso_orbit **first)
 {
     iso_start start;
     iso_effects effects = effects_of(c, model);
@@ -353,7 +353,7 @@ static iso_status open_first(checker *c, iso_picture model, iso_orbit **first)
     return iso_orbit_create(c->ctx, c->params, &start, &o, first);
 }
 
-static iso_status check_model(checker *c, iso_picture model)
+static iso_status check_model(checker *c, iso_model_kind model)
 {
     iso_orbit *first;
     const iso_status status = open_first(c, model, &first);
@@ -437,7 +437,7 @@ iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const is
     bool has[2];
     *drifts = NULL;
     iso_status status = begin(&c, has);
-    const iso_picture model = has[0] ? ISO_BALL : ISO_POINT;
+    const iso_model_kind model = has[0] ? ISO_BALL : ISO_POINT;
     if (status == ISO_OK) status = open_first(&c, model, &first);
     if (status == ISO_OK) {
         expect_integrals(&c, model, first, &e);

@@ -35,7 +35,7 @@ static void list_drifts(runner *r, int which, const iso_sample *start)
     iso_backend_run *run = &r->out->run[which];
     for (int s = 0; iso_systems[s]; s++) {
         const iso_integral *list[ISO_MAX_INTEGRALS];
-        const int count = iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->field, list,
+        const int count = iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->problem, list,
                                                 ISO_MAX_INTEGRALS - run->drifts);
         for (int i = 0; i < count; i++) {
             double size;
@@ -62,14 +62,14 @@ static void follow_drifts(const runner *r, int which, const iso_sample *sample)
 /* --- one backend ------------------------------------------------------------------------------------------------ */
 
 /* The scene's method if it can integrate the backend's model; NULL: auto. */
-static const iso_method *method_for(const iso_scene *scene, iso_picture backend)
+static const iso_method *method_for(const iso_scene *scene, iso_backend backend)
 {
     const iso_method *m = iso_method_find(scene->method);
-    const iso_system *const system = backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
-    return !m || backend == ISO_EXACT || (m->system && m->system != system) ? NULL : m;
+    const iso_system *const system = backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
+    return !m || backend == ISO_BACKEND_EXACT || (m->system && m->system != system) ? NULL : m;
 }
 
-static iso_status open_backend(runner *r, iso_picture backend)
+static iso_status open_backend(runner *r, iso_backend backend)
 {
     const int which = r->out->runs;
     iso_backend_run *run = &r->out->run[which];
@@ -84,8 +84,8 @@ static iso_status open_backend(runner *r, iso_picture backend)
     o.backend = run->backend = backend;
     o.method = method_for(r->scene, backend);
     o.tolerance = r->scene->tolerance;
-    o.show = ISO_BOTH;
-    for (int clock = 0; clock < ISO_CLOCKS; clock++) o.carry[clock] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int clock = 0; clock < ISO_CLOCKS; clock++) o.with_clock[clock] = true;
     const double begin = processor_seconds();
     status = iso_orbit_create(r->ctx, &r->scene->params, &r->scene->start, &o, &r->orbit[which]);
     if (status != ISO_OK) return status;
@@ -102,13 +102,13 @@ static iso_status open_backend(runner *r, iso_picture backend)
 /* It is no failure if there is no closed solution, or if it cannot be found. */
 static iso_status open_exact(runner *r)
 {
-    const iso_status status = open_backend(r, ISO_EXACT);
+    const iso_status status = open_backend(r, ISO_BACKEND_EXACT);
     if (status != ISO_BAD_ARGUMENT && status != ISO_NUMERICAL) return status;
     snprintf(r->out->no_exact, sizeof r->out->no_exact, "%s", iso_context_message(r->ctx));
     return ISO_OK;
 }
 
-static iso_status find(runner *r, int which, size_t i, iso_sample *sample)
+static iso_status find_sample(runner *r, int which, size_t i, iso_sample *sample)
 {
     iso_backend_run *run = &r->out->run[which];
     const double begin = processor_seconds();
@@ -130,20 +130,21 @@ static iso_status keep(runner *r, int which, size_t i, const iso_sample *sample)
 }
 
 /* A row is kept only when every backend has found it: so all have the same rows when one of them fails. */
-static iso_status take_row(runner *r, size_t i)
+static iso_status add_row(runner *r, size_t i)
 {
     iso_sample sample[ISO_BACKENDS];
     iso_status status = ISO_OK;
-    for (int which = 0; status == ISO_OK && which < r->out->runs; which++) status = find(r, which, i, &sample[which]);
+    for (int which = 0; status == ISO_OK && which < r->out->runs; which++)
+        status = find_sample(r, which, i, &sample[which]);
     for (int which = 0; status == ISO_OK && which < r->out->runs; which++) status = keep(r, which, i, &sample[which]);
     return status;
 }
 
-static iso_status take_rows(runner *r, bool (*progress)(double part, void *data), void *data)
+static iso_status add_rows(runner *r, bool (*progress)(double part, void *data), void *data)
 {
     const size_t rows = iso_scene_rows(r->scene);
     for (size_t i = 0; i < rows; i++) {
-        const iso_status status = take_row(r, i);
+        const iso_status status = add_row(r, i);
         if (status != ISO_OK) return status;
         if (progress && !progress((double)(i + 1) / (double)rows, data)) break;
     }
@@ -202,11 +203,11 @@ iso_status iso_compare(iso_context *ctx, const iso_scene *scene, bool (*progress
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a comparison");
     runner r = {.ctx = ctx, .scene = scene, .effects = iso_effects_acting(&scene->effects), .out = c};
     iso_status status = iso_scene_check_times(ctx, scene);
-    if (status == ISO_OK) status = open_backend(&r, ISO_BALL);
+    if (status == ISO_OK) status = open_backend(&r, ISO_BACKEND_BALL);
     if (status == ISO_OK) status = iso_orbit_check_time(r.orbit[ISO_BALL], scene->end);
-    if (status == ISO_OK) status = open_backend(&r, ISO_POINT);
+    if (status == ISO_OK) status = open_backend(&r, ISO_BACKEND_POINT);
     if (status == ISO_OK) status = open_exact(&r);
-    if (status == ISO_OK) status = take_rows(&r, progress, data);
+    if (status == ISO_OK) status = add_rows(&r, progress, data);
     for (int b = 0; b < ISO_BACKENDS; b++) iso_orbit_free(r.orbit[b]);
     const iso_record *rows = c->runs > 0 ? c->run[c->runs - 1].trajectory : NULL;
     if (rows && iso_record_rows(rows) > 0 && (status == ISO_OK || status == ISO_NUMERICAL || status == ISO_STOPPED)) {

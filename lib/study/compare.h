@@ -25,7 +25,7 @@ typedef struct iso_drift {
 
 /* One backend's part. */
 typedef struct iso_backend_run {
-    iso_picture backend;
+    iso_backend backend;
     const iso_method *method;
     iso_record *trajectory; /* the columns before those of effects, one row for each time of the scene   */
     iso_statistics statistics;

@@ -39,7 +39,7 @@ typedef struct measurer {
 
 iso_cost_options iso_cost_defaults(void)
 {
-    return (iso_cost_options){.backend = ISO_AUTO};
+    return (iso_cost_options){.backend = ISO_BACKEND_AUTO};
 }
 
 static double elapsed(const measurer *m)
@@ -47,7 +47,7 @@ static double elapsed(const measurer *m)
     return processor_seconds() - m->begin;
 }
 
-static void tell(measurer *m, const char *what)
+static void report_progress(measurer *m, const char *what)
 {
     m->share = fmax(m->share, fmin(1, elapsed(m) / m->seconds));
     if (m->options->progress) m->options->progress(m->share, what, m->options->data);
@@ -55,7 +55,7 @@ static void tell(measurer *m, const char *what)
 
 /* --- which cells ------------------------------------------------------------------------------------------------ */
 
-static iso_cost_line *add_line(measurer *m, iso_picture backend, const iso_method *method, int count)
+static iso_cost_line *add_line(measurer *m, iso_backend backend, const iso_method *method, int count)
 {
     iso_cost *c = m->out;
     iso_cost_line *line = &c->line[c->lines++];
@@ -79,10 +79,10 @@ static iso_cost_line *add_line(measurer *m, iso_picture backend, const iso_metho
 }
 
 /* Whether this backend and method can compute the scene at all. */
-static bool serves(measurer *m, iso_picture backend, const iso_method *method)
+static bool serves(measurer *m, iso_backend backend, const iso_method *method)
 {
     iso_orbit *orbit;
-    const iso_system *system = backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
+    const iso_system *system = backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
     if (method && method->system && method->system != system) return false;
     const iso_status status = iso_cost_orbit_open(&m->p, backend, method, 1e-6, false, &orbit);
     iso_orbit_free(orbit);
@@ -92,17 +92,18 @@ static bool serves(measurer *m, iso_picture backend, const iso_method *method)
 static void list_lines(measurer *m)
 {
     const iso_cost_options *o = m->options;
-    for (int backend = ISO_BALL; backend <= ISO_POINT; backend++) {
-        if ((o->backend != ISO_AUTO && (int)o->backend != backend) || !serves(m, (iso_picture)backend, NULL))
+    for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
+        if ((o->backend != ISO_BACKEND_AUTO && o->backend != backend) || !serves(m, backend, NULL))
             continue;
-        if (o->method && serves(m, (iso_picture)backend, o->method))
-            add_line(m, (iso_picture)backend, o->method, m->tolerances);
+        if (o->method && serves(m, backend, o->method))
+            add_line(m, backend, o->method, m->tolerances);
         for (int i = 0; !o->method && iso_methods[i] && m->out->lines < MOST_LINES - 1; i++)
-            if (!iso_methods[i]->reference && serves(m, (iso_picture)backend, iso_methods[i]))
-                add_line(m, (iso_picture)backend, iso_methods[i], m->tolerances);
+            if (!iso_methods[i]->reference && serves(m, backend, iso_methods[i]))
+                add_line(m, backend, iso_methods[i], m->tolerances);
     }
-    if ((o->backend == ISO_AUTO || o->backend == ISO_EXACT) && !o->method && serves(m, ISO_EXACT, NULL))
-        add_line(m, ISO_EXACT, NULL, 1);
+    if ((o->backend == ISO_BACKEND_AUTO || o->backend == ISO_BACKEND_EXACT) && !o->method &&
+        serves(m, ISO_BACKEND_EXACT, NULL))
+        add_line(m, ISO_BACKEND_EXACT, NULL, 1);
 }
 
 static iso_status choose_cells(measurer *m)
@@ -123,16 +124,16 @@ static iso_status choose_cells(measurer *m)
 /* --- errors ----------------------------------------------------------------------------------------------------- */
 
 /* The closed solution is compared with the second reference, because the first may be itself. */
-static void take_errors(measurer *m, const cost_track *track, iso_cost_cell *cell)
+static void measure_errors(measurer *m, const cost_track *track, iso_cost_cell *cell)
 {
     const cost_reference *r = &m->reference;
-    const cost_track *against = cell->backend == ISO_EXACT ? &r->second : &r->first;
-    cell->error = cell->backend == ISO_EXACT && !r->doubted ? NAN : iso_cost_distance(track, against);
+    const cost_track *against = cell->backend == ISO_BACKEND_EXACT ? &r->second : &r->first;
+    cell->error = cell->backend == ISO_BACKEND_EXACT && !r->doubted ? NAN : iso_cost_distance(track, against);
     cell->energy_drift = track->energy_drift;
     cell->constraint_drift = track->constraint_drift;
     cell->statistics = track->statistics;
     cell->below = cell->error < 3 * r->uncertainty;
-    if (cell->backend == ISO_EXACT) cell->below = false;
+    if (cell->backend == ISO_BACKEND_EXACT) cell->below = false;
 }
 
 static void fail(iso_cost_cell *cell, iso_status status, const char *words)
@@ -159,10 +160,10 @@ static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double 
     if (status == ISO_OK) {
         cell->status = ISO_OK;
         cell->why[0] = 0;
-        take_errors(m, &track, cell);
+        measure_errors(m, &track, cell);
         if (iso_cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, true, 2 * seconds, &track) == ISO_OK)
-            cell->clock_error = iso_cost_clock_distance(&track, cell->backend == ISO_EXACT ? &m->reference.second
-                                                                                           : &m->reference.first);
+            cell->clock_error = iso_cost_clock_distance(
+                &track, cell->backend == ISO_BACKEND_EXACT ? &m->reference.second : &m->reference.first);
     } else if (status != ISO_STOPPED) {
         fail(cell, status, iso_context_message(m->p.ctx));
     } else if (!iso_cost_is_stopped(&m->p)) {
@@ -207,7 +208,7 @@ static void check_cells(measurer *m, double about[])
             iso_cost_cell *cell = &m->out->cell[line->first + i];
             check_cell(m, cell, share_of(m, left--), &about[line->first + i]);
             if (cell->status == ISO_OK) m->promised += repeats_of(about[line->first + i]);
-            tell(m, cell->method ? cell->method->name : "exact");
+            report_progress(m, cell->method ? cell->method->name : "exact");
             if (cell->status != ISO_STOPPED || iso_cost_is_stopped(&m->p)) continue;
             alive[l] = false;
             give_up(m, line, i + 1);
@@ -224,7 +225,7 @@ static void time_cell(measurer *m, iso_cost_cell *cell, cost_times *times, doubl
                                             &times->setup[n], &times->stepping[n], &cell->statistics);
     if (status == ISO_OK)
         times->count++;
-    else if (!m->p.watch.stopped)
+    else if (!m->p.monitor.stopped)
         fail(cell, status, iso_context_message(m->p.ctx));
 }
 
@@ -240,7 +241,7 @@ static void time_cells(measurer *m, const double about[])
             if (cell->status != ISO_OK || iso_cost_times_settled(&m->times[i])) continue;
             time_cell(m, cell, &m->times[i], about[i]);
             open++;
-            tell(m, "times");
+            report_progress(m, "times");
         }
     }
 }
@@ -279,7 +280,7 @@ static iso_status find_reference(measurer *m)
     m->time = calloc((size_t)times, sizeof *m->time);
     if (!m->time) return iso_context_fail(m->p.user, ISO_NO_MEMORY, "", "no memory for %d times", times);
     for (int i = 0; i < times; i++) m->time[i] = i + 1 == times ? m->p.end : m->p.end * ((i + 1.0) / times);
-    tell(m, "reference");
+    report_progress(m, "reference");
     const iso_status status =
         iso_cost_reference_find(&m->p, times, m->time, REFERENCES * m->seconds, false, &m->reference);
     if (status != ISO_OK) return status;
@@ -324,7 +325,7 @@ iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_
         status = measure(&m);
         m.out->seconds = elapsed(&m);
         m.share = 1;
-        tell(&m, "done");
+        report_progress(&m, "done");
     }
     iso_cost_reference_free(&m.reference);
     free(m.time);

@@ -28,7 +28,7 @@ typedef struct iso_cost_options {
     bool quick;          /* three tolerances and about 3 s; else every second power of ten and about 40 s       */
     double seconds;      /* of processor time, about how long it may take in all; 0: as above                   */
     int times;           /* output times at which errors are taken; 0: 20                                       */
-    iso_picture backend; /* this backend alone; ISO_AUTO: all                                                   */
+    iso_backend backend; /* this backend alone; ISO_BACKEND_AUTO: all                                           */
     const iso_method *method; /* this method alone; NULL: all that serve the scene, but for slow reference ones */
     double tolerance;    /* this tolerance alone; 0: all                                                        */
     void (*progress)(double share, const char *what, void *data); /* may be NULL; share in [0, 1], never falls  */
@@ -38,7 +38,7 @@ typedef struct iso_cost_options {
 iso_cost_options iso_cost_defaults(void);
 
 typedef struct iso_cost_cell {
-    iso_picture backend;
+    iso_backend backend;
     const iso_method *method; /* of the closed solution: NULL, and no tolerance (NaN)                           */
     double tolerance;
     iso_status status;        /* ISO_OK, or why there is no result; ISO_STOPPED: it would take too long         */
@@ -56,7 +56,7 @@ typedef struct iso_cost_cell {
 
 /* One method of one backend, over its tolerances, the loosest first. */
 typedef struct iso_cost_line {
-    iso_picture backend;
+    iso_backend backend;
     const iso_method *method;
     int first, count;        /* its cells                                                                    */
     double digit;            /* factor in time for one more digit, fitted where it still gains; NaN: too few */

@@ -31,7 +31,7 @@ typedef struct grower {
 /* --- how far ---------------------------------------------------------------------------------------------------- */
 
 /* The time that the scene's own end takes. */
-static iso_status probe(grower *g, iso_picture backend, const iso_method *method, double tolerance, double *seconds)
+static iso_status probe(grower *g, iso_backend backend, const iso_method *method, double tolerance, double *seconds)
 {
     cost_track track;
     iso_status status = iso_cost_track_make(&g->p, TIMES, g->time, &track);
@@ -54,7 +54,7 @@ static iso_status choose_horizons(grower *g, int *horizons)
                    : iso_context_fail(g->p.user, ISO_NUMERICAL, "", "the run does not get to %g: %s", g->p.end,
                                       iso_context_message(g->p.ctx));
     const iso_method *const fine = iso_method_with_more_digits(ISO_DOUBLE_DIGITS); /* as for a reference */
-    if (!fine || probe(g, g->p.scene->start.model, fine, 1e-15, &series) != ISO_OK) series = 0;
+    if (!fine || probe(g, (iso_backend)g->p.scene->start.model, fine, 1e-15, &series) != ISO_OK) series = 0;
     const double unit = (c->method ? 8 * own : 0) + 2.5 * series, most = 1 + floor(log2(fmax(1, SECONDS / unit)));
     if (most >= *horizons) return ISO_OK;
     *horizons = (int)most;
@@ -75,15 +75,15 @@ static void fill_times(grower *g, int horizons)
 
 /* The largest error up to each time, and the uncertainty of the reference. The error of the closed solution is
  * measured against the second reference, whose uncertainty is not known. */
-static void take_errors(grower *g)
+static void measure_errors(grower *g)
 {
     const cost_reference *r = &g->reference;
-    const cost_track *against = g->cell.backend == ISO_EXACT ? &r->second : &r->first;
+    const cost_track *against = g->cell.backend == ISO_BACKEND_EXACT ? &r->second : &r->first;
     double error = 0, uncertainty = 0;
     for (int i = 0; i < g->track.reached; i++) {
         g->error[i] = error = fmax(error, iso_cost_distance_at(&g->track, against, i));
         uncertainty = r->doubted ? fmax(uncertainty, iso_cost_distance_at(&r->first, &r->second, i)) : INFINITY;
-        g->uncertainty[i] = g->cell.backend == ISO_EXACT ? NAN : uncertainty;
+        g->uncertainty[i] = g->cell.backend == ISO_BACKEND_EXACT ? NAN : uncertainty;
     }
 }
 
@@ -102,7 +102,7 @@ static iso_status find_errors(grower *g, int horizons)
     if (status != ISO_OK)
         snprintf(g->out->why, sizeof g->out->why, "%.159s",
                  status == ISO_STOPPED ? "it would take too long" : iso_context_message(g->p.ctx));
-    take_errors(g);
+    measure_errors(g);
     return ISO_OK;
 }
 
@@ -120,7 +120,7 @@ static bool time_horizon(grower *g, double end, cost_times *times)
     return times->count > 0;
 }
 
-static void take_horizons(grower *g)
+static void measure_horizons(grower *g)
 {
     iso_cost_growth *out = g->out;
     for (int h = 0; h < g->track.reached / TIMES; h++) {
@@ -189,9 +189,9 @@ static iso_status grow(grower *g, int horizons)
     if (status == ISO_OK) status = find_errors(g, horizons);
     if (status != ISO_OK) return status;
     snprintf(g->out->reference, sizeof g->out->reference, "%s",
-             g->cell.backend == ISO_EXACT ? g->reference.second_what : g->reference.what);
+             g->cell.backend == ISO_BACKEND_EXACT ? g->reference.second_what : g->reference.what);
     snprintf(g->out->second, sizeof g->out->second, "%s", g->reference.second_what);
-    take_horizons(g);
+    measure_horizons(g);
     fit_errors(g);
     fit_seconds(g->out);
     return iso_cost_is_stopped(&g->p) ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request") : ISO_OK;

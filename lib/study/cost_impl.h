@@ -5,13 +5,13 @@
 #include "study/cost.h"
 #include "study/seconds_impl.h"
 
-/* What may end a run: the caller's own watch, or a limit of processor time. */
-typedef struct cost_watch {
+/* What may end a run: the caller's own monitor, or a limit of processor time. */
+typedef struct cost_monitor {
     iso_context *user;
     double deadline; /* in processor_seconds(); infinite: no limit */
     unsigned calls;
     bool stopped, late; /* by the caller; by the time */
-} cost_watch;
+} cost_monitor;
 
 /* A scene, with a context of its own: a cell that fails leaves no failure in the caller's context. */
 typedef struct cost_problem {
@@ -20,7 +20,7 @@ typedef struct cost_problem {
     iso_effects effects;    /* that act on the motion                                */
     iso_clock clock, other; /* the clock of the scene's times, and the clock whose error is measured */
     double end;
-    cost_watch watch;
+    cost_monitor monitor;
 } cost_problem;
 
 /* The caller's refusals, in the caller's context. Errors: those of iso_cost_measure about the scene. */
@@ -28,8 +28,8 @@ iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_s
                                  const iso_cost_options *o);
 void iso_cost_problem_close(cost_problem *p);
 
-iso_status iso_cost_orbit_open(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance,
-                               bool carry, iso_orbit **orbit);
+iso_status iso_cost_orbit_open(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
+                               bool with_clock, iso_orbit **orbit);
 
 /* From now on everything that uses p->ctx stops after so many seconds. */
 void iso_cost_allow(cost_problem *p, double seconds);
@@ -55,8 +55,8 @@ iso_status iso_cost_track_make(cost_problem *p, int times, const double time[], 
 void iso_cost_track_free(cost_track *track);
 
 /* Fills the track. Gives up (ISO_STOPPED) as soon as it looks as if it took longer than so many seconds. */
-iso_status iso_cost_walk(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance, bool carry,
-                         double seconds, cost_track *track);
+iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
+                         bool with_clock, double seconds, cost_track *track);
 
 /* Distances of two tracks: in row i; the largest over the rows that both reached; of the clock, relative to its
  * largest value. */

@@ -7,17 +7,17 @@
 
 /* A run from which the reference may come. */
 typedef struct source {
-    iso_picture backend;
+    iso_backend backend;
     const iso_method *method;
     double tolerance;
 } source;
 
 static void describe(const source *s, char what[120])
 {
-    if (s->backend == ISO_EXACT)
+    if (s->backend == ISO_BACKEND_EXACT)
         snprintf(what, 120, "the closed solution");
     else
-        snprintf(what, 120, "%s at %g, backend %s", s->method->name, s->tolerance, iso_picture_name((int)s->backend));
+        snprintf(what, 120, "%s at %g, backend %s", s->method->name, s->tolerance, iso_backend_name((int)s->backend));
 }
 
 static iso_status follow(cost_problem *p, const source *s, double seconds, cost_track *track)
@@ -33,7 +33,7 @@ static int best_source(cost_problem *p, const source list[], int count, double s
 {
     int best = -1, farthest = 0, used = -1;
     for (int i = 0; i < count && !iso_cost_is_stopped(p); i++) {
-        if (list[i].backend != ISO_EXACT && !list[i].method) continue;
+        if (list[i].backend != ISO_BACKEND_EXACT && !list[i].method) continue;
         used = i;
         if (follow(p, &list[i], seconds, track) == ISO_OK) return i;
         if (track->reached > farthest) farthest = track->reached, best = i;
@@ -51,13 +51,13 @@ typedef struct sources {
     source list[MOST_SOURCES];
 } sources;
 
-static void add(sources *s, iso_picture backend, const iso_method *method, double tolerance)
+static void add(sources *s, iso_backend backend, const iso_method *method, double tolerance)
 {
     if (s->count < MOST_SOURCES) s->list[s->count++] = (source){backend, method, tolerance};
 }
 
 /* Methods with more digits than a double has, the most first. */
-static void add_fine(sources *s, iso_picture backend)
+static void add_fine(sources *s, iso_backend backend)
 {
     const iso_method *fine[MOST_SOURCES];
     int count = 0, digits = ISO_DOUBLE_DIGITS;
@@ -68,7 +68,7 @@ static void add_fine(sources *s, iso_picture backend)
 
 /* What stiff models need: the implicit witnesses, and the last of them, which goes farthest, at a looser
  * tolerance. */
-static void add_implicit(sources *s, iso_picture backend)
+static void add_implicit(sources *s, iso_backend backend)
 {
     const iso_method *last = NULL;
     for (int place = 1; iso_method_witness(place); place++)
@@ -81,17 +81,17 @@ static void add_implicit(sources *s, iso_picture backend)
 static iso_status find_first(cost_problem *p, double seconds, bool may_fall_short, cost_reference *r, source *from)
 {
     sources s = {0};
-    add(&s, ISO_EXACT, NULL, 0);
-    add_fine(&s, p->scene->start.model);
-    add(&s, ISO_BALL, iso_method_with_more_digits(ISO_DOUBLE_DIGITS), 1e-15);
-    add_implicit(&s, ISO_BALL);
+    add(&s, ISO_BACKEND_EXACT, NULL, 0);
+    add_fine(&s, (iso_backend)p->scene->start.model);
+    add(&s, ISO_BACKEND_BALL, iso_method_with_more_digits(ISO_DOUBLE_DIGITS), 1e-15);
+    add_implicit(&s, ISO_BACKEND_BALL);
     const int i = best_source(p, s.list, s.count, seconds, &r->first);
     if (iso_cost_is_stopped(p)) return iso_context_fail(p->user, ISO_STOPPED, "", "stopped on request");
     if (i < 0 || (r->first.reached < r->first.times && !may_fall_short))
         return iso_context_fail(p->user, ISO_NUMERICAL, "", "no reference gets to %s = %g in %.2g s: %s",
                                 iso_clock_name(p->clock), p->end, seconds, iso_context_message(p->ctx));
     *from = s.list[i];
-    r->exact = from->backend == ISO_EXACT;
+    r->exact = from->backend == ISO_BACKEND_EXACT;
     describe(from, r->what);
     return ISO_OK;
 }
@@ -100,8 +100,9 @@ static iso_status find_first(cost_problem *p, double seconds, bool may_fall_shor
  * first is the closed solution, in that of the start. */
 static bool find_by_series(cost_problem *p, const source *first, double seconds, cost_reference *r)
 {
-    const iso_picture own = p->scene->start.model, other = own == ISO_BALL ? ISO_POINT : ISO_BALL;
-    const iso_picture backend = first->backend == ISO_EXACT ? own : first->backend == own ? other : own;
+    const iso_backend own = (iso_backend)p->scene->start.model,
+                      other = own == ISO_BACKEND_BALL ? ISO_BACKEND_POINT : ISO_BACKEND_BALL;
+    const iso_backend backend = first->backend == ISO_BACKEND_EXACT ? own : first->backend == own ? other : own;
     sources s = {0};
     add_fine(&s, backend);
     const int i = best_source(p, s.list, s.count, seconds, &r->second);
@@ -115,7 +116,7 @@ static bool find_by_series(cost_problem *p, const source *first, double seconds,
 static bool find_by_others(cost_problem *p, const source *first, double seconds, cost_reference *r)
 {
     static const double tolerances[] = {1e-13, 1e-14, 1e-15};
-    source best = {ISO_BALL, NULL, 0}, now = best;
+    source best = {ISO_BACKEND_BALL, NULL, 0}, now = best;
     double least = INFINITY;
     for (int place = 1; (now.method = iso_method_witness(place)); place++)
         for (int i = 0; i < 3 && !iso_cost_is_stopped(p); i++) {

@@ -5,14 +5,14 @@
 #include "base/vec3_impl.h"
 #include "study/cost_impl.h"
 
-/* --- the scene, and its watch ----------------------------------------------------------------------------------- */
+/* --- the scene, and its monitor --------------------------------------------------------------------------------- */
 
 /* Of so many calls one looks at the clock. It is called at each step, and must not slow down what is measured. */
 enum { CALLS = 64 };
 
 static bool go_on(void *data)
 {
-    cost_watch *w = data;
+    cost_monitor *w = data;
     if (w->stopped || w->late) return false;
     if (w->calls++ % CALLS != 0) return true;
     w->stopped = !iso_context_goes_on(w->user);
@@ -22,15 +22,15 @@ static bool go_on(void *data)
 
 void iso_cost_allow(cost_problem *p, double seconds)
 {
-    p->watch.deadline = processor_seconds() + seconds;
-    p->watch.late = false;
-    p->watch.calls = 0;
+    p->monitor.deadline = processor_seconds() + seconds;
+    p->monitor.late = false;
+    p->monitor.calls = 0;
 }
 
 bool iso_cost_is_stopped(cost_problem *p)
 {
-    if (!p->watch.stopped) p->watch.stopped = !iso_context_goes_on(p->user);
-    return p->watch.stopped;
+    if (!p->monitor.stopped) p->monitor.stopped = !iso_context_goes_on(p->user);
+    return p->monitor.stopped;
 }
 
 static iso_status check_scene(iso_context *ctx, const iso_scene *scene, const iso_cost_options *o)
@@ -54,7 +54,7 @@ iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_s
                                  const iso_cost_options *o)
 {
     *p = (cost_problem){.user = user, .scene = scene, .effects = iso_effects_acting(&scene->effects)};
-    p->watch = (cost_watch){.user = user, .deadline = INFINITY};
+    p->monitor = (cost_monitor){.user = user, .deadline = INFINITY};
     p->clock = iso_orbit_defaults(&scene->start).clock;
     p->other = p->clock == ISO_CLOCK_T ? ISO_CLOCK_S : ISO_CLOCK_T;
     p->end = scene->end;
@@ -65,10 +65,10 @@ iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_s
     return ISO_OK;
 }
 
-/* Called for each orbit, when the problem no longer moves: the context keeps the address of its watch. */
-static void watch(cost_problem *p)
+/* Called for each orbit, when the problem no longer moves: the context keeps the address of its monitor. */
+static void set_monitor(cost_problem *p)
 {
-    iso_context_watch(p->ctx, go_on, &p->watch);
+    iso_context_set_monitor(p->ctx, go_on, &p->monitor);
 }
 
 void iso_cost_problem_close(cost_problem *p)
@@ -76,17 +76,17 @@ void iso_cost_problem_close(cost_problem *p)
     iso_context_free(p->ctx);
 }
 
-iso_status iso_cost_orbit_open(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance,
-                               bool carry, iso_orbit **orbit)
+iso_status iso_cost_orbit_open(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
+                               bool with_clock, iso_orbit **orbit)
 {
     iso_orbit_options o = iso_orbit_defaults(&p->scene->start);
     o.effects = &p->effects;
     o.backend = backend;
     o.method = method;
     if (method) o.tolerance = tolerance;
-    o.show = ISO_BALL;
-    o.carry[p->other] = carry;
-    watch(p);
+    o.shown = ISO_SHOW_BALL;
+    o.with_clock[p->other] = with_clock;
+    set_monitor(p);
     return iso_orbit_create(p->ctx, &p->scene->params, &p->scene->start, &o, orbit);
 }
 
@@ -115,7 +115,7 @@ static keeper find_integrals(const iso_orbit *orbit, const iso_sample *start, co
 {
     keeper k;
     double size;
-    k.count = iso_integrals_holding(&iso_system_ball, &iso_orbit_model(orbit)->field, k.list, ISO_MAX_INTEGRALS);
+    k.count = iso_integrals_holding(&iso_system_ball, &iso_orbit_model(orbit)->problem, k.list, ISO_MAX_INTEGRALS);
     track->energy_drift = track->constraint_drift = NAN;
     for (int i = 0; i < k.count; i++) {
         if (k.list[i]->known != ISO_ANY_VALUE) track->constraint_drift = 0;
@@ -167,14 +167,14 @@ static iso_status walk(cost_problem *p, iso_orbit *orbit, double seconds, cost_t
     return ISO_OK;
 }
 
-iso_status iso_cost_walk(cost_problem *p, iso_picture backend, const iso_method *method, double tolerance, bool carry,
-                         double seconds, cost_track *track)
+iso_status iso_cost_walk(cost_problem *p, iso_backend backend, const iso_method *method, double tolerance,
+                         bool with_clock, double seconds, cost_track *track)
 {
     iso_orbit *orbit;
     track->reached = 0;
     track->seconds = 0;
     iso_cost_allow(p, 1.5 * seconds);
-    iso_status status = iso_cost_orbit_open(p, backend, method, tolerance, carry, &orbit);
+    iso_status status = iso_cost_orbit_open(p, backend, method, tolerance, with_clock, &orbit);
     if (status == ISO_OK) {
         status = walk(p, orbit, seconds, track);
         track->statistics = iso_orbit_statistics(orbit);

@@ -52,7 +52,7 @@ static bool make_finer(const iso_orbit *orbit, iso_orbit_options *o)
 {
     const iso_method *own = iso_orbit_method(orbit);
     const bool exact = iso_orbit_exact(orbit) != NULL;
-    o->backend = iso_orbit_model(orbit)->system == &iso_system_ball ? ISO_BALL : ISO_POINT;
+    o->backend = iso_orbit_model(orbit)->system == &iso_system_ball ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
     if (iso_method_auto(iso_orbit_model(orbit))->own_equations) {
         o->method = iso_method_with_more_digits(own->digits > 0 ? own->digits : ISO_DOUBLE_DIGITS);
         o->tolerance = ISO_LEAST_TOLERANCE;
@@ -141,20 +141,20 @@ static double worst_state(const iso_error *e)
     return fmax(e->state[0].worst, e->state[1].worst); /* fmax passes over a NaN, which is not shown */
 }
 
-static const double *six(const iso_sample *s, int picture)
+static const double *six(const iso_sample *s, int model)
 {
-    return picture == ISO_BALL ? s->ball : s->point;
+    return model == ISO_BALL ? s->ball : s->point;
 }
 
 static void compare_states(iso_error_finder *f, const iso_sample *row, const iso_sample *fine,
                            const iso_sample moved[MOVED])
 {
     const double least = ISO_ERROR_ULPS * DBL_EPSILON, ulps = least / AWAY;
-    for (int picture = ISO_BALL; picture <= ISO_POINT; picture++) {
-        const double off = state_distance(six(row, picture), six(fine, picture)), before = worst_state(&f->found);
+    for (int model = ISO_BALL; model <= ISO_POINT; model++) {
+        const double off = state_distance(six(row, model), six(fine, model)), before = worst_state(&f->found);
         double start = least;
-        for (int m = 0; m < MOVED; m++) start += ulps * state_distance(six(fine, picture), six(&moved[m], picture));
-        note(&f->found.state[picture], f->factor * off + start, row->clock[f->clock]);
+        for (int m = 0; m < MOVED; m++) start += ulps * state_distance(six(fine, model), six(&moved[m], model));
+        note(&f->found.state[model], f->factor * off + start, row->clock[f->clock]);
         if (!(worst_state(&f->found) <= before)) f->found.start = start;
     }
 }

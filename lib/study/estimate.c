@@ -30,10 +30,10 @@ static iso_status open_orbit(const estimator *e, iso_clock clock, iso_orbit **or
     iso_orbit_options o = iso_orbit_defaults(&e->scene->start);
     o.effects = &e->effects;
     o.clock = clock;
-    o.show = ISO_BALL;
-    o.backend = e->twin ? ISO_AUTO : ISO_BALL;
+    o.shown = ISO_SHOW_BALL;
+    o.backend = e->twin ? ISO_BACKEND_AUTO : ISO_BACKEND_BALL;
     o.tolerance = fmin(e->scene->tolerance, 1e-13);
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = e->twin && clock == ISO_CLOCK_T && c != (int)clock;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = e->twin && clock == ISO_CLOCK_T && c != (int)clock;
     return iso_orbit_create(e->ctx, &e->scene->params, &e->scene->start, &o, orbit);
 }
 
@@ -252,10 +252,10 @@ static iso_status estimate(estimator *e)
 /* Errors: ISO_NOT_MAPPED where n(t) is not quasi-periodic. */
 static iso_status check_effects(iso_context *ctx, const iso_orbit *orbit)
 {
-    const iso_field *field = &iso_orbit_model(orbit)->field;
+    const iso_problem *problem = &iso_orbit_model(orbit)->problem;
     const char *why;
-    const iso_effect *taking = iso_effects_taking_energy(field),
-                     *without = iso_effects_without_frequencies(field, &why);
+    const iso_effect *taking = iso_effects_taking_energy(problem),
+                     *without = iso_effects_without_frequencies(problem, &why);
     if (taking)
         return iso_context_fail(ctx, ISO_NOT_MAPPED, taking->name,
                                 "'%s' takes energy from the ball: its motion has no frequencies", taking->name);
@@ -293,7 +293,7 @@ static iso_status prepare(estimator *e, const iso_frequencies_options *o)
     if (status == ISO_OK) {
         const double moving = norm(start.ball), falling = iso_orbit_units(orbit)->w;
         const double speed =
-            iso_effects_pull(&iso_orbit_model(orbit)->field.effects) ? fmax(moving, falling) : moving;
+            iso_effects_pull(&iso_orbit_model(orbit)->problem.effects) ? fmax(moving, falling) : moving;
         e->twin = iso_orbit_has_twin(orbit);
         iso_frequencies_place(orbit, &start, e->f);
         status = speed > 0 ? choose_length(e, speed, o)

@@ -57,7 +57,7 @@ static void say_symmetric(const iso_params *p, iso_frequencies *f)
 }
 
 /* Whether the rotation about an axis is unstable, where the problem separates. */
-static bool is_unstable(const iso_field *f, int axis)
+static bool is_unstable(const iso_problem *f, int axis)
 {
     iso_bifurcation list[ISO_MOST_BIFURCATIONS];
     bool unstable = false;
@@ -67,29 +67,29 @@ static bool is_unstable(const iso_field *f, int axis)
 }
 
 /* M lies along an axis, gamma in the plane perpendicular to it. */
-static void say_plane(const iso_field *field, const double M[3], iso_frequencies *f)
+static void say_plane(const iso_problem *problem, const double M[3], iso_frequencies *f)
 {
     int axis = 0;
     for (int i = 1; i < 3; i++)
         if (fabs(M[i]) > fabs(M[axis])) axis = i;
     snprintf(f->motion, sizeof f->motion, "rotation about axis %d (%s moment), in a principal plane%s",
-             axis + 1, rank(field->p.J, axis), is_unstable(field, axis) ? ": unstable" : "");
+             axis + 1, rank(problem->p.J, axis), is_unstable(problem, axis) ? ": unstable" : "");
     snprintf(f->angle[0].what, sizeof f->angle[0].what, "turns about axis %d", axis + 1);
 }
 
 static void say(const iso_orbit *orbit, const iso_sample *start, const iso_exact_torus *torus, iso_frequencies *f)
 {
-    const iso_field *field = &iso_orbit_model(orbit)->field;
-    const double *J = field->p.J;
+    const iso_problem *problem = &iso_orbit_model(orbit)->problem;
+    const double *J = problem->p.J;
     iso_momentum m;
     switch (torus->kind) {
     case ISO_EXACT_SEPARATED:
-        if (!iso_momentum_make(&field->p, field->energy, &m)) return;
+        if (!iso_momentum_make(&problem->p, problem->energy, &m)) return;
         const double F = m.k == 1 ? 2 * torus->c : -2 * torus->c / m.det_J;
-        say_separated(&m, J, iso_momentum_find(&m, iso_energy(&field->p, field->eps), F), f);
+        say_separated(&m, J, iso_momentum_find(&m, iso_energy(&problem->p, problem->eps), F), f);
         break;
-    case ISO_EXACT_SYMMETRIC: say_symmetric(&field->p, f); break;
-    case ISO_EXACT_PLANE: say_plane(field, start->point, f); break;
+    case ISO_EXACT_SYMMETRIC: say_symmetric(&problem->p, f); break;
+    case ISO_EXACT_PLANE: say_plane(problem, start->point, f); break;
     case ISO_EXACT_SEPARATRIX:
         snprintf(f->motion, sizeof f->motion,
                  "leaves an unstable rotation and comes back to it, once: the separatrix");
@@ -102,13 +102,13 @@ static void say(const iso_orbit *orbit, const iso_sample *start, const iso_exact
 /* How far the constant of the separation is from those of the unstable rotations, computed without cancellation. */
 static void find_separatrices(const iso_orbit *orbit, const double point[ISO_STATE], iso_frequencies *f)
 {
-    const iso_field *field = &iso_orbit_model(orbit)->field;
+    const iso_problem *problem = &iso_orbit_model(orbit)->problem;
     iso_bifurcation list[ISO_MOST_BIFURCATIONS];
     iso_conical at;
     double excess[3];
-    iso_separation_coordinates(&field->p, point, &at);
-    const double c = iso_separation_constant(field, &at, excess);
-    const int count = iso_bifurcations(field, list);
+    iso_separation_coordinates(&problem->p, point, &at);
+    const double c = iso_separation_constant(problem, &at, excess);
+    const int count = iso_bifurcations(problem, list);
     for (int i = 0; i < count; i++) {
         if (!list[i].separatrix || list[i].axis < 0 || f->separatrices == ISO_SEPARATRICES) continue;
         const int axis = list[i].axis;
@@ -116,7 +116,7 @@ static void find_separatrices(const iso_orbit *orbit, const double point[ISO_STA
         for (int j = 0; j < 3; j++)
             if (at.axis[j] == axis) s->distance = excess[j] / fmax(fabs(c), fabs(list[i].c));
         snprintf(s->what, sizeof s->what, "rotation about axis %d (%s moment)", axis + 1,
-                 rank(field->p.J, axis));
+                 rank(problem->p.J, axis));
     }
 }
 
@@ -124,7 +124,7 @@ static void find_separatrices(const iso_orbit *orbit, const double point[ISO_STA
 static void carry(const iso_orbit *orbit, const iso_exact_torus *torus, iso_frequencies *f)
 {
     const iso_units *units = iso_orbit_units(orbit);
-    const int k = iso_orbit_model(orbit)->field.p.k < 0 ? -1 : 1;
+    const int k = iso_orbit_model(orbit)->problem.p.k < 0 ? -1 : 1;
     const iso_dimension M = iso_system_point.fast_dimension;
     const iso_dimension c = {2 * M.J - k, 2 * M.J_2k, 2 * M.w}; /* M^2 b */
     f->kind = torus->kind;
@@ -145,7 +145,7 @@ static iso_status solve(iso_context *ctx, const iso_orbit *orbit, const iso_samp
     const double unit = iso_unit(iso_orbit_units(orbit), iso_system_point.fast_dimension);
     copy(start->point, point, ISO_STATE);
     for (int i = 0; i < 3; i++) point[i] /= unit;
-    return iso_exact_create(ctx, &iso_orbit_model(orbit)->field, point, all, exact);
+    return iso_exact_create(ctx, &iso_orbit_model(orbit)->problem, point, all, exact);
 }
 
 static iso_status find_exact(iso_context *ctx, const iso_scene *scene, iso_frequencies *f)

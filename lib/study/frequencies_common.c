@@ -86,9 +86,9 @@ void iso_frequencies_finish(iso_frequencies *f)
 /* The ball's integral beyond the energy and the constraints. */
 static const iso_integral *further_integral(const iso_orbit *orbit)
 {
-    const iso_field *field = &iso_orbit_model(orbit)->field;
+    const iso_problem *problem = &iso_orbit_model(orbit)->problem;
     for (const iso_integral *i = iso_system_ball.integrals + 1; i->name; i++)
-        if (i->known == ISO_ANY_VALUE && (!i->holds || i->holds(field))) return i;
+        if (i->known == ISO_ANY_VALUE && (!i->holds || i->holds(problem))) return i;
     return NULL;
 }
 
@@ -99,7 +99,7 @@ void iso_frequencies_place(const iso_orbit *orbit, const iso_sample *start, iso_
     f->eps = iso_orbit_has_twin(orbit) ? iso_orbit_coupling(orbit) : NAN;
     if (iso_orbit_has_twin(orbit)) { /* then the model is the point's, and its level is H */
         const iso_dimension M = iso_system_point.fast_dimension;
-        f->H = iso_orbit_model(orbit)->field.energy *
+        f->H = iso_orbit_model(orbit)->problem.energy *
                iso_unit(iso_orbit_units(orbit), (iso_dimension){2 * M.J, 2 * M.J_2k, 2 * M.w});
     }
     f->integral = further_integral(orbit);
@@ -115,8 +115,8 @@ iso_status iso_frequencies_open(iso_context *ctx, const iso_scene *scene, const 
     const bool twin = !iso_effects_breaking(effects);
     *orbit = NULL;
     o.effects = effects;
-    o.backend = twin ? ISO_POINT : ISO_BALL;
-    o.show = twin ? ISO_BOTH : ISO_BALL;
+    o.backend = twin ? ISO_BACKEND_POINT : ISO_BACKEND_BALL;
+    o.shown = twin ? ISO_SHOW_BOTH : ISO_SHOW_BALL;
     iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
     if (status == ISO_OK) status = iso_orbit_at(*orbit, 0, sample);
     return status;

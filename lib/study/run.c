@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/watch_impl.h"
+#include "base/monitor_impl.h"
 #include "orbit/description.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
@@ -30,7 +30,7 @@ iso_orbit_options iso_scene_orbit_options(const iso_scene *scene, const int colu
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     bool ball = false, point = false, M = false;
     for (int i = 0; i < count; i++) {
-        if (columns[i] < ISO_CLOCKS) o.carry[columns[i]] = true;
+        if (columns[i] < ISO_CLOCKS) o.with_clock[columns[i]] = true;
         ball = ball || (columns[i] >= ISO_COLUMN_BALL && columns[i] < ISO_COLUMN_POINT) ||
                columns[i] >= ISO_COLUMN_EFFECTS;
         point = point || (columns[i] >= ISO_COLUMN_POINT && columns[i] < ISO_COLUMN_EFFECTS);
@@ -40,7 +40,10 @@ iso_orbit_options iso_scene_orbit_options(const iso_scene *scene, const int colu
     leave_out_unseen(effects, columns, count);
     ball = ball || iso_effects_ball_only(effects); /* to see where contact is lost */
     o.effects = effects;
-    o.show = ball && point ? ISO_BOTH : ball ? ISO_BALL : point ? ISO_POINT : scene->start.model;
+    o.shown = ball && point ? ISO_SHOW_BOTH
+             : ball        ? ISO_SHOW_BALL
+             : point       ? ISO_SHOW_POINT
+                           : (iso_shown)scene->start.model;
     o.gamma_alone = point && !M;
     o.backend = scene->backend;
     o.method = iso_method_find(scene->method);
@@ -70,7 +73,7 @@ typedef struct runner {
     const iso_run_sink *sink;
     iso_run_options options;
     iso_run_result *result;
-    iso_watch watch; /* the caller's */
+    iso_monitor monitor; /* the caller's */
     int columns[ISO_MAX_COLUMNS], count;
     iso_effects effects;
     iso_orbit_options how; /* the orbit's */
@@ -102,13 +105,13 @@ static iso_status describe(const runner *r, iso_record **header)
 {
     const char *names[ISO_MAX_COLUMNS];
     const iso_scene *scene = r->scene;
-    const iso_picture as = scene->as == ISO_AUTO ? scene->start.model : scene->as;
+    const iso_shown as = scene->as == ISO_SHOW_START ? (iso_shown)scene->start.model : scene->as;
     for (int i = 0; i < r->count; i++) names[i] = iso_column_name(r->columns[i]);
     iso_status status = iso_record_create(r->ctx, (size_t)r->count, names, header);
     if (status == ISO_OK)
-        status = iso_record_describe(r->ctx, *header, iso_picture_name((int)as), &scene->params, r->orbit);
+        status = iso_record_describe(r->ctx, *header, iso_shown_name((int)as), &scene->params, r->orbit);
     if (status == ISO_OK)
-        status = iso_record_set(r->ctx, *header, "backend", iso_picture_name((int)iso_orbit_backend(r->orbit)));
+        status = iso_record_set(r->ctx, *header, "backend", iso_backend_name((int)iso_orbit_backend(r->orbit)));
     if (status == ISO_OK) status = iso_record_set(r->ctx, *header, "method", iso_orbit_method(r->orbit)->name);
     if (status == ISO_OK && !iso_orbit_exact(r->orbit))
         status = iso_record_set_numbers(r->ctx, *header, "tolerance", 1, &scene->tolerance);
@@ -328,14 +331,14 @@ static iso_status work(runner *r)
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
-/* The context's watch during the run: shows how far it is, then asks the caller's watch. */
-static bool watch(void *data)
+/* The context's monitor during the run: shows how far it is, then asks the caller's monitor. */
+static bool monitor(void *data)
 {
     const runner *r = data;
     const iso_run_sink *sink = r->sink;
     if (sink->progress && r->orbit && r->farthest != 0)
         sink->progress(sink->data, fmin(fabs(iso_orbit_reached(r->orbit) / r->farthest), 1));
-    return iso_watch_goes_on(&r->watch);
+    return iso_monitor_goes_on(&r->monitor);
 }
 
 static iso_status check(runner *r)
@@ -377,16 +380,16 @@ iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_optio
     iso_run_result unused;
     runner r = {.ctx = ctx, .scene = scene, .sink = sink, .result = result ? result : &unused};
     r.options = options ? *options : iso_run_defaults();
-    r.watch = iso_context_watched(ctx);
+    r.monitor = iso_context_monitor(ctx);
     *r.result = (iso_run_result){.error_status = ISO_BAD_ARGUMENT, .error_words = "errors were not asked for"};
     iso_status status = check(&r);
     if (status == ISO_OK) status = sort_times(&r);
     if (status == ISO_OK) status = open_orbit(&r);
     if (status == ISO_OK) open_errors(&r);
     if (status == ISO_OK) status = give_header(&r);
-    iso_context_watch(ctx, watch, &r);
+    iso_context_set_monitor(ctx, monitor, &r);
     if (status == ISO_OK) status = work(&r);
-    iso_context_watch(ctx, r.watch.go_on, r.watch.data);
+    iso_context_set_monitor(ctx, r.monitor.go_on, r.monitor.data);
     close_run(&r);
     return status;
 }

@@ -58,7 +58,7 @@ typedef struct iso_run_sink {
 typedef struct iso_run_result {
     size_t asked, rows; /* times asked for, and rows that the sink has taken                                       */
     /* of the orbit; method is NULL if there is no orbit */
-    iso_picture backend; /* ISO_BALL, ISO_POINT, ISO_EXACT                                                         */
+    iso_backend backend; /* that has found the orbit, not ISO_BACKEND_AUTO                                         */
     const iso_method *method;
     iso_clock clock; /* that of the times                                                                          */
     iso_statistics statistics;
@@ -75,7 +75,7 @@ typedef struct iso_run_result {
  * - Where the ball loses contact, the sink gets the row of this moment in the place of the first time beyond it.
  *   Times still farther from the start have no row.
  * - After a failure or a stop the sink has every row that was found before.
- * - The context's watch is asked at each step and before each row; it can stop the run.
+ * - The context's monitor is asked at each step and before each row; it can stop the run.
  * - options NULL: iso_run_defaults(). result may be NULL; else it is always filled, after an error, too.
  *
  * Errors before the header:

@@ -188,7 +188,7 @@ static bool goes_on(analysis *z)
 }
 
 /* Takes the largest line out of the rest. False: the rest is rounding, or too near to a line found before. */
-static bool take_line(analysis *z)
+static bool find_line(analysis *z)
 {
     double size;
     const double bin = largest_bin(z, &size);
@@ -221,7 +221,7 @@ static int by_amplitude(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-static void tell(const analysis *z, double step, iso_line line[])
+static void report_lines(const analysis *z, double step, iso_line line[])
 {
     const double T = step * (double)z->count / 2;
     for (int l = 0; l < z->lines; l++) {
@@ -239,11 +239,11 @@ static void make_window(const analysis *z)
     for (size_t j = 0; j < z->count; j++) z->window[j] = most * pow(cos(ISO_PI / 2 * y_of(z, j)), 2 * POWER);
 }
 
-static void find(analysis *z, int most)
+static void find_lines(analysis *z, int most)
 {
     make_window(z);
     memcpy(z->rest, z->signal, 2 * z->count * sizeof *z->signal);
-    while (z->lines < most && goes_on(z) && take_line(z)) continue;
+    while (z->lines < most && goes_on(z) && find_line(z)) continue;
     for (int i = 0; i < SWEEPS && z->lines > 0; i++) sweep(z);
 }
 
@@ -267,8 +267,8 @@ iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t cou
     if (memory) {
         z.rest = z.window + count;
         z.work = z.window + 3 * count;
-        find(&z, most);
-        tell(&z, step, line);
+        find_lines(&z, most);
+        report_lines(&z, step, line);
         *found = z.stopped ? 0 : z.lines;
     }
     gsl_fft_complex_workspace_free(z.space);

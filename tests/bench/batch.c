@@ -33,18 +33,18 @@ static void make_starts(iso_context *ctx, double k)
 {
     static const double J[3] = {1.4, 2.1, 3.0};
     if (iso_params_reduced(ctx, k, J, &params) != ISO_OK) stop(ctx);
-    iso_field field = {.p = params};
+    iso_problem problem = {.p = params};
     iso_random *random = iso_random_create(1);
     for (int i = 0; i < ORBITS; i++) {
         starts[i].model = ISO_BALL;
-        iso_system_ball.sample(&field, random, starts[i].y);
+        iso_system_ball.sample(&problem, random, starts[i].y);
         const double scale = sqrt(0.81 / iso_ball_energy(&params, starts[i].y));
         for (int j = 0; j < 3; j++) starts[i].y[j] *= scale;
     }
     iso_random_free(random);
 }
 
-static void one_by_one(iso_context *ctx, const char *method, double tolerance, iso_picture backend,
+static void one_by_one(iso_context *ctx, const char *method, double tolerance, iso_backend backend,
                        iso_sample samples[])
 {
     for (int i = 0; i < ORBITS; i++) {
@@ -82,7 +82,7 @@ static void errors(double sorted[ORBITS])
 /* A way to solve them all. One by one (threads < 0): by a method; else in vectors of the name. */
 typedef struct way {
     const char *name, *method;
-    iso_picture backend;
+    iso_backend backend;
     int threads;
 } way;
 
@@ -121,15 +121,15 @@ int main(int argc, char **argv)
     enum { MOST = 8 };
     iso_context *ctx = iso_context_create();
     const int repetitions = argc > 2 ? atoi(argv[2]) : 3;
-    way ways[MOST] = {{"rk8pd", "rk8pd", ISO_BALL, -1},
-                      {"taylor, ball", "taylor", ISO_BALL, -1},
-                      {"taylor, point", "taylor", ISO_POINT, -1}};
+    way ways[MOST] = {{"rk8pd", "rk8pd", ISO_BACKEND_BALL, -1},
+                      {"taylor, ball", "taylor", ISO_BACKEND_BALL, -1},
+                      {"taylor, point", "taylor", ISO_BACKEND_POINT, -1}};
     int count = 3;
     for (int i = 0; iso_batch_vectors(i, NULL) && count < MOST - 1; i++)
-        ways[count++] = (way){iso_batch_vectors(i, NULL), iso_batch_vectors(i, NULL), ISO_AUTO, 1};
-    ways[count++] = (way){"widest, all threads", NULL, ISO_AUTO, 0};
+        ways[count++] = (way){iso_batch_vectors(i, NULL), iso_batch_vectors(i, NULL), ISO_BACKEND_AUTO, 1};
+    ways[count++] = (way){"widest, all threads", NULL, ISO_BACKEND_AUTO, 0};
     make_starts(ctx, argc > 1 ? atof(argv[1]) : -1);
-    one_by_one(ctx, "taylor_extended", 1e-15, ISO_BALL, truth);
+    one_by_one(ctx, "taylor_extended", 1e-15, ISO_BACKEND_BALL, truth);
     printf("%-24s %5s%9s%9s%9s%10s\n", "way", "tol", "50 %", "95 %", "99 %", "orbits/s");
     double unit = 0;
     for (int i = 0; i < count; i++) {

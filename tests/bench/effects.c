@@ -18,7 +18,7 @@ enum { CALLS = 20000, ROUNDS = 15, MOST = 16 };
 typedef struct run {
     const char *name;
     iso_effects effects;
-    iso_picture backend;
+    iso_backend backend;
     int states;
     double rhs, orbit; /* least milliseconds so far */
 } run;
@@ -70,7 +70,7 @@ static void measure(iso_context *ctx, const iso_params *p, run *r)
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &r->effects;
     o.backend = r->backend;
-    o.carry[ISO_CLOCK_TAU] = o.carry[ISO_CLOCK_S] = r->effects.on[ISO_CLOCK];
+    o.with_clock[ISO_CLOCK_TAU] = o.with_clock[ISO_CLOCK_S] = r->effects.on[ISO_CLOCK];
     must(ctx, iso_orbit_create(ctx, p, &start, &o, &orbit));
     time_rhs(orbit, r);
     const double begin = bench_milliseconds();
@@ -82,22 +82,22 @@ static void measure(iso_context *ctx, const iso_params *p, run *r)
 static int list_runs(run runs[])
 {
     int count = 0;
-    runs[count++] = (run){"free ball", all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};
+    runs[count++] = (run){"free ball", all_numbers(), ISO_BACKEND_BALL, 0, INFINITY, INFINITY};
     for (int e = 0; e < ISO_EFFECTS; e++) {
-        runs[count] = (run){iso_effect_list[e]->name, all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};
+        runs[count] = (run){iso_effect_list[e]->name, all_numbers(), ISO_BACKEND_BALL, 0, INFINITY, INFINITY};
         runs[count++].effects.on[e] = true;
     }
     for (int stiff = 0; stiff < 2; stiff++) { /* the contact's torque is a state */
-        runs[count] =
-            (run){stiff ? "twist, c = 1e8" : "twist, c = 1e2", all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};
+        runs[count] = (run){
+            stiff ? "twist, c = 1e8" : "twist, c = 1e2", all_numbers(), ISO_BACKEND_BALL, 0, INFINITY, INFINITY};
         runs[count].effects.number[ISO_TWIST][0] = stiff ? 1e8 : 1e2;
         runs[count++].effects.on[ISO_TWIST] = true;
     }
-    runs[count] = (run){"all together", all_numbers(), ISO_BALL, 0, INFINITY, INFINITY};
+    runs[count] = (run){"all together", all_numbers(), ISO_BACKEND_BALL, 0, INFINITY, INFINITY};
     for (int e = 0; e < ISO_EFFECTS; e++) runs[count].effects.on[e] = true;
     count++;
-    runs[count++] = (run){"free point", all_numbers(), ISO_POINT, 0, INFINITY, INFINITY};
-    runs[count] = (run){"point in a field", all_numbers(), ISO_POINT, 0, INFINITY, INFINITY};
+    runs[count++] = (run){"free point", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
+    runs[count] = (run){"point in a field", all_numbers(), ISO_BACKEND_POINT, 0, INFINITY, INFINITY};
     runs[count++].effects.on[ISO_FIELD] = true;
     return count;
 }

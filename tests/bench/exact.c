@@ -37,15 +37,15 @@ static void must(iso_status status)
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
 
 typedef struct orbit {
-    iso_field field;
+    iso_problem problem;
     double point[ISO_STATE];
 } orbit;
 
 static orbit sample(double k, const double J[3], iso_random *random)
 {
     orbit o = {0};
-    must(iso_params_reduced(ctx, k, J, &o.field.p));
-    iso_system_point.sample(&o.field, random, o.point);
+    must(iso_params_reduced(ctx, k, J, &o.problem.p));
+    iso_system_point.sample(&o.problem, random, o.point);
     return o;
 }
 
@@ -54,7 +54,7 @@ static void put(orbit *o, double gamma1, double gamma3, double along, double acr
 {
     const double to[ISO_STATE] = {-along * gamma3, across, along * gamma1, gamma1, 0, gamma3};
     memcpy(o->point, to, sizeof to);
-    iso_system_point.project(&o->field, o->point);
+    iso_system_point.project(&o->problem, o->point);
 }
 
 typedef struct kind {
@@ -71,7 +71,7 @@ static orbit make_orbit(const kind *row, iso_random *random)
     if (row->where == NEAR) bench_sort(J, 3);
     if (row->where == PLANE) J[1] += 3; /* a stable rotation */
     orbit o = sample(row->k, J, random);
-    const double *b = row->k == 1 ? o.field.p.inv_J : J, angle = iso_random_uniform(random, 0.3, 1.3);
+    const double *b = row->k == 1 ? o.problem.p.inv_J : J, angle = iso_random_uniform(random, 0.3, 1.3);
     if (row->where == PLANE) put(&o, cos(angle), sin(angle), 0, 1);
     if (row->where == NEAR) /* where gamma2 = 0 the distance is one of gamma alone */
         put(&o, sqrt((1 - row->distance) * fabs(b[1] - b[0])), sqrt((1 + row->distance) * fabs(b[2] - b[1])),
@@ -89,7 +89,7 @@ static double set_up(const orbit *o, const bool clocks[ISO_CLOCKS])
 {
     iso_exact *exact;
     const double begin = bench_milliseconds();
-    must(iso_exact_create(ctx, &o->field, o->point, clocks, &exact));
+    must(iso_exact_create(ctx, &o->problem, o->point, clocks, &exact));
     const double took = bench_milliseconds() - begin;
     iso_exact_free(exact);
     return 1e3 * took;
@@ -116,7 +116,7 @@ static void measure(const orbit *o, iso_random *random, double took[COLUMNS])
     iso_exact *exact;
     double time[TIMES];
     for (int c = 0; c < COLUMNS; c++) took[c] = INFINITY;
-    if (iso_exact_create(ctx, &o->field, o->point, clock_t_alone, &exact) != ISO_OK) return;
+    if (iso_exact_create(ctx, &o->problem, o->point, clock_t_alone, &exact) != ISO_OK) return;
     took[0] = set_up(o, clock_t_alone);
     took[1] = set_up(o, all_clocks);
     const double turn = 2 * M_PI / fabs(iso_exact_describe(exact).frequency[ISO_CLOCK_T][0]);
@@ -206,10 +206,10 @@ static double error_of(const double ball[], const double reference[])
 }
 
 /* From 0 to each end up to `last`, each on its own, or (together) the later ones onwards. */
-static void run(const char *method, double tolerance, const iso_system *system, const iso_field *field,
+static void run(const char *method, double tolerance, const iso_system *system, const iso_problem *problem,
                 const double y0[], double last, bool together, way *w)
 {
-    const iso_model model = iso_model_assemble(system, field, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
+    const iso_model model = iso_model_assemble(system, problem, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
     const iso_method_options options = {.tolerance = tolerance};
     iso_integrator *it = NULL;
     w->last = last;
@@ -223,7 +223,7 @@ static void run(const char *method, double tolerance, const iso_system *system, 
         must(iso_integrator_at(it, pow(10, FIRST + i), y));
         w->milliseconds[i] = bench_milliseconds() - begin;
         memcpy(w->ball[i], y, sizeof w->ball[i]);
-        if (system == &iso_system_point) iso_point_to_ball(&field->p, y, w->ball[i]);
+        if (system == &iso_system_point) iso_point_to_ball(&problem->p, y, w->ball[i]);
         if (together) continue;
         iso_integrator_free(it);
         it = NULL;
@@ -231,18 +231,18 @@ static void run(const char *method, double tolerance, const iso_system *system, 
     iso_integrator_free(it);
 }
 
-static double closed(const iso_field *field, const double point[], double end, int times, double ball[])
+static double closed(const iso_problem *problem, const double point[], double end, int times, double ball[])
 {
     double least = INFINITY, y[ISO_STATE];
     for (int round = 0; round < ROUNDS; round++) {
         iso_exact *exact;
         const double begin = bench_milliseconds();
-        must(iso_exact_create(ctx, field, point, clock_t_alone, &exact));
+        must(iso_exact_create(ctx, problem, point, clock_t_alone, &exact));
         for (int i = 1; i <= times; i++) must(iso_exact_at(ctx, exact, ISO_CLOCK_T, end * i / times, y, NULL));
         least = fmin(least, bench_milliseconds() - begin);
         iso_exact_free(exact);
     }
-    iso_point_to_ball(&field->p, y, ball);
+    iso_point_to_ball(&problem->p, y, ball);
     return least;
 }
 
@@ -262,7 +262,7 @@ static void print_way(const way *w, const way *reference, int i)
 static void bench_long(double k, double longer)
 {
     static way reference, taylor, rk8pd, exact;
-    iso_field ball = {0}, point;
+    iso_problem ball = {0}, point;
     double at[ISO_STATE], unused[ISO_STATE];
     must(iso_params_reduced(ctx, k, J, &ball.p));
     point = ball;

@@ -57,16 +57,16 @@ static void stop(const iso_context *ctx)
 static problem make_problem(iso_context *ctx, const char *name, double k, const iso_system *system, iso_clock clock)
 {
     problem p = {.name = name};
-    iso_field field = {0};
-    if (iso_params_reduced(ctx, k, J, &field.p) != ISO_OK) stop(ctx);
+    iso_problem equations = {0};
+    if (iso_params_reduced(ctx, k, J, &equations.p) != ISO_OK) stop(ctx);
     memcpy(p.start, start, sizeof p.start);
-    field.energy = iso_ball_energy(&field.p, start);
+    equations.energy = iso_ball_energy(&equations.p, start);
     if (system == &iso_system_point) {
-        field.eps = iso_coupling(&field.p, field.energy);
-        field.energy = 0;
-        iso_ball_to_point(&field.p, start, p.start);
+        equations.eps = iso_coupling(&equations.p, equations.energy);
+        equations.energy = 0;
+        iso_ball_to_point(&equations.p, start, p.start);
     }
-    p.model = iso_model_assemble(system, &field, clock, (const bool[ISO_CLOCKS]){false, false, false});
+    p.model = iso_model_assemble(system, &equations, clock, (const bool[ISO_CLOCKS]){false, false, false});
     return p;
 }
 
@@ -86,7 +86,7 @@ static void solve(iso_context *ctx, double k, double end, double ball[], double 
 {
     problem p = make_problem(ctx, "", k, &iso_system_ball, ISO_CLOCK_T);
     double y[ISO_MAX_STATE];
-    p.model = iso_model_assemble(&iso_system_ball, &p.model.field, ISO_CLOCK_T,
+    p.model = iso_model_assemble(&iso_system_ball, &p.model.problem, ISO_CLOCK_T,
                                  (const bool[ISO_CLOCKS]){false, false, true});
     double with_clock[ISO_MAX_STATE];
     iso_model_begin(&p.model, p.start, with_clock);
@@ -105,7 +105,7 @@ static double error_of(const problem *p, const double y[], const double referenc
 {
     double ball[ISO_STATE], worst = 0;
     memcpy(ball, y, sizeof ball);
-    if (p->model.system == &iso_system_point) iso_point_to_ball(&p->model.field.p, y, ball);
+    if (p->model.system == &iso_system_point) iso_point_to_ball(&p->model.problem.p, y, ball);
     const double speed =
         sqrt(reference[0] * reference[0] + reference[1] * reference[1] + reference[2] * reference[2]);
     for (int i = 0; i < ISO_STATE; i++) worst = fmax(worst, fabs(ball[i] - reference[i]) / (i < 3 ? speed : 1));

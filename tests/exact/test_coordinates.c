@@ -114,11 +114,11 @@ static void check_round_trips(void)
 /* p_phi = p_lam dlam/dphi, p_psi = p_mu dmu/dpsi; T = (mu speed1^2 + lam speed2^2)/(2 k^2), everywhere */
 static void momenta_of_ball(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     iso_conical at;
     double momenta[2], of_angles[2];
     iso_reduction_coordinates(p, c->y, &at);
-    const double T = at.z[1] * pow(at.speed[0], 2) + at.z[0] * pow(at.speed[1], 2), h = c->field.energy;
+    const double T = at.z[1] * pow(at.speed[0], 2) + at.z[0] * pow(at.speed[1], 2), h = c->problem.energy;
     laws_note(worst, fabs(T / (2 * p->k * p->k) - h), 16 * DBL_EPSILON * laws_spread(p) * h, p, "T");
     if (!laws_regular(c)) return;
     iso_reduction_momenta(p, &at, momenta);
@@ -133,7 +133,7 @@ static void momenta_of_ball(const laws_case *c, laws_worst *worst)
 /* k = 1: u = 1/mu, v = 1/lam; tan phi of the point and tan psi of the ball differ by a factor. */
 static void ball_and_point(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     iso_conical of_point, of_ball;
     double point[ISO_STATE];
     iso_ball_to_point(p, c->y, point);
@@ -150,7 +150,7 @@ static void ball_and_point(const laws_case *c, laws_worst *worst)
 /* --- they are canonical, and separate --------------------------------------------------------------------------- */
 
 /* gamma in the plane of an axis where V is least, M along the axis; false: this energy does not get there */
-static bool rotation(const iso_field *f, int axis, double y[ISO_STATE])
+static bool rotation(const iso_problem *f, int axis, double y[ISO_STATE])
 {
     const int j = (axis + 1) % 3, l = (axis + 2) % 3, deepest = (f->p.J[j] > f->p.J[l]) == (f->p.k < 0) ? j : l;
     const double square = 2 * (f->energy + f->eps * pow(f->p.J[deepest], -1 / f->p.k));
@@ -160,13 +160,13 @@ static bool rotation(const iso_field *f, int axis, double y[ISO_STATE])
     return square > 0;
 }
 
-static double function(const iso_field *f, const double b[3], double z)
+static double function(const iso_problem *f, const double b[3], double z)
 {
     const double sum = b[0] + b[1] + b[2];
     return f->p.k == 1 ? -f->eps * b[0] * b[1] * b[2] / z : f->eps * z * (sum - z) + f->energy * z;
 }
 
-static iso_conical separate(const iso_field *f, const double y[])
+static iso_conical separate(const iso_problem *f, const double y[])
 {
     iso_conical s;
     iso_separation_coordinates(&f->p, y, &s);
@@ -186,10 +186,10 @@ static void canonical(const void *data, const double y[], double value[])
 /* H = [((b3 - u) p_phi^2 + (v - b1) p_psi^2)/2 - R(v) + R(u)]/(v - u), from the two separated equations */
 static void hamiltonian(const void *data, const double x[], double value[])
 {
-    const iso_field *f = data;
+    const iso_problem *f = data;
     const double at_pole[ISO_STATE] = {0, 1, 0, 0, 0, 1};
     const iso_conical s = separate(f, at_pole);
-    iso_field level = *f;
+    iso_problem level = *f;
     level.energy = 0;
     const double u = s.b[0] + (s.b[1] - s.b[0]) * pow(sin(x[0]), 2),
                  v = s.b[2] - (s.b[2] - s.b[1]) * pow(sin(x[1]), 2);
@@ -200,7 +200,7 @@ static void hamiltonian(const void *data, const double x[], double value[])
 /* dphi/ds = dH/dp_phi, dp_phi/ds = -dH/dphi, away from where an angle jumps */
 static void moves_canonically(const laws_case *c, laws_worst *worst)
 {
-    const iso_field *f = &c->field;
+    const iso_problem *f = &c->problem;
     if (fabs(f->p.k) != 1 || !laws_regular(c)) return;
     double x[4], slope[4], H, dy[ISO_STATE];
     canonical(f, c->y, x);
@@ -221,7 +221,7 @@ static void moves_canonically(const laws_case *c, laws_worst *worst)
 }
 
 /* (1/2) sum_i (b_j - b_i) M_i^2 - eps {1 | 1/(q b_j)} (b_j - b_k)(b_j - b_l) gamma_j^2, q = (gamma, b^-1 gamma) */
-static double excess_of(const iso_field *f, const iso_conical *s, const double y[ISO_STATE], int j, double *size)
+static double excess_of(const iso_problem *f, const iso_conical *s, const double y[ISO_STATE], int j, double *size)
 {
     const bool plane = f->p.k == 1;
     const double *b = s->b, gamma = y[3 + s->axis[j]];
@@ -238,7 +238,7 @@ static double excess_of(const iso_field *f, const iso_conical *s, const double y
 }
 
 /* c is the polynomial, excess the sums above, and both equations hold. */
-static void note_constant(const iso_field *f, const double y[ISO_STATE], laws_worst *worst)
+static void note_constant(const iso_problem *f, const double y[ISO_STATE], laws_worst *worst)
 {
     const bool plane = f->p.k == 1;
     const iso_conical at = separate(f, y);
@@ -262,7 +262,7 @@ static void note_constant(const iso_field *f, const double y[ISO_STATE], laws_wo
 }
 
 /* Next to the rotation in a principal plane one excess is small, and has its digits. */
-static void note_next_to_plane(const laws_case *c, const iso_field *f, int axis, double by, laws_worst *worst)
+static void note_next_to_plane(const laws_case *c, const iso_problem *f, int axis, double by, laws_worst *worst)
 {
     double y[ISO_STATE];
     if (!rotation(f, axis, y) || dot(y, y) < fabs(f->energy)) return; /* what is left of H after V is rounded */
@@ -275,7 +275,7 @@ static void note_next_to_plane(const laws_case *c, const iso_field *f, int axis,
 /* On the level H = 0, and for k = -1 on others */
 static void constant_of(const laws_case *c, laws_worst *worst)
 {
-    iso_field f = c->field;
+    iso_problem f = c->problem;
     double y[ISO_STATE], size;
     if (fabs(f.p.k) != 1) return;
     copy(c->y, y, ISO_STATE);
@@ -289,9 +289,9 @@ static void constant_of(const laws_case *c, laws_worst *worst)
 
 static void constant_elsewhere(const laws_case *c, laws_worst *worst)
 {
-    const iso_conical s = separate(&c->field, c->y);
+    const iso_conical s = separate(&c->problem, c->y);
     double excess[3];
-    iso_field f = c->field;
+    iso_problem f = c->problem;
     if (f.p.k == 1) f.energy = 1;
     if (f.p.k == -1) return;
     laws_note(worst, isnan(iso_separation_constant(&f, &s, excess)) && isnan(excess[1]) ? 0 : 1, 0.5, &f.p, "");
@@ -305,20 +305,21 @@ static void check_orbits(void)
     for (int i = 0; i < 8; i++) {
         const double J[2][3] = {{1.4, 2.1, 3.0}, {1.1, 4.0, 1.3}};
         orbit o = orbit_sample(ctx, &iso_system_point, i % 2 == 0 ? -1 : 1, J[i / 2 % 2], 40 + (unsigned long)i);
-        const iso_conical start = separate(&o.model.field, o.y0);
-        const double c = iso_separation_constant(&o.model.field, &start, NULL);
+        const iso_conical start = separate(&o.model.problem, o.y0);
+        const double c = iso_separation_constant(&o.model.problem, &start, NULL);
         iso_integrator *it =
             orbit_start(&o, iso_method_find("taylor_extended"), &(iso_method_options){.tolerance = 1e-15});
         for (int j = 1; j <= 100; j++) {
             double y[ISO_MAX_STATE];
             if (iso_integrator_at(it, 0.37 * j * o.unit, y) != ISO_OK) y[0] = NAN;
-            const iso_conical s = separate(&o.model.field, y);
-            const double error = fabs(iso_separation_constant(&o.model.field, &s, NULL) / c - 1);
+            const iso_conical s = separate(&o.model.problem, y);
+            const double error = fabs(iso_separation_constant(&o.model.problem, &s, NULL) / c - 1);
             worst = error <= worst ? worst : error;
         }
         iso_integrator_free(it);
         iso_exact *exact;
-        if (iso_exact_create(ctx, &o.model.field, o.y0, (const bool[ISO_CLOCKS]){false}, &exact) != ISO_OK) continue;
+        if (iso_exact_create(ctx, &o.model.problem, o.y0, (const bool[ISO_CLOCKS]){false}, &exact) != ISO_OK)
+            continue;
         worst_exact = fmax(worst_exact, fabs(iso_exact_describe(exact).c / c - 1));
         iso_exact_free(exact);
     }
@@ -328,21 +329,21 @@ static void check_orbits(void)
 
 /* --- where the motion changes ----------------------------------------------------------------------------------- */
 
-static iso_field field_of(double k, const double J[3], double H)
+static iso_problem field_of(double k, const double J[3], double H)
 {
-    return (iso_field){.p = laws_params(k, J), .eps = 1.3, .energy = H};
+    return (iso_problem){.p = laws_params(k, J), .eps = 1.3, .energy = H};
 }
 
 /* How far a small disturbance off the plane goes: order one when the rotation is unstable. */
-static double strays(const iso_field *f, int axis)
+static double strays(const iso_problem *f, int axis)
 {
-    orbit o = {.ctx = ctx, .model = {.system = &iso_system_point, .field = *f}};
+    orbit o = {.ctx = ctx, .model = {.system = &iso_system_point, .problem = *f}};
     double far = 0;
     rotation(f, axis, o.y0);
     o.y0[3 + axis] = 1e-9;
     remove_along(o.y0, o.y0 + 3);
     make_unit(o.y0 + 3);
-    o.model.field.energy = f->energy;
+    o.model.problem.energy = f->energy;
     orbit_clocks(&o, ISO_CLOCK_S, false, false, false);
     iso_integrator *it = orbit_start(&o, iso_method_find("taylor"), &(iso_method_options){.tolerance = 1e-13});
     for (int j = 1; j <= 400; j++) {
@@ -355,7 +356,7 @@ static double strays(const iso_field *f, int axis)
 }
 
 /* At a double root v stays where it is. */
-static double constant_at_double_root(const iso_field *f, const iso_bifurcation *at)
+static double constant_at_double_root(const iso_problem *f, const iso_bifurcation *at)
 {
     const double pole[ISO_STATE] = {0, 1, 0, 0, 0, 1};
     iso_conical s = separate(f, pole);
@@ -371,7 +372,7 @@ static double constant_at_double_root(const iso_field *f, const iso_bifurcation 
 }
 
 /* Each plane where this energy can be has its value, which a rotation in it has; unstable ones are marked. */
-static void check_bifurcations(const char *what, const iso_field *f, int expected)
+static void check_bifurcations(const char *what, const iso_problem *f, int expected)
 {
     iso_bifurcation list[ISO_MOST_BIFURCATIONS];
     const int count = iso_bifurcations(f, list);
@@ -401,7 +402,7 @@ static void check_bifurcations(const char *what, const iso_field *f, int expecte
 static void check_all_bifurcations(void)
 {
     static const double near[3] = {2.1, 1.4, 3.0}, far[3] = {4, 1, 1.2}; /* J3 > J1 + J2 */
-    const iso_field cases[] = {field_of(1, near, 0),     field_of(-1, near, 0),    field_of(-1, far, 0),
+    const iso_problem cases[] = {field_of(1, near, 0),     field_of(-1, near, 0),    field_of(-1, far, 0),
                                field_of(-1, near, 1.5),  field_of(-1, near, -1.5), field_of(-1, near, -2.3),
                                field_of(-1, near, -3.5), field_of(-1, near, -4)};
     static const char *const what[] = {"k = 1",    "k = -1",   "J3 > J1 + J2", "H = 1.5",
@@ -413,7 +414,7 @@ static void check_all_bifurcations(void)
 /* c of every state is between the ends, and equal moments give one value. */
 static void between_ends(const laws_case *c, laws_worst *worst)
 {
-    const iso_field *f = &c->field;
+    const iso_problem *f = &c->problem;
     if (fabs(f->p.k) != 1) return;
     iso_bifurcation list[ISO_MOST_BIFURCATIONS];
     const int count = iso_bifurcations(f, list);

@@ -32,7 +32,7 @@ static void check_orbit(int i, const orbit *point, double *worst, double *worst_
     const iso_clock clock = (iso_clock)(i % ISO_CLOCKS);
     orbit o = *point;
     iso_exact *exact;
-    if (iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_OK) {
+    if (iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_OK) {
         ++*refused;
         return;
     }
@@ -44,13 +44,13 @@ static void check_orbit(int i, const orbit *point, double *worst, double *worst_
         double expected[ISO_MAX_STATE], y[ISO_MAX_STATE], clocks[ISO_CLOCKS], size;
         iso_exact_at(ctx, exact, clock, time, y, clocks);
         if (iso_integrator_at(it, time, expected) != ISO_OK) expected[0] = NAN;
-        copy(expected + ISO_STATE, y + ISO_STATE, o.model.carried);
+        copy(expected + ISO_STATE, y + ISO_STATE, o.model.clocks);
         *worst = fmax(*worst, isfinite(y[0]) ? orbit_error(&o, y, expected) : INFINITY);
-        for (int c = 0; c < o.model.carried; c++) {
-            const double error = fabs(clocks[o.model.carry[c]] / expected[ISO_STATE + c] - 1);
+        for (int c = 0; c < o.model.clocks; c++) {
+            const double error = fabs(clocks[o.model.clock_of[c]] / expected[ISO_STATE + c] - 1);
             *worst_clock = fmax(*worst_clock, error);
         }
-        const double H = iso_system_point.energy(&o.model.field, y, &size);
+        const double H = iso_system_point.energy(&o.model.problem, y, &size);
         *worst_energy = fmax(*worst_energy, fmax(fabs(H) / size, fabs(norm(y + 3) - 1)));
     }
     iso_integrator_free(it);
@@ -66,7 +66,7 @@ static void check_reference(void)
     int solved = 0;
     for (int i = 0; i < count; i++) {
         const reference *r = &rows[i];
-        iso_field f = {.p = r->p};
+        iso_problem f = {.p = r->p};
         double point[ISO_STATE], ball[ISO_STATE], clocks[ISO_CLOCKS];
         iso_exact *exact;
         if (fabs(r->p.k) != 1) continue;
@@ -98,7 +98,7 @@ static void check_angles(void)
         orbit o = orbit_sample(ctx, &iso_system_point, ks[kind], J, 300 + (unsigned long)i);
         if (kind > 3) o.y0[1] = o.y0[2] = o.y0[3] = 0, remove_along(o.y0, o.y0 + 3);
         iso_exact *exact;
-        if (iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_OK) {
+        if (iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_OK) {
             failed++;
             continue;
         }
@@ -134,13 +134,13 @@ static void check_homoclinic(void)
     int kinds = 0;
     for (int i = 0; i < 2; i++) {
         const double angle = 0.4 + 2 * i, speed = sqrt(2 * 2.0);
-        orbit o = {.ctx = ctx, .model.system = &iso_system_point, .model.field.p = laws_params(-1, J)};
-        o.model.field.eps = 1;
+        orbit o = {.ctx = ctx, .model.system = &iso_system_point, .model.problem.p = laws_params(-1, J)};
+        o.model.problem.eps = 1;
         const double y0[ISO_STATE] = {r * speed * cos(angle), speed * sin(angle), -r * speed * cos(angle), r, 0, r};
         copy(y0, o.y0, ISO_STATE);
         orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
         iso_exact *exact;
-        if (iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_OK) continue;
+        if (iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_OK) continue;
         kinds += iso_exact_describe(exact).kind == ISO_EXACT_SEPARATRIX;
         iso_integrator *it =
             orbit_start(&o, iso_method_find("taylor_extended"), &(iso_method_options){.tolerance = 1e-15});
@@ -153,7 +153,7 @@ static void check_homoclinic(void)
         for (int j = 0; j < 4; j++) {
             iso_exact_at(ctx, exact, ISO_CLOCK_T, (j % 2 ? -1 : 1) * pow(10, 3 + 3 * j), y, clocks);
             away = fmax(away, fmax(fabs(y[4]), fmax(fabs(y[0]), fabs(y[2]))));
-            energy = fmax(energy, fabs(iso_system_point.energy(&o.model.field, y, &size)) / size);
+            energy = fmax(energy, fabs(iso_system_point.energy(&o.model.problem, y, &size)) / size);
         }
         iso_integrator_free(it);
         iso_exact_free(exact);
@@ -169,15 +169,15 @@ static void check_small_oscillations(void)
     static const double J[3] = {1, 1.5, 2};
     double worst = 0;
     for (double size = 1e-5; size > 1e-13; size /= 10) {
-        orbit o = {.ctx = ctx, .model.system = &iso_system_point, .model.field.p = laws_params(-1, J)};
+        orbit o = {.ctx = ctx, .model.system = &iso_system_point, .model.problem.p = laws_params(-1, J)};
         const double y0[ISO_STATE] = {size, -size, 0, size, size, sqrt(1 - 2 * size * size)};
         copy(y0, o.y0, ISO_STATE);
-        o.model.field.eps = 0.5;
-        o.model.field.energy = size * size - 0.5 * (2 - 1.5 * size * size);
+        o.model.problem.eps = 0.5;
+        o.model.problem.energy = size * size - 0.5 * (2 - 1.5 * size * size);
         orbit_clocks(&o, ISO_CLOCK_S, false, false, false);
         iso_exact *exact;
         double expected[ISO_MAX_STATE], y[ISO_STATE], clocks[ISO_CLOCKS] = {NAN};
-        if (iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_OK) worst = INFINITY;
+        if (iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_OK) worst = INFINITY;
         iso_exact_at(ctx, exact, ISO_CLOCK_S, 10, y, clocks);
         iso_integrator *it =
             orbit_start(&o, iso_method_find("taylor_extended"), &(iso_method_options){.tolerance = 1e-15});
@@ -195,16 +195,16 @@ static void check_refusals(void)
 {
     iso_exact *exact;
     orbit o = orbit_sample(ctx, &iso_system_point, 0.5, orbit_J, 1);
-    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_BAD_ARGUMENT || exact,
+    gsl_test(iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_BAD_ARGUMENT || exact,
              "k = 0.5: %s", iso_context_message(ctx));
     o = orbit_sample(ctx, &iso_system_point, 1, orbit_J, 1);
     double y[ISO_STATE], clocks[ISO_CLOCKS];
-    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_OK, "k = 1 is solved");
+    gsl_test(iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_OK, "k = 1 is solved");
     gsl_test(iso_exact_at(ctx, exact, ISO_CLOCK_T, INFINITY, y, clocks) != ISO_BAD_ARGUMENT,
              "a time that is infinite: %s", iso_context_message(ctx));
     iso_exact_free(exact);
-    o.model.field.effects.on[ISO_FIELD] = true;
-    gsl_test(iso_exact_create(ctx, &o.model.field, o.y0, all_clocks, &exact) != ISO_BAD_ARGUMENT || exact,
+    o.model.problem.effects.on[ISO_FIELD] = true;
+    gsl_test(iso_exact_create(ctx, &o.model.problem, o.y0, all_clocks, &exact) != ISO_BAD_ARGUMENT || exact,
              "with a field: %s", iso_context_message(ctx));
 }
 
@@ -219,7 +219,7 @@ static void check_clocks(void)
         orbit o = orbit_sample(ctx, &iso_system_point, -1, bodies[i], 1);
         double *const at[2] = {clocks, all};
         for (int every = 0; every < 2; every++) {
-            if (iso_exact_create(ctx, &o.model.field, o.y0, every ? all_clocks : only_s, &exact) != ISO_OK) return;
+            if (iso_exact_create(ctx, &o.model.problem, o.y0, every ? all_clocks : only_s, &exact) != ISO_OK) return;
             iso_exact_at(ctx, exact, ISO_CLOCK_S, 3, y, at[every]);
             iso_exact_free(exact);
         }

@@ -23,12 +23,12 @@ static void check_steps(const char *method, bool restored, int count, double uni
         orbit o = exact_orbit(ctx, list[i], i, 0, random);
         iso_exact *exact = exact_create(&o);
         double y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
-        o.model.field.effects.on[ISO_FIELD] = !restored;
+        o.model.problem.effects.on[ISO_FIELD] = !restored;
         orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
         const double time = (i % 2 ? -1 : 1) * units * o.unit;
         orbit_solve(&o, iso_method_find(method), &(iso_method_options){.tolerance = 1e-15}, time, expected);
         if (iso_exact_at(ctx, exact, ISO_CLOCK_T, time, y, NULL) != ISO_OK) y[0] = NAN;
-        laws_note(&worst, orbit_error(&o, y, expected), allowed, &o.model.field.p, exact_names[list[i]]);
+        laws_note(&worst, orbit_error(&o, y, expected), allowed, &o.model.problem.p, exact_names[list[i]]);
         iso_exact_free(exact);
     }
     char name[64];
@@ -52,9 +52,9 @@ static void check_known(double k, const double J[3], laws_worst *worst)
         const long double angle = k * w * times[i];
         const double expected[3] = {(double)cosl(angle), (double)-sinl(angle), 0};
         if (iso_exact_at(ctx, exact, ISO_CLOCK_T, times[i], y, NULL) != ISO_OK) y[0] = NAN;
-        iso_point_to_ball(&o.model.field.p, y, y);
+        iso_point_to_ball(&o.model.problem.p, y, y);
         const double allowed = (double)(8 * LDBL_EPSILON * fabsl(angle)) + 8 * DBL_EPSILON;
-        laws_note(worst, laws_distance(y + 3, expected), allowed, &o.model.field.p, "");
+        laws_note(worst, laws_distance(y + 3, expected), allowed, &o.model.problem.p, "");
     }
     iso_exact_free(exact);
 }
@@ -77,7 +77,7 @@ static void check_known_angles(void)
 
 static void note_integrals(const orbit *o, const double y[ISO_STATE], laws_worst *worst)
 {
-    const iso_field *f = &o->model.field;
+    const iso_problem *f = &o->model.problem;
     const iso_integral *list[ISO_MAX_INTEGRALS];
     const int count = iso_integrals_holding(&iso_system_point, f, list, ISO_MAX_INTEGRALS);
     for (int i = 0; i < count; i++) {
@@ -102,11 +102,11 @@ static void note_restart(const orbit *o, const iso_exact *exact, double t1, laws
 {
     static const double t2[] = {0, 8, -64, 1024};
     orbit there = *o;
-    const iso_params *p = &o->model.field.p;
+    const iso_params *p = &o->model.problem.p;
     double c1[ISO_CLOCKS];
     if (iso_exact_at(ctx, exact, ISO_CLOCK_T, t1, there.y0, c1) != ISO_OK) there.y0[0] = NAN;
     iso_exact *again;
-    if (iso_exact_create(ctx, &there.model.field, there.y0, exact_clocks, &again) != ISO_OK) {
+    if (iso_exact_create(ctx, &there.model.problem, there.y0, exact_clocks, &again) != ISO_OK) {
         laws_note(states, NAN, 0, p, iso_context_message(ctx));
         return;
     }
@@ -115,7 +115,7 @@ static void note_restart(const orbit *o, const iso_exact *exact, double t1, laws
         if (iso_exact_at(ctx, exact, ISO_CLOCK_T, t1 + t2[i], y, c) != ISO_OK) y[0] = NAN;
         if (iso_exact_at(ctx, again, ISO_CLOCK_T, t2[i], z, c2) != ISO_OK) z[0] = NAN;
         orbit state = *o;
-        state.model.dim = ISO_STATE, state.model.carried = 0;
+        state.model.dim = ISO_STATE, state.model.clocks = 0;
         const double allowed = 5e-14 * (1 + fabs(t2[i]) / o->unit) + (double)(16 * LDBL_EPSILON * fabs(t1) / o->unit);
         laws_note(states, orbit_error(&state, y, z), allowed, p, "");
         for (int j = 0; j < ISO_CLOCKS; j++)

@@ -23,7 +23,7 @@ static void note_grid(const orbit *o, const iso_exact *exact, iso_clock clock, d
                       laws_worst *worst)
 {
     static double points[ISO_STATE * (COUNT + 1)], clocks[ISO_CLOCKS * (COUNT + 1)], alone[ISO_STATE * COUNT];
-    const iso_params *p = &o->model.field.p;
+    const iso_params *p = &o->model.problem.p;
     double unused[ISO_STATE], unit[ISO_CLOCKS];
     iso_exact_at(ctx, exact, clock, o->unit, unused, unit);
     points[ISO_STATE * COUNT] = clocks[ISO_CLOCKS * COUNT] = 17;
@@ -36,7 +36,7 @@ static void note_grid(const orbit *o, const iso_exact *exact, iso_clock clock, d
         double y[ISO_STATE], wanted[ISO_CLOCKS];
         if (iso_exact_at(ctx, exact, clock, time, y, wanted) != ISO_OK) y[0] = NAN;
         orbit state = *o;
-        state.model.dim = ISO_STATE, state.model.carried = 0;
+        state.model.dim = ISO_STATE, state.model.clocks = 0;
         const double allowed = near + 4 * DBL_EPSILON * fabs(time) / o->unit;
         laws_note(worst, orbit_error(&state, points + ISO_STATE * i, y), allowed, p, "state");
         for (int k = 0; k < ISO_CLOCKS; k++)
@@ -88,7 +88,8 @@ static void note_same(const orbit *a, const orbit *b, const char *what, laws_wor
             orbit o = *a;
             orbit_clocks(&o, clock, false, false, false);
             if (!state_at(x, clock, 10 * i * o.unit, p) || !state_at(y, clock, 10 * i * o.unit, q)) p[0] = NAN;
-            laws_note(worst, orbit_error(&o, p, q), 2e-12, &b->model.field.p, what); /* orbits past the pole: 1e-12 */
+            laws_note(worst, orbit_error(&o, p, q), 2e-12, &b->model.problem.p,
+                      what); /* orbits past the pole: 1e-12 */
         }
     iso_exact_free(x);
     iso_exact_free(y);
@@ -139,7 +140,7 @@ static void check_nearly_plane(iso_random *random)
 /* After a period of the first angle a plane's state is back; else gamma along the axis, and its rate. */
 static void note_period(const orbit *o, bool plane, laws_worst *worst)
 {
-    const iso_params *p = &o->model.field.p;
+    const iso_params *p = &o->model.problem.p;
     int axis = 0;
     while (p->J[(axis + 1) % 3] != p->J[(axis + 2) % 3] && axis < 2) axis++;
     iso_exact *exact = exact_create(o);
@@ -152,9 +153,9 @@ static void note_period(const orbit *o, bool plane, laws_worst *worst)
             const double period = 2 * M_PI / torus.frequency[clock][0], at = 0.3 * period;
             for (int i = 0; i < 2; i++) {
                 if (!state_at(exact, clock, at + i * turns * period, y[i])) y[i][0] = NAN;
-                iso_system_point.rhs(&o->model.field, y[i], dy[i]);
+                iso_system_point.rhs(&o->model.problem, y[i], dy[i]);
             }
-            const double speed = iso_system_point.speed(&o->model.field, y[0]);
+            const double speed = iso_system_point.speed(&o->model.problem, y[0]);
             const double along = fabs(y[0][3 + axis] - y[1][3 + axis]);
             const double rate = fabs(dy[0][3 + axis] - dy[1][3 + axis]) / speed;
             const double both = laws_distance(y[0] + 3, y[1] + 3) + laws_distance(y[0], y[1]) / speed;
@@ -172,7 +173,7 @@ static void note_ratios(const orbit *o, laws_worst *worst)
     for (int c = 1; c < ISO_CLOCKS && torus.angles == 2; c++) {
         const double ratio = torus.frequency[c][0] / torus.frequency[c][1];
         const double in_t = torus.frequency[0][0] / torus.frequency[0][1];
-        laws_note(worst, fabs(ratio / in_t - 1), 4 * DBL_EPSILON, &o->model.field.p, "");
+        laws_note(worst, fabs(ratio / in_t - 1), 4 * DBL_EPSILON, &o->model.problem.p, "");
     }
     iso_exact_free(exact);
 }
@@ -204,8 +205,8 @@ static void check_torus(void)
 static void refused(const orbit *o, const char *about, const char *what)
 {
     iso_exact *exact = (iso_exact *)&exact;
-    const iso_status status = iso_exact_create(ctx, &o->model.field, o->y0, exact_clocks, &exact);
-    gsl_test(status != ISO_BAD_ARGUMENT || exact || strcmp(iso_context_field(ctx), about) != 0 ||
+    const iso_status status = iso_exact_create(ctx, &o->model.problem, o->y0, exact_clocks, &exact);
+    gsl_test(status != ISO_BAD_ARGUMENT || exact || strcmp(iso_context_about(ctx), about) != 0 ||
                  *iso_context_message(ctx) == '\0',
              "%s: %s", what, status == ISO_OK ? "not refused" : iso_context_message(ctx));
     if (status == ISO_OK) iso_exact_free(exact);
@@ -223,13 +224,13 @@ static void check_refusals(void)
     refused(&o, "level", "k = 1 off H = 0");
     exact_start(&o, -1, orbit_J, g, M, 0);
     for (int i = 0; i < 3; i++) {
-        other = o, other.model.field.eps = (double[]){0, -1, INFINITY}[i];
+        other = o, other.model.problem.eps = (double[]){0, -1, INFINITY}[i];
         refused(&other, "eps", "eps");
     }
-    other = o, other.model.field.eps = NAN;
+    other = o, other.model.problem.eps = NAN;
     refused(&other, "eps", "eps NaN");
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
-        other = o, other.model.field.effects.on[e] = true;
+        other = o, other.model.problem.effects.on[e] = true;
         if (e != ISO_CLOCK && e != ISO_LEVEL) refused(&other, iso_effect_list[e]->name, "an effect");
     }
 }
@@ -247,11 +248,11 @@ static void check_not_finite(void)
                 other = o, other.y0[i] = not_finite[n];
                 refused(&other, "", form ? "a point that is not finite, J1 = J2" : "a point that is not finite");
             }
-            other = o, other.model.field.energy = not_finite[n];
+            other = o, other.model.problem.energy = not_finite[n];
             refused(&other, "level", "a level that is not finite");
             other = o, other.y0[3] = other.y0[4] = other.y0[5] = 0;
             if (n == 0) refused(&other, "", "gamma = 0");
-            other = o, other.model.field.energy = -100; /* under the potential */
+            other = o, other.model.problem.energy = -100; /* under the potential */
             if (n == 0) refused(&other, "level", "a level below the potential");
         }
 }
@@ -265,7 +266,7 @@ static void check_times(void)
         const orbit o = exact_orbit(ctx, list[i], 0, 0, random);
         iso_exact *exact;
         double y[ISO_STATE], c[ISO_CLOCKS];
-        if (iso_exact_create(ctx, &o.model.field, o.y0, only_t, &exact) != ISO_OK) exit(1);
+        if (iso_exact_create(ctx, &o.model.problem, o.y0, only_t, &exact) != ISO_OK) exit(1);
         const double wrong[] = {NAN, INFINITY, -INFINITY};
         for (size_t j = 0; j < 3; j++) {
             gsl_test(iso_exact_at(ctx, exact, ISO_CLOCK_T, wrong[j], y, c) != ISO_BAD_ARGUMENT, "t = %g", wrong[j]);

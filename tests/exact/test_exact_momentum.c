@@ -23,7 +23,7 @@ static void note_omega(const iso_params *p, int across, iso_random *random, laws
 {
     const double angle = iso_random_uniform(random, 0, 2 * M_PI);
     double ball[ISO_STATE] = {0}, point[ISO_STATE], clocks[ISO_CLOCKS], now[ISO_STATE];
-    iso_field f = {.p = *p};
+    iso_problem f = {.p = *p};
     iso_exact *exact;
     ball[across] = exact_sign(random);
     ball[3 + (across + 1) % 3] = cos(angle), ball[3 + (across + 2) % 3] = sin(angle);
@@ -73,7 +73,7 @@ static void check_sharp_plane(iso_random *random)
  * as many. M along the axis of two equal moments is a constant to the bit. */
 static void note_energy(const orbit *o, bool plane, iso_random *random, laws_worst *worst)
 {
-    const iso_field *f = &o->model.field;
+    const iso_problem *f = &o->model.problem;
     double y[ISO_STATE], clocks[ISO_CLOCKS], size, first, along = NAN;
     const double H0 = iso_system_point.energy(f, o->y0, &first);
     iso_exact *exact;

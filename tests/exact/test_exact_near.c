@@ -31,7 +31,7 @@ static states stepped(const orbit *o, const double times[TIMES], double toleranc
 {
     orbit copied = *o;
     states s;
-    copied.model.field.effects.on[ISO_FIELD] = true;
+    copied.model.problem.effects.on[ISO_FIELD] = true;
     exact_in_clock(&copied, o->model.clock);
     iso_integrator *it =
         orbit_start(&copied, iso_method_find("taylor_extended"), &(iso_method_options){.tolerance = tolerance});
@@ -59,7 +59,7 @@ static double clock_difference(const orbit *o, const states *a, const states *b)
 {
     double most = 0;
     for (int j = 0; j < TIMES; j++)
-        for (int c = ISO_STATE; c < ISO_STATE + o->model.carried; c++) {
+        for (int c = ISO_STATE; c < ISO_STATE + o->model.clocks; c++) {
             const double error = fabs(a->y[j][c] / b->y[j][c] - 1);
             if (!(error <= most)) most = error;
         }
@@ -73,15 +73,15 @@ static double condition(const orbit *o, const states *s, const double times[TIME
 {
     double excess[3], sum = 0;
     iso_conical at;
-    iso_separation_coordinates(&o->model.field.p, o->y0, &at);
-    iso_separation_constant(&o->model.field, &at, excess);
+    iso_separation_coordinates(&o->model.problem.p, o->y0, &at);
+    iso_separation_constant(&o->model.problem, &at, excess);
     const double distance = fmin(fabs(excess[1]), fabs(excess[2])) / laws_max(3, excess);
     const double h = fmax(2e-14, fmin(1e-8, distance / 100)); /* other k: NaN, 1e-8 */
     for (int i = 0; i < ISO_STATE; i++) {
         orbit moved = *o;
         if (o->y0[i] == 0) continue;
         moved.y0[i] *= 1 + h;
-        moved.model.system->project(&moved.model.field, moved.y0);
+        moved.model.system->project(&moved.model.problem, moved.y0);
         const states other = stepped(&moved, times, 1e-15);
         sum += difference(o, &other, s) / h;
     }
@@ -96,12 +96,12 @@ typedef struct book {
 
 static void note_invariants(const orbit *o, const states *s, const char *name, book *b)
 {
-    const iso_params *p = &o->model.field.p;
+    const iso_params *p = &o->model.problem.p;
     for (int j = 0; j < TIMES; j++) {
         const double *y = s->y[j];
         double size;
-        const double H = iso_system_point.energy(&o->model.field, y, &size);
-        laws_note(&b->invariants, fabs(H - o->model.field.energy) / size, 1e-14, p, name);
+        const double H = iso_system_point.energy(&o->model.problem, y, &size);
+        laws_note(&b->invariants, fabs(H - o->model.problem.energy) / size, 1e-14, p, name);
         laws_note(&b->invariants, fabs(norm(y + 3) - 1), 1e-14, p, name);
         laws_note(&b->invariants, fabs(dot(y, y + 3)) / norm(y), 1e-14, p, name);
     }
@@ -121,8 +121,8 @@ static void note_errors(const orbit *o, const states *y, const double times[TIME
         allowed = fmax(allowed, ROUNDING * number + itself);
         b->largest = fmax(b->largest, number);
     }
-    laws_note(&b->state, error, allowed, &o->model.field.p, name);
-    laws_note(&b->clock, clock_difference(o, y, &s), fmax(1e-13, allowed), &o->model.field.p, name);
+    laws_note(&b->state, error, allowed, &o->model.problem.p, name);
+    laws_note(&b->clock, clock_difference(o, y, &s), fmax(1e-13, allowed), &o->model.problem.p, name);
 }
 
 static void check_orbit(const orbit *start, int i, exact_family family, book *b)
@@ -133,7 +133,7 @@ static void check_orbit(const orbit *start, int i, exact_family family, book *b)
     iso_exact *exact;
     double times[TIMES], clocks[ISO_CLOCKS];
     states s;
-    if (iso_exact_create(ctx, &o.model.field, o.y0, exact_clocks, &exact) != ISO_OK) {
+    if (iso_exact_create(ctx, &o.model.problem, o.y0, exact_clocks, &exact) != ISO_OK) {
         b->refused++;
         return;
     }
@@ -141,7 +141,7 @@ static void check_orbit(const orbit *start, int i, exact_family family, book *b)
     for (int j = 0; j < TIMES; j++) {
         times[j] = (i / ISO_CLOCKS % 2 ? -1 : 1) * (j + 1) * (i % 10 ? NEAR : FAR) / TIMES * o.unit;
         if (iso_exact_at(ctx, exact, clock, times[j], s.y[j], clocks) != ISO_OK) s.y[j][0] = NAN;
-        for (int c = 0; c < o.model.carried; c++) s.y[j][ISO_STATE + c] = clocks[o.model.carry[c]];
+        for (int c = 0; c < o.model.clocks; c++) s.y[j][ISO_STATE + c] = clocks[o.model.clock_of[c]];
     }
     note_errors(&o, &s, times, family, b);
     note_invariants(&o, &s, exact_names[family], b);

@@ -21,13 +21,13 @@ static double A(const double b[3], double z)
 static void staeckel(const laws_case *c, laws_worst *worst)
 {
     if (!laws_regular(c)) return;
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     iso_conical at;
     double momenta[2];
     iso_reduction_coordinates(p, c->y, &at);
     iso_reduction_momenta(p, &at, momenta);
     const double lam = at.z[0], mu = at.z[1], N = iso_reduction_multiplier(p, &at);
-    const double left = c->field.energy * (mu - lam) * N * N * lam * mu / (2 * p->k * p->k);
+    const double left = c->problem.energy * (mu - lam) * N * N * lam * mu / (2 * p->k * p->k);
     const double right = -lam * A(p->J, lam) * momenta[0] * momenta[0] + mu * A(p->J, mu) * momenta[1] * momenta[1];
     const double power = p->det_J * pow(lam * mu / p->det_J, -1 + 1 / p->k);
     laws_note(worst, fabs(left - right), laws_conditioning(p) * left, p, "energy");
@@ -55,9 +55,9 @@ static void ball_constants(const void *data, const double y[], double constant[]
 static void note_constants(const laws_case *c, laws_function *constants, const void *data, double size, bool agree,
                            double allowed, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double dy[ISO_STATE], value[2], slope[2];
-    c->system->rhs(&c->field, c->y, dy);
+    c->system->rhs(&c->problem, c->y, dy);
     const double h = laws_step(c, dy) / 8, time = 1024 * h / laws_reach(p);
     constants(data, c->y, value);
     laws_slope_flow(constants, data, 2, c, h, slope);
@@ -73,25 +73,25 @@ static double rounding_of_drift(const iso_params *p)
 
 static double ball_size(const laws_case *c)
 {
-    return c->field.energy * c->field.p.det_J * max3(c->field.p.J) / 2;
+    return c->problem.energy * c->problem.p.det_J * max3(c->problem.p.J) / 2;
 }
 
 static void ball_separates(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     if (p->k == 1 && laws_regular(c))
         note_constants(c, ball_constants, p, ball_size(c), true, rounding_of_drift(p), worst);
 }
 
 static void ball_does_not(const laws_case *c, laws_worst *worst)
 {
-    if (c->field.p.k == -1 && laws_regular(c))
-        note_constants(c, ball_constants, &c->field.p, ball_size(c), false, 0.1, worst);
+    if (c->problem.p.k == -1 && laws_regular(c))
+        note_constants(c, ball_constants, &c->problem.p, ball_size(c), false, 0.1, worst);
 }
 
 /* The point's coordinates and what separates in them */
 typedef struct separated {
-    const iso_field *f;
+    const iso_problem *f;
     double b[3];
     bool plane; /* k = 1 and b = 1/J, else k = -1 and b = J */
 } separated;
@@ -117,8 +117,8 @@ static void point_constants(const void *data, const double y[], double constant[
 
 static separated separate(const laws_case *c, bool plane)
 {
-    separated s = {.f = &c->field, .plane = plane};
-    copy(plane ? c->field.p.inv_J : c->field.p.J, s.b, 3);
+    separated s = {.f = &c->problem, .plane = plane};
+    copy(plane ? c->problem.p.inv_J : c->problem.p.J, s.b, 3);
     return s;
 }
 
@@ -129,7 +129,7 @@ static double point_size(const separated *s)
 
 static void point_separates(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     if (fabs(p->k) != 1 || !laws_regular(c)) return;
     const separated s = separate(c, p->k == 1);
     note_constants(c, point_constants, &s, point_size(&s), true, rounding_of_drift(p), worst);
@@ -138,7 +138,7 @@ static void point_separates(const laws_case *c, laws_worst *worst)
 /* b = J where 1/J belongs and the other way round */
 static void point_in_the_wrong_b(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     if (fabs(p->k) != 1 || !laws_regular(c)) return;
     const separated s = separate(c, p->k == -1);
     note_constants(c, point_constants, &s, point_size(&s), false, 0.1, worst);
@@ -147,13 +147,13 @@ static void point_in_the_wrong_b(const laws_case *c, laws_worst *worst)
 /* At k = -1 the constant is F (11): c = -det J F/2. */
 static void point_constant_is_f(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     if (p->k != -1 || !laws_regular(c)) return;
     const separated s = separate(c, false);
     double constant[2], ball[ISO_STATE], size;
     point_constants(&s, c->y, constant);
     iso_point_to_ball(p, c->y, ball);
-    const double F = laws_integral(&iso_system_ball, "F_shell")->value(&c->field, ball, &size);
+    const double F = laws_integral(&iso_system_ball, "F_shell")->value(&c->problem, ball, &size);
     laws_note(worst, fabs(constant[0] + p->det_J * F / 2), laws_conditioning(p) * point_size(&s), p, "");
 }
 

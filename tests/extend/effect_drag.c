@@ -2,12 +2,12 @@
 #include "model/effects_impl.h"
 #include "model/formula_impl.h"
 
-static double c_of(const iso_field *f)
+static double c_of(const iso_problem *f)
 {
     return f->effects.number[ISO_DRAG][0];
 }
 
-static void motion(iso_formula *F, const iso_field *f)
+static void motion(iso_formula *F, const iso_problem *f)
 {
     const iso_vector omega = formula_omega(F);
     const iso_scalar speed = power_of(F, dot_of(F, omega, omega), constant(F, 0.5));

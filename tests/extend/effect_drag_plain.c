@@ -3,7 +3,7 @@
 
 #include "model/effects_impl.h"
 
-static void torque(const iso_field *f, const double y[], double T[3])
+static void torque(const iso_problem *f, const double y[], double T[3])
 {
     const double c = f->effects.number[ISO_DRAG][0], speed = sqrt(y[0] * y[0] + y[1] * y[1] + y[2] * y[2]);
     for (int i = 0; i < 3; i++) T[i] -= c * speed * y[i];

@@ -10,10 +10,10 @@ enum { STEPS = 2000, NAME_LENGTH = 6 /* "scene:" */ };
 /* Whether a column was asked for: an effect's is filled where the effect is. */
 static bool asked(const iso_orbit_options *o, const iso_effects *effects, int column)
 {
-    if (column < ISO_CLOCKS) return o->carry[column] || column == (int)o->clock;
-    if (column < ISO_COLUMN_POINT) return o->show != ISO_POINT;
-    if (column < ISO_COLUMN_EFFECTS) return o->show != ISO_BALL;
-    return o->show != ISO_POINT && effects->on[iso_column_effect(column)];
+    if (column < ISO_CLOCKS) return o->with_clock[column] || column == (int)o->clock;
+    if (column < ISO_COLUMN_POINT) return o->shown != ISO_SHOW_POINT;
+    if (column < ISO_COLUMN_EFFECTS) return o->shown != ISO_SHOW_BALL;
+    return o->shown != ISO_SHOW_POINT && effects->on[iso_column_effect(column)];
 }
 
 static void check_sample(const iso_orbit *orbit, const iso_orbit_options *o, const iso_sample *sample, double time)
@@ -44,11 +44,11 @@ static void look(const iso_orbit *orbit, const iso_sample *sample)
 {
     const iso_model *m = iso_orbit_model(orbit);
     double size;
-    (void)iso_effects_stiffness(&m->field);
+    (void)iso_effects_stiffness(&m->problem);
     (void)iso_orbit_coupling(orbit), (void)iso_orbit_has_twin(orbit), (void)iso_orbit_statistics(orbit);
     if (iso_orbit_exact(orbit)) (void)iso_exact_describe(iso_orbit_exact(orbit));
     for (const iso_integral *i = m->system->integrals; i->name; i++)
-        if (!i->holds || i->holds(&m->field)) (void)iso_orbit_integral(orbit, m->system, i, sample, &size);
+        if (!i->holds || i->holds(&m->problem)) (void)iso_orbit_integral(orbit, m->system, i, sample, &size);
 }
 
 static void follow(iso_context *ctx, const iso_scene *scene, iso_orbit *orbit, const iso_orbit_options *o)
@@ -66,7 +66,7 @@ static void follow(iso_context *ctx, const iso_scene *scene, iso_orbit *orbit, c
         check_sample(orbit, o, &sample, times[i]);
         look(orbit, &sample);
     }
-    if (!scene->effects.on[ISO_REACTIONS] || o->show == ISO_POINT) return;
+    if (!scene->effects.on[ISO_REACTIONS] || o->shown == ISO_SHOW_POINT) return;
     const iso_status status = iso_orbit_lost_contact(orbit, 0, scene->end, &lost, &sample);
     if (status != ISO_OK) fuzz_failed(ctx, status);
     if (status == ISO_OK && lost) check_sample(orbit, o, &sample, scene->end);
@@ -77,7 +77,7 @@ static void ask(iso_context *ctx, const iso_scene *scene, iso_orbit_options *o)
 {
     iso_orbit *orbit;
     long steps = STEPS;
-    iso_context_watch(ctx, fuzz_goes_on, &steps);
+    iso_context_set_monitor(ctx, fuzz_goes_on, &steps);
     const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, o, &orbit);
     if (status == ISO_OK) {
         check_description(ctx, scene, orbit);
@@ -88,7 +88,7 @@ static void ask(iso_context *ctx, const iso_scene *scene, iso_orbit_options *o)
         (void)iso_scene_blame(ctx, scene, "scene", status);
         fuzz_failed(ctx, status);
     }
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
 }
 
 /* As the scene says, then everything there is, then the closed solution. */
@@ -100,12 +100,12 @@ static void solve(iso_context *ctx, const iso_scene *scene)
     o.method = iso_method_find(scene->method);
     o.tolerance = scene->tolerance;
     o.max_steps = STEPS;
-    if (scene->as == ISO_BALL || scene->as == ISO_POINT || scene->as == ISO_BOTH) o.show = scene->as;
+    if (scene->as == ISO_SHOW_BALL || scene->as == ISO_SHOW_POINT || scene->as == ISO_SHOW_BOTH) o.shown = scene->as;
     ask(ctx, scene, &o);
-    o.show = ISO_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     ask(ctx, scene, &o);
-    o.backend = ISO_EXACT;
+    o.backend = ISO_BACKEND_EXACT;
     o.method = NULL;
     ask(ctx, scene, &o);
 }

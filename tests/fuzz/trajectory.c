@@ -27,8 +27,8 @@ static void use(iso_context *ctx, const iso_record *record)
     for (int to = ISO_BALL; to <= ISO_POINT; to++) {
         iso_record *out = NULL;
         long steps = STEPS;
-        iso_context_watch(ctx, fuzz_goes_on, &steps);
-        status = iso_convert(ctx, &params, record, (iso_picture)to, 1e-12, &out);
+        iso_context_set_monitor(ctx, fuzz_goes_on, &steps);
+        status = iso_convert(ctx, &params, record, (iso_model_kind)to, 1e-12, &out);
         if (status != ISO_OK)
             fuzz_failed(ctx, status);
         else
@@ -37,7 +37,7 @@ static void use(iso_context *ctx, const iso_record *record)
     }
     iso_residuals residuals;
     long steps = STEPS;
-    iso_context_watch(ctx, fuzz_goes_on, &steps);
+    iso_context_set_monitor(ctx, fuzz_goes_on, &steps);
     status = iso_check(ctx, &params, record, 1e-12, &residuals);
     if (status != ISO_OK) fuzz_failed(ctx, status);
     for (int i = 0; status == ISO_OK && i < residuals.count; i++)

@@ -27,7 +27,7 @@ enum { MOST = 128 };
 static scene scenes[MOST];
 static int count;
 
-static iso_sample solve_finely(const scene *s, iso_picture backend)
+static iso_sample solve_finely(const scene *s, iso_backend backend)
 {
     const iso_method *quad = iso_method_find("taylor_quad");
     const hard_road road = {backend, quad ? quad : iso_method_find("taylor_extended"), 1e-15};
@@ -55,11 +55,11 @@ static void add_scene(const iso_params *p, bool from_gamma, double turns, bool i
     gsl_test(iso_start_ball(ctx, w, n, ISO_SPIN_REMOVE, &s->start) != ISO_OK, "a start");
     s->time = turns * 2 * M_PI / (fabs(p->k) * norm(s->start.y));
     s->clock = ISO_CLOCK_T;
-    s->expected = solve_finely(s, ISO_POINT);
+    s->expected = solve_finely(s, ISO_BACKEND_POINT);
     if (!in_s) return;
     s->time = s->expected.clock[ISO_CLOCK_S];
     s->clock = ISO_CLOCK_S;
-    s->expected = solve_finely(s, ISO_BALL);
+    s->expected = solve_finely(s, ISO_BACKEND_BALL);
     const double rate =
         iso_clock_rate(p, ISO_CLOCK_S, 1 / dot_diag(s->expected.ball + 3, p->inv_J, s->expected.ball + 3), NULL);
     s->condition = fmax(1, fabs(p->k) * norm(s->expected.ball) / rate * s->time);

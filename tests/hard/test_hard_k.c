@@ -54,17 +54,17 @@ static iso_status solve(const hard_road *way, const question *q, iso_sample *s)
     o.method = way->method;
     o.tolerance = way->tolerance;
     o.clock = q->clock;
-    o.show = ISO_BOTH;
+    o.shown = ISO_SHOW_BOTH;
     o.gamma_alone = !q->all;
     o.max_steps = 1000000;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = q->all;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = q->all;
     iso_status status = iso_orbit_create(ctx, &q->p, &q->start, &o, &orbit);
     if (status == ISO_OK) status = iso_orbit_at(orbit, q->time, s);
     if (status == ISO_OK) iso_orbit_free(orbit);
     return status;
 }
 
-static iso_status solve_quad(iso_picture backend, const question *q, iso_sample *s)
+static iso_status solve_quad(iso_backend backend, const question *q, iso_sample *s)
 {
     return solve(&(hard_road){backend, iso_method_find("taylor_quad"), 1e-15}, q, s);
 }
@@ -100,7 +100,7 @@ static double condition(const question *q, const iso_sample *truth)
         }
         make_unit(other.start.y + 3);
         remove_along(other.start.y, other.start.y + 3);
-        if (solve_quad(ISO_BALL, &other, &s) == ISO_OK) worst = fmax(worst, error_of(q, &s, truth) / turn);
+        if (solve_quad(ISO_BACKEND_BALL, &other, &s) == ISO_OK) worst = fmax(worst, error_of(q, &s, truth) / turn);
     }
     return worst;
 }
@@ -111,7 +111,7 @@ static double condition(const question *q, const iso_sample *truth)
 static hard_road finest(const hard_road *way, double *bound)
 {
     hard_road r = *way;
-    const bool taylor = way->method == iso_method_find("taylor"), exact = way->backend == ISO_EXACT;
+    const bool taylor = way->method == iso_method_find("taylor"), exact = way->backend == ISO_BACKEND_EXACT;
     const bool extended = way->method && strcmp(way->method->name, "taylor_extended") == 0;
     if (taylor || extended) r.tolerance = 1e-15;
     if (way->method == iso_method_find("rk8pd")) r.tolerance = 1e-14;
@@ -146,8 +146,9 @@ static void refuse(int i)
 static bool may_refuse(const hard_road *way, const question *q)
 {
     const bool bound = way->method && way->method->system;
-    if (way->backend == ISO_EXACT) return fabs(q->p.k) != 1 || q->effects;
-    return way->backend == ISO_POINT && iso_params_steep(&q->p) && (bound || (q->effects && fabs(q->p.k) < 1e-3));
+    if (way->backend == ISO_BACKEND_EXACT) return fabs(q->p.k) != 1 || q->effects;
+    return way->backend == ISO_BACKEND_POINT && iso_params_steep(&q->p) &&
+           (bound || (q->effects && fabs(q->p.k) < 1e-3));
 }
 
 /* Every way's error, in units of the condition times `angle`. */
@@ -170,8 +171,8 @@ static void judge(const question *q, const iso_sample *truth, double unit)
 static void judge_by_quad(const question *q)
 {
     iso_sample ball, point;
-    const bool both = solve_quad(ISO_POINT, q, &point) == ISO_OK;
-    if (solve_quad(ISO_BALL, q, &ball) != ISO_OK) ball.ball[0] = NAN;
+    const bool both = solve_quad(ISO_BACKEND_POINT, q, &point) == ISO_OK;
+    if (solve_quad(ISO_BACKEND_BALL, q, &ball) != ISO_OK) ball.ball[0] = NAN;
     const double C = condition(q, &ball);
     if (both) quads = larger(quads, error_of(q, &point, &ball) / C);
     judge(q, &ball, C);
@@ -197,7 +198,7 @@ static double naive(const question *q, const iso_system *system, double step)
     double y[ISO_STATE], size;
     iso_integrator *it = NULL;
     iso_sample truth;
-    iso_field f = {.p = q->p};
+    iso_problem f = {.p = q->p};
     f.energy = iso_system_ball.energy(&f, q->start.y, &size);
     f.eps = iso_coupling(&q->p, f.energy);
     copy(q->start.y, y, ISO_STATE);
@@ -208,7 +209,7 @@ static double naive(const question *q, const iso_system *system, double step)
     if (status == ISO_OK) status = iso_integrator_start(it, y);
     if (status == ISO_OK) status = iso_integrator_at(it, q->time, y);
     iso_integrator_free(it);
-    if (status != ISO_OK || solve_quad(ISO_BALL, q, &truth) != ISO_OK) return NAN;
+    if (status != ISO_OK || solve_quad(ISO_BACKEND_BALL, q, &truth) != ISO_OK) return NAN;
     if (system == &iso_system_point) iso_point_to_ball(&q->p, y, y);
     return hard_error(y, truth.ball);
 }
@@ -246,7 +247,7 @@ static void powers(void)
         question q = ask(sign * 0.05, bodies[2], 1);
         iso_sample s;
         q.all = true;
-        if (solve_quad(ISO_BALL, &q, &s) != ISO_OK) s.clock[ISO_CLOCK_S] = NAN;
+        if (solve_quad(ISO_BACKEND_BALL, &q, &s) != ISO_OK) s.clock[ISO_CLOCK_S] = NAN;
         q.clock = ISO_CLOCK_S, q.time = s.clock[ISO_CLOCK_S];
         judge_by_quad(&q);
     }
@@ -338,7 +339,7 @@ static void neighbours(void)
         question q = ask(at[i], bodies[1], 20);
         iso_sample truth;
         q.all = true;
-        if (solve_quad(ISO_BALL, &q, &truth) != ISO_OK) truth.ball[0] = NAN;
+        if (solve_quad(ISO_BACKEND_BALL, &q, &truth) != ISO_OK) truth.ball[0] = NAN;
         const double C = condition(&q, &truth);
         for (int j = 0; j < 5; j++) {
             q.p = laws_params(at[i] * (1 + apart[j]), bodies[1]);
@@ -353,7 +354,8 @@ static void neighbours(void)
     close_book();
     question q = ask(1, bodies[1], 20), near = ask(1 + 1e-6, bodies[1], 20);
     iso_sample a, b;
-    const bool ok = solve_quad(ISO_BALL, &q, &a) == ISO_OK && solve_quad(ISO_BALL, &near, &b) == ISO_OK;
+    const bool ok =
+        solve_quad(ISO_BACKEND_BALL, &q, &a) == ISO_OK && solve_quad(ISO_BACKEND_BALL, &near, &b) == ISO_OK;
     hard_naive("k within 1e-6 of 1 taken as 1", ok ? error_of(&q, &a, &b) : 0, ROUNDING);
 }
 

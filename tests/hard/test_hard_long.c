@@ -15,7 +15,7 @@ static iso_context *ctx;
 static double all_spins, all_seconds; /* of every method at k = -1; 0: what a test has time for */
 static long_run runs[HARD_WAYS];
 
-static const hard_road by_exact = {ISO_EXACT, NULL, 1e-12};
+static const hard_road by_exact = {ISO_BACKEND_EXACT, NULL, 1e-12};
 
 static long_scene scene_of(double k)
 {
@@ -55,7 +55,7 @@ static void run_all(double k)
         if (all_spins == 0 || runs[i].refused) continue;
         const double *drift = runs[i].drift;
         printf("%s %s, k = %g: %g spins, energy %.1e, |n| %.1e, (w,n) %.1e, F %.1e, error %.1e ~ t^%.2f %s\n",
-               iso_picture_name((int)way->backend), way->method ? way->method->name : "", k, runs[i].spins,
+               iso_backend_name((int)way->backend), way->method ? way->method->name : "", k, runs[i].spins,
                drift[LONG_ENERGY], drift[LONG_UNITS], drift[LONG_SPIN], drift[LONG_SECOND], runs[i].error,
                runs[i].growth, runs[i].words);
         fflush(stdout);
@@ -97,13 +97,13 @@ static void hold_drift(double k, int quantity, const char *what, const char *why
     for (int i = 0; i < hard_ways; i++) {
         const hard_road *way = &hard_way[i];
         if (runs[i].refused)
-            hard_refused(way, way->backend == ISO_EXACT && k == 0.5, runs[i].words);
+            hard_refused(way, way->backend == ISO_BACKEND_EXACT && k == 0.5, runs[i].words);
         else
             hard_hold(way, runs[i].drift[quantity], long_bound(way, &runs[i], quantity));
     }
     for (int i = 0; i < hard_ways; i++) { /* what the projection is for */
         const iso_method *m = hard_way[i].method;
-        if (!m || m->projects || hard_way[i].backend != ISO_BALL || long_is(&hard_way[i], "splitting") ||
+        if (!m || m->projects || hard_way[i].backend != ISO_BACKEND_BALL || long_is(&hard_way[i], "splitting") ||
             quantity == LONG_SECOND)
             continue;
         hard_naive(m->name, runs[i].drift[quantity], LONG_ROUNDED);
@@ -118,7 +118,8 @@ static void hold_trend(double k)
     for (int i = 0; i < hard_ways; i++)
         if (long_is(&hard_way[i], "splitting")) hard_hold(&hard_way[i], runs[i].trend, 3);
     for (int i = 0; i < hard_ways && k == -1; i++)
-        if (hard_way[i].method && hard_way[i].backend == ISO_BALL && strstr(hard_way[i].method->name, "adams"))
+        if (hard_way[i].method && hard_way[i].backend == ISO_BACKEND_BALL &&
+            strstr(hard_way[i].method->name, "adams"))
             hard_naive(hard_way[i].method->name, runs[i].trend, 3);
 }
 
@@ -130,7 +131,8 @@ static void hold_growth(double k)
         if (long_is(&hard_way[i], "splitting") || (hard_way[i].method && !strcmp(hard_way[i].method->name, "taylor")))
             hard_hold(&hard_way[i], runs[i].growth - 1, 0.3);
     for (int i = 0; i < hard_ways && k == -1; i++) /* which keeps energy and constraints, but not F */
-        if (hard_way[i].backend == ISO_BALL && hard_way[i].method && !strcmp(hard_way[i].method->name, "rk8pd"))
+        if (hard_way[i].backend == ISO_BACKEND_BALL && hard_way[i].method &&
+            !strcmp(hard_way[i].method->name, "rk8pd"))
             hard_naive("rk8pd, F left to drift", runs[i].growth - 1, 0.3);
     begin_case("phase error in tolerances a spin", k, "steps add up");
     for (int i = 0; i < hard_ways; i++)
@@ -154,7 +156,7 @@ static void integrals_hold(double k)
 static void no_integral(void)
 {
     const long_scene scene = scene_of(0.5);
-    const hard_road way = {ISO_BALL, iso_method_find("taylor"), 1e-12};
+    const hard_road way = {ISO_BACKEND_BALL, iso_method_find("taylor"), 1e-12};
     hard_case("no integral, k = 0.5", "energy beside F of k = 1 and of k = -1, 100 spins",
               "a drift of what holds must be seen, and what does not hold must drift");
     iso_orbit *orbit;
@@ -202,13 +204,13 @@ static double sensitivity(const long_scene *scene, double spins, double state[IS
 static double plainly_projected(const long_scene *scene, double spins, const double right[ISO_STATE])
 {
     enum { PARTS = 2 };
-    const iso_field f = {.p = scene->p};
+    const iso_problem f = {.p = scene->p};
     iso_model model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[]){false, false, false});
     const double *J = scene->p.J;
     double y[ISO_STATE];
     iso_integrator *it;
     copy(scene->start.y, y, ISO_STATE);
-    model.field.energy = dot_diag(y, J, y) / 2;
+    model.problem.energy = dot_diag(y, J, y) / 2;
     if (iso_integrator_create(ctx, iso_method_find("taylor"), &model,
                               &(iso_method_options){.tolerance = 1e-15, .no_projection = true}, &it) != ISO_OK)
         scene_stops("taylor", ctx);
@@ -217,7 +219,7 @@ static double plainly_projected(const long_scene *scene, double spins, const dou
         if (iso_integrator_at(it, scene->spin / PARTS, y) != ISO_OK) scene_stops("taylor", ctx);
         make_unit(y + 3);
         remove_along(y, y + 3);
-        scale(y, sqrt(2 * model.field.energy / dot_diag(y, J, y)));
+        scale(y, sqrt(2 * model.problem.energy / dot_diag(y, J, y)));
     }
     iso_integrator_free(it);
     return hard_error(y, right);
@@ -250,7 +252,7 @@ static void finest_phase(double k)
 /* A random orbit in the system's own clock; gives the time of a radian of the unit vector. */
 static double sampled(const iso_system *system, double k, iso_model *model, double y[ISO_STATE])
 {
-    iso_field f = {.p = laws_params(k, (double[]){1.4, 2.1, 3.0})};
+    iso_problem f = {.p = laws_params(k, (double[]){1.4, 2.1, 3.0})};
     iso_random *random = iso_random_create(8);
     double dy[ISO_STATE];
     system->sample(&f, random, y);
@@ -280,7 +282,7 @@ static void clocks(void)
         if (!way->method || !way->method->fixed) continue;
         iso_model model;
         double t, y[ISO_STATE], reached[ISO_STATE];
-        h = 0.1 * sampled(way->backend == ISO_BALL ? &iso_system_ball : &iso_system_point, -1, &model, y);
+        h = 0.1 * sampled(way->backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point, -1, &model, y);
         iso_integrator *it = started(way->method, &model, &(iso_method_options){.fixed_step = h}, y);
         const iso_status status = iso_integrator_at(it, (STEPS - 0.5) * h, reached);
         iso_integrator_last(it, &t, y);
@@ -296,7 +298,7 @@ static void clocks(void)
 /* gamma'' = (2 eps/k) q^(-1-1/k) [(1-k) q gamma - J gamma] */
 static int second_order(double s, const double y[], double dy[], void *model)
 {
-    const iso_field *f = &((const iso_model *)model)->field;
+    const iso_problem *f = &((const iso_model *)model)->problem;
     const double k = f->p.k, *J = f->p.J, *gamma = y + 3, q = dot_diag(gamma, J, gamma);
     const double a = 2 * f->eps / k * pow(q, -1 - 1 / k);
     (void)s;
@@ -306,7 +308,7 @@ static int second_order(double s, const double y[], double dy[], void *model)
 
 static void unprojected(double k)
 {
-    const hard_road way = {ISO_POINT, iso_method_find("taylor"), 1e-12};
+    const hard_road way = {ISO_BACKEND_POINT, iso_method_find("taylor"), 1e-12};
     const iso_method_options options = {.tolerance = way.tolerance};
     iso_model model;
     double start[ISO_STATE], y[ISO_STATE], s = 0;

@@ -9,7 +9,7 @@
 static iso_context *ctx;
 static long_run runs[HARD_WAYS];
 
-static const hard_road by_extended = {ISO_BALL, NULL, 1e-15};
+static const hard_road by_extended = {ISO_BACKEND_BALL, NULL, 1e-15};
 
 typedef struct forced {
     const char *name;
@@ -90,14 +90,15 @@ static void hold_drift(const forced *f, int quantity, const char *what, const ch
     for (int i = 0; i < hard_ways; i++) {
         const hard_road *way = &hard_way[i];
         if (runs[i].refused)
-            hard_refused(way, way->backend == ISO_EXACT || (way->backend == ISO_POINT && !f->point), runs[i].words);
+            hard_refused(way, way->backend == ISO_BACKEND_EXACT || (way->backend == ISO_BACKEND_POINT && !f->point),
+                         runs[i].words);
         else
             hard_hold(way, runs[i].drift[quantity], long_bound(way, &runs[i], quantity));
     }
     for (int i = 0; i < hard_ways; i++) {
         const iso_method *m = hard_way[i].method;
         if (!m || runs[i].refused || m->projects || long_is(&hard_way[i], "splitting")) continue;
-        if (hard_way[i].backend == ISO_BALL) hard_naive(m->name, runs[i].drift[quantity], LONG_ROUNDED);
+        if (hard_way[i].backend == ISO_BACKEND_BALL) hard_naive(m->name, runs[i].drift[quantity], LONG_ROUNDED);
     }
 }
 
@@ -108,7 +109,8 @@ static void hold_trend(const forced *f)
     for (int i = 0; i < hard_ways; i++)
         if (long_is(&hard_way[i], "splitting")) hard_hold(&hard_way[i], runs[i].trend, 3);
     for (int i = 0; i < hard_ways; i++)
-        if (hard_way[i].method && strcmp(hard_way[i].method->name, "msadams") == 0 && hard_way[i].backend == ISO_BALL)
+        if (hard_way[i].method && strcmp(hard_way[i].method->name, "msadams") == 0 &&
+            hard_way[i].backend == ISO_BACKEND_BALL)
             hard_naive("msadams", runs[i].trend, 3);
 }
 

@@ -110,7 +110,7 @@ static double under(const host *h, const answer *plain, const hard_road *way, co
     fesetenv(FE_DFL_ENV);
     const double count = differing(plain, &a) + !stands;
     gsl_test(count > 0, "%s: %s %s: %g bytes differ%s", h->name,
-             way ? iso_picture_name((int)way->backend) : study->name, way && way->method ? way->method->name : "",
+             way ? iso_backend_name((int)way->backend) : study->name, way && way->method ? way->method->name : "",
              count, stands ? "" : ", and what the host had set is gone");
     free(a.bytes);
     return count;
@@ -240,7 +240,7 @@ static double trapped(const answer *plain, const hard_road *way, const struct st
     const bool survived =
         child > 0 && waitpid(child, &ended, 0) == child && WIFEXITED(ended) && WEXITSTATUS(ended) == 0;
     gsl_test(!survived, "a host that traps: %s %s: status %x",
-             way ? iso_picture_name((int)way->backend) : study->name, way && way->method ? way->method->name : "",
+             way ? iso_backend_name((int)way->backend) : study->name, way && way->method ? way->method->name : "",
              (unsigned)ended);
     return survived ? 0 : 1;
 }

@@ -121,7 +121,7 @@ static iso_status find_orbit(const hard_road *way)
 /* On a separatrix: a closed solution made of three. */
 static iso_status find_separatrix(const hard_road *way)
 {
-    const hard_road exact = {ISO_EXACT, NULL, 1e-12};
+    const hard_road exact = {ISO_BACKEND_EXACT, NULL, 1e-12};
     const double gamma[3] = {sqrt(0.5), 0, sqrt(0.5)}, M[3] = {0, 1, 0};
     iso_start start;
     iso_sample sample;

@@ -57,7 +57,8 @@ static iso_status start_of_point(iso_context *ctx, const void *data, const doubl
 
 /* How an orbit is asked, by a start that nothing has checked. */
 typedef struct request {
-    iso_picture model, backend;
+    iso_model_kind model;
+    iso_backend backend;
     bool both;
     iso_clock clock;
 } request;
@@ -74,8 +75,8 @@ static iso_status make_orbit(iso_context *ctx, const request *r, const double v[
     memcpy(start.y, v + STATE, sizeof start.y);
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = effects, o.backend = r->backend, o.tolerance = v[TOLERANCE], o.clock = r->clock, o.max_steps = 20000;
-    if (r->both) o.show = ISO_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = r->both;
+    if (r->both) o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = r->both;
     return iso_orbit_create(ctx, &p, &start, &o, orbit);
 }
 
@@ -127,7 +128,7 @@ enum { MGB, UP, QUADRATIC = 4, LINEAR = 13, LEVEL = 16, TWIST, RESISTANCE, QUATE
 static iso_status with_effects(iso_context *ctx, const void *data, const double v[], sweep_answer *a)
 {
     static const double usual[AFTER_ORBIT] = {0.7, 1.4, 2.1, 3, 0.9, -0.3, -0.225, 0.36, 0.48, 0.8, 1, 1e-6, 1};
-    const request r = {.model = ISO_BALL, .backend = ISO_BALL, .clock = ISO_CLOCK_T};
+    const request r = {.model = ISO_BALL, .backend = ISO_BACKEND_BALL, .clock = ISO_CLOCK_T};
     iso_effects e = {.number = {[ISO_GRAVITY] = {v[MGB]},
                                 [ISO_LEVEL] = {v[LEVEL]},
                                 [ISO_TWIST] = {v[TWIST]},
@@ -168,7 +169,7 @@ static iso_status batch(iso_context *ctx, const void *data, const double v[], sw
     if (status != ISO_OK) return status;
     memcpy(start.y, v + STATE, sizeof start.y);
     iso_batch_options o = iso_batch_defaults();
-    o.tolerance = v[TOLERANCE], o.max_steps = 20000, o.backend = r->backend, o.show = r->model;
+    o.tolerance = v[TOLERANCE], o.max_steps = 20000, o.backend = r->backend, o.shown = (iso_shown)r->model;
     o.threads = 1, o.clock = r->clock;
     status = iso_batch_run(ctx, &(iso_batch_orbit){&p, &start, NULL}, 1, &o, (double[]){v[TIME], v[AFTER_ORBIT]}, 2,
                            samples, NULL);
@@ -181,10 +182,10 @@ static iso_status batch(iso_context *ctx, const void *data, const double v[], sw
 static iso_model make_model(const iso_system *system)
 {
     static const double usual[3] = {1.4, 2.1, 3};
-    const bool carry[ISO_CLOCKS] = {false};
-    iso_field f = {.eps = system == &iso_system_point ? 0.3 : 0, .energy = 0.7};
+    const bool with_clock[ISO_CLOCKS] = {false};
+    iso_problem f = {.eps = system == &iso_system_point ? 0.3 : 0, .energy = 0.7};
     if (iso_params_reduced(NULL, -1, usual, &f.p) != ISO_OK) abort();
-    return iso_model_assemble(system, &f, system->clock, carry);
+    return iso_model_assemble(system, &f, system->clock, with_clock);
 }
 
 /* y, time, tolerance, fixed step */
@@ -207,7 +208,7 @@ static iso_status integrator(iso_context *ctx, const void *data, const double v[
 static iso_status exact(iso_context *ctx, const void *data, const double v[], sweep_answer *a)
 {
     const bool clocks[ISO_CLOCKS] = {true, true, true};
-    iso_field f = {.eps = v[10], .energy = v[11]};
+    iso_problem f = {.eps = v[10], .energy = v[11]};
     iso_exact *x;
     double point[4 * ISO_STATE], shown[4 * ISO_CLOCKS], angle[2];
     (void)data;
@@ -236,15 +237,15 @@ static iso_status exact(iso_context *ctx, const void *data, const double v[], sw
 static const iso_surface on_plane = ISO_PLANE, outside = ISO_OUTSIDE, inside = ISO_INSIDE, around = ISO_SHELL;
 static const iso_spin refuse = ISO_SPIN_REFUSE, take_off = ISO_SPIN_REMOVE, keep = ISO_SPIN_KEEP;
 static const bool no = false, yes = true;
-static const request ball_by_ball = {ISO_BALL, ISO_BALL, false, ISO_CLOCK_T},
-                     ball_by_point = {ISO_BALL, ISO_POINT, false, ISO_CLOCK_T},
-                     ball_by_exact = {ISO_BALL, ISO_EXACT, false, ISO_CLOCK_T},
-                     both_by_ball = {ISO_BALL, ISO_BALL, true, ISO_CLOCK_TAU},
-                     both_by_exact = {ISO_BALL, ISO_EXACT, true, ISO_CLOCK_S},
-                     point_by_point = {ISO_POINT, ISO_POINT, false, ISO_CLOCK_S},
-                     point_by_ball = {ISO_POINT, ISO_BALL, false, ISO_CLOCK_S},
-                     point_by_exact = {ISO_POINT, ISO_EXACT, false, ISO_CLOCK_S},
-                     both_by_point = {ISO_POINT, ISO_POINT, true, ISO_CLOCK_T};
+static const request ball_by_ball = {ISO_BALL, ISO_BACKEND_BALL, false, ISO_CLOCK_T},
+                     ball_by_point = {ISO_BALL, ISO_BACKEND_POINT, false, ISO_CLOCK_T},
+                     ball_by_exact = {ISO_BALL, ISO_BACKEND_EXACT, false, ISO_CLOCK_T},
+                     both_by_ball = {ISO_BALL, ISO_BACKEND_BALL, true, ISO_CLOCK_TAU},
+                     both_by_exact = {ISO_BALL, ISO_BACKEND_EXACT, true, ISO_CLOCK_S},
+                     point_by_point = {ISO_POINT, ISO_BACKEND_POINT, false, ISO_CLOCK_S},
+                     point_by_ball = {ISO_POINT, ISO_BACKEND_BALL, false, ISO_CLOCK_S},
+                     point_by_exact = {ISO_POINT, ISO_BACKEND_EXACT, false, ISO_CLOCK_S},
+                     both_by_point = {ISO_POINT, ISO_BACKEND_POINT, true, ISO_CLOCK_T};
 static const bool with_gravity[ISO_EFFECTS] = {[ISO_GRAVITY] = true, [ISO_REACTIONS] = true},
                   with_field[ISO_EFFECTS] = {[ISO_FIELD] = true, [ISO_ATTITUDE] = true},
                   with_level[ISO_EFFECTS] = {[ISO_LEVEL] = true, [ISO_REACTIONS] = true},

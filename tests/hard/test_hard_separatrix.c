@@ -106,7 +106,7 @@ static iso_sample solve(const hard_road *way, const rotation *r, const iso_start
 /* Whether a way has the orbit: closed solutions are not for every k off a plane. */
 static bool served(const hard_road *way, double k)
 {
-    return way->backend != ISO_EXACT || fabs(k) == 1;
+    return way->backend != ISO_BACKEND_EXACT || fabs(k) == 1;
 }
 
 /* --- naive: in axes that are not the principal ones ------------------------------------------------------------- */
@@ -125,11 +125,11 @@ static void turned(const double a[3], bool to, double b[3])
 
 static int turned_rates(double t, const double y[], double dy[], void *params)
 {
-    const iso_field field = {.p = *(iso_params *)params};
+    const iso_problem problem = {.p = *(iso_params *)params};
     double own[ISO_STATE], f[ISO_STATE];
     (void)t;
     for (int v = 0; v < ISO_STATE; v += 3) turned(y + v, false, own + v);
-    iso_system_ball.rhs(&field, own, f);
+    iso_system_ball.rhs(&problem, own, f);
     for (int v = 0; v < ISO_STATE; v += 3) turned(f + v, true, dy + v);
     return GSL_SUCCESS;
 }
@@ -166,8 +166,9 @@ static double variational_exponent(const rotation *r)
 {
     enum { STEPS = 2000, TURNS = 12 };
     static const double part[4] = {0, 0.5, 0.5, 1}, weight[4] = {1 / 6.0, 1 / 3.0, 1 / 3.0, 1 / 6.0};
-    const iso_field field = {.p = r->p};
-    const iso_model ball = iso_model_assemble(&iso_system_ball, &field, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
+    const iso_problem problem = {.p = r->p};
+    const iso_model ball =
+        iso_model_assemble(&iso_system_ball, &problem, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
     const iso_start tiny = beside(r, 1e-30); /* in the plane but for the disturbance */
     double x[ISO_STATE] = {0}, before = 0, h = r->turn / STEPS;
     for (int i = 0; i < ISO_STATE; i++)
@@ -303,7 +304,7 @@ static void check_escape(void)
     hard_naive("in axes that are not principal, from 1e-30",
                rate_error(&r, 1e-30, turns, naive_at(&r, &start, turns)), 1e-2);
     iso_sample s;
-    const hard_road exact = {ISO_EXACT, NULL, 1e-12};
+    const hard_road exact = {ISO_BACKEND_EXACT, NULL, 1e-12};
     const rotation other = rotation_about(-0.4, 1);
     const iso_start from = beside(&other, 1e-15);
     hard_case("leaving it, k = -0.4", "no answer, and the reason", "there is no second integral");
@@ -335,8 +336,8 @@ static void check_loose(void)
     }
     const rotation r = rotation_about(0.5, 1); /* the step that n's last three terms allow: 14 terms at 1e-6 */
     const iso_start start = beside(&r, y0);
-    const iso_field field = {.p = r.p, .energy = J_three[1] * W * W / 2};
-    orbit o = {.ctx = ctx, .model.system = &iso_system_ball, .model.field = field};
+    const iso_problem problem = {.p = r.p, .energy = J_three[1] * W * W / 2};
+    orbit o = {.ctx = ctx, .model.system = &iso_system_ball, .model.problem = problem};
     double y[ISO_MAX_STATE];
     copy(start.y, o.y0, ISO_STATE);
     orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
@@ -365,13 +366,13 @@ static near_orbit next_to(double distance, int i, iso_random *random)
         n.o = (orbit){.ctx = ctx, .model.system = &iso_system_point};
     } while (!exact_next_to(&n.o, i % 2 ? 1 : -1, J_three, g, distance * (i / 2 % 2 ? 1 : -1), 1));
     const double eps = 1;
-    const rotation r = rotation_about(n.o.model.field.p.k, 1);
-    const hard_road quad = {ISO_POINT, iso_method_find("taylor_quad"), 1e-15};
-    const double root = sqrt(2 * eps), fast = n.o.model.field.p.k == 1 ? root / sqrt(1.4) : root * sqrt(3.0);
+    const rotation r = rotation_about(n.o.model.problem.p.k, 1);
+    const hard_road quad = {ISO_BACKEND_POINT, iso_method_find("taylor_quad"), 1e-15};
+    const double root = sqrt(2 * eps), fast = n.o.model.problem.p.k == 1 ? root / sqrt(1.4) : root * sqrt(3.0);
     n.growth = 1000, n.radians = log(n.growth) / r.exponent * M_PI;
     n.s = n.radians / fast; /* at most so many radians */
     if (iso_start_point(ctx, n.o.y0, n.o.y0 + 3, &eps, true, &n.start) != ISO_OK ||
-        hard_solve(ctx, &quad, &n.o.model.field.p, &n.start, NULL, true, ISO_CLOCK_S, n.s, &n.truth) != ISO_OK)
+        hard_solve(ctx, &quad, &n.o.model.problem.p, &n.start, NULL, true, ISO_CLOCK_S, n.s, &n.truth) != ISO_OK)
         gsl_test(1, "no orbit next to the separatrix: %s", iso_context_message(ctx));
     return n;
 }
@@ -392,7 +393,7 @@ static void check_next_to(void)
         for (int j = 0; j < ORBITS; j++) {
             iso_sample s;
             const iso_status status =
-                hard_solve(ctx, &way, &n[j].o.model.field.p, &n[j].start, NULL, true, ISO_CLOCK_S, n[j].s, &s);
+                hard_solve(ctx, &way, &n[j].o.model.problem.p, &n[j].start, NULL, true, ISO_CLOCK_S, n[j].s, &s);
             worst = hard_worse(status == ISO_OK ? hard_error(s.point, n[j].truth.point) : NAN, worst);
             bound = fmax(bound, n[j].growth * hard_loss(&way) * M_PI / rotation_about(-1, 1).exponent);
         }
@@ -407,7 +408,8 @@ static void check_next_to(void)
  * Here is one in binary: b2 - b1 = b3 - b2, gamma1 = gamma3. */
 static void check_on(void)
 {
-    const hard_road exact = {ISO_EXACT, NULL, 1e-12}, steps = {ISO_POINT, iso_method_find("rk8pd"), 1e-12};
+    const hard_road exact = {ISO_BACKEND_EXACT, NULL, 1e-12},
+                    steps = {ISO_BACKEND_POINT, iso_method_find("rk8pd"), 1e-12};
     const double J[2][3] = {{1, 2, 3}, {6, 3, 2}}, M[3] = {0.3, -0.8, -0.3}, gamma[3] = {M_SQRT1_2, 0, M_SQRT1_2};
     double worst = 0, naive = 0;
     hard_case("on the separatrix", "omega and n across the plane at t = 1e6, relative to the rotation",

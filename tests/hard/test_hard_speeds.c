@@ -59,7 +59,7 @@ static void check_resting(const hard_road *way, const iso_start *start, const is
     iso_orbit_options o = iso_orbit_defaults(start);
     o.backend = way->backend, o.method = way->method, o.tolerance = way->tolerance, o.effects = effects;
     const iso_status status = iso_orbit_create(ctx, &params, start, &o, &orbit);
-    if (way->backend != ISO_BALL) {
+    if (way->backend != ISO_BACKEND_BALL) {
         hard_refused(way, status == ISO_NOT_MAPPED, "a ball at rest (h = 0) has no twin");
         return;
     }
@@ -109,7 +109,7 @@ static void check_rest(void)
     start = (iso_start){.model = ISO_BALL, .y = {0, 0, 0, 0, 0, -1}};
     hard_case("balance", "the same of a ball that gravity holds where it is", "it turns for ever, but not at all");
     for (int w = 0; w < hard_ways; w++)
-        if (hard_way[w].backend == ISO_BALL) check_resting(&hard_way[w], &start, &gravity);
+        if (hard_way[w].backend == ISO_BACKEND_BALL) check_resting(&hard_way[w], &start, &gravity);
 }
 
 /* --- speeds ----------------------------------------------------------------------------------------------------- */

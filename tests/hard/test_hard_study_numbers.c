@@ -126,7 +126,7 @@ static iso_status written(iso_context *ctx, const void *data, const double v[], 
 enum { STATE = 4, EPS = 10, END, STEP, SCENE_TOLERANCE, AFTER_SCENE };
 
 /* k, J, start, eps, end, step, tolerance: a scene that nothing has checked. */
-static iso_status make_scene(iso_context *ctx, iso_picture model, const double v[], iso_scene *scene)
+static iso_status make_scene(iso_context *ctx, iso_model_kind model, const double v[], iso_scene *scene)
 {
     *scene = iso_scene_default();
     memcpy(scene->start.y, v + STATE, sizeof scene->start.y);
@@ -139,7 +139,7 @@ static iso_status compare(iso_context *ctx, const void *data, const double v[], 
 {
     iso_scene scene;
     iso_comparison *c = NULL;
-    iso_status status = make_scene(ctx, *(const iso_picture *)data, v, &scene);
+    iso_status status = make_scene(ctx, *(const iso_model_kind *)data, v, &scene);
     if (status == ISO_OK) status = iso_compare(ctx, &scene, NULL, NULL, &c);
     if (status == ISO_OK) {
         sweep_give(a, c->worst, ISO_DIFFERENCES);
@@ -157,7 +157,7 @@ static iso_status frequencies(iso_context *ctx, const void *data, const double v
     iso_frequencies f;
     const double *of = v + AFTER_SCENE;
     const iso_frequencies_options o = {of[0], of[1], of[2]};
-    iso_status status = make_scene(ctx, *(const iso_picture *)data, v, &scene);
+    iso_status status = make_scene(ctx, *(const iso_model_kind *)data, v, &scene);
     if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &o, &f);
     for (int i = 0; status == ISO_OK && i < f.angles; i++) sweep_give(a, f.angle[i].frequency, ISO_CLOCKS);
     return status;
@@ -169,7 +169,7 @@ static iso_status estimate(iso_context *ctx, const void *data, const double v[],
     iso_frequencies f;
     const double *of = v + AFTER_SCENE;
     const iso_frequencies_options o = {of[0], of[1], of[2]};
-    iso_status status = make_scene(ctx, *(const iso_picture *)data, v, &scene);
+    iso_status status = make_scene(ctx, *(const iso_model_kind *)data, v, &scene);
     if (status == ISO_OK) status = iso_frequencies_estimate(ctx, &scene, &o, &f);
     for (int i = 0; status == ISO_OK && i < f.angles; i++) sweep_give(a, f.angle[i].frequency, 1);
     return status;
@@ -182,8 +182,8 @@ static iso_status cost(iso_context *ctx, const void *data, const double v[], swe
     iso_cost *c = NULL;
     iso_cost_options o = iso_cost_defaults();
     o.quick = true, o.seconds = 0.2, o.times = 2;
-    o.backend = ISO_BALL, o.method = iso_method_find("taylor"), o.tolerance = v[SCENE_TOLERANCE];
-    iso_status status = make_scene(ctx, *(const iso_picture *)data, v, &scene);
+    o.backend = ISO_BACKEND_BALL, o.method = iso_method_find("taylor"), o.tolerance = v[SCENE_TOLERANCE];
+    iso_status status = make_scene(ctx, *(const iso_model_kind *)data, v, &scene);
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &o, &c);
     for (int i = 0; status == ISO_OK && i < c->cells; i++)
         if (iso_cost_is_measured(&c->cell[i])) sweep_give(a, &c->cell[i].error, 1);
@@ -260,7 +260,7 @@ static iso_status momentum(iso_context *ctx, const void *data, const double v[],
 enum { EPS_BIT = 1 << EPS, ESTIMATE_BITS = 7 << AFTER_SCENE, UNREAD = 1 << END | 1 << STEP };
 enum { NO_BODY = 1 << 9 | 1 << 10 }; /* without a mass or a radius there is no body, which the analogue says */
 
-static const iso_picture ball = ISO_BALL, point = ISO_POINT;
+static const iso_model_kind ball = ISO_BALL, point = ISO_POINT;
 static const carried ball_row = {false, 1}, point_row = {true, 1}, first_row = {false, 0}, first_point = {true, 0};
 static const bool neumann = true, braden = false;
 

@@ -21,8 +21,8 @@ static iso_orbit *open_orbit(const hard_road *way, bool both, iso_clock clock)
     iso_orbit *orbit = NULL;
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.backend = way->backend, o.method = way->method, o.tolerance = way->tolerance, o.clock = clock;
-    if (both) o.show = ISO_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = both;
+    if (both) o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = both;
     const iso_status status = iso_orbit_create(ctx, &params, &start, &o, &orbit);
     gsl_test(status != ISO_OK, "an orbit by %s: %s", way->method ? way->method->name : "exact",
              iso_context_message(ctx));
@@ -182,7 +182,7 @@ static void check_order(iso_clock clock)
 /* What steps that end at each output time make of it. */
 static double from_time_to_time(void)
 {
-    const hard_road way = {ISO_BALL, iso_method_find("rk8pd"), 1e-12};
+    const hard_road way = {ISO_BACKEND_BALL, iso_method_find("rk8pd"), 1e-12};
     iso_orbit *orbit = open_orbit(&way, false, ISO_CLOCK_T);
     const iso_sample half = ask(orbit, 2.5), whole = ask(orbit, 5);
     const iso_start usual = start;
@@ -209,8 +209,8 @@ static void check_orders(void)
 
 /* --- ends of steps ---------------------------------------------------------------------------------------------- */
 
-/* The state at the end of a step is the method's, beside it what a leap or a polynomial says from the step's other
- * end: apart by an error of a step each, in each component at most `tolerance` of its size, times max J/min J
+/* The state at the end of a step is the method's, beside it what dense output or a polynomial says from the step's
+ * other end: apart by an error of a step each, in each component at most `tolerance` of its size, times max J/min J
  * from model to model; to rounding. */
 static double allowed_jump(const hard_road *way)
 {
@@ -220,7 +220,7 @@ static double allowed_jump(const hard_road *way)
 /* The jump where the state within a step is a straight line from its beginning. */
 static double straight(void)
 {
-    const hard_road way = {ISO_BALL, iso_method_find("rk8pd"), 1e-12};
+    const hard_road way = {ISO_BACKEND_BALL, iso_method_find("rk8pd"), 1e-12};
     iso_orbit *orbit = open_orbit(&way, false, ISO_CLOCK_T);
     ask(orbit, 1);
     const double begin = iso_orbit_reached(orbit), moment = 1e-6;
@@ -315,7 +315,7 @@ static void check_many(void)
               "a step for each row would be 1e6 of them");
     for (int w = 0; w < hard_ways; w++) {
         const iso_method *m = hard_way[w].method;
-        if (m && strcmp(m->name, "taylor") != 0) continue; /* others leap to each row: the same code, slower */
+        if (m && strcmp(m->name, "taylor") != 0) continue; /* others take a step to each row: the same code, slower */
         iso_orbit *orbit = open_orbit(&hard_way[w], false, ISO_CLOCK_T),
                   *alone = open_orbit(&hard_way[w], false, ISO_CLOCK_T);
         iso_sample row = {.clock = {0}};

@@ -47,7 +47,7 @@ static problem make(double k, const double J[3], const double M[3], const double
                     bool as_ball)
 {
     problem b = {.p = laws_params(k, J), .clock = clock, .growth = 1};
-    const hard_road quad = {as_ball ? ISO_POINT : ISO_BALL, iso_method_find("taylor_quad"), 1e-15};
+    const hard_road quad = {as_ball ? ISO_BACKEND_POINT : ISO_BACKEND_BALL, iso_method_find("taylor_quad"), 1e-15};
     const double eps = 1.7, depth = eps * pow(dot_diag(gamma, J, gamma), -1 / k);
     const double deep = eps * fmax(pow(max3(J), -1 / k), pow(min3(J), -1 / k));
     double point[ISO_STATE], ball[ISO_STATE];
@@ -73,7 +73,7 @@ static problem make(double k, const double J[3], const double M[3], const double
 static bool served(const hard_road *way, const problem *b)
 {
     const double *J = b->p.J;
-    return way->backend != ISO_EXACT || b->p.k == -1 || J[0] == J[1] || J[1] == J[2];
+    return way->backend != ISO_BACKEND_EXACT || b->p.k == -1 || J[0] == J[1] || J[1] == J[2];
 }
 
 /* Every way on every problem that it is for. */
@@ -100,7 +100,7 @@ static const double gamma_any[3] = {0.36, 0.48, 0.8}, no_M[3] = {0, 0, 0};
 /* M/|M| of gamma' = gamma x M, from the level: |M| = sqrt(2 (H - V)); gives the relative error of |M| at s = 1e-8. */
 static double speed_of_level(const problem *b)
 {
-    const hard_road quad = {ISO_POINT, iso_method_find("taylor_quad"), 1e-15};
+    const hard_road quad = {ISO_BACKEND_POINT, iso_method_find("taylor_quad"), 1e-15};
     iso_sample s;
     solve(&quad, b, ISO_CLOCK_S, 1e-8, &s);
     const double H = -1.7 * pow(dot_diag(gamma_any, b->p.J, gamma_any), -1 / b->p.k);
@@ -124,7 +124,7 @@ static void check_rest(void)
     hold_all(b, count);
     hard_naive("|M| from the level H", speed_of_level(&b[0]), 1e-6);
     iso_sample s;
-    const hard_road exact = {ISO_EXACT, NULL, 1e-12};
+    const hard_road exact = {ISO_BACKEND_EXACT, NULL, 1e-12};
     hard_case("from rest, k = 1", "no answer, and the reason", "off H = 0 the problem of k = 1 does not separate");
     const iso_status status = solve(&exact, &b[3], b[3].clock, b[3].time, &s);
     hard_refused(&exact, status == ISO_BAD_ARGUMENT, iso_context_message(ctx));
@@ -159,7 +159,7 @@ static void check_nearly(void)
 static void check_pendulum(void)
 {
     static const double ks[] = {-1, 1, 0.5, -0.4, 3};
-    const hard_road exact = {ISO_EXACT, NULL, 1e-12};
+    const hard_road exact = {ISO_BACKEND_EXACT, NULL, 1e-12};
     double worst = 0, bound = 0;
     hard_case("a pendulum from rest", "the closed solution against taylor_quad, all planes, 1e-9 to 1.5 from an axis",
               "the start is a root of the polynomial whose zeros bound the swing");
@@ -237,7 +237,7 @@ static problem through_umbilic(double k, double s, const double M[3])
     const double *b = k == 1 ? p.inv_J : p.J, x = sqrt((b[1] - b[0]) / (b[2] - b[0]));
     const double gamma[3] = {x, 0, sqrt((b[2] - b[1]) / (b[2] - b[0]))};
     problem from = {.p = p, .fast = {1, 1}};
-    const hard_road quad = {ISO_POINT, iso_method_find("taylor_quad"), 1e-15};
+    const hard_road quad = {ISO_BACKEND_POINT, iso_method_find("taylor_quad"), 1e-15};
     if (iso_start_point(ctx, M, gamma, NULL, true, &from.start) != ISO_OK ||
         solve(&quad, &from, ISO_CLOCK_S, -s, &from.truth) != ISO_OK)
         gsl_test(1, "no orbit through an umbilic: %s", iso_context_message(ctx));
@@ -295,7 +295,7 @@ static double apart(const iso_conical *a, const iso_conical *b)
 static void check_coordinates(void)
 {
     enum { STEPS = 4000 };
-    const hard_road exact = {ISO_EXACT, NULL, 1e-12};
+    const hard_road exact = {ISO_BACKEND_EXACT, NULL, 1e-12};
     double back = 0, constant = 0, jump = 0, naive = 0;
     int crossed[3] = {0};
     for (int o = 0; o < 3; o++) {
@@ -306,12 +306,12 @@ static void check_coordinates(void)
         iso_conical last = {.length = {1, 1}};
         iso_orbit *path;
         iso_orbit_options options = iso_orbit_defaults(&b.start);
-        options.backend = exact.backend, options.show = ISO_POINT;
+        options.backend = exact.backend, options.shown = ISO_SHOW_POINT;
         if (iso_orbit_create(ctx, &b.p, &b.start, &options, &path) != ISO_OK) {
             gsl_test(1, "no closed solution: %s", iso_context_message(ctx));
             return;
         }
-        iso_field field = iso_orbit_model(path)->field; /* in own units */
+        iso_problem of_path = iso_orbit_model(path)->problem; /* in own units */
         const double unit = iso_unit(iso_orbit_units(path), iso_system_point.fast_dimension);
         for (int i = 0; i <= STEPS; i++) {
             iso_sample s;
@@ -320,11 +320,11 @@ static void check_coordinates(void)
             if (iso_orbit_at(path, ds * i, &s) != ISO_OK) gsl_test(1, "%s", iso_context_message(ctx));
             copy(s.point, y, ISO_STATE);
             scale(y, 1 / unit);
-            iso_separation_coordinates(&field.p, y, &at);
-            iso_separation_point(&field.p, &at, z);
+            iso_separation_coordinates(&of_path.p, y, &at);
+            iso_separation_point(&of_path.p, &at, z);
             back = hard_worse(laws_distance(z + 3, y + 3) + laws_distance(z, y) / (norm(y) + DBL_MIN), back);
-            naive = fmax(naive, naive_round_trip(field.p.k == 1 ? field.p.inv_J : field.p.J, y + 3));
-            const double c = iso_separation_constant(&field, &at, excess);
+            naive = fmax(naive, naive_round_trip(of_path.p.k == 1 ? of_path.p.inv_J : of_path.p.J, y + 3));
+            const double c = iso_separation_constant(&of_path, &at, excess);
             if (i == 0) of_start = c;
             constant = hard_worse(fabs(c / of_start - 1), constant);
             double may = 0; /* an angle moves at speed/length, the length at either end of the step */

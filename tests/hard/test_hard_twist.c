@@ -111,7 +111,7 @@ static void large(const char *name, double c)
 /* The distance falls like 1/c: at ten times c a tenth, but for terms of order 1/c and the tolerance. */
 static void falls(void)
 {
-    const hard_road bsimp = {ISO_BALL, iso_method_find("bsimp"), 1e-14};
+    const hard_road bsimp = {ISO_BACKEND_BALL, iso_method_find("bsimp"), 1e-14};
     const iso_start start = he_start();
     const iso_effects none = {0};
     const iso_sample rubber = he_reference(ctx, &ball, &start, &none, 5);

@@ -193,7 +193,7 @@ static void test_refused(void)
         iso_record *r = make_path(10, 0.1), *d = make_differences(10, 0.1, 1e-13);
         (i < 3 ? iso_record_row(r, 7) : iso_record_row(d, 7))[i < 3 ? 13 : 2] = bad[i % 3];
         gsl_test(draw(path, "not finite", r, d) != ISO_NUMERICAL, "not finite: %s", iso_context_message(ctx));
-        gsl_test(strcmp(iso_context_field(ctx), i < 3 ? "gamma2" : "n") != 0, "which: %s", iso_context_field(ctx));
+        gsl_test(strcmp(iso_context_about(ctx), i < 3 ? "gamma2" : "n") != 0, "which: %s", iso_context_about(ctx));
     }
     gsl_test(draw(path, "", make_path(0, 1), make_differences(5, 1, 1)) != ISO_BAD_ARGUMENT, "no rows");
     gsl_test(draw(path, "", make_path(5, 1), make_differences(0, 1, 1)) != ISO_BAD_ARGUMENT, "no differences");

@@ -208,7 +208,7 @@ static void test_ball(void)
     gsl_test(s.params.body.surface != ISO_SHELL, "the surface");
     gsl_test(s.start.model != ISO_BALL || s.start.y[1] != 1, "the start");
     gsl_test(s.end != -10 || s.step != 0.5 || s.tolerance != 1e-9, "numbers");
-    gsl_test(s.backend != ISO_POINT || s.as != ISO_BOTH, "names");
+    gsl_test(s.backend != ISO_BACKEND_POINT || s.as != ISO_SHOW_BOTH, "names");
     gsl_test(s.columns != 3 || strcmp(s.column[2], "M3") != 0, "columns");
 }
 

@@ -268,7 +268,7 @@ static void test_replacing(void)
     gsl_test(failed(iso_trajectory_write_header(ctx, w, r)), "header: %s", iso_context_message(ctx));
     gsl_test(iso_trajectory_write_header(ctx, w, r) != ISO_BAD_ARGUMENT, "a second header");
     gsl_test(iso_trajectory_write_row(ctx, w, row, 3) != ISO_NUMERICAL, "a row that is not finite");
-    gsl_test(strcmp(iso_context_field(ctx), "n1") != 0, "its column");
+    gsl_test(strcmp(iso_context_about(ctx), "n1") != 0, "its column");
     gsl_test(iso_trajectory_write_row(ctx, w, row, 2) != ISO_BAD_ARGUMENT, "a short row");
     gsl_test(failed(iso_trajectory_close(ctx, w, false)), "close");
     gsl_test(!holds(path, "old"), "the old file stays");

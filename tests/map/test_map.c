@@ -22,7 +22,7 @@ static double written_factor(const iso_params *p, const double n[3], double *rho
 /* (18) as it is written, and its inverse */
 static void formulas(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double rho, point[ISO_STATE], ball[ISO_STATE];
     const double NN = written_factor(p, c->y + 3, &rho);
     iso_ball_to_point(p, c->y, point);
@@ -42,7 +42,7 @@ static void formulas(const laws_case *c, laws_worst *worst)
 /* (19): unit vector, orthogonality as good as the ball's, q = 1/g; M along w for k > 0, against it for k < 0 */
 static void constraints(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double rho, point[ISO_STATE], terms = 0;
     const double NN = written_factor(p, c->y + 3, &rho);
     iso_ball_to_point(p, c->y, point);
@@ -57,7 +57,7 @@ static void constraints(const laws_case *c, laws_worst *worst)
 /* Of n only the direction counts (4 n: bit for bit), and the result may overwrite the state. */
 static void length_and_aliasing(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double point[ISO_STATE], ball[ISO_STATE], y[ISO_STATE];
     copy(c->y, y, ISO_STATE);
     scale(y + 3, 4);
@@ -71,7 +71,7 @@ static void length_and_aliasing(const laws_case *c, laws_worst *worst)
 
 static void energies(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double point[ISO_STATE];
     const double h = dot_diag(c->y, p->J, c->y) / 2, eps = h * p->det_J / (p->k * p->k);
     iso_ball_to_point(p, c->y, point);
@@ -87,15 +87,15 @@ static void energies(const laws_case *c, laws_worst *worst)
  * functions of the state; F_plane at k = 1, F_shell at k = -1). */
 static void integrals(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
-    iso_field f = {.p = *p, .eps = iso_coupling(p, iso_ball_energy(p, c->y))};
+    const iso_params *p = &c->problem.p;
+    iso_problem f = {.p = *p, .eps = iso_coupling(p, iso_ball_energy(p, c->y))};
     double point[ISO_STATE], size, point_size;
     iso_ball_to_point(p, c->y, point);
     for (const iso_integral *i = iso_system_ball.integrals; i->name; i++)
         for (const iso_integral *j = iso_system_point.integrals; j->name; j++) {
             if (strcmp(i->name, j->name) != 0) continue;
-            if (strncmp(i->name, "F_axis", 6) != 0 && !i->holds(&c->field)) continue;
-            const double I = i->value(&c->field, c->y, &size), twin = j->value(&f, point, &point_size);
+            if (strncmp(i->name, "F_axis", 6) != 0 && !i->holds(&c->problem)) continue;
+            const double I = i->value(&c->problem, c->y, &size), twin = j->value(&f, point, &point_size);
             laws_note(worst, fabs(I - twin), 2 * laws_rounding(p) * (fabs(I) + point_size), p, i->name);
         }
     const double H = iso_system_point.energy(&f, point, &size);
@@ -128,11 +128,11 @@ static void note_vectors(const double a[ISO_STATE], const double b[ISO_STATE], c
 /* The flow (9) carried over by (18) is the flow (24), in the clock s. */
 static void pushed_forward(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
-    const iso_field f = {.p = *p, .eps = iso_coupling(p, c->field.energy)};
+    const iso_params *p = &c->problem.p;
+    const iso_problem f = {.p = *p, .eps = iso_coupling(p, c->problem.energy)};
     double dy[ISO_STATE], point[ISO_STATE], carried[ISO_STATE], expected[ISO_STATE];
     iso_ball_to_point(p, c->y, point);
-    c->system->rhs(&c->field, c->y, dy);
+    c->system->rhs(&c->problem, c->y, dy);
     const double h = laws_step(c, dy);
     laws_slope(map_to_point, p, ISO_STATE, ISO_STATE, c->y, dy, h, carried);
     iso_system_point.rhs(&f, point, expected);
@@ -145,11 +145,11 @@ static void pushed_forward(const laws_case *c, laws_worst *worst)
 /* ... and back: (24) carried over by the inverse is (9). */
 static void pulled_back(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
-    const iso_field f = {.p = *p};
+    const iso_params *p = &c->problem.p;
+    const iso_problem f = {.p = *p};
     double dy[ISO_STATE], ball[ISO_STATE], carried[ISO_STATE], expected[ISO_STATE];
     iso_point_to_ball(p, c->y, ball);
-    c->system->rhs(&c->field, c->y, dy);
+    c->system->rhs(&c->problem, c->y, dy);
     const double h = laws_step(c, dy), rate = written_ds_dt(p, iso_system_ball.q(p, ball, NULL));
     laws_slope(map_to_ball, p, ISO_STATE, ISO_STATE, c->y, dy, h, carried);
     iso_system_ball.rhs(&f, ball, expected);
@@ -161,8 +161,8 @@ static void pulled_back(const laws_case *c, laws_worst *worst)
 /* dy/dtau of (20)-(21) is dy/ds of (24) times ds/dtau = G, on H = h. */
 static void hamiltonian_form(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
-    const iso_field f = {.p = *p, .eps = iso_coupling(p, c->field.energy)};
+    const iso_params *p = &c->problem.p;
+    const iso_problem f = {.p = *p, .eps = iso_coupling(p, c->problem.energy)};
     double point[ISO_STATE], dtau[ISO_STATE], ds[ISO_STATE];
     iso_ball_to_point(p, c->y, point);
     iso_hamiltonian_rhs(p, point, dtau);
@@ -177,7 +177,7 @@ static void hamiltonian_form(const laws_case *c, laws_worst *worst)
 /* t: 1, tau: N (16), s: G N; exponent = d log rate/d log q. Also at k = -1/2, where the exponent of s is 0. */
 static void clock_rates(const laws_case *c, laws_worst *worst)
 {
-    iso_params p = c->field.p;
+    iso_params p = c->problem.p;
     const double q = c->system->q(&p, c->y, NULL);
     for (int half = 0; half < 2; half++, p.k = -0.5) {
         const double N = pow(q, 1 - 1 / (2 * p.k)), G = p.k * p.k / p.det_J * pow(q, 1 / p.k);

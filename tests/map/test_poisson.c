@@ -35,10 +35,10 @@ static void brackets(const laws_case *c, laws_worst *worst)
                 MM -= levi_civita(i, j, l) * y[l];
                 Mgamma -= levi_civita(i, j, l) * y[3 + l];
             }
-            laws_note(worst, fabs(B[N * i + j] - MM), DBL_MIN, &c->field.p, "{M,M}");
-            laws_note(worst, fabs(B[N * i + 3 + j] - Mgamma), DBL_MIN, &c->field.p, "{M,gamma}");
-            laws_note(worst, fabs(B[N * (3 + i) + j] - Mgamma), DBL_MIN, &c->field.p, "{gamma,M}");
-            laws_note(worst, fabs(B[N * (3 + i) + 3 + j]), DBL_MIN, &c->field.p, "{gamma,gamma}");
+            laws_note(worst, fabs(B[N * i + j] - MM), DBL_MIN, &c->problem.p, "{M,M}");
+            laws_note(worst, fabs(B[N * i + 3 + j] - Mgamma), DBL_MIN, &c->problem.p, "{M,gamma}");
+            laws_note(worst, fabs(B[N * (3 + i) + j] - Mgamma), DBL_MIN, &c->problem.p, "{gamma,M}");
+            laws_note(worst, fabs(B[N * (3 + i) + 3 + j]), DBL_MIN, &c->problem.p, "{gamma,gamma}");
         }
 }
 
@@ -48,7 +48,7 @@ static void antisymmetric(const laws_case *c, laws_worst *worst)
     anywhere(c, y);
     iso_poisson_matrix(y, B);
     for (int i = 0; i < N; i++)
-        for (int j = 0; j < N; j++) laws_note(worst, fabs(B[N * i + j] + B[N * j + i]), DBL_MIN, &c->field.p, "");
+        for (int j = 0; j < N; j++) laws_note(worst, fabs(B[N * i + j] + B[N * j + i]), DBL_MIN, &c->problem.p, "");
 }
 
 /* B d(M,gamma) = 0 and B d(gamma,gamma) = 0 */
@@ -65,7 +65,7 @@ static void casimirs(const laws_case *c, laws_worst *worst)
                 sum += B[N * i + j] * gradient[casimir][j];
                 terms += fabs(B[N * i + j] * gradient[casimir][j]);
             }
-            laws_note(worst, fabs(sum), 2 * DBL_EPSILON * terms + DBL_MIN, &c->field.p,
+            laws_note(worst, fabs(sum), 2 * DBL_EPSILON * terms + DBL_MIN, &c->problem.p,
                       casimir ? "gamma^2" : "(M,gamma)");
         }
 }
@@ -94,7 +94,7 @@ static void jacobi(const laws_case *c, laws_worst *worst)
                 for (int m = 0; m < N; m++)
                     sum += B[N * i + m] * dB[m][N * j + l] + B[N * j + m] * dB[m][N * l + i] +
                            B[N * l + m] * dB[m][N * i + j];
-                laws_note(worst, fabs(sum), 4 * DBL_EPSILON * laws_max(N, y), &c->field.p, "");
+                laws_note(worst, fabs(sum), 4 * DBL_EPSILON * laws_max(N, y), &c->problem.p, "");
             }
 }
 
@@ -105,7 +105,7 @@ static void hamiltonian(const void *data, const double y[], double H[])
 
 static void gradient_of_h(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double gradient[N], slope;
     const double H = iso_hamiltonian(p, c->y, gradient);
     for (int j = 0; j < N; j++) {
@@ -120,7 +120,7 @@ static void gradient_of_h(const laws_case *c, laws_worst *worst)
 /* dM/dtau = M x dH/dM + gamma x dH/dgamma,  dgamma/dtau = gamma x dH/dM, from (20) */
 static void equations(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     const double *M = c->y, *gamma = c->y + 3;
     double dH[N], dy[N], M_dM[3], gamma_dgamma[3], gamma_dM[3];
     iso_hamiltonian(p, c->y, dH);
@@ -145,10 +145,10 @@ static void map_to_point(const void *data, const double y[], double point[])
 
 static void ball_in_tau(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double dy[N], point[N], carried[N], expected[N];
     iso_ball_to_point(p, c->y, point);
-    c->system->rhs(&c->field, c->y, dy);
+    c->system->rhs(&c->problem, c->y, dy);
     const double h = laws_step(c, dy);
     laws_slope(map_to_point, p, N, N, c->y, dy, h, carried);
     iso_hamiltonian_rhs(p, point, expected);

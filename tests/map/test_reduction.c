@@ -19,7 +19,7 @@ static double A(const iso_params *p, double z)
 static void as_written(const laws_case *c, laws_worst *worst)
 {
     if (!laws_regular(c)) return;
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     const double k = p->k;
     iso_conical at;
     iso_reduction_coordinates(p, c->y, &at);
@@ -47,11 +47,11 @@ static void coordinates_of(const void *data, const double y[], double z[])
 static void rates(const laws_case *c, laws_worst *worst)
 {
     if (!laws_regular(c)) return;
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double dy[ISO_STATE], slope[2];
     iso_conical at;
     iso_reduction_coordinates(p, c->y, &at);
-    c->system->rhs(&c->field, c->y, dy);
+    c->system->rhs(&c->problem, c->y, dy);
     /* lam and mu change on a way of the order of n_i and of the distance of the moments: a shorter step */
     const double h = laws_step(c, dy) / 8;
     laws_slope_flow(coordinates_of, p, 2, c, h, slope);
@@ -122,11 +122,11 @@ static void dT_drate(const void *data, const double y[], double momenta[])
 static void note_motion(const laws_case *c, double with_S, double allowed, laws_worst *worst)
 {
     if (!laws_regular(c)) return;
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double dy[ISO_STATE], slope[2];
     iso_conical at;
     iso_reduction_coordinates(p, c->y, &at);
-    c->system->rhs(&c->field, c->y, dy);
+    c->system->rhs(&c->problem, c->y, dy);
     laws_slope_flow(dT_drate, p, 2, c, laws_step(c, dy) / 8, slope);
     const double S = iso_reduction_force(p, &at), force[2] = {at.rate[1] * S, -at.rate[0] * S};
     for (int r = 0; r < 2; r++) {
@@ -139,21 +139,21 @@ static void note_motion(const laws_case *c, double with_S, double allowed, laws_
 /* (15). The step is laws_step()/8, 1/1024 of the way on which the state changes: rounding times 1024/reach. */
 static void equations_of_motion(const laws_case *c, laws_worst *worst)
 {
-    note_motion(c, 1, 1024 / laws_reach(&c->field.p) * laws_conditioning(&c->field.p), worst);
+    note_motion(c, 1, 1024 / laws_reach(&c->problem.p) * laws_conditioning(&c->problem.p), worst);
 }
 
 static void no_force_at_one(const laws_case *c, laws_worst *worst)
 {
-    if (c->field.p.k == 1) note_motion(c, 0, 0.1, worst);
+    if (c->problem.p.k == 1) note_motion(c, 0, 0.1, worst);
 }
 
 static void no_force_at_half(const laws_case *c, laws_worst *worst)
 {
-    if (c->field.p.k != 0.5) return;
+    if (c->problem.p.k != 0.5) return;
     iso_conical at;
-    iso_reduction_coordinates(&c->field.p, c->y, &at);
-    if (laws_regular(c)) laws_note(worst, fabs(iso_reduction_force(&c->field.p, &at)), DBL_MIN, &c->field.p, "S");
-    note_motion(c, 0, 1024 / laws_reach(&c->field.p) * laws_conditioning(&c->field.p), worst);
+    iso_reduction_coordinates(&c->problem.p, c->y, &at);
+    if (laws_regular(c)) laws_note(worst, fabs(iso_reduction_force(&c->problem.p, &at)), DBL_MIN, &c->problem.p, "S");
+    note_motion(c, 0, 1024 / laws_reach(&c->problem.p) * laws_conditioning(&c->problem.p), worst);
 }
 
 static void momenta_of(const void *data, const double y[], double momenta[])
@@ -167,13 +167,13 @@ static void momenta_of(const void *data, const double y[], double momenta[])
 static void canonical(const laws_case *c, laws_worst *worst)
 {
     if (!laws_regular(c)) return;
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double dy[ISO_STATE], momenta[2], slope[2], T_rate[2];
     iso_conical at;
     iso_reduction_coordinates(p, c->y, &at);
     iso_reduction_momenta(p, &at, momenta);
     dT_drate(p, c->y, T_rate);
-    c->system->rhs(&c->field, c->y, dy);
+    c->system->rhs(&c->problem, c->y, dy);
     laws_slope_flow(momenta_of, p, 2, c, laws_step(c, dy) / 8, slope);
     const double N = iso_reduction_multiplier(p, &at), H = iso_reduction_hamiltonian(p, &at, momenta);
     laws_note(worst, fabs(H / iso_ball_energy(p, c->y) - 1), laws_conditioning(p), p, "H = T");
@@ -198,7 +198,7 @@ static void canonical(const laws_case *c, laws_worst *worst)
 static void second_form(const laws_case *c, laws_worst *worst)
 {
     if (!laws_regular(c)) return;
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double momenta[2];
     iso_conical at;
     iso_reduction_coordinates(p, c->y, &at);

@@ -62,7 +62,7 @@ static void run(trip *t, const iso_params *p, const double start[ISO_STATE])
 /* A random valid ball whose speed is of the order `speed` */
 static void sample(const iso_params *p, double speed, iso_random *random, double ball[ISO_STATE])
 {
-    iso_field f = {.p = *p};
+    iso_problem f = {.p = *p};
     iso_system_ball.sample(&f, random, ball);
     scale(ball, speed);
 }

@@ -214,7 +214,7 @@ static void check_orbit(const orbit *o, const iso_method *m, const level *l, int
         if (found % 2) iso_integrator_at(it, t + sense * o->unit / 3, y); /* changes nothing */
         found++;
     }
-    gsl_test(found != wanted, "%s %s k=%g: %d events of %d", m->name, o->model.system->name, o->model.field.p.k,
+    gsl_test(found != wanted, "%s %s k=%g: %d events of %d", m->name, o->model.system->name, o->model.problem.p.k,
              found, wanted);
     gsl_test(!(apart < 0.51 * WAY / SAMPLES + 1e-4), "%s: where they are expected, within %.2g", m->name, apart);
     gsl_test(!(residual < 1e-14), "%s: zero to %.2g", m->name, residual);

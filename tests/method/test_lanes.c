@@ -31,11 +31,11 @@ static void collect(const effects_case *c, laws_worst *worst)
     static int variant;
     static const double part[ROWS] = {0, 0.3, 1.7, 4};
     (void)worst;
-    if (c->subset & (1 << ISO_REACTIONS | 1 << ISO_CLOCK) || iso_effects_stiffness(&c->model.field) > ISO_STIFF)
+    if (c->subset & (1 << ISO_REACTIONS | 1 << ISO_CLOCK) || iso_effects_stiffness(&c->model.problem) > ISO_STIFF)
         return;
     if (c->system == &iso_system_point && c->subset & ~(1 << ISO_FIELD | 1 << ISO_LEVEL))
         return; /* the others have no image */
-    if (pow(laws_spread(&c->model.field.p), 1 / fabs(c->model.field.p.k)) > 1e50) return; /* s has no scale */
+    if (pow(laws_spread(&c->model.problem.p), 1 / fabs(c->model.problem.p.k)) > 1e50) return; /* s has no scale */
     member *m = &members[count++];
     memset(m, 0, sizeof *m);
     m->c = *c;
@@ -97,7 +97,7 @@ static laws_worst right, bits, broken;
 /* As for one orbit by itself; long bodies amplify rounding. */
 static double allowed(const member *m)
 {
-    return 1e-13 * fmax(1, sqrt(laws_spread(&m->o.model.field.p)) / 8);
+    return 1e-13 * fmax(1, sqrt(laws_spread(&m->o.model.problem.p)) / 8);
 }
 
 static void note_member(const member *m, int code, const iso_lane_job *job)

@@ -40,7 +40,7 @@ static void note(laws_worst *worst, const orbit *o, const iso_method *m, double 
 {
     char what[64];
     snprintf(what, sizeof what, "%s %s", m->name, o->model.system->name);
-    laws_note(worst, error, bound, &o->model.field.p, what);
+    laws_note(worst, error, bound, &o->model.problem.p, what);
 }
 
 /* For what must be so exactly. */
@@ -128,7 +128,7 @@ static void any_order_of_times(const orbit *o, const iso_method *m, laws_worst *
 
 static void starting_again(const orbit *o, const iso_method *m, laws_worst *worst)
 {
-    const orbit other = orbit_sample(ctx, o->model.system, o->model.field.p.k, orbit_J, 99);
+    const orbit other = orbit_sample(ctx, o->model.system, o->model.problem.p.k, orbit_J, 99);
     iso_integrator *it = start(o, m);
     double y[ISO_MAX_STATE], first[ISO_MAX_STATE];
     iso_integrator_at(it, 0, y);
@@ -167,11 +167,11 @@ static void statistics(const orbit *o, const iso_method *m, laws_worst *worst)
 /* How far energy, spin and length, the first three integrals of either system, are from where they belong. */
 static double defect(const orbit *o, const double y[])
 {
-    const double proper[3] = {o->model.field.energy, 0, 1};
+    const double proper[3] = {o->model.problem.energy, 0, 1};
     double defects[3];
     for (int i = 0; i < 3; i++) {
         double size;
-        const double value = o->model.system->integrals[i].value(&o->model.field, y, &size);
+        const double value = o->model.system->integrals[i].value(&o->model.problem, y, &size);
         defects[i] = (value - proper[i]) / size;
     }
     return laws_max(3, defects);
@@ -220,9 +220,9 @@ static double quadrature(const orbit *o, iso_clock clock, double t)
         double x, weight, y[ISO_MAX_STATE];
         gsl_integration_glfixed_point(0, t, i, &x, &weight, rule);
         iso_integrator_at(it, x, y);
-        const double q = o->model.system->q(&o->model.field.p, y, NULL);
-        sum += weight * iso_clock_rate(&o->model.field.p, clock, q, NULL) /
-               iso_clock_rate(&o->model.field.p, o->model.clock, q, NULL);
+        const double q = o->model.system->q(&o->model.problem.p, y, NULL);
+        sum += weight * iso_clock_rate(&o->model.problem.p, clock, q, NULL) /
+               iso_clock_rate(&o->model.problem.p, o->model.clock, q, NULL);
     }
     iso_integrator_free(it);
     gsl_integration_glfixed_table_free(rule);
@@ -235,11 +235,11 @@ static void carried_clocks(const orbit *plain, const iso_method *m, laws_worst *
     double y[ISO_MAX_STATE];
     orbit_clocks(&o, o.model.clock, true, true, true);
     solve(&o, m, -TURN * o.unit, y);
-    for (int c = 0; c < o.model.carried; c++) {
-        const double expected = quadrature(plain, o.model.carry[c], -TURN * o.unit);
+    for (int c = 0; c < o.model.clocks; c++) {
+        const double expected = quadrature(plain, o.model.clock_of[c], -TURN * o.unit);
         note(worst, &o, m, fabs(y[ISO_STATE + c] / expected - 1), allowed(m));
     }
-    note_true(worst, &o, m, o.model.carried == 2);
+    note_true(worst, &o, m, o.model.clocks == 2);
 }
 
 /* The same state when the orbit runs in another clock and is asked at what that clock showed. */
@@ -249,14 +249,14 @@ static void other_clocks(const orbit *plain, const iso_method *m, laws_worst *wo
     double y[ISO_MAX_STATE];
     orbit_clocks(&o, o.model.clock, true, true, true);
     solve(&o, m, TURN * o.unit, y);
-    for (int c = 0; c < o.model.carried; c++) {
+    for (int c = 0; c < o.model.clocks; c++) {
         orbit other = *plain;
         double same[ISO_MAX_STATE];
-        orbit_clocks(&other, o.model.carry[c], true, true, true);
+        orbit_clocks(&other, o.model.clock_of[c], true, true, true);
         solve(&other, m, y[ISO_STATE + c], same);
         note(worst, &o, m, orbit_error(plain, same, y), 6 * allowed(m));
-        for (int i = 0; i < other.model.carried; i++)
-            if (other.model.carry[i] == o.model.clock)
+        for (int i = 0; i < other.model.clocks; i++)
+            if (other.model.clock_of[i] == o.model.clock)
                 note(worst, &o, m, fabs(same[ISO_STATE + i] / (TURN * o.unit) - 1), 4 * allowed(m));
     }
 }
@@ -268,7 +268,7 @@ static void rest(const orbit *moving, const iso_method *m, laws_worst *worst)
     orbit o = *moving;
     double y[ISO_MAX_STATE];
     scale(o.y0, 0);
-    o.model.field.energy = o.model.field.eps = 0;
+    o.model.problem.energy = o.model.problem.eps = 0;
     iso_integrator *it = start(&o, m);
     note_true(worst, &o, m, iso_integrator_at(it, 1000, y) == ISO_OK);
     note_true(worst, &o, m, norm(y) == 0);

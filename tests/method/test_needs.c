@@ -14,7 +14,7 @@ static void check_formulas(double twist)
 {
     const orbit plain = orbit_rotation(ctx, 1, 1);
     const iso_effect *effect = &no_formula;
-    iso_field f = plain.model.field;
+    iso_problem f = plain.model.problem;
     f.effects.on[ISO_TWIST] = twist > 0, TWIST_RESISTANCE(&f.effects) = twist, f.p.D = 0.5;
     iso_model m = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[ISO_CLOCKS]){false});
     m.without_formula = effect;
@@ -33,7 +33,7 @@ static void check_formulas(double twist)
         const iso_status status =
             iso_integrator_create(ctx, method, &m, &(iso_method_options){.tolerance = 1e-9}, &it);
         const char *words = iso_context_message(ctx);
-        gsl_test(status != ISO_BAD_ARGUMENT || it || strcmp(iso_context_field(ctx), "method") != 0 ||
+        gsl_test(status != ISO_BAD_ARGUMENT || it || strcmp(iso_context_about(ctx), "method") != 0 ||
                      !strstr(words, method->name) || !strstr(words, effect->name) || !strstr(words, best->name),
                  "refused: %s", words);
     }
@@ -44,7 +44,7 @@ static void check_room(void)
 {
     orbit crowded = orbit_rotation(ctx, 1, 1);
     char why[ISO_WHY_SIZE] = "";
-    crowded.model.field.motion.overrun = true;
+    crowded.model.problem.motion.overrun = true;
     for (int i = 0; iso_methods[i]; i++) {
         if (iso_methods[i]->system) continue;
         gsl_test(iso_method_serves(iso_methods[i], &crowded.model, why) || !strstr(why, "more lines"),

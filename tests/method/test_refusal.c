@@ -17,7 +17,7 @@ static double beyond; /* NAN or INFINITY */
 
 static void walled_rhs(const iso_model *m, const double y[], double dy[])
 {
-    m->system->rhs(&m->field, y, dy);
+    m->system->rhs(&m->problem, y, dy);
     if (!(y[3] >= WALL)) dy[1] = beyond;
 }
 
@@ -34,8 +34,8 @@ static orbit walled_orbit(const iso_system *system)
     if (system == &iso_system_point) {
         const double eps = 1, q = orbit_J[0];
         o.model.system = system;
-        o.model.field.eps = eps;
-        o.model.field.energy = 0;
+        o.model.problem.eps = eps;
+        o.model.problem.energy = 0;
         o.y0[2] = sqrt(2 * eps / q);
         orbit_clocks(&o, ISO_CLOCK_S, false, false, false);
     }
@@ -124,7 +124,7 @@ static int calls_left;
 
 static void mortal_rhs(const iso_model *m, const double y[], double dy[])
 {
-    m->system->rhs(&m->field, y, dy);
+    m->system->rhs(&m->problem, y, dy);
     if (calls_left-- <= 0) dy[0] = beyond;
 }
 
@@ -185,7 +185,7 @@ static void check_systems(void)
             iso_integrator *it = (iso_integrator *)&beyond; /* must become NULL */
             const iso_status status =
                 iso_integrator_create(ctx, iso_methods[i], &o.model, &(iso_method_options){.tolerance = 1e-9}, &it);
-            gsl_test(status != ISO_BAD_ARGUMENT || it || strcmp(iso_context_field(ctx), "method") != 0,
+            gsl_test(status != ISO_BAD_ARGUMENT || it || strcmp(iso_context_about(ctx), "method") != 0,
                      "refused for the %s: %s", iso_systems[s]->name, iso_context_message(ctx));
         }
 }
@@ -349,7 +349,8 @@ static void check_names(void)
 /* What "auto" is for a system at this k, with this resistance to twisting (0: none). */
 static void check_auto(const iso_system *system, double k, double resistance, const char *wanted)
 {
-    iso_field f = {.p = laws_params(k, orbit_J), .effects = {.on[ISO_TWIST] = resistance > 0, .number[ISO_TWIST] = {resistance}}};
+    iso_problem f = {.p = laws_params(k, orbit_J),
+                     .effects = {.on[ISO_TWIST] = resistance > 0, .number[ISO_TWIST] = {resistance}}};
     f.p.D = 0.5;
     const iso_model m = iso_model_assemble(system, &f, system->clock, (const bool[ISO_CLOCKS]){false});
     gsl_test_str(iso_method_auto(&m)->name, wanted, "auto: %s, k = %g, c = %g", system->name, k, resistance);

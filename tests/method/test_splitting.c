@@ -23,8 +23,8 @@ static orbit sample(double k, unsigned long seed)
 static double energy_of(const orbit *o, const double y[])
 {
     double size;
-    const double H = iso_system_point.energy(&o->model.field, y, &size);
-    return (H - o->model.field.energy) / size;
+    const double H = iso_system_point.energy(&o->model.problem, y, &size);
+    return (H - o->model.problem.energy) / size;
 }
 
 /* --- order ------------------------------------------------------------------------------------------------------ */
@@ -82,7 +82,7 @@ static void check_order(const bundle *b, const iso_method *m)
     for (int part = 0; part < 2; part++) {
         const double most = m->order == 10 ? INFINITY : m->order + 0.2;
         gsl_test(!(order[part] >= m->order - 0.2 && order[part] <= most), "%s, k = %g: order %d, %s measured %.2f",
-                 m->name, b->orbits->model.field.p.k, m->order, parts[part], order[part]);
+                 m->name, b->orbits->model.problem.p.k, m->order, parts[part], order[part]);
     }
 }
 
@@ -94,7 +94,7 @@ static void check_reference(const bundle *b)
         orbit_reference(&b->orbits[i], ARC * b->orbits[i].unit, y);
         worst = fmax(worst, orbit_error(&b->orbits[i], b->reference[i], y));
     }
-    gsl_test(!(worst < 1e-11), "fine steps against rk8pd, k = %g: %.1e", b->orbits->model.field.p.k, worst);
+    gsl_test(!(worst < 1e-11), "fine steps against rk8pd, k = %g: %.1e", b->orbits->model.problem.p.k, worst);
 }
 
 /* --- long runs -------------------------------------------------------------------------------------------------- */
@@ -153,7 +153,7 @@ static orbit with_effects(double k, bool field, double stretch)
 {
     static const double quadratic[9] = {0.3, 0.1, 0, 0.1, -0.2, 0.05, 0, 0.05, 0.1}, linear[3] = {0.1, -0.2, 0.15};
     orbit o = sample(k, 5);
-    iso_field *const f = &o.model.field;
+    iso_problem *const f = &o.model.problem;
     double size;
     f->effects.on[ISO_FIELD] = field;
     copy(quadratic, FIELD_QUADRATIC(&f->effects), 9);
@@ -171,7 +171,7 @@ static void check_effects(const iso_method *m)
     for (int i = 0; i < 4 * ORBIT_K; i++)
         for (int direction = -1; direction <= 1; direction += 2) {
             const orbit o = with_effects(orbit_k[i / 4], i % 2, i % 4 < 2 ? 1 : 0.5);
-            const double s = direction * 10 / iso_system_point.speed(&o.model.field, o.y0);
+            const double s = direction * 10 / iso_system_point.speed(&o.model.problem, o.y0);
             double y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
             orbit_solve(&o, m, &(iso_method_options){.tolerance = tolerance}, s, y);
             orbit_reference(&o, s, expected);
@@ -210,7 +210,7 @@ static void check_refusals(const iso_method *m)
     iso_integrator *it = (iso_integrator *)&o; /* must become NULL */
     orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
     const iso_status status = iso_integrator_create(ctx, m, &o.model, &(iso_method_options){.fixed_step = 0.1}, &it);
-    gsl_test(status != ISO_BAD_ARGUMENT || it || strcmp(iso_context_field(ctx), "method") != 0, "refused: %s",
+    gsl_test(status != ISO_BAD_ARGUMENT || it || strcmp(iso_context_about(ctx), "method") != 0, "refused: %s",
              iso_context_message(ctx));
 }
 

@@ -39,7 +39,7 @@ static void differences(const effects_case *c, const iso_method *m, laws_worst *
     static int variant;
     const orbit o = orbit_of(ctx, c, variant++);
     const bool stiff = effects_lambda(c) > 0;
-    const double rate = iso_effects_stiffness(&c->model.field);
+    const double rate = iso_effects_stiffness(&c->model.problem);
     const double unit = orbit_stretch(c, &o) / (stiff ? rate : 1), bound = 1e-12 * (stiff ? rate : 1), forward = 1;
     course way = {orbit_start(&o, m, &finest), false}, *const data = &way;
     for (int i = stiff ? 1 : -2; i <= 3; i += 4) {
@@ -116,7 +116,7 @@ static void check_order(const iso_method *m, const iso_system *system, iso_clock
 static iso_method method_of(const iso_taylor_code *code)
 {
     iso_method m = *taylor;
-    m.create = code->create, m.start = code->start, m.step = code->step, m.within = code->within;
+    m.create = code->create, m.start = code->start, m.step = code->step, m.dense = code->dense;
     return m;
 }
 
@@ -163,13 +163,13 @@ enum { GEOMETRIES = 5 };
 static const double geometries[GEOMETRIES] = {-1, 1, 0.5, 0.75, -0.4};
 static const iso_start beginning = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
 
-static iso_orbit *orbit_by(const iso_method *m, double k, const iso_start *start, iso_picture backend,
+static iso_orbit *orbit_by(const iso_method *m, double k, const iso_start *start, iso_backend backend,
                            double tolerance)
 {
     const iso_params p = laws_params(k, orbit_J);
     iso_orbit_options o = iso_orbit_defaults(start);
     iso_orbit *path;
-    o.method = m, o.backend = backend, o.tolerance = tolerance, o.show = ISO_BOTH;
+    o.method = m, o.backend = backend, o.tolerance = tolerance, o.shown = ISO_SHOW_BOTH;
     if (iso_orbit_create(ctx, &p, start, &o, &path) == ISO_OK) return path;
     gsl_test(1, "an orbit is refused: %s", iso_context_message(ctx));
     exit(gsl_test_summary());
@@ -192,10 +192,11 @@ static double apart(const iso_sample *a, const double b[ISO_STATE])
 
 /* The best tolerance's error at t = 1000, by long double from the same start, and the way to t = 100 and back. What
  * the rounding of the point's start makes of the orbit is all that the two backends may differ by in long double. */
-static void check_long(double k, iso_picture backend, double bound)
+static void check_long(double k, iso_backend backend, double bound)
 {
     iso_orbit *truth = orbit_by(extended, k, &beginning, backend, 1e-15);
-    iso_orbit *other = orbit_by(extended, k, &beginning, backend == ISO_BALL ? ISO_POINT : ISO_BALL, 1e-15);
+    iso_orbit *other =
+        orbit_by(extended, k, &beginning, backend == ISO_BACKEND_BALL ? ISO_BACKEND_POINT : ISO_BACKEND_BALL, 1e-15);
     const iso_sample end = sample_at(truth, 1000), same = sample_at(other, 1000);
     double best = INFINITY;
     for (double tolerance = 1e-15; tolerance < 2e-12; tolerance *= 10) {
@@ -204,7 +205,7 @@ static void check_long(double k, iso_picture backend, double bound)
         best = fmin(best, apart(&s, end.ball));
         iso_orbit_free(path);
     }
-    const char *name = backend == ISO_BALL ? "ball" : "point";
+    const char *name = backend == ISO_BACKEND_BALL ? "ball" : "point";
     gsl_test(!(best < bound), "%s, k = %g, t = 1000: %.1e, allowed %.0e", name, k, best, bound);
     gsl_test(!(apart(&end, same.ball) < 1e-12), "k = %g: ball and point in long double, %.1e", k,
              apart(&end, same.ball));
@@ -225,7 +226,7 @@ static double third(const iso_sample *s, const void *data)
     return s->ball[5];
 }
 
-static void check_events(double k, iso_picture backend)
+static void check_events(double k, iso_backend backend)
 {
     iso_orbit *orbits[2] = {orbit_by(taylor, k, &beginning, backend, 1e-15),
                             orbit_by(iso_method_find("rk8pd"), k, &beginning, backend, 1e-15)};
@@ -245,7 +246,7 @@ static void check_events(double k, iso_picture backend)
 }
 
 /* What is asked, and in which order, does not matter by a bit. */
-static void check_asking(double k, iso_picture backend)
+static void check_asking(double k, iso_backend backend)
 {
     static const double times[] = {3, -7.25, 11.5, 0.01, 40, 39.5, -2};
     iso_orbit *busy = orbit_by(taylor, k, &beginning, backend, 1e-15);
@@ -272,10 +273,10 @@ static void check_drift(const iso_system *system, double k)
         iso_integrator_last(it, &t, y);
         if (t == last) continue;
         last = t;
-        const double H = system->energy(&o.model.field, y, &size);
+        const double H = system->energy(&o.model.problem, y, &size);
         const long double n2 = (long double)y[3] * y[3] + (long double)y[4] * y[4] + (long double)y[5] * y[5];
         const long double wn = (long double)y[0] * y[3] + (long double)y[1] * y[4] + (long double)y[2] * y[5];
-        energy = isnan(energy) ? NAN : fmax(energy, fabs(H - o.model.field.energy) / size);
+        energy = isnan(energy) ? NAN : fmax(energy, fabs(H - o.model.problem.energy) / size);
         constraints = fmax(constraints, (double)fmaxl(fabsl(sqrtl(n2) - 1), fabsl(wn) / (long double)norm(y)));
     }
     gsl_test(!(constraints < 3e-16 && energy < 2e-15), "%s, k = %g, 10^4 radians: constraints %.1e, energy %.1e",
@@ -293,23 +294,23 @@ static void check_second(const iso_system *system, double k, iso_clock clock, do
     orbit o = orbit_sample(ctx, system, k, orbit_J, seed);
     double square[2] = {0, 0}, worst = 0, size;
     scale(o.y0, stretch);
-    if (stretch != 1) o.model.field.energy = system->energy(&o.model.field, o.y0, &size);
+    if (stretch != 1) o.model.problem.energy = system->energy(&o.model.problem, o.y0, &size);
     orbit_clocks(&o, clock, false, false, false);
     iso_integrator *it = orbit_start(&o, taylor, &finest);
-    const double start = F->value(&o.model.field, o.y0, &size);
+    const double start = F->value(&o.model.problem, o.y0, &size);
     for (int i = 1; i <= RADIANS; i++) {
         double y[ISO_MAX_STATE] = {NAN};
         iso_integrator_at(it, i * o.unit, y);
-        const double off = fabs(F->value(&o.model.field, y, &size) - start) / size;
+        const double off = fabs(F->value(&o.model.problem, y, &size) - start) / size;
         worst = off <= worst ? worst : off;
         if (i <= TENTH) square[0] += off * off / TENTH;
         if (i > RADIANS - TENTH) square[1] += off * off / TENTH;
     }
     const double first = sqrt(square[0]), last = sqrt(square[1]);
-    const bool holds = F->holds(&o.model.field);
+    const bool holds = F->holds(&o.model.problem);
     gsl_test(holds ? !(worst < 1e-14 && last < 1.5 * first + 1e-16) : !(worst > 1e-2),
              "%s, k = %g, %s, H = %.2g: %s %s to %.1e, rms %.1e at first, %.1e at last", system->name, k,
-             iso_clock_name(clock), o.model.field.energy, name, holds ? "keeps" : "drifts", worst, first, last);
+             iso_clock_name(clock), o.model.problem.energy, name, holds ? "keeps" : "drifts", worst, first, last);
     iso_integrator_free(it);
 }
 
@@ -320,7 +321,7 @@ static void check_rest(const iso_method *m)
 {
     static const double up[3] = {0.6, 0, 0.8}, beside[3] = {0, 0.6, 0.8};
     for (int i = 0; i < 3; i++) {
-        iso_field f = {.p = laws_params(0.5, orbit_J)};
+        iso_problem f = {.p = laws_params(0.5, orbit_J)};
         double start[ISO_STATE] = {0}, y[ISO_MAX_STATE], expected[ISO_MAX_STATE];
         copy(up, start + 3, 3);
         copy(i == 2 ? beside : up, GRAVITY_UP(&f.effects), 3);
@@ -338,7 +339,7 @@ static void check_rest(const iso_method *m)
 }
 
 /* (w, t) -> (c w, t/c) is the same curve. */
-static void check_units(iso_picture backend)
+static void check_units(iso_backend backend)
 {
     static const double cs[] = {1e-150, 3e-77, 7e-4, 1e9, 1e150};
     iso_orbit *path = orbit_by(taylor, 0.75, &beginning, backend, 1e-15);
@@ -360,7 +361,7 @@ static void check_units(iso_picture backend)
 /* Backwards, a resistance makes the ball faster without end: a failure in words, and a last good state before it. */
 static void check_failure(const iso_method *m)
 {
-    iso_field f = {.p = laws_params(0.5, orbit_J)};
+    iso_problem f = {.p = laws_params(0.5, orbit_J)};
     f.effects.on[ISO_ROLLING_RESISTANCE] = true, ROLLING_COEFFICIENT(&f.effects) = 1e9;
     orbit o = {.ctx = ctx, .model = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[3]){0})};
     copy(beginning.y, o.y0, ISO_STATE);
@@ -398,8 +399,8 @@ int main(void)
     check_processors();
     check_quad();
     for (int i = 0; i < GEOMETRIES; i++)
-        for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
-            check_long(geometries[i], backend, backend == ISO_BALL ? 2e-12 : 1e-12);
+        for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
+            check_long(geometries[i], backend, backend == ISO_BACKEND_BALL ? 2e-12 : 1e-12);
             check_events(geometries[i], backend);
             check_asking(geometries[i], backend);
         }
@@ -417,8 +418,8 @@ int main(void)
         check_second(&iso_system_ball, -1, ISO_CLOCK_T, 1, "F_shell", seed);
     check_rest(taylor);
     check_rest(extended);
-    check_units(ISO_BALL);
-    check_units(ISO_POINT);
+    check_units(ISO_BACKEND_BALL);
+    check_units(ISO_BACKEND_POINT);
     check_failure(taylor);
     iso_context_free(ctx);
     exit(gsl_test_summary());

@@ -57,15 +57,15 @@ static void note_coordinates(const iso_params *p, const double x[3], const iso_c
 static void from_vector(const laws_case *c, laws_worst *worst)
 {
     iso_conical at;
-    iso_conical_from_vector(c->field.p.J, c->y + 3, NULL, &at);
-    note_coordinates(&c->field.p, c->y + 3, &at, worst, "squares");
-    laws_note(worst, fabs(at.rate[0]) + fabs(at.rate[1]), DBL_TRUE_MIN, &c->field.p, "no velocity");
+    iso_conical_from_vector(c->problem.p.J, c->y + 3, NULL, &at);
+    note_coordinates(&c->problem.p, c->y + 3, &at, worst, "squares");
+    laws_note(worst, fabs(at.rate[0]) + fabs(at.rate[1]), DBL_TRUE_MIN, &c->problem.p, "no velocity");
 }
 
 /* Vector and velocity come back from the angles and the speeds. */
 static void to_vector(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double x[3], velocity[3];
     iso_conical at;
     iso_conical_from_vector(p->J, c->y + 3, c->y, &at);
@@ -79,7 +79,7 @@ static void to_vector(const laws_case *c, laws_worst *worst)
 /* g = lam mu/det J */
 static void product_is_g(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     iso_conical at;
     iso_conical_from_vector(p->J, c->y + 3, NULL, &at);
     const double g = dot_diag(c->y + 3, p->inv_J, c->y + 3);
@@ -89,7 +89,7 @@ static void product_is_g(const laws_case *c, laws_worst *worst)
 /* The order in which the axes are given does not matter. */
 static void any_order(const laws_case *c, laws_worst *worst)
 {
-    const double *b = c->field.p.J, *x = c->y + 3, *v = c->y;
+    const double *b = c->problem.p.J, *x = c->y + 3, *v = c->y;
     iso_conical at, turned;
     iso_conical_from_vector(b, x, v, &at);
     if (!distinct(b)) return;
@@ -101,10 +101,10 @@ static void any_order(const laws_case *c, laws_worst *worst)
         }
         iso_conical_from_vector(b2, x2, v2, &turned);
         for (int r = 0; r < 2; r++) {
-            laws_note(worst, fabs(turned.z[r] - at.z[r]), DBL_TRUE_MIN, &c->field.p, "z");
-            laws_note(worst, fabs(turned.rate[r] - at.rate[r]), DBL_TRUE_MIN, &c->field.p, "rate");
+            laws_note(worst, fabs(turned.z[r] - at.z[r]), DBL_TRUE_MIN, &c->problem.p, "z");
+            laws_note(worst, fabs(turned.rate[r] - at.rate[r]), DBL_TRUE_MIN, &c->problem.p, "rate");
             for (int i = 0; i < 3; i++)
-                laws_note(worst, fabs(turned.above[r][i] - at.above[r][(i + shift) % 3]), DBL_TRUE_MIN, &c->field.p,
+                laws_note(worst, fabs(turned.above[r][i] - at.above[r][(i + shift) % 3]), DBL_TRUE_MIN, &c->problem.p,
                           "above");
         }
     }
@@ -114,7 +114,7 @@ static void any_order(const laws_case *c, laws_worst *worst)
 static void near_planes(const laws_case *c, laws_worst *worst)
 {
     static const double small[] = {1e-5, 1e-12, 1e-120, 0};
-    if (!distinct(c->field.p.J)) return;
+    if (!distinct(c->problem.p.J)) return;
     for (int i = 0; i < 4; i++)
         for (int plane = 1; plane < 7; plane++) { /* bits: which components are small */
             double x[3];
@@ -123,9 +123,10 @@ static void near_planes(const laws_case *c, laws_worst *worst)
             for (int j = 0; j < 3; j++)
                 if (plane & 1 << j) x[j] *= small[i];
             make_unit(x);
-            iso_conical_from_vector(c->field.p.J, x, c->y, &at);
-            note_coordinates(&c->field.p, x, &at, worst, "small squares");
-            laws_note(worst, isfinite(at.rate[0]) && isfinite(at.rate[1]) ? 0 : 1, 0.5, &c->field.p, "rates finite");
+            iso_conical_from_vector(c->problem.p.J, x, c->y, &at);
+            note_coordinates(&c->problem.p, x, &at, worst, "small squares");
+            laws_note(worst, isfinite(at.rate[0]) && isfinite(at.rate[1]) ? 0 : 1, 0.5, &c->problem.p,
+                      "rates finite");
         }
 }
 
@@ -163,25 +164,25 @@ static void check_umbilics(void)
  * and latitude about axis 3 (b1 = b2) or 1. */
 static void equal_moments(const laws_case *c, laws_worst *worst)
 {
-    const double *b = c->field.p.J;
+    const double *b = c->problem.p.J;
     if (distinct(b)) return;
     iso_conical at;
     int o[3];
     order_of(b, o);
     iso_conical_from_vector(b, c->y + 3, c->y, &at);
-    note_coordinates(&c->field.p, c->y + 3, &at, worst, "squares");
+    note_coordinates(&c->problem.p, c->y + 3, &at, worst, "squares");
     const double longitude[2] = {at.sine[0] * at.cosine[1], at.sine[1] * fabs(at.cosine[0])};
     const bool last = b[o[0]] == b[o[1]];
-    laws_note(worst, fabs(c->y[3 + at.axis[0]] - (last ? longitude[0] : at.sine[0])), 8 * DBL_EPSILON, &c->field.p,
+    laws_note(worst, fabs(c->y[3 + at.axis[0]] - (last ? longitude[0] : at.sine[0])), 8 * DBL_EPSILON, &c->problem.p,
               "x1");
-    laws_note(worst, fabs(c->y[3 + at.axis[2]] - (last ? at.sine[1] : longitude[1])), 8 * DBL_EPSILON, &c->field.p,
+    laws_note(worst, fabs(c->y[3 + at.axis[2]] - (last ? at.sine[1] : longitude[1])), 8 * DBL_EPSILON, &c->problem.p,
               "x3");
     for (int r = 0; r < 2; r++) {
-        laws_note(worst, isfinite(at.rate[r]) ? 0 : 1, 0.5, &c->field.p, "rate");
+        laws_note(worst, isfinite(at.rate[r]) ? 0 : 1, 0.5, &c->problem.p, "rate");
         if (b[o[r]] == b[o[r + 1]]) {
-            laws_note(worst, fabs(at.z[r] - b[o[r]]), 2 * DBL_EPSILON * b[o[r]], &c->field.p,
+            laws_note(worst, fabs(at.z[r] - b[o[r]]), 2 * DBL_EPSILON * b[o[r]], &c->problem.p,
                       "between equal moments");
-            laws_note(worst, fabs(at.rate[r]), 8 * DBL_EPSILON * norm(c->y) * max3(b), &c->field.p, "stays");
+            laws_note(worst, fabs(at.rate[r]), 8 * DBL_EPSILON * norm(c->y) * max3(b), &c->problem.p, "stays");
         }
     }
 }
@@ -196,14 +197,14 @@ static void on_circle(const void *data, const double angle[], double z[])
     copy(c->y, v, 3);
     make_unit(v);
     for (int i = 0; i < 3; i++) x[i] = cos(angle[0]) * c->y[3 + i] + sin(angle[0]) * v[i];
-    iso_conical_from_vector(c->field.p.J, x, NULL, &at);
+    iso_conical_from_vector(c->problem.p.J, x, NULL, &at);
     copy(at.z, z, 2);
 }
 
 /* ... for states where the two are 0.2 of their range apart: where they meet they are not smooth. */
 static void rates(const laws_case *c, laws_worst *worst)
 {
-    const double zero = 0, one = 1, *b = c->field.p.J, range = max3(b) - min3(b);
+    const double zero = 0, one = 1, *b = c->problem.p.J, range = max3(b) - min3(b);
     if (!distinct(b)) return;
     iso_conical at;
     double v[3], slope[2];
@@ -214,7 +215,7 @@ static void rates(const laws_case *c, laws_worst *worst)
     const double h = 0.1 / 128;
     laws_slope(on_circle, c, 2, 1, &zero, &one, h, slope);
     for (int r = 0; r < 2; r++)
-        laws_note(worst, fabs(slope[r] - at.rate[r]), 8 * DBL_EPSILON * max3(b) / h, &c->field.p, "");
+        laws_note(worst, fabs(slope[r] - at.rate[r]), 8 * DBL_EPSILON * max3(b) / h, &c->problem.p, "");
 }
 
 int main(void)

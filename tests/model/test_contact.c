@@ -13,10 +13,10 @@
 static void rigid_is_free(const effects_case *c, laws_worst *worst)
 {
     if (c->subset != 0) return;
-    const iso_field *f = &c->model.field;
+    const iso_problem *f = &c->model.problem;
     const double none[3] = {0, 0, 0}, bound = 4 * DBL_EPSILON;
     double own[ISO_STATE], dy[ISO_STATE], slope[ISO_STATE * ISO_STATE], jac[ISO_STATE * ISO_STATE] = {0};
-    iso_field nothing = *f;
+    iso_problem nothing = *f;
     double size[ISO_MAX_STATE];
     effects_sizes(c, size);
     iso_system_ball.rhs(f, c->y, own);
@@ -42,7 +42,7 @@ static void torque_on(const effects_case *c, double T[3])
 /* J w' = J w x w + T + lambda n with the lambda that keeps (w,n) = 0 */
 static void rigid_equation(const effects_case *c, laws_worst *worst)
 {
-    const iso_field *f = &c->model.field;
+    const iso_problem *f = &c->model.problem;
     double y[ISO_STATE], T[3], dy[ISO_STATE], Jw[3], rest[3], along[3];
     torque_on(c, T);
     copy(c->y, y, ISO_STATE);
@@ -57,7 +57,7 @@ static void rigid_equation(const effects_case *c, laws_worst *worst)
     effects_note(c, worst, fabs(dot(dy, y + 3)), 8 * DBL_EPSILON * forces / min3(f->p.J), "(w',n)");
 }
 
-/* --- loose ----------------------------------------------------------------------------------------------------- */
+/* --- twisting -------------------------------------------------------------------------------------------------- */
 
 static void momentum(const void *params, const double y[], double K[])
 {
@@ -67,22 +67,22 @@ static void momentum(const void *params, const double y[], double K[])
 }
 
 /* K' = K x w + T by differences of K along the flow, for any spin */
-static void loose_equation(const effects_case *c, laws_worst *worst)
+static void twisting_equation(const effects_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->model.field.p;
+    const iso_params *p = &c->model.problem.p;
     double T[3], y[ISO_STATE], dy[ISO_STATE], K[3], K_dot[3], expected[3];
     copy(c->y, y, ISO_STATE);
     add_scaled(y, iso_random_normal(c->random), y + 3);
     torque_on(c, T);
-    iso_contact_loose.solve(&c->model.field, y, T, dy);
+    iso_contact_twisting.solve(&c->model.problem, y, T, dy);
     momentum(p, y, K);
     cross(K, y, expected);
     add_scaled(expected, 1, T);
     const double way = norm(dy) / norm(y) + norm(dy + 3), h = 1 / (128 * way);
     laws_slope(momentum, p, 3, ISO_STATE, y, dy, h, K_dot);
-    const double w = norm(y), forces = max3(p->J) * w * w + norm(T), loose = 1 / (1 - p->D / min3(p->J));
+    const double w = norm(y), forces = max3(p->J) * w * w + norm(T), twisting = 1 / (1 - p->D / min3(p->J));
     effects_note(c, worst, laws_distance(K_dot, expected),
-                 4 * DBL_EPSILON * (max3(p->J) * w / h + laws_spread(p) * loose * forces), "K'");
+                 4 * DBL_EPSILON * (max3(p->J) * w / h + laws_spread(p) * twisting * forces), "K'");
     cross(y + 3, y, K);
     scale(K, p->k);
     effects_note(c, worst, laws_distance(K, dy + 3), 4 * DBL_EPSILON * norm(K), "n'");
@@ -91,32 +91,32 @@ static void loose_equation(const effects_case *c, laws_worst *worst)
 /* The same ball with a contact of resistance c, turning by the spin that the rigid contact's lambda asks of it. */
 static double distance_to_rigid(const effects_case *c, double resistance)
 {
-    iso_field f = c->model.field;
-    const double lambda = iso_reactions_at(&c->model.field, c->y).twist;
-    double y[ISO_MAX_STATE], rigid[ISO_MAX_STATE], loose[ISO_MAX_STATE];
+    iso_problem f = c->model.problem;
+    const double lambda = iso_reactions_at(&c->model.problem, c->y).twist;
+    double y[ISO_MAX_STATE], rigid[ISO_MAX_STATE], twisting[ISO_MAX_STATE];
     f.effects.on[ISO_TWIST] = true;
     TWIST_RESISTANCE(&f.effects) = resistance;
     const iso_model m = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[]){false, false, false});
     copy(c->y, y, ISO_STATE);
     add_scaled(y, -lambda / resistance, y + 3);
     iso_model_begin(&m, y, y);
-    if (c->model.field.at[ISO_ATTITUDE] > 0 && m.field.p.k == 1) /* the same way, which moves nothing */
-        copy(c->y + c->model.field.at[ISO_ATTITUDE] + 4, y + m.field.at[ISO_ATTITUDE] + 4, 3);
+    if (c->model.problem.at[ISO_ATTITUDE] > 0 && m.problem.p.k == 1) /* the same way, which moves nothing */
+        copy(c->y + c->model.problem.at[ISO_ATTITUDE] + 4, y + m.problem.at[ISO_ATTITUDE] + 4, 3);
     c->model.rhs(&c->model, c->y, rigid);
-    m.rhs(&m, y, loose);
-    return laws_distance(rigid, loose);
+    m.rhs(&m, y, twisting);
+    return laws_distance(rigid, twisting);
 }
 
 /* c -> infinity: w' tends to that of the rubber ball like 1/c, whatever else acts. */
-static void loose_to_rigid(const effects_case *c, laws_worst *worst)
+static void twisting_to_rigid(const effects_case *c, laws_worst *worst)
 {
-    if (effects_on(c, ISO_TWIST) || laws_spread(&c->model.field.p) > 3) return;
+    if (effects_on(c, ISO_TWIST) || laws_spread(&c->model.problem.p) > 3) return;
     const double unit = 1e4 * c->kinetic / norm(c->y);
     double size[ISO_MAX_STATE];
     effects_sizes(c, size);
-    const double forces = size[0] / (1 - c->model.field.p.D / min3(c->model.field.p.J));
+    const double forces = size[0] / (1 - c->model.problem.p.D / min3(c->model.problem.p.J));
     const double far = distance_to_rigid(c, unit), near = distance_to_rigid(c, 100 * unit);
-    const double strong = effects_torque_size(c) / c->kinetic + fabs(c->model.field.p.k) + 1;
+    const double strong = effects_torque_size(c) / c->kinetic + fabs(c->model.problem.p.k) + 1;
     effects_note(c, worst, far, 1e-3 * forces * strong, "c = 1e4");
     effects_note(c, worst, near, 0.015 * far + 4e6 * DBL_EPSILON * forces, "c = 1e6");
 }
@@ -133,10 +133,10 @@ static void orbits_to_rigid(void)
         copy(o.y0, start, ISO_STATE);
         const double time = 2 * o.unit;
         orbit_reference(&o, time, rigid);
-        iso_params_set_D(ctx, 0.7, &o.model.field.p);
-        o.model.field.effects.on[ISO_TWIST] = true;
+        iso_params_set_D(ctx, 0.7, &o.model.problem.p);
+        o.model.problem.effects.on[ISO_TWIST] = true;
         for (int j = 0; j < 4; j++) {
-            TWIST_RESISTANCE(&o.model.field.effects) = resistance[j];
+            TWIST_RESISTANCE(&o.model.problem.effects) = resistance[j];
             orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
             iso_model_begin(&o.model, start, o.y0);
             orbit_solve(&o, method, &(iso_method_options){.tolerance = 1e-12}, time, y);
@@ -153,7 +153,7 @@ static void orbits_to_rigid(void)
 /* The rates at which the contact takes spin out, and rolling resistance motion about the axis of the least moment. */
 static void stiffness(const effects_case *c, laws_worst *worst)
 {
-    const iso_field *f = &c->model.field;
+    const iso_problem *f = &c->model.problem;
     const double J = min3(f->p.J), free = 1 - f->p.D / J;
     const double spin =
         effects_on(c, ISO_TWIST) ? TWIST_RESISTANCE(&f->effects) / (J * free) / fmax(1, fabs(f->p.k)) : 0;
@@ -176,7 +176,7 @@ static void bounds_of_D(void)
             gsl_test(iso_params_set_D(ctx, good[i], &p) != ISO_OK || p.D != good[i], "D = %g is accepted", good[i]);
         const iso_params before = p;
         for (int i = 0; i < 8; i++)
-            gsl_test(iso_params_set_D(ctx, bad[i], &p) != ISO_BAD_INPUT || strcmp(iso_context_field(ctx), "D") != 0 ||
+            gsl_test(iso_params_set_D(ctx, bad[i], &p) != ISO_BAD_INPUT || strcmp(iso_context_about(ctx), "D") != 0 ||
                          memcmp(&p, &before, sizeof p) != 0,
                      "D = %g is refused, and nothing changed", bad[i]);
     }
@@ -205,18 +205,18 @@ static void note_unit(const effects_case *c, int count, const double pushed[], c
 static void note_omega(const effects_case *c, const iso_model *m, const double pushed[], const double y[],
                        laws_worst *worst)
 {
-    const iso_field *f = &m->field;
+    const iso_problem *f = &m->problem;
     const double eps = laws_rounding(&f->p), spin = dot(pushed, y + 3), size = effects_energy_size(c);
-    const bool loose = effects_on(c, ISO_TWIST);
+    const bool twisting = effects_on(c, ISO_TWIST);
     double expected[3], u[3], across[3], unused;
     copy(pushed, expected, 3);
     diag(f->p.inv_J, y + 3, u);
-    if (!loose) add_scaled(expected, -spin / dot(y + 3, u), u);
+    if (!twisting) add_scaled(expected, -spin / dot(y + 3, u), u);
     if (effects_lambda(c) > 0)
         add_scaled(expected, -spin - y[effects_lambda(c)] / TWIST_RESISTANCE(&f->effects), y + 3);
     cross(expected, y, across);
     effects_note(c, worst, norm(across), 16 * DBL_EPSILON * norm(y) * norm(y), "direction of w");
-    if (!loose) effects_note(c, worst, fabs(dot(y, y + 3)), 4 * DBL_EPSILON * norm(y), "(w,n)");
+    if (!twisting) effects_note(c, worst, fabs(dot(y, y + 3)), 4 * DBL_EPSILON * norm(y), "(w,n)");
     const double U = iso_effects_potential(f, y), h = iso_system_ball.energy(f, y, &unused);
     const double falling = fmax(fabs(U), iso_effects_strength(f, y));
     const bool keeps = iso_effects_keep_energy(f), fast = h - U > 0.2 * falling, still = h - U < 0.05 * falling;
@@ -226,13 +226,13 @@ static void note_omega(const effects_case *c, const iso_model *m, const double p
 
 static void project_pushed(const effects_case *c, double push, bool slow, laws_worst *worst)
 {
-    iso_model m = iso_model_assemble(c->system, &c->model.field, ISO_CLOCK_T, (const bool[]){true, true, true});
-    const int up = m.field.at[ISO_GRAVITY], Q = m.field.at[ISO_ATTITUDE], lambda = m.field.at[ISO_TWIST];
+    iso_model m = iso_model_assemble(c->system, &c->model.problem, ISO_CLOCK_T, (const bool[]){true, true, true});
+    const int up = m.problem.at[ISO_GRAVITY], Q = m.problem.at[ISO_ATTITUDE], lambda = m.problem.at[ISO_TWIST];
     double y[ISO_MAX_STATE], pushed[ISO_MAX_STATE], again[ISO_MAX_STATE], unused;
     copy(c->y, y, m.moving);
     if (slow) scale(y, 0.01);
     if (slow && lambda > 0) y[lambda] *= 0.01;
-    m.field.energy = iso_system_ball.energy(&m.field, y, &unused);
+    m.problem.energy = iso_system_ball.energy(&m.problem, y, &unused);
     for (int i = m.moving; i < m.dim; i++) y[i] = iso_random_normal(c->random);
     const double w = norm(y);
     for (int i = 0; i < m.moving; i++)
@@ -250,7 +250,7 @@ static void project_pushed(const effects_case *c, double push, bool slow, laws_w
     iso_model_project(&m, again);
     for (int i = 0; i < m.dim; i++) {
         const double size = i < 3 ? w * effects_energy_size(c) / (slow ? 1e-4 * c->kinetic : c->kinetic) : 1;
-        effects_note(c, worst, fabs(again[i] - y[i]), 8 * laws_rounding(&m.field.p) * size, "again");
+        effects_note(c, worst, fabs(again[i] - y[i]), 8 * laws_rounding(&m.problem.p) * size, "again");
     }
     effects_note(c, worst, correction > 0 ? 0 : 1, 0.5, "correction noticed");
 }
@@ -267,14 +267,14 @@ static void projection(const effects_case *c, laws_worst *worst)
 static void correction(const effects_case *c, laws_worst *worst)
 {
     const double push = 1e-7;
-    const int at[] = {3, c->model.field.at[ISO_GRAVITY], c->model.field.at[ISO_ATTITUDE]};
+    const int at[] = {3, c->model.problem.at[ISO_GRAVITY], c->model.problem.at[ISO_ATTITUDE]};
     for (int i = 0; i < 3; i++) {
         double y[ISO_MAX_STATE];
         if (at[i] == 0) continue;
         copy(c->y, y, c->model.dim);
         for (int j = 0; j < (i == 2 ? 4 : 3); j++) y[at[i] + j] *= 1 + push;
         const double noticed = iso_model_project(&c->model, y);
-        const double others = 16 * laws_rounding(&c->model.field.p) * effects_energy_size(c) / c->kinetic;
+        const double others = 16 * laws_rounding(&c->model.problem.p) * effects_energy_size(c) / c->kinetic;
         if (effects_lambda(c) == 0) effects_note(c, worst, fabs(noticed - push), 2 * push * push + others, "length");
     }
 }
@@ -284,8 +284,8 @@ int main(void)
     gsl_test_verbose(1);
     effects_hold("rigid contact without torques is free", &iso_system_ball, 1, rigid_is_free);
     effects_hold("rigid contact: J w' = J w x w + T + lambda n", &iso_system_ball, 1, rigid_equation);
-    effects_hold("loose contact: K' = K x w + T", &iso_system_ball, 1, loose_equation);
-    effects_hold("loose contact tends to the rigid one", &iso_system_ball, 1, loose_to_rigid);
+    effects_hold("twisting contact: K' = K x w + T", &iso_system_ball, 1, twisting_equation);
+    effects_hold("twisting contact tends to the rigid one", &iso_system_ball, 1, twisting_to_rigid);
     orbits_to_rigid();
     effects_hold("stiffness", &iso_system_ball, 1, stiffness);
     bounds_of_D();

@@ -18,35 +18,35 @@ static void note_state(const effects_case *c, const iso_model *m, int at, const 
 static void states(const effects_case *c, laws_worst *worst)
 {
     static const char *const added[] = {"e1", "e2", "e3", "q0", "q1", "q2", "q3", "x1", "x2", "x3"};
-    const iso_field *f = &c->model.field;
+    const iso_problem *f = &c->model.problem;
     const bool ball = c->system == &iso_system_ball;
     const bool gravity = ball && effects_on(c, ISO_GRAVITY), attitude = ball && effects_on(c, ISO_ATTITUDE);
     const bool stiff = ball && c->subset & EFFECTS_STIFF;
     for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
-        const bool carry[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
-        const iso_model m = iso_model_assemble(c->system, f, ISO_CLOCK_TAU, carry);
+        const bool with_clock[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
+        const iso_model m = iso_model_assemble(c->system, f, ISO_CLOCK_TAU, with_clock);
         int dim = 0;
         while (dim < ISO_STATE) note_state(c, &m, dim, c->system->state[dim], worst), dim++;
-        effects_note(c, worst, abs(m.field.at[ISO_GRAVITY] - (gravity ? dim : 0)), 0.5, "place of e");
+        effects_note(c, worst, abs(m.problem.at[ISO_GRAVITY] - (gravity ? dim : 0)), 0.5, "place of e");
         for (int i = 0; i < 3 && gravity; i++) note_state(c, &m, dim++, added[i], worst);
-        effects_note(c, worst, abs(m.field.at[ISO_TWIST] - (stiff ? dim : 0)), 0.5, "place of lambda");
+        effects_note(c, worst, abs(m.problem.at[ISO_TWIST] - (stiff ? dim : 0)), 0.5, "place of lambda");
         if (stiff) note_state(c, &m, dim++, "lambda", worst);
-        effects_note(c, worst, abs(m.field.at[ISO_ATTITUDE] - (attitude ? dim : 0)), 0.5, "place of Q");
+        effects_note(c, worst, abs(m.problem.at[ISO_ATTITUDE] - (attitude ? dim : 0)), 0.5, "place of Q");
         for (int i = 3; i < (f->p.k == 1 ? 10 : 7) && attitude; i++) note_state(c, &m, dim++, added[i], worst);
         effects_note(c, worst, abs(m.moving - dim), 0.5, "moving");
-        if (carry[ISO_CLOCK_T]) note_state(c, &m, dim++, "t", worst);
-        if (carry[ISO_CLOCK_S]) note_state(c, &m, dim++, "s", worst);
+        if (with_clock[ISO_CLOCK_T]) note_state(c, &m, dim++, "t", worst);
+        if (with_clock[ISO_CLOCK_S]) note_state(c, &m, dim++, "s", worst);
         effects_note(c, worst, abs(m.dim - dim), 0.5, "dim");
         for (int e = 0; e < ISO_EFFECTS; e++)
             if (e != ISO_GRAVITY && e != ISO_ATTITUDE && e != ISO_TWIST)
-                effects_note(c, worst, m.field.at[e], 0.5, "no states");
+                effects_note(c, worst, m.problem.at[e], 0.5, "no states");
     }
 }
 
 /* What is added up at each call: the ball's torques, none from a contact that twists freely; the point's field. */
 static void forces(const effects_case *c, laws_worst *worst)
 {
-    const iso_field *f = &c->model.field;
+    const iso_problem *f = &c->model.problem;
     const iso_effects *e = &f->effects;
     const int torques = e->on[ISO_GRAVITY] + e->on[ISO_FIELD] + e->on[ISO_LEVEL] +
                         (e->on[ISO_TWIST] && TWIST_RESISTANCE(e) > 0) + e->on[ISO_ROLLING_RESISTANCE];
@@ -61,8 +61,9 @@ static void forces(const effects_case *c, laws_worst *worst)
 /* The start: the six numbers, `up`, `quaternion`, the rest 0; sizes: 1, and of the way 1 more than it is long. */
 static void beginnings(const effects_case *c, laws_worst *worst)
 {
-    const iso_effects *e = &c->model.field.effects;
-    const int up = c->model.field.at[ISO_GRAVITY], Q = c->model.field.at[ISO_ATTITUDE], lambda = effects_lambda(c);
+    const iso_effects *e = &c->model.problem.effects;
+    const int up = c->model.problem.at[ISO_GRAVITY], Q = c->model.problem.at[ISO_ATTITUDE],
+              lambda = effects_lambda(c);
     double y[ISO_MAX_STATE], size[ISO_MAX_STATE];
     for (int i = 0; i < ISO_MAX_STATE; i++) y[i] = NAN;
     iso_model_begin(&c->model, c->y, y);
@@ -80,7 +81,7 @@ static void beginnings(const effects_case *c, laws_worst *worst)
     const double torque = -TWIST_RESISTANCE(e) * dot(c->y, c->y + 3);
     effects_note(c, worst, fabs(y[lambda] - torque), 4 * DBL_EPSILON * TWIST_RESISTANCE(e) * norm(c->y), "lambda");
     const double resists = e->on[ISO_ROLLING_RESISTANCE] ? ROLLING_COEFFICIENT(e) * largest(c->y) : 0;
-    const double motion = 2 * iso_ball_energy(&c->model.field.p, c->y) + resists;
+    const double motion = 2 * iso_ball_energy(&c->model.problem.p, c->y) + resists;
     effects_note(c, worst, fabs(size[lambda] - fabs(torque) - motion),
                  8 * DBL_EPSILON * (size[lambda] + TWIST_RESISTANCE(e) * norm(c->y)), "size of lambda");
 }
@@ -89,11 +90,11 @@ static void beginnings(const effects_case *c, laws_worst *worst)
 static void plain(const effects_case *c, laws_worst *worst)
 {
     static const bool none[ISO_CLOCKS] = {false};
-    const iso_effects *e = &c->model.field.effects;
+    const iso_effects *e = &c->model.problem.effects;
     const bool ball = c->system == &iso_system_ball;
     const bool acted_on = !iso_effects_are_free(e) || e->on[ISO_LEVEL];
     if (ball ? acted_on : e->on[ISO_FIELD]) return;
-    const iso_field bare = {.p = c->model.field.p, .eps = c->model.field.eps};
+    const iso_problem bare = {.p = c->model.problem.p, .eps = c->model.problem.eps};
     const iso_model simplest = iso_model_assemble(c->system, &bare, c->system->clock, none);
     double own[ISO_STATE], dy[ISO_MAX_STATE];
     c->system->rhs(&bare, c->y, own);
@@ -110,7 +111,7 @@ static void plain(const effects_case *c, laws_worst *worst)
 static void check_jacobian(const effects_case *c, const iso_model *m, laws_worst *worst)
 {
     enum { DIM = ISO_MAX_STATE };
-    const iso_params *p = &m->field.p;
+    const iso_params *p = &m->problem.p;
     const double q = c->system->q(p, c->y, NULL);
     const double rate = iso_clock_rate(p, m->clock, q, NULL) / iso_clock_rate(p, c->system->clock, q, NULL);
     double y[DIM] = {0}, f[DIM], jac[DIM * DIM], column[DIM], size[DIM];
@@ -142,8 +143,8 @@ static void jacobian_clocks(const effects_case *c, laws_worst *worst)
 {
     for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++)
         for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
-            const bool carry[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
-            const iso_model m = iso_model_assemble(c->system, &c->model.field, clock, carry);
+            const bool with_clock[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
+            const iso_model m = iso_model_assemble(c->system, &c->model.problem, clock, with_clock);
             if (!(asked & 1 << clock)) check_jacobian(c, &m, worst);
         }
 }
@@ -151,20 +152,20 @@ static void jacobian_clocks(const effects_case *c, laws_worst *worst)
 /* In another clock and with carried clocks the equations are the own ones times the rate of (16), (24). */
 static void rhs_clocks(const effects_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->model.field.p;
+    const iso_params *p = &c->model.problem.p;
     const double q = c->system->q(p, c->y, NULL);
     double own[ISO_MAX_STATE], dy[ISO_MAX_STATE], y[ISO_MAX_STATE] = {0};
     copy(c->y, y, c->model.dim);
     c->model.rhs(&c->model, y, own);
     for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++) {
-        const iso_model m = iso_model_assemble(c->system, &c->model.field, clock, (const bool[]){true, true, true});
+        const iso_model m = iso_model_assemble(c->system, &c->model.problem, clock, (const bool[]){true, true, true});
         const double rate = iso_clock_rate(p, clock, q, NULL),
                      own_rate = iso_clock_rate(p, c->system->clock, q, NULL);
         m.rhs(&m, y, dy);
         for (int i = 0; i < m.moving; i++)
             effects_note(c, worst, fabs(dy[i] - own[i] * own_rate / rate), 8 * DBL_EPSILON * fabs(dy[i]), "state");
-        for (int i = 0; i < m.carried; i++)
-            effects_note(c, worst, fabs(dy[m.moving + i] * rate / iso_clock_rate(p, m.carry[i], q, NULL) - 1),
+        for (int i = 0; i < m.clocks; i++)
+            effects_note(c, worst, fabs(dy[m.moving + i] * rate / iso_clock_rate(p, m.clock_of[i], q, NULL) - 1),
                          8 * DBL_EPSILON, "clock");
     }
 }
@@ -174,7 +175,7 @@ static void rhs_clocks(const effects_case *c, laws_worst *worst)
 typedef struct potential_of {
     const effects_case *c;
     const iso_effect *effect;
-    iso_field alone;
+    iso_problem alone;
 } potential_of;
 
 static void potential(const void *data, const double y[], double U[])
@@ -208,12 +209,12 @@ static void torque_of_gradient(const potential_of *of, double h, double T[3])
         laws_slope(potential, of, 1, of->c->model.dim, of->c->y, direction, h, &dU[i]);
     }
     cross(of->c->y + 3, dU, T);
-    scale(T, of->c->model.field.p.k);
+    scale(T, of->c->model.problem.p.k);
 }
 
 static void torques_from_potentials(const effects_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->model.field.p;
+    const iso_params *p = &c->model.problem.p;
     const double h = laws_reach(p) / (128 * fmax(1, fabs(p->k)));
     for (int e = 0; e < ISO_EFFECTS; e++) {
         if (!effects_on(c, e) || !iso_effect_list[e]->potential) continue;
@@ -233,7 +234,7 @@ static void torques_from_potentials(const effects_case *c, laws_worst *worst)
 /* The potentials and torques themselves, as section 7 of the theory has them. */
 static void written_out(const effects_case *c, laws_worst *worst)
 {
-    const iso_field *f = &c->model.field;
+    const iso_problem *f = &c->model.problem;
     const iso_effects *e = &f->effects;
     const double *w = c->y, *n = c->y + 3, *up = c->y + f->at[ISO_GRAVITY], g = dot_diag(n, f->p.inv_J, n);
     double sum[3] = {0, 0, 0}, T[3] = {0, 0, 0}, C_n[3], e_n[3], U = 0;
@@ -247,7 +248,7 @@ static void written_out(const effects_case *c, laws_worst *worst)
     if (e->on[ISO_ROLLING_RESISTANCE]) add_scaled(T, -ROLLING_COEFFICIENT(e), w);
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) {
         if (!e->on[i] || i == ISO_FIELD || i == ISO_LEVEL) continue;
-        const iso_field alone = effects_alone(c, i);
+        const iso_problem alone = effects_alone(c, i);
         double own[3], dy[ISO_MAX_STATE];
         iso_effects_torque(&alone, c->y, own, dy);
         add_scaled(sum, 1, own);
@@ -266,15 +267,15 @@ static iso_context *ctx;
 /* Every subset with its random numbers is fine, and left as it is to rounding. */
 static void accepted(const effects_case *c, laws_worst *worst)
 {
-    iso_effects e = c->model.field.effects;
-    const double *J = c->model.field.p.J;
+    iso_effects e = c->model.problem.effects;
+    const double *J = c->model.problem.p.J;
     const bool constant = e.on[ISO_LEVEL] && J[0] == J[1] && J[1] == J[2]; /* a level that is refused */
-    const iso_status status = iso_effects_check(ctx, &c->model.field.p, c->y + 3, &e);
+    const iso_status status = iso_effects_check(ctx, &c->model.problem.p, c->y + 3, &e);
     effects_note(c, worst, (status != ISO_OK) != constant, 0.5, constant ? "accepted" : "refused");
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
         for (const iso_effect_number *n = iso_effect_list[i]->numbers; n && n->name; n++)
             for (int j = 0; j < n->count; j++) {
-                const double *old = iso_effect_values(&c->model.field.effects, i, n);
+                const double *old = iso_effect_values(&c->model.problem.effects, i, n);
                 const double *new = iso_effect_values(&e, i, n);
                 effects_note(c, worst, fabs(new[j] - old[j]), 4 * DBL_EPSILON * fabs(old[j]), n->name);
             }
@@ -300,9 +301,9 @@ static void attempt(const char *what, double k, double D, iso_effect_id id, iso_
     const iso_status status = iso_effects_check(ctx, &p, normal, &e);
     if (!field) gsl_test(status != ISO_OK, "%s is accepted: %s", what, status ? iso_context_message(ctx) : "");
     if (!field) return;
-    gsl_test(status != ISO_BAD_INPUT || strcmp(iso_context_field(ctx), field) != 0,
+    gsl_test(status != ISO_BAD_INPUT || strcmp(iso_context_about(ctx), field) != 0,
              "%s is refused about %s: '%s', %s", what, field,
-             status == ISO_BAD_INPUT ? iso_context_field(ctx) : "not refused", iso_context_message(ctx));
+             status == ISO_BAD_INPUT ? iso_context_about(ctx) : "not refused", iso_context_message(ctx));
 }
 
 /* One number changed: x[index] of the sound effects, in every way that is wrong. */
@@ -393,7 +394,7 @@ static void made_exact(void)
 /* The isomorphism is lost with gravity, twist and rolling resistance, and with nothing else. */
 static void breaking(const effects_case *c, laws_worst *worst)
 {
-    const iso_effects *e = &c->model.field.effects;
+    const iso_effects *e = &c->model.problem.effects;
     const char *expected = e->on[ISO_GRAVITY]              ? "gravity"
                            : e->on[ISO_TWIST]              ? "twist"
                            : e->on[ISO_ROLLING_RESISTANCE] ? "rolling_resistance"

@@ -9,14 +9,14 @@
 
 typedef struct integral_at {
     const iso_integral *integral;
-    const iso_field *field;
+    const iso_problem *problem;
 } integral_at;
 
 static void value(const void *data, const double y[], double I[])
 {
     const integral_at *at = data;
     double size;
-    I[0] = at->integral->value(at->field, y, &size);
+    I[0] = at->integral->value(at->problem, y, &size);
 }
 
 /* (dI/dt)/size in units of the time in which the state changes, at rest or for equal moments that of a turn at full
@@ -24,25 +24,26 @@ static void value(const void *data, const double y[], double I[])
  * *rounding is what rounding alone makes of it. */
 static double drift(const laws_case *c, const iso_integral *integral, double *rounding)
 {
-    const integral_at at = {integral, &c->field};
+    const integral_at at = {integral, &c->problem};
     double f[ISO_STATE], slope, size;
-    c->system->rhs(&c->field, c->y, f);
-    const double turn = c->system->speed(&c->field, c->y) * (c->system == &iso_system_ball ? fabs(c->field.p.k) : 1);
-    const double h = fmin(laws_step(c, f), laws_reach(&c->field.p) / (128 * turn));
-    const double time = 128 * h / laws_reach(&c->field.p);
+    c->system->rhs(&c->problem, c->y, f);
+    const double turn =
+        c->system->speed(&c->problem, c->y) * (c->system == &iso_system_ball ? fabs(c->problem.p.k) : 1);
+    const double h = fmin(laws_step(c, f), laws_reach(&c->problem.p) / (128 * turn));
+    const double time = 128 * h / laws_reach(&c->problem.p);
     laws_slope(value, &at, 1, ISO_STATE, c->y, f, h, &slope);
-    integral->value(&c->field, c->y, &size);
-    *rounding = laws_rounding(&c->field.p) * time / h;
+    integral->value(&c->problem, c->y, &size);
+    *rounding = laws_rounding(&c->problem.p) * time / h;
     return fabs(slope) * time / size;
 }
 
 static void note_holding(const laws_case *c, laws_worst *worst)
 {
     for (const iso_integral *i = c->system->integrals; i->name; i++) {
-        if (i->holds && !i->holds(&c->field)) continue;
+        if (i->holds && !i->holds(&c->problem)) continue;
         double rounding;
         const double d = drift(c, i, &rounding);
-        laws_note(worst, d, rounding, &c->field.p, i->name);
+        laws_note(worst, d, rounding, &c->problem.p, i->name);
     }
 }
 
@@ -59,7 +60,7 @@ static void off_the_level(const laws_case *c, laws_worst *worst)
         laws_case moved = *c;
         double size;
         scale(moved.y, stretch[i]);
-        moved.field.energy = c->system->energy(&moved.field, moved.y, &size);
+        moved.problem.energy = c->system->energy(&moved.problem, moved.y, &size);
         note_holding(&moved, worst);
     }
 }
@@ -69,23 +70,23 @@ static void note_drift(const laws_case *c, const char *name, laws_worst *worst)
 {
     double rounding;
     const iso_integral *integral = laws_integral(c->system, name);
-    if (integral->holds(&c->field)) return;
-    laws_note(worst, drift(c, integral, &rounding), 0.01, &c->field.p, name);
+    if (integral->holds(&c->problem)) return;
+    laws_note(worst, drift(c, integral, &rounding), 0.01, &c->problem.p, name);
 }
 
 static void plane_at_shell(const laws_case *c, laws_worst *worst)
 {
-    if (c->field.p.k == -1) note_drift(c, "F_plane", worst);
+    if (c->problem.p.k == -1) note_drift(c, "F_plane", worst);
 }
 
 static void plane_at_near_k(const laws_case *c, laws_worst *worst)
 {
-    if (c->field.p.k == 0.75) note_drift(c, "F_plane", worst);
+    if (c->problem.p.k == 0.75) note_drift(c, "F_plane", worst);
 }
 
 static void shell_at_plane(const laws_case *c, laws_worst *worst)
 {
-    if (c->field.p.k == 1) note_drift(c, "F_shell", worst);
+    if (c->problem.p.k == 1) note_drift(c, "F_shell", worst);
 }
 
 static void axis1_unequal(const laws_case *c, laws_worst *worst)
@@ -106,31 +107,31 @@ static void axis3_unequal(const laws_case *c, laws_worst *worst)
 /* Which rows hold where: the table's conditions themselves. */
 static void conditions(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     const bool holds[] = {p->k == 1, p->k == -1, p->J[1] == p->J[2], p->J[2] == p->J[0], p->J[0] == p->J[1]};
     static const char *const names[] = {"F_plane", "F_shell", "F_axis1", "F_axis2", "F_axis3"};
     for (int i = 0; i < 5; i++) {
         const iso_integral *integral = laws_integral(c->system, names[i]);
-        laws_note(worst, integral->holds(&c->field) == holds[i] ? 0 : 1, 0.5, p, names[i]);
+        laws_note(worst, integral->holds(&c->problem) == holds[i] ? 0 : 1, 0.5, p, names[i]);
     }
 }
 
 /* Distance of a state from the constraints and its energy; (w,n) may be off by `spin` roundings. */
 static void note_restored(const laws_case *c, const double y[ISO_STATE], double spin, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     double size;
-    const double energy = c->system->energy(&c->field, y, &size);
+    const double energy = c->system->energy(&c->problem, y, &size);
     laws_note(worst, fabs(norm(y + 3) - 1), 2 * DBL_EPSILON, p, "unit");
     laws_note(worst, fabs(dot(y, y + 3)), spin * DBL_EPSILON * norm(y), p, "orthogonal");
-    laws_note(worst, fabs(energy - c->field.energy), 2 * laws_rounding(p) * size, p, "energy");
+    laws_note(worst, fabs(energy - c->problem.energy), 2 * laws_rounding(p) * size, p, "energy");
 }
 
 /* A state pushed off by 1e-6 ... 1e-12 comes back near where it was, with all relations restored; a second projection
  * finds nothing to do. What a push of gamma by x does to q is 2 x sqrt(max J/q), to M by q^(-1/(2k)) that / (2k). */
 static void projection_restores(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     const double gain = 3 * sqrt(laws_spread(p)) * (1 + 1 / fabs(p->k));
     for (double push = 1e-6; push > 1e-13; push /= 10) {
         double y[ISO_STATE], again[ISO_STATE], direction[3];
@@ -139,13 +140,13 @@ static void projection_restores(const laws_case *c, laws_worst *worst)
         add_scaled(y, push * norm(c->y), direction);
         iso_random_direction(c->random, direction);
         add_scaled(y + 3, push, direction);
-        const double correction = c->system->project(&c->field, y);
+        const double correction = c->system->project(&c->problem, y);
         note_restored(c, y, 2, worst);
         laws_note(worst, correction, gain * push, p, "correction");
         laws_note(worst, laws_distance(y, c->y) / norm(c->y), gain * push, p, "fast moved");
         laws_note(worst, laws_distance(y + 3, c->y + 3), 2 * push, p, "unit moved");
         copy(y, again, ISO_STATE);
-        laws_note(worst, c->system->project(&c->field, again), 2 * laws_rounding(p), p, "second correction");
+        laws_note(worst, c->system->project(&c->problem, again), 2 * laws_rounding(p), p, "second correction");
         laws_note(worst, laws_distance(y, again), 2 * laws_rounding(p) * norm(y), p, "fast again");
         laws_note(worst, laws_distance(y + 3, again + 3), 4 * DBL_EPSILON, p, "unit again");
     }
@@ -157,14 +158,14 @@ static void add_spin(const laws_case *c, double share, double y[ISO_STATE])
 {
     double along[3];
     copy(c->y + 3, along, 3);
-    if (c->system == &iso_system_ball) diag(c->field.p.inv_J, c->y + 3, along);
+    if (c->system == &iso_system_ball) diag(c->problem.p.inv_J, c->y + 3, along);
     add_scaled(y, share * norm(y) / dot(along, c->y + 3), along);
 }
 
 /* Each relation broken alone, by a known amount: the correction is that amount, and the state is back. */
 static void correction_reported(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     static const char *const what[] = {"length", "spin", "energy"};
     const double gain = laws_spread(p) * (1 + 1 / fabs(p->k));
     for (double push = 1e-6; push > 1e-13; push /= 10)
@@ -174,7 +175,7 @@ static void correction_reported(const laws_case *c, laws_worst *worst)
             if (relation == 0) scale(y + 3, 1 + push);
             if (relation == 1) add_spin(c, push, y);
             if (relation == 2) scale(y, 1 + push);
-            const double correction = c->system->project(&c->field, y);
+            const double correction = c->system->project(&c->problem, y);
             laws_note(worst, fabs(correction - push), 4 * laws_rounding(p) + 2 * gain * push * push, p,
                       what[relation]);
             laws_note(worst, laws_distance(y, c->y) / norm(y), 4 * laws_rounding(p) + gain * push * push, p,
@@ -189,7 +190,7 @@ static laws_case off_the_level_by(const laws_case *c, double stretch, double pus
     laws_case moved = *c;
     double size;
     scale(moved.y, stretch);
-    moved.field.energy = c->system->energy(&moved.field, moved.y, &size);
+    moved.problem.energy = c->system->energy(&moved.problem, moved.y, &size);
     copy(moved.y, pushed, ISO_STATE);
     scale(pushed + 3, 1 + 1e-8);
     add_scaled(pushed, 1e-8 * norm(pushed), c->y + 3);
@@ -204,10 +205,10 @@ static void projection_off_the_level(const laws_case *c, laws_worst *worst)
     for (int i = 0; i < 4; i++) {
         double y[ISO_STATE];
         const laws_case moved = off_the_level_by(c, stretch[i], y);
-        const double correction = c->system->project(&moved.field, y), rounding = laws_rounding(&c->field.p);
+        const double correction = c->system->project(&moved.problem, y), rounding = laws_rounding(&c->problem.p);
         note_restored(&moved, y, 2, worst);
-        laws_note(worst, fabs(correction - 1e-8), 1e-15 + 8 * rounding, &c->field.p, "correction");
-        laws_note(worst, laws_distance(y, moved.y) / norm(y), 1e-15 + 8 * rounding, &c->field.p, "M back");
+        laws_note(worst, fabs(correction - 1e-8), 1e-15 + 8 * rounding, &c->problem.p, "correction");
+        laws_note(worst, laws_distance(y, moved.y) / norm(y), 1e-15 + 8 * rounding, &c->problem.p, "M back");
     }
 }
 
@@ -216,10 +217,10 @@ static void projection_near_a_turn(const laws_case *c, laws_worst *worst)
 {
     double y[ISO_STATE];
     const laws_case moved = off_the_level_by(c, 0.1, y);
-    c->system->project(&moved.field, y);
-    laws_note(worst, fabs(norm(y + 3) - 1), 2 * DBL_EPSILON, &c->field.p, "unit");
-    laws_note(worst, fabs(dot(y, y + 3)), 2 * DBL_EPSILON * norm(y), &c->field.p, "orthogonal");
-    laws_note(worst, fabs(norm(y) / norm(moved.y) - (1 + 1e-8)), 1e-15, &c->field.p, "M kept");
+    c->system->project(&moved.problem, y);
+    laws_note(worst, fabs(norm(y + 3) - 1), 2 * DBL_EPSILON, &c->problem.p, "unit");
+    laws_note(worst, fabs(dot(y, y + 3)), 2 * DBL_EPSILON * norm(y), &c->problem.p, "orthogonal");
+    laws_note(worst, fabs(norm(y) / norm(moved.y) - (1 + 1e-8)), 1e-15, &c->problem.p, "M kept");
 }
 
 /* At rest there is nothing to scale: no NaN. */
@@ -227,11 +228,12 @@ static void projection_at_rest(const laws_case *c, laws_worst *worst)
 {
     laws_case rest = *c;
     scale(rest.y, 0);
-    rest.field.energy = rest.field.eps = 0;
+    rest.problem.energy = rest.problem.eps = 0;
     scale(rest.y + 3, 1.5);
-    laws_note(worst, fabs(c->system->project(&rest.field, rest.y) - 0.5), 4 * DBL_EPSILON, &c->field.p, "correction");
-    laws_note(worst, norm(rest.y), DBL_MIN, &c->field.p, "rest");
-    laws_note(worst, fabs(norm(rest.y + 3) - 1), 2 * DBL_EPSILON, &c->field.p, "unit");
+    laws_note(worst, fabs(c->system->project(&rest.problem, rest.y) - 0.5), 4 * DBL_EPSILON, &c->problem.p,
+              "correction");
+    laws_note(worst, norm(rest.y), DBL_MIN, &c->problem.p, "rest");
+    laws_note(worst, fabs(norm(rest.y + 3) - 1), 2 * DBL_EPSILON, &c->problem.p, "unit");
 }
 
 /* The spin is taken out of a random w once: where w was nearly along n, rounding leaves more than an ulp of it. */

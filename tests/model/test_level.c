@@ -8,7 +8,7 @@
 /* --- integrals ------------------------------------------------------------------------------------------------- */
 
 typedef struct integral_of {
-    const iso_field *field;
+    const iso_problem *problem;
     const iso_integral *integral;
 } integral_of;
 
@@ -16,18 +16,18 @@ static void integral_value(const void *data, const double y[], double I[])
 {
     const integral_of *of = data;
     double size;
-    I[0] = of->integral->value(of->field, y, &size);
+    I[0] = of->integral->value(of->problem, y, &size);
 }
 
 /* dI/dt; *unit is the size of I per step, of which `laws_rounding` is the error */
 static double change(const effects_case *c, const iso_integral *integral, double *unit)
 {
-    const integral_of of = {&c->model.field, integral};
+    const integral_of of = {&c->model.problem, integral};
     const double h = effects_step(c);
     double f[ISO_MAX_STATE], slope, size;
     c->model.rhs(&c->model, c->y, f);
     laws_slope(integral_value, &of, 1, c->model.dim, c->y, f, h, &slope);
-    integral->value(&c->model.field, c->y, &size);
+    integral->value(&c->model.problem, c->y, &size);
     if (integral == c->system->integrals && c->system == &iso_system_ball) size = effects_energy_size(c);
     *unit = size / h;
     return slope;
@@ -36,18 +36,18 @@ static double change(const effects_case *c, const iso_integral *integral, double
 static void integrals_hold(const effects_case *c, laws_worst *worst)
 {
     const iso_integral *list[ISO_MAX_INTEGRALS];
-    const int count = iso_integrals_holding(c->system, &c->model.field, list, ISO_MAX_INTEGRALS);
+    const int count = iso_integrals_holding(c->system, &c->model.problem, list, ISO_MAX_INTEGRALS);
     for (int i = 0; i < count; i++) {
         double unit;
         const double slope = change(c, list[i], &unit);
-        effects_note(c, worst, fabs(slope), 2 * laws_rounding(&c->model.field.p) * unit, list[i]->name);
+        effects_note(c, worst, fabs(slope), 2 * laws_rounding(&c->model.problem.p) * unit, list[i]->name);
     }
 }
 
 /* dh/dt = -c_r (w,w) - c (w,n)^2, and on a plane whose height nobody knows + (w, mgb e x n) */
 static void energy_lost(const effects_case *c, laws_worst *worst)
 {
-    const iso_field *f = &c->model.field;
+    const iso_problem *f = &c->model.problem;
     const iso_effects *e = &f->effects;
     const double *w = c->y, *n = c->y + 3;
     double unit, power = 0, e_n[3];
@@ -71,11 +71,11 @@ typedef struct drift_of {
 
 static bool on_plane(const effects_case *c)
 {
-    return c->model.field.p.k == 1;
+    return c->model.problem.p.k == 1;
 }
 
 /* (Jw x n)^2 = (K x n)^2 stays on a plane however the contact twists; only a level spoils it. */
-static bool on_plane_unless_loose(const effects_case *c)
+static bool on_plane_unless_twisting(const effects_case *c)
 {
     return on_plane(c) &&
            (c->subset & 0xff & ~(1 << ISO_ATTITUDE | 1 << ISO_REACTIONS | 1 << ISO_CLOCK)) != 1 << ISO_TWIST;
@@ -83,22 +83,22 @@ static bool on_plane_unless_loose(const effects_case *c)
 
 static bool on_shell(const effects_case *c)
 {
-    return c->model.field.p.k == -1;
+    return c->model.problem.p.k == -1;
 }
 
 static bool has_axis1(const effects_case *c)
 {
-    return iso_params_symmetric(&c->model.field.p, 0);
+    return iso_params_symmetric(&c->model.problem.p, 0);
 }
 
 static bool has_axis2(const effects_case *c)
 {
-    return iso_params_symmetric(&c->model.field.p, 1);
+    return iso_params_symmetric(&c->model.problem.p, 1);
 }
 
 static bool has_axis3(const effects_case *c)
 {
-    return iso_params_symmetric(&c->model.field.p, 2);
+    return iso_params_symmetric(&c->model.problem.p, 2);
 }
 
 static bool anywhere(const effects_case *c)
@@ -107,7 +107,7 @@ static bool anywhere(const effects_case *c)
     return true;
 }
 
-static bool loose(const effects_case *c)
+static bool twisting(const effects_case *c)
 {
     return c->subset & 1 << ISO_TWIST;
 }
@@ -120,13 +120,13 @@ static bool has_weight(const effects_case *c)
 static drift_of drifts[] = {
     {.name = "h", .could_hold = anywhere},
     {.name = "omega.n", .could_hold = anywhere},
-    {.name = "F_plane", .could_hold = on_plane_unless_loose},
+    {.name = "F_plane", .could_hold = on_plane_unless_twisting},
     {.name = "F_shell", .could_hold = on_shell},
     {.name = "F_axis1", .could_hold = has_axis1},
     {.name = "F_axis2", .could_hold = has_axis2},
     {.name = "F_axis3", .could_hold = has_axis3},
-    {.name = "K.K", .could_hold = loose},
-    {.name = "K.n", .could_hold = loose},
+    {.name = "K.K", .could_hold = twisting},
+    {.name = "K.n", .could_hold = twisting},
     {.name = "K.e", .could_hold = has_weight},
     {.name = "e.n", .could_hold = anywhere},
 };
@@ -142,16 +142,16 @@ static drift_of *find_drift(const char *name)
 static void note_drift(const effects_case *c, const iso_integral *integral)
 {
     const iso_integral *list[ISO_MAX_INTEGRALS];
-    const int count = iso_integrals_holding(c->system, &c->model.field, list, ISO_MAX_INTEGRALS);
+    const int count = iso_integrals_holding(c->system, &c->model.problem, list, ISO_MAX_INTEGRALS);
     drift_of *drift = find_drift(integral->name);
     if (c->subset & EFFECTS_STIFF) return; /* nearly the rubber ball: changes are small */
     for (int i = 0; i < count; i++)
         if (list[i] == integral) return;
     if (drift && !drift->could_hold(c)) return;
     if (!drift) gsl_test(1, "%s is not listed [%d]", integral->name, c->subset);
-    if (!drift || (c->system == &iso_system_point && iso_effects_breaking(&c->model.field.effects))) return;
+    if (!drift || (c->system == &iso_system_point && iso_effects_breaking(&c->model.problem.effects))) return;
     double unit;
-    const double turn = norm(c->y) * (c->system == &iso_system_ball ? fmax(1, fabs(c->model.field.p.k)) : 1);
+    const double turn = norm(c->y) * (c->system == &iso_system_ball ? fmax(1, fabs(c->model.problem.p.k)) : 1);
     const double slope = change(c, integral, &unit), part = fabs(slope) / (unit * effects_step(c) * turn);
     drift->seen[c->subset] = true;
     drift->most[c->subset] = fmax(drift->most[c->subset], part);
@@ -171,7 +171,7 @@ static void collect_drifts(const effects_case *c, laws_worst *worst)
 {
     (void)worst;
     for (int i = 0; i < LAWS_STATES; i++) {
-        const effects_case another = effects_sample(c->system, &c->model.field.p, c->subset, c->random);
+        const effects_case another = effects_sample(c->system, &c->model.problem.p, c->subset, c->random);
         note_drifts(&another);
     }
 }
@@ -204,8 +204,8 @@ static void unlisted_change(const iso_system *system)
 static iso_model twin(const effects_case *c)
 {
     static const bool none[ISO_CLOCKS] = {false};
-    iso_field f = {.p = c->model.field.p, .effects = c->model.field.effects};
-    f.eps = iso_coupling(&f.p, c->model.field.energy);
+    iso_problem f = {.p = c->model.problem.p, .effects = c->model.problem.effects};
+    f.eps = iso_coupling(&f.p, c->model.problem.energy);
     if (effects_on(c, ISO_LEVEL)) f.energy = iso_coupling(&f.p, LEVEL_C(&f.effects));
     return iso_model_assemble(&iso_system_point, &f, ISO_CLOCK_S, none);
 }
@@ -219,7 +219,7 @@ static void to_point(const void *params, const double y[], double point[])
  * in *rounding what differences and cancelling terms leave of it. */
 static double image_error(const effects_case *c, double *rounding)
 {
-    const iso_params *p = &c->model.field.p;
+    const iso_params *p = &c->model.problem.p;
     const iso_model point = twin(c);
     const double h = effects_step(c);
     double f[ISO_MAX_STATE], image[ISO_STATE], pushed[ISO_STATE], own[ISO_STATE];
@@ -237,7 +237,7 @@ static double image_error(const effects_case *c, double *rounding)
 static void vector_field_mapped(const effects_case *c, laws_worst *worst)
 {
     double rounding;
-    if (iso_effects_breaking(&c->model.field.effects)) return;
+    if (iso_effects_breaking(&c->model.problem.effects)) return;
     const double error = image_error(c, &rounding);
     effects_note(c, worst, error, rounding, "image");
 }
@@ -267,7 +267,7 @@ static void breakers(void)
 /* V of the field is U/G; H is that of the level, else 0. */
 static void potentials_mapped(const effects_case *c, laws_worst *worst)
 {
-    const iso_field *f = &c->model.field;
+    const iso_problem *f = &c->model.problem;
     const iso_params *p = &f->p;
     if (iso_effects_breaking(&f->effects)) return;
     const iso_model point = twin(c);
@@ -276,9 +276,9 @@ static void potentials_mapped(const effects_case *c, laws_worst *worst)
     const double q = point.system->q(p, image, NULL), G = p->k * p->k / p->det_J * pow(q, 1 / p->k);
     const double U = effects_potential(c, ISO_FIELD);
     const double allowed = 2 * laws_rounding(p) * effects_energy_size(c) / G;
-    effects_note(c, worst, fabs(iso_effects_image(&point.field, image) - U / G), allowed, "U/G");
-    const double H = point.system->energy(&point.field, image, &size);
-    effects_note(c, worst, fabs(H - point.field.energy), allowed, "H");
+    effects_note(c, worst, fabs(iso_effects_image(&point.problem, image) - U / G), allowed, "U/G");
+    const double H = point.system->energy(&point.problem, image, &size);
+    effects_note(c, worst, fabs(H - point.problem.energy), allowed, "H");
 }
 
 /* F_plane, F_shell and F_axis are the same functions of the orbit in both pictures, on every level. */
@@ -286,17 +286,17 @@ static void integrals_mapped(const effects_case *c, laws_worst *worst)
 {
     const iso_integral *list[ISO_MAX_INTEGRALS];
     const iso_model point = twin(c);
-    const iso_params *p = &c->model.field.p;
+    const iso_params *p = &c->model.problem.p;
     double image[ISO_STATE], size, image_size;
-    if (iso_effects_breaking(&c->model.field.effects)) return;
+    if (iso_effects_breaking(&c->model.problem.effects)) return;
     iso_ball_to_point(p, c->y, image);
-    const int count = iso_integrals_holding(&iso_system_point, &point.field, list, ISO_MAX_INTEGRALS);
+    const int count = iso_integrals_holding(&iso_system_point, &point.problem, list, ISO_MAX_INTEGRALS);
     for (int i = 0; i < count; i++) {
         if (list[i]->name[0] != 'F') continue;
         const iso_integral *own = laws_integral(&iso_system_ball, list[i]->name);
-        effects_note(c, worst, !(own->holds && own->holds(&c->model.field)), 0.5, "holds in both");
-        const double F = own->value(&c->model.field, c->y, &size);
-        const double F_image = list[i]->value(&point.field, image, &image_size);
+        effects_note(c, worst, !(own->holds && own->holds(&c->model.problem)), 0.5, "holds in both");
+        const double F = own->value(&c->model.problem, c->y, &size);
+        const double F_image = list[i]->value(&point.problem, image, &image_size);
         const double level = effects_energy_size(c) / c->kinetic;
         effects_note(c, worst, fabs(F - F_image), 4 * laws_rounding(p) * level * fmax(size, image_size), own->name);
     }
@@ -308,10 +308,10 @@ static void integrals_mapped(const effects_case *c, laws_worst *worst)
 static void scaled_and_back(const effects_case *c, laws_worst *worst)
 {
     iso_units units;
-    const iso_effects *e = &c->model.field.effects;
-    const double k = c->model.field.p.k, J_unit[] = {1, 0x1p-100, 0x1p60};
+    const iso_effects *e = &c->model.problem.effects;
+    const double k = c->model.problem.p.k, J_unit[] = {1, 0x1p-100, 0x1p60};
     for (int u = 0; u < 3; u++) {
-        iso_units_choose(&c->model.field.p, norm(c->y) * J_unit[u], &units);
+        iso_units_choose(&c->model.problem.p, norm(c->y) * J_unit[u], &units);
         const iso_effects there = iso_effects_scaled(e, &units, -1), back = iso_effects_scaled(&there, &units, 1);
         for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
             for (const iso_effect_number *n = iso_effect_list[i]->numbers; n && n->name; n++)
@@ -329,9 +329,10 @@ static void same_in_own_units(const effects_case *c, laws_worst *worst)
 {
     iso_units units;
     double y[ISO_MAX_STATE], f[ISO_MAX_STATE], dy[ISO_MAX_STATE], size[ISO_MAX_STATE];
-    iso_units_choose(&c->model.field.p, 8 * norm(c->y), &units);
-    const iso_field field = {.p = units.own, .effects = iso_effects_scaled(&c->model.field.effects, &units, -1)};
-    const iso_model own = iso_model_assemble(c->system, &field, ISO_CLOCK_T, (const bool[]){false, false, false});
+    iso_units_choose(&c->model.problem.p, 8 * norm(c->y), &units);
+    const iso_problem problem = {.p = units.own,
+                                 .effects = iso_effects_scaled(&c->model.problem.effects, &units, -1)};
+    const iso_model own = iso_model_assemble(c->system, &problem, ISO_CLOCK_T, (const bool[]){false, false, false});
     if (own.dim != c->model.dim || effects_lambda(c) > 0) return; /* stiffness is a matter of units */
     copy(c->y, y, c->model.dim);
     scale(y, 1 / units.w);
@@ -340,7 +341,7 @@ static void same_in_own_units(const effects_case *c, laws_worst *worst)
     effects_sizes(c, size);
     for (int i = 0; i < c->model.dim; i++)
         effects_note(c, worst, fabs(f[i] * units.w * (i < 3 ? units.w : 1) - dy[i]),
-                     laws_rounding(&c->model.field.p) * size[i], "own units");
+                     laws_rounding(&c->model.problem.p) * size[i], "own units");
 }
 
 int main(void)

@@ -13,7 +13,8 @@
  * |w|^2 max J/min J. Point: (|M|^2/k) gamma x J gamma/q, where |J gamma|^2 <= max J q. */
 static void sizes(const laws_case *c, double size[2])
 {
-    const double speed = c->system->speed(&c->field, c->y), k = fabs(c->field.p.k), spread = laws_spread(&c->field.p);
+    const double speed = c->system->speed(&c->problem, c->y), k = fabs(c->problem.p.k),
+                 spread = laws_spread(&c->problem.p);
     const bool ball = c->system == &iso_system_ball;
     size[0] = speed * speed * (ball ? spread : sqrt(spread) / k);
     size[1] = speed * (ball ? k : 1);
@@ -34,8 +35,8 @@ static void check_jacobian(const laws_case *c, const iso_model *m, laws_worst *w
     m->rhs(m, y, f);
     m->jacobian(m, y, jac);
     sizes(c, own);
-    const double rate = iso_clock_rate(&c->field.p, m->clock, c->system->q(&c->field.p, y, NULL), NULL) /
-                        iso_clock_rate(&c->field.p, c->system->clock, c->system->q(&c->field.p, y, NULL), NULL);
+    const double rate = iso_clock_rate(&c->problem.p, m->clock, c->system->q(&c->problem.p, y, NULL), NULL) /
+                        iso_clock_rate(&c->problem.p, c->system->clock, c->system->q(&c->problem.p, y, NULL), NULL);
     for (int i = 0; i < m->dim; i++) size[i] = i < ISO_STATE ? own[i / 3] / rate : f[i];
     for (int j = 0; j < m->dim; j++) {
         double direction[DIM] = {0};
@@ -43,15 +44,15 @@ static void check_jacobian(const laws_case *c, const iso_model *m, laws_worst *w
         const double h = laws_step(c, direction);
         laws_slope(model_rhs, m, m->dim, m->dim, y, direction, h, column);
         for (int i = 0; i < m->dim; i++)
-            laws_note(worst, fabs(jac[m->dim * i + j] - column[i]), 4 * laws_rounding(&c->field.p) * size[i] / h,
-                      &c->field.p, j < 3 ? "d/dfast" : "d/dunit");
+            laws_note(worst, fabs(jac[m->dim * i + j] - column[i]), 4 * laws_rounding(&c->problem.p) * size[i] / h,
+                      &c->problem.p, j < 3 ? "d/dfast" : "d/dunit");
     }
 }
 
 static void jacobian_own_clock(const laws_case *c, laws_worst *worst)
 {
     const iso_model m =
-        iso_model_assemble(c->system, &c->field, c->system->clock, (const bool[ISO_CLOCKS]){false, false, false});
+        iso_model_assemble(c->system, &c->problem, c->system->clock, (const bool[ISO_CLOCKS]){false, false, false});
     check_jacobian(c, &m, worst);
 }
 
@@ -59,8 +60,8 @@ static void jacobian_clocks(const laws_case *c, laws_worst *worst)
 {
     for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++)
         for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
-            const bool carry[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
-            const iso_model m = iso_model_assemble(c->system, &c->field, clock, carry);
+            const bool with_clock[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
+            const iso_model m = iso_model_assemble(c->system, &c->problem, clock, with_clock);
             check_jacobian(c, &m, worst);
         }
 }
@@ -74,14 +75,14 @@ static double written_rate(const iso_params *p, iso_clock clock, double q)
 
 static void rhs_clocks(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     const double q = c->system->q(p, c->y, NULL);
     double own[ISO_STATE], dy[ISO_MAX_STATE];
-    c->system->rhs(&c->field, c->y, own);
+    c->system->rhs(&c->problem, c->y, own);
     for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++)
         for (int asked = 0; asked < 1 << ISO_CLOCKS; asked++) {
-            const bool carry[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
-            const iso_model m = iso_model_assemble(c->system, &c->field, clock, carry);
+            const bool with_clock[ISO_CLOCKS] = {asked & 1, asked & 2, asked & 4};
+            const iso_model m = iso_model_assemble(c->system, &c->problem, clock, with_clock);
             const double rate = written_rate(p, c->system->clock, q) / written_rate(p, clock, q);
             double y[ISO_MAX_STATE] = {0};
             int dim = ISO_STATE;
@@ -91,7 +92,7 @@ static void rhs_clocks(const laws_case *c, laws_worst *worst)
                 laws_note(worst, fabs(dy[i] - rate * own[i]), 4 * laws_rounding(p) * fabs(rate * own[i]) + DBL_MIN, p,
                           "state");
             for (iso_clock other = 0; other < ISO_CLOCKS; other++) {
-                if (!carry[other] || other == clock) continue;
+                if (!with_clock[other] || other == clock) continue;
                 const double expected = written_rate(p, other, q) / written_rate(p, clock, q);
                 laws_note(worst, fabs(dy[dim++] - expected), 4 * laws_rounding(p) * expected, p, "clock");
             }
@@ -102,19 +103,19 @@ static void rhs_clocks(const laws_case *c, laws_worst *worst)
 static void value_of_q(const void *data, const double y[], double q[])
 {
     const laws_case *c = data;
-    q[0] = c->system->q(&c->field.p, y, NULL);
+    q[0] = c->system->q(&c->problem.p, y, NULL);
 }
 
 static void gradient_of_q(const laws_case *c, laws_worst *worst)
 {
     double gradient[ISO_STATE], slope;
-    const double q = c->system->q(&c->field.p, c->y, gradient);
+    const double q = c->system->q(&c->problem.p, c->y, gradient);
     for (int j = 0; j < ISO_STATE; j++) {
         double direction[ISO_STATE] = {0};
         direction[j] = 1;
         const double h = laws_step(c, direction);
         laws_slope(value_of_q, c, 1, ISO_STATE, c->y, direction, h, &slope);
-        laws_note(worst, fabs(slope - gradient[j]), 8 * DBL_EPSILON * q / h, &c->field.p, "");
+        laws_note(worst, fabs(slope - gradient[j]), 8 * DBL_EPSILON * q / h, &c->problem.p, "");
     }
 }
 
@@ -122,17 +123,17 @@ static void gradient_of_q(const laws_case *c, laws_worst *worst)
 static void constraints_tangent(const laws_case *c, laws_worst *worst)
 {
     double f[ISO_STATE], size[2];
-    c->system->rhs(&c->field, c->y, f);
+    c->system->rhs(&c->problem, c->y, f);
     sizes(c, size);
     laws_note(worst, fabs(dot(f, c->y + 3) + dot(c->y, f + 3)),
-              8 * DBL_EPSILON * (size[0] + norm(c->y) * norm(f + 3)), &c->field.p, "orthogonal");
-    laws_note(worst, fabs(dot(f + 3, c->y + 3)), 4 * DBL_EPSILON * size[1], &c->field.p, "unit");
+              8 * DBL_EPSILON * (size[0] + norm(c->y) * norm(f + 3)), &c->problem.p, "orthogonal");
+    laws_note(worst, fabs(dot(f + 3, c->y + 3)), 4 * DBL_EPSILON * size[1], &c->problem.p, "unit");
 }
 
 static void own_jacobian(const laws_case *c, double jac[ISO_STATE * ISO_STATE])
 {
     const iso_model m =
-        iso_model_assemble(c->system, &c->field, c->system->clock, (const bool[ISO_CLOCKS]){false, false, false});
+        iso_model_assemble(c->system, &c->problem, c->system->clock, (const bool[ISO_CLOCKS]){false, false, false});
     m.jacobian(&m, c->y, jac);
 }
 
@@ -141,18 +142,18 @@ static void invariant_measure(const laws_case *c, laws_worst *worst)
 {
     double f[ISO_STATE], jac[ISO_STATE * ISO_STATE], dq[ISO_STATE];
     double divergence = 0, size = 0, density = 0;
-    c->system->rhs(&c->field, c->y, f);
+    c->system->rhs(&c->problem, c->y, f);
     own_jacobian(c, jac);
-    const double q = c->system->q(&c->field.p, c->y, dq);
+    const double q = c->system->q(&c->problem.p, c->y, dq);
     for (int i = 0; i < ISO_STATE; i++) {
         divergence += jac[7 * i];
         size += fabs(jac[7 * i]);
-        density -= dq[i] * f[i] / (q * 2 * c->field.p.k); /* log g = -log q */
+        density -= dq[i] * f[i] / (q * 2 * c->problem.p.k); /* log g = -log q */
     }
     const bool ball = c->system == &iso_system_ball;
     if (!ball) density = 0;
-    size += ball ? laws_spread(&c->field.p) * norm(c->y) : 0;
-    laws_note(worst, fabs(divergence + density), 8 * DBL_EPSILON * size + DBL_MIN, &c->field.p, "");
+    size += ball ? laws_spread(&c->problem.p) * norm(c->y) : 0;
+    laws_note(worst, fabs(divergence + density), 8 * DBL_EPSILON * size + DBL_MIN, &c->problem.p, "");
 }
 
 /* ... and without the density the ball's flow does contract and expand, but for k -> infinity and equal moments. */
@@ -161,7 +162,7 @@ static void bare_divergence(const laws_case *c, laws_worst *worst)
     double jac[ISO_STATE * ISO_STATE], divergence = 0;
     own_jacobian(c, jac);
     for (int i = 0; i < ISO_STATE; i++) divergence += jac[7 * i];
-    laws_note(worst, fabs(divergence) / norm(c->y), 0.01, &c->field.p, "");
+    laws_note(worst, fabs(divergence) / norm(c->y), 0.01, &c->problem.p, "");
 }
 
 /* (w, n, t) -> (-w, n, -t) maps orbits to orbits, for both systems and bit for bit. */
@@ -170,23 +171,23 @@ static void reversal(const laws_case *c, laws_worst *worst)
     double f[ISO_STATE], back[ISO_STATE], y[ISO_STATE];
     copy(c->y, y, ISO_STATE);
     scale(y, -1);
-    c->system->rhs(&c->field, c->y, f);
-    c->system->rhs(&c->field, y, back);
+    c->system->rhs(&c->problem, c->y, f);
+    c->system->rhs(&c->problem, y, back);
     for (int i = 0; i < ISO_STATE; i++)
-        laws_note(worst, fabs(back[i] - (i < 3 ? f[i] : -f[i])), DBL_MIN, &c->field.p, "");
+        laws_note(worst, fabs(back[i] - (i < 3 ? f[i] : -f[i])), DBL_MIN, &c->problem.p, "");
 }
 
 /* Theory, section 9: in the principal plane n_axis = 0 a ball that spins about the axis keeps its w, and n turns at
  * k |w|. The point's M keeps its axis too, and gamma turns in the same plane. */
 static void principal_plane(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     for (int axis = 0; axis < 3; axis++) {
         const int i = (axis + 1) % 3, j = (axis + 2) % 3;
         double y[ISO_STATE] = {0}, f[ISO_STATE];
         const double W = y[axis] = iso_random_normal(c->random), angle = iso_random_uniform(c->random, 0, 2 * M_PI);
         y[3 + i] = cos(angle), y[3 + j] = sin(angle);
-        c->system->rhs(&c->field, y, f);
+        c->system->rhs(&c->problem, y, f);
         const double turn = (c->system == &iso_system_ball ? p->k : 1) * W;
         laws_note(worst, fabs(f[3 + i] - turn * y[3 + j]), 2 * DBL_EPSILON * fabs(turn), p, "turn");
         laws_note(worst, fabs(f[3 + j] + turn * y[3 + i]), 2 * DBL_EPSILON * fabs(turn), p, "turn");
@@ -198,10 +199,10 @@ static void principal_plane(const laws_case *c, laws_worst *worst)
 /* Equal moments: w stays, n moves on a great circle at rate k |w|; M and q stay. */
 static void equal_moments(const laws_case *c, laws_worst *worst)
 {
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     if (laws_spread(p) != 1) return;
     double f[ISO_STATE];
-    c->system->rhs(&c->field, c->y, f);
+    c->system->rhs(&c->problem, c->y, f);
     const double k = c->system == &iso_system_ball ? p->k : 1, speed = norm(c->y);
     const double force = c->system == &iso_system_ball ? speed * speed : speed * speed / fabs(p->k);
     laws_note(worst, norm(f), 4 * DBL_EPSILON * force, p, "fast");
@@ -212,18 +213,18 @@ static void equal_moments(const laws_case *c, laws_worst *worst)
 static void component_size(const laws_case *c, laws_worst *worst)
 {
     const iso_model m =
-        iso_model_assemble(c->system, &c->field, ISO_CLOCK_TAU, (const bool[ISO_CLOCKS]){true, true, true});
+        iso_model_assemble(c->system, &c->problem, ISO_CLOCK_TAU, (const bool[ISO_CLOCKS]){true, true, true});
     double y[ISO_MAX_STATE] = {0}, dy[ISO_MAX_STATE], size[ISO_MAX_STATE];
     copy(c->y, y, ISO_STATE);
     y[6] = -3, y[7] = 5;
     m.rhs(&m, y, dy);
     iso_model_size(&m, y, size);
     for (int i = 0; i < 3; i++) {
-        laws_note(worst, fabs(size[i] / norm(y) - 1), laws_rounding(&c->field.p) * 4, &c->field.p, "fast");
-        laws_note(worst, fabs(size[3 + i] - 1), 4 * DBL_EPSILON, &c->field.p, "unit");
+        laws_note(worst, fabs(size[i] / norm(y) - 1), laws_rounding(&c->problem.p) * 4, &c->problem.p, "fast");
+        laws_note(worst, fabs(size[3 + i] - 1), 4 * DBL_EPSILON, &c->problem.p, "unit");
     }
     for (int i = 6; i < 8; i++)
-        laws_note(worst, fabs(size[i] - fabs(y[i]) - dy[i]), 4 * DBL_EPSILON * size[i], &c->field.p, "clock");
+        laws_note(worst, fabs(size[i] - fabs(y[i]) - dy[i]), 4 * DBL_EPSILON * size[i], &c->problem.p, "clock");
 }
 
 int main(void)

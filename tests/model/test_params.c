@@ -83,8 +83,8 @@ static void reduced(void)
 
 static void refuse(iso_status status, const char *field, const char *what)
 {
-    gsl_test(status != ISO_BAD_INPUT || strcmp(iso_context_field(ctx), field) != 0, "%s: refused about '%s' (%s)",
-             what, field, status == ISO_OK ? "accepted" : iso_context_field(ctx));
+    gsl_test(status != ISO_BAD_INPUT || strcmp(iso_context_about(ctx), field) != 0, "%s: refused about '%s' (%s)",
+             what, field, status == ISO_OK ? "accepted" : iso_context_about(ctx));
     gsl_test(strlen(iso_context_message(ctx)) < 20 || strchr(iso_context_message(ctx), '\n'), "%s: says why", what);
 }
 
@@ -211,12 +211,12 @@ static void scaled(const laws_case *c, laws_case *big, iso_units *u)
 {
     double J[3];
     *big = *c;
-    for (int i = 0; i < 3; i++) J[i] = ldexp(c->field.p.J[i], 9);
-    big->field.p = laws_params(c->field.p.k, J);
-    u->own = c->field.p, u->J = ldexp(1, 9), u->w = ldexp(1, -7);
+    for (int i = 0; i < 3; i++) J[i] = ldexp(c->problem.p.J[i], 9);
+    big->problem.p = laws_params(c->problem.p.k, J);
+    u->own = c->problem.p, u->J = ldexp(1, 9), u->w = ldexp(1, -7);
     scale(big->y, iso_unit(u, c->system->fast_dimension));
-    big->field.eps *= iso_unit(u, iso_dimension_eps);
-    big->field.energy *= iso_unit(u, c->system->integrals[0].dimension);
+    big->problem.eps *= iso_unit(u, iso_dimension_eps);
+    big->problem.energy *= iso_unit(u, c->system->integrals[0].dimension);
 }
 
 static void dimensions(const laws_case *c, laws_worst *worst)
@@ -224,18 +224,19 @@ static void dimensions(const laws_case *c, laws_worst *worst)
     laws_case big;
     iso_units u;
     double f[ISO_STATE], big_f[ISO_STATE];
-    const iso_params *p = &c->field.p;
+    const iso_params *p = &c->problem.p;
     scaled(c, &big, &u);
     for (const iso_integral *i = c->system->integrals; i->name; i++) {
-        if (i->holds && !i->holds(&c->field)) continue; /* F_plane's and F_shell's dimensions are those at their k */
+        if (i->holds && !i->holds(&c->problem))
+            continue; /* F_plane's and F_shell's dimensions are those at their k */
         double size, big_size;
-        const double value = i->value(&c->field, c->y, &size), unit = iso_unit(&u, i->dimension);
-        const double big_value = i->value(&big.field, big.y, &big_size);
+        const double value = i->value(&c->problem, c->y, &size), unit = iso_unit(&u, i->dimension);
+        const double big_value = i->value(&big.problem, big.y, &big_size);
         laws_note(worst, fabs(big_value / unit - value), 4 * laws_rounding(p) * size, p, i->name);
         laws_note(worst, fabs(big_size / unit - size), 4 * laws_rounding(p) * size, p, i->name);
     }
-    c->system->rhs(&c->field, c->y, f);
-    c->system->rhs(&big.field, big.y, big_f);
+    c->system->rhs(&c->problem, c->y, f);
+    c->system->rhs(&big.problem, big.y, big_f);
     const double fast = iso_unit(&u, c->system->fast_dimension);
     const double clock = iso_unit(&u, iso_clock_dimension(c->system->clock));
     for (int i = 0; i < ISO_STATE; i++)
@@ -243,7 +244,7 @@ static void dimensions(const laws_case *c, laws_worst *worst)
                   c->system->state[i]);
     for (iso_clock i = 0; i < ISO_CLOCKS; i++) {
         const double rate = iso_clock_rate(p, i, c->system->q(p, c->y, NULL), NULL);
-        const double big_rate = iso_clock_rate(&big.field.p, i, big.system->q(&big.field.p, big.y, NULL), NULL);
+        const double big_rate = iso_clock_rate(&big.problem.p, i, big.system->q(&big.problem.p, big.y, NULL), NULL);
         const double unit = iso_unit(&u, iso_clock_dimension(i)) / iso_unit(&u, iso_clock_dimension(ISO_CLOCK_T));
         laws_note(worst, fabs(big_rate / unit / rate - 1), 8 * laws_rounding(p), p, iso_clock_name(i));
     }

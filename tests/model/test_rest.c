@@ -12,7 +12,7 @@ static iso_context *ctx;
 /* A ball under the effects of `kind`, with all clocks but its own carried. */
 static iso_model make_model(const orbit *o, int kind)
 {
-    iso_field f = o->model.field;
+    iso_problem f = o->model.problem;
     f.p.D = 0.5;
     f.effects.on[ISO_ROLLING_RESISTANCE] = kind & RESIST, ROLLING_COEFFICIENT(&f.effects) = 0.2;
     f.effects.on[ISO_TWIST] = kind & (TWIST | STIFF), TWIST_RESISTANCE(&f.effects) = kind & STIFF   ? 1e5
@@ -50,7 +50,7 @@ static void check_way(const iso_model *m, const double start[])
         gsl_test(!(fabs(once[i] - start[i] - moved) <= 4 * DBL_EPSILON * fabs(moved) + ISO_REST),
                  "state %d: %g after %g", i, once[i], start[i]);
     }
-    gsl_test(!(largest(once) == 0 && m->carried > 0 && f[m->moving] > 0), "only clocks go on");
+    gsl_test(!(largest(once) == 0 && m->clocks > 0 && f[m->moving] > 0), "only clocks go on");
     gsl_test(!iso_model_at_rest(m, once), "what rests, rests");
 }
 
@@ -86,7 +86,7 @@ static void check_lost(const orbit *o, int kind)
     for (double speed = 1e-200; speed < 1e10; speed *= 1e50) {
         double y[ISO_MAX_STATE];
         make_state(o, &m, speed, y);
-        const double unit = m.system->speed(&m.field, y); /* also what potentials can make of it */
+        const double unit = m.system->speed(&m.problem, y); /* also what potentials can make of it */
         gsl_test(iso_model_lost(&m, y, 1e-9) != NULL, "effects %d: nothing is lost", kind);
         add_scaled(y, 0.5e-3 * unit, y + 3);
         gsl_test(iso_model_lost(&m, y, 1e-9) != NULL, "effects %d: half a thousandth is not enough", kind);
@@ -94,8 +94,8 @@ static void check_lost(const orbit *o, int kind)
         gsl_test((iso_model_lost(&m, y, 1e-9) != NULL) != (resisted && kept), "effects %d: two thousandths are",
                  kind);
         gsl_test(iso_model_lost(&m, y, 1e-6) != NULL, "effects %d: but not at a loose tolerance", kind);
-        if (m.field.at[ISO_TWIST] == 0) continue;
-        y[m.field.at[ISO_TWIST]] = -TWIST_RESISTANCE(&m.field.effects) * dot(y, y + 3);
+        if (m.problem.at[ISO_TWIST] == 0) continue;
+        y[m.problem.at[ISO_TWIST]] = -TWIST_RESISTANCE(&m.problem.effects) * dot(y, y + 3);
         gsl_test(iso_model_lost(&m, y, 1e-9) != NULL, "effects %d: a stiff contact turns with its torque", kind);
     }
 }

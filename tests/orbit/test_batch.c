@@ -37,7 +37,7 @@ static void fill(batch_pool *all, iso_clock clock, double J_unit, double speed)
 
 static laws_worst right, statuses;
 
-static iso_status orbit_alone(const iso_batch_orbit *one, const iso_batch_options *b, iso_picture backend,
+static iso_status orbit_alone(const iso_batch_orbit *one, const iso_batch_options *b, iso_backend backend,
                               const double times[], int rows, iso_sample out[])
 {
     iso_orbit *path;
@@ -47,8 +47,8 @@ static iso_status orbit_alone(const iso_batch_orbit *one, const iso_batch_option
                            .tolerance = b->tolerance,
                            .max_steps = b->max_steps,
                            .clock = b->clock,
-                           .show = b->show,
-                           .carry = {b->carry[0], b->carry[1], b->carry[2]}};
+                           .shown = b->shown,
+                           .with_clock = {b->with_clock[0], b->with_clock[1], b->with_clock[2]}};
     iso_status status = iso_orbit_create(ctx, one->params, one->start, &o, &path);
     for (int i = 0; i < rows; i++) {
         for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) iso_sample_set_column(&out[i], c, NAN);
@@ -114,7 +114,7 @@ static void compare(const batch_pool *all, const iso_batch_options *o, const dou
         const iso_status expected = orbit_alone(&all->orbit[i], o, o->backend, times, rows, truth);
         if (expected != ISO_OK) first = expected;
         snprintf(name, sizeof name, "orbit %d, backend %d, clock %d, show %d, J = %g", i, (int)o->backend,
-                 (int)o->clock, (int)o->show, p->J[0]);
+                 (int)o->clock, (int)o->shown, p->J[0]);
         laws_note(&statuses, abs((int)status[i] - (int)expected), 0.5, p, name);
         for (int j = 0; j < rows; j++)
             laws_note(&right, difference(&samples[i * rows + j], &truth[j]), allowed(p, &all->start[i], &truth[j]), p,
@@ -134,11 +134,11 @@ static void check_right(void)
         iso_batch_options o = iso_batch_defaults();
         o.tolerance = 1e-15;
         o.max_steps = 2000; /* small k in s and long bodies of the point need very many */
-        o.backend = (const iso_picture[]){ISO_AUTO, ISO_BALL, ISO_POINT}[variant % 3];
+        o.backend = (const iso_backend[]){ISO_BACKEND_AUTO, ISO_BACKEND_BALL, ISO_BACKEND_POINT}[variant % 3];
         o.clock = (iso_clock)(variant / 3 % 3);
         o.vectors = iso_batch_vectors(variant % codes, NULL);
-        o.show = (iso_picture)(variant / 9 % 4 % 3);
-        for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = variant % 2 == 0;
+        o.shown = (iso_shown)(variant / 9 % 4 % 3);
+        for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = variant % 2 == 0;
         const bool t_alone = o.clock == ISO_CLOCK_T;
         const double J_unit = t_alone ? units[variant / 9] : 1, speed = t_alone ? units[(variant / 9 + 2) % 4] : 1;
         const double sign = variant % 4 < 2 ? 1 : -1, unit = sign / speed;
@@ -205,33 +205,33 @@ static void check_bits(const iso_batch_options *options)
 
 /* --- what is conserved ------------------------------------------------------------------------------------------ */
 
-static void check_conserved(iso_picture backend)
+static void check_conserved(iso_backend backend)
 {
     static batch_pool all;
     laws_worst worst = {0};
-    const iso_system *system = backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
+    const iso_system *system = backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
     const double time = 1000;
     iso_batch_options o = iso_batch_defaults();
     iso_status status[BATCH_ORBITS], whole;
     static const double ks[] = {1, -1, 0.5, -0.4, 0.75, 1.5};
-    o.tolerance = 1e-15, o.backend = o.show = backend;
+    o.tolerance = 1e-15, o.backend = backend, o.shown = (iso_shown)backend;
     all.count = 0;
     for (int i = 0; i < BATCH_ORBITS; i++) batch_add_random(&all, dice, ks[i % 6], orbit_J, 1, 1, ISO_CLOCK_T, 0);
     iso_sample *samples = batch_run(ctx, all.orbit, all.count, &o, &time, 1, status, &whole);
     for (int i = 0; i < all.count; i++) {
-        const double *y = backend == ISO_BALL ? samples[i].ball : samples[i].point,
+        const double *y = backend == ISO_BACKEND_BALL ? samples[i].ball : samples[i].point,
                      energy = iso_ball_energy(&all.p[i], all.start[i].y);
-        iso_field f = {.p = all.p[i], .eps = iso_coupling(&all.p[i], energy)};
+        iso_problem f = {.p = all.p[i], .eps = iso_coupling(&all.p[i], energy)};
         double size;
-        const double now = system->energy(&f, y, &size), before = backend == ISO_BALL ? energy : 0;
+        const double now = system->energy(&f, y, &size), before = backend == ISO_BACKEND_BALL ? energy : 0;
         const long double n2 = (long double)y[3] * y[3] + (long double)y[4] * y[4] + (long double)y[5] * y[5];
         const long double wn = (long double)y[0] * y[3] + (long double)y[1] * y[4] + (long double)y[2] * y[5];
         laws_note(&worst, (double)fabsl(sqrtl(n2) - 1), 3e-16, &f.p, "|n|");
         laws_note(&worst, (double)fabsl(wn) / norm(y), 3e-16, &f.p, "(w,n)");
         laws_note(&worst, fabs(now - before) / size, 2e-15, &f.p, "energy");
     }
-    laws_report(&worst,
-                backend == ISO_BALL ? "ball: conserved over 1000 radians" : "point: conserved over 1000 radians");
+    laws_report(&worst, backend == ISO_BACKEND_BALL ? "ball: conserved over 1000 radians"
+                                                    : "point: conserved over 1000 radians");
     free(samples);
 }
 
@@ -247,13 +247,13 @@ int main(void)
     iso_batch_options o = iso_batch_defaults();
     o.max_steps = 1000;
     for (int i = 0; (o.vectors = iso_batch_vectors(i, NULL)) != NULL; i++)
-        for (o.backend = ISO_BALL; o.backend <= ISO_POINT; o.backend++) check_bits(&o);
-    o.backend = ISO_AUTO, o.clock = ISO_CLOCK_S, o.tolerance = 1e-15;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+        for (o.backend = ISO_BACKEND_BALL; o.backend <= ISO_BACKEND_POINT; o.backend++) check_bits(&o);
+    o.backend = ISO_BACKEND_AUTO, o.clock = ISO_CLOCK_S, o.tolerance = 1e-15;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     check_bits(&o);
     laws_report(&bits, "no orbit feels another, by a bit");
-    check_conserved(ISO_BALL);
-    check_conserved(ISO_POINT);
+    check_conserved(ISO_BACKEND_BALL);
+    check_conserved(ISO_BACKEND_POINT);
     iso_random_free(dice);
     iso_context_free(ctx);
     exit(gsl_test_summary());

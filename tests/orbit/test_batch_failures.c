@@ -43,14 +43,14 @@ static void check_refusals(void)
         iso_batch_options o = iso_batch_defaults();
         o.tolerance = tolerances[i];
         const iso_status status = refused(o, &time, 1);
-        gsl_test(status != ISO_BAD_ARGUMENT || strcmp(iso_context_field(ctx), "tolerance") != 0, "tolerance %g: %s",
+        gsl_test(status != ISO_BAD_ARGUMENT || strcmp(iso_context_about(ctx), "tolerance") != 0, "tolerance %g: %s",
                  o.tolerance, iso_context_message(ctx));
     }
     for (size_t i = 0; i < sizeof threads / sizeof *threads; i++) {
         iso_batch_options o = iso_batch_defaults();
         o.threads = threads[i];
         const iso_status status = refused(o, &time, 1);
-        gsl_test(status != ISO_BAD_ARGUMENT || strcmp(iso_context_field(ctx), "threads") != 0, "%s",
+        gsl_test(status != ISO_BAD_ARGUMENT || strcmp(iso_context_about(ctx), "threads") != 0, "%s",
                  iso_context_message(ctx));
     }
     iso_batch_options o = iso_batch_defaults();
@@ -119,13 +119,13 @@ static void check_failures(void)
     const iso_effects brake = {.on[ISO_ROLLING_RESISTANCE] = true, .number[ISO_ROLLING_RESISTANCE] = {10}};
     iso_batch_options o = iso_batch_defaults();
     check_failure(&o, &(iso_batch_orbit){&p, &start, &bad}, 4, ISO_BAD_INPUT, "mgb", 0);
-    o.show = ISO_POINT;
+    o.shown = ISO_SHOW_POINT;
     check_failure(&o, &(iso_batch_orbit){&p, &rest, NULL}, 4, ISO_NOT_MAPPED, "at rest", 0);
-    o.show = ISO_BALL;
+    o.shown = ISO_SHOW_BALL;
     o.max_steps = 2000;
     check_failure(&o, &(iso_batch_orbit){&p, &start, &brake}, -40, ISO_NUMERICAL, "more steps than allowed", 2);
     o.max_steps = 0;
-    o.backend = ISO_POINT;
+    o.backend = ISO_BACKEND_POINT;
     check_failure(&o, &(iso_batch_orbit){&steep, &start, &level}, 4, ISO_NUMERICAL, "diverges", 0);
 }
 
@@ -135,7 +135,7 @@ static void check_range(void)
     static batch_pool one;
     const double J[3] = {1e200, 4e200, 9e200}, times[] = {1e-7, 3e-7, 5e-7, 7e-7, 9e-7};
     iso_batch_options o = iso_batch_defaults();
-    o.show = ISO_BOTH;
+    o.shown = ISO_SHOW_BOTH;
     int failed = 0, wrong = 0;
     for (int i = 0; i < 40; i++) {
         iso_status status, whole;
@@ -173,7 +173,7 @@ static void check_steps(void)
     iso_orbit *path;
     iso_sample sample;
     iso_orbit_options alone = iso_orbit_defaults(&one.start[0]);
-    alone.method = iso_method_find("taylor"), alone.backend = ISO_POINT;
+    alone.method = iso_method_find("taylor"), alone.backend = ISO_BACKEND_POINT;
     gsl_test(iso_orbit_create(ctx, &one.p[0], &one.start[0], &alone, &path) || iso_orbit_at(path, time, &sample),
              "alone");
     const long steps = iso_orbit_statistics(path).steps;
@@ -211,7 +211,7 @@ static void check_stiff(void)
 
 /* One at rest among moving ones stays where it is: its energy and second integral are 0, and nothing can be measured
  * by them. A point rests where eps = 0. */
-static void check_rest(double k, iso_picture backend)
+static void check_rest(double k, iso_backend backend)
 {
     static batch_pool all;
     enum { COUNT = 20, ROWS = 2, PLACE = 5 };
@@ -219,8 +219,8 @@ static void check_rest(double k, iso_picture backend)
     iso_batch_options o = iso_batch_defaults();
     iso_start rest = batch_start(0, 0, 0, 0.36, 0.48, 0.8);
     iso_status status[COUNT], whole;
-    o.backend = o.show = backend, o.threads = 1;
-    rest.model = backend, rest.eps = NAN;
+    o.backend = backend, o.shown = (iso_shown)backend, o.threads = 1;
+    rest.model = (iso_model_kind)backend, rest.eps = NAN;
     all.count = 0;
     for (int i = 0; i < COUNT; i++)
         if (i == PLACE)
@@ -231,7 +231,7 @@ static void check_rest(double k, iso_picture backend)
     double moved = 0;
     for (int j = 0; j < ROWS; j++) {
         const iso_sample *s = &samples[PLACE * ROWS + j];
-        const double *y = backend == ISO_BALL ? s->ball : s->point;
+        const double *y = backend == ISO_BACKEND_BALL ? s->ball : s->point;
         const double part[3] = {moved, laws_norm(y), laws_distance(y + 3, rest.y + 3)};
         moved = laws_max(3, part);
     }
@@ -266,9 +266,9 @@ static void check_stopped(int threads)
     int wrong = 0, stopped = 0, done = 0, early = 0;
     for (long asks = 0; asks < 30000; asks = asks + asks / 2 + 1) {
         long left = asks;
-        iso_context_watch(ctx, some_times, &left);
+        iso_context_set_monitor(ctx, some_times, &left);
         iso_sample *samples = batch_run(ctx, orbits, COUNT, &o, times, ROWS, status, &whole);
-        iso_context_watch(ctx, NULL, NULL);
+        iso_context_set_monitor(ctx, NULL, NULL);
         bool all_done = true;
         for (int i = 0; i < COUNT; i++) {
             const iso_sample *a = &samples[i * ROWS], *b = &truth[i % all.count * ROWS];
@@ -300,7 +300,7 @@ int main(void)
     check_range();
     check_steps();
     check_stiff();
-    for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
+    for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
         check_rest(1, backend);
         check_rest(-1, backend);
     }

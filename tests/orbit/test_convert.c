@@ -24,8 +24,8 @@ static void must(iso_status status, const char *what)
 /* --- records --------------------------------------------------------------------------------------------------- */
 
 /* The orbit of a ball at the times t, the first of which is its start, as a record in one model. */
-static iso_record *record_of(const iso_params *p, const iso_start *start, iso_picture model, bool with_t, bool with_s,
-                             const double times[], int count)
+static iso_record *record_of(const iso_params *p, const iso_start *start, iso_model_kind model, bool with_t,
+                             bool with_s, const double times[], int count)
 {
     const char *names[8];
     int columns[8], width = 0;
@@ -37,8 +37,8 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, iso_pi
     for (int i = 0; i < ISO_STATE; i++) columns[width++] = (model == ISO_BALL ? 3 : 9) + i;
     for (int i = 0; i < width; i++) names[i] = iso_column_name(columns[i]);
     o.tolerance = 1e-14;
-    o.show = ISO_BOTH;
-    o.carry[ISO_CLOCK_S] = true;
+    o.shown = ISO_SHOW_BOTH;
+    o.with_clock[ISO_CLOCK_S] = true;
     must(iso_orbit_create(ctx, p, start, &o, &orbit), "an orbit");
     must(iso_record_create(ctx, (size_t)width, names, &record), "a record");
     for (int i = 0; i < count; i++) {
@@ -49,13 +49,13 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, iso_pi
         s.clock[ISO_CLOCK_T] = times[i];
         for (int c = 0; c < width; c++) row[c] = iso_sample_column(&s, columns[c]);
     }
-    must(iso_record_describe(ctx, record, iso_picture_name((int)model), p, orbit),
+    must(iso_record_describe(ctx, record, iso_model_kind_name((int)model), p, orbit),
          "the lines");
     iso_orbit_free(orbit);
     return record;
 }
 
-static iso_record *convert(const iso_record *in, iso_picture to)
+static iso_record *convert(const iso_record *in, iso_model_kind to)
 {
     iso_params p;
     iso_record *out;
@@ -102,7 +102,7 @@ static double state_ulps(const iso_record *a, const iso_record *b, const char *c
 
 static iso_start random_start(const iso_params *p, iso_random *random)
 {
-    iso_field f = {.p = *p};
+    iso_problem f = {.p = *p};
     iso_start start = {.model = ISO_BALL};
     iso_system_ball.sample(&f, random, start.y);
     return start;
@@ -272,7 +272,7 @@ static void check_sum(void)
 /* --- refusals -------------------------------------------------------------------------------------------------- */
 
 /* Refused with the status, and the words in the message; `in` is freed. */
-static void refused(iso_record *in, iso_picture to, iso_status wanted, const char *words, const char *what)
+static void refused(iso_record *in, iso_model_kind to, iso_status wanted, const char *words, const char *what)
 {
     const iso_params p = laws_params(-0.3, J_three);
     iso_record *out = in;
@@ -284,7 +284,7 @@ static void refused(iso_record *in, iso_picture to, iso_status wanted, const cha
 }
 
 /* A good record of six rows, one number of which is changed: x -> factor x + term. */
-static iso_record *damaged(iso_picture model, const char *column, size_t row, double factor, double term)
+static iso_record *damaged(iso_model_kind model, const char *column, size_t row, double factor, double term)
 {
     static const double t[6] = {0, 1, 2, 3, 4, 5};
     const iso_params p = laws_params(-0.3, J_three);
@@ -334,9 +334,9 @@ static void check_missing_lines(void)
     iso_params p;
     iso_record *r;
     must(iso_record_create(ctx, 1, names, &r), "a record");
-    gsl_test(iso_record_params(ctx, r, &p) != ISO_BAD_INPUT || strcmp(iso_context_field(ctx), "k") != 0, "no k");
+    gsl_test(iso_record_params(ctx, r, &p) != ISO_BAD_INPUT || strcmp(iso_context_about(ctx), "k") != 0, "no k");
     must(iso_record_set(ctx, r, "k", "-1"), "a line");
-    gsl_test(iso_record_params(ctx, r, &p) != ISO_BAD_INPUT || strcmp(iso_context_field(ctx), "J") != 0, "no J");
+    gsl_test(iso_record_params(ctx, r, &p) != ISO_BAD_INPUT || strcmp(iso_context_about(ctx), "J") != 0, "no J");
     must(iso_record_set(ctx, r, "J", "1 2"), "a line");
     gsl_test(iso_record_params(ctx, r, &p) != ISO_BAD_INPUT, "two moments: %s", iso_context_message(ctx));
     must(iso_record_set(ctx, r, "J", "1 2 3"), "a line");

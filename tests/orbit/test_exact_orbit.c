@@ -20,14 +20,14 @@ static void give_up(const char *what)
 }
 
 /* Everything shown and carried. */
-static iso_orbit_options all_of(const iso_start *start, iso_picture backend, iso_clock clock)
+static iso_orbit_options all_of(const iso_start *start, iso_backend backend, iso_clock clock)
 {
     iso_orbit_options o = iso_orbit_defaults(start);
     o.backend = backend;
     o.clock = clock;
     o.tolerance = 1e-14;
-    o.show = ISO_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     return o;
 }
 
@@ -38,7 +38,7 @@ static iso_orbit *create_with(const iso_params *p, const iso_start *start, const
     return orbit;
 }
 
-static iso_orbit *create(const iso_params *p, const iso_start *start, iso_picture backend, iso_clock clock)
+static iso_orbit *create(const iso_params *p, const iso_start *start, iso_backend backend, iso_clock clock)
 {
     const iso_orbit_options o = all_of(start, backend, clock);
     return create_with(p, start, &o);
@@ -88,7 +88,7 @@ static problem make_problem(int i, iso_random *random)
     if (i >= SEPARATED) return make_special(i - SEPARATED);
     problem o = {.p = laws_params(i % 2 ? 1 : -1, shapes[i / 2])};
     const bool ball = i / 2 % 2 == 0;
-    iso_field f = {.p = o.p};
+    iso_problem f = {.p = o.p};
     o.start.model = ball ? ISO_BALL : ISO_POINT;
     (ball ? &iso_system_ball : &iso_system_point)->sample(&f, random, o.start.y);
     o.start.eps = ball ? 0 : f.eps;
@@ -124,15 +124,15 @@ static double unit_of(const iso_orbit *orbit, iso_clock clock)
 static void check_against_steps(const problem *o, laws_worst *worst)
 {
     for (iso_clock clock = 0; clock < ISO_CLOCKS; clock++) {
-        iso_orbit *exact = create(&o->p, &o->start, ISO_EXACT, clock);
-        for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
+        iso_orbit *exact = create(&o->p, &o->start, ISO_BACKEND_EXACT, clock);
+        for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
             iso_orbit *steps = create(&o->p, &o->start, backend, clock);
             const iso_sample begin = at(steps, 0), begin_exact = at(exact, 0);
-            gsl_test(backend == ISO_POINT && !same(&begin, &begin_exact), "the start is the point's");
+            gsl_test(backend == ISO_BACKEND_POINT && !same(&begin, &begin_exact), "the start is the point's");
             for (int i = 0; i < TIMES; i++) {
                 const double time = times[i] * unit_of(exact, clock);
                 const iso_sample a = at(exact, time), b = at(steps, time);
-                note_difference(worst, &o->p, &a, &b, iso_picture_name((int)backend));
+                note_difference(worst, &o->p, &a, &b, iso_backend_name((int)backend));
             }
             iso_orbit_free(steps);
         }
@@ -143,21 +143,21 @@ static void check_against_steps(const problem *o, laws_worst *worst)
 /* Asked for less, an orbit shows the same numbers, and no others. */
 static void check_shows(const problem *o)
 {
-    iso_orbit *all = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    iso_orbit *all = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
     const iso_sample whole = at(all, 7);
-    for (iso_picture show = ISO_BALL; show <= ISO_BOTH; show++) {
-        iso_orbit_options less = all_of(&o->start, ISO_EXACT, ISO_CLOCK_T);
-        less.show = show;
-        less.carry[ISO_CLOCK_TAU] = false;
+    for (iso_shown shown = ISO_SHOW_BALL; shown <= ISO_SHOW_BOTH; shown++) {
+        iso_orbit_options less = all_of(&o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
+        less.shown = shown;
+        less.with_clock[ISO_CLOCK_TAU] = false;
         iso_orbit *orbit = create_with(&o->p, &o->start, &less);
         iso_sample wanted = whole;
         wanted.clock[ISO_CLOCK_TAU] = NAN;
         for (int i = 0; i < ISO_STATE; i++) {
-            if (show == ISO_POINT) wanted.ball[i] = NAN;
-            if (show == ISO_BALL) wanted.point[i] = NAN;
+            if (shown == ISO_SHOW_POINT) wanted.ball[i] = NAN;
+            if (shown == ISO_SHOW_BALL) wanted.point[i] = NAN;
         }
         const iso_sample s = at(orbit, 7);
-        gsl_test(!same(&s, &wanted), "what is shown of %s", iso_picture_name((int)show));
+        gsl_test(!same(&s, &wanted), "what is shown of %s", iso_shown_name((int)shown));
         iso_orbit_free(orbit);
     }
     iso_orbit_free(all);
@@ -168,12 +168,12 @@ static void check_shows(const problem *o)
 /* The integrals far away are those of the start. */
 static void check_far(const problem *o, laws_worst *worst)
 {
-    iso_orbit *orbit = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
     const iso_sample start = at(orbit, 0), far[2] = {at(orbit, 1e9), at(orbit, -1e12)};
     for (int s = 0; iso_systems[s]; s++) {
         const iso_integral *list[ISO_MAX_INTEGRALS];
         const int count =
-            iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->field, list, ISO_MAX_INTEGRALS);
+            iso_integrals_holding(iso_systems[s], &iso_orbit_model(orbit)->problem, list, ISO_MAX_INTEGRALS);
         for (int i = 0; i < 2 * count; i++) {
             const iso_integral *integral = list[i / 2];
             double size;
@@ -202,10 +202,10 @@ static bool next_event(iso_orbit *orbit, int direction, double from, double to, 
 
 static void check_order(const problem *o)
 {
-    iso_orbit *orbit = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_S), *fresh;
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_S), *fresh;
     const double asked[] = {3, 1e7, -2, 3, 0, -1e5, 1e7, -2, 0, 3};
     for (size_t i = 0; i < sizeof asked / sizeof *asked; i++) {
-        fresh = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_S);
+        fresh = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_S);
         iso_sample event;
         if (i % 3 == 1) next_event(orbit, 0, asked[i], asked[i] + copysign(1, asked[i]), &event);
         const iso_sample a = at(orbit, asked[i]), b = at(fresh, asked[i]);
@@ -217,12 +217,12 @@ static void check_order(const problem *o)
 
 static void check_backwards(const problem *o, laws_worst *worst)
 {
-    iso_orbit *orbit = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
     const iso_sample begin = at(orbit, 0), there = at(orbit, 11);
     iso_start turn = {.model = ISO_BALL};
     copy(there.ball, turn.y, ISO_STATE);
     const iso_effects effects = iso_orbit_effects(orbit); /* the level of a point off H = 0 */
-    iso_orbit_options options = all_of(&turn, ISO_EXACT, ISO_CLOCK_T);
+    iso_orbit_options options = all_of(&turn, ISO_BACKEND_EXACT, ISO_CLOCK_T);
     options.effects = &effects;
     iso_orbit *back = create_with(&o->p, &turn, &options);
     const iso_sample home = at(back, -11);
@@ -239,8 +239,8 @@ static void check_backwards(const problem *o, laws_worst *worst)
 /* The same zeros of n3 as along the orbit by steps, one after the other. */
 static void check_events(const problem *o, int side, laws_worst *worst)
 {
-    iso_orbit *exact = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
-    iso_orbit *steps = create(&o->p, &o->start, ISO_POINT, ISO_CLOCK_T);
+    iso_orbit *exact = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
+    iso_orbit *steps = create(&o->p, &o->start, ISO_BACKEND_POINT, ISO_CLOCK_T);
     const double end = side * 30 * unit_of(exact, ISO_CLOCK_T);
     double from = 0;
     for (int direction = -1; direction <= 1; direction++)
@@ -263,7 +263,7 @@ static void check_events(const problem *o, int side, laws_worst *worst)
 /* Far away an event is found without the way there. */
 static void check_far_events(const problem *o)
 {
-    iso_orbit *orbit = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
     const double unit = unit_of(orbit, ISO_CLOCK_T), far[3] = {1e6 * unit, -1e6 * unit, 1e9 * unit};
     iso_sample s;
     for (int i = 0; i < 3 && next_event(orbit, 0, 0, 100 * unit, &s); i++) {
@@ -292,9 +292,9 @@ static void check_units(double c, double d, laws_worst *worst)
         iso_start start = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
         for (int i = 0; i < 3; i++) moments[i] = c * J[i];
         const iso_params p = laws_params(k, J), other_p = laws_params(k, moments);
-        iso_orbit *orbit = create(&p, &start, ISO_EXACT, ISO_CLOCK_T);
+        iso_orbit *orbit = create(&p, &start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
         for (int i = 0; i < 3; i++) start.y[i] *= d;
-        iso_orbit *other = create(&other_p, &start, ISO_EXACT, ISO_CLOCK_T);
+        iso_orbit *other = create(&other_p, &start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
         const iso_sample a = at(orbit, 50);
         const double half = 1.0 / (2 * k), M = d * pow(c, 2 - half);
         iso_sample scaled = at(other, 50 / d);
@@ -316,7 +316,7 @@ static void refused(const iso_params *p, const iso_start *start, const iso_orbit
 {
     iso_orbit *orbit;
     const iso_status status = iso_orbit_create(ctx, p, start, o, &orbit);
-    gsl_test(status != ISO_BAD_ARGUMENT || orbit || strcmp(iso_context_field(ctx), about) != 0 ||
+    gsl_test(status != ISO_BAD_ARGUMENT || orbit || strcmp(iso_context_about(ctx), about) != 0 ||
                  !strstr(iso_context_message(ctx), words),
              "refused for \"%s\": %s", about, status == ISO_OK ? "done" : iso_context_message(ctx));
     iso_orbit_free(orbit);
@@ -334,7 +334,7 @@ static void check_effects_refused(const iso_params *p, const iso_start *start)
         iso_effects e = {.number = {[ISO_GRAVITY] = {0.7, 0, 0.6, 0.8},
                                      [ISO_TWIST] = {10},
                                      [ISO_ROLLING_RESISTANCE] = {0.01}}};
-        iso_orbit_options o = all_of(start, ISO_EXACT, ISO_CLOCK_T);
+        iso_orbit_options o = all_of(start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
         QUATERNION(&e)[0] = 1;
         e.on[effects[i].effect] = true;
         o.effects = &e;
@@ -350,14 +350,14 @@ static bool never(void *data)
 
 static void check_times(const problem *o)
 {
-    iso_orbit *orbit = create(&o->p, &o->start, ISO_EXACT, ISO_CLOCK_T);
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
     const double wrong[] = {NAN, INFINITY, -INFINITY, 1e30};
     iso_sample s;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         gsl_test(iso_orbit_at(orbit, wrong[i], &s) != ISO_BAD_ARGUMENT, "t = %g is refused", wrong[i]);
-    iso_context_watch(ctx, never, NULL);
+    iso_context_set_monitor(ctx, never, NULL);
     gsl_test(iso_orbit_at(orbit, 3, &s) != ISO_STOPPED, "stopped on request");
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     gsl_test(iso_orbit_at(orbit, 3, &s) != ISO_OK || iso_orbit_reached(orbit) != 3, "and goes on");
     iso_orbit_free(orbit);
 }
@@ -368,21 +368,21 @@ static void check_errors(const problem *o)
     const iso_params half = laws_params(0.5, J);
     const iso_start ball = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
     iso_start neither = ball;
-    neither.model = ISO_EXACT;
-    iso_orbit_options exact = all_of(&ball, ISO_EXACT, ISO_CLOCK_T), other = exact;
+    neither.model = (iso_model_kind)4;
+    iso_orbit_options exact = all_of(&ball, ISO_BACKEND_EXACT, ISO_CLOCK_T), other = exact;
     refused(&half, &ball, &exact, "k", "take backend point");
     check_effects_refused(&o->p, &ball);
     other.method = iso_method_find("taylor");
     refused(&o->p, &ball, &other, "method", "backend exact does not integrate");
-    other = exact, other.show = ISO_EXACT;
+    other = exact, other.shown = (iso_shown)4;
     refused(&o->p, &ball, &other, "backend", "shown as ball, point or both");
     refused(&o->p, &neither, &exact, "", "starts as a ball or as a point");
     iso_batch_options batch = iso_batch_defaults();
     const iso_batch_orbit one = {&o->p, &ball, NULL};
-    batch.backend = ISO_EXACT;
+    batch.backend = ISO_BACKEND_EXACT;
     iso_sample s;
     gsl_test(iso_batch_run(ctx, &one, 1, &batch, (double[]){1}, 1, &s, NULL) != ISO_BAD_ARGUMENT ||
-                 strcmp(iso_context_field(ctx), "backend") != 0,
+                 strcmp(iso_context_about(ctx), "backend") != 0,
              "a batch refuses: %s", iso_context_message(ctx));
 }
 
@@ -390,11 +390,13 @@ static void check_errors(const problem *o)
 static void check_described(const problem *o)
 {
     for (int b = 0; b < 4; b++) {
-        const iso_picture asked = (iso_picture[]){ISO_BALL, ISO_POINT, ISO_EXACT, ISO_AUTO}[b];
+        const iso_backend asked =
+            (iso_backend[]){ISO_BACKEND_BALL, ISO_BACKEND_POINT, ISO_BACKEND_EXACT, ISO_BACKEND_AUTO}[b];
         iso_orbit *orbit = create(&o->p, &o->start, asked, ISO_CLOCK_T);
-        const iso_picture backend = iso_orbit_backend(orbit);
-        gsl_test(backend != (asked == ISO_AUTO ? o->start.model : asked), "backend %s", iso_picture_name((int)asked));
-        gsl_test((iso_orbit_exact(orbit) != NULL) != (asked == ISO_EXACT), "whose closed solution");
+        const iso_backend backend = iso_orbit_backend(orbit);
+        gsl_test(backend != (asked == ISO_BACKEND_AUTO ? (iso_backend)o->start.model : asked), "backend %s",
+                 iso_backend_name((int)asked));
+        gsl_test((iso_orbit_exact(orbit) != NULL) != (asked == ISO_BACKEND_EXACT), "whose closed solution");
         iso_orbit_free(orbit);
     }
 }

@@ -84,7 +84,7 @@ static void check_energies(iso_random *random)
 /* --- both backends ---------------------------------------------------------------------------------------------- */
 
 /* Everything shown and carried. */
-static iso_orbit *both_shown(const iso_params *p, const iso_start *start, const iso_effects *e, iso_picture backend,
+static iso_orbit *both_shown(const iso_params *p, const iso_start *start, const iso_effects *e, iso_backend backend,
                              iso_clock clock)
 {
     iso_orbit *orbit;
@@ -93,8 +93,8 @@ static iso_orbit *both_shown(const iso_params *p, const iso_start *start, const 
     o.backend = backend;
     o.tolerance = 1e-14;
     o.clock = clock;
-    o.show = ISO_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
     return orbit;
 }
@@ -127,9 +127,9 @@ static void compare_backends(const iso_params *p, const iso_start *start, const 
 {
     iso_start off = *start;
     scale(off.y, 1 + 1e-10);
-    iso_orbit *by_ball = both_shown(p, start, e, ISO_BALL, ISO_CLOCK_T);
-    iso_orbit *by_point = both_shown(p, start, e, ISO_POINT, ISO_CLOCK_T);
-    iso_orbit *beside = both_shown(p, &off, e, ISO_BALL, ISO_CLOCK_T);
+    iso_orbit *by_ball = both_shown(p, start, e, ISO_BACKEND_BALL, ISO_CLOCK_T);
+    iso_orbit *by_point = both_shown(p, start, e, ISO_BACKEND_POINT, ISO_CLOCK_T);
+    iso_orbit *beside = both_shown(p, &off, e, ISO_BACKEND_BALL, ISO_CLOCK_T);
     for (int i = 0; i < TIMES; i++) {
         const iso_sample a = scene_at(ctx, by_ball, times[i]), b = scene_at(ctx, by_point, times[i]);
         const iso_sample c = scene_at(ctx, beside, times[i]);
@@ -201,17 +201,17 @@ static void check_point(const iso_params *p, double size, bool plane, iso_random
 {
     const double eps = 0.8;
     const iso_start start = point_off_level(p, eps, size, plane, random);
-    iso_orbit *point = both_shown(p, &start, NULL, ISO_POINT, ISO_CLOCK_S);
-    iso_orbit *ball = both_shown(p, &start, NULL, ISO_BALL, ISO_CLOCK_S);
+    iso_orbit *point = both_shown(p, &start, NULL, ISO_BACKEND_POINT, ISO_CLOCK_S);
+    iso_orbit *ball = both_shown(p, &start, NULL, ISO_BACKEND_BALL, ISO_CLOCK_S);
     compare(p, ball, point, plane ? "plane" : "space", &to_ball);
     iso_effects e = {.on[ISO_LEVEL] = true, .number[ISO_LEVEL] = {level(p, eps, start.y) * p->k * p->k / p->det_J}};
     const iso_sample begin = scene_at(ctx, point, 0);
     iso_start as_ball = {.model = ISO_BALL};
     copy(begin.ball, as_ball.y, ISO_STATE);
-    for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
+    for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
         iso_orbit *back = both_shown(p, &as_ball, &e, backend, ISO_CLOCK_S);
-        compare(p, back, point, iso_picture_name((int)backend), &from_ball);
-        laws_note(&coupling, fabs(iso_orbit_coupling(back) / eps - 1), 1e-13, p, iso_picture_name((int)backend));
+        compare(p, back, point, iso_backend_name((int)backend), &from_ball);
+        laws_note(&coupling, fabs(iso_orbit_coupling(back) / eps - 1), 1e-13, p, iso_backend_name((int)backend));
         iso_orbit_free(back);
     }
     double least = INFINITY, most = 0;
@@ -262,9 +262,9 @@ static int check_shift(double size, iso_random *random)
     const double J_shifted[3] = {J[0] + shift, J[1] + shift, J[2] + shift};
     if (!(min3(J_shifted) > 0.1)) return 0;
     const iso_params free_p = laws_params(-1, J_shifted);
-    iso_orbit *point = both_shown(&p, &start, NULL, ISO_POINT, ISO_CLOCK_S);
+    iso_orbit *point = both_shown(&p, &start, NULL, ISO_BACKEND_POINT, ISO_CLOCK_S);
     start.eps = NAN;
-    iso_orbit *ball = both_shown(&free_p, &start, NULL, ISO_BALL, ISO_CLOCK_S);
+    iso_orbit *ball = both_shown(&free_p, &start, NULL, ISO_BACKEND_BALL, ISO_CLOCK_S);
     const iso_effects none = iso_orbit_effects(ball);
     laws_note(&shifted, none.on[ISO_LEVEL] ? 1 : 0, 0.5, &free_p, "free");
     laws_note(&shifted, fabs(iso_orbit_coupling(ball) / eps - 1), 1e-13, &free_p, "eps");

@@ -29,15 +29,15 @@ static iso_start point_start(const double M[3], const double gamma[3], const dou
 }
 
 /* Everything shown and carried. */
-static iso_orbit *create(const iso_params *p, const iso_start *start, iso_picture backend, iso_clock clock)
+static iso_orbit *create(const iso_params *p, const iso_start *start, iso_backend backend, iso_clock clock)
 {
     iso_orbit *orbit;
     iso_orbit_options o = iso_orbit_defaults(start);
     o.backend = backend;
     o.clock = clock;
     o.tolerance = 1e-14;
-    o.show = ISO_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) give_up("an orbit is refused");
     return orbit;
 }
@@ -86,7 +86,7 @@ static off_level make(double k, double eps, double part, iso_random *random)
     o.start = point_start(M, gamma, &o.eps);
     o.H = energy_of(&o);
     o.c = o.H * k * k / o.p.det_J;
-    iso_orbit *orbit = create(&o.p, &o.start, ISO_POINT, ISO_CLOCK_S);
+    iso_orbit *orbit = create(&o.p, &o.start, ISO_BACKEND_POINT, ISO_CLOCK_S);
     for (int i = 0; i < TIMES; i++) {
         o.truth[i] = at(orbit, 0.9 * i - 0.6); /* before and after the start */
         o.w = fmax(o.w, laws_norm(o.truth[i].ball));
@@ -108,7 +108,7 @@ static double allowed(const iso_params *p)
 /* The level that was added has c = H k^2/det J. */
 static void check_added(const off_level *o)
 {
-    iso_orbit *orbit = create(&o->p, &o->start, ISO_AUTO, ISO_CLOCK_S);
+    iso_orbit *orbit = create(&o->p, &o->start, ISO_BACKEND_AUTO, ISO_CLOCK_S);
     const iso_effects effects = iso_orbit_effects(orbit);
     const double size = (fabs(o->H) + dot(o->start.y, o->start.y)) * fabs(o->c / o->H);
     laws_note(&levels, effects.on[ISO_LEVEL] ? fabs(LEVEL_C(&effects) - o->c) : 1, 1e-14 * size, &o->p, "c");
@@ -119,7 +119,7 @@ static void check_added(const off_level *o)
 /* Both backends, in every clock. */
 static void check_backends(const off_level *o)
 {
-    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++)
+    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++)
         for (iso_clock c = ISO_CLOCK_T; c < ISO_CLOCKS; c++) {
             iso_orbit *orbit = create(&o->p, &o->start, b, c);
             for (int i = 0; i < TIMES; i++) {
@@ -162,7 +162,7 @@ static void check_newton(const off_level *o)
 {
     const iso_params *p = &o->p;
     const double k = p->k, h = 4e-3 / (fmax(1, fabs(k)) * o->w);
-    iso_orbit *orbit = create(p, &o->start, ISO_POINT, ISO_CLOCK_T);
+    iso_orbit *orbit = create(p, &o->start, ISO_BACKEND_POINT, ISO_CLOCK_T);
     for (int i = 0; i < TIMES; i++) {
         const slopes d = slopes_at(orbit, o->truth[i].clock[ISO_CLOCK_T], h);
         const double *w = d.here.ball, *n = d.here.ball + 3;
@@ -232,7 +232,7 @@ static void check_stated(void)
     gsl_test(try_level(&o, &o.start, o.c, &eps) != ISO_OK, "the point's own level");
     gsl_test_rel(eps, o.eps, 1e-14, "its coupling");
     gsl_test(try_level(&o, &o.start, o.c * (1 + 1e-6), &eps) != ISO_BAD_INPUT ||
-                 strcmp(iso_context_field(ctx), "c") != 0,
+                 strcmp(iso_context_about(ctx), "c") != 0,
              "another level: %s", iso_context_message(ctx));
     iso_start open = o.start;
     open.eps = NAN;

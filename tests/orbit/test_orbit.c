@@ -17,21 +17,21 @@ static iso_context *ctx;
 
 static iso_start random_start(const iso_params *p, iso_random *random)
 {
-    iso_field f = {.p = *p};
+    iso_problem f = {.p = *p};
     iso_start start = {.model = ISO_BALL};
     iso_system_ball.sample(&f, random, start.y);
     return start;
 }
 
 /* Everything shown and carried. */
-static iso_orbit_options all_of(const iso_start *start, iso_picture backend, iso_clock clock, double tolerance)
+static iso_orbit_options all_of(const iso_start *start, iso_backend backend, iso_clock clock, double tolerance)
 {
     iso_orbit_options o = iso_orbit_defaults(start);
     o.backend = backend;
     o.clock = clock;
     o.tolerance = tolerance;
-    o.show = ISO_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = true;
+    o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
     return o;
 }
 
@@ -41,7 +41,7 @@ static void give_up(const char *what)
     exit(gsl_test_summary());
 }
 
-static iso_orbit *create(const iso_params *p, const iso_start *start, iso_picture backend, iso_clock clock)
+static iso_orbit *create(const iso_params *p, const iso_start *start, iso_backend backend, iso_clock clock)
 {
     iso_orbit *orbit;
     const iso_orbit_options o = all_of(start, backend, clock, 1e-14);
@@ -106,7 +106,7 @@ static void note_clock(const iso_params *p, iso_clock asked, const iso_sample *s
     }
 }
 
-static void check_clocks(const iso_params *p, const iso_start *start, iso_picture backend, const iso_sample *truth)
+static void check_clocks(const iso_params *p, const iso_start *start, iso_backend backend, const iso_sample *truth)
 {
     for (iso_clock c = ISO_CLOCK_TAU; c <= ISO_CLOCK_S; c++) {
         iso_orbit *orbit = create(p, start, backend, c);
@@ -119,7 +119,7 @@ static void check_clocks(const iso_params *p, const iso_start *start, iso_pictur
 }
 
 /* From where the orbit is at times[i], the way back ends in the start. */
-static void check_backwards(const iso_params *p, const iso_start *start, iso_picture backend, const iso_sample *there)
+static void check_backwards(const iso_params *p, const iso_start *start, iso_backend backend, const iso_sample *there)
 {
     iso_start turn = {.model = ISO_BALL};
     copy(there->ball, turn.y, ISO_STATE);
@@ -133,7 +133,8 @@ static void check_backwards(const iso_params *p, const iso_start *start, iso_pic
 
 static void check_orbit(const iso_params *p, const iso_start *start)
 {
-    iso_orbit *ball = create(p, start, ISO_BALL, ISO_CLOCK_T), *point = create(p, start, ISO_POINT, ISO_CLOCK_T);
+    iso_orbit *ball = create(p, start, ISO_BACKEND_BALL, ISO_CLOCK_T),
+              *point = create(p, start, ISO_BACKEND_POINT, ISO_CLOCK_T);
     const double ulps = 8 * DBL_EPSILON * (1 + 1 / fabs(p->k));
     iso_sample truth[TIMES], begin[2] = {at(ball, 0), at(point, 0)};
     for (int b = 0; b < 2; b++) {
@@ -150,7 +151,7 @@ static void check_orbit(const iso_params *p, const iso_start *start)
     }
     iso_orbit_free(ball);
     iso_orbit_free(point);
-    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
         check_clocks(p, start, b, truth);
         check_backwards(p, start, b, &truth[1]);
     }
@@ -184,7 +185,7 @@ static void check_order(void)
     const iso_start start = random_start(&p, random);
     iso_sample forward[N], s;
     int different = 0;
-    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
         iso_orbit *orbit = create(&p, &start, b, ISO_CLOCK_T), *fresh = create(&p, &start, b, ISO_CLOCK_T);
         for (int i = 0; i < N; i++) forward[i] = at(orbit, 0.31 * (i - N / 4));
         for (int i = 0; i < 4 * N; i++) {
@@ -206,11 +207,11 @@ static laws_worst from_point;
 /* The start of the same orbit as seen by the point; its coupling stated, or left to the level H = 0. */
 static void check_point_start(const iso_params *p, const iso_start *ball)
 {
-    iso_orbit *orbit = create(p, ball, ISO_BALL, ISO_CLOCK_T);
+    iso_orbit *orbit = create(p, ball, ISO_BACKEND_BALL, ISO_CLOCK_T);
     const iso_sample begin = at(orbit, 0), truth = at(orbit, 4);
     const double eps[2] = {iso_orbit_coupling(orbit), NAN};
     iso_orbit_free(orbit);
-    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++)
+    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++)
         for (int i = 0; i < 2; i++) {
             iso_start start;
             if (iso_start_point(ctx, begin.point, begin.point + 3, isnan(eps[i]) ? NULL : &eps[i], false, &start) !=
@@ -259,7 +260,7 @@ static void check_rest(void)
     const iso_start start = {.model = ISO_BALL, .y = {0, 0, 0, 0.6, 0, 0.8}};
     iso_orbit_options o = iso_orbit_defaults(&start);
     iso_orbit *orbit;
-    o.carry[ISO_CLOCK_S] = o.carry[ISO_CLOCK_TAU] = true;
+    o.with_clock[ISO_CLOCK_S] = o.with_clock[ISO_CLOCK_TAU] = true;
     if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) give_up("a ball at rest");
     const iso_sample s = at(orbit, 100);
     const double q = 1 / dot_diag(start.y + 3, p.inv_J, start.y + 3);
@@ -267,9 +268,9 @@ static void check_rest(void)
     gsl_test_rel(s.clock[ISO_CLOCK_S], 100 * iso_clock_rate(&p, ISO_CLOCK_S, q, NULL), 1e-13,
                  "at rest s runs evenly");
     iso_orbit_free(orbit);
-    o.show = ISO_BOTH;
+    o.shown = ISO_SHOW_BOTH;
     refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "at rest", "at rest: as both");
-    o.show = ISO_BALL, o.backend = ISO_POINT;
+    o.shown = ISO_SHOW_BALL, o.backend = ISO_BACKEND_POINT;
     refused(try_create(&p, &start, &o), ISO_NOT_MAPPED, "at rest", "at rest: backend point");
 }
 
@@ -289,7 +290,7 @@ static void note_scaled(laws_worst *worst, const iso_params *p, const iso_sample
 }
 
 /* (w, t) -> (c w, t/c) is the same curve; M grows with c, tau and s shrink with it. */
-static void check_speeds(const iso_params *p, const iso_start *start, iso_picture backend)
+static void check_speeds(const iso_params *p, const iso_start *start, iso_backend backend)
 {
     static const double cs[] = {1e-150, 3e-77, 7e-4, 1.9, 1e9, 3e81, 1e150};
     iso_orbit *orbit = create(p, start, backend, ISO_CLOCK_T);
@@ -301,13 +302,13 @@ static void check_speeds(const iso_params *p, const iso_start *start, iso_pictur
         scale(fast.y, c);
         orbit = create(p, &fast, backend, ISO_CLOCK_T);
         const iso_sample s = at(orbit, 4 / c);
-        note_scaled(&speeds, p, &truth, &s, clock, c, c, iso_picture_name((int)backend));
+        note_scaled(&speeds, p, &truth, &s, clock, c, c, iso_backend_name((int)backend));
         iso_orbit_free(orbit);
     }
 }
 
 /* J -> c J leaves (w, n, t); tau ~ J^(1 - 1/(2k)), s ~ J^(-2 + 1/(2k)), M ~ J^(2 - 1/(2k)), eps ~ J^4. */
-static void check_inertias(const iso_params *p, const iso_start *start, iso_picture backend)
+static void check_inertias(const iso_params *p, const iso_start *start, iso_backend backend)
 {
     static const double cs[] = {1e-30, 1e-11, 0.37, 5.1, 1e11, 1e30};
     const double half = 1 / (2 * p->k);
@@ -321,7 +322,7 @@ static void check_inertias(const iso_params *p, const iso_start *start, iso_pict
         const iso_params heavy = laws_params(p->k, J);
         orbit = create(&heavy, start, backend, ISO_CLOCK_T);
         const iso_sample s = at(orbit, 4);
-        note_scaled(&inertias, p, &truth, &s, clock, 1, pow(c, 2 - half), iso_picture_name((int)backend));
+        note_scaled(&inertias, p, &truth, &s, clock, 1, pow(c, 2 - half), iso_backend_name((int)backend));
         laws_note(&inertias, fabs(iso_orbit_coupling(orbit) / pow(c, 4) / eps - 1), 1e-13, p, "eps");
         laws_note(&inertias, fabs(iso_orbit_energy(orbit) / c / h - 1), 1e-13, p, "h");
         iso_orbit_free(orbit);
@@ -333,7 +334,7 @@ static void check_scaling(void)
     static const double ks[] = {1, -1, 0.6, -0.3, 4, 0.1};
     iso_random *random = iso_random_create(8);
     for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
-        for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+        for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
             const iso_params p = laws_params(ks[i], J_three);
             const iso_start start = random_start(&p, random);
             check_speeds(&p, &start, b);

@@ -33,12 +33,12 @@ static iso_sample at(iso_orbit *orbit, double time)
     return s;
 }
 
-static iso_orbit_options ball_and_s(const iso_start *start, iso_picture backend, double tolerance)
+static iso_orbit_options ball_and_s(const iso_start *start, iso_backend backend, double tolerance)
 {
     iso_orbit_options o = iso_orbit_defaults(start);
     o.backend = backend;
     o.tolerance = tolerance;
-    o.carry[ISO_CLOCK_S] = start->model == ISO_BALL;
+    o.with_clock[ISO_CLOCK_S] = start->model == ISO_BALL;
     return o;
 }
 
@@ -47,7 +47,7 @@ static iso_orbit_options ball_and_s(const iso_start *start, iso_picture backend,
 static laws_worst turn, period, circle;
 
 /* A turn about a principal axis at rate W: n is back after 2 pi/(|k| W), s has grown by an elliptic integral. */
-static void check_turn(double k, const double J[3], int axis, double W, iso_picture backend)
+static void check_turn(double k, const double J[3], int axis, double W, iso_backend backend)
 {
     const int i = (axis + 1) % 3, j = (axis + 2) % 3;
     const iso_params p = laws_params(k, J);
@@ -81,7 +81,7 @@ static void check_turns(void)
     for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
         for (size_t j = 0; j < sizeof Js / sizeof *Js; j++)
             for (int axis = 0; axis < 3; axis++)
-                for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++)
+                for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++)
                     check_turn(ks[i], Js[j], axis, axis == 1 ? -0.3 : 2, b);
     laws_report(&turn, "a turn in a principal plane");
     laws_report(&period, "its period in s");
@@ -92,7 +92,7 @@ static void check_circle(void)
 {
     static const double ks[] = {1, -1, 0.5, -0.3, 4}, J[3] = {2, 2, 2};
     for (size_t i = 0; i < sizeof ks / sizeof *ks; i++)
-        for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+        for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
             const iso_params p = laws_params(ks[i], J);
             const iso_start start = {.model = ISO_BALL, .y = {0.8, 0.5, -0.6, 0.6, 0, 0.8}};
             const iso_orbit_options o = ball_and_s(&start, b, 1e-14);
@@ -125,10 +125,10 @@ static void check_events(double k, double w, iso_clock clock, int direction, law
     const iso_start start = {.model = ISO_BALL, .y = {0.8 * w, 0.5 * w, -0.6 * w, 0.6, 0, 0.8}};
     iso_orbit *orbit[2];
     double from[2] = {0, 0};
-    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
         iso_orbit_options o = ball_and_s(&start, b, 1e-14);
         o.clock = clock;
-        o.carry[ISO_CLOCK_T] = true;
+        o.with_clock[ISO_CLOCK_T] = true;
         orbit[b] = create(&p, &start, &o);
     }
     const double end = iso_unit(iso_orbit_units(orbit[0]), iso_clock_dimension(clock)) * 1000;
@@ -157,7 +157,7 @@ static void check_event_time(void)
     static const double J[3] = {1.4, 2.1, 3.0};
     const iso_params p = laws_params(0.5, J);
     const iso_start start = {.model = ISO_BALL, .y = {2, 0, 0, 0, cos(0.7), sin(0.7)}};
-    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
         const iso_orbit_options o = ball_and_s(&start, b, 1e-14);
         iso_orbit *orbit = create(&p, &start, &o);
         iso_sample s;
@@ -224,13 +224,13 @@ static void check_range(double k, double J, double w, const char *word)
     scale(s.ball, 1 / w);
     gsl_test_rel(dot_diag(s.ball, p.J, s.ball) / J, 1.741, 1e-11, "k = %g, J = %g, w = %g: the ball alone", k, J, w);
     iso_orbit_free(orbit);
-    for (iso_picture b = ISO_BALL; b <= ISO_POINT; b++) {
+    for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
         o.backend = b;
-        o.show = ISO_BOTH;
+        o.shown = ISO_SHOW_BOTH;
         refused(try_create(&p, &start, &o), ISO_NUMERICAL, word, "its point");
     }
     o = iso_orbit_defaults(&start);
-    o.carry[ISO_CLOCK_S] = true;
+    o.with_clock[ISO_CLOCK_S] = true;
     refused(try_create(&p, &start, &o), ISO_NUMERICAL, word, "its s");
 }
 
@@ -257,7 +257,7 @@ static void check_bad_numbers(void)
     for (int model = ISO_BALL; model <= ISO_POINT; model++)
         for (int i = 0; i < ISO_STATE; i++)
             for (int b = 0; b < 2; b++) {
-                iso_start bad = {.model = (iso_picture)model, .y = {2, 0, 0, 0, 0.6, 0.8}, .eps = NAN};
+                iso_start bad = {.model = (iso_model_kind)model, .y = {2, 0, 0, 0, 0.6, 0.8}, .eps = NAN};
                 bad.y[i] = b ? NAN : INFINITY;
                 o = iso_orbit_defaults(&bad);
                 gsl_test(try_create(&p, &bad, &o) == ISO_OK, "number %d of a start is %g: %s", i, bad.y[i],
@@ -266,7 +266,7 @@ static void check_bad_numbers(void)
 }
 
 /* Stopped on the way, the last good moment can be read, and the orbit still answers before it. */
-static void check_failure(iso_picture backend)
+static void check_failure(iso_backend backend)
 {
     static const double J[3] = {1.4, 2.1, 3.0};
     const iso_params p = laws_params(-0.3, J);
@@ -316,8 +316,8 @@ int main(void)
     check_range(1e-200, 1, 1, "k = 1e-200");
     check_range(1e200, 1, 1e-200, "k = 1e+200");
     check_bad_numbers();
-    check_failure(ISO_BALL);
-    check_failure(ISO_POINT);
+    check_failure(ISO_BACKEND_BALL);
+    check_failure(ISO_BACKEND_POINT);
     iso_context_free(ctx);
     exit(gsl_test_summary());
 }

@@ -28,7 +28,7 @@ typedef struct trial {
     double long_time; /* bound of (w, n) for t > 100; 0: such rows are not run       */
 } trial;
 
-static void note_row(const trial *run, const reference *r, iso_picture backend, laws_worst *state, laws_worst *clock)
+static void note_row(const trial *run, const reference *r, iso_backend backend, laws_worst *state, laws_worst *clock)
 {
     iso_orbit_options o = iso_orbit_defaults(&r->start);
     iso_orbit *orbit = NULL;
@@ -37,8 +37,8 @@ static void note_row(const trial *run, const reference *r, iso_picture backend, 
     o.backend = backend;
     o.method = iso_method_find(run->method);
     o.tolerance = run->tolerance;
-    o.carry[ISO_CLOCK_S] = true;
-    snprintf(where, sizeof where, "%s t=%g", iso_picture_name((int)backend), r->t);
+    o.with_clock[ISO_CLOCK_S] = true;
+    snprintf(where, sizeof where, "%s t=%g", iso_backend_name((int)backend), r->t);
     if (iso_orbit_create(ctx, &r->p, &r->start, &o, &orbit) != ISO_OK || iso_orbit_at(orbit, r->t, &s) != ISO_OK) {
         gsl_test(1, "%s, backend %s: %s", run->method, where, iso_context_message(ctx));
     } else {
@@ -51,16 +51,16 @@ static void note_row(const trial *run, const reference *r, iso_picture backend, 
 
 static void check(const trial *run, const reference rows[], int count)
 {
-    for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
+    for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
         laws_worst state = {0}, clock = {0};
         char title[96];
         for (int i = 0; i < count; i++)
             if (rows[i].t <= 100 || run->long_time > 0) note_row(run, &rows[i], backend, &state, &clock);
         snprintf(title, sizeof title, "%s at %g, backend %s: (w, n)", run->method, run->tolerance,
-                 iso_picture_name((int)backend));
+                 iso_backend_name((int)backend));
         laws_report(&state, title);
         snprintf(title, sizeof title, "%s at %g, backend %s: s", run->method, run->tolerance,
-                 iso_picture_name((int)backend));
+                 iso_backend_name((int)backend));
         laws_report(&clock, title);
     }
 }

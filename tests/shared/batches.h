@@ -38,7 +38,7 @@ static inline void batch_add_random(batch_pool *all, iso_random *dice, double k,
 {
     const double scaled[3] = {J[0] * J_unit, J[1] * J_unit, J[2] * J_unit};
     const iso_params p = effects_params(k, scaled, dice);
-    iso_field f = {.p = p};
+    iso_problem f = {.p = p};
     iso_start start = {.model = ISO_BALL};
     iso_system_ball.sample(&f, dice, start.y);
     const double q = iso_system_ball.q(&p, start.y, NULL);

@@ -29,7 +29,7 @@ typedef struct effects_case {
     const iso_system *system;
     int subset;
     iso_model model;         /* in the system's own clock, no clocks carried            */
-    double y[ISO_MAX_STATE]; /* model.field.energy is its energy                        */
+    double y[ISO_MAX_STATE]; /* model.problem.energy is its energy                        */
     double kinetic;          /* energy of the ball's motion, without potentials         */
     iso_random *random;
 } effects_case;
@@ -38,13 +38,13 @@ typedef void effects_law(const effects_case *c, laws_worst *worst);
 
 static inline bool effects_on(const effects_case *c, int e)
 {
-    return c->model.field.effects.on[e];
+    return c->model.problem.effects.on[e];
 }
 
 /* The place of the torque of a stiff contact in the state; 0: the torque is not a state. */
 static inline int effects_lambda(const effects_case *c)
 {
-    return c->model.field.at[ISO_TWIST];
+    return c->model.problem.at[ISO_TWIST];
 }
 
 /* Writes "a+b" for a subset. */
@@ -66,7 +66,7 @@ static inline void effects_note(const effects_case *c, laws_worst *worst, double
     const bool news = !(error <= worst->ratio * allowed); /* making the name takes longer than the law */
     if (news) effects_name(c->subset, name, sizeof name);
     if (news) snprintf(text, sizeof text, "%s [%s]", what, name);
-    laws_note(worst, error, allowed, &c->model.field.p, news ? text : what);
+    laws_note(worst, error, allowed, &c->model.problem.p, news ? text : what);
 }
 
 static inline double effects_random_sign(iso_random *r, double low, double high)
@@ -104,14 +104,14 @@ static inline iso_effects effects_random(iso_random *r, const iso_params *p, int
 static inline void effects_set_energy(effects_case *c)
 {
     double unused;
-    c->model.field.energy = c->system->energy(&c->model.field, c->y, &unused);
+    c->model.problem.energy = c->system->energy(&c->model.problem, c->y, &unused);
 }
 
 static inline effects_case effects_sample(const iso_system *system, const iso_params *p, int subset, iso_random *r)
 {
     static const bool none[ISO_CLOCKS] = {false};
     effects_case c = {.system = system, .subset = subset, .random = r};
-    iso_field f = {.p = *p};
+    iso_problem f = {.p = *p};
     double start[ISO_STATE];
     system->sample(&f, r, start);
     const bool ball = system == &iso_system_ball;
@@ -126,7 +126,7 @@ static inline effects_case effects_sample(const iso_system *system, const iso_pa
     c.model = iso_model_assemble(system, &f, system->clock, none);
     iso_model_begin(&c.model, start, c.y);
     for (int i = 0; ball && p->k == 1 && effects_on(&c, ISO_ATTITUDE) && i < 3; i++)
-        c.y[c.model.field.at[ISO_ATTITUDE] + 4 + i] = iso_random_normal(r); /* the ball has come some way */
+        c.y[c.model.problem.at[ISO_ATTITUDE] + 4 + i] = iso_random_normal(r); /* the ball has come some way */
     effects_set_energy(&c);
     return c;
 }
@@ -182,9 +182,9 @@ static inline double effects_field_size(const iso_effects *e)
 }
 
 /* The field with one of its effects alone, whose states stay where they are: its own torque and potential. */
-static inline iso_field effects_alone(const effects_case *c, iso_effect_id id)
+static inline iso_problem effects_alone(const effects_case *c, iso_effect_id id)
 {
-    iso_field f = c->model.field;
+    iso_problem f = c->model.problem;
     for (int e = 0; e < ISO_EFFECTS; e++) f.effects.on[e] = e == (int)id && f.effects.on[e];
     iso_effects_record_motion(&f, false, &f.motion);
     iso_effects_record_energy(&f, &f.energy_formula);
@@ -194,14 +194,14 @@ static inline iso_field effects_alone(const effects_case *c, iso_effect_id id)
 /* U of one effect */
 static inline double effects_potential(const effects_case *c, iso_effect_id id)
 {
-    const iso_field f = effects_alone(c, id);
-    return effects_on(c, id) ? iso_effects_potential(&f, c->y) : 0;
+    const iso_problem f = effects_alone(c, id);
+    return effects_on(c, (int)id) ? iso_effects_potential(&f, c->y) : 0;
 }
 
 /* of the energy */
 static inline double effects_energy_size(const effects_case *c)
 {
-    const iso_field *f = &c->model.field;
+    const iso_problem *f = &c->model.problem;
     double size = c->kinetic + effects_field_size(&f->effects);
     if (effects_on(c, ISO_LEVEL)) size += fabs(effects_potential(c, ISO_LEVEL));
     if (effects_on(c, ISO_GRAVITY) && f->p.k != 1) size += fabs(GRAVITY_MGB(&f->effects) / (1 - f->p.k));
@@ -213,8 +213,8 @@ static inline double effects_energy_size(const effects_case *c)
 /* of the torques on the ball */
 static inline double effects_torque_size(const effects_case *c)
 {
-    const iso_effects *e = &c->model.field.effects;
-    const iso_params *p = &c->model.field.p;
+    const iso_effects *e = &c->model.problem.effects;
+    const iso_params *p = &c->model.problem.p;
     double size = fabs(p->k) * effects_field_size(e), u[3];
     diag(p->inv_J, c->y + 3, u);
     if (e->on[ISO_GRAVITY]) size += fabs(GRAVITY_MGB(e));
@@ -228,23 +228,23 @@ static inline double effects_torque_size(const effects_case *c)
 /* of gamma x dV/dgamma: |dq|/q <= 2 sqrt(max J/q) and |B gamma| <= |C| sqrt(max J q) */
 static inline double effects_image_size(const effects_case *c)
 {
-    const iso_params *p = &c->model.field.p;
+    const iso_params *p = &c->model.problem.p;
     const double q = c->system->q(p, c->y, NULL), k = fabs(p->k);
-    const double free = 2 * fabs(c->model.field.eps) / k;
-    const double field = iso_coupling(p, effects_field_size(&c->model.field.effects)) * (2 + 2 / k);
+    const double free = 2 * fabs(c->model.problem.eps) / k;
+    const double field = iso_coupling(p, effects_field_size(&c->model.problem.effects)) * (2 + 2 / k);
     return (free + field) * pow(q, -1 / p->k) * sqrt(max3(p->J) / q);
 }
 
 /* of each component of y' in the system's own clock */
 static inline void effects_sizes(const effects_case *c, double size[ISO_MAX_STATE])
 {
-    const iso_params *p = &c->model.field.p;
-    const double w = norm(c->y), loose = effects_on(c, ISO_TWIST) ? 1 / (1 - p->D / min3(p->J)) : 1;
+    const iso_params *p = &c->model.problem.p;
+    const double w = norm(c->y), twisting = effects_on(c, ISO_TWIST) ? 1 / (1 - p->D / min3(p->J)) : 1;
     const bool ball = c->system == &iso_system_ball;
-    const double turning = 2 * loose * (max3(p->J) * w * w + effects_torque_size(c)) / min3(p->J);
+    const double turning = 2 * twisting * (max3(p->J) * w * w + effects_torque_size(c)) / min3(p->J);
     for (int i = 0; i < ISO_MAX_STATE; i++)
         size[i] = i >= ISO_STATE ? w : i >= 3 ? (ball ? fabs(p->k) * w : w) : ball ? turning : effects_image_size(c);
-    if (effects_lambda(c) > 0) size[effects_lambda(c)] = TWIST_RESISTANCE(&c->model.field.effects) * turning;
+    if (effects_lambda(c) > 0) size[effects_lambda(c)] = TWIST_RESISTANCE(&c->model.problem.effects) * turning;
 }
 
 /* A step along the flow of 1/128 of the way on which the equations change much; see laws_step(). */
@@ -253,13 +253,14 @@ static inline double effects_step(const effects_case *c)
     double size[ISO_MAX_STATE];
     effects_sizes(c, size);
     const double way = fmax(size[0] / norm(c->y), fmax(size[3], norm(c->y)));
-    return laws_reach(&c->model.field.p) / (128 * way);
+    return laws_reach(&c->model.problem.p) / (128 * way);
 }
 
-/* The same along one component alone. A loose contact divides by 1 - D (n,J^-1 n), which has a zero near |n| = 1. */
+/* The same along one component alone. A twisting contact divides by 1 - D (n,J^-1 n), which has a zero near |n| =
+ * 1. */
 static inline double effects_step_of(const effects_case *c, int i)
 {
-    const iso_params *p = &c->model.field.p;
+    const iso_params *p = &c->model.problem.p;
     const double near = i >= 3 && effects_on(c, ISO_TWIST) ? (1 - p->D / min3(p->J)) / 2 : 1;
     const double reach = laws_reach(p) * near / 128;
     if (i == effects_lambda(c) && i > 0) return c->kinetic / 128;

@@ -41,7 +41,7 @@ static const char *const exact_names[EXACT_FAMILIES] = {"anywhere",
 static inline void exact_start(orbit *o, double k, const double J[3], const double gamma[3],
                                const double direction[3], double rho)
 {
-    iso_field *const f = &o->model.field;
+    iso_problem *const f = &o->model.problem;
     double *const M = o->y0, *const g = o->y0 + 3;
     f->p = laws_params(k, J);
     f->eps = 1;
@@ -65,8 +65,8 @@ static inline double exact_excess(orbit *o, double k, const double J[3], const d
     cross(g, e1, e2);
     for (int i = 0; i < 3; i++) direction[i] = cos(angle) * e1[i] + sin(angle) * e2[i];
     exact_start(o, k, J, g, direction, 0);
-    iso_separation_coordinates(&o->model.field.p, o->y0, &at);
-    iso_separation_constant(&o->model.field, &at, excess);
+    iso_separation_coordinates(&o->model.problem.p, o->y0, &at);
+    iso_separation_constant(&o->model.problem, &at, excess);
     return excess[which];
 }
 
@@ -136,10 +136,10 @@ static inline void exact_in_clock(orbit *o, iso_clock clock)
 static inline iso_exact *exact_create(const orbit *o)
 {
     iso_exact *exact;
-    if (iso_exact_create(o->ctx, &o->model.field, o->y0, exact_clocks, &exact) == ISO_OK) return exact;
-    const double *J = o->model.field.p.J, *y = o->y0;
+    if (iso_exact_create(o->ctx, &o->model.problem, o->y0, exact_clocks, &exact) == ISO_OK) return exact;
+    const double *J = o->model.problem.p.J, *y = o->y0;
     gsl_test(1, "k = %.17g J = %.17g %.17g %.17g M = %.17g %.17g %.17g gamma = %.17g %.17g %.17g: %s",
-             o->model.field.p.k, J[0], J[1], J[2], y[0], y[1], y[2], y[3], y[4], y[5], iso_context_message(o->ctx));
+             o->model.problem.p.k, J[0], J[1], J[2], y[0], y[1], y[2], y[3], y[4], y[5], iso_context_message(o->ctx));
     exit(gsl_test_summary());
 }
 

@@ -33,14 +33,14 @@ void hard_topic(const char *title)
     }
     book.table = fopen(strcat(path, ".tsv"), "we");
     if (!book.table) gsl_test(1, "%s cannot be written", path);
-    for (int backend = ISO_BALL; backend <= ISO_POINT; backend++)
+    for (int backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++)
         for (int i = 0; iso_methods[i] && hard_ways < HARD_WAYS - 1; i++) {
             const iso_method *m = iso_methods[i];
-            const iso_system *system = backend == ISO_BALL ? &iso_system_ball : &iso_system_point;
+            const iso_system *system = backend == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
             if (m->reference || (m->system && m->system != system)) continue;
-            hard_way[hard_ways++] = (hard_road){(iso_picture)backend, m, usual_tolerance(m)};
+            hard_way[hard_ways++] = (hard_road){(iso_backend)backend, m, usual_tolerance(m)};
         }
-    hard_way[hard_ways++] = (hard_road){ISO_EXACT, NULL, 1e-12};
+    hard_way[hard_ways++] = (hard_road){ISO_BACKEND_EXACT, NULL, 1e-12};
 }
 
 static void enter(const char *kind, const char *backend, const char *method, const char *measured, double bound)
@@ -64,7 +64,7 @@ static void number(char text[32], double x)
 void hard_hold(const hard_road *way, double measured, double bound)
 {
     char text[32];
-    const char *backend = way ? iso_picture_name((int)way->backend) : "";
+    const char *backend = way ? iso_backend_name((int)way->backend) : "";
     const char *method = way && way->method ? way->method->name : "";
     number(text, measured);
     enter("hold", backend, method, text, bound);
@@ -74,7 +74,7 @@ void hard_hold(const hard_road *way, double measured, double bound)
 
 void hard_refused(const hard_road *way, bool refused, const char *words)
 {
-    const char *backend = way ? iso_picture_name((int)way->backend) : "";
+    const char *backend = way ? iso_backend_name((int)way->backend) : "";
     const char *method = way && way->method ? way->method->name : "";
     enter("refused", backend, method, words, 0);
     gsl_test(!refused, "%s %s: %s %s: refused: %s", book.topic, book.name, backend, method, words);
@@ -106,8 +106,8 @@ iso_status hard_solve(iso_context *ctx, const hard_road *way, const iso_params *
     o.tolerance = way->tolerance;
     o.clock = clock;
     o.max_steps = 10000000;
-    if (both) o.show = ISO_BOTH;
-    for (int c = 0; c < ISO_CLOCKS; c++) o.carry[c] = both;
+    if (both) o.shown = ISO_SHOW_BOTH;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = both;
     iso_status status = iso_orbit_create(ctx, p, start, &o, &orbit);
     if (status != ISO_OK) return status;
     status = iso_orbit_at(orbit, time, sample);

@@ -18,8 +18,8 @@
 /* One way to find an orbit. Tolerances are what a user of the method would ask for: 1e-12, of methods of low order
  * less. */
 typedef struct hard_road {
-    iso_picture backend;
-    const iso_method *method; /* NULL with ISO_EXACT */
+    iso_backend backend;
+    const iso_method *method; /* NULL with ISO_BACKEND_EXACT */
     double tolerance;
 } hard_road;
 

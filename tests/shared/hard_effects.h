@@ -32,7 +32,7 @@ static inline iso_start he_start(void)
 /* The ways of the ball; the others refuse effects that break the isomorphism (see he_refusals). */
 static inline bool he_is_ball(int way)
 {
-    return hard_way[way].backend == ISO_BALL;
+    return hard_way[way].backend == ISO_BACKEND_BALL;
 }
 
 /* taylor and rk8pd at their least tolerance, where only rounding is left; the others as users run them. */
@@ -45,7 +45,7 @@ static inline double he_tolerance(const hard_road *way)
 static inline hard_road he_quad(void)
 {
     const iso_method *quad = iso_method_find("taylor_quad");
-    return (hard_road){ISO_BALL, quad ? quad : iso_method_find("taylor_extended"), 1e-15};
+    return (hard_road){ISO_BACKEND_BALL, quad ? quad : iso_method_find("taylor_extended"), 1e-15};
 }
 
 /* The answer of a way at a time t and the number of its steps: the ball, with the columns of its effects. */
@@ -63,7 +63,7 @@ static inline iso_orbit *he_orbit(iso_context *ctx, const hard_road *way, const 
     o.effects = effects;
     o.backend = way->backend;
     o.method = way->method;
-    o.tolerance = way->backend == ISO_BALL ? he_tolerance(way) : way->tolerance;
+    o.tolerance = way->backend == ISO_BACKEND_BALL ? he_tolerance(way) : way->tolerance;
     o.max_steps = 10000000;
     return iso_orbit_create(ctx, p, start, &o, &orbit) == ISO_OK ? orbit : NULL;
 }
@@ -108,8 +108,9 @@ static inline void he_refusals(iso_context *ctx, const iso_params *p, const iso_
         if (he_is_ball(i)) continue;
         const he_answer a = he_solve(ctx, &hard_way[i], p, start, effects, time);
         he_refuses(ctx, &hard_way[i], a.status,
-                   hard_way[i].backend == ISO_EXACT ? "the closed solution is for a ball on which nothing acts"
-                                                    : "breaks the isomorphism");
+                   hard_way[i].backend == ISO_BACKEND_EXACT
+                       ? "the closed solution is for a ball on which nothing acts"
+                       : "breaks the isomorphism");
     }
 }
 

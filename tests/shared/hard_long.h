@@ -58,7 +58,7 @@ static inline iso_status long_create(iso_context *ctx, const long_scene *scene, 
     o.method = way->method;
     o.tolerance = way->tolerance;
     o.clock = ISO_CLOCK_T;
-    o.show = way->backend == ISO_BALL ? ISO_BALL : ISO_BOTH;
+    o.shown = way->backend == ISO_BACKEND_BALL ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
     return iso_orbit_create(ctx, &scene->p, &scene->start, &o, orbit);
 }
 
@@ -80,9 +80,9 @@ static inline double long_slope(const double x[], const double y[], int count, d
 static inline void long_look(const iso_orbit *orbit, const iso_sample *s, bool first, long_looks *looks,
                              long_run *run)
 {
-    const iso_system *system = iso_orbit_backend(orbit) == ISO_BALL ? &iso_system_ball : &iso_system_point;
+    const iso_system *system = iso_orbit_backend(orbit) == ISO_BACKEND_BALL ? &iso_system_ball : &iso_system_point;
     const iso_integral *list[ISO_MAX_INTEGRALS];
-    const int count = iso_integrals_holding(system, &iso_orbit_model(orbit)->field, list, ISO_MAX_INTEGRALS);
+    const int count = iso_integrals_holding(system, &iso_orbit_model(orbit)->problem, list, ISO_MAX_INTEGRALS);
     for (int i = 0; i < count; i++) {
         const int quantity = long_quantity(list[i]);
         double size;

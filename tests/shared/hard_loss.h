@@ -31,7 +31,7 @@ static inline hard_road hard_finest(const hard_road *way)
 static inline double hard_loss(const hard_road *way)
 {
     const bool multistep = hard_is(way, "adams") || hard_is(way, "bdf") || hard_is(way, "ms");
-    if (way->backend == ISO_EXACT || way->tolerance == 1e-15) return 1e-14;
+    if (way->backend == ISO_BACKEND_EXACT || way->tolerance == 1e-15) return 1e-14;
     return (multistep ? 1e4 : 100) * way->tolerance;
 }
 

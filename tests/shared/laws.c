@@ -50,8 +50,8 @@ static void run_states(const iso_system *system, const iso_params *p, iso_random
                        laws_worst *worst)
 {
     for (int i = 0; i < LAWS_STATES; i++) {
-        laws_case c = {.system = system, .field = {.p = *p}, .random = random};
-        system->sample(&c.field, random, c.y);
+        laws_case c = {.system = system, .problem = {.p = *p}, .random = random};
+        system->sample(&c.problem, random, c.y);
         law(&c, worst);
     }
 }
@@ -116,7 +116,7 @@ static void flow(const laws_case *c, double time, double y[ISO_STATE])
         double slope[ISO_STATE] = {0}, stage[ISO_STATE], sum[ISO_STATE] = {0};
         for (int s = 0; s < 4; s++) {
             for (int i = 0; i < ISO_STATE; i++) stage[i] = y[i] + node[s] * h * slope[i];
-            c->system->rhs(&c->field, stage, slope);
+            c->system->rhs(&c->problem, stage, slope);
             for (int i = 0; i < ISO_STATE; i++) sum[i] += weight[s] * slope[i];
         }
         for (int i = 0; i < ISO_STATE; i++) y[i] += h * sum[i];
@@ -138,10 +138,10 @@ void laws_slope_flow(laws_function *f, const void *data, int count, const laws_c
 
 double laws_step(const laws_case *c, const double direction[ISO_STATE])
 {
-    const double speed = c->system->speed(&c->field, c->y);
+    const double speed = c->system->speed(&c->problem, c->y);
     const double fast = norm(direction) / speed, slow = norm(direction + 3);
     const double way = fmax(fast, slow);
-    return way > 0 ? laws_reach(&c->field.p) / (128 * way) : 1;
+    return way > 0 ? laws_reach(&c->problem.p) / (128 * way) : 1;
 }
 
 double laws_reach(const iso_params *p)
@@ -156,9 +156,9 @@ double laws_rounding(const iso_params *p)
 
 bool laws_regular(const laws_case *c)
 {
-    const double *J = c->field.p.J, *x = c->y + 3;
+    const double *J = c->problem.p.J, *x = c->y + 3;
     const bool apart = fabs(J[0] - J[1]) > 0.1 && fabs(J[1] - J[2]) > 0.1 && fabs(J[2] - J[0]) > 0.1;
-    return apart && laws_spread(&c->field.p) < 10 && fmin(fabs(x[0]), fmin(fabs(x[1]), fabs(x[2]))) > 0.2;
+    return apart && laws_spread(&c->problem.p) < 10 && fmin(fabs(x[0]), fmin(fabs(x[1]), fabs(x[2]))) > 0.2;
 }
 
 double laws_conditioning(const iso_params *p)

@@ -26,7 +26,7 @@ iso_params laws_params(double k, const double J[3]);
 
 typedef struct laws_case {
     const iso_system *system;
-    iso_field field; /* f, with eps and energy of y */
+    iso_problem problem; /* f, with eps and energy of y */
     double y[ISO_STATE];
     iso_random *random;
 } laws_case;

@@ -143,7 +143,7 @@ static void put_scenes(FILE *to)
         iso_sample sample;
         o.effects = &scene.effects;
         o.backend = scene.backend;
-        o.show = scene.as == ISO_AUTO ? scene.start.model : scene.as;
+        o.shown = scene.as == ISO_SHOW_START ? (iso_shown)scene.start.model : scene.as;
         put(to, &scene.params.k, sizeof(double));
         put(to, scene.params.J, sizeof scene.params.J);
         put(to, &scene.params.det_J, sizeof(double)); /* of one of them subnormal */

@@ -28,7 +28,7 @@ static inline void orbit_clocks(orbit *o, iso_clock clock, bool carry_t, bool ca
 {
     double f[ISO_MAX_STATE];
     o->model =
-        iso_model_assemble(o->model.system, &o->model.field, clock, (const bool[]){carry_t, carry_tau, carry_s});
+        iso_model_assemble(o->model.system, &o->model.problem, clock, (const bool[]){carry_t, carry_tau, carry_s});
     o->model.rhs(&o->model, o->y0, f);
     o->unit = norm(f + 3) > 0 ? 1 / norm(f + 3) : 1;
 }
@@ -37,9 +37,9 @@ static inline void orbit_clocks(orbit *o, iso_clock clock, bool carry_t, bool ca
 static inline orbit orbit_sample(iso_context *ctx, const iso_system *system, double k, const double J[3],
                                  unsigned long seed)
 {
-    orbit o = {.ctx = ctx, .model.system = system, .model.field.p = laws_params(k, J)};
+    orbit o = {.ctx = ctx, .model.system = system, .model.problem.p = laws_params(k, J)};
     iso_random *random = iso_random_create(seed);
-    system->sample(&o.model.field, random, o.y0);
+    system->sample(&o.model.problem, random, o.y0);
     iso_random_free(random);
     orbit_clocks(&o, system->clock, false, false, false);
     return o;
@@ -48,10 +48,10 @@ static inline orbit orbit_sample(iso_context *ctx, const iso_system *system, dou
 /* The ball turning about e3 in the plane n3 = 0: n = (cos k w t, -sin k w t, 0). */
 static inline orbit orbit_rotation(iso_context *ctx, double k, double w)
 {
-    orbit o = {.ctx = ctx, .model.system = &iso_system_ball, .model.field.p = laws_params(k, orbit_J)};
+    orbit o = {.ctx = ctx, .model.system = &iso_system_ball, .model.problem.p = laws_params(k, orbit_J)};
     o.y0[2] = w;
     o.y0[3] = 1;
-    o.model.field.energy = orbit_J[2] * w * w / 2;
+    o.model.problem.energy = orbit_J[2] * w * w / 2;
     orbit_clocks(&o, ISO_CLOCK_T, false, false, false);
     return o;
 }
@@ -60,7 +60,7 @@ static inline orbit orbit_rotation(iso_context *ctx, double k, double w)
 static inline orbit orbit_of(iso_context *ctx, const effects_case *c, int variant)
 {
     orbit o = {.ctx = ctx, .model = c->model};
-    iso_field *const f = &o.model.field;
+    iso_problem *const f = &o.model.problem;
     const iso_clock clock = (iso_clock)(variant % ISO_CLOCKS);
     const bool point = c->system == &iso_system_point, all = variant / ISO_CLOCKS % 2 == 0;
     copy(c->y, o.y0, c->model.dim);

@@ -110,7 +110,7 @@ static inline void add_attitude(iso_random *random, iso_effects *e)
 /* Random, of speed |omega| = 1. */
 static inline iso_start scene_start(const rolling *ball, iso_random *random)
 {
-    iso_field f = {.p = ball->p};
+    iso_problem f = {.p = ball->p};
     iso_start start = {.model = ISO_BALL};
     iso_system_ball.sample(&f, random, start.y);
     make_unit(start.y);

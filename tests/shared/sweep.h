@@ -37,11 +37,11 @@ static inline void sweep_give(sweep_answer *a, const double x[], int count)
 }
 
 /* The columns of a sample that are shown. */
-static inline void sweep_give_sample(sweep_answer *a, const iso_sample *sample, iso_picture show)
+static inline void sweep_give_sample(sweep_answer *a, const iso_sample *sample, iso_shown shown)
 {
     sweep_give(a, sample->clock, 1);
-    if (show != ISO_POINT) sweep_give(a, sample->ball, ISO_STATE);
-    if (show != ISO_BALL) sweep_give(a, sample->point, ISO_STATE);
+    if (shown != ISO_SHOW_POINT) sweep_give(a, sample->ball, ISO_STATE);
+    if (shown != ISO_SHOW_BALL) sweep_give(a, sample->point, ISO_STATE);
 }
 
 /* Stops long work: no call here should take more than a moment. */
@@ -73,7 +73,7 @@ static inline int sweep(iso_context *ctx, const sweep_call *c, int *cases)
                                      -DBL_MIN / 2, DBL_TRUE_MIN, -DBL_TRUE_MIN, DBL_MAX, -DBL_MAX};
     int wrong = 0;
     sweep_answer answer = {0};
-    iso_context_watch(ctx, sweep_goes_on, NULL);
+    iso_context_set_monitor(ctx, sweep_goes_on, NULL);
     sweep_began = clock();
     if (c->call(ctx, c->data, c->usual, &answer) != ISO_OK) {
         gsl_test(1, "%s as it should be: %s", c->name, iso_context_message(ctx));
@@ -93,7 +93,7 @@ static inline int sweep(iso_context *ctx, const sweep_call *c, int *cases)
             wrong++;
             fprintf(stderr, "%s: %g as number %d %s\n", c->name, special[i], place + 1, fault);
         }
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     return wrong;
 }
 

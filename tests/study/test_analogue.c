@@ -94,12 +94,12 @@ static void check_path(const iso_analogue *a, const iso_analogue_ball *b, const 
     must(iso_analogue_scene(ctx, b, start, turns, &scene), "a scene");
     gsl_test(scene.effects.on[ISO_LEVEL] != (b->level != 0) || LEVEL_C(&scene.effects) != b->level, "the scene's level");
     iso_orbit_options o = iso_orbit_defaults(&scene.start);
-    o.backend = ISO_BALL;
+    o.backend = ISO_BACKEND_BALL;
     o.effects = &scene.effects;
     o.tolerance = 1e-14;
     o.clock = ISO_CLOCK_S;
-    o.show = ISO_BOTH;
-    o.carry[ISO_CLOCK_T] = true;
+    o.shown = ISO_SHOW_BOTH;
+    o.with_clock[ISO_CLOCK_T] = true;
     must(iso_orbit_create(ctx, &scene.params, &scene.start, &o, &orbit), "an orbit");
     double y[ISO_STATE];
     copy(start, y, ISO_STATE);
@@ -356,9 +356,9 @@ static void refusals(void)
     for (size_t i = 0; i < sizeof refusal / sizeof *refusal; i++) {
         const struct refusal *r = &refusal[i];
         const iso_status status = iso_analogue_find(ctx, &r->problem, 1, 1, &a);
-        gsl_test(status != r->status || strcmp(iso_context_field(ctx), r->field) != 0 ||
+        gsl_test(status != r->status || strcmp(iso_context_about(ctx), r->field) != 0 ||
                      !strstr(iso_context_message(ctx), r->words),
-                 "refused (%s: %s): %s", r->field, r->words, iso_context_message(ctx));
+                 "refused (%s: %s): %s", r->problem, r->words, iso_context_message(ctx));
     }
 }
 

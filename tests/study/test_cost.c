@@ -100,7 +100,7 @@ static void check_broken(void)
     const iso_scene s = cost_plane(ctx);
     iso_cost_options o = iso_cost_defaults();
     o.seconds = 1;
-    o.backend = ISO_BALL;
+    o.backend = ISO_BACKEND_BALL;
     o.method = iso_method_find("rk8pd");
     iso_cost *good = cost_of(ctx, &s, &o);
     broken.step = broken_step;
@@ -125,7 +125,7 @@ static void check_orders(const iso_cost *c)
         if (!line->method || line->method->order == 0 || line->method->order > 8 || cells < 4) continue;
         const double least = 0.8 * line->method->order, most = 1.15 * line->method->order + 2;
         gsl_test(!(line->order > least && line->order < most), "%s %s: order %d is found as %.2f",
-                 iso_picture_name((int)line->backend), line->method->name, line->method->order, line->order);
+                 iso_backend_name((int)line->backend), line->method->name, line->method->order, line->order);
         lines++;
     }
     gsl_test(lines < 20, "orders of %d lines", lines);
@@ -143,8 +143,8 @@ static void check_cells(const iso_cost *c, const char *scene)
         measured++;
         strange += !(x->error >= 0 && x->setup >= 0 && x->fastest > 0 && x->fastest <= x->median &&
                      x->median <= x->slowest && x->total == x->setup + x->median && x->repeats >= 3);
-        strange += x->below != (x->error < 3 * c->uncertainty) && x->backend != ISO_EXACT;
-        strange += x->backend != ISO_EXACT && x->statistics.steps == 0;
+        strange += x->below != (x->error < 3 * c->uncertainty) && x->backend != ISO_BACKEND_EXACT;
+        strange += x->backend != ISO_BACKEND_EXACT && x->statistics.steps == 0;
     }
     gsl_test(strange > 0 || measured == 0, "%s: %d cells make sense, %d do not", scene, measured, strange);
     gsl_test(!c->complete || !(c->turns > 0) || c->lines == 0, "%s: %d lines, %.1f turns", scene, c->lines, c->turns);
@@ -232,7 +232,7 @@ static void check_plane(void)
     check_front(c);
     check_choice(c);
     const iso_cost_cell *exact = &c->cell[c->cells - 1];
-    gsl_test(exact->backend != ISO_EXACT || !(exact->error < 1e-13), "the closed solution, by another: %.1e",
+    gsl_test(exact->backend != ISO_BACKEND_EXACT || !(exact->error < 1e-13), "the closed solution, by another: %.1e",
              exact->error);
     gsl_test(strstr(c->reference, "closed") == NULL, "measured against %s", c->reference);
     gsl_test(!(c->uncertainty < 1e-13), "which is known to %.1e", c->uncertainty);
@@ -252,8 +252,8 @@ static void check_scene(const iso_scene *s, const char *name, bool point, bool e
     iso_cost *c = cost_of(ctx, s, &o);
     check_cells(c, name);
     for (int i = 0; i < c->lines; i++) {
-        has_point = has_point || c->line[i].backend == ISO_POINT;
-        has_exact = has_exact || c->line[i].backend == ISO_EXACT;
+        has_point = has_point || c->line[i].backend == ISO_BACKEND_POINT;
+        has_exact = has_exact || c->line[i].backend == ISO_BACKEND_EXACT;
         gsl_test(c->line[i].method && c->line[i].method->reference, "%s: no slow reference among the lines", name);
     }
     gsl_test(has_point != point || has_exact != exact, "%s: the backends that it has", name);

@@ -13,7 +13,8 @@ static iso_context *ctx;
 static iso_cost_growth grow(const iso_scene *s, const char *method, double tolerance, int horizons)
 {
     iso_cost_growth g;
-    const iso_cost_cell cell = {.backend = ISO_BALL, .method = iso_method_find(method), .tolerance = tolerance};
+    const iso_cost_cell cell = {
+        .backend = ISO_BACKEND_BALL, .method = iso_method_find(method), .tolerance = tolerance};
     if (iso_cost_grow(ctx, s, &cell, horizons, &g) != ISO_OK) scene_stops("growth", ctx);
     return g;
 }

@@ -14,7 +14,7 @@ static void refuse(const iso_scene *s, const iso_cost_options *o, iso_status sta
 {
     iso_cost *c;
     const iso_status got = iso_cost_measure(ctx, s, o, &c);
-    gsl_test(got != status || c || strcmp(iso_context_field(ctx), field) != 0, "refused about '%s': %s", field,
+    gsl_test(got != status || c || strcmp(iso_context_about(ctx), field) != 0, "refused about '%s': %s", field,
              iso_context_message(ctx));
 }
 
@@ -28,25 +28,25 @@ static void check_refusals(void)
     s.end = INFINITY;
     refuse(&s, &all, ISO_BAD_ARGUMENT, "end");
     s.end = 10;
-    o.backend = ISO_EXACT;
+    o.backend = ISO_BACKEND_EXACT;
     refuse(&s, &o, ISO_BAD_ARGUMENT, "k");
     o = all;
     o.tolerance = 0.5;
     refuse(&s, &o, ISO_BAD_ARGUMENT, "tolerance");
     o = all;
-    o.backend = ISO_BALL;
+    o.backend = ISO_BACKEND_BALL;
     o.method = iso_method_find("strang");
     refuse(&s, &o, ISO_BAD_ARGUMENT, "method");
     s.effects.on[ISO_GRAVITY] = true;
     GRAVITY_MGB(&s.effects) = 1;
     GRAVITY_UP(&s.effects)[2] = 1;
     o.method = NULL;
-    o.backend = ISO_POINT;
+    o.backend = ISO_BACKEND_POINT;
     refuse(&s, &o, ISO_NOT_MAPPED, "gravity");
     GRAVITY_MGB(&s.effects) = NAN;
     refuse(&s, &all, ISO_BAD_INPUT, "mgb");
     gsl_test(iso_cost_grow(ctx, &s, &(iso_cost_cell){0}, 0, &growth) != ISO_BAD_ARGUMENT ||
-                 strcmp(iso_context_field(ctx), "horizons") != 0,
+                 strcmp(iso_context_about(ctx), "horizons") != 0,
              "no horizons are refused");
 }
 
@@ -80,16 +80,16 @@ static void check_stops(void)
     iso_cost_growth growth;
     int left = 0;
     o.quick = true;
-    iso_context_watch(ctx, count_down, &left);
+    iso_context_set_monitor(ctx, count_down, &left);
     gsl_test(iso_cost_measure(ctx, &s, &o, &c) != ISO_STOPPED || c, "stopped at once, nothing is told");
     left = 2000;
     gsl_test(iso_cost_measure(ctx, &s, &o, &c) != ISO_STOPPED || !c || c->complete || c->cells == 0,
              "stopped later, there is what was measured");
     iso_cost_free(c);
     left = 3;
-    const iso_cost_cell cell = {.backend = ISO_BALL, .method = iso_method_find("rk8pd"), .tolerance = 1e-9};
+    const iso_cost_cell cell = {.backend = ISO_BACKEND_BALL, .method = iso_method_find("rk8pd"), .tolerance = 1e-9};
     gsl_test(iso_cost_grow(ctx, &s, &cell, 4, &growth) != ISO_STOPPED, "growth is stopped");
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
 }
 
 int main(void)

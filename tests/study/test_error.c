@@ -61,7 +61,7 @@ static void compare(laws_worst *covered, laws_worst *tight, double true_error, d
     laws_note(tight, estimate, 50 * true_error + 1e-12, p, where);
 }
 
-static void check_references(const char *method, double tolerance, iso_picture backend, double longest)
+static void check_references(const char *method, double tolerance, iso_backend backend, double longest)
 {
     reference rows[REFERENCE_ROWS];
     laws_worst state = {0}, state_tight = {0}, clock = {0}, clock_tight = {0};
@@ -74,10 +74,10 @@ static void check_references(const char *method, double tolerance, iso_picture b
         o.backend = backend;
         o.method = iso_method_find(method);
         o.tolerance = tolerance;
-        o.carry[ISO_CLOCK_S] = true;
+        o.with_clock[ISO_CLOCK_S] = true;
         trial *run = try(&r->p, &r->start, &o, r->t, 5);
         snprintf(where, sizeof where, "t = %g", r->t);
-        snprintf(title, sizeof title, "%s at %g, backend %s", method, tolerance, iso_picture_name((int)backend));
+        snprintf(title, sizeof title, "%s at %g, backend %s", method, tolerance, iso_backend_name((int)backend));
         gsl_test(run->found != ISO_OK, "%s, row %d: an estimate", title, i);
         compare(&state, &state_tight, distance(run->last.ball, r->ball), run->error.state[ISO_BALL].last, &r->p,
                 where);
@@ -85,7 +85,7 @@ static void check_references(const char *method, double tolerance, iso_picture b
                 run->error.clock[ISO_CLOCK_S].last, &r->p, where);
         end(run);
     }
-    printf("%s at %g, backend %s:\n", method, tolerance, iso_picture_name((int)backend));
+    printf("%s at %g, backend %s:\n", method, tolerance, iso_backend_name((int)backend));
     laws_report(&state, "the error of (w, n) is covered");
     laws_report(&state_tight, "and not much overestimated");
     laws_report(&clock, "the error of s is covered");
@@ -228,7 +228,7 @@ int main(void)
 {
     gsl_test_verbose(1);
     ctx = iso_context_create();
-    for (iso_picture backend = ISO_BALL; backend <= ISO_POINT; backend++) {
+    for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
         check_references("taylor", 1e-6, backend, 100);
         check_references("taylor", 1e-12, backend, 1000);
         check_references("taylor", 1e-15, backend, 1000);
@@ -236,7 +236,7 @@ int main(void)
         check_references("rk8pd", 1e-12, backend, 1000);
         check_references("adams", 1e-9, backend, 100);
     }
-    check_references("blanes_moan6", 1e-8, ISO_POINT, 100);
+    check_references("blanes_moan6", 1e-8, ISO_BACKEND_POINT, 100);
     check_stiff(1e2);
     check_stiff(1e5);
     check_every_row(6);

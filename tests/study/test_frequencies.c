@@ -270,7 +270,7 @@ static void refuses(const iso_scene *scene, const iso_frequencies_options *o, is
 {
     static iso_frequencies f;
     const iso_status status = iso_frequencies_find(ctx, scene, o, &f);
-    gsl_test(status != expected || strcmp(iso_context_field(ctx), field) != 0, "refused: %s",
+    gsl_test(status != expected || strcmp(iso_context_about(ctx), field) != 0, "refused: %s",
              iso_context_message(ctx));
 }
 
@@ -311,11 +311,11 @@ static void check_rotations(int k, laws_worst *worst)
     iso_momentum_make(&p, 0, &m);
     for (int i = 0; i < 3; i++) {
         double y[ISO_STATE] = {0}, size;
-        const iso_field field = {.p = p};
+        const iso_problem problem = {.p = p};
         y[m.axis[i]] = 1.3;
         y[3 + (m.axis[i] + 1) % 3] = 0.6, y[3 + (m.axis[i] + 2) % 3] = -0.8;
         const double h = iso_ball_energy(&p, y);
-        const double F = laws_integral(&iso_system_ball, m.F)->value(&field, y, &size);
+        const double F = laws_integral(&iso_system_ball, m.F)->value(&problem, y, &size);
         laws_note(worst, fabs(F - iso_momentum_rotation(&m, h, i)), 1e-14 * size, &p, "rotation");
     }
 }
@@ -323,19 +323,19 @@ static void check_rotations(int k, laws_worst *worst)
 /* The library's list of bifurcations says the same in c. */
 static void check_list(double H, laws_worst *worst)
 {
-    const iso_field field = {.p = laws_params(-1, (double[]){2, 7, 1.5}), .eps = 3, .energy = H};
+    const iso_problem problem = {.p = laws_params(-1, (double[]){2, 7, 1.5}), .eps = 3, .energy = H};
     iso_bifurcation list[ISO_MOST_BIFURCATIONS];
     iso_momentum m;
-    iso_momentum_make(&field.p, H, &m);
-    const int count = iso_bifurcations(&field, list);
-    laws_note(worst, count < 3 ? NAN : 0, 1, &field.p, "bifurcations");
+    iso_momentum_make(&problem.p, H, &m);
+    const int count = iso_bifurcations(&problem, list);
+    laws_note(worst, count < 3 ? NAN : 0, 1, &problem.p, "bifurcations");
     for (int i = 0; i < count; i++) {
         double nearest = INFINITY;
         for (int j = 0; j < ISO_MOMENTUM_LINES; j++) {
-            const double F = iso_momentum_rotation(&m, iso_energy(&field.p, field.eps), j);
-            nearest = fmin(nearest, fabs(F * field.p.det_J / -2 / list[i].c - 1));
+            const double F = iso_momentum_rotation(&m, iso_energy(&problem.p, problem.eps), j);
+            nearest = fmin(nearest, fabs(F * problem.p.det_J / -2 / list[i].c - 1));
         }
-        laws_note(worst, nearest, 1e-13, &field.p, "bifurcation");
+        laws_note(worst, nearest, 1e-13, &problem.p, "bifurcation");
     }
 }
 
@@ -343,31 +343,31 @@ static void check_list(double H, laws_worst *worst)
 static void check_image(int i, iso_random *random, laws_worst *worst)
 {
     const double J[3] = {1.4, i % 3 == 0 ? 5 : 2.1, 1.1};
-    iso_field field = {.p = laws_params(i % 2 == 0 ? -1 : 1, J)};
+    iso_problem problem = {.p = laws_params(i % 2 == 0 ? -1 : 1, J)};
     double y[ISO_STATE], size, low, high, size_h;
-    iso_system_ball.sample(&field, random, y);
+    iso_system_ball.sample(&problem, random, y);
     if (i % 4 == 0) {
-        field.effects.on[ISO_LEVEL] = true;
-        LEVEL_C(&field.effects) = iso_random_uniform(random, -6, 0.3) * field.energy;
+        problem.effects.on[ISO_LEVEL] = true;
+        LEVEL_C(&problem.effects) = iso_random_uniform(random, -6, 0.3) * problem.energy;
     }
     iso_momentum m;
-    const double h = iso_system_ball.energy(&field, y, &size_h);
-    if (!(h > 0) || !iso_momentum_make(&field.p, iso_coupling(&field.p, LEVEL_C(&field.effects)), &m)) return;
-    const double F = laws_integral(&iso_system_ball, m.F)->value(&field, y, &size);
+    const double h = iso_system_ball.energy(&problem, y, &size_h);
+    if (!(h > 0) || !iso_momentum_make(&problem.p, iso_coupling(&problem.p, LEVEL_C(&problem.effects)), &m)) return;
+    const double F = laws_integral(&iso_system_ball, m.F)->value(&problem, y, &size);
     const iso_momentum_part part = iso_momentum_find(&m, h, F);
     const bool some = iso_momentum_interval(&m, h, part, &low, &high);
     double point[ISO_STATE], excess[3];
     iso_conical at;
-    field.eps = iso_coupling(&field.p, h);
-    field.energy = m.H;
-    iso_ball_to_point(&field.p, y, point);
-    iso_separation_coordinates(&field.p, point, &at);
-    iso_separation_constant(&field, &at, excess);
+    problem.eps = iso_coupling(&problem.p, h);
+    problem.energy = m.H;
+    iso_ball_to_point(&problem.p, y, point);
+    iso_separation_coordinates(&problem.p, point, &at);
+    iso_separation_constant(&problem, &at, excess);
     const iso_momentum_part expected = excess[1] > 0   ? excess[2] > 0 ? ISO_TURNS_ABOUT_1 : ISO_SWINGS_ABOUT_3
                                        : excess[2] > 0 ? ISO_TURNS_ABOUT_3
                                                        : ISO_ON_ONE_SIDE;
-    laws_note(worst, part != expected, 0.5, &field.p, "part");
-    laws_note(worst, some ? fmax(fmax(low - F, F - high), 0) : NAN, 1e-13 * size, &field.p, "inside");
+    laws_note(worst, part != expected, 0.5, &problem.p, "part");
+    laws_note(worst, some ? fmax(fmax(low - F, F - high), 0) : NAN, 1e-13 * size, &problem.p, "inside");
 }
 
 static void check_momentum(void)

@@ -1,5 +1,5 @@
 /* test_run.c - iso_run (study/run.h): every row is that of a new orbit asked for this time alone. Times come in any
- * order; the sink, the watch or a failure may end the run early. */
+ * order; the sink, the monitor or a failure may end the run early. */
 #include "runs.h"
 
 /* Scenes of every kind, none of which loses contact. */
@@ -29,7 +29,7 @@ static void check_kind(int kind)
     gsl_test(grid->rows != iso_scene_rows(&scene) || grid->result.asked != grid->rows, "scene %d: all rows", kind);
     for (size_t i = 0; i < grid->rows; i++) wrong += different(&scene, grid, i, iso_scene_time(&scene, i));
     gsl_test(wrong, "scene %d: %zu rows, each the one of an orbit asked for it alone", kind, grid->rows);
-    gsl_test(grid->wrong_progress || (scene.backend != ISO_EXACT && scene.end != 0 && !(grid->part > 0.5)),
+    gsl_test(grid->wrong_progress || (scene.backend != ISO_BACKEND_EXACT && scene.end != 0 && !(grid->part > 0.5)),
              "scene %d: progress is a part, to %g", kind, grid->part);
     free(grid);
     const size_t count = shuffle(&scene, 0.001, times);
@@ -45,13 +45,13 @@ static void check_result(void)
 {
     static const struct expected {
         int kind;
-        iso_picture backend;
+        iso_backend backend;
         const char *method;
         iso_clock clock;
-    } list[] = {{0, ISO_BALL, "taylor", ISO_CLOCK_T},
-                {1, ISO_EXACT, "exact", ISO_CLOCK_T},
-                {4, ISO_BALL, "rk8pd", ISO_CLOCK_T},
-                {7, ISO_POINT, "taylor", ISO_CLOCK_S}};
+    } list[] = {{0, ISO_BACKEND_BALL, "taylor", ISO_CLOCK_T},
+                {1, ISO_BACKEND_EXACT, "exact", ISO_CLOCK_T},
+                {4, ISO_BACKEND_BALL, "rk8pd", ISO_CLOCK_T},
+                {7, ISO_BACKEND_POINT, "taylor", ISO_CLOCK_S}};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         const iso_scene scene = parse(kinds[list[i].kind]);
         kept *k = run(&scene, NULL, 0);
@@ -59,7 +59,7 @@ static void check_result(void)
         gsl_test(r->backend != list[i].backend || r->clock != list[i].clock || !r->method ||
                      strcmp(r->method->name, list[i].method) != 0,
                  "scene %d: the orbit is found by %s", list[i].kind, list[i].method);
-        gsl_test((r->statistics.steps > 0) == (r->backend == ISO_EXACT), "scene %d: %ld steps", list[i].kind,
+        gsl_test((r->statistics.steps > 0) == (r->backend == ISO_BACKEND_EXACT), "scene %d: %ld steps", list[i].kind,
                  r->statistics.steps);
         gsl_test(r->lost[0] || r->lost[1] || k->notes != 0, "scene %d: no contact is lost", list[i].kind);
         free(k);
@@ -122,8 +122,8 @@ static void check_sink_stops(void)
     free(whole);
 }
 
-/* Stopped by the watch: whatever was found is there, in the order asked for. */
-static void check_watch_stops(bool ordered)
+/* Stopped by the monitor: whatever was found is there, in the order asked for. */
+static void check_monitor_stops(bool ordered)
 {
     const iso_scene scene = parse(kinds[4]);
     double times[MOST];
@@ -133,7 +133,7 @@ static void check_watch_stops(bool ordered)
     bool done = false;
     for (int asked = 0; !done && asked < 100000; asked++) {
         int left = asked;
-        iso_context_watch(ctx, some_times, &left);
+        iso_context_set_monitor(ctx, some_times, &left);
         kept *k = run(&scene, ordered ? NULL : times, count);
         done = k->status == ISO_OK;
         bool right = done || k->status == ISO_STOPPED, mine = iso_context_goes_on(ctx) == (left >= 0);
@@ -145,7 +145,7 @@ static void check_watch_stops(bool ordered)
         if (!done) most = k->rows > most ? k->rows : most, least = k->rows < least ? k->rows : least;
         free(k);
     }
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
     gsl_test(!done || least != 0 || most + 1 < whole->rows, "stopped anywhere, %s: the rows before are there, to %zu",
              ordered ? "on the grid" : "with times in any order", most);
     free(whole);
@@ -187,7 +187,7 @@ static void check_refusals(void)
         {"no times", "times", odd, 0}, {"a time that is NaN", "times", odd, 2}, {"a far time", "end", far, 2}};
     for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
         kept *k = run(&scene, list[i].times, list[i].count);
-        gsl_test(k->status != ISO_BAD_ARGUMENT || k->headers || strcmp(iso_context_field(ctx), list[i].field) != 0,
+        gsl_test(k->status != ISO_BAD_ARGUMENT || k->headers || strcmp(iso_context_about(ctx), list[i].field) != 0,
                  "%s: %s", list[i].what, iso_context_message(ctx));
         free(k);
     }
@@ -249,8 +249,8 @@ int main(void)
     check_result();
     check_order();
     check_sink_stops();
-    check_watch_stops(true);
-    check_watch_stops(false);
+    check_monitor_stops(true);
+    check_monitor_stops(false);
     check_failure();
     check_refusals();
     check_errors();

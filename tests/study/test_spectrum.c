@@ -25,17 +25,17 @@ static void check_stop(const double x[], size_t count, double step)
 {
     iso_line found[ISO_MAX_LINES];
     int lines, asked = 1000;
-    iso_context_watch(ctx, goes_on, &asked);
+    iso_context_set_monitor(ctx, goes_on, &asked);
     must(iso_spectrum_find(ctx, x, count, step, ISO_MAX_LINES, found, &lines), "a spectrum that may be stopped");
     asked = 1000 - asked;
     gsl_test(asked < 2 * lines, "asked %d times whether to go on, for %d lines", asked, lines);
     for (int calls = 0; calls < asked; calls++) {
         int left = calls;
-        iso_context_watch(ctx, goes_on, &left);
+        iso_context_set_monitor(ctx, goes_on, &left);
         const iso_status status = iso_spectrum_find(ctx, x, count, step, ISO_MAX_LINES, found, &lines);
         gsl_test(status != ISO_STOPPED || lines != 0 || left != -1, "stopped when asked %d times", calls + 1);
     }
-    iso_context_watch(ctx, NULL, NULL);
+    iso_context_set_monitor(ctx, NULL, NULL);
 }
 
 /* Six lines of amplitudes 1 to 1e-5, two of them five resolutions apart, at frequencies that are no bins. */

@@ -120,9 +120,9 @@ static void check_interruptions(void)
     for (int asked = 0; asked < 100000 && !whole; asked += 1 + asked / 50) {
         iso_comparison *c;
         int left = asked;
-        iso_context_watch(ctx, some_times, &left);
+        iso_context_set_monitor(ctx, some_times, &left);
         const iso_status status = iso_compare(ctx, &scene, NULL, NULL, &c);
-        iso_context_watch(ctx, NULL, NULL);
+        iso_context_set_monitor(ctx, NULL, NULL);
         whole = status == ISO_OK;
         gsl_test(!whole && status != ISO_STOPPED, "interrupted: %s", iso_context_message(ctx));
         for (int b = 0; c && b < c->runs; b++)
@@ -204,13 +204,15 @@ static iso_record *record_of(const iso_params *p, const iso_start *start, int fi
     iso_orbit *orbit;
     iso_record *record;
     for (int c = 0; c < ISO_CLOCKS; c++) {
-        o.carry[c] = strchr(clocks, "tTs"[c]) != NULL;
-        if (o.carry[c]) columns[width++] = c;
+        o.with_clock[c] = strchr(clocks, "tTs"[c]) != NULL;
+        if (o.with_clock[c]) columns[width++] = c;
     }
     for (int c = first; c <= last; c++) columns[width++] = c;
     for (int c = 0; c < width; c++) names[c] = iso_column_name(columns[c]);
     o.tolerance = 1e-14;
-    o.show = first < 9 ? last > 9 ? ISO_BOTH : ISO_BALL : start->model == ISO_BALL ? ISO_BOTH : ISO_POINT;
+    o.shown = first < 9                  ? last > 9 ? ISO_SHOW_BOTH : ISO_SHOW_BALL
+             : start->model == ISO_BALL ? ISO_SHOW_BOTH
+                                        : ISO_SHOW_POINT;
     must(iso_orbit_create(ctx, p, start, &o, &orbit), "an orbit");
     must(iso_record_create(ctx, (size_t)width, names, &record), "a record");
     for (int i = 0; i < ROWS; i++) {

@@ -9,7 +9,7 @@ typedef struct iso_taylor_code {
     iso_status (*create)(iso_integrator *it);
     iso_status (*start)(iso_integrator *it);
     iso_status (*step)(iso_integrator *it, double y[], double *h);
-    iso_status (*within)(iso_integrator *it, double dt, double y[]);
+    iso_status (*dense)(iso_integrator *it, double dt, double y[]);
 } iso_taylor_code;
 
 extern const iso_taylor_code iso_taylor_plain, iso_taylor_avx2, iso_taylor_extended, iso_taylor_quad;

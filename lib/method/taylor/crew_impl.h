@@ -22,7 +22,7 @@ static void next_row(crew *c, int lane)
 }
 
 /* Gives the lane its next job that has anything to be done. */
-static void take_next(crew *c, int lane)
+static void start_next(crew *c, int lane)
 {
     c->job[lane] = NULL;
     while (c->waiting > 0 && !c->job[lane]) {
@@ -66,7 +66,7 @@ static void output(crew *c, real length, real dt)
             found |= due[i];
         }
         if (!found) return;
-        arrive(T, find(T, target, length * (target / dt)), &s);
+        arrive(T, solve_for_time(T, target, length * (target / dt)), &s);
         for (int i = 0; i < LANES; i++) {
             if (!due[i]) continue;
             iso_lane_job *job = c->job[i];
@@ -107,7 +107,7 @@ static void end_step(crew *c, int lane, double dt)
         else if (c->options->max_steps > 0 && job->steps >= c->options->max_steps)
             job->error = "more steps than allowed";
     }
-    if (job->done == job->rows || job->error) take_next(c, lane);
+    if (job->done == job->rows || job->error) start_next(c, lane);
 }
 
 static bool busy(const crew *c)
@@ -129,7 +129,7 @@ static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_optio
     c->options = options;
     c->next = jobs;
     c->waiting = count;
-    for (int i = 0; i < LANES; i++) take_next(c, i);
+    for (int i = 0; i < LANES; i++) start_next(c, i);
     while (busy(c) && going_on) {
         begin(&c->T);
         expand(&c->T.S);

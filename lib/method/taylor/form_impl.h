@@ -40,24 +40,24 @@ typedef struct form {
 
 static void call_effective_ball(form *T)
 {
-    const iso_field *f = &T->shape.field;
+    const iso_problem *f = &T->shape.problem;
     if (!iso_effects_none(&f->effects)) iso_effects_record_motion(f, true, &T->motion);
     for (int e = 0; e < ISO_EFFECTS; e++)
         T->has_derived = T->has_derived || (f->at[e] > 0 && iso_effect_list[e]->states->kind == ISO_STATE_DERIVED);
     call_ball(&T->S, T->twists, T->motion.lines > 0 ? &T->motion : NULL);
-    call(&T->S, T->twists ? poles_of_loose : poles_of_rigid);
+    add_recurrence(&T->S, T->twists ? poles_of_twisting : poles_of_rigid);
 }
 
 /* In the ball's time the powers cancel, for free points on H = 0; k = -1 is polynomial in s. */
 static void call_point(form *T)
 {
     series *S = &T->S;
-    const iso_field *f = &T->shape.field;
-    S->formula = T->in_field ? &T->shape.field.energy_formula : NULL;
+    const iso_problem *f = &T->shape.problem;
+    S->formula = T->in_field ? &T->shape.problem.energy_formula : NULL;
     T->is_neumann = f->p.k == -1 && !T->in_field;
     T->in_t = !T->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1;
-    call(S, T->in_t ? point_t : T->is_neumann ? neumann : point_s);
-    if (T->in_field) call(S, point_effects);
+    add_recurrence(S, T->in_t ? point_t : T->is_neumann ? neumann : point_s);
+    if (T->in_field) add_recurrence(S, point_effects);
 }
 
 static void call_clock(form *T, iso_clock clock)
@@ -81,20 +81,20 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     T->is_point_t = m->system == &iso_system_point_t;
     T->at_poles = pow(T->tolerance, 0.75);
     T->is_point = m->system == &iso_system_point;
-    T->in_field = T->is_point && m->field.energy_formula.lines > 0;
-    T->twists = !T->is_point && !T->is_point_t && iso_effects_twist(&m->field.effects);
-    T->loaded = !T->is_point && !T->is_point_t && (m->field.motion.torques || T->twists);
+    T->in_field = T->is_point && m->problem.energy_formula.lines > 0;
+    T->twists = !T->is_point && !T->is_point_t && iso_effects_twist(&m->problem.effects);
+    T->loaded = !T->is_point && !T->is_point_t && (m->problem.motion.torques || T->twists);
     if (T->is_point ? !T->in_field : !T->is_point_t && !T->loaded)
-        T->second_of = m->field.p.k == -1 ? SHELL : m->field.p.k == 1 ? PLANE : NONE;
+        T->second_of = m->problem.p.k == -1 ? SHELL : m->problem.p.k == 1 ? PLANE : NONE;
     S->order = order_for(T->tolerance);
     set_counts(S);
     if (T->is_point_t)
-        call(S, point_p);
+        add_recurrence(S, point_p);
     else
         T->is_point ? call_point(T) : call_effective_ball(T);
     T->own = T->is_point && !T->in_t ? ISO_CLOCK_S : ISO_CLOCK_T;
     call_clock(T, m->clock);
-    for (int i = 0; i < m->carried; i++) call_clock(T, m->carry[i]);
+    for (int i = 0; i < m->clocks; i++) call_clock(T, m->clock_of[i]);
     if (T->clocks > 0) make_rule(&T->rule);
 }
 
@@ -113,7 +113,7 @@ static void set_clock(form *T, int lane, const iso_params *p, iso_clock clock, N
 
 static void set_numbers(form *T, int lane, const iso_model *m)
 {
-    const iso_field *f = &m->field;
+    const iso_problem *f = &m->problem;
     series *S = &T->S;
     if (!S->formula) {
         set_ball(S, lane, &f->p, NULL);
@@ -178,7 +178,7 @@ static void load(form *T, int lane, const double y[])
         cross_product(s->n, s->w, turned);
         for (int i = 0; i < 3; i++) LANE(s->w[i], lane) = LANE(turned[i], lane) / LANE(speed, lane);
     }
-    for (int i = 0; i < m->carried; i++) LANE(s->clock[m->carry[i]], lane) = y[m->moving + i];
+    for (int i = 0; i < m->clocks; i++) LANE(s->clock[m->clock_of[i]], lane) = y[m->moving + i];
 }
 
 static vector packed(const real a[3])

@@ -18,11 +18,11 @@ const iso_lane_code *iso_lane_code_find(const char *name)
 
 bool iso_lanes_alike(const iso_model *a, const iso_model *b)
 {
-    const iso_field *f = &a->field, *g = &b->field;
-    bool alike = a->system == b->system && a->clock == b->clock && a->dim == b->dim && a->carried == b->carried &&
+    const iso_problem *f = &a->problem, *g = &b->problem;
+    bool alike = a->system == b->system && a->clock == b->clock && a->dim == b->dim && a->clocks == b->clocks &&
                  (f->p.k == -1) == (g->p.k == -1) && (f->p.k == 1) == (g->p.k == 1) &&
                  (f->energy == 0) == (g->energy == 0);
-    for (int i = 0; i < a->carried && alike; i++) alike = a->carry[i] == b->carry[i];
+    for (int i = 0; i < a->clocks && alike; i++) alike = a->clock_of[i] == b->clock_of[i];
     for (int e = 0; e < ISO_EFFECTS && alike; e++)
         alike = f->effects.on[e] == g->effects.on[e] && f->at[e] == g->at[e];
     return alike && iso_formula_alike(&f->motion, &g->motion) && iso_formula_alike(&f->energy_formula, &g->energy_formula);

@@ -58,9 +58,9 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     return code_of(it)->step(it, y, h);
 }
 
-static iso_status within(iso_integrator *it, double dt, double y[])
+static iso_status dense(iso_integrator *it, double dt, double y[])
 {
-    return code_of(it)->within(it, dt, y);
+    return code_of(it)->dense(it, dt, y);
 }
 
 static void release(iso_integrator *it)
@@ -80,13 +80,13 @@ static void release(iso_integrator *it)
  * stiff models, nor powers of q in (24) that span many decades. */
 static iso_suits suits(const iso_model *m)
 {
-    const bool steep = m->system == &iso_system_point && iso_params_steep(&m->field.p);
-    return steep || iso_effects_stiffness(&m->field) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_BEST;
+    const bool steep = m->system == &iso_system_point && iso_params_steep(&m->problem.p);
+    return steep || iso_effects_stiffness(&m->problem) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_BEST;
 }
 
 #define TAYLOR                                                                                                       \
     .family = "isoroll", .own_equations = true, .projects = true, .fixed = true, .start = start, .step = step,       \
-    .within = within, .free = release
+    .dense = dense, .free = release
 
 const iso_method iso_method_taylor = {.name = "taylor",
                                       .doc = "Taylor series by recurrences, order 6-28 from the tolerance",

@@ -34,7 +34,7 @@ static inline real restore_length(real a[], int count, real target, mask wanted)
 /* The potential of the effects at n (gamma), base g (q), and the sum of the sizes of its terms. */
 static real potential_at(const form *T, const real n[3], real base, const state *s, real *size)
 {
-    const iso_formula *F = &T->shape.field.energy_formula;
+    const iso_formula *F = &T->shape.problem.energy_formula;
     real scalar[ISO_FORMULA_SCALARS], potential = zero;
     vector vectors[ISO_FORMULA_VECTORS], gradient = nought;
     const nodes t = {.kept = 1, .c = T->c, .scalar = scalar, .vector = vectors, .gradient = &gradient,
@@ -252,7 +252,7 @@ static real restore_ball(const form *T, state *s)
 /* The unit vectors among the states of effects. */
 static real restore_unit_states(const form *T, state *s)
 {
-    const iso_field *f = &T->shape.field;
+    const iso_problem *f = &T->shape.problem;
     real worst = zero;
     for (int e = 0; e < ISO_EFFECTS; e++) {
         real *own = s->own + f->at[e] - ISO_STATE;
@@ -297,9 +297,9 @@ static void set_integrals(form *T, int lane, const iso_model *m)
         energy_of(T, &start, &E);
         const real twice = defect_of(E.a, E.b, E.count, zero);
         LANE(T->twice_energy, lane) = LANE(twice, lane);
-        LANE(T->keeps_energy, lane) = iso_effects_keep_energy(&m->field);
+        LANE(T->keeps_energy, lane) = iso_effects_keep_energy(&m->problem);
         for (int i = 0; i < m->dim; i++) y[i] = i < 3 ? (double)LANE(start.w[i], lane) : i < 6 ? (double)LANE(start.n[i - 3], lane) : 0;
-        LANE(T->range, lane) = iso_effects_largest(&m->field, y);
+        LANE(T->range, lane) = iso_effects_largest(&m->problem, y);
     }
 }
 

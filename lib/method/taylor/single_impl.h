@@ -49,14 +49,14 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     if (it->options.fixed_step > 0) {
         const double part = it->direction * it->options.fixed_step / *h;
         *h = it->direction * it->options.fixed_step;
-        own->length = find(T, *h, own->length * part);
+        own->length = solve_for_time(T, *h, own->length * part);
     }
     return arrive_at(it, own->length, &T->now, y);
 }
 
-static iso_status within(iso_integrator *it, double dt, double y[])
+static iso_status dense(iso_integrator *it, double dt, double y[])
 {
     single *own = it->data;
     state s;
-    return arrive_at(it, find(&own->T, dt, own->length * (dt / it->h)), &s, y);
+    return arrive_at(it, solve_for_time(&own->T, dt, own->length * (dt / it->h)), &s, y);
 }

@@ -38,11 +38,11 @@ static void store(const form *T, int lane, const state *s, double y[])
         cross_product(s->w, s->n, M);
         for (int i = 0; i < 3; i++) y[i] = (double)(LANE(M[i], lane) * LANE(speed, lane));
     }
-    for (int i = 0; i < m->carried; i++) y[m->moving + i] = (double)LANE(s->clock[m->carry[i]], lane);
+    for (int i = 0; i < m->clocks; i++) y[m->moving + i] = (double)LANE(s->clock[m->clock_of[i]], lane);
 }
 
 /* How far the clocks go on from 0 to x; gives the relative error of that, estimated. */
-static inline real pass_time(const form *T, real x, real gained[ISO_CLOCKS])
+static inline real integrate_clocks(const form *T, real x, real gained[ISO_CLOCKS])
 {
     real doubt = zero;
     gained[T->own] = x;
@@ -56,7 +56,7 @@ static inline real pass_time(const form *T, real x, real gained[ISO_CLOCKS])
 /* States that omega and n give at any time, in doubles: no equation here reads them. */
 static void find_derived(const form *T, state *s)
 {
-    const iso_field *f = &T->shape.field;
+    const iso_problem *f = &T->shape.problem;
     for (int lane = 0; lane < LANES; lane++) {
         double y[ISO_MAX_STATE] = {0};
         for (int i = 0; i < 3; i++) y[i] = (double)LANE(s->w[i], lane), y[3 + i] = (double)LANE(s->n[i], lane);
@@ -87,10 +87,10 @@ static void state_at(const form *T, real x, state *s)
             s->own[at] = number(S->scalar + node, S->order, x);
     }
     if (T->has_derived) find_derived(T, s);
-    if (m->carried == 0) return;
+    if (m->clocks == 0) return;
     real gained[ISO_CLOCKS];
-    pass_time(T, x, gained);
-    for (int i = 0; i < m->carried; i++) s->clock[m->carry[i]] = T->clock[m->carry[i]] + gained[m->carry[i]];
+    integrate_clocks(T, x, gained);
+    for (int i = 0; i < m->clocks; i++) s->clock[m->clock_of[i]] = T->clock[m->clock_of[i]] + gained[m->clock_of[i]];
 }
 
 /* --- steps ------------------------------------------------------------------------------------------------------ */
@@ -173,7 +173,8 @@ static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
         h = choose(near < h, near, h);
     }
     for (int i = 0;; i++) {
-        const real doubt = pass_time(T, direction * h, gained); /* NaN where the polynomial is no rate any more */
+        const real doubt =
+            integrate_clocks(T, direction * h, gained); /* NaN where the polynomial is no rate any more */
         const mask good = doubt <= tolerance, close = doubt < spread((NUMBER)1e10);
         if (i == 40 || !any(other(good))) return direction * h;
         const real less = rough_root(tolerance / larger(doubt, least), 2 * NODES);
@@ -182,14 +183,14 @@ static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
 }
 
 /* The x at which the model's clock has gone on by dt: Newton's method. */
-static real find(const form *T, real dt, real guess)
+static real solve_for_time(const form *T, real dt, real guess)
 {
     const iso_clock c = T->shape.clock;
     if (c == T->own) return dt;
     real x = guess, gained[ISO_CLOCKS];
     mask far = everywhere();
     for (int i = 0; i < 20 && any(far); i++) {
-        pass_time(T, x, gained);
+        integrate_clocks(T, x, gained);
         const real q = number(T->S.base, T->S.order - 1, x);
         const real step = (gained[c] - dt) / (T->rate[c] * raised(q, T->power[c]));
         x = choose(far, x - step, x);

@@ -80,18 +80,18 @@ __extension__ typedef _Float128 number_of_128_bits;
 #endif
 
 #if ISO_TAYLOR_VARIANT == VARIANT_PLAIN
-const iso_taylor_code iso_taylor_plain = {create, start, step, within};
+const iso_taylor_code iso_taylor_plain = {create, start, step, dense};
 #elif ISO_TAYLOR_VARIANT == VARIANT_AVX2
-const iso_taylor_code iso_taylor_avx2 = {create, start, step, within};
+const iso_taylor_code iso_taylor_avx2 = {create, start, step, dense};
 
 bool iso_taylor_has_avx2(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 }
 #elif ISO_TAYLOR_VARIANT == VARIANT_EXTENDED
-const iso_taylor_code iso_taylor_extended = {create, start, step, within};
+const iso_taylor_code iso_taylor_extended = {create, start, step, dense};
 #elif ISO_TAYLOR_VARIANT == VARIANT_QUAD
-const iso_taylor_code iso_taylor_quad = {create, start, step, within};
+const iso_taylor_code iso_taylor_quad = {create, start, step, dense};
 #else
 
 static bool runs_here(void)

@@ -99,7 +99,7 @@ static inline void twisting_ball(series *S, int n)
 }
 
 /* ... and w' = J^-1 x + D lambda u, lambda = (u,x)/(1 - D g), in that of `forced`. */
-static inline void loose(series *S, int n)
+static inline void twisting(series *S, int n)
 {
     S->gap[n] = (n == 0 ? spread(1) : zero) - S->D * S->base[n];
     if (n == 0) S->over_gap = 1 / S->gap[0];
@@ -107,13 +107,13 @@ static inline void loose(series *S, int n)
     S->w[n + 1] = times(S->inverse[n + 1], plus(by(S->inv_J, S->x[n]), times(S->D, scaled(S->lambda, S->u, n))));
 }
 
-/* r = 1/g of a rigid contact, 1/(1 - D g) of a loose one: where they have poles, so have the ball's equations. */
+/* r = 1/g of a rigid contact, 1/(1 - D g) of a twisting one: where they have poles, so have the ball's equations. */
 static inline void poles_of_rigid(series *S, int n)
 {
     S->pole[n] = n == 0 ? S->over_base : quotient(zero, S->base, S->over_base, S->pole, n);
 }
 
-static inline void poles_of_loose(series *S, int n)
+static inline void poles_of_twisting(series *S, int n)
 {
     S->pole[n] = n == 0 ? S->over_gap : quotient(zero, S->gap, S->over_gap, S->pole, n);
 }
@@ -244,7 +244,7 @@ static inline void expand(series *S)
 
 /* --- what both uses set up -------------------------------------------------------------------------------------- */
 
-static inline void call(series *S, recurrence *term)
+static inline void add_recurrence(series *S, recurrence *term)
 {
     S->term[S->terms++] = term;
 }
@@ -254,10 +254,10 @@ static inline void call_ball(series *S, bool twists, const iso_formula *formula)
 {
     const bool effective = formula && formula->lines > 0;
     S->formula = effective ? formula : NULL;
-    call(S, twists ? twisting_ball : ball);
-    if (effective) call(S, effects);
-    call(S, twists ? loose : effective && formula->torques ? forced : rigid);
-    if (effective && formula->late) call(S, late_effects);
+    add_recurrence(S, twists ? twisting_ball : ball);
+    if (effective) add_recurrence(S, effects);
+    add_recurrence(S, twists ? twisting : effective && formula->torques ? forced : rigid);
+    if (effective && formula->late) add_recurrence(S, late_effects);
 }
 
 /* n, 1/n */

@@ -1,5 +1,5 @@
-/* between.c - the quadrature of between.h on the series of model/series. */
-#include "method/between.h"
+/* two_point.c - the quadrature of two_point.h on the series of model/series. */
+#include "method/two_point.h"
 
 #define NUMBER       double
 #define ROOT         sqrt
@@ -23,7 +23,7 @@ typedef struct sample {
     real slope[HIGHEST + 1][ISO_STATE], rate[ISO_CLOCKS][HIGHEST + 1];
 } sample;
 
-struct iso_between {
+struct iso_two_point {
     form T;
     sample at[2], *left, *right;
     double tolerance;
@@ -33,7 +33,7 @@ struct iso_between {
 };
 
 /* c_0 = 1/2, c_j/c_(j-1) = (p-j+1) j / ((2p+2-j) (j+1)) */
-static void set_weights(iso_between *b)
+static void set_weights(iso_two_point *b)
 {
     for (int p = 0; p <= HIGHEST; p++) {
         b->weight[p][0] = 0.5;
@@ -43,9 +43,10 @@ static void set_weights(iso_between *b)
     }
 }
 
-iso_status iso_between_create(iso_context *ctx, const iso_model *model, double tolerance, iso_between **between)
+iso_status iso_two_point_create(iso_context *ctx, const iso_model *model, double tolerance,
+                                iso_two_point **two_point)
 {
-    iso_between *b = *between = calloc(1, sizeof *b);
+    iso_two_point *b = *two_point = calloc(1, sizeof *b);
     if (!b) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the way between samples");
     set_shape(&b->T, model, tolerance);
     set_numbers(&b->T, 0, model);
@@ -57,12 +58,12 @@ iso_status iso_between_create(iso_context *ctx, const iso_model *model, double t
     return ISO_OK;
 }
 
-void iso_between_free(iso_between *b)
+void iso_two_point_free(iso_two_point *b)
 {
     free(b);
 }
 
-void iso_between_take(iso_between *b, const double y[ISO_STATE])
+void iso_two_point_add(iso_two_point *b, const double y[ISO_STATE])
 {
     sample *const older = b->left;
     b->left = b->right, b->right = older;
@@ -71,7 +72,7 @@ void iso_between_take(iso_between *b, const double y[ISO_STATE])
 }
 
 /* The coefficients at a sample, up to p. */
-static void know(iso_between *b, sample *s, int p)
+static void compute_coefficients(iso_two_point *b, sample *s, int p)
 {
     form *T = &b->T;
     series *S = &T->S;
@@ -95,7 +96,7 @@ static void know(iso_between *b, sample *s, int p)
 }
 
 /* sum_j weight_j h^(j+1) (f_j + (-1)^j g_j), f and g being `stride` apart; *last: what p added. */
-static inline double integral(const iso_between *b, const double power[], const double f[], const double g[],
+static inline double integral(const iso_two_point *b, const double power[], const double f[], const double g[],
                               int stride, double *last)
 {
     double sum = 0, change = 0;
@@ -114,7 +115,7 @@ static double length(const double a[3])
 }
 
 /* By the coefficients up to b->p; *left: what is still missing, in units of what may be. */
-static void measure(iso_between *b, double h, double noise, iso_gap *gap, double *left)
+static void measure(iso_two_point *b, double h, double noise, iso_gap *gap, double *left)
 {
     const sample *f = b->left, *g = b->right;
     const double of_state = 1e-12 + noise, of_clock = larger(b->tolerance, 4 * DBL_EPSILON) + noise;
@@ -141,14 +142,14 @@ static void measure(iso_between *b, double h, double noise, iso_gap *gap, double
     if (!(gap->defect < 1e100)) *left = INFINITY;
 }
 
-bool iso_between_measure(iso_between *b, double h, double noise, iso_gap *gap)
+bool iso_two_point_measure(iso_two_point *b, double h, double noise, iso_gap *gap)
 {
     enum { EASY = 32 };
     double left;
     if (b->declines) return false;
     for (;; b->p++, b->easy = 0) {
-        know(b, b->left, b->p);
-        know(b, b->right, b->p);
+        compute_coefficients(b, b->left, b->p);
+        compute_coefficients(b, b->right, b->p);
         measure(b, h, noise, gap, &left);
         if (left <= 1) break;
         if (b->p == HIGHEST || !(left < 1e100)) return false;

@@ -1,4 +1,4 @@
-/* leap.c - the state at a time within a step, for methods without `within`: from the step's left end by GSL's rk8pd,
+/* dense.c - the state at a time within a step, for methods without `dense`: from the step's left end by GSL's rk8pd,
  * or by its bsimp where "auto" would take an implicit method. */
 #include <float.h>
 #include <math.h>
@@ -7,37 +7,37 @@
 #include "base/vec3_impl.h"
 #include "method/gsl_impl.h"
 
-enum { MOST_STEPS = 100000 }; /* of one leap; as a rule it needs one */
+enum { MOST_STEPS = 100000 }; /* to one time; as a rule it needs one */
 
-struct iso_leaper {
+struct iso_dense {
     iso_gsl gsl;
 };
 
-static const gsl_odeiv2_step_type *leap_type(const iso_integrator *it)
+static const gsl_odeiv2_step_type *step_type(const iso_integrator *it)
 {
     return iso_method_auto(&it->model)->implicit ? gsl_odeiv2_step_bsimp : gsl_odeiv2_step_rk8pd;
 }
 
-iso_status iso_leaper_create(iso_integrator *it)
+iso_status iso_dense_create(iso_integrator *it)
 {
-    iso_leaper *leaper = calloc(1, sizeof *leaper);
-    if (!leaper) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for an integrator");
-    const iso_status status = iso_gsl_open(it, leap_type(it), &leaper->gsl);
-    if (status != ISO_OK) return free(leaper), status;
-    it->leaper = leaper;
+    iso_dense *dense = calloc(1, sizeof *dense);
+    if (!dense) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for an integrator");
+    const iso_status status = iso_gsl_open(it, step_type(it), &dense->gsl);
+    if (status != ISO_OK) return free(dense), status;
+    it->dense = dense;
     return ISO_OK;
 }
 
-void iso_leaper_free(iso_leaper *leaper)
+void iso_dense_free(iso_dense *dense)
 {
-    if (!leaper) return;
-    iso_gsl_close(&leaper->gsl);
-    free(leaper);
+    if (!dense) return;
+    iso_gsl_close(&dense->gsl);
+    free(dense);
 }
 
-iso_status iso_leap(iso_integrator *it, double dt, double y[])
+iso_status iso_dense_at(iso_integrator *it, double dt, double y[])
 {
-    iso_gsl *g = &it->leaper->gsl;
+    iso_gsl *g = &it->dense->gsl;
     double state[ISO_MAX_STATE], h;
     copy(it->at_left, state, it->model.dim);
     iso_gsl_start(g, state, dt);

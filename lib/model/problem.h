@@ -1,10 +1,10 @@
-/* field.h - what distinguishes one orbit's equations from another's: the ball, the energy, and the effects.
+/* problem.h - what distinguishes one orbit's equations from another's: the ball, the energy, and the effects.
  *
  * Each effect keeps its numbers in an array of its own. The row of the effect (effect.h) says what they are.
  * An effect that is not `on` is not simulated, and its numbers are not read.
  */
-#ifndef ISO_MODEL_FIELD_H
-#define ISO_MODEL_FIELD_H
+#ifndef ISO_MODEL_PROBLEM_H
+#define ISO_MODEL_PROBLEM_H
 
 #include <stdbool.h>
 
@@ -19,7 +19,7 @@ typedef struct iso_effects {
     double number[ISO_EFFECTS][ISO_EFFECT_NUMBERS];
 } iso_effects;
 
-typedef struct iso_field {
+typedef struct iso_problem {
     iso_params p;
     double eps;          /* coupling of the point's potential, (24); 0 for the ball      */
     double energy;       /* the energy of the orbit: h of the ball, H of the point       */
@@ -27,6 +27,6 @@ typedef struct iso_field {
     int at[ISO_EFFECTS]; /* where in the state those of an effect begin; 0: it has none  */
     iso_formula motion;  /* the equations of the effects on the ball ...                 */
     iso_formula energy_formula; /* ... and their potential; of the point, their image    */
-} iso_field;
+} iso_problem;
 
 #endif

@@ -1,11 +1,11 @@
-/* between.h - from one sample of an orbit to the next, by what the equations of motion say at the two of them.
+/* two_point.h - from one sample of an orbit to the next, by what the equations of motion say at the two of them.
  *
- *     iso_between *b;
- *     iso_between_create(ctx, &model, 1e-14, &b);
- *     iso_between_take(b, y0);
- *     iso_between_take(b, y1);
- *     if (iso_between_measure(b, h, 0, &gap)) s += gap.gained[ISO_CLOCK_S];
- *     iso_between_free(b);
+ *     iso_two_point *b;
+ *     iso_two_point_create(ctx, &model, 1e-14, &b);
+ *     iso_two_point_add(b, y0);
+ *     iso_two_point_add(b, y1);
+ *     if (iso_two_point_measure(b, h, 0, &gap)) s += gap.gained[ISO_CLOCK_S];
+ *     iso_two_point_free(b);
  *
  * The equations give every derivative of the state, and of the clocks' rates, at both samples. With the Taylor
  * coefficients f_j at the left one and g_j at the right one
@@ -17,12 +17,12 @@
  * it is how far the clock goes on; of y' it is y1 - y0 if the samples lie on one orbit, and what is left is the
  * defect.
  */
-#ifndef ISO_METHOD_BETWEEN_H
-#define ISO_METHOD_BETWEEN_H
+#ifndef ISO_METHOD_TWO_POINT_H
+#define ISO_METHOD_TWO_POINT_H
 
 #include "../model/model.h"
 
-typedef struct iso_between iso_between;
+typedef struct iso_two_point iso_two_point;
 
 typedef struct iso_gap {
     double gained[ISO_CLOCKS]; /* by the clocks that the model carries, 0 for others                       */
@@ -33,15 +33,16 @@ typedef struct iso_gap {
 
 /* For samples of that model, whose states are those of its system alone. tolerance: relative error that a clock's
  * gain may have. Errors: ISO_NO_MEMORY. */
-iso_status iso_between_create(iso_context *ctx, const iso_model *model, double tolerance, iso_between **between);
-void iso_between_free(iso_between *between);
+iso_status iso_two_point_create(iso_context *ctx, const iso_model *model, double tolerance,
+                                iso_two_point **quadrature);
+void iso_two_point_free(iso_two_point *quadrature);
 
 /* The next sample, six numbers; the one before becomes the left one. */
-void iso_between_take(iso_between *between, const double y[ISO_STATE]);
+void iso_two_point_add(iso_two_point *quadrature, const double y[ISO_STATE]);
 
 /* From the left sample to the right one, h of the model's clock later, as exactly as the tolerance wants or the noise
  * of the samples allows (what defects they have as a rule, 0 or more). False: they are too far apart for that, or the
  * series diverge. */
-bool iso_between_measure(iso_between *between, double h, double noise, iso_gap *gap);
+bool iso_two_point_measure(iso_two_point *quadrature, double h, double noise, iso_gap *gap);
 
 #endif
