@@ -85,7 +85,7 @@ static bool write_line(iso_formula *F, iso_operation operation, int to, int a, i
 int iso_formula_scalar(iso_formula *F, iso_operation operation, int a, int b)
 {
     const int to = next_place(F, &F->scalars, ISO_FORMULA_SCALARS);
-    if (write_line(F, operation, to, a, b)) F->late_scalar |= (uint32_t)1 << to;
+    if (write_line(F, operation, to, a, b)) F->late_scalar |= (uint64_t)1 << to;
     return to;
 }
 

@@ -70,7 +70,7 @@ typedef struct iso_formula {
     bool torques; /* there is a torque                                               */
     int constants, scalars, vectors, lines, states;
     uint64_t late_line;                               /* a bit each                  */
-    uint32_t late_scalar;
+    uint64_t late_scalar;
     uint64_t late_vector;
     iso_formula_line constant[ISO_FORMULA_CONSTANTS]; /* how each is computed        */
     double value[ISO_FORMULA_CONSTANTS];              /* in doubles                  */

@@ -212,6 +212,7 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
 {
     const iso_analogue_ball *r = &a->reduced;
     iso_params params;
+    double start[ISO_STATE];
     a->room = triangle_room(r->params.J);
     if (!(a->room > 0)) {
         snprintf(a->no_body, sizeof a->no_body,
@@ -220,7 +221,8 @@ static void make_body(iso_context *ctx, double mass, double radius, iso_analogue
                  a->room);
         return;
     }
-    iso_analogue_choose_units(a, &mass, &radius);
+    iso_analogue_start(a, start);
+    iso_analogue_choose_units(a, start, &mass, &radius);
     iso_body body = {.mass = mass, .radius = radius};
     const double D = mass * radius * radius, level_energy = iso_coupling(&r->params, r->level);
     a->scale = 2 * (D / a->room);

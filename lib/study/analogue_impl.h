@@ -4,7 +4,7 @@
 
 #include "study/analogue.h"
 
-/* Chooses what is NAN of mass and radius. a->room and a->reduced are known and have a body. */
-void iso_analogue_choose_units(const iso_analogue *a, double *mass, double *radius);
+/* Chooses what is NAN of mass and radius. a->room and a->reduced are known and have a body; start: of the point. */
+void iso_analogue_choose_units(const iso_analogue *a, const double start[ISO_STATE], double *mass, double *radius);
 
 #endif

@@ -42,20 +42,19 @@ double iso_analogue_round_up(double x)
     return round_number(n);
 }
 
-/* The ball's angular velocity at the start that iso_analogue_start chooses. */
-static double angular_velocity(const iso_analogue *a)
+/* The ball's angular velocity at the point's start. */
+static double angular_velocity(const iso_analogue *a, const double start[ISO_STATE])
 {
-    double y[ISO_STATE];
-    iso_analogue_start(a, y);
-    iso_point_to_ball(&a->reduced.params, y, y);
-    return norm(y);
+    double ball[ISO_STATE];
+    iso_point_to_ball(&a->reduced.params, start, ball);
+    return norm(ball);
 }
 
 /* The D = m B^2 for which the angular velocity of the body is 1. For k near 1/4 it hardly depends on D: then, and
  * where the ball is at rest, D is 1. */
-static double best_D(const iso_analogue *a)
+static double best_D(const iso_analogue *a, const double start[ISO_STATE])
 {
-    const double power = (1 / a->reduced.params.k - 4) / 2, w = angular_velocity(a);
+    const double power = (1 / a->reduced.params.k - 4) / 2, w = angular_velocity(a, start);
     const double D = a->room / 2 * pow(w, -1 / power);
     if (!(w > 0) || !isfinite(w) || !(fabs(power) > 0.25)) return 1;
     return fmin(fmax(D, 1e-9), 1e9);
@@ -73,10 +72,10 @@ static void choose_both(double D, double *mass, double *radius)
     }
 }
 
-void iso_analogue_choose_units(const iso_analogue *a, double *mass, double *radius)
+void iso_analogue_choose_units(const iso_analogue *a, const double start[ISO_STATE], double *mass, double *radius)
 {
     if (!isnan(*mass) && !isnan(*radius)) return;
-    const double D = best_D(a);
+    const double D = best_D(a, start);
     if (isnan(*mass) && isnan(*radius))
         choose_both(D, mass, radius);
     else if (isnan(*mass))
