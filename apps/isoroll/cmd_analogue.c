@@ -253,8 +253,9 @@ const command command_analogue = {
     .size = sizeof defaults,
     .file = offsetof(options, file),
     .description =
-        "The problem is a scene of a 'point', or --neumann, or --k, --J and --eps. The start of a scene is carried "
-        "over; otherwise a start is chosen. The answer is a scene of a ball, with a report in # lines.\n\n"
+        "The problem is a scene of a 'point', or --neumann, or --k, --J and --eps. If the problem is a "
+        "scene, its start is kept; otherwise a start is chosen. The answer is a scene of a ball, with a report in "
+        "# lines.\n\n"
         "The ball is free (no potential acts on it) where that is possible. It is a body with mass and radius where "
         "there is one, else k and J alone. Mass and radius that are not given are round numbers, chosen so that the "
         "angular velocity is of order one.",

@@ -231,7 +231,7 @@ static const option_row rows[] = {
         set_tolerance, options, tolerance),
     ROWS_OF_FILE(options, from),
     ROW("max-defect", "X", "a number from 0 on",
-        "exit with status 1 if a row is farther than X off the orbit before it", set_bound, options, max_defect),
+        "exit with status 1 if a row is farther than X from the orbit before it", set_bound, options, max_defect),
     ROW("shift-J", NULL, NULL, "k = -1: a point off H = 0 becomes a free ball with moments J + E/eps", set_flag,
         options, shift_J),
     ROW("strict", NULL, NULL, "stop at the first bad row", set_flag, options, strict),
@@ -251,9 +251,9 @@ const command command_convert = {
         "A filter: row by row, in constant memory. It reads files of other programs, too. k, J and h or eps come "
         "from "
         "the # lines of the file, from --scene, or from --k and --J.\n\n"
-        "States are mapped through (18). The clock of the other model, unless the file has it, is computed from the "
-        "rows by two-point Taylor quadrature to --tol. Where the rows are too far apart it is integrated. It is 0 at "
-        "the first row.\n\n"
+        "States are mapped by (18) of the paper. The clock of the other model, unless the file has it, is computed "
+        "from the rows by two-point Taylor quadrature to --tol. Where the rows are too far apart it is integrated. "
+        "It is 0 at the first row.\n\n"
         "A row that cannot be converted becomes a row of nan. The first 20 are named, the others are counted. Rows "
         "with few digits need a --row-tolerance.\n\n"
         "A point off the level H = 0 becomes a ball in the potential of the effect "

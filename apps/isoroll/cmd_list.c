@@ -112,7 +112,7 @@ static const struct {
     void (*list)(void);
 } topics[] = {
     {"systems", "the two models", list_systems},
-    {"backends", "what finds an orbit (--backend)", list_backends},
+    {"backends", "what computes an orbit (--backend)", list_backends},
     {"effects", "what can act on the ball, and what can be computed beside its motion (effects:)", list_effects},
     {"methods", "integrators (--method)", list_methods},
     {"surfaces", "what the ball rolls on (surface: kind)", list_surfaces},

@@ -59,7 +59,7 @@ const command command_manual = {
     .word = page_word,
     .description =
         "A page is isoroll (the default), the name of a command, bash or zsh. Installation puts all of them in "
-        "their places; this command prints them for an installation without these places.",
+        "their places. Where isoroll is not installed, this command prints them.",
     .example = "isoroll manual run | man -l -\nsource <(isoroll manual bash)",
     .run = run,
 };

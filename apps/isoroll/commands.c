@@ -12,7 +12,7 @@ const command *const commands[] = {&command_run,         &command_convert, &comm
 
 const char *const about_isoroll =
     "isoroll simulates the rubber Chaplygin ball that rolls on a sphere, and its twin, a point on a sphere in a "
-    "Neumann/Braden potential. It carries orbits from one model to the other.";
+    "Neumann/Braden potential. It converts orbits of one model into orbits of the other.";
 
 const char *const about_exits = "0: done\n"
                                 "1: some rows failed, a bound was broken, or interrupted\n"

@@ -22,7 +22,8 @@ static void print_folded(const char *text, FILE *to)
 
 static void print_row(const option_row *r, FILE *to)
 {
-    fprintf(to, "  --%-10s %-9s %s", r->name, r->argument ? r->argument : "", r->doc);
+    const int length = (int)strlen(r->name), name = length > 10 ? length : 10; /* then fewer blanks */
+    fprintf(to, "  --%-*s %-*s %s", name, r->name, 19 - name, r->argument ? r->argument : "", r->doc);
     if (r->letter && r->argument)
         fprintf(to, " (-%c %s)", r->letter, r->argument);
     else if (r->letter)

@@ -31,7 +31,7 @@ typedef struct file_options {
         ROW("columns", "NAMES", "names with commas between", "the file's columns from left to right; - for others",  \
             set_text, type, from.columns),                                                                           \
         ROW("row-tolerance", "X", "a number in [1e-15, 0.1]",                                                        \
-            "how far a row may be from a state (default 1e-5): more for few digits", set_tolerance, type,            \
+            "largest error of a row's state (default 1e-5); more for rows of few digits", set_tolerance, type,      \
             from.row_tolerance)
 
 /* Puts what the options say into the record of the file (its lines, its row tolerance), and reads the parameters from

@@ -22,7 +22,7 @@ typedef struct scene_options {
 
 /* Rows of these; `scene` is the place of a scene_options in the struct `type`. */
 #define ROW_BACKEND(type, scene)                                                                                     \
-    ROW_OF_WORDS("backend", "B", "ball, point, exact or auto", "what finds the orbit: ball, point, exact, auto",     \
+    ROW_OF_WORDS("backend", "B", "ball, point, exact or auto", "what computes the orbit: ball, point, exact, auto", \
                  set_backend, type, scene.backend, backend_word)
 #define ROW_METHOD(type, scene)                                                                                      \
     ROW_OF_WORDS("method", "NAME", "a method of 'isoroll list methods', or auto", "the integrator, or auto",         \

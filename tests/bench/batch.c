@@ -1,12 +1,19 @@
-/* Orbits per second: 1000 balls with J = (1.4, 2.1, 3.0), random starts of the energy h = 0.81, to t = 100.
+/* bench_batch - how many orbits a second can be computed: one by one, and many side by side (iso_batch_run).
  *
  *     bench_batch [K] [REPETITIONS]
  *
- * One row for each tolerance of rk8pd and of taylor one by one, of iso_batch_run on one thread for each kind of
- * vectors of this processor, and on all threads: 50th, 95th and 99th percentile of the largest errors of the final
- * states in units of their vectors (next to a separatrix they are a hundred times the median), orbits per second of
- * processor time, and on all threads of wall time; then their ratio to rk8pd at a 95th percentile of 1e-9. Errors are
- * against long double.
+ * The orbits are 1000 balls with J = (1.4, 2.1, 3.0) and random starts of the energy h = 0.81, to t = 100. K is the
+ * geometry number (default -1). The fastest of REPETITIONS runs counts.
+ *
+ * How to read the output. There is a block for rk8pd, for taylor (both one orbit after the other), for iso_batch_run
+ * on one thread with each kind of vectors of this processor, and for iso_batch_run on all threads.
+ * - Each row is one tolerance: 50th, 95th and 99th percentile of the errors of the final states, then orbits a
+ *   second.
+ * - The last line of a block is for equal errors: orbits a second where the 95th percentile is 1e-9, and the ratio to
+ *   rk8pd. Compare these lines.
+ * - An error is relative to the length of the vector, against Taylor series in long double. Orbits next to a
+ *   separatrix have errors a hundred times the median.
+ * - Seconds are processor time; on all threads they are time on the wall.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,10 +1,13 @@
 /* bench_effects - what each effect costs: states, one right-hand side, a whole orbit; as ratios to the free ball's.
  *
- *     cmake -S . -B .build/release -DBUILD_TESTING=ON && cmake --build .build/release -j 2 && .build/release/tests/bench_effects
+ *     cmake -S . -B .build/release && cmake --build .build/release -j 2 && .build/release/tests/bench_effects
  *
- * The ball is the shell k = -1, J = (1.4, 2.1, 3.0), D = 0.5; its orbit runs to t = 100 with method auto at tolerance
- * 1e-12. Each time is the least of several; the rounds go over all cases in turn, so that the ratios hold on a noisy
- * machine.
+ * The ball is the shell k = -1, J = (1.4, 2.1, 3.0), D = 0.5. Its orbit runs to t = 100 with method auto at tolerance
+ * 1e-12.
+ *
+ * How to read the output. Each row is one effect: the number of states, the time of one right-hand side, its ratio to
+ * the free ball's, the time of the whole orbit, and its ratio. Compare the ratios: times depend on the machine. Each
+ * time is the least of several rounds, and each round goes over all effects, so that ratios hold on a noisy machine.
  */
 #include <math.h>
 #include <stdio.h>

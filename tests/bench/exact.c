@@ -1,16 +1,19 @@
-/* What the closed solution costs: set-up, one time, grids; and against stepping there.
+/* bench_exact - what the closed solution costs: set-up, one time, grids; and what methods with steps cost instead.
  *
  *     bench_exact [--long]
  *
- * First: microseconds of processor time for ORBITS random orbits (J between 1 and 4), of a kind in each row, for the
- * set-up with the clock t alone and with all three, for one state at random times t up to a bound, and for a point of
- * a grid of some step in turns. Of an orbit the least of several rounds counts; `half` of the orbits and `95 %` of
- * them take at most so long. `rounds` is the median of all rounds of all orbits: what the machine's other work adds. inf: refused.
+ * How to read the first table. It shows microseconds of processor time for ORBITS random orbits (J between 1 and 4)
+ * of each kind. The columns are: set-up with the clock t alone, set-up with all three clocks, one state at random
+ * times t up to a bound, one point of a grid whose step is given in turns. Each kind has three rows:
+ * - half: half of the orbits take at most so long (of each orbit the least of several rounds counts);
+ * - 95 %: so do 95 % of the orbits;
+ * - rounds: the median of all rounds of all orbits. If it is far above `half`, other work disturbed the machine.
+ * inf: the orbit was refused.
  *
- * Then problem A of bench_methods to t = 1e2, 1e3 ...: milliseconds and error of the closed solution, set-up
- * included, of `taylor` on the point and of `rk8pd` on the ball, at the tolerance with which they are most exact.
- * Errors are those of the ball's state in units of its vectors, against Taylor series in long double, as far as these
- * go. Times in brackets are those of the last run, scaled with t. --long: runs and reference go ten times as far.
+ * How to read the second table. It goes to t = 1e2, 1e3, ... on problem A of bench_methods, and shows milliseconds
+ * and errors of the closed solution (set-up included), of `taylor` on the point and of `rk8pd` on the ball, each at
+ * the tolerance where it is most exact. An error is relative to the length of the vector, against Taylor series in long
+ * double, as far as these go. A time in brackets is the last run's, scaled with t. --long: ten times as far.
  */
 #include <math.h>
 #include <stdio.h>

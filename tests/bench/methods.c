@@ -1,16 +1,20 @@
-/* Time and error of every method on free balls with J = (1.4, 2.1, 3.0), n = (0.36, 0.48, 0.8), w = (0.9, -0.3, w3):
+/* bench_methods - time and error of every method on free balls.
  *
  *     bench_methods [--long] [METHOD...]
  *
- * Problem A is the ball's state at t = 1000 for five k, by the equations of the ball and by those of the point;
- * problem B is the point's state at the s of that moment. First table, one row for each method and tolerance: largest
- * error of the ball's final state in units of the vector it belongs to, CPU milliseconds, and their ratio to rk8pd on
- * the ball at the same tolerance. Second table: milliseconds for an error, between the tolerances on logarithmic
- * scales, their ratios to rk8pd on the ball at the same error, and the best error. --long instead: the ball's state
- * at t = 1e6, k = -1, against the time rk8pd takes for t = 1e5.
+ * The ball has J = (1.4, 2.1, 3.0), n = (0.36, 0.48, 0.8), w = (0.9, -0.3, w3), and five values of k in turn.
+ * - A ball, A point: the ball's state at t = 1000, by the equations of the ball, and by those of the point.
+ * - B point: the point's state at the s of that moment.
  *
- * Times are medians of passes that take turns; those of one machine do not carry to another, ratios do. Errors are
- * against Taylor series in long double. A run that needs more than 300000 steps is left out ("-").
+ * How to read the output. Each k has two tables.
+ * - First: a row for each method and tolerance. Largest error of the final state (relative to the length of its
+ *   vector), milliseconds of processor time, and their ratio to rk8pd on the ball at the same tolerance.
+ * - Second: a row for each method. Milliseconds for an error of 1e-6, 1e-9 and 1e-12 (interpolated between the
+ *   tolerances), the ratios of these to rk8pd on the ball at the same error, and the least error. Compare these
+ *   ratios: they carry over to other machines, about; milliseconds do not. "-": not reached in 300000 steps.
+ *
+ * A time is the median of passes over all methods in turn. Errors are against Taylor series in long double.
+ * --long: instead, the ball's state at t = 1e6, k = -1, against the time that rk8pd takes for t = 1e5.
  */
 #include <math.h>
 #include <stdbool.h>
