@@ -12,8 +12,8 @@
  *
  * How to read the second table. It goes to t = 1e2, 1e3, ... on problem A of bench_methods, and shows milliseconds
  * and errors of the closed solution (set-up included), of `taylor` on the point and of `rk8pd` on the ball, each at
- * the tolerance where it is most exact. An error is relative to the length of the vector, against Taylor series in long
- * double, as far as these go. A time in brackets is the last run's, scaled with t. --long: ten times as far.
+ * the tolerance where it is most exact. An error is relative to the length of the vector, against Taylor series in
+ * long double, as far as these go. A time in brackets is the last run's, scaled with t. --long: ten times as far.
  */
 #include <math.h>
 #include <stdio.h>
