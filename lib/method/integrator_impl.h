@@ -47,9 +47,10 @@ struct iso_integrator {
     iso_dense *dense;   /* reaches times within a step; NULL where the method does                    */
 };
 
-/* The contract of iso_method.step: y holds the state at the end of the last step (and, after start, at time 0);
- * the method advances it by one step of its choice in it->direction and gives the exact step length in *h.
- * Helpers for the methods: */
+/* The contract of iso_method.step: y holds the state at the end of the last step, after `start` that at time 0.
+ * The method advances y by one step in it->direction, and gives the exact step length in *h, with the sign of the
+ * direction. It chooses the length itself, or takes it->options.fixed_step where that is above 0 (if its row says
+ * `fixed`). A step that cannot be taken returns iso_integrator_stopped(). Functions for the methods: */
 
 /* y' = f(y), counted; false when a derivative is not finite. */
 bool iso_integrator_rhs(iso_integrator *it, const double y[], double dy[]);

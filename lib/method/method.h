@@ -77,7 +77,7 @@ typedef struct iso_method {
     /* How well it suits a model that it serves, for iso_method_auto; NULL: ISO_NEVER. */
     iso_suits (*suits)(const iso_model *model);
 
-    /* Make and release the method's own data; begin at it->right; take one step, see integrator_impl.h. */
+    /* Make and release the method's own data; begin at it->at_right; take one step, see integrator_impl.h. */
     iso_status (*create)(iso_integrator *it);
     iso_status (*start)(iso_integrator *it);
     iso_status (*step)(iso_integrator *it, double y[], double *h);
@@ -104,7 +104,7 @@ enum { ISO_WHY_SIZE = 256 };
 bool iso_method_serves(const iso_method *method, const iso_model *model, char why[ISO_WHY_SIZE]);
 
 /* What "auto" means for a model: of the methods that serve it the one that suits it best (iso_method.suits), the
- * first in the registry of equals. As a rule:
+ * first of equals in the registry. As a rule:
  * - stiff models (iso_effects_stiffness): `bsimp`, the stiffest `bdf`;
  * - (24) with |k| so small that (max J/min J)^(1/|k|) > 1e10: `rk8pd`;
  * - all others: `taylor`. */

@@ -3,9 +3,8 @@
  * 1. Write lib/method/NAME.c with one row, `const iso_method iso_method_NAME = {...}`. Every member is explained in
  *    method.h, what `create`, `start` and `step` must do in integrator_impl.h. gsl.c is a short example.
  * 2. Say in the row what the method needs of a model: `implicit`, `own_equations`, `steps_in_s`, `system`. A model
- * that
- *    lacks it is then refused by name (serves.c), and "auto" passes the method over. If the method needs something
- *    that has no member yet, add the member to iso_method and the check to serves.c.
+ *    that lacks it is then refused by name (serves.c), and "auto" passes the method over. If the method needs
+ *    something that has no member yet, add the member to iso_method and the check to serves.c.
  * 3. If "auto" may take it, write `suits`, with the measurement that says when it is the best.
  * 4. Add X(NAME) to ISO_METHOD_LIST below. No other list names a method: commands, scenes, comparisons and tests go
  *    through this one.

@@ -1,8 +1,8 @@
-/* effect.h - what can act on the ball beyond (9), or be asked of it: the third table of the library.
+/* effect.h - the table of effects: what can act on the ball beyond (9), or be computed beside its motion.
  *
  * A row holds everything that the library knows of an effect. Nothing else names it. To add an effect, write one file,
- * effect_<name>.c, and one line in effect_list.h. What a row leaves out is either something the effect does not have, or
- * it is refused by name by whoever needs it. The defaults are safe: an effect that does not say so keeps no energy, no
+ * effect_<name>.c, and one line in effect_list.h. What a row leaves out the effect does not have; code that needs it
+ * refuses the effect by name. The defaults are safe: an effect that does not say so keeps no energy, no
  * integral and no isomorphism.
  *
  *     effect              torque MQ on the ball                 states          isomorphism
@@ -39,7 +39,8 @@ typedef struct iso_effect_number {
     bool required;           /* a scene must have the key                                                           */
     bool scene_only;         /* not a line of trajectory files: the row's `complete` uses it, or only a run does    */
     const double *initially; /* count numbers, where a scene has no such key; NULL: zeros                           */
-    const char *turns_with;  /* the group of columns that holds these numbers at later times; NULL: they are fixed  */
+    const char *turns_with;  /* the group of columns with these numbers at later times: a row of a file starts with
+                                them (`begin`); NULL: they are fixed                                                 */
 } iso_effect_number;
 
 /* Columns that an effect adds to a trajectory: one group is one number or vector, one dataset of HDF5 files. */
@@ -82,7 +83,7 @@ typedef struct iso_effect {
     const char *name, *doc;
 
     /* --- what it means --- */
-    bool observes;            /* it changes nothing in the motion: it is only asked of it                           */
+    bool observes;            /* it changes nothing in the motion: it only adds states or columns                   */
     bool ball_only;           /* an observer whose states or columns only backend ball has                          */
     const char *breaks;       /* why no isomorphism survives it; NULL: it has an image, or it observes              */
     bool needs_D;             /* it needs D = m b^2                                                                 */
@@ -90,8 +91,8 @@ typedef struct iso_effect {
     bool twists;              /* the contact is not rigid: (omega,n) is free                                        */
     bool clocks;              /* it asks for the clocks as columns, and for nothing else                            */
     bool is_level;            /* its potential is the energy level of the point: no force on the point              */
-    iso_work (*work)(const iso_problem *f);                    /* NULL: unknown, of an observer none              */
-    bool (*keeps)(const iso_problem *f, iso_further integral); /* NULL: none, of an observer all                  */
+    iso_work (*work)(const iso_problem *f);                    /* NULL: unknown; for an observer: none            */
+    bool (*keeps)(const iso_problem *f, iso_further integral); /* NULL: it keeps none; an observer: all           */
     const char *(*no_frequencies)(const iso_problem *f);       /* why n(t) is not quasi-periodic; NULL: it may be */
 
     /* --- its numbers and columns --- */
@@ -105,7 +106,8 @@ typedef struct iso_effect {
     iso_status (*check)(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *effects);
     /* Why a scene leaves one of its columns empty; NULL, or answering NULL: it does not. */
     const char *(*empty)(const iso_params *p, const iso_effects *effects, const char *column);
-    /* Its columns, one after the other, in own units; and back: the states from the columns. */
+    /* Its columns, one after the other, in own units; and back: the states from the columns. An effect with states and
+     * columns must have both. */
     void (*show)(const iso_problem *f, const double y[], double columns[]);
     void (*recall)(const iso_problem *f, const double columns[], double y[]);
 
@@ -113,8 +115,8 @@ typedef struct iso_effect {
     void (*motion)(iso_formula *F, const iso_problem *f);    /* torque on the ball, rates of its states        */
     void (*potential)(iso_formula *F, const iso_problem *f); /* U                                              */
     void (*image)(iso_formula *F, const iso_problem *f);     /* V and dV/dgamma of the point                   */
-    /* In place of `motion`, where the formulas do not have what it takes: adds MQ to T. Then only methods that need
-     * nothing but y' take the effect; others refuse it by name. */
+    /* The torque of an effect that formulas cannot state: adds MQ to T. Then only methods that need nothing but y'
+     * take the effect; others refuse it by name. Rates of its states stay in `motion`. */
     void (*torque)(const iso_problem *f, const double y[], double T[3]);
 
     /* --- its states --- */

@@ -4,16 +4,16 @@
  *
  *     static void motion(iso_formula *F, const iso_problem *f)            MQ = mgb e x n,  e' = e x omega
  *     {
- *         const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]), n = formula_n(F), omega = formula_omega(F);
- *         add_torque(F, constant(F, numbers(f)->mgb), cross_of(F, e, n));
- *         set_rate(F, e, cross_of(F, e, omega));
+ *         const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]);
+ *         add_torque(F, constant(F, mgb(f)), cross_of(F, e, formula_n(F)));
+ *         set_rate_v(F, e, constant(F, 1), cross_of(F, e, formula_omega(F)));
  *     }
  *
  * formula.h says what becomes of it.
  *
- * A formula may depend on which effects are on and on whether k = 1, but not on other numbers: orbits that share the
- * lanes of a vector share their formulas. Constants are computed in the numbers of each method, so that 128 bits stay
- * 128 bits: write div_c(F, constant(F, 1), constant_k(F)), not constant(F, 1 / k).
+ * Which lines a formula has may depend on which effects are on, and on whether k = 1, but on no other number: orbits
+ * that share the lanes of a vector share their formulas. Constants are computed in the numbers of each method, so that
+ * 128 bits stay 128 bits: write div_c(F, constant(F, 1), constant_k(F)), not constant(F, 1 / k).
  */
 #ifndef ISO_MODEL_FORMULA_IMPL_H
 #define ISO_MODEL_FORMULA_IMPL_H
@@ -255,7 +255,7 @@ static inline void add_torque(iso_formula *F, iso_constant c, iso_vector a)
     iso_formula_result(F, ISO_R_TORQUE, 0, c.at, a.at);
 }
 
-/* state' = c a; each state has one rate */
+/* state' = c a. Every state must be given a rate, and once only. */
 static inline void set_rate_v(iso_formula *F, iso_vector state, iso_constant c, iso_vector a)
 {
     iso_formula_result(F, ISO_R_VECTOR_RATE, state.at, c.at, a.at);

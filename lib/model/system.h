@@ -1,7 +1,7 @@
 /* system.h - the two systems of the isomorphism behind one table: `ball` (9) and `point` (24).
  *
- * A row is everything the rest of the library knows of a system. Adding one is one file and one line in
- * system.c. All functions work in any consistent units; iso_orbit calls them in the ball's own units.
+ * A row is everything the rest of the library knows of a system. lib/README.md says how to add one; it does not enter
+ * the registry. All functions work in any consistent units; iso_orbit calls them in the ball's own units.
  *
  *     ball    y = (omega, n)   clock t    J w' = J w x w + lambda n,  n' = k n x w,  (w,n) = 0,  |n| = 1       (9)
  *     point   y = (M, gamma)   clock s    M' = gamma x dV/dgamma,     gamma' = gamma x M,

@@ -1,5 +1,6 @@
-# extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral. Every
-# backend and method either simulates the new effect, and all agree, or refuses it by name.
+# extend.sh - the recipes of tests/extend, followed in a copy of the source: an effect, a method, an integral; and the
+# system of lib/README.md. Every backend and method either simulates the new effect, and all agree, or refuses it by
+# name.
 . "$(dirname "$0")/lib.sh"
 copy=$work/copy
 recipes=$source/tests/extend
@@ -21,6 +22,13 @@ awk -v functions="$recipes/integral_round.c" '
     { print }' "$source/lib/model/ball.c" >"$copy/lib/model/ball.c"
 cp "$recipes/effect_drag.c" "$copy/lib/model/"
 cp "$recipes/kutta38.c" "$copy/lib/method/"
+
+# The system of lib/README.md: every block from "circle.c" to the end of its row compiles.
+awk '/^    \/\* circle\.c/ { on = 1 } on && /^[^ ]/ { exit } on { sub(/^    /, ""); print }' \
+    "$source/lib/README.md" >"$work/circle.c"
+check "lib/README.md has the system circle" grep -q 'iso_system_circle = {' "$work/circle.c"
+check "the system of lib/README.md compiles" "${CC:-cc}" -std=c11 -Wall -Wextra -Werror -fsyntax-only \
+    -I"$source/lib" "$work/circle.c"
 
 build() {
     checks=$((checks + 1))

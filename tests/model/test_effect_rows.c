@@ -39,6 +39,7 @@ static void complete_columns(const iso_effect *e)
         for (int i = 0; i < g->count; i++) complete(e, iso_column_find(g->column[i]) >= 0, g->column[i]);
     }
     complete(e, !e->columns || e->show, "columns are shown");
+    complete(e, !e->columns || !e->states || e->recall, "states are found again from columns");
     complete(e, !acts || e->needs_radius, "what moves is a length");
 }
 
