@@ -6,14 +6,17 @@
  *     {
  *         const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]), n = formula_n(F), omega = formula_omega(F);
  *         add_torque(F, constant(F, numbers(f)->mgb), cross_of(F, e, n));
- *         set_rate(F, e, cross_of(F, e, omega));
+ *         set_rate_v(F, e, constant(F, 1), cross_of(F, e, omega));
  *     }
  *
- * formula.h says what becomes of it.
+ * formula.h says what becomes of it. The rules:
  *
- * A formula may depend on which effects are on and on whether k = 1, but not on other numbers: orbits that share the
- * lanes of a vector share their formulas. Constants are computed in the numbers of each method, so that 128 bits stay
- * 128 bits: write div_c(F, constant(F, 1), constant_k(F)), not constant(F, 1 / k).
+ *     Each state of the effect has one rate: set_rate for a scalar state, set_rate_v for a vector state.
+ *     A state has one shape. Who reads another effect's state reads it in the shape in which it has its rate.
+ *     The lines of a formula may depend on which effects are on and on whether k = 1, and on no other number: orbits
+ *     that are computed side by side share their lines.
+ *     Compute with constants by the calls: div_c(F, constant(F, 1), constant_k(F)), not constant(F, 1 / k). Each method
+ *     then computes them in its own numbers, and 128 bits stay 128 bits.
  */
 #ifndef ISO_MODEL_FORMULA_IMPL_H
 #define ISO_MODEL_FORMULA_IMPL_H
@@ -94,7 +97,7 @@ static inline iso_vector formula_n(iso_formula *F)
     return (iso_vector){ISO_GIVEN_N};
 }
 
-/* the point's gamma stands in the place of n */
+/* gamma of the point; it has the place of n */
 static inline iso_vector formula_gamma(iso_formula *F)
 {
     (void)F;
@@ -128,7 +131,7 @@ static inline iso_scalar formula_q(iso_formula *F)
     return (iso_scalar){ISO_GIVEN_BASE};
 }
 
-/* (omega,n), of a contact that twists */
+/* (omega,n), where the contact twists */
 static inline iso_scalar formula_spin(iso_formula *F)
 {
     (void)F;

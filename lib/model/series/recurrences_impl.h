@@ -19,15 +19,15 @@ struct series {
     const iso_formula *formula; /* of the effects: of the ball's motion, or of the point's image; NULL: none */
     /* what distinguishes one orbit's equations from another's */
     real c[ISO_FORMULA_CONSTANTS];
-    vector J, inv_J, excess, neumann_c;   /* excess: J - min J */
-    real k, D, factor, over_det, energy;  /* factor: det J/k^2 */
-    real alpha, coupling;                 /* each form's own: see its term */
-    real count[KEPT], inverse[KEPT];      /* n, 1/n */
+    vector J, inv_J, excess, neumann_c;  /* excess: J - min J */
+    real k, D, factor, over_det, energy; /* factor: det J/k^2 */
+    real alpha, coupling;                /* each form's own: see its term */
+    real count[KEPT], inverse[KEPT];     /* n, 1/n */
     /* coefficients: what terms hand on, vectors, then numbers */
     vector K[KEPT], x[KEPT], z[KEPT], a[KEPT], dV[KEPT]; /* x: the torque, or the point's acceleration factors */
-    real slope[KEPT];         /* n base[n] */
-    real over_base, over_gap; /* 1/base[0], 1/gap[0] */
-    real pole[KEPT];          /* of a ball, terms of 1/g: for its steps */
+    real slope[KEPT];                                    /* n base[n] */
+    real over_base, over_gap;                            /* 1/base[0], 1/gap[0] */
+    real pole[KEPT];                                     /* of a ball, terms of 1/g: for its steps */
     real r[KEPT], lambda[KEPT], gap[KEPT], v[KEPT], v1[KEPT], V[KEPT];
     /* the states, and what formulas are made of */
     union {
@@ -46,8 +46,15 @@ struct series {
 
 static inline nodes nodes_of(series *S)
 {
-    return (nodes){.kept = KEPT, .c = S->c, .scalar = S->scalar, .vector = S->vector, .count = S->count,
-                   .inverse = S->inverse, .torque = S->x, .gradient = S->dV, .potential = S->V};
+    return (nodes){.kept = KEPT,
+                   .c = S->c,
+                   .scalar = S->scalar,
+                   .vector = S->vector,
+                   .count = S->count,
+                   .inverse = S->inverse,
+                   .torque = S->x,
+                   .gradient = S->dV,
+                   .potential = S->V};
 }
 
 /* --- the ball (9) ----------------------------------------------------------------------------------------------- */
@@ -67,6 +74,7 @@ static inline void ball(series *S, int n)
     normal(S, n);
     S->K[n] = by(S->J, S->w[n]);
     S->x[n] = nought;
+    S->spin[n] = zero; /* (w,n), which formulas may read */
     S->n[n + 1] = times(S->k * S->inverse[n + 1], cross(S->n, S->w, n));
 }
 
@@ -74,7 +82,8 @@ static inline void ball(series *S, int n)
 static inline void rigid(series *S, int n)
 {
     S->z[n] = cross(S->n, S->K, n);
-    S->r[n] = quotient(S->over_det * total(by(S->excess, componentwise(S->n, S->w, n))), S->base, S->over_base, S->r, n);
+    S->r[n] =
+        quotient(S->over_det * total(by(S->excess, componentwise(S->n, S->w, n))), S->base, S->over_base, S->r, n);
     S->w[n + 1] = times(S->inverse[n + 1], scaled(S->r, S->z, n));
 }
 
