@@ -1,4 +1,5 @@
-/* effect.c - the effects of one orbit together: sums and questions, each a loop over the rows of the effects that are on. */
+/* effect.c - the effects of one orbit together: sums and questions, each a loop over the rows of the effects that are
+ * on. */
 #include "model/effect.h"
 
 #include <string.h>
@@ -44,7 +45,7 @@ static const iso_effect *next_on(const iso_effects *effects, int *e)
     return *e < ISO_EFFECTS ? iso_effect_list[(*e)++] : NULL;
 }
 
-/* --- what they are --------------------------------------------------------------------------------------------------- */
+/* --- what they are ---------------------------------------------------------------------------------------------- */
 
 iso_effects iso_effects_acting(const iso_effects *effects)
 {
@@ -183,7 +184,7 @@ const iso_effect *iso_effects_taking_energy(const iso_problem *f)
     return effect;
 }
 
-/* --- writing their equations down --------------------------------------------------------------------------------------- */
+/* --- writing their equations down ------------------------------------------------------------------------------- */
 
 int iso_effect_states(const iso_effect *effect, const iso_problem *f)
 {
@@ -291,7 +292,7 @@ void iso_effects_record_image(const iso_problem *f, iso_formula *F)
     finish_formula(f, F);
 }
 
-/* --- sums ----------------------------------------------------------------------------------------------------------- */
+/* --- sums ------------------------------------------------------------------------------------------------------- */
 
 void iso_effects_torque(const iso_problem *f, const double y[], double T[3], double dy[])
 {
@@ -400,7 +401,7 @@ int iso_integrals_holding(const iso_system *system, const iso_problem *f, const 
     return count;
 }
 
-/* --- columns --------------------------------------------------------------------------------------------------------- */
+/* --- columns ---------------------------------------------------------------------------------------------------- */
 
 const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group, int *in_group)
 {

@@ -1,4 +1,5 @@
-/* effects_numbers.c - the numbers of effects: where they stand, their units, the level, and whether they make sense. */
+/* effects_numbers.c - the numbers of effects: where they stand, their units, the level, and whether they make sense.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,7 +9,7 @@
 #include "model/effects_impl.h"
 #include "model/model.h"
 
-/* --- numbers -------------------------------------------------------------------------------------------------------- */
+/* --- numbers ---------------------------------------------------------------------------------------------------- */
 
 double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number)
 {
@@ -61,7 +62,7 @@ iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *unit
     return scaled;
 }
 
-/* --- the level: an effect that is the energy of the point ------------------------------------------------------------- */
+/* --- the level: an effect that is the energy of the point ------------------------------------------------------- */
 
 static iso_effect_id level_id(void)
 {
@@ -96,7 +97,7 @@ iso_dimension iso_level_dimension(void)
     return iso_effect_list[level_id()]->numbers->dimension;
 }
 
-/* --- do the numbers make sense ---------------------------------------------------------------------------------------- */
+/* --- do the numbers make sense ---------------------------------------------------------------------------------- */
 
 static iso_status check_unit(iso_context *ctx, const char *name, int count, double x[])
 {

@@ -57,8 +57,8 @@ typedef struct sets {
     uint64_t scalars, vectors;
 } sets;
 
-/* Whether the operation takes a scalar or a vector of the sets. The operation tells what a and b are: places of scalars,
- * of vectors or of constants, which are in no set. */
+/* Whether the operation takes a scalar or a vector of the sets. The operation tells what a and b are: places of
+ * scalars, of vectors or of constants, which are in no set. */
 static bool takes(sets of, iso_operation operation, int a, int b)
 {
     const bool scalar_a = of.scalars >> a & 1, scalar_b = of.scalars >> b & 1;

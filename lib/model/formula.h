@@ -1,8 +1,9 @@
 /* formula.h - the equations of an effect, stated once.
  *
- * A formula is a list of lines. Each line is one operation: it takes one or two results of earlier lines and makes one new
- * result, a number or a vector of R^3. The last lines say what the results are for: a torque, the rate of a state, an
- * energy. A function of the effect's row writes the formula once for an orbit, with the calls of formula_impl.h.
+ * A formula is a list of lines. Each line is one operation: it takes one or two results of earlier lines and makes
+ * one new result, a number or a vector of R^3. The last lines say what the results are for: a torque, the rate of a
+ * state, an energy. A function of the effect's row writes the formula once for an orbit, with the calls of
+ * formula_impl.h.
  *
  * One evaluator (series/evaluate_impl.h) then computes the lines from the first to the last. It computes
  *
@@ -10,8 +11,8 @@
  *     their first derivatives    for the Jacobian
  *     their power series         for Taylor methods, in any kind of number, for many orbits side by side
  *
- * Some lines need omega'. They are called late: omega' follows from the torque, so these lines are computed in a second
- * pass, after the torque and omega'. No torque and no energy may be late.
+ * Some lines need omega'. They are called late: omega' follows from the torque, so these lines are computed in a
+ * second pass, after the torque and omega'. No torque and no energy may be late.
  */
 #ifndef ISO_MODEL_FORMULA_H
 #define ISO_MODEL_FORMULA_H
@@ -23,8 +24,9 @@
 
 struct iso_problem;
 
-/* The results, by their places in the formula. A constant is the same all along an orbit; a scalar (a number) and a vector
- * of R^3 change. A constant vector is three constants one after the other, a constant matrix is nine, by rows. */
+/* The results, by their places in the formula. A constant is the same all along an orbit; a scalar (a number) and a
+ * vector of R^3 change. A constant vector is three constants one after the other, a constant matrix is nine, by rows.
+ */
 typedef struct iso_constant {
     int at;
 } iso_constant;
@@ -127,7 +129,7 @@ typedef struct iso_formula {
     } state[ISO_FORMULA_STATES];
 } iso_formula;
 
-/* --- recording ------------------------------------------------------------------------------------------------------ */
+/* --- recording -------------------------------------------------------------------------------------------------- */
 
 /* An empty formula. */
 void iso_formula_begin(iso_formula *F, iso_formula_kind kind, bool series);
@@ -146,10 +148,10 @@ int iso_formula_state(iso_formula *F, bool is_vector, int at);
 /* Whether two formulas have the same lines: then they differ in the values of their constants alone. */
 bool iso_formula_alike(const iso_formula *F, const iso_formula *G);
 
-/* --- evaluating as numbers ------------------------------------------------------------------------------------------ */
+/* --- evaluating as numbers -------------------------------------------------------------------------------------- */
 
-/* Of the ball at y: adds the torque to T, and sets the rates of the states in dy. The late rates are set by the second
- * call, which reads omega' from dy[0..2]. */
+/* Of the ball at y: adds the torque to T, and sets the rates of the states in dy. The late rates are set by the
+ * second call, which reads omega' from dy[0..2]. */
 void iso_formula_rates(const iso_formula *F, const iso_params *p, const double y[], double T[3], double dy[]);
 void iso_formula_late_rates(const iso_formula *F, const iso_params *p, const double y[], double dy[]);
 

@@ -1,5 +1,6 @@
-/* model.c - puts the equations of one orbit together: the system, its effects, the clock it runs in, other clocks. The
- * model calls the plainest functions that do it: a free ball in its own time costs no look at effects or clocks. */
+/* model.c - puts the equations of one orbit together: the system, its effects, the clock it runs in, other clocks.
+ * The model calls the plainest functions that do it: a free ball in its own time costs no look at effects or clocks.
+ */
 #include "model/model.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@
 
 _Static_assert(ISO_MAX_STATE <= 256, "a formula holds places in y in uint8_t");
 
-/* --- in the system's own clock ------------------------------------------------------------------------------------- */
+/* --- in the system's own clock ---------------------------------------------------------------------------------- */
 
 static void free_rhs(const iso_model *m, const double y[], double dy[])
 {
@@ -42,7 +43,7 @@ static void point_rhs(const iso_model *m, const double y[], double dy[])
     add_scaled(dy, 1, gamma_dV);
 }
 
-/* --- in another clock, with other clocks as states ------------------------------------------------------------------------- */
+/* --- in another clock, with other clocks as states -------------------------------------------------------------- */
 
 /* d(clock)/d(independent variable) at q, and the exponent of q in this rate */
 static double rate(const iso_model *m, iso_clock clock, double q, double *exponent)
@@ -89,7 +90,7 @@ static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
     }
 }
 
-/* --- assembling ----------------------------------------------------------------------------------------------------- */
+/* --- assembling ------------------------------------------------------------------------------------------------- */
 
 /* Finds the effects that have states, and gives each a place in y. */
 static void add_states(iso_model *m)
@@ -206,7 +207,7 @@ const char *iso_model_state_name(const iso_model *m, int i, const char **reason)
     return NULL;
 }
 
-/* --- sizes ---------------------------------------------------------------------------------------------------------- */
+/* --- sizes ------------------------------------------------------------------------------------------------------ */
 
 /* Makes unit vectors of the states that are, and restores the effect's other constraints; the largest correction. */
 static double restore_states(const iso_problem *f, iso_effect_id id, double y[])

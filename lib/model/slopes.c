@@ -1,9 +1,9 @@
 /* slopes.c - the Jacobian of the equations of motion, from their own recurrences.
  *
- * On the line y + x e_j the right-hand side is the series f(y) + x df/dy_j + ... in x. So set coefficient 0 of the states
- * to y and coefficient 1 to e_j: coefficient 1 of f is then column j of the Jacobian. The terms put coefficient n of f, in
- * the place of coefficient n + 1 of the states, divided by n + 1. Here all of these divisors are set to 1, so that place
- * 2 holds the column itself. LANES columns are computed side by side.
+ * On the line y + x e_j the right-hand side is the series f(y) + x df/dy_j + ... in x. So set coefficient 0 of the
+ * states to y and coefficient 1 to e_j: coefficient 1 of f is then column j of the Jacobian. The terms put
+ * coefficient n of f, in the place of coefficient n + 1 of the states, divided by n + 1. Here all of these divisors
+ * are set to 1, so that place 2 holds the column itself. LANES columns are computed side by side.
  */
 #define NUMBER double
 #define ROOT sqrt

@@ -23,7 +23,7 @@ static void equals(iso_scalar (*write)(iso_formula *F), double wanted, const cha
     gsl_test(F.wrong || F.overrun || !(fabs(value - wanted) <= 1e-14), "%s: %.17g, not %.17g", what, value, wanted);
 }
 
-/* --- operations: n = (0.36, 0.48, 0.8), u = J^-1 n, g = (n,u) ------------------------------------------------------- */
+/* --- operations: n = (0.36, 0.48, 0.8), u = J^-1 n, g = (n,u) --------------------------------------------------- */
 
 static const double two_three_five[] = {2, 3, 5}, matrix[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
 
@@ -96,7 +96,7 @@ static void check_operations(void)
     equals(normals, 0, "g = (n,u)");
 }
 
-/* --- what is refused -------------------------------------------------------------------------------------------------- */
+/* --- what is refused -------------------------------------------------------------------------------------------- */
 
 /* Writes something that cannot be computed: the formula must say so, and be empty. */
 static void refused(iso_formula_kind kind, void (*write)(iso_formula *F), const char *what)

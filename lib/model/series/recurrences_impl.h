@@ -1,9 +1,12 @@
 /* recurrences_impl.h - the equations of motion of ball and point as recurrences for Taylor coefficients.
  *
- * This is the statement of the equations that all series and all Jacobians are made of. `expand` gives the coefficients
- * of a solution. With the coefficients 1 of the states set by hand, `slope` gives those of its derivative: the Jacobian
- * times that direction. A model calls for some of the terms below, in their order, and nothing else is computed. Effects
- * come in as formulas (model/formula.h), evaluated between the terms of the ball.
+ * All series and all Jacobians are made of this statement of the equations. A model calls some of the terms below, in
+ * their order, and nothing else is computed. Effects come in as formulas (model/formula.h), between the terms of the
+ * ball. There are two uses:
+ *
+ *     series      `expand` computes the coefficients of a solution, order by order
+ *     Jacobians   slopes.c sets coefficients 1 of the states to a direction; coefficients 1 of the right-hand side are
+ *                 then the Jacobian times this direction
  */
 #include "model/series/evaluate_impl.h"
 
@@ -185,8 +188,8 @@ static inline void point_s(series *S, int n)
     if (!S->formula) accelerate(S, n, componentwise(S->x, S->n, n));
 }
 
-/* Behind point_s, with effects whose image is V: - V terms of gamma'' = -M^2 gamma - dV/dgamma + (gamma,dV/dgamma) gamma,
- * where M^2 = 2 (H - V) */
+/* Behind point_s, with effects whose image is V: - V terms of gamma'' = -M^2 gamma - dV/dgamma + (gamma,dV/dgamma)
+ * gamma, where M^2 = 2 (H - V) */
 static inline void point_effects(series *S, int n)
 {
     const nodes t = nodes_of(S);
@@ -209,8 +212,9 @@ static inline void point_t(series *S, int n)
     accelerate(S, n, plus(componentwise(S->x, S->n, n), times(S->alpha, scaled(S->r, S->w, n))));
 }
 
-/* in t, on H = 0, w = p (point_t.c): p' = r (p^2 c - (c,p) p),  gamma' = k r q gamma x p,  c = gamma x J gamma; r = alpha, a = c.
- * Nothing is divided by k; with 2h in the place of p^2 an error of |p| would grow as fast as the ball turns. */
+/* in t, on H = 0, w = p (point_t.c): p' = r (p^2 c - (c,p) p),  gamma' = k r q gamma x p,  c = gamma x J gamma; r =
+ * alpha, a = c. Nothing is divided by k; with 2h in the place of p^2 an error of |p| would grow as fast as the ball
+ * turns. */
 static inline void point_p(series *S, int n)
 {
     S->u[n] = by(S->J, S->n[n]);
