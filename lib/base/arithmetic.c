@@ -1,3 +1,5 @@
+/* arithmetic.c - sets the default rules of floating-point arithmetic, and puts the host's back (arithmetic_impl.h).
+ */
 #include "base/arithmetic_impl.h"
 
 #if defined(__x86_64__) && defined(__GLIBC__)

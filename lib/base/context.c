@@ -1,12 +1,13 @@
+/* context.c - the context: the message of the last failure, the monitor, the SUNDIALS context (context.h). */
 #include "base/context.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/monitor_impl.h"
 #include "base/room_impl.h"
 #include "base/sundials_impl.h"
-#include "base/monitor_impl.h"
 
 struct iso_context {
     SUNContext sun; /* made when the first SUNDIALS method asks for it */

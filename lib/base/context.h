@@ -23,8 +23,8 @@ iso_context *iso_context_create(void);
 /* Releases it; NULL is allowed. */
 void iso_context_free(iso_context *ctx);
 
-/* Long work asks `go_on` now and then, at each step of an integrator at least, and ends with ISO_STOPPED when it answers
- * false: for Ctrl-C, a time limit, or to show progress. NULL, as at the beginning: nobody is asked. */
+/* Long work asks `go_on` now and then, at each step of an integrator at least, and ends with ISO_STOPPED when it
+ * answers false: for Ctrl-C, a time limit, or to show progress. NULL, as at the beginning: nobody is asked. */
 void iso_context_set_monitor(iso_context *ctx, bool (*go_on)(void *data), void *data);
 
 /* What `go_on` answers; true without a monitor. */

@@ -1,3 +1,4 @@
+/* number.c - reads and prints doubles, in any locale (number.h). */
 #include "base/number.h"
 
 #include <limits.h>

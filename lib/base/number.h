@@ -16,8 +16,8 @@ bool iso_number_read(const char *text, size_t length, double *value);
 /* Writes value in %.17g (reads back as the same double) with a decimal point, and gives the length. */
 int iso_number_print(char text[ISO_NUMBER_SIZE], double value);
 
-/* The same with 1 to 17 significant digits; 0: C's hexadecimal %a, which reads back exactly, too. Rounds as the caller has
- * set it. */
+/* The same with 1 to 17 significant digits; 0: C's hexadecimal %a, which reads back exactly, too. Rounds as the
+ * caller has set it. */
 int iso_number_print_as(char text[ISO_NUMBER_SIZE], double value, int digits);
 
 #endif

@@ -1,3 +1,4 @@
+/* random.c - random numbers and directions, by GSL (random.h). */
 #include "base/random.h"
 
 #include <gsl/gsl_randist.h>

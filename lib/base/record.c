@@ -1,3 +1,4 @@
+/* record.c - a table of a trajectory in memory: named columns, rows, and "# key: value" lines (record.h). */
 #include "base/record.h"
 
 #include <stdlib.h>

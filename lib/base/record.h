@@ -36,9 +36,9 @@ const double *iso_record_const_row(const iso_record *record, size_t row);
 /* Adds a row and gives it in *row, filled with zeros. Errors: ISO_NO_MEMORY. */
 iso_status iso_record_append(iso_context *ctx, iso_record *record, double **row);
 
-/* How far a row may be from a valid state: from a unit vector, and from a right angle. It follows from the digits that
- * the numbers were written with. It is no part of a file; a new record has ISO_ROW_TOLERANCE. The caller sets a number > 0,
- * at most 0.1. */
+/* How far a row may be from a valid state: from a unit vector, and from a right angle. It follows from the digits
+ * that the numbers were written with. It is no part of a file; a new record has ISO_ROW_TOLERANCE. The caller sets a
+ * number > 0, at most 0.1. */
 #define ISO_ROW_TOLERANCE 1e-5 /* five digits */
 void iso_record_set_row_tolerance(iso_record *record, double tolerance);
 double iso_record_row_tolerance(const iso_record *record);

@@ -1,3 +1,4 @@
+/* poisson.c - the bracket (20) and the Hamiltonian (21) of the ball in the time tau (poisson.h). */
 #include "map/poisson.h"
 
 #include <math.h>

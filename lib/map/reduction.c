@@ -1,3 +1,4 @@
+/* reduction.c - energy, force and momenta of the ball in sphero-conical coordinates, (14)-(17) (reduction.h). */
 #include "map/reduction.h"
 
 #include <math.h>

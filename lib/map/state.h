@@ -19,7 +19,8 @@ void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], doubl
 void iso_ball_to_point_t(const iso_params *p, const double ball[ISO_STATE], double y[ISO_STATE]);
 void iso_point_t_to_ball(const iso_params *p, const double y[ISO_STATE], double ball[ISO_STATE]);
 
-/* Energies: of the ball h = (w,Jw)/2, and the ball's energy of a point on the level H = 0, (k^2/det J) q^(1/k) M^2/2. */
+/* Energies: of the ball h = (w,Jw)/2, and the ball's energy of a point on the level H = 0, (k^2/det J) q^(1/k) M^2/2.
+ */
 double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE]);
 double iso_point_energy(const iso_params *p, const double point[ISO_STATE]);
 

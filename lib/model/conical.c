@@ -1,3 +1,4 @@
+/* conical.c - sphero-conical coordinates of a vector: from a vector to its two angles, and back (conical.h). */
 #include "model/conical.h"
 
 #include <math.h>

@@ -21,7 +21,7 @@ static void turn_of_normal(const iso_problem *f, const double y[], double n_dot[
     scale(n_dot, f->p.k);
 }
 
-/* --- rigid -------------------------------------------------------------------------------------------------------- */
+/* --- rigid ------------------------------------------------------------------------------------------------------ */
 
 /* The part of lambda that a torque x has, -(x,u)/g; and u */
 static double resisted(const iso_params *p, const double n[3], const double x[3], double u[3])
@@ -47,7 +47,7 @@ static double rigid_twist(const iso_problem *f, const double y[], const double T
     return resisted(&f->p, y + 3, x, u);
 }
 
-/* --- twisting ---------------------------------------------------------------------------------------------------- */
+/* --- twisting --------------------------------------------------------------------------------------------------- */
 
 /* v = A^-1 x */
 static void solve_A(const iso_params *p, const double n[3], const double x[3], double v[3])

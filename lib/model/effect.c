@@ -1,4 +1,5 @@
-/* effect.c - the effects of one orbit taken together: loops over the rows of the table. */
+/* effect.c - the effects of one orbit together: sums and questions, each a loop over the rows of the effects that are
+ * on. */
 #include "model/effect.h"
 
 #include <string.h>
@@ -37,14 +38,14 @@ iso_work iso_work_lost(const iso_problem *f)
     return ISO_WORK_LOST;
 }
 
-/* The next row of an effect that is on, from *e on; NULL: there is none. *e is behind it. */
+/* The row of the next effect that is on, beginning with effect *e; NULL: there is none. Moves *e behind it. */
 static const iso_effect *next_on(const iso_effects *effects, int *e)
 {
     while (*e < ISO_EFFECTS && !effects->on[*e]) ++*e;
     return *e < ISO_EFFECTS ? iso_effect_list[(*e)++] : NULL;
 }
 
-/* --- what they are --------------------------------------------------------------------------------------------------- */
+/* --- what they are ---------------------------------------------------------------------------------------------- */
 
 iso_effects iso_effects_acting(const iso_effects *effects)
 {
@@ -183,7 +184,7 @@ const iso_effect *iso_effects_taking_energy(const iso_problem *f)
     return effect;
 }
 
-/* --- writing their equations down --------------------------------------------------------------------------------------- */
+/* --- writing their equations down ------------------------------------------------------------------------------- */
 
 int iso_effect_states(const iso_effect *effect, const iso_problem *f)
 {
@@ -191,6 +192,11 @@ int iso_effect_states(const iso_effect *effect, const iso_problem *f)
     for (const iso_effect_state *s = effect->states; s && s->name; s++)
         if (!s->there || s->there(f)) count += s->count;
     return count;
+}
+
+bool iso_effect_is_derived(const iso_effect *effect)
+{
+    return effect->states && effect->states->kind == ISO_STATE_DERIVED;
 }
 
 /* What kind of state stands at y[at]. */
@@ -213,12 +219,58 @@ static void finish_formula(const iso_problem *f, iso_formula *F)
     iso_formula_finish(F, &f->p);
 }
 
+/* How many rates y[at] has; the rate of a vector state is that of three numbers. */
+static int rates_of(const iso_formula *F, int at)
+{
+    int rates = 0;
+    for (int i = 0; i < F->lines; i++) {
+        const iso_formula_line *l = &F->line[i];
+        const bool is_vector = l->operation == ISO_R_VECTOR_RATE;
+        for (int s = 0; (is_vector || l->operation == ISO_R_SCALAR_RATE) && s < F->states; s++)
+            if (F->state[s].node == l->to && F->state[s].is_vector == is_vector)
+                rates += at >= F->state[s].at && at < F->state[s].at + (is_vector ? 3 : 1);
+    }
+    return rates;
+}
+
+/* How many of the formula's states hold y[at]. */
+static int shapes_of(const iso_formula *F, int at)
+{
+    int shapes = 0;
+    for (int s = 0; s < F->states; s++)
+        shapes += at >= F->state[s].at && at < F->state[s].at + (F->state[s].is_vector ? 3 : 1);
+    return shapes;
+}
+
+/* Each state of an effect that is on has one rate, and one shape. A series has no derived states. */
+static const char *wrong_states(const iso_problem *f, iso_effect_id e, const iso_formula *F)
+{
+    const int first = f->at[e], states = first > 0 ? iso_effect_states(iso_effect_list[e], f) : 0;
+    for (int at = first; at < first + states; at++) {
+        if (F->series && kind_at(f, at) == ISO_STATE_DERIVED) continue;
+        if (rates_of(F, at) != 1) return "a state has no rate, or more than one";
+        if (shapes_of(F, at) != 1) return "a state is read as a number here and as part of a vector there";
+    }
+    return NULL;
+}
+
+/* Adds the lines of one effect. */
+static void record_motion_of(const iso_problem *f, const iso_effect *effect, iso_formula *F)
+{
+    const bool torques = F->torques;
+    F->torques = false;
+    if (effect->motion) effect->motion(F, f);
+    if (effect->observes && F->torques) F->wrong = "it observes, and has a torque";
+    F->torques = F->torques || torques;
+}
+
 void iso_effects_record_motion(const iso_problem *f, bool series, iso_formula *F)
 {
     const iso_effect *effect;
     iso_formula_begin(F, ISO_FORMULA_MOTION, series);
-    for (int e = 0; (effect = next_on(&f->effects, &e));)
-        if (effect->motion) effect->motion(F, f);
+    for (int e = 0; (effect = next_on(&f->effects, &e));) record_motion_of(f, effect, F);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS && !F->wrong; e++)
+        if (f->effects.on[e]) F->wrong = wrong_states(f, e, F);
     finish_formula(f, F);
 }
 
@@ -240,7 +292,7 @@ void iso_effects_record_image(const iso_problem *f, iso_formula *F)
     finish_formula(f, F);
 }
 
-/* --- sums ----------------------------------------------------------------------------------------------------------- */
+/* --- sums ------------------------------------------------------------------------------------------------------- */
 
 void iso_effects_torque(const iso_problem *f, const double y[], double T[3], double dy[])
 {
@@ -349,7 +401,7 @@ int iso_integrals_holding(const iso_system *system, const iso_problem *f, const 
     return count;
 }
 
-/* --- columns --------------------------------------------------------------------------------------------------------- */
+/* --- columns ---------------------------------------------------------------------------------------------------- */
 
 const char *iso_effect_column_name(int i, iso_effect_id *effect, const iso_effect_column **group, int *in_group)
 {

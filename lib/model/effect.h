@@ -102,7 +102,8 @@ typedef struct iso_effect {
      * whether the scene has the key. Errors: ISO_BAD_INPUT about the key, or the effect's name. */
     iso_status (*complete)(iso_context *ctx, const iso_params *p, int model, double number[],
                            bool (*given)(const void *scene, const char *key), const void *scene);
-    /* What else must hold. n: the normal at the start. Errors: ISO_BAD_INPUT about a number's or the effect's name. */
+    /* What else must hold. n: the normal at the start. Errors: ISO_BAD_INPUT about a number's or the effect's name.
+     */
     iso_status (*check)(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *effects);
     /* Why a scene leaves one of its columns empty; NULL, or answering NULL: it does not. */
     const char *(*empty)(const iso_params *p, const iso_effects *effects, const char *column);
@@ -147,7 +148,7 @@ extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
 /* The effect called `name`; ISO_EFFECTS: there is none. */
 iso_effect_id iso_effect_find(const char *name);
 
-/* --- numbers ------------------------------------------------------------------------------------------------------ */
+/* --- numbers ---------------------------------------------------------------------------------------------------- */
 
 /* Where an effect's number stands: number->count doubles, as const as `effects` is. */
 double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number);
@@ -183,7 +184,7 @@ bool iso_effects_on_level_plane(const iso_params *params, const double normal[3]
 /* The effects carried from the caller's units to own ones (power -1), or back (power 1). */
 iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power);
 
-/* --- what they do to the motion ------------------------------------------------------------------------------------ */
+/* --- what they do to the motion --------------------------------------------------------------------------------- */
 
 /* Those that act: without observers. */
 iso_effects iso_effects_acting(const iso_effects *effects);
@@ -248,16 +249,16 @@ const iso_effect *iso_effects_taking_energy(const iso_problem *f);
 enum { ISO_STIFF = 50 };
 double iso_effects_stiffness(const iso_problem *f);
 
-/* The turns of the ball, in its own units, for which it moves at most before resistance has brought it to rest, all the
- * way through the range of doubles; infinite where nothing does, or something keeps it moving. */
+/* The turns of the ball, in its own units, for which it moves at most before resistance has brought it to rest, all
+ * the way through the range of doubles; infinite where nothing does, or something keeps it moving. */
 double iso_effects_moving(const iso_problem *f);
 
-/* In own units a ball that turns more slowly than this, and only loses motion, is at rest: a tolerance of that is still a
- * normal double. */
+/* In own units a ball that turns more slowly than this, and only loses motion, is at rest: a tolerance of that is
+ * still a normal double. */
 #define ISO_REST 1e-290
 bool iso_effects_at_rest(const iso_problem *f, const double y[]);
 
-/* --- columns ------------------------------------------------------------------------------------------------------- */
+/* --- columns ---------------------------------------------------------------------------------------------------- */
 
 enum { ISO_EFFECT_COLUMNS = 28 }; /* room for the columns of all effects */
 
@@ -271,7 +272,7 @@ int iso_effect_columns(void);
 /* Of effect `id`: its first column. */
 int iso_effect_first_column(iso_effect_id id);
 
-/* --- integrals ----------------------------------------------------------------------------------------------------- */
+/* --- integrals -------------------------------------------------------------------------------------------------- */
 
 enum { ISO_MAX_INTEGRALS = 24 };
 

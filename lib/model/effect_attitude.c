@@ -1,4 +1,4 @@
-/* effect_attitude.c - how the ball stands and where it is: asked for, it acts on nothing.
+/* effect_attitude.c - how the ball stands and where it is. It only observes: the motion stays as it is.
  *
  *     Q' = Q (0,w)/2,     |Q| = 1          R(Q): from body to space axes
  *     x' = R (w x n)                       on a plane: displacement of the centre, in units of b
@@ -75,8 +75,8 @@ static double radius_a(const iso_params *p)
     return iso_params_sign_of_radius(p) * p->k / (1 - p->k);
 }
 
-/* Quaternion, contact in space, contact on the ball, centre. The contact goes round the fixed sphere at a R n; on a plane
- * it goes with the centre, b x. */
+/* Quaternion, contact in space, contact on the ball, centre. The contact goes round the fixed sphere at a R n; on a
+ * plane it goes with the centre, b x. */
 static void show(const iso_problem *f, const double y[], double columns[])
 {
     const double *n = y + 3, *Q = y + f->at[ISO_ATTITUDE], b = iso_params_sign_of_radius(&f->p);
@@ -140,7 +140,8 @@ const iso_effect iso_effect_attitude = {
     .recall = recall,
     .motion = motion,
     .states = states,
-    .states_doc = "how the ball stands, from body to space axes (q), and on a plane the way of the centre (x, in units of b)",
+    .states_doc =
+        "how the ball stands, from body to space axes (q), and on a plane the way of the centre (x, in units of b)",
     .begin = begin,
     .size = size,
     .integrals = integrals,

@@ -1,4 +1,4 @@
-/* effect_clock.c - the other clocks as columns. A column asks for one of them; this effect asks for all. */
+/* effect_clock.c - the other clocks as columns. A column in a scene asks for one clock, this effect for all. */
 #include "model/effects_impl.h"
 
 const iso_effect iso_effect_clock = {

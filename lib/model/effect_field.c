@@ -1,4 +1,4 @@
-/* effect_field.c - a potential that is fixed in the body, U(n) = (n,Cn)/2 + (l,n): magnets in the ball, say.
+/* effect_field.c - a potential that is fixed in the body, U(n) = (n,Cn)/2 + (l,n), as magnets in the ball have it.
  *
  *     MQ = k n x dU/dn = k n x (C n + l)
  *

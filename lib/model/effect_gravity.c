@@ -1,10 +1,10 @@
-/* effect_gravity.c - weight: the vertical is one more vector that the ball sees turning.
+/* effect_gravity.c - weight. The vertical e, in axes of the body, turns as the ball turns: it is a state.
  *
  *     MQ = mgb e x n,     e' = e x w,     |e| = 1
  *
- * The weight -m g e acts at the centre, b n above the contact. With the signed radius b this holds on all surfaces, and
- * the potential energy is m g (a+b)(n,e) = mgb/(1-k) (n,e). On a plane (k = 1) it is the height of the centre, m g (E,x),
- * with the vertical E in space and the displacement x, which only `attitude` knows.
+ * The weight -m g e acts at the centre, b n above the contact. With the signed radius b this holds on all surfaces,
+ * and the potential energy is m g (a+b)(n,e) = mgb/(1-k) (n,e). On a plane (k = 1) it is the height of the centre, m
+ * g (E,x), with the vertical E in space and the displacement x, which only `attitude` knows.
  */
 #include <float.h>
 #include <math.h>
@@ -54,7 +54,8 @@ static iso_work work(const iso_problem *f)
 
 static const char *no_frequencies(const iso_problem *f)
 {
-    return iso_is_plane(f) ? "on a tilted plane the ball rolls away ever faster: its motion has no frequencies" : NULL;
+    return iso_is_plane(f) ? "on a tilted plane the ball rolls away ever faster: its motion has no frequencies"
+                           : NULL;
 }
 
 static void begin(const iso_problem *f, double y[])
@@ -74,7 +75,7 @@ static double strength(const iso_problem *f, const double y[])
     return fabs(mgb(f));
 }
 
-/* next to k = 1 the potential is a large constant, and its changes are lost in it */
+/* near k = 1 the potential is a large constant plus small changes, which lose digits */
 static double range(const iso_problem *f, const double y[])
 {
     (void)y;
@@ -103,7 +104,7 @@ static void recall(const iso_problem *f, const double columns[], double y[])
     copy(columns, y + f->at[ISO_GRAVITY], 3);
 }
 
-/* --- its numbers ---------------------------------------------------------------------------------------------------- */
+/* --- its numbers ------------------------------------------------------------------------------------------------ */
 
 bool iso_effects_on_level_plane(const iso_params *p, const double normal[3], const iso_effects *e)
 {
@@ -138,8 +139,7 @@ static iso_status complete(iso_context *ctx, const iso_params *p, int model, dou
     if (body) number[MGB] = p->body.mass * number[G] * (iso_params_sign_of_radius(p) * p->body.radius);
     number[G] = 0;
     if (isfinite(number[MGB])) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, wanted,
-                            "the weight m g times the radius b does not fit a double");
+    return iso_context_fail(ctx, ISO_BAD_INPUT, wanted, "the weight m g times the radius b does not fit a double");
 }
 
 static const char *const e_names[] = {"e1", "e2", "e3"};

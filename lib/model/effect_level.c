@@ -2,8 +2,8 @@
  *
  *     U = -c g^(-1/k),  g = (n, J^-1 n):     MQ = k n x dU/dn = 2 c g^(-1/k - 1) n x J^-1 n
  *
- * On the point U/G = -c det J/k^2 is a constant. No force comes of it: the point's equations are those of the free ball's
- * twin, on the level H = c det J/k^2 in place of 0. That level is the problem's `energy`; nothing else is simulated.
+ * On the point U/G = -c det J/k^2 is a constant, which makes no force. The point's equations stay the same, but its
+ * orbit is on the level H = c det J/k^2, not on H = 0. That level is the problem's `energy`.
  */
 #include <math.h>
 

@@ -1,4 +1,5 @@
-/* effect_reactions.c - the forces of the contact: asked for, they act on nothing that is not simulated anyway. */
+/* effect_reactions.c - the forces of the contact. It only observes: the motion, which these forces make, stays as it
+ * is. */
 #include <float.h>
 
 #include "base/vec3_impl.h"
@@ -10,12 +11,12 @@
 /* Where its number is. */
 enum { TWO_SIDED = 0 };
 
-/* Of the pressure, relative to its terms: what is less is none. Else a ball that grazes weightlessness, or rolls down a
- * wall, would leave its support where rounding says so. */
+/* A pressure that is smaller than this, relative to its terms, is taken as 0. Otherwise a rounding error would end
+ * the contact of a ball that rolls down a wall. */
 #define ROUNDING (8 * DBL_EPSILON)
 
-/* w x n' + w x (w x n) = (1-k) w x (w x n) = (1-k) [ (w,n) w - w^2 n ]. The parts along n and across are found one by one:
- * on a plane without weight the first is exactly 0. */
+/* w x n' + w x (w x n) = (1-k) w x (w x n) = (1-k) [ (w,n) w - w^2 n ]. The parts along n and across are found one by
+ * one: on a plane without weight the first is exactly 0. */
 iso_reactions iso_reactions_at(const iso_problem *f, const double y[])
 {
     const double *w = y, *n = y + 3, D = f->p.D, k = f->p.k, spin = dot(w, n);
@@ -78,14 +79,33 @@ static const char *const N_names[] = {"N1", "N2", "N3"}, *const pressure_name[] 
 
 /* Forces are energies over the radius. lambda is a torque. */
 static const iso_effect_column columns[] = {
-    {.name = "N", .column = N_names, .count = 3, .dimension = {1, 0, 2}, .length = -1, .checked_as = "N",
+    {.name = "N",
+     .column = N_names,
+     .count = 3,
+     .dimension = {1, 0, 2},
+     .length = -1,
+     .checked_as = "N",
      .sized_by = "N"},
-    {.name = "pressure", .column = pressure_name, .count = 1, .dimension = {1, 0, 2}, .length = -1,
-     .checked_as = "force", .sized_by = "N"},
-    {.name = "friction", .column = friction_name, .count = 1, .dimension = {1, 0, 2}, .length = -1,
-     .checked_as = "force", .sized_by = "N"},
+    {.name = "pressure",
+     .column = pressure_name,
+     .count = 1,
+     .dimension = {1, 0, 2},
+     .length = -1,
+     .checked_as = "force",
+     .sized_by = "N"},
+    {.name = "friction",
+     .column = friction_name,
+     .count = 1,
+     .dimension = {1, 0, 2},
+     .length = -1,
+     .checked_as = "force",
+     .sized_by = "N"},
     {.name = "mu", .column = mu_name, .count = 1},
-    {.name = "lambda", .column = lambda_name, .count = 1, .dimension = {1, 0, 2}, .checked_as = "lambda",
+    {.name = "lambda",
+     .column = lambda_name,
+     .count = 1,
+     .dimension = {1, 0, 2},
+     .checked_as = "lambda",
      .sized_by = "N"},
     {0},
 };

@@ -1,18 +1,18 @@
-/* effect_twist.c - the no-twist constraint made real: the contact resists twisting with the torque lambda n = -c (w,n) n.
+/* effect_twist.c - a contact that can twist: it resists with the torque lambda n = -c (w,n) n.
  *
  *     K = J w - D (w,n) n,     K' = K x w - c (w,n) n + MQ,     D = m b^2
  *
- * The spin (w,n) is free. c -> infinity is the rubber ball, c = 0 the classical Chaplygin ball with the further integral
- * (K,K). The energy is (K,w)/2. The equations are solved for w' in contact.c.
+ * The spin (w,n) is free. c -> infinity is the rubber ball, c = 0 the classical Chaplygin ball with the further
+ * integral (K,K). The energy is (K,w)/2. The equations are solved for w' in contact.c.
  *
- * A stiff contact (large c) takes spin out in a time of order 1/c, and leaves a part 1/c of it: the torque would be c times
- * a number that is nearly lost in the rounding of w, and the fast direction, n, would turn with the motion. So its torque
- * is a state of its own:
+ * A stiff contact (large c) takes the spin out in a time of order 1/c, until a part of order 1/c is left. Then -c
+ * (w,n) is a large number times a small one, which is nearly lost in the rounding of w. Also, the direction in which
+ * the equations are stiff is n, which turns with the motion. Both end when the torque is a state of its own:
  *
  *     lambda' = -c (w',n),     (w,n) = -lambda/c restored after each step           since (w,n') = 0
  *
- * Then the fast direction is that of one component, for which alone implicit methods have to be implicit (measured: bdf
- * needs as many steps at c = 1e8 as at 1e2). Series take lambda = -c (w,n) as it stands.
+ * Then one component of the state is stiff, and implicit methods solve it well: bdf needs as many steps at c = 1e8 as
+ * at 1e2. Series use lambda = -c (w,n) directly.
  */
 #include <math.h>
 
@@ -88,7 +88,7 @@ static bool keeps(const iso_problem *f, iso_further integral)
     return integral == ISO_F_PLANE && !iso_effects_have_level(&f->effects);
 }
 
-/* --- integrals of the classical ball, whose momentum about the contact stands still in space ------------------------- */
+/* --- integrals of the classical ball, whose momentum about the contact stands still in space -------------------- */
 
 /* K, and the size of its terms */
 static double momentum(const iso_problem *f, const double y[], double K[3])

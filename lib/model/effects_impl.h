@@ -20,11 +20,20 @@ static inline bool iso_effects_none(const iso_effects *effects)
 /* How many states an effect has here. */
 int iso_effect_states(const iso_effect *effect, const iso_problem *f);
 
-/* Writes down the equations of all effects: the ball's motion (`series`: derived states are formulas) and energy, or the
- * image on the point. problem->at must be set. */
+/* Whether `begin` gives its states at any time. Such an effect has no other states. */
+bool iso_effect_is_derived(const iso_effect *effect);
+
+/* Writes down the equations of all effects: the ball's motion (`series`: derived states are formulas) and energy, or
+ * the image on the point. problem->at must be set. What cannot be computed is `overrun` or `wrong`. */
 void iso_effects_record_motion(const iso_problem *f, bool series, iso_formula *F);
 void iso_effects_record_energy(const iso_problem *f, iso_formula *F);
 void iso_effects_record_image(const iso_problem *f, iso_formula *F);
+
+struct iso_model;
+
+/* y' in the system's own clock, from the recurrences: the same as m->own_rhs, by the other statement of the
+ * equations. Slower: a test holds the two against each other. */
+void iso_model_rhs_of_recurrences(const struct iso_model *m, const double y[], double dy[]);
 
 /* For the rows: states that are there on a plane alone, and what many of them answer. */
 bool iso_is_plane(const iso_problem *f);

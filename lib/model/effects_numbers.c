@@ -1,4 +1,5 @@
-/* effects_numbers.c - the numbers of effects: where they stand, their units, the level, and whether they make sense. */
+/* effects_numbers.c - the numbers of effects: where they stand, their units, the level, and whether they make sense.
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,12 +7,19 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
+#include "model/model.h"
 
-/* --- numbers -------------------------------------------------------------------------------------------------------- */
+/* --- numbers ---------------------------------------------------------------------------------------------------- */
 
 double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number)
 {
     return (double *)effects->number[id] + number->at;
+}
+
+/* Whether its place is within the numbers of an effect. */
+static bool has_room(const iso_effect_number *n)
+{
+    return n->at >= 0 && n->count > 0 && n->at + n->count <= ISO_EFFECT_NUMBERS;
 }
 
 iso_effects iso_effects_default(void)
@@ -19,7 +27,7 @@ iso_effects iso_effects_default(void)
     iso_effects effects = {.on = {false}};
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++)
-            if (n->initially) copy(n->initially, iso_effect_values(&effects, e, n), n->count);
+            if (n->initially && has_room(n)) copy(n->initially, iso_effect_values(&effects, e, n), n->count);
     return effects;
 }
 
@@ -32,7 +40,7 @@ iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *e
     if (!name) return ISO_OK;
     for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
         if (strcmp(n->name, name) != 0) continue;
-        if (n->count != count)
+        if (n->count != count || !has_room(n))
             return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "'%s' of '%s' has %d numbers, not %d", name, effect,
                                     n->count, count);
         copy(values, iso_effect_values(effects, e, n), count);
@@ -45,7 +53,8 @@ iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *unit
 {
     iso_effects scaled = *effects;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; scaled.on[e] && n && n->name; n++) {
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; scaled.on[e] && n && n->name && has_room(n);
+             n++) {
             double *x = iso_effect_values(&scaled, e, n);
             const double unit = iso_unit(units, n->dimension);
             for (int i = 0; i < n->count; i++) x[i] = x[i] == 0 ? 0 : power > 0 ? x[i] * unit : x[i] / unit;
@@ -53,7 +62,7 @@ iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *unit
     return scaled;
 }
 
-/* --- the level: an effect that is the energy of the point ------------------------------------------------------------- */
+/* --- the level: an effect that is the energy of the point ------------------------------------------------------- */
 
 static iso_effect_id level_id(void)
 {
@@ -88,7 +97,7 @@ iso_dimension iso_level_dimension(void)
     return iso_effect_list[level_id()]->numbers->dimension;
 }
 
-/* --- do the numbers make sense ---------------------------------------------------------------------------------------- */
+/* --- do the numbers make sense ---------------------------------------------------------------------------------- */
 
 static iso_status check_unit(iso_context *ctx, const char *name, int count, double x[])
 {
@@ -112,11 +121,17 @@ static iso_status check_number(iso_context *ctx, const char *effect, const iso_e
     for (int i = 0; i < n->count; i++)
         if (!isfinite(x[i]))
             return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is not finite", effect, n->name);
-    const bool resists = n->kind == ISO_NUMBER_POSITIVE || n->kind == ISO_NUMBER_NOT_NEGATIVE;
     if (n->kind == ISO_NUMBER_UNIT) return check_unit(ctx, n->name, n->count, x);
-    if (resists && x[0] < 0)
+    const bool resists = n->kind == ISO_NUMBER_POSITIVE || n->kind == ISO_NUMBER_NOT_NEGATIVE;
+    int zeros = 0;
+    bool negative = false;
+    for (int i = 0; i < n->count; i++) {
+        zeros += x[i] == 0;
+        negative = negative || x[i] < 0;
+    }
+    if (resists && negative)
         return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is negative, it must resist", effect, n->name);
-    if ((n->kind == ISO_NUMBER_POSITIVE || n->kind == ISO_NUMBER_NOT_ZERO) && x[0] == 0)
+    if ((n->kind == ISO_NUMBER_POSITIVE && zeros > 0) || (n->kind == ISO_NUMBER_NOT_ZERO && zeros == n->count))
         return iso_context_fail(ctx, ISO_BAD_INPUT, n->name, "%s: '%s' is 0 and changes nothing: take it out", effect,
                                 n->name);
     return ISO_OK;
@@ -141,16 +156,57 @@ static iso_status check_D(iso_context *ctx, const iso_params *p, const char *eff
                             effect, effect);
 }
 
-/* A row that acts states its equations; what it leaves out of them nobody may guess. */
+/* What a row lacks, or says twice; NULL: nothing. What is left out, nobody may guess. */
+static const char *what_is_wrong(const iso_effect *effect)
+{
+    const iso_effect_state *s = effect->states;
+    const bool derived = iso_effect_is_derived(effect);
+    if (!effect->observes && !effect->motion && !effect->torque) return "it acts, but has no equations of motion";
+    if (effect->observes && (effect->torque || effect->potential || effect->image || effect->twists))
+        return "it observes, but has a torque, a potential, an image or a contact that twists";
+    if (effect->columns && !effect->show) return "it has columns, but no `show`";
+    if (s && !effect->begin) return "it has states, but no `begin`";
+    if (s && !effect->motion) return "it has states, but no `motion` with their rates";
+    if (s && !derived && !effect->recall) return "it has states, but no `recall`";
+    for (; s && s->name; s++)
+        if ((s->kind == ISO_STATE_DERIVED) != derived) return "some of its states are derived, others are not";
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
+        if (!has_room(n)) return "it has more numbers than there is room for (ISO_EFFECT_NUMBERS)";
+    if (effect->is_level && effect != iso_effect_list[level_id()]) return "there is another level";
+    return NULL;
+}
+
 static iso_status check_row(iso_context *ctx, const iso_effect *effect)
 {
+    const char *wrong = what_is_wrong(effect);
     if (iso_effect_columns() > ISO_EFFECT_COLUMNS)
         return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
                                 "the effects have %d columns, and there is room for %d: set ISO_EFFECT_COLUMNS to %d",
                                 iso_effect_columns(), ISO_EFFECT_COLUMNS, iso_effect_columns());
-    if (effect->observes || effect->motion || effect->torque) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                            "the row of '%s' is not complete: it acts, but has no equations of motion", effect->name);
+    if (!wrong) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name, "the row of '%s' is not complete: %s", effect->name,
+                            wrong);
+}
+
+/* The equations of each effect alone, with its own states in place: they must be equations that all can compute. */
+static iso_status check_equations(iso_context *ctx, const iso_params *p, const iso_effects *effects, iso_effect_id e)
+{
+    iso_problem f = {.p = *p, .effects = *effects};
+    iso_formula F;
+    int at = ISO_STATE;
+    for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) {
+        const int states = effects->on[i] ? iso_effect_states(iso_effect_list[i], &f) : 0;
+        f.at[i] = states > 0 ? at : 0;
+        at += states;
+    }
+    if (at > ISO_MAX_STATE) return ISO_OK; /* the model is refused */
+    for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) f.effects.on[i] = i == e;
+    iso_effects_record_motion(&f, false, &F);
+    if (!F.wrong) iso_effects_record_energy(&f, &F);
+    if (!F.wrong) iso_effects_record_image(&f, &F);
+    if (!F.wrong) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, iso_effect_list[e]->name,
+                            "the equations of '%s' cannot be computed: %s", iso_effect_list[e]->name, F.wrong);
 }
 
 iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double normal[3], iso_effects *effects)
@@ -165,6 +221,7 @@ iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double
             status = check_number(ctx, effect->name, n, iso_effect_values(effects, e, n));
         if (status == ISO_OK && effect->check) status = effect->check(ctx, p, normal, effects);
         if (status == ISO_OK && effect->needs_D) status = check_D(ctx, p, effect->name);
+        if (status == ISO_OK) status = check_equations(ctx, p, effects, e);
     }
     return status;
 }

@@ -1,19 +1,26 @@
-/* formula.c - writing formulas down, line by line. What they mean is computed by series/evaluate_impl.h. */
+/* formula.c - writes formulas down, line by line (formula.h). series/evaluate_impl.h computes them. */
 #include "model/formula.h"
 
 #include <math.h>
 #include <string.h>
 
+#include "model/system.h"
+
+_Static_assert(ISO_FORMULA_LINES <= 64 && ISO_FORMULA_SCALARS <= 64 && ISO_FORMULA_VECTORS <= 64 &&
+                   ISO_FORMULA_CONSTANTS <= 64,
+               "each has a bit in a mask of 64, or is compared with one that has");
+_Static_assert(ISO_FORMULA_CONSTANTS <= UINT8_MAX && ISO_R_GRADIENT <= UINT8_MAX, "a line holds them in uint8_t");
+
 void iso_formula_begin(iso_formula *F, iso_formula_kind kind, bool series)
 {
-    F->kind = (iso_formula_kind)kind;
+    F->kind = kind;
     F->series = series;
     F->overrun = F->late = F->torques = false;
+    F->wrong = NULL;
     F->constants = F->lines = F->states = 0;
     F->scalars = ISO_GIVEN_SCALARS;
     F->vectors = ISO_GIVEN_VECTORS;
-    F->late_line = 0;
-    F->late_scalar = 0;
+    F->late_line = F->late_scalar = 0;
     F->late_vector = (uint64_t)1 << ISO_GIVEN_OMEGA_DOT;
 }
 
@@ -45,11 +52,17 @@ int iso_formula_value(iso_formula *F, double x)
     return at;
 }
 
-/* Whether the operation's first, or second, number is a scalar that is late, or a vector. */
-static bool is_late(const iso_formula *F, iso_operation operation, int a, int b)
+/* A set of scalars and a set of vectors, a bit each. */
+typedef struct sets {
+    uint64_t scalars, vectors;
+} sets;
+
+/* Whether the operation takes a scalar or a vector of the sets. The operation tells what a and b are: places of
+ * scalars, of vectors or of constants, which are in no set. */
+static bool takes(sets of, iso_operation operation, int a, int b)
 {
-    const bool scalar_a = F->late_scalar >> a & 1, scalar_b = F->late_scalar >> b & 1;
-    const bool vector_a = F->late_vector >> a & 1, vector_b = F->late_vector >> b & 1;
+    const bool scalar_a = of.scalars >> a & 1, scalar_b = of.scalars >> b & 1;
+    const bool vector_a = of.vectors >> a & 1, vector_b = of.vectors >> b & 1;
     switch (operation) {
     case ISO_S_ADD:
     case ISO_S_SUB:
@@ -71,14 +84,28 @@ static bool is_late(const iso_formula *F, iso_operation operation, int a, int b)
     }
 }
 
+/* What is not given to a formula of this kind: energies depend on n and on states, images on gamma alone. */
+static sets not_given(iso_formula_kind kind)
+{
+    const uint64_t spin = (uint64_t)1 << ISO_GIVEN_SPIN, u = (uint64_t)1 << ISO_GIVEN_U;
+    const uint64_t moving = (uint64_t)1 << ISO_GIVEN_OMEGA | (uint64_t)1 << ISO_GIVEN_OMEGA_DOT;
+    switch (kind) {
+    case ISO_FORMULA_ENERGY: return (sets){spin, moving};
+    case ISO_FORMULA_IMAGE: return (sets){spin, moving | u};
+    default: return (sets){0, 0};
+    }
+}
+
 /* Writes the line; tells whether it is late. */
 static bool write_line(iso_formula *F, iso_operation operation, int to, int a, int b)
 {
     const int at = next_place(F, &F->lines, ISO_FORMULA_LINES);
-    const bool late = is_late(F, operation, a, b);
+    const bool late = takes((sets){F->late_scalar, F->late_vector}, operation, a, b);
     F->line[at] = line_of(operation, to, a, b);
     if (late) F->late_line |= (uint64_t)1 << at;
     F->late = F->late || late;
+    if (takes(not_given(F->kind), operation, a, b))
+        F->wrong = "an energy depends on what moves, or an image on more than gamma";
     return late;
 }
 
@@ -100,16 +127,18 @@ void iso_formula_result(iso_formula *F, iso_operation operation, int to, int a, 
 {
     const bool late = write_line(F, operation, to, a, b);
     F->torques = F->torques || operation == ISO_R_TORQUE;
-    F->overrun = F->overrun || (late && operation == ISO_R_TORQUE); /* omega' follows from the torque */
+    const bool rate = operation == ISO_R_VECTOR_RATE || operation == ISO_R_SCALAR_RATE;
+    if (late && !rate) F->wrong = "a torque depends on omega', which follows from the torque";
 }
 
 int iso_formula_state(iso_formula *F, bool is_vector, int at)
 {
     for (int i = 0; i < F->states; i++)
         if (F->state[i].at == at && F->state[i].is_vector == is_vector) return F->state[i].node;
+    if (at < ISO_STATE || F->kind == ISO_FORMULA_IMAGE) F->wrong = "it reads a state that is not there";
     const int i = next_place(F, &F->states, ISO_FORMULA_STATES);
-    const int node = is_vector ? next_place(F, &F->vectors, ISO_FORMULA_VECTORS)
-                               : next_place(F, &F->scalars, ISO_FORMULA_SCALARS);
+    const int node =
+        is_vector ? next_place(F, &F->vectors, ISO_FORMULA_VECTORS) : next_place(F, &F->scalars, ISO_FORMULA_SCALARS);
     F->state[i].is_vector = is_vector;
     F->state[i].node = (uint8_t)node;
     F->state[i].at = (uint8_t)at;

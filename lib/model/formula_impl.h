@@ -9,18 +9,21 @@
  *         set_rate_v(F, e, constant(F, 1), cross_of(F, e, formula_omega(F)));
  *     }
  *
- * formula.h says what becomes of it.
+ * formula.h says what becomes of it. The rules:
  *
- * Which lines a formula has may depend on which effects are on, and on whether k = 1, but on no other number: orbits
- * that share the lanes of a vector share their formulas. Constants are computed in the numbers of each method, so that
- * 128 bits stay 128 bits: write div_c(F, constant(F, 1), constant_k(F)), not constant(F, 1 / k).
+ *     Each state of the effect has one rate: set_rate for a scalar state, set_rate_v for a vector state.
+ *     A state has one shape. Who reads another effect's state reads it in the shape in which it has its rate.
+ *     The lines of a formula may depend on which effects are on and on whether k = 1, and on no other number: orbits
+ *     that are computed side by side share their lines.
+ *     Compute with constants by the calls: div_c(F, constant(F, 1), constant_k(F)), not constant(F, 1 / k).
+ *     Each method then computes them in its own numbers, and 128 bits stay 128 bits.
  */
 #ifndef ISO_MODEL_FORMULA_IMPL_H
 #define ISO_MODEL_FORMULA_IMPL_H
 
 #include "model/formula.h"
 
-/* --- constants ------------------------------------------------------------------------------------------------------ */
+/* --- constants -------------------------------------------------------------------------------------------------- */
 
 static inline iso_constant constant(iso_formula *F, double x)
 {
@@ -80,7 +83,7 @@ static inline iso_constant div_c(iso_formula *F, iso_constant a, iso_constant b)
     return (iso_constant){iso_formula_constant(F, ISO_C_DIV, a.at, b.at)};
 }
 
-/* --- what is given -------------------------------------------------------------------------------------------------- */
+/* --- what is given ---------------------------------------------------------------------------------------------- */
 
 static inline iso_vector formula_omega(iso_formula *F)
 {
@@ -94,7 +97,7 @@ static inline iso_vector formula_n(iso_formula *F)
     return (iso_vector){ISO_GIVEN_N};
 }
 
-/* the point's gamma stands in the place of n */
+/* gamma of the point; it has the place of n */
 static inline iso_vector formula_gamma(iso_formula *F)
 {
     (void)F;
@@ -128,7 +131,7 @@ static inline iso_scalar formula_q(iso_formula *F)
     return (iso_scalar){ISO_GIVEN_BASE};
 }
 
-/* (omega,n), of a contact that twists */
+/* (omega,n), where the contact twists */
 static inline iso_scalar formula_spin(iso_formula *F)
 {
     (void)F;
@@ -146,7 +149,7 @@ static inline iso_vector vector_state(iso_formula *F, int at)
     return (iso_vector){iso_formula_state(F, true, at)};
 }
 
-/* --- scalars -------------------------------------------------------------------------------------------------------- */
+/* --- scalars ---------------------------------------------------------------------------------------------------- */
 
 static inline iso_scalar add(iso_formula *F, iso_scalar a, iso_scalar b)
 {
@@ -196,7 +199,7 @@ static inline iso_scalar dot_c(iso_formula *F, iso_constant c, iso_vector a)
     return (iso_scalar){iso_formula_scalar(F, ISO_S_DOT_C, c.at, a.at)};
 }
 
-/* --- vectors -------------------------------------------------------------------------------------------------------- */
+/* --- vectors ---------------------------------------------------------------------------------------------------- */
 
 static inline iso_vector add_v(iso_formula *F, iso_vector a, iso_vector b)
 {
@@ -247,7 +250,7 @@ static inline iso_vector matrix_c(iso_formula *F, iso_constant M, iso_vector a)
     return (iso_vector){iso_formula_vector(F, ISO_V_MATRIX, M.at, a.at)};
 }
 
-/* --- results -------------------------------------------------------------------------------------------------------- */
+/* --- results ---------------------------------------------------------------------------------------------------- */
 
 /* MQ += c a */
 static inline void add_torque(iso_formula *F, iso_constant c, iso_vector a)

@@ -1,4 +1,4 @@
-/* formula_values.c - the values of formulas at one state, in doubles. */
+/* formula_values.c - computes the values of a formula at one state, in doubles: torques, rates, energies. */
 #define NUMBER double
 #define ROOT sqrt
 #define POW pow
@@ -8,7 +8,7 @@
 
 #include "model/series/evaluate_impl.h"
 
-enum { KEPT = 2 }; /* the value, and the rate of a state */
+enum { KEPT = 2 }; /* coefficients of each series: the value, and of a state the rate */
 
 typedef struct values {
     real scalar[ISO_FORMULA_SCALARS * KEPT];
@@ -25,10 +25,11 @@ static vector vector_at(const double x[3])
     return (vector){{x[0], x[1], x[2]}};
 }
 
-/* What is given at y: of the ball base = g, of the point q. */
+/* Sets what is given at y, and the states. `point`: y is (M, gamma), not (omega, n). */
 static void set_given(values *v, const iso_formula *F, const iso_params *p, const double y[], bool point)
 {
-    const vector n = vector_at(y + 3), u = vector_at((const double[]){n.at[0] / p->J[0], n.at[1] / p->J[1], n.at[2] / p->J[2]});
+    const vector n = vector_at(y + 3),
+                 u = vector_at((const double[]){n.at[0] / p->J[0], n.at[1] / p->J[1], n.at[2] / p->J[2]});
     v->vector[ISO_GIVEN_OMEGA * KEPT] = vector_at(y);
     v->vector[ISO_GIVEN_N * KEPT] = n;
     v->vector[ISO_GIVEN_U * KEPT] = u;
@@ -41,10 +42,18 @@ static void set_given(values *v, const iso_formula *F, const iso_params *p, cons
             v->scalar[F->state[i].node * KEPT] = y[F->state[i].at];
     v->torque = v->gradient = nought;
     v->potential = 0;
-    v->nodes = (nodes){.kept = KEPT, .c = F->value, .scalar = v->scalar, .vector = v->vector, .count = one, .inverse = one,
-                       .torque = &v->torque, .gradient = &v->gradient, .potential = &v->potential};
+    v->nodes = (nodes){.kept = KEPT,
+                       .c = F->value,
+                       .scalar = v->scalar,
+                       .vector = v->vector,
+                       .count = one,
+                       .inverse = one,
+                       .torque = &v->torque,
+                       .gradient = &v->gradient,
+                       .potential = &v->potential};
 }
 
+/* Sets the rates in dy: those of late lines, or those of all others. */
 static void get_rates(const values *v, const iso_formula *F, bool late, double dy[])
 {
     for (int i = 0; i < F->lines; i++) {
@@ -99,5 +108,9 @@ double iso_formula_image(const iso_formula *F, const iso_params *p, const double
 
 void iso_formula_finish(iso_formula *F, const iso_params *p)
 {
+    if (F->overrun || F->wrong) { /* some lines point at places that are not there */
+        F->constants = F->lines = F->states = 0;
+        F->late = F->torques = false;
+    }
     find_constants(F, p, F->value);
 }

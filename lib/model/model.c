@@ -1,3 +1,6 @@
+/* model.c - puts the equations of one orbit together: the system, its effects, the clock it runs in, other clocks.
+ * The model calls the plainest functions that do it: a free ball in its own time costs no look at effects or clocks.
+ */
 #include "model/model.h"
 
 #include <math.h>
@@ -6,14 +9,16 @@
 #include "model/contact_impl.h"
 #include "model/effects_impl.h"
 
-/* --- in the system's own clock ------------------------------------------------------------------------------------- */
+_Static_assert(ISO_MAX_STATE <= 256, "a formula holds places in y in uint8_t");
+
+/* --- in the system's own clock ---------------------------------------------------------------------------------- */
 
 static void free_rhs(const iso_model *m, const double y[], double dy[])
 {
     m->system->rhs(&m->problem, y, dy);
 }
 
-/* Effects that have states, but no torques. */
+/* Effects with states, and without a torque. */
 static void free_rhs_followed(const iso_model *m, const double y[], double dy[])
 {
     double T[3];
@@ -38,9 +43,9 @@ static void point_rhs(const iso_model *m, const double y[], double dy[])
     add_scaled(dy, 1, gamma_dV);
 }
 
-/* --- in another clock, with clocks carried ------------------------------------------------------------------------- */
+/* --- in another clock, with other clocks as states -------------------------------------------------------------- */
 
-/* d(clock)/d(independent variable) at q, and the exponent of q in it */
+/* d(clock)/d(independent variable) at q, and the exponent of q in this rate */
 static double rate(const iso_model *m, iso_clock clock, double q, double *exponent)
 {
     double e, e_independent;
@@ -85,9 +90,9 @@ static void jacobian_clocks(const iso_model *m, const double y[], double jac[])
     }
 }
 
-/* --- assembling ----------------------------------------------------------------------------------------------------- */
+/* --- assembling ------------------------------------------------------------------------------------------------- */
 
-/* The effects that have states, and where. */
+/* Finds the effects that have states, and gives each a place in y. */
 static void add_states(iso_model *m)
 {
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
@@ -100,6 +105,7 @@ static void add_states(iso_model *m)
     }
 }
 
+/* The first effect whose torque is a function, not a formula; NULL: none. */
 static const iso_effect *find_without_formula(const iso_model *m)
 {
     for (int e = 0; e < ISO_EFFECTS; e++)
@@ -115,6 +121,7 @@ static void record(iso_model *m)
     f->motion.kind = f->energy_formula.kind = ISO_FORMULA_NONE;
     f->motion.lines = f->energy_formula.lines = 0;
     f->motion.late = f->motion.torques = f->motion.overrun = f->energy_formula.overrun = false;
+    f->motion.wrong = f->energy_formula.wrong = NULL;
     if (iso_effects_none(&f->effects) || m->moving > ISO_STATE + ISO_MOST_EFFECT_STATES) return;
     if (m->system == &iso_system_ball) {
         iso_effects_record_motion(f, false, &f->motion);
@@ -124,19 +131,20 @@ static void record(iso_model *m)
     }
 }
 
-/* Whether an effect has a torque in the place of a formula. */
+/* Whether an effect has a torque, as a formula or as a function. */
 static bool has_torques(const iso_model *m)
 {
     return m->problem.motion.torques || m->without_formula != NULL;
 }
 
-/* The plainest functions that do it. */
+/* Takes the plainest function that does it. A late rate needs omega', which only ball_rhs has. */
 static void choose_equations(iso_model *m)
 {
     const bool ball = m->system == &iso_system_ball;
     m->own_rhs = free_rhs;
     if (ball && m->followers > 0) m->own_rhs = free_rhs_followed;
-    if (ball && (has_torques(m) || m->contact == &iso_contact_twisting)) m->own_rhs = ball_rhs;
+    if (ball && (has_torques(m) || m->problem.motion.late || m->contact == &iso_contact_twisting))
+        m->own_rhs = ball_rhs;
     if (!ball && m->problem.energy_formula.lines > 0) m->own_rhs = point_rhs;
 }
 
@@ -146,7 +154,7 @@ const char *iso_model_too_large(const iso_model *m)
     if (m->moving > ISO_STATE + ISO_MOST_EFFECT_STATES) return "the effects have more states than there is room for";
     if (f->motion.overrun || f->energy_formula.overrun)
         return "the equations of the effects have more lines than there is room for (formula.h)";
-    return NULL;
+    return f->motion.wrong ? f->motion.wrong : f->energy_formula.wrong;
 }
 
 const iso_effect *iso_model_without_formula(const iso_model *m)
@@ -199,7 +207,7 @@ const char *iso_model_state_name(const iso_model *m, int i, const char **reason)
     return NULL;
 }
 
-/* --- sizes ---------------------------------------------------------------------------------------------------------- */
+/* --- sizes ------------------------------------------------------------------------------------------------------ */
 
 /* Makes unit vectors of the states that are, and restores the effect's other constraints; the largest correction. */
 static double restore_states(const iso_problem *f, iso_effect_id id, double y[])

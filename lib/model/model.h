@@ -1,9 +1,9 @@
 /* model.h - what is integrated: a system, its effects, the clock it runs in, and the clocks it carries.
  *
  * A model is assembled once, and holds exactly what was asked for. A free ball in its own time is the six equations
- * (9) and nothing else. An effect adds its torque and its states, and what it does not do costs nothing. Asked to run in
- * another clock c, every equation is multiplied by d(own clock)/dc, the time change of the isomorphism (section 4 of the
- * paper); asked to carry a clock, that clock is one more state.
+ * (9) and nothing else. An effect adds its torque and its states, and what it does not do costs nothing. Asked to run
+ * in another clock c, every equation is multiplied by d(own clock)/dc, the time change of the isomorphism (section 4
+ * of the paper); asked to carry a clock, that clock is one more state.
  *
  *     y = (omega, n | e of gravity | lambda of twist | Q, x of attitude | clocks)      what is there, in this order
  */
@@ -43,7 +43,8 @@ iso_model iso_model_assemble(const iso_system *system, const iso_problem *proble
 /* Why the model cannot be simulated: more effects than there is room for; NULL: it can. */
 const char *iso_model_too_large(const iso_model *m);
 
-/* The first of its effects whose equations are no formula: only methods that need nothing but y' can take it. NULL: none. */
+/* The first of its effects whose equations are no formula: only methods that need nothing but y' can take it. NULL:
+ * none. */
 const iso_effect *iso_model_without_formula(const iso_model *m);
 
 /* The state at the start: the system's six numbers as they are, effects at their beginnings, clocks at 0. */
@@ -52,16 +53,16 @@ void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y
 /* The name of state i, and why it is there: "" for the system's own. */
 const char *iso_model_state_name(const iso_model *m, int i, const char **reason);
 
-/* Restores the constraints of system and effects, and the energy where it is conserved; gives the relative size of the
- * correction. */
+/* Restores the constraints of system and effects, and the energy where it is conserved; gives the relative size of
+ * the correction. */
 double iso_model_project(const iso_model *m, double y[]);
 
 /* The size of each component for error control: of the vector of R^3 it belongs to; of the clock, and of its
  * progress in one unit of the independent variable. Errors of a step are measured in units of tolerance * size. */
 void iso_model_size(const iso_model *m, const double y[], double size[]);
 
-/* The Jacobian in the system's own clock, moving x moving, row-major: that of the formulas, iso_model_without_formula()
- * must be NULL. */
+/* The Jacobian in the system's own clock, moving x moving, row-major: that of the formulas,
+ * iso_model_without_formula() must be NULL. */
 void iso_model_slopes(const iso_model *m, const double y[], double jac[]);
 
 #endif

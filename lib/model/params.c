@@ -1,3 +1,4 @@
+/* params.c - the numbers of a ball: checks them, and computes k, J and the ball's own units from them (params.h). */
 #include "model/params.h"
 
 #include <float.h>
@@ -164,8 +165,8 @@ void iso_units_choose(const iso_params *p, double speed, iso_units *u)
     fill(p->k, J, &u->own);
 }
 
-/* unit_J^(J_2k/(2k)) alone may leave the range of doubles where the whole product does not: its exponent of two is split
- * into a whole part, added to the others, and a fraction. */
+/* unit_J^(J_2k/(2k)) alone may leave the range of doubles where the whole product does not: its exponent of two is
+ * split into a whole part, added to the others, and a fraction. */
 double iso_unit(const iso_units *u, iso_dimension d)
 {
     const double exponent = d.J_2k == 0 ? 0 : d.J_2k / (2 * u->own.k), log2_J = ilogb(u->J);

@@ -1,6 +1,7 @@
 /* point_t.c - the point of (24) on the level H = 0, in the ball's time t, where no power of q is left.
  *
- * There |M| = sqrt(2 eps) q^(-1/(2k)) is known, and spans hundreds of decades for small |k|. What is carried instead
+ * On this level |M| = sqrt(2 eps) q^(-1/(2k)) is known, but spans hundreds of decades for small |k|. The state here
+ * is
  *
  *     p = (k/sqrt(det J)) q^(1/(2k)) M = J^(1/2) omega,     q = (gamma, J gamma)                        by (18)
  *
@@ -15,8 +16,8 @@
 #include "base/vec3_impl.h"
 #include "model/system.h"
 
-/* NN of (18), from gamma in both directions. Were it taken from n one way and from gamma the other way, the rounding
- * of n -> gamma would change it by a fixed factor, and w would drift by that factor at each round trip. */
+/* NN of (18). Both directions compute it from gamma. From n in one direction and from gamma in the other, the two
+ * would differ by a rounding error, and w would change by it at each round trip. */
 static double momentum_factor(const iso_params *p, const double gamma[3])
 {
     const double q = dot_diag(gamma, p->J, gamma) / dot(gamma, gamma);
@@ -46,6 +47,7 @@ static double point_q(const iso_params *p, const double y[ISO_STATE], double gra
     return iso_system_point.q(p, y, gradient);
 }
 
+/* A second statement, kept as in ball.c: `point_p` of series/recurrences_impl.h gives the same at order 0. */
 static void rhs(const iso_problem *f, const double y[ISO_STATE], double dy[ISO_STATE])
 {
     const double *p = y, *gamma = y + 3, r = 1 / sqrt(f->p.det_J);

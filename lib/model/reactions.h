@@ -3,8 +3,8 @@
  *     a_c = b [ w' x n + w x n' + w x (w x n) ]          acceleration of the centre, in body axes
  *     N = m a_c - F,   F = -m g e under gravity           contact force
  *
- * The twist torque lambda n acts as well: lambda of (9), or -c (w,n) of a contact that twists. With D = m b^2 all of this
- * needs mass and radius only as b: forces are given times |b|, as energies.
+ * The twist torque lambda n acts as well: lambda of (9), or -c (w,n) of a contact that twists. With D = m b^2 all of
+ * this needs mass and radius only as b: forces are given times |b|, as energies.
  */
 #ifndef ISO_MODEL_REACTIONS_H
 #define ISO_MODEL_REACTIONS_H

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "base/vec3_impl.h"
+#include "model/effects_impl.h"
 
 static bool is_resisted(const iso_model *m)
 {
@@ -27,7 +28,7 @@ void iso_model_rest(const iso_model *m, double dt, double y[])
     double f[ISO_MAX_STATE];
     for (int i = 0; i < 3; i++) y[i] = 0;
     for (int i = 0; i < m->followers; i++)
-        if (m->follower[i]->states->kind == ISO_STATE_DERIVED) m->follower[i]->begin(&m->problem, y);
+        if (iso_effect_is_derived(m->follower[i])) m->follower[i]->begin(&m->problem, y);
     m->rhs(m, y, f);
     for (int i = 0; i < m->dim; i++) y[i] += dt * f[i];
 }

@@ -1,8 +1,9 @@
 /* slopes.c - the Jacobian of the equations of motion, from their own recurrences.
  *
- * Along y + x e_j the right-hand side is f(y) + x df/dy_j + ...: with the states' coefficients 0 and 1 set to y and e_j,
- * coefficient 1 of the right-hand side is column j of the Jacobian. Several columns are computed side by side. Nothing of
- * the equations is written down twice.
+ * On the line y + x e_j the right-hand side is the series f(y) + x df/dy_j + ... in x. So set coefficient 0 of the
+ * states to y and coefficient 1 to e_j: coefficient 1 of f is then column j of the Jacobian. The terms put
+ * coefficient n of f, in the place of coefficient n + 1 of the states, divided by n + 1. Here all of these divisors
+ * are set to 1, so that place 2 holds the column itself. LANES columns are computed side by side.
  */
 #define NUMBER double
 #define ROOT sqrt
@@ -16,6 +17,7 @@ enum { MOST = 1 };
 #include "model/model.h"
 #include "model/series/recurrences_impl.h"
 
+/* The terms of the system and its effects. */
 static void call_system(series *S, const iso_model *m)
 {
     const iso_problem *f = &m->problem;
@@ -32,17 +34,18 @@ static void call_system(series *S, const iso_model *m)
     }
 }
 
+/* The numbers of the ball and of its effects. */
 static void set_numbers(series *S, const iso_model *m)
 {
     const iso_params *p = &m->problem.p;
     const bool is_t = m->system == &iso_system_point_t;
-    for (int i = 0; i < KEPT; i++) S->count[i] = S->inverse[i] = spread(1); /* the terms then give plain rates */
+    for (int i = 0; i < KEPT; i++) S->count[i] = S->inverse[i] = spread(1); /* in place of n and 1/n: see above */
     for (int lane = 0; lane < LANES; lane++) set_ball(S, lane, p, S->formula);
     S->alpha = spread(is_t ? 1 / sqrt(p->det_J) : -1 - 1 / p->k);
     S->coupling = spread(2 * m->problem.eps / p->k);
 }
 
-/* Where the coefficients of state y[i] stand. */
+/* Where coefficient n of state y[i] stands; NULL: no equation of motion has to do with it. */
 static real *coefficients(series *S, const iso_formula *F, int i, int n)
 {
     if (i < 3) return &AT(S->w[n], i);
@@ -66,6 +69,25 @@ static void set_states(series *S, const iso_model *m, const double y[], int firs
     }
 }
 
+/* The terms in their order give coefficient n + 1 of all states. */
+static void call_terms(series *S, int n)
+{
+    for (int i = 0; i < S->terms; i++) S->term[i](S, n);
+}
+
+void iso_model_rhs_of_recurrences(const iso_model *m, const double y[], double dy[])
+{
+    series S;
+    call_system(&S, m);
+    set_numbers(&S, m);
+    set_states(&S, m, y, m->moving); /* no direction */
+    call_terms(&S, 0);
+    for (int i = 0; i < m->moving; i++) {
+        const real *rate = coefficients(&S, &m->problem.motion, i, 1);
+        dy[i] = rate ? LANE(*rate, 0) : 0;
+    }
+}
+
 void iso_model_slopes(const iso_model *m, const double y[], double jac[])
 {
     series S;
@@ -73,9 +95,9 @@ void iso_model_slopes(const iso_model *m, const double y[], double jac[])
     set_numbers(&S, m);
     for (int first = 0; first < m->moving; first += LANES) {
         set_states(&S, m, y, first);
-        for (int i = 0; i < S.terms; i++) S.term[i](&S, 0);
-        set_states(&S, m, y, first); /* a term of coefficient 0 has put the rates there */
-        for (int i = 0; i < S.terms; i++) S.term[i](&S, 1);
+        call_terms(&S, 0);
+        set_states(&S, m, y, first); /* call_terms has put the rates there */
+        call_terms(&S, 1);
         for (int i = 0; i < m->moving; i++) {
             const real *slope = coefficients(&S, &m->problem.motion, i, 2);
             for (int lane = 0; lane < LANES && first + lane < m->moving; lane++)

@@ -1,3 +1,4 @@
+/* system.c - the list of the systems, their clocks, and questions about k and J (system.h). */
 #include "model/system.h"
 
 #include <float.h>

@@ -29,9 +29,9 @@ iso_dimension iso_clock_dimension(iso_clock clock);
  *     t: 1,   tau: N = q^(1 - 1/(2k)),   s: G N = (k^2/det J) q^(1 + 1/(2k)). */
 double iso_clock_rate(const iso_params *p, iso_clock clock, double q, double *exponent);
 
-/* A first integral. y is the state of the whole model, of which most integrals read six numbers. `value` gives I(y), and
- * in *size the magnitude of the terms it is made of, the measure for
- * drift: |I(y) - I(y0)| / size is of the order of the rounding error when I is conserved. */
+/* A first integral. y is the state of the whole model, of which most integrals read six numbers. `value` gives I(y),
+ * and in *size the magnitude of the terms it is made of, the measure for drift: |I(y) - I(y0)| / size is of the order
+ * of the rounding error when I is conserved. */
 typedef struct iso_integral {
     const char *name, *doc;
     iso_dimension dimension;
@@ -56,8 +56,8 @@ typedef struct iso_system {
     /* The energy, h or H; *size as in iso_integral. It is also one of the integrals. */
     double (*energy)(const iso_problem *f, const double y[], double *size);
 
-    /* Restores the unit vector, orthogonality and f->energy; gives the relative size of the correction. y is the state of
-     * the whole model. */
+    /* Restores the unit vector, orthogonality and f->energy; gives the relative size of the correction. y is the
+     * state of the whole model. */
     double (*project)(const iso_problem *f, double y[]);
 
     /* The size of the first vector against which its errors are measured. */
@@ -69,8 +69,8 @@ typedef struct iso_system {
 
 extern const iso_system iso_system_ball, iso_system_point;
 
-/* The point on H = 0 again, y = (J^(1/2) omega, gamma) in the ball's time, free of powers of q: for extreme k (point_t.c).
- * Not in the registry. */
+/* The point on H = 0 again, y = (J^(1/2) omega, gamma) in the ball's time, free of powers of q: for extreme k
+ * (point_t.c). Not in the registry. */
 extern const iso_system iso_system_point_t;
 
 /* Its states and those of the point, (M, gamma) with M = NN p (18). The two may be one array. */
@@ -83,11 +83,12 @@ extern const iso_system *const iso_systems[];
 /* The system called `name`, or NULL. */
 const iso_system *iso_system_find(const char *name);
 
-/* Whether powers q^(1/k) may range over more than ten decades along an orbit: series of (24) then overflow, and its steps
- * shrink. */
+/* Whether powers q^(1/k) may range over more than ten decades along an orbit: series of (24) then overflow, and its
+ * steps shrink. */
 bool iso_params_steep(const iso_params *p);
 
-/* Whether two moments of inertia are equal (to 4 units in the last place), making axis `axis` (0-2) one of symmetry. */
+/* Whether two moments of inertia are equal (to 4 units in the last place), making axis `axis` (0-2) one of symmetry.
+ */
 bool iso_params_symmetric(const iso_params *p, int axis);
 
 #endif

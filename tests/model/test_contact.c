@@ -200,8 +200,8 @@ static void note_unit(const effects_case *c, int count, const double pushed[], c
     effects_note(c, worst, turned, 4 * DBL_EPSILON, what);
 }
 
-/* w after the projection: without spin, by an impulse of the contact, where there is no twist; of the right energy where that is kept and the ball
- * moves enough; else, and in direction always, as it was. */
+/* w after the projection: without spin, by an impulse of the contact, where there is no twist; of the right energy
+ * where that is kept and the ball moves enough; else, and in direction always, as it was. */
 static void note_omega(const effects_case *c, const iso_model *m, const double pushed[], const double y[],
                        laws_worst *worst)
 {

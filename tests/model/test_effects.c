@@ -134,6 +134,18 @@ static void check_jacobian(const effects_case *c, const iso_model *m, laws_worst
     }
 }
 
+/* The right-hand side stands twice: in ball.c, point.c and contact.c, and in the recurrences of the series
+ * (series/recurrences_impl.h). Both give the same values, up to the rounding of their terms. */
+static void statements_agree(const effects_case *c, laws_worst *worst)
+{
+    double dy[ISO_MAX_STATE], other[ISO_MAX_STATE], size[ISO_MAX_STATE];
+    c->model.rhs(&c->model, c->y, dy);
+    iso_model_rhs_of_recurrences(&c->model, c->y, other);
+    effects_sizes(c, size);
+    for (int i = 0; i < c->model.moving; i++)
+        effects_note(c, worst, fabs(dy[i] - other[i]), 4 * laws_rounding(&c->model.problem.p) * size[i], "value");
+}
+
 static void jacobian_own_clock(const effects_case *c, laws_worst *worst)
 {
     check_jacobian(c, &c->model, worst);
@@ -411,6 +423,7 @@ int main(void)
     effects_hold("forces of every subset", NULL, 1, forces);
     effects_hold("starts and sizes of the states", NULL, 1, beginnings);
     effects_hold("what nothing acts on is free, bit for bit", NULL, 1, plain);
+    effects_hold("rhs against the recurrences", NULL, 1, statements_agree);
     effects_hold("Jacobian against differences", NULL, 1, jacobian_own_clock);
     effects_hold("Jacobian in every clock, with carried clocks", NULL, 4, jacobian_clocks);
     effects_hold("right-hand side in every clock", NULL, 1, rhs_clocks);

@@ -152,8 +152,8 @@ static void projection_restores(const laws_case *c, laws_worst *worst)
     }
 }
 
-/* A part of the fast vector along the unit one, of that share of its length: a ball's as an impulse of the contact gives
- * it, along J^-1 n, a point's along gamma. */
+/* A part of the fast vector along the unit one, of that share of its length: a ball's as an impulse of the contact
+ * gives it, along J^-1 n, a point's along gamma. */
 static void add_spin(const laws_case *c, double share, double y[ISO_STATE])
 {
     double along[3];

@@ -1,7 +1,8 @@
-/* evaluate_impl.h - the coefficients of a formula (model/formula.h), one after the other.
+/* evaluate_impl.h - computes formulas (model/formula.h) as power series, one coefficient after the other.
  *
- * The lines of a formula are products, sums and powers of series. Coefficient n of each follows from the coefficients up
- * to n of what it is made of. With n = 0 alone this is the plain value.
+ * The result of each line is a series. Coefficient n of it follows from coefficients 0 to n of what goes into the
+ * line. The lines are computed from the first to the last: a line takes results of earlier lines only. Coefficient 0
+ * is the plain value. A rate sets coefficient n + 1 of its state.
  */
 #include "model/formula.h"
 #include "model/series/products_impl.h"
@@ -60,7 +61,8 @@ static inline vector matrix_times(const real M[9], vector a)
     return v;
 }
 
-/* (a^p)_n */
+/* (a^p)_n. `power` of products_impl.h states the same recurrence for the base of the ball and of the point, and is
+ * faster: it takes n b_n and 1/b_0 from its caller, and adds in two sums. So the two round differently. */
 static inline real power_of_series(const nodes *t, const real a[], real p, const real v[], int n)
 {
     if (n == 0) return raised(a[0], p);
@@ -124,7 +126,7 @@ static inline void result_line(const iso_formula_line *l, const nodes *t, int n)
     }
 }
 
-/* Coefficient n of all lines, but of those that need omega' only if `late`, and then only of these. */
+/* Coefficient n: of the late lines if `late`, of all others if not. */
 static inline void evaluate(const iso_formula *F, const nodes *t, bool late, int n)
 {
     for (int i = 0; i < F->lines; i++) {

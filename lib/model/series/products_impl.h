@@ -93,8 +93,8 @@ static inline real quotient(real a_n, const real b[], real over_b, const real r[
 }
 
 /* v_n of v = b^p; jb: n b_n; over_b = 1/b[0]; count: n, over_n = 1/n */
-static inline real power(const real b[], const real jb[], real over_b, real p, const real v[], real count, real over_n,
-                         int n)
+static inline real power(const real b[], const real jb[], real over_b, real p, const real v[], real count,
+                         real over_n, int n)
 {
     if (n == 0) return raised(b[0], p);
     real even = zero, odd = zero, plain_even = zero, plain_odd = zero;

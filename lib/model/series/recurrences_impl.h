@@ -1,9 +1,12 @@
 /* recurrences_impl.h - the equations of motion of ball and point as recurrences for Taylor coefficients.
  *
- * This is the statement of the equations that all series and all Jacobians are made of. `expand` gives the coefficients
- * of a solution. With the coefficients 1 of the states set by hand, `slope` gives those of its derivative: the Jacobian
- * times that direction. A model calls for some of the terms below, in their order, and nothing else is computed. Effects
- * come in as formulas (model/formula.h), evaluated between the terms of the ball.
+ * All series and all Jacobians are made of this statement of the equations. A model calls some of the terms below, in
+ * their order, and nothing else is computed. Effects come in as formulas (model/formula.h), between the terms of the
+ * ball. There are two uses:
+ *
+ *     series      `expand` computes the coefficients of a solution, order by order
+ *     Jacobians   slopes.c sets coefficients 1 of the states to a direction; coefficients 1 of the right-hand side are
+ *                 then the Jacobian times this direction
  */
 #include "model/series/evaluate_impl.h"
 
@@ -19,15 +22,15 @@ struct series {
     const iso_formula *formula; /* of the effects: of the ball's motion, or of the point's image; NULL: none */
     /* what distinguishes one orbit's equations from another's */
     real c[ISO_FORMULA_CONSTANTS];
-    vector J, inv_J, excess, neumann_c;   /* excess: J - min J */
-    real k, D, factor, over_det, energy;  /* factor: det J/k^2 */
-    real alpha, coupling;                 /* each form's own: see its term */
-    real count[KEPT], inverse[KEPT];      /* n, 1/n */
+    vector J, inv_J, excess, neumann_c;  /* excess: J - min J */
+    real k, D, factor, over_det, energy; /* factor: det J/k^2 */
+    real alpha, coupling;                /* each form's own: see its term */
+    real count[KEPT], inverse[KEPT];     /* n, 1/n */
     /* coefficients: what terms hand on, vectors, then numbers */
     vector K[KEPT], x[KEPT], z[KEPT], a[KEPT], dV[KEPT]; /* x: the torque, or the point's acceleration factors */
-    real slope[KEPT];         /* n base[n] */
-    real over_base, over_gap; /* 1/base[0], 1/gap[0] */
-    real pole[KEPT];          /* of a ball, terms of 1/g: for its steps */
+    real slope[KEPT];                                    /* n base[n] */
+    real over_base, over_gap;                            /* 1/base[0], 1/gap[0] */
+    real pole[KEPT];                                     /* of a ball, terms of 1/g: for its steps */
     real r[KEPT], lambda[KEPT], gap[KEPT], v[KEPT], v1[KEPT], V[KEPT];
     /* the states, and what formulas are made of */
     union {
@@ -46,8 +49,15 @@ struct series {
 
 static inline nodes nodes_of(series *S)
 {
-    return (nodes){.kept = KEPT, .c = S->c, .scalar = S->scalar, .vector = S->vector, .count = S->count,
-                   .inverse = S->inverse, .torque = S->x, .gradient = S->dV, .potential = S->V};
+    return (nodes){.kept = KEPT,
+                   .c = S->c,
+                   .scalar = S->scalar,
+                   .vector = S->vector,
+                   .count = S->count,
+                   .inverse = S->inverse,
+                   .torque = S->x,
+                   .gradient = S->dV,
+                   .potential = S->V};
 }
 
 /* --- the ball (9) ----------------------------------------------------------------------------------------------- */
@@ -67,6 +77,7 @@ static inline void ball(series *S, int n)
     normal(S, n);
     S->K[n] = by(S->J, S->w[n]);
     S->x[n] = nought;
+    S->spin[n] = zero; /* (w,n), which formulas may read */
     S->n[n + 1] = times(S->k * S->inverse[n + 1], cross(S->n, S->w, n));
 }
 
@@ -74,7 +85,8 @@ static inline void ball(series *S, int n)
 static inline void rigid(series *S, int n)
 {
     S->z[n] = cross(S->n, S->K, n);
-    S->r[n] = quotient(S->over_det * total(by(S->excess, componentwise(S->n, S->w, n))), S->base, S->over_base, S->r, n);
+    S->r[n] =
+        quotient(S->over_det * total(by(S->excess, componentwise(S->n, S->w, n))), S->base, S->over_base, S->r, n);
     S->w[n + 1] = times(S->inverse[n + 1], scaled(S->r, S->z, n));
 }
 
@@ -176,8 +188,8 @@ static inline void point_s(series *S, int n)
     if (!S->formula) accelerate(S, n, componentwise(S->x, S->n, n));
 }
 
-/* Behind point_s, with effects whose image is V: - V terms of gamma'' = -M^2 gamma - dV/dgamma + (gamma,dV/dgamma) gamma,
- * where M^2 = 2 (H - V) */
+/* Behind point_s, with effects whose image is V: - V terms of gamma'' = -M^2 gamma - dV/dgamma + (gamma,dV/dgamma)
+ * gamma, where M^2 = 2 (H - V) */
 static inline void point_effects(series *S, int n)
 {
     const nodes t = nodes_of(S);
@@ -200,8 +212,9 @@ static inline void point_t(series *S, int n)
     accelerate(S, n, plus(componentwise(S->x, S->n, n), times(S->alpha, scaled(S->r, S->w, n))));
 }
 
-/* in t, on H = 0, w = p (point_t.c): p' = r (p^2 c - (c,p) p),  gamma' = k r q gamma x p,  c = gamma x J gamma; r = alpha, a = c.
- * Nothing is divided by k; with 2h in the place of p^2 an error of |p| would grow as fast as the ball turns. */
+/* in t, on H = 0, w = p (point_t.c): p' = r (p^2 c - (c,p) p),  gamma' = k r q gamma x p,  c = gamma x J gamma; r =
+ * alpha, a = c. Nothing is divided by k; with 2h in the place of p^2 an error of |p| would grow as fast as the ball
+ * turns. */
 static inline void point_p(series *S, int n)
 {
     S->u[n] = by(S->J, S->n[n]);

@@ -1,0 +1,176 @@
+/* Formulas (model/formula.h): every operation gives the value it is named for, and one that cannot be computed is
+ * refused: no room, omega' where it is not known, states without a rate. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "laws.h"
+#include "model/formula_impl.h"
+
+static const double y[ISO_STATE] = {0.3, -0.7, 0.2, 0.36, 0.48, 0.8};
+static const double J[3] = {1.4, 2.1, 3.0};
+
+/* The value of the scalar that `write` makes. All numbers here are of order one. */
+static void equals(iso_scalar (*write)(iso_formula *F), double wanted, const char *what)
+{
+    const iso_params p = laws_params(0.5, J);
+    iso_formula F;
+    iso_formula_begin(&F, ISO_FORMULA_ENERGY, false);
+    add_energy(&F, constant(&F, 1), write(&F));
+    iso_formula_finish(&F, &p);
+    const double value = iso_formula_energy(&F, &p, y);
+    gsl_test(F.wrong || F.overrun || !(fabs(value - wanted) <= 1e-14), "%s: %.17g, not %.17g", what, value, wanted);
+}
+
+/* --- operations: n = (0.36, 0.48, 0.8), u = J^-1 n, g = (n,u) --------------------------------------------------- */
+
+static const double two_three_five[] = {2, 3, 5}, matrix[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+
+static iso_scalar first_of(iso_formula *F, iso_vector v)
+{
+    return dot_c(F, constants(F, 3, (const double[]){1, 0, 0}), v);
+}
+
+static iso_scalar square(iso_formula *F)
+{
+    return dot_of(F, formula_n(F), formula_n(F));
+}
+
+static iso_scalar sums(iso_formula *F)
+{
+    const iso_scalar one = square(F), five = plus_c(F, constant(F, 4), one);
+    return add(F, five, sub(F, one, times_c(F, constant(F, 3), one)));
+}
+
+static iso_scalar products(iso_formula *F)
+{
+    const iso_scalar three = plus_c(F, constant(F, 2), square(F)), four = plus_c(F, constant(F, 3), square(F));
+    return power_of(F, quotient_of(F, mul(F, three, three), four), constant(F, 0.5));
+}
+
+static iso_scalar of_constants(iso_formula *F)
+{
+    const iso_constant k = constant_k(F), J1 = constant_J(F), two = add_c(F, k, constant(F, 1.5));
+    const iso_constant c = div_c(F, mul_c(F, two, sub_c(F, J1, k)), constant(F, 3));
+    return times_c(F, c, square(F));
+}
+
+static iso_scalar with_D(iso_formula *F)
+{
+    return times_c(F, add_c(F, constant_D(F), constant_root_J(F)), square(F));
+}
+
+static iso_scalar vector_sums(iso_formula *F)
+{
+    const iso_vector n = formula_n(F), twice = add_v(F, n, n), thrice = times_v(F, constant(F, 3), n);
+    return first_of(F, plus_v(F, constants(F, 3, two_three_five), sub_v(F, twice, thrice)));
+}
+
+static iso_scalar vector_products(iso_formula *F)
+{
+    const iso_vector n = formula_n(F), turned = cross_of(F, n, by_c(F, constants(F, 3, two_three_five), n));
+    return first_of(F, scale_v(F, plus_c(F, constant(F, 1), square(F)), turned));
+}
+
+static iso_scalar matrices(iso_formula *F)
+{
+    const iso_vector M_n = matrix_c(F, constants(F, 9, matrix), formula_n(F));
+    return first_of(F, add_v(F, M_n, scale_c(F, square(F), constants(F, 3, two_three_five))));
+}
+
+static iso_scalar normals(iso_formula *F)
+{
+    return sub(F, formula_g(F), dot_of(F, formula_n(F), formula_u(F)));
+}
+
+static void check_operations(void)
+{
+    equals(sums, 5 + (1 - 3), "sums");
+    equals(products, 1.5, "products, quotients and powers");
+    equals(of_constants, 2 * (1.4 - 0.5) / 3, "constants");
+    equals(with_D, sqrt(1.4), "D and roots of J");
+    equals(vector_sums, 2 - 0.36, "sums of vectors");
+    equals(vector_products, 2 * (0.48 * 5 * 0.8 - 0.8 * 3 * 0.48), "products of vectors");
+    equals(matrices, 0.36 + 2 * 0.48 + 3 * 0.8 + 2, "matrices");
+    equals(normals, 0, "g = (n,u)");
+}
+
+/* --- what is refused -------------------------------------------------------------------------------------------- */
+
+/* Writes something that cannot be computed: the formula must say so, and be empty. */
+static void refused(iso_formula_kind kind, void (*write)(iso_formula *F), const char *what)
+{
+    const iso_params p = laws_params(0.5, J);
+    iso_formula F;
+    iso_formula_begin(&F, kind, false);
+    write(&F);
+    iso_formula_finish(&F, &p);
+    gsl_test(!(F.wrong || F.overrun) || F.lines > 0 || F.constants > 0, "%s", what);
+}
+
+static void too_many_constants(iso_formula *F)
+{
+    for (int i = 0; i <= ISO_FORMULA_CONSTANTS / 3; i++) constant_J(F);
+}
+
+static void too_many_scalars(iso_formula *F)
+{
+    for (int i = 0; i < ISO_FORMULA_SCALARS; i++) add(F, formula_g(F), formula_g(F));
+}
+
+static void too_many_vectors(iso_formula *F)
+{
+    for (int i = 0; i < ISO_FORMULA_VECTORS; i++) add_v(F, formula_n(F), formula_n(F));
+}
+
+static void too_many_lines(iso_formula *F)
+{
+    for (int i = 0; i <= ISO_FORMULA_LINES; i++) add_torque(F, constant_k(F), formula_n(F));
+}
+
+static void too_many_states(iso_formula *F)
+{
+    for (int i = 0; i <= ISO_FORMULA_STATES; i++) scalar_state(F, ISO_STATE + i);
+}
+
+static void late_torque(iso_formula *F)
+{
+    add_torque(F, constant(F, 1), cross_of(F, formula_n(F), formula_omega_dot(F)));
+}
+
+static void energy_of_omega(iso_formula *F)
+{
+    add_energy(F, constant(F, 1), dot_of(F, formula_omega(F), formula_n(F)));
+}
+
+static void image_of_u(iso_formula *F)
+{
+    add_potential(F, constant(F, 1), dot_of(F, formula_u(F), formula_gamma(F)));
+}
+
+static void no_state(iso_formula *F)
+{
+    add_torque(F, constant(F, 1), vector_state(F, 0));
+}
+
+static void check_refusals(void)
+{
+    refused(ISO_FORMULA_MOTION, too_many_constants, "too many constants");
+    refused(ISO_FORMULA_MOTION, too_many_scalars, "too many scalars");
+    refused(ISO_FORMULA_MOTION, too_many_vectors, "too many vectors");
+    refused(ISO_FORMULA_MOTION, too_many_lines, "too many lines");
+    refused(ISO_FORMULA_MOTION, too_many_states, "too many states");
+    refused(ISO_FORMULA_MOTION, late_torque, "a torque that depends on omega'");
+    refused(ISO_FORMULA_ENERGY, energy_of_omega, "an energy that depends on omega");
+    refused(ISO_FORMULA_IMAGE, image_of_u, "an image that depends on J^-1 n");
+    refused(ISO_FORMULA_IMAGE, no_state, "an image that depends on a state");
+    refused(ISO_FORMULA_MOTION, no_state, "a state that is not there");
+}
+
+int main(void)
+{
+    check_operations();
+    check_refusals();
+    exit(gsl_test_summary());
+}
