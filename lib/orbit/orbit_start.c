@@ -28,15 +28,6 @@ static iso_status check_units(const iso_orbit *o, const iso_start *start)
                             o->unit_M, o->unit_clock[ISO_CLOCK_S]);
 }
 
-iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out)
-{
-    const iso_params *p = &o->units.own;
-    return iso_context_fail(o->ctx, ISO_NUMERICAL, "k",
-                            "k = %g is too extreme for %s with max J/min J = %.3g: powers q^(1/k) leave the "
-                            "range of doubles; %s",
-                            p->k, what, max3(p->J) / min3(p->J), way_out);
-}
-
 /* Whether q^(exponent), times k^2/det J, is a double for all these q. */
 static bool powers_fit(const iso_params *p, double least, double most, double exponent)
 {
