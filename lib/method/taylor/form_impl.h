@@ -16,6 +16,7 @@ typedef struct state {
  * variable of the series; the model's clock is a series of it, if another. */
 typedef struct form {
     iso_model shape;
+    const iso_problem *problem[LANES];        /* each orbit's own, with its numbers            */
     iso_formula motion;                       /* of the ball's effects, as series need it      */
     iso_clock own;
     bool is_point, is_point_t, in_t, in_field, is_neumann, twists, has_derived, unprojected;
@@ -36,31 +37,31 @@ typedef struct form {
     series S;                                 /* last: its coefficients need not be cleared */
 } form;
 
-/* --- which terms a model calls for ------------------------------------------------------------------------------ */
+/* --- the terms that a model needs ------------------------------------------------------------------------------- */
 
-static void call_effective_ball(form *T)
+static void expand_as_ball(form *T)
 {
     const iso_problem *f = &T->shape.problem;
     if (!iso_effects_none(&f->effects)) iso_effects_record_motion(f, true, &T->motion);
     for (int e = 0; e < ISO_EFFECTS; e++)
         T->has_derived = T->has_derived || (f->at[e] > 0 && iso_effect_list[e]->states->kind == ISO_STATE_DERIVED);
-    call_ball(&T->S, T->twists, T->motion.lines > 0 ? &T->motion : NULL);
-    add_recurrence(&T->S, T->twists ? poles_of_twisting : poles_of_rigid);
+    set_ball_recurrences(&T->S, T->twists, T->motion.lines > 0 ? &T->motion : NULL,
+                         T->twists ? poles_of_twisting : poles_of_rigid);
 }
 
 /* In the ball's time the powers cancel, for free points on H = 0; k = -1 is polynomial in s. */
-static void call_point(form *T)
+static void expand_as_point(form *T)
 {
     series *S = &T->S;
     const iso_problem *f = &T->shape.problem;
     S->formula = T->in_field ? &T->shape.problem.energy_formula : NULL;
     T->is_neumann = f->p.k == -1 && !T->in_field;
     T->in_t = !T->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1;
-    add_recurrence(S, T->in_t ? point_t : T->is_neumann ? neumann : point_s);
-    if (T->in_field) add_recurrence(S, point_effects);
+    recurrence *const motion = T->in_t ? point_t : T->is_neumann ? neumann : point_s;
+    set_recurrences(S, (recurrences){{motion, T->in_field ? point_effects : NULL}});
 }
 
-static void call_clock(form *T, iso_clock clock)
+static void add_clock(form *T, iso_clock clock)
 {
     if (clock != T->own) T->clock_of[T->clocks++] = clock;
 }
@@ -89,12 +90,12 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     S->order = order_for(T->tolerance);
     set_counts(S);
     if (T->is_point_t)
-        add_recurrence(S, point_p);
+        set_recurrences(S, (recurrences){{point_p}});
     else
-        T->is_point ? call_point(T) : call_effective_ball(T);
+        T->is_point ? expand_as_point(T) : expand_as_ball(T);
     T->own = T->is_point && !T->in_t ? ISO_CLOCK_S : ISO_CLOCK_T;
-    call_clock(T, m->clock);
-    for (int i = 0; i < m->clocks; i++) call_clock(T, m->clock_of[i]);
+    add_clock(T, m->clock);
+    for (int i = 0; i < m->clocks; i++) add_clock(T, m->clock_of[i]);
     if (T->clocks > 0) make_rule(&T->rule);
 }
 

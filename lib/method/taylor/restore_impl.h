@@ -255,8 +255,9 @@ static real restore_unit_states(const form *T, state *s)
     const iso_problem *f = &T->shape.problem;
     real worst = zero;
     for (int e = 0; e < ISO_EFFECTS; e++) {
-        real *own = s->own + f->at[e] - ISO_STATE;
-        for (const iso_effect_state *i = iso_effect_list[e]->states; f->at[e] > 0 && i->name; i++) {
+        if (f->at[e] == 0) continue; /* it has no states */
+        real *own = s->own + (f->at[e] - ISO_STATE);
+        for (const iso_effect_state *i = iso_effect_list[e]->states; i->name; i++) {
             if (i->there && !i->there(f)) continue;
             if (i->kind == ISO_STATE_UNIT) worst += restore_length(own, i->count, spread(1), everywhere());
             own += i->count;
@@ -303,18 +304,20 @@ static void set_integrals(form *T, int lane, const iso_model *m)
     }
 }
 
-/* A new orbit in a lane, at y. */
-static void set_out(form *T, int lane, const iso_model *m, const double y[])
+/* A new orbit in a lane, at y. The model must live as long as the orbit is followed. */
+static void start_orbit(form *T, int lane, const iso_model *m, const double y[])
 {
+    T->problem[lane] = &m->problem;
     set_numbers(T, lane, m);
     load(T, lane, y);
     if (T->second_of || T->loaded) set_integrals(T, lane, m);
 }
 
-/* The state at x of the series. */
-static real arrive(const form *T, real x, state *s)
+/* The state at x of the series, with its constraints restored; gives the relative size of the corrections. States of
+ * effects that no equation moves stay as they are. */
+static real find_state(const form *T, real x, state *s)
 {
-    memset(s, 0, sizeof *s);
+    if (s != &T->now) *s = T->now;
     state_at(T, x, s);
     return restore(T, s);
 }

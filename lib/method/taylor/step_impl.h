@@ -53,11 +53,11 @@ static inline real integrate_clocks(const form *T, real x, real gained[ISO_CLOCK
     return doubt;
 }
 
-/* States that omega and n give at any time, in doubles: no equation here reads them. */
+/* States that omega and n give at any time, in doubles: no equation here reads them. Each orbit has its own numbers. */
 static void find_derived(const form *T, state *s)
 {
-    const iso_problem *f = &T->shape.problem;
     for (int lane = 0; lane < LANES; lane++) {
+        const iso_problem *f = T->problem[lane];
         double y[ISO_MAX_STATE] = {0};
         for (int i = 0; i < 3; i++) y[i] = (double)LANE(s->w[i], lane), y[3 + i] = (double)LANE(s->n[i], lane);
         for (int e = 0; e < ISO_EFFECTS; e++) {
