@@ -1,4 +1,5 @@
-/* separation_moment.c - from a state to its constants and coordinates: steps (1) to (6) at the top of separation.c. */
+/* separation_moment.c - from a state to its constants and coordinates: steps (1) to (6) at the top of
+ * separation.c. */
 #include <float.h>
 #include <math.h>
 

@@ -135,7 +135,8 @@ static iso_status keep_columns(iso_context *ctx, iso_trajectory_writer *w, const
     const char *names[ISO_TRAJECTORY_COLUMNS];
     const size_t columns = iso_record_columns(header);
     if (columns > (size_t)iso_columns_count())
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a trajectory has at most %d columns", iso_columns_count());
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a trajectory has at most %d columns",
+                                iso_columns_count());
     for (size_t i = 0; i < columns; i++) names[i] = iso_record_name(header, i);
     return iso_record_create(ctx, columns, names, &w->header);
 }

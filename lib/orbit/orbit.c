@@ -25,7 +25,7 @@ iso_orbit_options iso_orbit_defaults(const iso_start *start)
                                .shown = (iso_shown)start->model};
 }
 
-/* --- making an orbit --------------------------------------------------------------------------------------------- */
+/* --- making an orbit -------------------------------------------------------------------------------------------- */
 
 /* Effects that only the ball shows need the ball, and some methods are for one system. */
 static iso_backend choose_backend(const iso_orbit_options *opt, const iso_start *start)
@@ -104,10 +104,10 @@ void iso_orbit_free(iso_orbit *o)
     free(o);
 }
 
-/* --- samples ------------------------------------------------------------------------------------------------------ */
+/* --- samples ---------------------------------------------------------------------------------------------------- */
 
-/* `count` numbers in the caller's units. What does not fit a double there, or loses its digits, must not be shown; but
- * what dies away may vanish. */
+/* `count` numbers in the caller's units. What does not fit a double there, or loses its digits, must not be shown;
+ * but what dies away may vanish. */
 static iso_status to_users_units(const iso_orbit *o, const char *name, double unit, bool vanishes, double x[],
                                  int count)
 {
@@ -142,8 +142,8 @@ static void as_point(const iso_orbit *o, const double y[], double point[ISO_STAT
     if (o->system == &iso_system_point_t) iso_point_t_to_point(own, y, point);
 }
 
-/* Powers q^(1/(2k)) may leave the range of doubles even in own units, where they are steep; where they are not, a clock
- * is as small as the time. */
+/* Powers q^(1/(2k)) may leave the range of doubles even in own units, where they are steep; where they are not, a
+ * clock is as small as the time. */
 static iso_status sample_clock(const iso_orbit *o, double time, iso_clock c, double own, iso_sample *s)
 {
     const bool vanishes = fabs(time) < DBL_MIN; /* such a time has no digits itself */
@@ -223,8 +223,8 @@ iso_status iso_orbit_check_time(const iso_orbit *o, double time)
     return to_own_time(o, time, &own_time);
 }
 
-/* A method that cannot be projected keeps the energy as well as its tolerance lets it: where it has lost it by more than a
- * thousandth, and by more than 1e4 tolerances, the state is no answer any more. */
+/* A method that cannot be projected keeps the energy as well as its tolerance lets it: where it has lost it by more
+ * than a thousandth, and by more than 1e4 tolerances, the state is no answer any more. */
 static iso_status check_drift(const iso_orbit *o, const double y[])
 {
     double size;

@@ -5,7 +5,7 @@
 #include "base/vec3_impl.h"
 #include "orbit/orbit_impl.h"
 
-/* --- the numbers of a sample -------------------------------------------------------------------------------------- */
+/* --- the numbers of a sample ------------------------------------------------------------------------------------ */
 
 _Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double),
                "a number for each column, in their order");
@@ -33,7 +33,7 @@ void iso_sample_blank(iso_sample *s)
     for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) iso_sample_set_column(s, c, NAN);
 }
 
-/* --- what it is made of ------------------------------------------------------------------------------------------- */
+/* --- what it is made of ----------------------------------------------------------------------------------------- */
 
 iso_backend iso_orbit_backend(const iso_orbit *o)
 {
@@ -76,7 +76,7 @@ double iso_orbit_coupling(const iso_orbit *o)
     return o->eps == 0 ? 0 : o->eps * iso_unit(&o->units, iso_dimension_eps);
 }
 
-/* --- a message ---------------------------------------------------------------------------------------------------- */
+/* --- a message -------------------------------------------------------------------------------------------------- */
 
 iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out)
 {

@@ -1,4 +1,4 @@
-/* crew_impl.h - solves the jobs of lanes_impl.h, LANES of them side by side; each lane takes the next job when one ends. */
+/* crew_impl.h - solves the jobs of lanes_impl.h, LANES side by side. A lane whose job ends takes the next one. */
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
 #include "method/taylor/lanes_impl.h"
@@ -12,7 +12,7 @@ typedef struct crew {
     iso_lane_job *const *next; /* jobs still to be taken */
     size_t waiting;
     const iso_lane_options *options;
-    form T; /* last: set_shape clears what needs it */
+    form T; /* last: solve() clears all before it, set_shape() this */
 } crew;
 
 static void next_row(crew *c, int lane)
@@ -21,7 +21,7 @@ static void next_row(crew *c, int lane)
     if (job->done < job->rows) c->row[lane] = job->time[job->done] / job->unit;
 }
 
-/* Gives the lane its next job that has anything to be done. */
+/* Gives the lane the next job that asks for any rows. */
 static void start_next(crew *c, int lane)
 {
     c->job[lane] = NULL;
@@ -39,7 +39,8 @@ static void start_next(crew *c, int lane)
     start_orbit(&c->T, lane, job->model, job->start);
 }
 
-/* From a lane's left end to its next row, if that does not lie beyond the step of dt; else 0. */
+/* Whether a lane's next row lies within its step of dt. *target: the time from the step's left end to the row, or
+ * 0. */
 static bool row_is_due(const crew *c, int lane, double dt, double *target)
 {
     const iso_lane_job *job = c->job[lane];
@@ -51,7 +52,7 @@ static bool row_is_due(const crew *c, int lane, double dt, double *target)
     return true;
 }
 
-/* The rows within the step: each lane's next, as long as any has one. */
+/* Stores all rows within the step. Each pass takes the next row of every lane that has one. */
 static void output(crew *c, real length, real dt)
 {
     form *T = &c->T;
@@ -81,7 +82,7 @@ static void output(crew *c, real length, real dt)
     }
 }
 
-/* NaN in a lane whose state is not finite. */
+/* 0 in a lane whose state is finite, else NaN. */
 static real check(const state *s)
 {
     real sum = zero;
@@ -124,7 +125,8 @@ static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_optio
     bool going_on = true;
     memset(c, 0, offsetof(crew, T));
     set_shape(&c->T, jobs[0]->model, options->tolerance);
-    for (int i = 0; i < LANES; i++) start_orbit(&c->T, i, jobs[0]->model, jobs[0]->start); /* no lane without numbers */
+    for (int i = 0; i < LANES; i++)
+        start_orbit(&c->T, i, jobs[0]->model, jobs[0]->start); /* a lane without a job needs numbers, too */
     c->direction = spread(1);
     c->options = options;
     c->next = jobs;
