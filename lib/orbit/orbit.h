@@ -55,11 +55,11 @@ void iso_sample_set_column(iso_sample *sample, int column, double value);
 /* A point's orbit has a ball at every energy: off the level H = 0 in the potential of the effect `level`, which is
  * then added. Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a free ball at rest
  * (h = 0) has no point, nor a ball with an effect that breaks the isomorphism (named by iso_context_about);
- * ISO_BAD_INPUT for numbers of effects that make no sense (iso_effects_check); ISO_NUMERICAL where M or a clock asked for does not
- * fit a double in the caller's units, or k is too extreme for powers q^(1/(2k)) of them, or q^(1/k) of a point off
- * H = 0 and of methods that are for (24) alone: the ball and gamma in t, free, can be had by all others for every k;
- * ISO_BAD_ARGUMENT, for ISO_BACKEND_EXACT about "method", or what the closed solution is not for (iso_exact_create);
- * and its ISO_NUMERICAL; ISO_NO_MEMORY. */
+ * ISO_BAD_INPUT for numbers of effects that make no sense (iso_effects_check); ISO_NUMERICAL where M or a clock asked
+ * for does not fit a double in the caller's units, or k is too extreme for powers q^(1/(2k)) of them, or q^(1/k) of a
+ * point off H = 0 and of methods that are for (24) alone: the ball and gamma in t, free, can be had by all others for
+ * every k; ISO_BAD_ARGUMENT, for ISO_BACKEND_EXACT about "method", or what the closed solution is not for
+ * (iso_exact_create); and its ISO_NUMERICAL; ISO_NO_MEMORY. */
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
                             const iso_orbit_options *options, iso_orbit **orbit);
 void iso_orbit_free(iso_orbit *orbit);
