@@ -1,4 +1,5 @@
-/* scene_draft_impl.h - a scene between its text and its physics: reading keys (scene_keys.c), checking (scene_file.c). */
+/* scene_draft_impl.h - a scene between its text and its physics: reading keys (scene_keys.c), checking
+ * (scene_file.c). */
 #ifndef ISO_IO_SCENE_DRAFT_IMPL_H
 #define ISO_IO_SCENE_DRAFT_IMPL_H
 

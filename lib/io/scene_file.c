@@ -1,3 +1,5 @@
+/* scene_file.c - reads a scene: parses the text, checks what must hold between keys, and lets the library check the
+ * physics. A failure is reported at its line and column. */
 #include "io/scene_file.h"
 
 #include <math.h>
@@ -14,7 +16,7 @@ enum { LARGEST_FILE = 16 << 20 };
 
 /* The key and value of root -> section (-> name if not NULL). */
 static bool find_key(iso_draft *d, const char *section, const char *name, const yaml_node_t **key,
-                 const yaml_node_t **value)
+                     const yaml_node_t **value)
 {
     const yaml_node_t *mapping;
     if (!name) return iso_yaml_find(&d->yaml, d->root, section, key, value);
@@ -157,8 +159,8 @@ static bool effect_has_key(const void *scene, const char *key)
     return find_effect_key(s->d, s->effects, s->name, key, NULL);
 }
 
-/* What an effect says in words of the ball becomes its numbers. A failure is put at the key it is about, or at that of the
- * effect where it is about a key that is not there. */
+/* What an effect says in words of the ball becomes its numbers. A failure is put at the key it is about, or at that
+ * of the effect where it is about a key that is not there. */
 static iso_status complete_effect(iso_draft *d, iso_model_kind model, const yaml_node_t *effects, iso_effect_id e)
 {
     const iso_effect *effect = iso_effect_list[e];

@@ -1,3 +1,4 @@
+/* scene_keys.c - the keys of a scene, in tables, and the functions that read their values into a draft. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>

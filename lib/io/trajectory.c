@@ -1,4 +1,4 @@
-/* trajectory.c - trajectory files: chooses the format by the name, and holds what CSV and HDF5 have in common. */
+/* trajectory.c - trajectory files: takes the format from the name of the file, and calls its reader or writer. */
 #include "io/trajectory.h"
 
 #include <math.h>
@@ -58,19 +58,6 @@ void iso_trajectory_reader_close(iso_trajectory_reader *r)
     r->format->close(r);
     iso_record_free(r->header);
     free(r);
-}
-
-iso_status iso_trajectory_name_columns(iso_context *ctx, iso_trajectory_reader *r, size_t count,
-                                       const char *const names[])
-{
-    const char *key, *value;
-    iso_record *named;
-    iso_status status = iso_record_create(ctx, count, names, &named);
-    for (size_t i = 0; status == ISO_OK && iso_record_line(r->header, i, &key, &value); i++)
-        status = iso_record_set(ctx, named, key, value);
-    iso_record_free(status == ISO_OK ? r->header : named);
-    if (status == ISO_OK) r->header = named;
-    return status;
 }
 
 iso_record *iso_trajectory_header(iso_trajectory_reader *r)
@@ -148,7 +135,8 @@ static iso_status keep_columns(iso_context *ctx, iso_trajectory_writer *w, const
     const char *names[ISO_TRAJECTORY_COLUMNS];
     const size_t columns = iso_record_columns(header);
     if (columns > (size_t)iso_columns_count())
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a trajectory has at most %d columns", iso_columns_count());
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a trajectory has at most %d columns",
+                                iso_columns_count());
     for (size_t i = 0; i < columns; i++) names[i] = iso_record_name(header, i);
     return iso_record_create(ctx, columns, names, &w->header);
 }

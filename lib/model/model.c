@@ -114,6 +114,18 @@ static const iso_effect *find_without_formula(const iso_model *m)
     return NULL;
 }
 
+/* Series have formulas in the place of derived states. These may be longer than what other methods compute. */
+static bool series_overrun(const iso_model *m)
+{
+    iso_formula series = {.overrun = false};
+    for (int i = 0; i < m->followers; i++)
+        if (m->follower[i]->states->kind == ISO_STATE_DERIVED) {
+            iso_effects_record_motion(&m->problem, true, &series);
+            break;
+        }
+    return series.overrun;
+}
+
 /* Writes down the equations of the effects that act, or have states. */
 static void record(iso_model *m)
 {
@@ -125,6 +137,7 @@ static void record(iso_model *m)
     if (iso_effects_none(&f->effects) || m->moving > ISO_STATE + ISO_MOST_EFFECT_STATES) return;
     if (m->system == &iso_system_ball) {
         iso_effects_record_motion(f, false, &f->motion);
+        f->motion.overrun = f->motion.overrun || series_overrun(m);
         iso_effects_record_energy(f, &f->energy_formula);
     } else {
         iso_effects_record_image(f, &f->energy_formula);

@@ -21,16 +21,14 @@ enum { MOST = 1 };
 static void call_system(series *S, const iso_model *m)
 {
     const iso_problem *f = &m->problem;
-    S->terms = 0;
     S->formula = NULL;
     if (m->system == &iso_system_ball) {
-        call_ball(S, iso_effects_twist(&f->effects), f->motion.lines > 0 ? &f->motion : NULL);
+        set_ball_recurrences(S, iso_effects_twist(&f->effects), f->motion.lines > 0 ? &f->motion : NULL, NULL);
     } else if (m->system == &iso_system_point_t) {
-        add_recurrence(S, point_p);
+        set_recurrences(S, (recurrences){{point_p}});
     } else {
-        add_recurrence(S, point_24);
         S->formula = f->energy_formula.lines > 0 ? &f->energy_formula : NULL;
-        if (S->formula) add_recurrence(S, point_24_effects);
+        set_recurrences(S, (recurrences){{point_24, S->formula ? point_24_effects : NULL}});
     }
 }
 

@@ -1,3 +1,4 @@
+/* batch.c - many orbits at once: threads take orbits in chunks, and solve a chunk in the lanes of vectors. */
 #include "orbit/batch.h"
 
 #include <errno.h>
@@ -12,6 +13,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "method/integrator_impl.h"
+#include "method/methods_impl.h"
 #include "method/taylor/lanes_impl.h"
 #include "orbit/orbit_impl.h"
 
@@ -106,7 +108,7 @@ static iso_status prepare(worker *w, size_t i, member *m)
     return status == ISO_OK && b->rows > 0 ? iso_orbit_check_time(&m->orbit, b->times[b->rows - 1]) : status;
 }
 
-/* Stiff, or at rest: by itself. */
+/* What lanes cannot hold (see is_for_lanes) is followed by itself. */
 static iso_status solve_alone(worker *w, size_t i)
 {
     const batch *b = w->b;
@@ -122,9 +124,13 @@ static iso_status solve_alone(worker *w, size_t i)
     return status;
 }
 
+/* Lanes hold Taylor series: of what moves, is not stiff, and has equations that series can be made of. */
 static bool is_for_lanes(const member *m)
 {
-    return !m->orbit.rests && iso_effects_stiffness(&m->orbit.model.problem) <= ISO_STIFF;
+    const iso_model *model = &m->orbit.model;
+    char why[ISO_WHY_SIZE];
+    return !m->orbit.rests && iso_effects_stiffness(&model->problem) <= ISO_STIFF &&
+           iso_method_serves(&iso_method_taylor, model, why);
 }
 
 /* --- a chunk of them -------------------------------------------------------------------------------------------- */

@@ -104,7 +104,8 @@ static iso_effect_id find_effect(const char *name, size_t length)
     return (iso_effect_id)e;
 }
 
-/* Numbers of an effect that the line `effects` does not name, or columns of one that acts: the line is lost or damaged. */
+/* Numbers of an effect that the line `effects` does not name, or columns of one that acts: the line is lost or
+ * damaged. */
 static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso_effect *effect)
 {
     char key[ISO_NAME_SIZE];

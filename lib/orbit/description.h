@@ -12,15 +12,16 @@
 #include "orbit.h"
 
 /* Writes the lines without which a record cannot be converted back: model, k and J. An orbit (may be NULL) also gives
- * h, eps and the effects. A number that is no normal double in these units is left out: h, eps and the level of a point
- * follow from any row. */
+ * h, eps and the effects. A number that is no normal double in these units is left out: h, eps and the level of a
+ * point follow from any row. */
 iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,
                                const iso_orbit *orbit);
 
 /* Writes only the lines of the effects. */
 iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, const iso_effects *effects);
 
-/* Reads the parameters from the lines `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent, wrong). */
+/* Reads the parameters from the lines `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent,
+ * wrong). */
 iso_status iso_record_params(iso_context *ctx, const iso_record *record, iso_params *params);
 
 /* The effects of the lines, `up` and `quaternion` as at time 0. Errors: ISO_BAD_INPUT about "effects". */

@@ -1,3 +1,11 @@
+/* orbit.c - one orbit from its start to the samples at any time.
+ *
+ * The files of an orbit stand in layers. Each calls only those below it:
+ *
+ *     orbit.c                           prepares an orbit, follows it, gives its samples
+ *     orbit_start.c, orbit_effects.c    the start in own units; the columns that effects add
+ *     orbit_common.c                    numbers of a sample, and what an orbit is made of
+ */
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,28 +25,7 @@ iso_orbit_options iso_orbit_defaults(const iso_start *start)
                                .shown = (iso_shown)start->model};
 }
 
-_Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double),
-               "a number for each column, in their order");
-
-double iso_sample_column(const iso_sample *sample, int column)
-{
-    double value;
-    memcpy(&value, (const char *)sample + (size_t)column * sizeof value, sizeof value);
-    return value;
-}
-
-double iso_sample_get(const iso_sample *sample, const char *name)
-{
-    const int column = iso_column_find(name);
-    return column < 0 ? NAN : iso_sample_column(sample, column);
-}
-
-void iso_sample_set_column(iso_sample *sample, int column, double value)
-{
-    memcpy((char *)sample + (size_t)column * sizeof value, &value, sizeof value);
-}
-
-/* --- making an orbit --------------------------------------------------------------------------------------------- */
+/* --- making an orbit -------------------------------------------------------------------------------------------- */
 
 /* Effects that only the ball shows need the ball, and some methods are for one system. */
 static iso_backend choose_backend(const iso_orbit_options *opt, const iso_start *start)
@@ -117,10 +104,10 @@ void iso_orbit_free(iso_orbit *o)
     free(o);
 }
 
-/* --- samples ------------------------------------------------------------------------------------------------------ */
+/* --- samples ---------------------------------------------------------------------------------------------------- */
 
-/* `count` numbers in the caller's units. What does not fit a double there, or loses its digits, must not be shown; but
- * what dies away may vanish. */
+/* `count` numbers in the caller's units. What does not fit a double there, or loses its digits, must not be shown;
+ * but what dies away may vanish. */
 static iso_status to_users_units(const iso_orbit *o, const char *name, double unit, bool vanishes, double x[],
                                  int count)
 {
@@ -136,11 +123,6 @@ static iso_status to_users_units(const iso_orbit *o, const char *name, double un
     return iso_context_fail(
         o->ctx, ISO_NUMERICAL, "",
         "%s is out of the range of doubles in these units: use other units of mass, length or time", name);
-}
-
-void iso_sample_blank(iso_sample *s)
-{
-    for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) iso_sample_set_column(s, c, NAN);
 }
 
 /* The state of what is integrated as a ball's, or as a point's. */
@@ -160,8 +142,8 @@ static void as_point(const iso_orbit *o, const double y[], double point[ISO_STAT
     if (o->system == &iso_system_point_t) iso_point_t_to_point(own, y, point);
 }
 
-/* Powers q^(1/(2k)) may leave the range of doubles even in own units, where they are steep; where they are not, a clock
- * is as small as the time. */
+/* Powers q^(1/(2k)) may leave the range of doubles even in own units, where they are steep; where they are not, a
+ * clock is as small as the time. */
 static iso_status sample_clock(const iso_orbit *o, double time, iso_clock c, double own, iso_sample *s)
 {
     const bool vanishes = fabs(time) < DBL_MIN; /* such a time has no digits itself */
@@ -241,8 +223,8 @@ iso_status iso_orbit_check_time(const iso_orbit *o, double time)
     return to_own_time(o, time, &own_time);
 }
 
-/* A method that cannot be projected keeps the energy as well as its tolerance lets it: where it has lost it by more than a
- * thousandth, and by more than 1e4 tolerances, the state is no answer any more. */
+/* A method that cannot be projected keeps the energy as well as its tolerance lets it: where it has lost it by more
+ * than a thousandth, and by more than 1e4 tolerances, the state is no answer any more. */
 static iso_status check_drift(const iso_orbit *o, const double y[])
 {
     double size;
@@ -340,52 +322,9 @@ void iso_orbit_allow_steps(iso_orbit *o, long max_steps)
     o->options.max_steps = o->integrator->options.max_steps = max_steps;
 }
 
-/* --- what it is made of ------------------------------------------------------------------------------------------- */
-
 iso_statistics iso_orbit_statistics(const iso_orbit *o)
 {
     return iso_integrator_statistics(o->integrator);
-}
-
-iso_backend iso_orbit_backend(const iso_orbit *o)
-{
-    return o->options.backend;
-}
-
-const iso_model *iso_orbit_model(const iso_orbit *o)
-{
-    return &o->model;
-}
-
-const iso_units *iso_orbit_units(const iso_orbit *o)
-{
-    return &o->units;
-}
-
-const iso_method *iso_orbit_method(const iso_orbit *o)
-{
-    return o->options.method;
-}
-
-bool iso_orbit_has_twin(const iso_orbit *o)
-{
-    return !iso_effects_breaking(&o->effects) && (o->h > 0 || iso_effects_pull(&o->effects));
-}
-
-/* Back from own units as they were brought there; up and quaternion have none. */
-iso_effects iso_orbit_effects(const iso_orbit *o)
-{
-    return iso_effects_scaled(&o->effects, &o->units, 1);
-}
-
-double iso_orbit_energy(const iso_orbit *o)
-{
-    return o->h == 0 ? 0 : o->h * iso_unit(&o->units, iso_dimension_h);
-}
-
-double iso_orbit_coupling(const iso_orbit *o)
-{
-    return o->eps == 0 ? 0 : o->eps * iso_unit(&o->units, iso_dimension_eps);
 }
 
 double iso_orbit_integral(const iso_orbit *o, const iso_system *system, const iso_integral *integral,

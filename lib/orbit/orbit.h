@@ -6,9 +6,9 @@
  *     iso_orbit_at(orbit, 100, &sample);                     sample.ball = omega, n at t = 100
  *     iso_orbit_free(orbit);
  *
- * The backends ball and point integrate (9) or (24), the backend exact evaluates the point's closed solution where there
- * is one (exact/exact.h), at any time at the same cost. All answer the same questions with the same calls. Inside,
- * everything is in the ball's own units; all numbers in and out are in the caller's.
+ * The backends ball and point integrate (9) or (24), the backend exact evaluates the point's closed solution where
+ * there is one (exact/exact.h), at any time at the same cost. All answer the same questions with the same calls.
+ * Inside, everything is in the ball's own units; all numbers in and out are in the caller's.
  */
 #ifndef ISO_ORBIT_ORBIT_H
 #define ISO_ORBIT_ORBIT_H
@@ -36,7 +36,8 @@ typedef struct iso_orbit_options {
  * bound on the steps. */
 iso_orbit_options iso_orbit_defaults(const iso_start *start);
 
-/* One moment of an orbit. The numbers stand in the order of the columns (iso_column_name); what was not asked for is NaN. */
+/* One moment of an orbit. The numbers stand in the order of the columns (iso_column_name); what was not asked for is
+ * NaN. */
 typedef struct iso_sample {
     double clock[ISO_CLOCKS]; /* t, tau, s: all 0 at the start                            */
     double ball[ISO_STATE];   /* omega, n                                                 */
@@ -51,26 +52,26 @@ double iso_sample_get(const iso_sample *sample, const char *name);
 double iso_sample_column(const iso_sample *sample, int column);
 void iso_sample_set_column(iso_sample *sample, int column, double value);
 
-/* A point's orbit has a ball at every energy: off the level H = 0 in the potential of the effect `level`, which is then
- * added. Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a free ball at rest (h = 0) has
- * no point, nor a ball with an effect that breaks the isomorphism (named by iso_context_about); ISO_BAD_INPUT for
- * numbers of effects that make no sense (iso_effects_check); ISO_NUMERICAL where M or a clock asked for does not fit
- * a double in the caller's units, or k is too extreme for powers q^(1/(2k)) of them, or q^(1/k) of a point off H = 0
- * and of methods that are for (24) alone: the ball and gamma in t, free, can be had by all others for every k;
- * ISO_BAD_ARGUMENT, for ISO_BACKEND_EXACT about "method", or what the closed solution is not for (iso_exact_create);
- * and its ISO_NUMERICAL; ISO_NO_MEMORY. */
+/* A point's orbit has a ball at every energy: off the level H = 0 in the potential of the effect `level`, which is
+ * then added. Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a free ball at rest
+ * (h = 0) has no point, nor a ball with an effect that breaks the isomorphism (named by iso_context_about);
+ * ISO_BAD_INPUT for numbers of effects that make no sense (iso_effects_check); ISO_NUMERICAL where M or a clock asked
+ * for does not fit a double in the caller's units, or k is too extreme for powers q^(1/(2k)) of them, or q^(1/k) of a
+ * point off H = 0 and of methods that are for (24) alone: the ball and gamma in t, free, can be had by all others for
+ * every k; ISO_BAD_ARGUMENT, for ISO_BACKEND_EXACT about "method", or what the closed solution is not for
+ * (iso_exact_create); and its ISO_NUMERICAL; ISO_NO_MEMORY. */
 iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
                             const iso_orbit_options *options, iso_orbit **orbit);
 void iso_orbit_free(iso_orbit *orbit);
 
-/* Whether a time can be asked for: finite, within 1e15 turns of the start, and by an explicit method not through more than
- * 1e6 times in which a stiff motion dies away. Errors: ISO_BAD_ARGUMENT about "end" or "method". */
+/* Whether a time can be asked for: finite, within 1e15 turns of the start, and by an explicit method not through more
+ * than 1e6 times in which a stiff motion dies away. Errors: ISO_BAD_ARGUMENT about "end" or "method". */
 iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
 
 /* The orbit at `time` of the options' clock, in any order, before or after the start. Cheap when times run away from
  * the start; one that lies steps behind the last is found from the start again. A ball that resistance brings to rest
- * slows down to 1e-290 of its own unit of speed, then stands still. Backwards, where resistance drives it, it is followed
- * until it turns 1e4 times as fast as at the start.
+ * slows down to 1e-290 of its own unit of speed, then stands still. Backwards, where resistance drives it, it is
+ * followed until it turns 1e4 times as fast as at the start.
  * Errors: ISO_BAD_ARGUMENT (a time that iso_orbit_check_time refuses), ISO_NUMERICAL (what stopped, and where; or
  * a result that does not fit a double, or lost its digits). */
 iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);

@@ -1,4 +1,4 @@
-/* orbit_impl.h - what an orbit is made of, for orbit.c and orbit_start.c. */
+/* orbit_impl.h - what an orbit is made of, for the files of an orbit, exact_method.c and batch.c. */
 #ifndef ISO_ORBIT_ORBIT_IMPL_H
 #define ISO_ORBIT_ORBIT_IMPL_H
 
@@ -14,7 +14,7 @@ struct iso_orbit {
     const iso_system *system;              /* that is integrated           */
     double length;                         /* |b|, in the caller's units; 1 for a reduced ball */
     iso_model model;
-    bool rests;                            /* nothing moves: clocks alone go on, evenly ... */
+    bool rests;                                       /* nothing moves: clocks alone go on, evenly ... */
     double still[ISO_MAX_STATE], rate[ISO_MAX_STATE]; /* ... from this state at this rate */
     iso_integrator *integrator;
 };
@@ -44,8 +44,8 @@ extern const iso_method iso_method_exact;
 /* NaN in every column. */
 void iso_sample_blank(iso_sample *s);
 
-/* What effects add to a sample of the ball's model (errors: as iso_orbit_make_sample); back from a sample to the state of
- * the whole model, own units. */
+/* What effects add to a sample of the ball's model (errors: as iso_orbit_make_sample); back from a sample to the
+ * state of the whole model, own units. */
 iso_status iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *sample);
 void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_sample *sample, double y[]);
 

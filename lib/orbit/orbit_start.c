@@ -1,4 +1,5 @@
-/* orbit_start.c - where an orbit starts: in the ball's own units, in the model that is integrated; or why it cannot. */
+/* orbit_start.c - where an orbit starts: in the ball's own units, in the model that is integrated; or why it
+ * cannot. */
 #include <math.h>
 
 #include "base/finite_impl.h"
@@ -28,15 +29,6 @@ static iso_status check_units(const iso_orbit *o, const iso_start *start)
                             o->unit_M, o->unit_clock[ISO_CLOCK_S]);
 }
 
-iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out)
-{
-    const iso_params *p = &o->units.own;
-    return iso_context_fail(o->ctx, ISO_NUMERICAL, "k",
-                            "k = %g is too extreme for %s with max J/min J = %.3g: powers q^(1/k) leave the "
-                            "range of doubles; %s",
-                            p->k, what, max3(p->J) / min3(p->J), way_out);
-}
-
 /* Whether q^(exponent), times k^2/det J, is a double for all these q. */
 static bool powers_fit(const iso_params *p, double least, double most, double exponent)
 {
@@ -44,8 +36,8 @@ static bool powers_fit(const iso_params *p, double least, double most, double ex
     return reach * exponent + fabs(2 * log2(fabs(p->k)) - log2(p->det_J)) < 960;
 }
 
-/* M and the clocks tau and s have powers up to 1 + 1/(2|k|), the coupling of a point 1/k. Where an orbit starts they must
- * be doubles; further on that is seen at its samples. */
+/* M and the clocks tau and s have powers up to 1 + 1/(2|k|), the coupling of a point 1/k. Where an orbit starts they
+ * must be doubles; further on that is seen at its samples. */
 static iso_status check_powers(const iso_orbit *o, const iso_start *start)
 {
     const iso_params *p = &o->units.own;
@@ -66,7 +58,8 @@ static double falling_speed(const iso_orbit *o, const iso_params *p, const doubl
     return isfinite(speed) ? speed : 0;
 }
 
-/* Potentials that break the isomorphism are no part of the h of a twin, and may need states that are not there yet. */
+/* Potentials that break the isomorphism are no part of the h of a twin, and may need states that are not there
+ * yet. */
 static void leave_out_broken(iso_effects *effects)
 {
     for (int e = 0; e < ISO_EFFECTS; e++) {
@@ -96,8 +89,8 @@ static void start_ball(iso_orbit *o, const iso_params *p, const iso_start *start
     o->level = stated_level(&o->units.own, &o->effects);
 }
 
-/* The speed of the ball whose M has the size that M reaches on this potential: w^2 = (k^2/(det J J)) times the larger of
- * q^(1/k) M^2 and 2 eps. By logarithms, since the powers of J need not fit a double in the caller's units. */
+/* The speed of the ball whose M has the size that M reaches on this potential: w^2 = (k^2/(det J J)) times the larger
+ * of q^(1/k) M^2 and 2 eps. By logarithms, since the powers of J need not fit a double in the caller's units. */
 static double point_speed(const iso_params *p, const iso_start *start)
 {
     const double q = dot_diag(start->y + 3, p->J, start->y + 3);
@@ -107,8 +100,8 @@ static double point_speed(const iso_params *p, const iso_start *start)
     return exp2(fmin(fmax(moving, falling) + log2(fabs(p->k)) - 2 * log_J, 1000));
 }
 
-/* The point's coupling, stated or such that H is the level stated (or 0); and its level H, which is the one stated if it
- * is that to 1e-9 of its terms. False: it is not. */
+/* The point's coupling, stated or such that H is the level stated (or 0); and its level H, which is the one stated if
+ * it is that to 1e-9 of its terms. False: it is not. */
 static bool find_level(iso_orbit *o, const iso_start *start, iso_problem *problem, double y[ISO_STATE])
 {
     const bool stated = iso_effects_have_level(&o->effects);
@@ -149,7 +142,7 @@ static iso_status start_point(iso_orbit *o, const iso_params *p, const iso_start
                             iso_effects_level(&o->effects) * unit, stated * unit);
 }
 
-/* --- what effects allow --------------------------------------------------------------------------------------------- */
+/* --- what effects allow ----------------------------------------------------------------------------------------- */
 
 /* The closed solution knows what `level` does to the point, and nothing else that acts. */
 static iso_status check_closed(iso_context *ctx, const iso_effects *effects)

@@ -1,3 +1,4 @@
+/* scene.c - what a scene asks for: columns and models by their names, starts, and times. */
 #include "orbit/scene.h"
 
 #include <math.h>
@@ -6,7 +7,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 
-/* --- columns ---------------------------------------------------------------------------------------------------------- */
+/* --- columns ---------------------------------------------------------------------------------------------------- */
 
 int iso_columns_count(void)
 {
@@ -45,7 +46,7 @@ iso_effect_id iso_column_effect(int column)
     return effect;
 }
 
-/* --- starts ----------------------------------------------------------------------------------------------------------- */
+/* --- starts ----------------------------------------------------------------------------------------------------- */
 
 const char *iso_model_kind_name(int kind)
 {
@@ -185,7 +186,8 @@ static bool is_filled(const iso_scene *scene, int column)
     return effect == ISO_EFFECTS || (scene->effects.on[effect] && !why_empty(scene, column));
 }
 
-/* The columns of a picture are runs of the list: t, omega, n; s, M, gamma; or all of it; the ball's with those of effects. */
+/* The columns of a picture are runs of the list: t, omega, n; s, M, gamma; or all of it; the ball's with those of
+ * effects. */
 static bool is_default(const iso_scene *scene, int c)
 {
     const iso_shown as = scene->as == ISO_SHOW_START ? (iso_shown)scene->start.model : scene->as;

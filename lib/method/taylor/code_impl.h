@@ -1,10 +1,11 @@
-/* impl.h - the method `taylor` compiled several times: for processors, and for kinds of numbers. */
+/* code_impl.h - one compilation of the method `taylor`: there is one for each kind of processor and of number. */
 #ifndef ISO_METHOD_TAYLOR_IMPL_H
 #define ISO_METHOD_TAYLOR_IMPL_H
 
 #include "method/integrator_impl.h"
 
-/* One compilation: the functions of iso_method. What `create` leaves in it->data begins with a pointer to its own. */
+/* The functions of iso_method, for one compilation. `create` allocates it->data; the first member there is a pointer
+ * to this struct. */
 typedef struct iso_taylor_code {
     iso_status (*create)(iso_integrator *it);
     iso_status (*start)(iso_integrator *it);

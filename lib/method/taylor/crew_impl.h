@@ -1,18 +1,18 @@
-/* lanes_impl.h - the jobs of lanes_impl.h, LANES at a time. */
+/* crew_impl.h - solves the jobs of lanes_impl.h, LANES side by side. A lane whose job ends takes the next one. */
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
 #include "method/taylor/lanes_impl.h"
 #include "method/taylor/restore_impl.h"
 
 typedef struct crew {
-    iso_lane_job *job[LANES]; /* NULL: idle, the lane goes on with its last orbit and nobody looks */
+    iso_lane_job *job[LANES]; /* NULL: the lane has no job; it goes on with its last orbit, and nothing is stored */
     iso_instant left[LANES];  /* the time at the step's left end */
     double row[LANES];        /* the time of the next row */
     real direction;
     iso_lane_job *const *next; /* jobs still to be taken */
     size_t waiting;
     const iso_lane_options *options;
-    form T; /* last: set_shape clears what needs it */
+    form T; /* last: solve() clears all before it, set_shape() this */
 } crew;
 
 static void next_row(crew *c, int lane)
@@ -21,7 +21,7 @@ static void next_row(crew *c, int lane)
     if (job->done < job->rows) c->row[lane] = job->time[job->done] / job->unit;
 }
 
-/* Gives the lane its next job that has anything to be done. */
+/* Gives the lane the next job that asks for any rows. */
 static void start_next(crew *c, int lane)
 {
     c->job[lane] = NULL;
@@ -36,10 +36,11 @@ static void start_next(crew *c, int lane)
     c->left[lane] = (iso_instant){0, 0};
     LANE(c->direction, lane) = job->time[job->rows - 1] < 0 ? -1 : 1;
     next_row(c, lane);
-    set_out(&c->T, lane, job->model, job->start);
+    start_orbit(&c->T, lane, job->model, job->start);
 }
 
-/* From a lane's left end to its next row, if that does not lie beyond the step of dt; else 0. */
+/* Whether a lane's next row lies within its step of dt. *target: the time from the step's left end to the row, or
+ * 0. */
 static bool row_is_due(const crew *c, int lane, double dt, double *target)
 {
     const iso_lane_job *job = c->job[lane];
@@ -51,7 +52,7 @@ static bool row_is_due(const crew *c, int lane, double dt, double *target)
     return true;
 }
 
-/* The rows within the step: each lane's next, as long as any has one. */
+/* Stores all rows within the step. Each pass takes the next row of every lane that has one. */
 static void output(crew *c, real length, real dt)
 {
     form *T = &c->T;
@@ -66,7 +67,7 @@ static void output(crew *c, real length, real dt)
             found |= due[i];
         }
         if (!found) return;
-        arrive(T, solve_for_time(T, target, length * (target / dt)), &s);
+        find_state(T, solve_for_time(T, target, length * (target / dt)), &s);
         for (int i = 0; i < LANES; i++) {
             if (!due[i]) continue;
             iso_lane_job *job = c->job[i];
@@ -81,7 +82,7 @@ static void output(crew *c, real length, real dt)
     }
 }
 
-/* NaN in a lane whose state is not finite. */
+/* 0 in a lane whose state is finite, else NaN. */
 static real check(const state *s)
 {
     real sum = zero;
@@ -124,7 +125,8 @@ static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_optio
     bool going_on = true;
     memset(c, 0, offsetof(crew, T));
     set_shape(&c->T, jobs[0]->model, options->tolerance);
-    for (int i = 0; i < LANES; i++) set_out(&c->T, i, jobs[0]->model, jobs[0]->start); /* no lane without numbers */
+    for (int i = 0; i < LANES; i++)
+        start_orbit(&c->T, i, jobs[0]->model, jobs[0]->start); /* a lane without a job needs numbers, too */
     c->direction = spread(1);
     c->options = options;
     c->next = jobs;
@@ -136,7 +138,7 @@ static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_optio
         real gained[ISO_CLOCKS];
         const real length = choose_step(&c->T, c->direction, gained), dt = gained[c->T.shape.clock];
         output(c, length, dt);
-        arrive(&c->T, length, &c->T.now);
+        find_state(&c->T, length, &c->T.now);
         const real step = dt + check(&c->T.now);
         for (int i = 0; i < LANES; i++) end_step(c, i, (double)LANE(step, i));
         going_on = !options->go_on || options->go_on(options->data);

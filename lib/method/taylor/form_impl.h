@@ -1,4 +1,4 @@
-/* form_impl.h - what a model is expanded as: its terms and numbers, and the state it begins with. */
+/* form_impl.h - prepares a series: its terms, its numbers, and its first coefficients from a state. */
 #include "method/taylor/quadrature_impl.h"
 #include "model/effects_impl.h"
 #include "model/model.h"
@@ -12,15 +12,16 @@ typedef struct state {
     real own[ISO_MOST_EFFECT_STATES]; /* of effects, as in y: own[i] is y[ISO_STATE + i] */
 } state;
 
-/* One orbit in each lane, all of the same shape: the same system, effects and clocks, and k = -1 or not. `own` is the
- * variable of the series; the model's clock is a series of it, if another. */
+/* One orbit in each lane. All have the same shape: the same system, effects and clocks, and all have k = -1 or none
+ * has. `own` is the variable of the series. If the model has another clock, that clock is a series in `own`. */
 typedef struct form {
     iso_model shape;
-    iso_formula motion;                       /* of the ball's effects, as series need it      */
+    const iso_problem *problem[LANES]; /* each orbit's own, with its numbers            */
+    iso_formula motion;                /* the equations of the ball's effects           */
     iso_clock own;
     bool is_point, is_point_t, in_t, in_field, is_neumann, twists, has_derived, unprojected;
-    bool loaded;                              /* a ball with torques, or free to twist         */
-    enum second_integral_of { NONE, SHELL, PLANE } second_of; /* whose second integral it keeps */
+    bool loaded;                                              /* a ball with torques, or free to twist         */
+    enum second_integral_of { NONE, SHELL, PLANE } second_of; /* the second integral that steps keep */
     double tolerance;                /* of the last terms, in units of the state                             */
     double at_poles;                 /* the same of 1/g of a ball, see for_poles                             */
     real second;                     /* the second integral at the start                                     */
@@ -36,36 +37,38 @@ typedef struct form {
     series S;                                 /* last: its coefficients need not be cleared */
 } form;
 
-/* --- which terms a model calls for ------------------------------------------------------------------------------ */
+/* --- the terms that a model needs ------------------------------------------------------------------------------- */
 
-static void call_effective_ball(form *T)
+static void expand_as_ball(form *T)
 {
     const iso_problem *f = &T->shape.problem;
     if (!iso_effects_none(&f->effects)) iso_effects_record_motion(f, true, &T->motion);
     for (int e = 0; e < ISO_EFFECTS; e++)
         T->has_derived = T->has_derived || (f->at[e] > 0 && iso_effect_list[e]->states->kind == ISO_STATE_DERIVED);
-    call_ball(&T->S, T->twists, T->motion.lines > 0 ? &T->motion : NULL);
-    add_recurrence(&T->S, T->twists ? poles_of_twisting : poles_of_rigid);
+    set_ball_recurrences(&T->S, T->twists, T->motion.lines > 0 ? &T->motion : NULL,
+                         T->twists ? poles_of_twisting : poles_of_rigid);
 }
 
-/* In the ball's time the powers cancel, for free points on H = 0; k = -1 is polynomial in s. */
-static void call_point(form *T)
+/* A free point on H = 0 is expanded in the ball's time, where the powers of q cancel. At k = -1 its equations are
+ * polynomials in s. */
+static void expand_as_point(form *T)
 {
     series *S = &T->S;
     const iso_problem *f = &T->shape.problem;
     S->formula = T->in_field ? &T->shape.problem.energy_formula : NULL;
     T->is_neumann = f->p.k == -1 && !T->in_field;
     T->in_t = !T->in_field && f->energy == 0 && T->shape.clock == ISO_CLOCK_T && f->p.k != -1;
-    add_recurrence(S, T->in_t ? point_t : T->is_neumann ? neumann : point_s);
-    if (T->in_field) add_recurrence(S, point_effects);
+    recurrence *const motion = T->in_t ? point_t : T->is_neumann ? neumann : point_s;
+    set_recurrences(S, (recurrences){{motion, T->in_field ? point_effects : NULL}});
 }
 
-static void call_clock(form *T, iso_clock clock)
+static void add_clock(form *T, iso_clock clock)
 {
     if (clock != T->own) T->clock_of[T->clocks++] = clock;
 }
 
-/* The order of least work for the tolerance (measured: 10 % more at 4 above or below); 6 to 28 in doubles. */
+/* The order that takes the least work for a tolerance: 6 to 28 in doubles. Measured: an order that is 4 higher or
+ * lower takes 10 % more. */
 static int order_for(double tolerance)
 {
     const int order = (int)lrint(4 - 1.6 * log10(tolerance));
@@ -89,12 +92,12 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
     S->order = order_for(T->tolerance);
     set_counts(S);
     if (T->is_point_t)
-        add_recurrence(S, point_p);
+        set_recurrences(S, (recurrences){{point_p}});
     else
-        T->is_point ? call_point(T) : call_effective_ball(T);
+        T->is_point ? expand_as_point(T) : expand_as_ball(T);
     T->own = T->is_point && !T->in_t ? ISO_CLOCK_S : ISO_CLOCK_T;
-    call_clock(T, m->clock);
-    for (int i = 0; i < m->clocks; i++) call_clock(T, m->clock_of[i]);
+    add_clock(T, m->clock);
+    for (int i = 0; i < m->clocks; i++) add_clock(T, m->clock_of[i]);
     if (T->clocks > 0) make_rule(&T->rule);
 }
 
@@ -104,7 +107,7 @@ static void set_shape(form *T, const iso_model *m, double tolerance)
 static void set_clock(form *T, int lane, const iso_params *p, iso_clock clock, NUMBER factor)
 {
     double e, e_own;
-    (void)lane; /* where there is only one */
+    (void)lane; /* not used where there is only one lane */
     iso_clock_rate(p, clock, 1, &e);
     iso_clock_rate(p, T->own, 1, &e_own);
     LANE(T->rate[clock], lane) = (clock == ISO_CLOCK_S ? 1 / factor : 1) * (T->own == ISO_CLOCK_S ? factor : 1);
@@ -120,7 +123,7 @@ static void set_numbers(form *T, int lane, const iso_model *m)
     } else if (T->is_point) {
         set_ball(S, lane, &f->p, &f->energy_formula);
     } else {
-        iso_formula motion; /* the shape's, with the numbers of this orbit */
+        iso_formula motion; /* the same lines as the shape's, with the numbers of this orbit */
         iso_effects_record_motion(f, true, &motion);
         set_ball(S, lane, &f->p, &motion);
     }
@@ -138,7 +141,7 @@ static void set_numbers(form *T, int lane, const iso_model *m)
     if (f->energy_formula.lines > 0) set_constants(&f->energy_formula, &f->p, lane, T->c);
 }
 
-/* --- states: in -------------------------------------------------------------------------- */
+/* --- from a state ------------------------------------------------------------------------ */
 
 static void cross_product(const real a[], const real b[], real c[])
 {
@@ -161,7 +164,7 @@ static real pace(const form *T, const real gamma[])
     return T->S.factor * raised(q_of(&T->S, gamma), -1 - 1 / (2 * T->S.k));
 }
 
-/* gamma' = gamma x M in s */
+/* T->now from y, in one lane. A point's M becomes gamma' = gamma x M in s. */
 static void load(form *T, int lane, const double y[])
 {
     const iso_model *m = &T->shape;
@@ -188,7 +191,7 @@ static vector packed(const real a[3])
     return v;
 }
 
-/* T->now into the coefficients 0 (of gamma' into 1 of gamma) */
+/* Coefficients 0 from T->now. The point's gamma' becomes coefficient 1 of gamma. */
 static void begin(form *T)
 {
     series *S = &T->S;

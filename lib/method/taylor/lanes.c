@@ -1,3 +1,5 @@
+/* lanes.c - the list of compilations for batches: which of them this processor can run, and which models can stand
+ * side by side in the lanes of one vector. */
 #include "method/taylor/lanes_impl.h"
 
 #include <string.h>
@@ -25,5 +27,6 @@ bool iso_lanes_alike(const iso_model *a, const iso_model *b)
     for (int i = 0; i < a->clocks && alike; i++) alike = a->clock_of[i] == b->clock_of[i];
     for (int e = 0; e < ISO_EFFECTS && alike; e++)
         alike = f->effects.on[e] == g->effects.on[e] && f->at[e] == g->at[e];
-    return alike && iso_formula_alike(&f->motion, &g->motion) && iso_formula_alike(&f->energy_formula, &g->energy_formula);
+    return alike && iso_formula_alike(&f->motion, &g->motion) &&
+           iso_formula_alike(&f->energy_formula, &g->energy_formula);
 }

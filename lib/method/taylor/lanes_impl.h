@@ -16,11 +16,11 @@ typedef struct iso_lane_job {
     double start[ISO_MAX_STATE];
     size_t rows;
     const double *time;
-    double unit;       /* time[i]/unit is in the model's units      */
-    double *states;    /* model->dim numbers at states[row stride]  */
+    double unit;    /* time[i]/unit is in the model's units      */
+    double *states; /* model->dim numbers at states[row stride]  */
     size_t stride;
-    size_t done;       /* how many of them have been reached        */
-    double last;       /* the last good time, in the model's units  */
+    size_t done; /* how many of them have been reached        */
+    double last; /* the last good time, in the model's units  */
     long steps;
     const char *error; /* NULL, or why it ended before the last row */
 } iso_lane_job;

@@ -7,8 +7,9 @@
  * of q over the step. What stands between the steps is the series itself. Constraints, energy and, for k = 1 and -1,
  * the second integral are restored from defects computed exactly, so that their rounding has no bias.
  *
- * The source is one: numbers, products and recurrences (model/series), integrals of clocks (quadrature), what a model is
- * expanded as (form), steps (step), what is restored (restore); around them one orbit (single), or many side by side
+ * The source is one: numbers, products and recurrences (model/series), integrals of clocks (quadrature), what a model
+ * is expanded as (form), steps (step), what is restored (restore); around them one orbit (single), or many side by
+ * side
  * (crew, for batches). variant.c compiles it for each kind of number.
  */
 #include <stdlib.h>
@@ -30,7 +31,7 @@ static iso_status create_with(iso_integrator *it, const iso_taylor_code *code)
 
 static iso_status create(iso_integrator *it)
 {
-    #ifdef ISO_TAYLOR_X86
+#ifdef ISO_TAYLOR_X86
     if (iso_taylor_has_avx2()) return create_with(it, &iso_taylor_avx2);
 #endif
     return create_with(it, &iso_taylor_plain);

@@ -1,11 +1,11 @@
-/* restore_impl.h - what brings a state back to its constraints after a step.
+/* restore_impl.h - brings a state back to its constraints and integrals after a step.
  *
- * Corrections are small, and their defects computed exactly: a projection that rounds its defect turns each step the
- * same way, and the phase drifts like t^2.
+ * A defect is the difference between an integral and its value. It is computed as if exactly, then rounded once. If
+ * it were rounded on the way, each step would turn the state the same way, and the phase would drift like t^2.
  */
 #include "method/taylor/step_impl.h"
 
-/* (a,b) - target with the rounding of one number only (Dot2 of Ogita, Rump and Oishi). */
+/* (a,b) - target, rounded once (algorithm Dot2 of Ogita, Rump and Oishi). */
 static inline real defect_of(const real a[], const real b[], int count, real target)
 {
     real sum = -target, lost = zero;
@@ -18,7 +18,7 @@ static inline real defect_of(const real a[], const real b[], int count, real tar
     return sum + lost;
 }
 
-/* Makes |a|^2 the target where `wanted`; gives the relative correction. */
+/* Scales a so that |a|^2 is the target, in the lanes that are `wanted`. Returns the relative correction. */
 static inline real restore_length(real a[], int count, real target, mask wanted)
 {
     real worst = zero;
@@ -37,8 +37,13 @@ static real potential_at(const form *T, const real n[3], real base, const state 
     const iso_formula *F = &T->shape.problem.energy_formula;
     real scalar[ISO_FORMULA_SCALARS], potential = zero;
     vector vectors[ISO_FORMULA_VECTORS], gradient = nought;
-    const nodes t = {.kept = 1, .c = T->c, .scalar = scalar, .vector = vectors, .gradient = &gradient,
-                     .potential = &potential, .size = size};
+    const nodes t = {.kept = 1,
+                     .c = T->c,
+                     .scalar = scalar,
+                     .vector = vectors,
+                     .gradient = &gradient,
+                     .potential = &potential,
+                     .size = size};
     *size = zero;
     scalar[ISO_GIVEN_BASE] = base;
     vectors[ISO_GIVEN_N] = packed(n);
@@ -55,7 +60,7 @@ static real potential_at(const form *T, const real n[3], real base, const state 
     return potential;
 }
 
-/* |gamma'|^2 on the level, 2 (E - V) in s, B k q^2 in t, and the size of the terms that it is the difference of. */
+/* |gamma'|^2 on the level: 2 (E - V) in s, B k q^2 in t. *terms: the sum of the sizes of its terms. */
 static real square_of_speed(const form *T, const state *s, real *terms)
 {
     const real *gamma = s->n;
@@ -106,7 +111,8 @@ static void second_of_point(const form *T, const state *s, second_integral *F)
     F->divisor = q * q * q;
 }
 
-/* a x b, each component to one rounding (Kahan's difference of products): there may be large parts along each other. */
+/* a x b, each component to about one rounding (Kahan's difference of products), even where a and b are nearly
+ * parallel. */
 static inline void cross_product_exactly(const real a[], const real b[], real c[])
 {
     for (int i = 0; i < 3; i++) {
@@ -151,8 +157,9 @@ static second_integral second_of(const form *T, const state *s)
     return F;
 }
 
-/* The most that F may be off, a thousandth: beyond that it is another orbit's. Where w changes F by less than a tenth
- * of it, only a part is put back, so that rounding errors of F are not made large ones of w: many steps do it. */
+/* Puts F back to its value at the start. A defect above a thousandth is left alone: this is another orbit. Where w
+ * changes F by less than a tenth of F, a step puts back only a part of the defect, and many steps the whole.
+ * Otherwise small rounding errors of F would become large errors of w. */
 static void restore_second(const form *T, state *s)
 {
     const second_integral F = second_of(T, s);
@@ -186,8 +193,8 @@ static real restore_point_t(const form *T, state *s)
     return worst + restore_length(s->w, 3, square, square > zero);
 }
 
-/* Twice the energy of a loaded ball as sum_i a_i b_i, begun with its motion's, which is twice `kinetic`; in the same
- * units how large the potential is, or can be made. */
+/* Twice the energy of a loaded ball, as sum_i a_i b_i. `sum` is its rounded value, `kinetic` the part of the motion.
+ * `range`: how large twice the potential is here, or can become. */
 typedef struct energy_sum {
     int count;
     real a[5], b[5], sum, kinetic, range;
@@ -217,7 +224,8 @@ static void energy_of(const form *T, const state *s, energy_sum *E)
     E->range = larger(2 * T->range, magnitude(E->sum - E->kinetic));
 }
 
-/* Like the model's projection left out where the ball hardly moves: there a small error of h is a large one of w. */
+/* Puts a loaded ball back to its energy. Not where it hardly moves: there a small error of the energy would become a
+ * large error of w. The model's projection does the same. */
 static real restore_energy(const form *T, state *s)
 {
     energy_sum E;
@@ -231,7 +239,7 @@ static real restore_energy(const form *T, state *s)
     return magnitude(part);
 }
 
-/* (w,n) = 0 of a ball that does not twist, along J^-1 n as in ball.c; its energy. */
+/* The constraints and the energy of a ball. Without twist (w,n) = 0 is restored along J^-1 n, as in ball.c. */
 static real restore_ball(const form *T, state *s)
 {
     const series *S = &T->S;
@@ -255,8 +263,9 @@ static real restore_unit_states(const form *T, state *s)
     const iso_problem *f = &T->shape.problem;
     real worst = zero;
     for (int e = 0; e < ISO_EFFECTS; e++) {
-        real *own = s->own + f->at[e] - ISO_STATE;
-        for (const iso_effect_state *i = iso_effect_list[e]->states; f->at[e] > 0 && i->name; i++) {
+        if (f->at[e] == 0) continue; /* it has no states */
+        real *own = s->own + (f->at[e] - ISO_STATE);
+        for (const iso_effect_state *i = iso_effect_list[e]->states; i->name; i++) {
             if (i->there && !i->there(f)) continue;
             if (i->kind == ISO_STATE_UNIT) worst += restore_length(own, i->count, spread(1), everywhere());
             own += i->count;
@@ -265,7 +274,8 @@ static real restore_unit_states(const form *T, state *s)
     return worst;
 }
 
-/* Gives the relative size of the corrections to lengths and energy, which asks for the vertical. */
+/* Brings a state back to its constraints and integrals. Returns the relative size of the corrections. Unit vectors
+ * come first: the energy depends on the vertical. */
 static real restore(const form *T, state *s)
 {
     if (T->unprojected && !T->is_point) return zero; /* off them a point's equations are unstable */
@@ -275,8 +285,8 @@ static real restore(const form *T, state *s)
     return worst + (T->is_point ? restore_point(T, s) : restore_ball(T, s));
 }
 
-/* The second integral, or a loaded ball's energy, at the start: of what the constraints make of it, or they and it
- * would not fit together. */
+/* Notes the second integral, or the energy of a loaded ball, at the start. The constraints are restored first, so
+ * that they and the integral fit together. */
 static void set_integrals(form *T, int lane, const iso_model *m)
 {
     double y[ISO_MAX_STATE];
@@ -298,23 +308,26 @@ static void set_integrals(form *T, int lane, const iso_model *m)
         const real twice = defect_of(E.a, E.b, E.count, zero);
         LANE(T->twice_energy, lane) = LANE(twice, lane);
         LANE(T->keeps_energy, lane) = iso_effects_keep_energy(&m->problem);
-        for (int i = 0; i < m->dim; i++) y[i] = i < 3 ? (double)LANE(start.w[i], lane) : i < 6 ? (double)LANE(start.n[i - 3], lane) : 0;
+        for (int i = 0; i < m->dim; i++)
+            y[i] = i < 3 ? (double)LANE(start.w[i], lane) : i < 6 ? (double)LANE(start.n[i - 3], lane) : 0;
         LANE(T->range, lane) = iso_effects_largest(&m->problem, y);
     }
 }
 
-/* A new orbit in a lane, at y. */
-static void set_out(form *T, int lane, const iso_model *m, const double y[])
+/* A new orbit in a lane, at y. The model must live as long as the orbit is followed. */
+static void start_orbit(form *T, int lane, const iso_model *m, const double y[])
 {
+    T->problem[lane] = &m->problem;
     set_numbers(T, lane, m);
     load(T, lane, y);
     if (T->second_of || T->loaded) set_integrals(T, lane, m);
 }
 
-/* The state at x of the series. */
-static real arrive(const form *T, real x, state *s)
+/* The state at x of the series, with its constraints restored; gives the relative size of the corrections. States of
+ * effects that no equation moves stay as they are. */
+static real find_state(const form *T, real x, state *s)
 {
-    memset(s, 0, sizeof *s);
+    if (s != &T->now) *s = T->now;
     state_at(T, x, s);
     return restore(T, s);
 }

@@ -5,7 +5,7 @@
 #include "method/taylor/restore_impl.h"
 
 typedef struct single {
-    const iso_taylor_code *code; /* set by taylor.c */
+    const iso_taylor_code *code; /* set by method.c */
     form T;
     real length; /* of the last step, in the own variable */
 } single;
@@ -22,14 +22,14 @@ static iso_status create(iso_integrator *it)
 static iso_status start(iso_integrator *it)
 {
     single *own = it->data;
-    set_out(&own->T, 0, &it->model, it->at_right);
+    start_orbit(&own->T, 0, &it->model, it->at_right);
     return ISO_OK;
 }
 
 static iso_status arrive_at(iso_integrator *it, real x, state *s, double y[])
 {
     single *own = it->data;
-    it->statistics.correction = fmax(it->statistics.correction, (double)arrive(&own->T, x, s));
+    it->statistics.correction = fmax(it->statistics.correction, (double)find_state(&own->T, x, s));
     store(&own->T, 0, s, y);
     if (all_finite(y, it->model.dim)) return ISO_OK;
     return iso_integrator_stopped(it, "the series diverges; taylor_extended has numbers of a wider range, the other "

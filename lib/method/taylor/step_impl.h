@@ -1,7 +1,8 @@
-/* step_impl.h - along a series: states and clocks, and the length of a step. */
+/* step_impl.h - evaluates a series at a time, and chooses the length of a step. */
 #include "method/taylor/form_impl.h"
 
-/* p(x), or p'(x), of a vector's series, or of a number's */
+/* The value of a vector's series at x (`value`), its derivative (`rate`), and the value of a number's series
+ * (`number`). */
 static inline void value(const vector a[], int order, real x, real out[3])
 {
     vector p = nought;
@@ -41,7 +42,7 @@ static void store(const form *T, int lane, const state *s, double y[])
     for (int i = 0; i < m->clocks; i++) y[m->moving + i] = (double)LANE(s->clock[m->clock_of[i]], lane);
 }
 
-/* How far the clocks go on from 0 to x; gives the relative error of that, estimated. */
+/* How far each clock goes on while the own variable goes from 0 to x. Returns an estimate of the relative error. */
 static inline real integrate_clocks(const form *T, real x, real gained[ISO_CLOCKS])
 {
     real doubt = zero;
@@ -53,11 +54,12 @@ static inline real integrate_clocks(const form *T, real x, real gained[ISO_CLOCK
     return doubt;
 }
 
-/* States that omega and n give at any time, in doubles: no equation here reads them. */
+/* Derived states follow from omega and n at any time. No equation of a series reads them, so doubles are enough. Each
+ * orbit has its own numbers. */
 static void find_derived(const form *T, state *s)
 {
-    const iso_problem *f = &T->shape.problem;
     for (int lane = 0; lane < LANES; lane++) {
+        const iso_problem *f = T->problem[lane];
         double y[ISO_MAX_STATE] = {0};
         for (int i = 0; i < 3; i++) y[i] = (double)LANE(s->w[i], lane), y[3 + i] = (double)LANE(s->n[i], lane);
         for (int e = 0; e < ISO_EFFECTS; e++) {
@@ -119,8 +121,9 @@ static real coefficient(const form *T, int n)
     return most;
 }
 
-/* x^part, 0 < part <= 1, 4 % too small to 3 % too large: the bits of a double are about its logarithm. Numbers of a
- * wider range are brought into that of doubles first: terms there go to 1e-4932, where passes by a pole are quick. */
+/* x^part for 0 < part <= 1, from 4 % too small to 3 % too large. The bits of a double, read as an integer, are about
+ * its logarithm. A number below the range of doubles is brought into it by square roots first: terms of long double
+ * and 128 bits go down to 1e-4932. */
 static inline real rough_power(real x, double part)
 {
     if (sizeof(NUMBER) > sizeof(double) && LANE(x, 0) > 0 && LANE(x, 0) < (NUMBER)DBL_MIN)
@@ -142,25 +145,26 @@ static inline real rough_root(real x, int n)
     return rough_power(x, 1.0 / n);
 }
 
-/* The time in which the unit vector moves by about 1000, which may be anything in own units of s: for k = 1e6, 1e15. */
+/* The time in which the unit vector moves by about 1000. In units of s it can be very long: 1e15 for k = 1e6. */
 static real longest_step(const series *S)
 {
     const real pace = larger(largest(S->n[1]), root(largest(S->n[2])));
     return 1000 / choose(pace > spread((NUMBER)1e-100), pace, spread(1));
 }
 
-/* A ball that rolls in a principal plane turns evenly, an entire function of t, in steps of any length; but how it
- * leaves the plane, by however little, follows an equation with the poles of 1/g, and a series beyond them is wrong
- * by many decades. So the terms of 1/g are kept small as well: as small as the state's would cost other orbits a
- * fifth more steps, 3/4 of the digits 2 %. */
+/* The longest step for the poles of 1/g. A ball that rolls in a principal plane turns evenly: its own series
+ * converges for steps of any length. But a small distance from the plane follows an equation with the poles of 1/g,
+ * and beyond them its series is wrong by many decades. So the terms of 1/g are kept small as well, to 3/4 of the
+ * digits: this costs other orbits 2 % more steps. All digits would cost a fifth more. */
 static real for_poles(const form *T, int n)
 {
     return rough_root(T->at_poles * magnitude(T->S.pole[0]) / larger(magnitude(T->S.pole[n]), spread((NUMBER)1e-290)),
                       n);
 }
 
-/* The step whose last three terms are as small as the tolerance, or the longest; shorter where the clocks need it. Two
- * may be small by chance: coefficients next to a pair of conjugate poles go like a cosine of n. */
+/* The step for which the last three terms are as small as the tolerance, and at most the longest step. It is
+ * shortened where the clocks need it. Two terms would not do: coefficients next to a pair of conjugate poles go like
+ * a cosine of n, and two of them may be small by chance. */
 static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
 {
     const real least = spread((NUMBER)1e-290), tolerance = spread(T->tolerance);
@@ -182,7 +186,7 @@ static real choose_step(const form *T, real direction, real gained[ISO_CLOCKS])
     }
 }
 
-/* The x at which the model's clock has gone on by dt: Newton's method. */
+/* The x at which the model's clock has gone on by dt. By Newton's method from a guess. */
 static real solve_for_time(const form *T, real dt, real guess)
 {
     const iso_clock c = T->shape.clock;

@@ -1,21 +1,26 @@
-/* two_point.c - the quadrature of two_point.h on the series of model/series. */
+/* two_point.c - the quadrature of two_point.h: what lies between two samples, from the Taylor coefficients at
+ * both. */
 #include "method/two_point.h"
 
-#define NUMBER       double
-#define ROOT         sqrt
-#define POW          pow
-#define FMA          fma
-#define EPSILON      DBL_EPSILON
-#define FINER        1
+#include "model/effects_impl.h"
+#include "model/model.h"
+
+/* The macros that the series are made with. They end with this file. */
+#define NUMBER double
+#define ROOT sqrt
+#define POW pow
+#define FMA fma
+#define EPSILON DBL_EPSILON
+#define FINER 1
 #define FINEST_ORDER 28
-#define NODES        8
-#define LANES        1
+#define NODES 8
+#define LANES 1
 
 #include "method/taylor/form_impl.h"
 
 enum { LEAST = 2, HIGHEST = 14 }; /* p; where more is needed, steps are cheaper */
 
-/* What is known at a sample: coefficients of the two vectors' derivatives, and of the carried clocks' rates. */
+/* What is known at a sample: the coefficients of the derivatives of both vectors, and of the rates of the clocks. */
 typedef struct sample {
     double y[ISO_STATE];
     double value[ISO_STATE]; /* omega and n, or gamma' and gamma */
@@ -28,8 +33,8 @@ struct iso_two_point {
     sample at[2], *left, *right;
     double tolerance;
     double weight[HIGHEST + 1][HIGHEST + 1], change[HIGHEST + 1][HIGHEST + 1]; /* c_j at [p][j], less that at [p-1] */
-    int p, easy;   /* easy: measurements that could have done with less */
-    bool declines; /* what is no state of the ball or the point of the table is left to steps */
+    int p, easy;   /* easy: how many measurements in a row would have been good with a lower p */
+    bool declines; /* the system is neither the ball nor the point: it is followed in steps    */
 };
 
 /* c_0 = 1/2, c_j/c_(j-1) = (p-j+1) j / ((2p+2-j) (j+1)) */
@@ -43,8 +48,7 @@ static void set_weights(iso_two_point *b)
     }
 }
 
-iso_status iso_two_point_create(iso_context *ctx, const iso_model *model, double tolerance,
-                                iso_two_point **two_point)
+iso_status iso_two_point_create(iso_context *ctx, const iso_model *model, double tolerance, iso_two_point **two_point)
 {
     iso_two_point *b = *two_point = calloc(1, sizeof *b);
     if (!b) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the way between samples");
@@ -95,7 +99,7 @@ static void compute_coefficients(iso_two_point *b, sample *s, int p)
     }
 }
 
-/* sum_j weight_j h^(j+1) (f_j + (-1)^j g_j), f and g being `stride` apart; *last: what p added. */
+/* sum_j weight_j h^(j+1) (f_j + (-1)^j g_j). Coefficients stand `stride` apart. *last: how much order p changed. */
 static inline double integral(const iso_two_point *b, const double power[], const double f[], const double g[],
                               int stride, double *last)
 {
@@ -114,7 +118,7 @@ static double length(const double a[3])
     return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
-/* By the coefficients up to b->p; *left: what is still missing, in units of what may be. */
+/* The gap by the coefficients up to b->p. *left: the error that is still left, divided by the error allowed. */
 static void measure(iso_two_point *b, double h, double noise, iso_gap *gap, double *left)
 {
     const sample *f = b->left, *g = b->right;
@@ -160,3 +164,13 @@ bool iso_two_point_measure(iso_two_point *b, double h, double noise, iso_gap *ga
     b->easy = 0;
     return true;
 }
+
+#undef NUMBER
+#undef ROOT
+#undef POW
+#undef FMA
+#undef EPSILON
+#undef FINER
+#undef FINEST_ORDER
+#undef NODES
+#undef LANES

@@ -1,60 +1,67 @@
 /* variant.c - the code of the Taylor methods, compiled once for each kind of number and vector.
  *
- * The build compiles this file with ISO_TAYLOR_VARIANT set to VARIANT_ and one of the names below (CMakeLists.txt). One orbit at a
- * time gives an iso_taylor_code, for the method (method.c); several side by side, one in each lane of a vector, give an
- * iso_lane_code, for batches (lanes.c).
+ * The build (CMakeLists.txt) sets ISO_TAYLOR_VARIANT to VARIANT_ and one of the names below. A variant with one orbit
+ * is an iso_taylor_code, for the method (method.c). A variant with several orbits has one in each lane of a vector;
+ * it is an iso_lane_code, for batches (lanes.c). All project and system headers come before the macros of numbers, so
+ * that these reach nothing but the series. They end with this file.
  *
  *     variant       numbers                  orbits   for
  *     plain         double                   1        any processor
  *     avx2          double                   1        x86 with AVX2 and FMA: three components in one register of four
  *     extended      long double              1        a reference: 64 bits of mantissa on x86
- *     quad          128 bits                 1        a reference for references, where compiler and C library have it
+ *     quad          128 bits                 1        for references, where compiler and C library have it
  *     lanes_plain   double                   2        any processor: all have vectors of two doubles, or do without
  *     lanes_avx2    double                   4        x86 with AVX2 and FMA
  *     lanes_avx512  double                   8        x86 with AVX-512
  */
-#define VARIANT_PLAIN        1
-#define VARIANT_AVX2         2
-#define VARIANT_EXTENDED     3
-#define VARIANT_QUAD         4
-#define VARIANT_LANES_PLAIN  5
-#define VARIANT_LANES_AVX2   6
+#define VARIANT_PLAIN 1
+#define VARIANT_AVX2 2
+#define VARIANT_EXTENDED 3
+#define VARIANT_QUAD 4
+#define VARIANT_LANES_PLAIN 5
+#define VARIANT_LANES_AVX2 6
 #define VARIANT_LANES_AVX512 7
 
+#include "base/finite_impl.h"
+#include "method/integrator_impl.h"
 #include "method/methods_impl.h"
+#include "method/taylor/code_impl.h"
+#include "method/taylor/lanes_impl.h"
+#include "model/effects_impl.h"
+#include "model/model.h"
 
 #if ISO_TAYLOR_VARIANT != VARIANT_QUAD || defined ISO_TAYLOR_HAS_QUAD
 
 /* --- the numbers ------------------------------------------------------------------------------------------------ */
 
 #if ISO_TAYLOR_VARIANT == VARIANT_EXTENDED
-#define NUMBER       long double
-#define ROOT         sqrtl
-#define POW          powl
-#define FMA          fmal
-#define EPSILON      LDBL_EPSILON
-#define FINER        1e-4 /* the tolerance is that of doubles: terms are kept to what is beyond them */
+#define NUMBER long double
+#define ROOT sqrtl
+#define POW powl
+#define FMA fmal
+#define EPSILON LDBL_EPSILON
+#define FINER 1e-4 /* the tolerance is that of doubles: terms are kept to what is beyond them */
 #define FINEST_ORDER 34
-#define NODES        12
+#define NODES 12
 #elif ISO_TAYLOR_VARIANT == VARIANT_QUAD
 __extension__ typedef _Float128 number_of_128_bits;
-#define NUMBER       number_of_128_bits
-#define ROOT         sqrtf128
-#define POW          powf128
-#define FMA          fmaf128
-#define EPSILON      0x1p-112
-#define FINER        1e-15
+#define NUMBER number_of_128_bits
+#define ROOT sqrtf128
+#define POW powf128
+#define FMA fmaf128
+#define EPSILON 0x1p-112
+#define FINER 1e-15
 #define FINEST_ORDER 52
-#define NODES        20
+#define NODES 20
 #else
-#define NUMBER       double
-#define ROOT         sqrt
-#define POW          pow
-#define FMA          fma
-#define EPSILON      DBL_EPSILON
-#define FINER        1
+#define NUMBER double
+#define ROOT sqrt
+#define POW pow
+#define FMA fma
+#define EPSILON DBL_EPSILON
+#define FINER 1
 #define FINEST_ORDER 28
-#define NODES        8
+#define NODES 8
 #endif
 
 #if ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX512
@@ -113,5 +120,16 @@ const iso_lane_code iso_lanes_avx2 = {"avx2", LANES, runs_here, solve};
 const iso_lane_code iso_lanes_plain = {"plain", LANES, runs_here, solve};
 #endif
 #endif
+
+#undef NUMBER
+#undef ROOT
+#undef POW
+#undef FMA
+#undef EPSILON
+#undef FINER
+#undef FINEST_ORDER
+#undef NODES
+#undef LANES
+#undef PACKED
 
 #endif

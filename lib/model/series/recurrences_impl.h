@@ -257,20 +257,30 @@ static inline void expand(series *S)
 
 /* --- what both uses set up -------------------------------------------------------------------------------------- */
 
-static inline void add_recurrence(series *S, recurrence *term)
+/* Sets the terms, in this order; NULL stands for none. The list has room for TERMS: a longer one does not compile. */
+typedef struct recurrences {
+    recurrence *term[TERMS];
+} recurrences;
+
+static inline void set_recurrences(series *S, recurrences list)
 {
-    S->term[S->terms++] = term;
+    S->terms = 0;
+    for (int i = 0; i < TERMS; i++)
+        if (list.term[i]) S->term[S->terms++] = list.term[i];
 }
 
-/* The ball's terms; formula: of its effects, or NULL. */
-static inline void call_ball(series *S, bool twists, const iso_formula *formula)
+/* The terms of the ball. formula: of its effects, or NULL; poles: the term of its poles, or NULL. */
+static inline void set_ball_recurrences(series *S, bool twists, const iso_formula *formula, recurrence *poles)
 {
     const bool effective = formula && formula->lines > 0;
     S->formula = effective ? formula : NULL;
-    add_recurrence(S, twists ? twisting_ball : ball);
-    if (effective) add_recurrence(S, effects);
-    add_recurrence(S, twists ? twisting : effective && formula->torques ? forced : rigid);
-    if (effective && formula->late) add_recurrence(S, late_effects);
+    set_recurrences(S, (recurrences){{
+                           twists ? twisting_ball : ball,
+                           effective ? effects : NULL,
+                           twists ? twisting : effective && formula->torques ? forced : rigid,
+                           effective && formula->late ? late_effects : NULL,
+                           poles,
+                       }});
 }
 
 /* n, 1/n */

@@ -1,0 +1,88 @@
+/* orbit_common.c - what every other file of an orbit needs: the numbers of a sample, and what an orbit is made of. */
+#include <math.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "orbit/orbit_impl.h"
+
+/* --- the numbers of a sample ------------------------------------------------------------------------------------ */
+
+_Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double),
+               "a number for each column, in their order");
+
+double iso_sample_column(const iso_sample *sample, int column)
+{
+    double value;
+    memcpy(&value, (const char *)sample + (size_t)column * sizeof value, sizeof value);
+    return value;
+}
+
+double iso_sample_get(const iso_sample *sample, const char *name)
+{
+    const int column = iso_column_find(name);
+    return column < 0 ? NAN : iso_sample_column(sample, column);
+}
+
+void iso_sample_set_column(iso_sample *sample, int column, double value)
+{
+    memcpy((char *)sample + (size_t)column * sizeof value, &value, sizeof value);
+}
+
+void iso_sample_blank(iso_sample *s)
+{
+    for (int c = 0; c < ISO_TRAJECTORY_COLUMNS; c++) iso_sample_set_column(s, c, NAN);
+}
+
+/* --- what it is made of ----------------------------------------------------------------------------------------- */
+
+iso_backend iso_orbit_backend(const iso_orbit *o)
+{
+    return o->options.backend;
+}
+
+const iso_model *iso_orbit_model(const iso_orbit *o)
+{
+    return &o->model;
+}
+
+const iso_units *iso_orbit_units(const iso_orbit *o)
+{
+    return &o->units;
+}
+
+const iso_method *iso_orbit_method(const iso_orbit *o)
+{
+    return o->options.method;
+}
+
+bool iso_orbit_has_twin(const iso_orbit *o)
+{
+    return !iso_effects_breaking(&o->effects) && (o->h > 0 || iso_effects_pull(&o->effects));
+}
+
+/* Back from own units as they were brought there; up and quaternion have none. */
+iso_effects iso_orbit_effects(const iso_orbit *o)
+{
+    return iso_effects_scaled(&o->effects, &o->units, 1);
+}
+
+double iso_orbit_energy(const iso_orbit *o)
+{
+    return o->h == 0 ? 0 : o->h * iso_unit(&o->units, iso_dimension_h);
+}
+
+double iso_orbit_coupling(const iso_orbit *o)
+{
+    return o->eps == 0 ? 0 : o->eps * iso_unit(&o->units, iso_dimension_eps);
+}
+
+/* --- a message -------------------------------------------------------------------------------------------------- */
+
+iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out)
+{
+    const iso_params *p = &o->units.own;
+    return iso_context_fail(o->ctx, ISO_NUMERICAL, "k",
+                            "k = %g is too extreme for %s with max J/min J = %.3g: powers q^(1/k) leave the "
+                            "range of doubles; %s",
+                            p->k, what, max3(p->J) / min3(p->J), way_out);
+}
