@@ -14,9 +14,11 @@ typedef struct nodes {
     real *scalar;
     vector *vector;
     const real *count, *inverse; /* n, 1/n; not read for n = 0 */
-    vector *torque, *gradient;   /* coefficient n is added at [n] */
-    real *potential;             /* likewise: U of the ball, V of the point */
-    real *size;                  /* NULL, or: the sum of the sizes of the potential's terms, n = 0 */
+    const real *slope;           /* n times coefficient n of the base, and 1/(its coefficient 0), likewise */
+    real over_base;
+    vector *torque, *gradient; /* coefficient n is added at [n] */
+    real *potential;           /* likewise: U of the ball, V of the point */
+    real *size;                /* NULL, or: the sum of the sizes of the potential's terms, n = 0 */
 } nodes;
 
 /* The constants of one orbit, in the numbers of this compilation. */
@@ -57,7 +59,7 @@ static inline vector three(const real c[])
 static inline vector matrix_times(const real M[9], vector a)
 {
     vector v = nought;
-    for (int i = 0; i < 3; i++) AT(v, i) = total(by(three(M + 3 * i), a));
+    for (int i = 0; i < 3; i++) v = plus(v, times(AT(a, i), (three((const real[]){M[i], M[3 + i], M[6 + i]}))));
     return v;
 }
 
@@ -66,9 +68,14 @@ static inline vector matrix_times(const real M[9], vector a)
 static inline real power_of_series(const nodes *t, const real a[], real p, const real v[], int n)
 {
     if (n == 0) return raised(a[0], p);
-    real sum = zero;
-    for (int j = n; j > 0; j--) sum += ((p + 1) * t->count[j] - t->count[n]) * a[j] * v[n - j];
-    return sum * t->inverse[n] / a[0];
+    if (a == t->scalar + ISO_GIVEN_BASE * t->kept)
+        return power(a, t->slope, t->over_base, p, v, t->count[n], t->inverse[n], n);
+    real slopes = zero, plain = zero;
+    for (int j = n; j > 0; j--) {
+        slopes += t->count[j] * a[j] * v[n - j];
+        plain += a[j] * v[n - j];
+    }
+    return ((p + 1) * slopes - t->count[n] * plain) * (t->inverse[n] / a[0]);
 }
 
 static inline real scalar_line(const iso_formula_line *l, const nodes *t, int n)

@@ -55,6 +55,8 @@ static inline nodes nodes_of(series *S)
                    .vector = S->vector,
                    .count = S->count,
                    .inverse = S->inverse,
+                   .slope = S->slope,
+                   .over_base = S->over_base,
                    .torque = S->x,
                    .gradient = S->dV,
                    .potential = S->V};
@@ -277,7 +279,9 @@ static inline void set_ball_recurrences(series *S, bool twists, const iso_formul
     set_recurrences(S, (recurrences){{
                            twists ? twisting_ball : ball,
                            effective ? effects : NULL,
-                           twists ? twisting : effective && formula->torques ? forced : rigid,
+                           twists                          ? twisting
+                           : effective && formula->torques ? forced
+                                                           : rigid,
                            effective && formula->late ? late_effects : NULL,
                            poles,
                        }});
