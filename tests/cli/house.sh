@@ -99,7 +99,8 @@ grep -rlw ISO_API lib --include='*.c' --include='*_impl.h' | complain "ISO_API s
 # A public header compiles alone, in C and in C++.
 alone() {
     for header in $public lib/isoroll.h; do
-        printf '#include "%s"\ntypedef int iso_nothing;\n' "${header#lib/}" | "$@" -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I lib - 2>&1 |
+        printf '#include "%s"\ntypedef int iso_nothing;\n' "${header#lib/}" |
+            "$@" -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I lib - 2>&1 |
             sed "s|^|$header: |"
     done
 }
