@@ -9,18 +9,18 @@
  * Results. A function that can fail returns an iso_status, and the context then has the words
  *   (iso_context_message). After an error the outputs are not defined, but an output that is a new object is NULL.
  *
- * Ownership. What *_create, *_open, *_read or another function gives as a new object belongs to the caller. The caller
- *   releases it by the *_free or *_close of its type. Both accept NULL.
+ * Ownership. What *_create, *_open, *_read or another function gives as a new object belongs to the caller,
+ *   who releases it by the *_free or *_close of its type. Both accept NULL.
  * - Strings and pointers that a function returns belong to the library or to the object asked. They are valid until
  *   that object changes or is released.
- * - Inputs are read, not kept: they may go after the call. The exceptions are said where they are, such as the header of
- *   a conversion. An object must not outlive its context.
+ * - Inputs are read, not kept: they may go after the call. Headers name the exceptions, such as
+ *   the header of a conversion. An object must not outlive its context.
  *
  * NULL is allowed only where a header says so, and for option structs, where it means the defaults.
  *
- * Option structs come from their *_defaults function; then members are set. Its member `size` is the size of the struct
- *   in the headers that the program was compiled with, so the struct can grow. 0 means: as in these headers. The
- *   library refuses a size that it does not know.
+ * Option structs come from their *_defaults function; then members are set. Its member `size` is the size of the
+ *   struct in the headers that the program was compiled with, so the struct can grow. 0 means: as in these headers.
+ *   The library refuses a size that it does not know.
  *
  * Units are the caller's own, any that fit together (SI, for example). Angles are in radians. Axes are those of the
  *   body. Vectors have three numbers, states six: omega, n of the ball; M, gamma of the point.
