@@ -1,51 +1,51 @@
-/* isoroll.h - everything: the floors of the library, bottom-up. A header includes only floors below its own.
+/* isoroll.h - what most programs need: a context, parameters, effects, scenes, orbits, batches, runs, conversions,
+ * scene files and trajectory files. Other headers are included by name, such as <isoroll/study/cost.h>.
  *
- * A host program's rounding mode, floating-point traps, flush-to-zero mode and locale change no result by a bit: what
- * answers an iso_status computes by C's default rules (so does what it calls back), and gives the host's back. Single
- * formulas, which answer numbers (most of model and map), are computed by the host's rules.
+ * Rules for all functions of the library. A header names only the exceptions.
+ *
+ * Arguments stand in this order: the context, the object that is asked or changed, the inputs, the outputs.
+ * Functions of an object that keeps its context (orbits, conversions, error finders) take no context.
+ *
+ * Results. A function that can fail returns an iso_status, and the context then has the words
+ *   (iso_context_message). After an error the outputs are not defined, but an output that is a new object is NULL.
+ *
+ * Ownership. What *_create, *_open, *_read or another function gives as a new object belongs to the caller,
+ *   who releases it by the *_free or *_close of its type. Both accept NULL.
+ * - Strings and pointers that a function returns belong to the library or to the object asked. They are valid until
+ *   that object changes or is released.
+ * - Inputs are read, not kept: they may go after the call. Headers name the exceptions, such as
+ *   the header of a conversion. An object must not outlive its context.
+ *
+ * NULL is allowed only where a header says so, and for option structs, where it means the defaults.
+ *
+ * Option structs come from their *_defaults function; then members are set. Its member `size` is the size of the
+ *   struct in the headers that the program was compiled with, so the struct can grow. 0 means: as in these headers.
+ *   The library refuses a size that it does not know.
+ *
+ * Units are the caller's own, any that fit together (SI, for example). Angles are in radians. Axes are those of the
+ *   body. Vectors have three numbers, states six: omega, n of the ball; M, gamma of the point.
+ *
+ * Threads. A context, and objects made with it, are for one thread at a time. Different contexts share nothing.
+ *
+ * Errors never end the program, and the library prints nothing. See base/context.h for GSL's error handler.
+ *
+ * The host's rounding mode, floating-point traps, flush-to-zero mode and locale change no result by a bit: a function
+ *   that returns an iso_status computes by C's default rules (so does what it calls back), and restores the host's.
+ *   Single formulas, which return numbers (most of model and map), are computed by the host's rules.
  */
 #ifndef ISOROLL_H
 #define ISOROLL_H
 
-/* C++ programs include this header, not single floors: it says that all of it is C. What the floors include of the
- * C library comes first, outside of that. */
-#include <stdbool.h>
-#include <stddef.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 /* base: no physics */
+#include "base/api.h"
+#include "base/version.h"
 #include "base/status.h"
 #include "base/context.h"
-#include "base/number.h"
-#include "base/random.h"
 #include "base/record.h"
 
 /* model: what moves */
 #include "model/params.h"
-#include "model/effect_list.h"
-#include "model/formula.h"
-#include "model/problem.h"
-#include "model/system.h"
 #include "model/effect.h"
-#include "model/model.h"
-#include "model/reactions.h"
-#include "model/conical.h"
-
-/* map: the isomorphism between ball and point */
-#include "map/state.h"
-#include "map/poisson.h"
-#include "map/reduction.h"
-
-/* method: integrators behind one table */
-#include "method/method.h"
-#include "method/two_point.h"
-
-/* exact: separated coordinates; any time at the same cost, for k = 1 and k = -1 */
-#include "exact/coordinates.h"
-#include "exact/exact.h"
 
 /* orbit: where the ball, or the point, is at any time */
 #include "orbit/scene.h"
@@ -54,25 +54,11 @@ extern "C" {
 #include "orbit/description.h"
 #include "orbit/convert.h"
 
-/* study: what people do with orbits */
-#include "study/analogue.h"
-#include "study/check.h"
-#include "study/compare.h"
-#include "study/error.h"
-#include "study/momentum.h"
+/* study: all rows of a scene */
 #include "study/run.h"
-#include "study/spectrum.h"
-#include "study/frequencies.h"
-#include "study/cost.h"
 
-/* io: scene and trajectory files, text files, plots */
+/* io: scene and trajectory files */
 #include "io/scene_file.h"
-#include "io/output.h"
 #include "io/trajectory.h"
-#include "io/plot.h"
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

@@ -2,8 +2,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "parameters.h"
 #include "scene_options.h"
+#include "study/analogue.h"
 
 /* What analogue can be told. */
 typedef struct options {

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "parameters.h"
+#include "study/check.h"
 
 /* What check can be told. */
 typedef struct options {

@@ -1,8 +1,10 @@
 /* isoroll compare - computes one orbit by every backend and shows the differences: table, picture, JSON. */
 #include <math.h>
 
+#include "io/plot.h"
 #include "json.h"
 #include "scene_options.h"
+#include "study/compare.h"
 
 /* What compare can be told. */
 typedef struct options {
@@ -203,7 +205,7 @@ static bool print_json(const iso_scene *scene, const iso_comparison *c)
 {
     const iso_params *p = &scene->params;
     json_t *o =
-        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:{s:o, s:o}}", "isoroll", ISO_VERSION,
+        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:{s:o, s:o}}", "isoroll", iso_version(),
                   "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]), "h",
                   json_number(c->h), "eps", json_number(c->eps), "effects", effects_of(&c->effects), "tolerance",
                   json_number(scene->tolerance), "clock", iso_clock_name(c->clock), "worst_difference",

@@ -179,7 +179,9 @@ static iso_status open_filter(filter *f, iso_params *params)
 {
     const options *o = f->o;
     const iso_conversion_target target = {put_header, put_row, put_bad, f};
-    const iso_conversion_options how = {isnan(o->tolerance) ? 1e-14 : o->tolerance, o->shift_J};
+    iso_conversion_options how = iso_conversion_defaults();
+    if (!isnan(o->tolerance)) how.tolerance = o->tolerance;
+    how.shift_J = o->shift_J;
     iso_status status = iso_trajectory_reader_open(f->ctx, o->from.file, o->from.columns, &f->in);
     if (status == ISO_OK) status = parameters_of_file(f->ctx, &o->from, iso_trajectory_header(f->in), params);
     if (status == ISO_OK)

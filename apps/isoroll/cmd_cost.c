@@ -4,6 +4,8 @@
 #include <string.h>
 
 #include "cost_report.h"
+#include "io/output.h"
+#include "io/plot.h"
 #include "scene_options.h"
 
 /* What cost can be told. */

@@ -79,13 +79,12 @@ static iso_status explain_exact(iso_context *ctx, const iso_scene *scene, const 
         [ISO_EXACT_SEPARATRIX] = "on the separatrix, to the unstable rotation",
         [ISO_EXACT_REST] = "the point rests",
     };
-    iso_effects effects;
     iso_orbit *orbit;
-    iso_orbit_options o = iso_scene_orbit_options(scene, columns, count, &effects);
-    o.backend = ISO_BACKEND_EXACT;
-    o.method = NULL;
+    iso_scene closed = *scene;
+    closed.backend = ISO_BACKEND_EXACT;
+    snprintf(closed.method, sizeof closed.method, "auto");
     printf("closed solution (--backend exact)\n");
-    const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    const iso_status status = iso_scene_orbit(ctx, &closed, columns, count, &orbit);
     if (status == ISO_NO_MEMORY) return status;
     if (status != ISO_OK) return printf("  %s\n\n", iso_context_message(ctx)), ISO_OK;
     printf("  any time at the same cost: %s\n\n", kinds[iso_exact_describe(iso_orbit_exact(orbit)).kind]);

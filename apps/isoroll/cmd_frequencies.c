@@ -3,8 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "io/plot.h"
 #include "json.h"
 #include "scene_options.h"
+#include "study/frequencies.h"
+#include "study/momentum.h"
 
 /* What frequencies can be told. */
 typedef struct options {
@@ -186,7 +189,7 @@ static bool print_json(const iso_scene *scene, const iso_frequencies *f)
     const iso_params *p = &scene->params;
     json_t *o = json_pack(
         "{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "isoroll",
-        ISO_VERSION, "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]),
+        iso_version(), "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]),
         "h", json_number(f->h), "eps", json_number(f->eps), "solution", f->estimated ? "estimated" : "closed", "kind",
         kinds[f->kind], "motion", f->motion, "integral", integral_of(f), "c", json_number(f->c), "angles",
         angles_of(f), "rotation_number", json_number(f->rotation), "resonances", resonances_of(f), "separatrices",

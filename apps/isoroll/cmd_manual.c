@@ -1,6 +1,7 @@
 /* isoroll manual - prints the man pages and the completions for shells; the build installs what it prints. */
 #include <string.h>
 
+#include "io/output.h"
 #include "manual.h"
 
 /* What manual can be told. */

@@ -2,7 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "io/plot.h"
 #include "parameters.h"
+#include "study/check.h"
 
 /* What plot can be told. */
 typedef struct options {

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "cost_report.h"
 #include "json.h"
 
@@ -43,7 +44,7 @@ void cost_write_csv(const cost_report *r, FILE *to)
     fprintf(to,
             "# isoroll cost 1\n# end: %.17g\n# reference: %s\n# second reference: %s\n# uncertainty: %.17g\n"
             "# isoroll: %s\n",
-            c->end, c->reference, c->second, c->uncertainty, ISO_VERSION);
+            c->end, c->reference, c->second, c->uncertainty, iso_version());
     fputs("backend,method,tolerance,error,clock_error,energy_drift,constraint_drift,setup,fastest,median,slowest,"
           "total,repeats,steps,rejected,rhs,jacobians,states,below,pareto,failure\n",
           to);
@@ -136,7 +137,7 @@ bool cost_print_json(const cost_report *r)
     const iso_cost *c = r->cost;
     json_t *o =
         json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:s, s:o, s:o, s:b, s:o, s:o, s:o, s:o, s:o}", "isoroll",
-                  ISO_VERSION, "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]),
+                  iso_version(), "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]),
                   json_number(p->J[2]), "end", json_number(c->end), "turns", json_number(c->turns), "reference",
                   c->reference, "second_reference", c->second, "uncertainty", json_number(c->uncertainty), "seconds",
                   json_number(c->seconds), "complete", (int)c->complete, "cells", cells_of(c), "lines", lines_of(c),

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "cost_report.h"
+#include "study/cost.h"
 
 bool cost_is_failed(const iso_cost_cell *cell)
 {

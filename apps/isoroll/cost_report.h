@@ -5,6 +5,7 @@
 #define ISOROLL_COST_REPORT_H
 
 #include "scene_options.h"
+#include "study/cost.h"
 
 /* How error and time of one cell grow with the length of the orbit. */
 typedef struct cost_growth {

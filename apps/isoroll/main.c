@@ -19,7 +19,7 @@ static void print_version(void)
     int major, minor, patch;
     yaml_get_version(&major, &minor, &patch);
     SUNDIALSGetVersion(sundials, sizeof sundials);
-    printf("isoroll %s\nSUNDIALS %s\nGSL %s\nlibyaml %d.%d.%d\njansson %s\n", ISO_VERSION, sundials, gsl_version,
+    printf("isoroll %s\nSUNDIALS %s\nGSL %s\nlibyaml %d.%d.%d\njansson %s\n", iso_version(), sundials, gsl_version,
            major, minor, patch, JANSSON_VERSION);
 }
 

@@ -42,7 +42,7 @@ static void put_head(const char *name, const char *doc, FILE *to)
     for (char *c = upper; *c; c++)
         if (*c >= 'a' && *c <= 'z') *c = (char)(*c - 'a' + 'A');
     fputs(".\\\" made by 'isoroll manual' from the tables of the commands\n.TH ", to);
-    fprintf(to, "%s 1 \"\" \"isoroll %s\" \"User Commands\"\n.SH NAME\nisoroll%s%s \\- ", upper, ISO_VERSION,
+    fprintf(to, "%s 1 \"\" \"isoroll %s\" \"User Commands\"\n.SH NAME\nisoroll%s%s \\- ", upper, iso_version(),
             name ? "\\-" : "", name ? name : "");
     put(doc, to);
     fputc('\n', to);

@@ -56,7 +56,6 @@ iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_recor
 iso_status name_the_file(iso_context *ctx, const char *file, iso_status status)
 {
     const char *name = strcmp(file, "-") == 0 ? "<stdin>" : file;
-    const char *message = iso_context_message(ctx);
-    if (strncmp(message, name, strlen(name)) == 0) return status;
-    return iso_context_fail(ctx, status, iso_context_about(ctx), "%s: %s", name, message);
+    if (iso_context_has_place(ctx)) return status;
+    return iso_context_fail(ctx, status, iso_context_about(ctx), "%s: %s", name, iso_context_message(ctx));
 }

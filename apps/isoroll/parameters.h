@@ -38,7 +38,7 @@ typedef struct file_options {
  * the lines. */
 iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params);
 
-/* Puts the file's name before the context's message, unless it is there already. Gives `status`. */
+/* Puts the file's name before the context's message, unless that begins with a place in a file already. Gives `status`. */
 iso_status name_the_file(iso_context *ctx, const char *file, iso_status status);
 
 #endif

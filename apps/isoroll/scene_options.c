@@ -4,6 +4,15 @@
 #include <math.h>
 #include <string.h>
 
+/* What an option says does not stand in the file. Of end and step, a wrong one may be due to the other. */
+static void forget_places(const scene_options *o, iso_scene *scene)
+{
+    if (o->method) iso_scene_forget_place(scene, "method");
+    if (isnan(o->end) && isnan(o->step)) return;
+    iso_scene_forget_place(scene, "end");
+    iso_scene_forget_place(scene, "step");
+}
+
 iso_status scene_with_options(iso_context *ctx, const scene_options *o, iso_scene *scene)
 {
     const iso_status status = iso_scene_read(ctx, o->file, scene);
@@ -14,17 +23,14 @@ iso_status scene_with_options(iso_context *ctx, const scene_options *o, iso_scen
     if (!isnan(o->tolerance)) scene->tolerance = o->tolerance;
     if (!isnan(o->end)) scene->end = o->end;
     if (!isnan(o->step)) scene->step = o->step;
+    forget_places(o, scene);
     return iso_scene_check_times(ctx, scene);
 }
 
 int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scene, iso_status status)
 {
-    const char *about = iso_context_about(ctx);
-    const bool time = strcmp(about, "end") == 0 || strcmp(about, "step") == 0;
-    const bool method = strcmp(about, "method") == 0 && o->method;
-    const bool from_option = method || (time && (!isnan(o->end) || !isnan(o->step)));
     const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
-    return finish(ctx, from_option ? status : iso_scene_blame(ctx, scene, name, status));
+    return finish(ctx, iso_scene_blame(ctx, scene, name, status));
 }
 
 bool not_interrupted(void *unused)

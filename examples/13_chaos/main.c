@@ -12,6 +12,7 @@
 #include <stdio.h>
 
 #include <isoroll/isoroll.h>
+#include <isoroll/map/state.h>
 
 enum { PAIRS = 200, BALLS = 2 * PAIRS };
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/monitor_impl.h"
+#include "base/place_impl.h"
 #include "base/room_impl.h"
 #include "base/sundials_impl.h"
 
@@ -14,6 +15,7 @@ struct iso_context {
     iso_monitor monitor;
     char message[1024];
     char about[32];
+    bool has_place; /* the message begins with one */
 };
 
 const char *iso_status_text(iso_status status)
@@ -64,6 +66,17 @@ const char *iso_context_about(const iso_context *ctx)
     return ctx->about;
 }
 
+bool iso_context_has_place(const iso_context *ctx)
+{
+    return ctx->has_place;
+}
+
+iso_status iso_context_placed(iso_context *ctx, iso_status status)
+{
+    ctx->has_place = true;
+    return status;
+}
+
 iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *about, const char *format, ...)
 {
     va_list args;
@@ -73,6 +86,7 @@ iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *abo
     va_end(args);
     snprintf(ctx->message, sizeof ctx->message, "%s", message);
     if (about != ctx->about) snprintf(ctx->about, sizeof ctx->about, "%s", about); /* else it stays */
+    ctx->has_place = false;
     return status;
 }
 

@@ -13,36 +13,44 @@
 
 #include <stdbool.h>
 
+#include "api.h"
 #include "status.h"
+
+ISO_C_BEGIN
 
 typedef struct iso_context iso_context;
 
 /* A new context, or NULL when there is no memory. */
-iso_context *iso_context_create(void);
+ISO_API iso_context *iso_context_create(void);
 
 /* Releases it; NULL is allowed. */
-void iso_context_free(iso_context *ctx);
+ISO_API void iso_context_free(iso_context *ctx);
 
 /* Long work asks `go_on` now and then, at each step of an integrator at least, and ends with ISO_STOPPED when it
  * answers false: for Ctrl-C, a time limit, or to show progress. NULL, as at the beginning: nobody is asked. */
-void iso_context_set_monitor(iso_context *ctx, bool (*go_on)(void *data), void *data);
+ISO_API void iso_context_set_monitor(iso_context *ctx, bool (*go_on)(void *data), void *data);
 
 /* What `go_on` answers; true without a monitor. */
 bool iso_context_goes_on(const iso_context *ctx);
 
 /* What went wrong last, one line without a newline; "" when nothing did. Valid until the next failing call. */
-const char *iso_context_message(const iso_context *ctx);
+ISO_API const char *iso_context_message(const iso_context *ctx);
 
 /* The name of the input quantity the last failure is about ("inertia", "normal", ...); "" when there is none.
  * Readers of files use it to point at the place where that quantity was written. */
-const char *iso_context_about(const iso_context *ctx);
+ISO_API const char *iso_context_about(const iso_context *ctx);
+
+/* Whether the last failure's message begins with the place in a file that it is about ("scene.yaml:3:1: ..."). */
+ISO_API bool iso_context_has_place(const iso_context *ctx);
 
 /* Records a failure about `about` ("" for none) in printf's words and returns `status`, so that a check reads
  * `return iso_context_fail(ctx, ISO_BAD_INPUT, "mass", "...", ...)`. */
-iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *about, const char *format, ...)
+ISO_API iso_status iso_context_fail(iso_context *ctx, iso_status status, const char *about, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 4, 5)))
 #endif
     ;
+
+ISO_C_END
 
 #endif

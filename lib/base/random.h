@@ -2,19 +2,25 @@
 #ifndef ISO_BASE_RANDOM_H
 #define ISO_BASE_RANDOM_H
 
+#include "api.h"
+
+ISO_C_BEGIN
+
 typedef struct iso_random iso_random;
 
 /* A generator with its own state; the same seed gives the same numbers. NULL when there is no memory. */
-iso_random *iso_random_create(unsigned long seed);
-void iso_random_free(iso_random *r);
+ISO_API iso_random *iso_random_create(unsigned long seed);
+ISO_API void iso_random_free(iso_random *r);
 
 /* Uniform in [low, high). */
-double iso_random_uniform(iso_random *r, double low, double high);
+ISO_API double iso_random_uniform(iso_random *r, double low, double high);
 
 /* Standard normal. */
-double iso_random_normal(iso_random *r);
+ISO_API double iso_random_normal(iso_random *r);
 
 /* Uniform on the unit sphere. */
-void iso_random_direction(iso_random *r, double unit[3]);
+ISO_API void iso_random_direction(iso_random *r, double unit[3]);
+
+ISO_C_END
 
 #endif

@@ -6,6 +6,10 @@
 #ifndef ISO_BASE_STATUS_H
 #define ISO_BASE_STATUS_H
 
+#include "api.h"
+
+ISO_C_BEGIN
+
 /*      name            text                              when                                               */
 #define ISO_STATUS_LIST(X)                                                                                           \
     X(ISO_OK, "done")                            /* the answer is complete                             */            \
@@ -25,6 +29,8 @@ typedef enum iso_status {
 } iso_status;
 
 /* The status in a few words; "unknown status" for a number that is none. */
-const char *iso_status_text(iso_status status);
+ISO_API const char *iso_status_text(iso_status status);
+
+ISO_C_END
 
 #endif

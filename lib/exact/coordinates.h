@@ -18,13 +18,16 @@
 #ifndef ISO_EXACT_COORDINATES_H
 #define ISO_EXACT_COORDINATES_H
 
+#include "../base/api.h"
 #include "../model/conical.h"
 #include "../model/system.h"
 
+ISO_C_BEGIN
+
 /* Both ways between (M, gamma), |gamma| = 1, (M,gamma) = 0, and the coordinates nothing is lost but rounding: some
  * units in the last place of each component of gamma, and of |M|. At k = 1 they are those of 1/J as rounded. */
-void iso_separation_coordinates(const iso_params *p, const double point[ISO_STATE], iso_conical *c);
-void iso_separation_point(const iso_params *p, const iso_conical *c, double point[ISO_STATE]);
+ISO_API void iso_separation_coordinates(const iso_params *p, const double point[ISO_STATE], iso_conical *c);
+ISO_API void iso_separation_point(const iso_params *p, const iso_conical *c, double point[ISO_STATE]);
 
 /* The constant of 2 A(z) p_z^2 = R(z) + c, z = u and v of a point on the level H = problem->energy with coupling eps:
  *
@@ -34,7 +37,7 @@ void iso_separation_point(const iso_params *p, const iso_conical *c, double poin
  * cancellation of that sum: excess[0] <= 0, and R + c has a root between b1 and b2 where excess[1] > 0 (u librates
  * below it), between b2 and b3 where excess[1] < 0 (v librates above it); excess[1] = 0 is the separatrix. NaN, c as
  * well, for other k and levels. */
-double iso_separation_constant(const iso_problem *problem, const iso_conical *at, double excess[3]);
+ISO_API double iso_separation_constant(const iso_problem *problem, const iso_conical *at, double excess[3]);
 
 /* A value of c at which the motion changes its kind. */
 typedef struct iso_bifurcation {
@@ -48,6 +51,8 @@ enum { ISO_MOST_BIFURCATIONS = 4 };
 
 /* All of them for problem->p, eps > 0 and energy, c descending; gives their number, 0 for other k and levels and
  * where no motion has this energy. Equal moments give one. */
-int iso_bifurcations(const iso_problem *problem, iso_bifurcation list[ISO_MOST_BIFURCATIONS]);
+ISO_API int iso_bifurcations(const iso_problem *problem, iso_bifurcation list[ISO_MOST_BIFURCATIONS]);
+
+ISO_C_END
 
 #endif

@@ -21,7 +21,10 @@
 #ifndef ISO_EXACT_EXACT_H
 #define ISO_EXACT_EXACT_H
 
+#include "../base/api.h"
 #include "../model/system.h"
+
+ISO_C_BEGIN
 
 typedef struct iso_exact iso_exact;
 
@@ -31,28 +34,30 @@ typedef struct iso_exact iso_exact;
  * a separatrix or for extreme bodies.
  * Errors: ISO_BAD_ARGUMENT where there is no closed solution: about "k" (and unequal moments), "eps" (not > 0), or
  * the name of an effect that acts; ISO_NUMERICAL: too many terms would be needed; ISO_NO_MEMORY. */
-iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE],
-                            const bool clocks[ISO_CLOCKS], iso_exact **exact);
-void iso_exact_free(iso_exact *exact);
+ISO_API iso_status iso_exact_create(iso_context *ctx, const iso_problem *problem, const double point[ISO_STATE],
+                                    const bool clocks[ISO_CLOCKS], iso_exact **exact);
+ISO_API void iso_exact_free(iso_exact *exact);
 
 /* The state (M, gamma) at `time` of `clock`, before or after 0, and the clocks there (NaN: not among those of the
  * creation). Errors: ISO_BAD_ARGUMENT: a time that is not finite, a clock that was not among them; ISO_NUMERICAL: no
  * finite state, or a clock that does not fit a double. */
-iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock clock, double time,
-                        double point[ISO_STATE], double clocks[ISO_CLOCKS]);
+ISO_API iso_status iso_exact_at(iso_context *ctx, const iso_exact *exact, iso_clock clock, double time,
+                                double point[ISO_STATE], double clocks[ISO_CLOCKS]);
 
 /* The states at the times start + i step, i < count. They are those of iso_exact_at to rounding, and take less time
  * where steps are short: points[ISO_STATE i ...], clocks[ISO_CLOCKS i ...]; clocks may be NULL. Errors: as
  * iso_exact_at. */
-iso_status iso_exact_grid(iso_context *ctx, const iso_exact *exact, iso_clock clock, double start, double step,
-                          size_t count, double points[], double clocks[]);
+ISO_API iso_status iso_exact_grid(iso_context *ctx, const iso_exact *exact, iso_clock clock, double start,
+                                  double step, size_t count, double points[], double clocks[]);
 
 /* The angles, in [0, 2 pi), of a state on the orbit's torus, and the state at given angles. A motion with one angle
  * has NaN as its second. Angles grow evenly with sigma for a separated motion, else with s; where they are 0 is the
  * form's choice. Errors: ISO_BAD_ARGUMENT: a motion without angles; a state that turns the other way; numbers that
  * are not finite. */
-iso_status iso_exact_angles(iso_context *ctx, const iso_exact *exact, const double point[ISO_STATE], double angle[2]);
-iso_status iso_exact_point(iso_context *ctx, const iso_exact *exact, const double angle[2], double point[ISO_STATE]);
+ISO_API iso_status iso_exact_angles(iso_context *ctx, const iso_exact *exact, const double point[ISO_STATE],
+                                    double angle[2]);
+ISO_API iso_status iso_exact_point(iso_context *ctx, const iso_exact *exact, const double angle[2],
+                                   double point[ISO_STATE]);
 
 typedef enum iso_exact_kind {
     ISO_EXACT_SEPARATED,  /* angles of the lower and the upper sphero-conical coordinate                       */
@@ -77,6 +82,8 @@ typedef struct iso_exact_torus {
                                         librates; or (dx/ds)^2/M^2 at the equator, > 0 where it is crossed     */
 } iso_exact_torus;
 
-iso_exact_torus iso_exact_describe(const iso_exact *exact);
+ISO_API iso_exact_torus iso_exact_describe(const iso_exact *exact);
+
+ISO_C_END
 
 #endif

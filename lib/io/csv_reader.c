@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "base/place_impl.h"
 #include "io/text_impl.h"
 #include "io/trajectory_impl.h"
 #include "orbit/scene.h"
@@ -42,8 +43,8 @@ static iso_status fail(const csv *c, const char *at, const char *message, const 
     if (c->callers) return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "columns", "columns: %s%s", message, detail);
     size_t column = 1; /* in characters of UTF-8, as for scenes */
     for (const char *x = c->line; at && x < at; x++) column += (*x & 0xC0) != 0x80;
-    return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s%s", c->r->name, c->number ? c->number : 1,
-                            column, message, detail);
+    return iso_context_placed(c->ctx, iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "%s:%zu:%zu: %s%s", c->r->name,
+                                                       c->number ? c->number : 1, column, message, detail));
 }
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */

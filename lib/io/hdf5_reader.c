@@ -4,11 +4,12 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/place_impl.h"
 #include "io/hdf5_impl.h"
 
 static iso_status bad_file(iso_context *ctx, const iso_trajectory_reader *r, const char *what, const char *name)
 {
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s: %s%s", r->name, what, name);
+    return iso_context_placed(ctx, iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s: %s%s", r->name, what, name));
 }
 
 /* Makes one attribute a line of the header. */
@@ -170,8 +171,9 @@ static iso_status hdf5_next(iso_context *ctx, iso_trajectory_reader *r, double r
     r->line++;
     for (size_t i = 0; i < s->columns; i++)
         if (!isfinite(row[i]))
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s:%zu: expected a finite number for %s", r->name,
-                                    r->line, iso_record_name(r->header, i));
+            return iso_context_placed(ctx, iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                                            "%s:%zu: expected a finite number for %s", r->name,
+                                                            r->line, iso_record_name(r->header, i)));
     return ISO_OK;
 }
 

@@ -14,26 +14,31 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "../base/api.h"
 #include "../base/context.h"
+
+ISO_C_BEGIN
 
 typedef struct iso_output iso_output;
 
 /* Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY; *out is then NULL. */
-iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **out);
+ISO_API iso_status iso_output_open(iso_context *ctx, const char *path, iso_output **out);
 
 /* Where to write. */
-FILE *iso_output_stream(iso_output *out);
+ISO_API FILE *iso_output_stream(iso_output *out);
 
 /* Whether all that was written so far arrived. Errors: ISO_FILE_TROUBLE; ISO_CLOSED_PIPE when the
  * reader of a pipe has gone (the program must ignore SIGPIPE to see it). */
-iso_status iso_output_check(iso_context *ctx, iso_output *out);
+ISO_API iso_status iso_output_check(iso_context *ctx, iso_output *out);
 
 /* What messages call it. */
-const char *iso_output_name(const iso_output *out);
+ISO_API const char *iso_output_name(const iso_output *out);
 
 /* Ends the file and frees it (NULL is allowed). keep: flush to the disk and give the file its name; otherwise no
  * trace of it is left, except of what was written directly. Errors: ISO_FILE_TROUBLE; there is no file then, and one
  * that had the name before is as it was. */
-iso_status iso_output_close(iso_context *ctx, iso_output *out, bool keep);
+ISO_API iso_status iso_output_close(iso_context *ctx, iso_output *out, bool keep);
+
+ISO_C_END
 
 #endif

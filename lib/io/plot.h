@@ -11,7 +11,10 @@
 #ifndef ISO_IO_PLOT_H
 #define ISO_IO_PLOT_H
 
+#include "../base/api.h"
 #include "../base/record.h"
+
+ISO_C_BEGIN
 
 /* The two models on one orbit. Records are as iso_compare makes them; further columns are not read. */
 typedef struct iso_plot {
@@ -24,14 +27,14 @@ typedef struct iso_plot {
 } iso_plot;
 
 /* Whether a picture can have this name, to ask before the work. Errors: ISO_BAD_ARGUMENT. */
-iso_status iso_plot_check_format(iso_context *ctx, const char *path);
+ISO_API iso_status iso_plot_check_format(iso_context *ctx, const char *path);
 
 /* Above: the ball's path n and the point's path gamma, each on its unit sphere seen from the same side, the backend
  * `ball` as a line, the backend `point` as markers on it. Below: their difference over time, zeros at 1e-17.
  * At most 5000 rows of a record are drawn.
  * Errors: ISO_BAD_ARGUMENT (name, missing columns or rows), ISO_NUMERICAL (a number that is not finite),
  * ISO_FILE_TROUBLE (no gnuplot, or what it said; the file cannot be written), ISO_NO_MEMORY. */
-iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot);
+ISO_API iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot);
 
 /* One trajectory, in one model or both. */
 typedef struct iso_plot_orbit {
@@ -43,7 +46,7 @@ typedef struct iso_plot_orbit {
 
 /* Above: the paths n and gamma on their spheres, start and end marked. Below: the integrals' drift, and the one clock
  * over the other. Errors: as iso_plot_comparison. */
-iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot);
+ISO_API iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot);
 
 /* A map of kinds of motion over the energy h and a second integral F. */
 enum { ISO_PLOT_PARTS = 4, ISO_PLOT_LINES = 4 };
@@ -57,12 +60,13 @@ typedef struct iso_plot_map {
 
 /* On the left F over h, on the right F/h over h, where thin parts can be told apart.
  * Errors: ISO_BAD_ARGUMENT (name, columns, no rows, nothing in them), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_map *map);
+ISO_API iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_map *map);
 
 /* The lines of two signals, the pair of components across `axis` (0 to 2) and the one along it: columns frequency,
  * amplitude > 0, signal (0, 1), and m and n of the combination that a line is (NaN: of none).
  * Errors: as iso_plot_momentum. */
-iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *lines);
+ISO_API iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis,
+                                  const iso_record *lines);
 
 /* One method's line of a work-precision diagram. */
 typedef struct iso_plot_series {
@@ -82,6 +86,8 @@ typedef struct iso_plot_work {
 
 /* A work-precision diagram, time over error, both logarithmic, small errors on the right; panels side by side in the
  * order of the series. Errors: as iso_plot_momentum. */
-iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_plot_work *work);
+ISO_API iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_plot_work *work);
+
+ISO_C_END
 
 #endif

@@ -16,17 +16,20 @@
 
 #include <stdbool.h>
 
+#include "../base/api.h"
 #include "../base/record.h"
+
+ISO_C_BEGIN
 
 /* --- whole files ------------------------------------------------------------------------------------------------ */
 
 /* Reads a whole file into a new record, to be freed by the caller; `columns` as below. Messages about its text read
  * "path:line:column: ...", column being that of the first character of the field.
  * Errors: ISO_BAD_INPUT, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_trajectory_read(iso_context *ctx, const char *path, const char *columns, iso_record **record);
+ISO_API iso_status iso_trajectory_read(iso_context *ctx, const char *path, const char *columns, iso_record **record);
 
 /* Writes a whole record. Errors: those of the writer below. */
-iso_status iso_trajectory_write(iso_context *ctx, const char *path, const iso_record *record);
+ISO_API iso_status iso_trajectory_write(iso_context *ctx, const char *path, const iso_record *record);
 
 /* --- row by row: reading ------------------------------------------------------------------------------------------
  *
@@ -43,23 +46,23 @@ typedef struct iso_trajectory_reader iso_trajectory_reader;
 /* Opens a file and reads on to its first row. columns: names of the file's columns from left to right, with commas
  * between, "-" for one to be passed over; NULL: the file's own header line.
  * Errors: ISO_BAD_INPUT, ISO_FILE_TROUBLE, ISO_NO_MEMORY, ISO_BAD_ARGUMENT; *reader is then NULL. */
-iso_status iso_trajectory_reader_open(iso_context *ctx, const char *path, const char *columns,
-                                      iso_trajectory_reader **reader);
-void iso_trajectory_reader_close(iso_trajectory_reader *reader);
+ISO_API iso_status iso_trajectory_reader_open(iso_context *ctx, const char *path, const char *columns,
+                                              iso_trajectory_reader **reader);
+ISO_API void iso_trajectory_reader_close(iso_trajectory_reader *reader);
 
 /* Columns and key: value lines, without rows; lines that follow rows come with these. The caller may set lines. */
-iso_record *iso_trajectory_header(iso_trajectory_reader *reader);
+ISO_API iso_record *iso_trajectory_header(iso_trajectory_reader *reader);
 
 /* The next row into row[], as many numbers as the header has columns; *more false: there is none.
  * Errors: ISO_BAD_INPUT, a row that is none: the next call goes on behind it; ISO_FILE_TROUBLE, ISO_NO_MEMORY;
  * ISO_STOPPED when a signal comes while a pipe is waited for and the context's monitor says so. */
-iso_status iso_trajectory_next(iso_context *ctx, iso_trajectory_reader *reader, double row[], bool *more);
+ISO_API iso_status iso_trajectory_next(iso_context *ctx, iso_trajectory_reader *reader, double row[], bool *more);
 
 /* The line of the file at which the row read last stands (HDF5: the row's number). */
-size_t iso_trajectory_line(const iso_trajectory_reader *reader);
+ISO_API size_t iso_trajectory_line(const iso_trajectory_reader *reader);
 
 /* What columns of a file of others are passed over, in words, or NULL. */
-const char *iso_trajectory_ignored(const iso_trajectory_reader *reader);
+ISO_API const char *iso_trajectory_ignored(const iso_trajectory_reader *reader);
 
 /* --- row by row: writing ------------------------------------------------------------------------------------------
  *
@@ -76,31 +79,35 @@ const char *iso_trajectory_ignored(const iso_trajectory_reader *reader);
 typedef struct iso_trajectory_writer iso_trajectory_writer;
 
 /* Errors: ISO_BAD_ARGUMENT, ISO_FILE_TROUBLE, ISO_NO_MEMORY; *writer is then NULL. */
-iso_status iso_trajectory_open(iso_context *ctx, const char *path, iso_trajectory_writer **writer);
+ISO_API iso_status iso_trajectory_open(iso_context *ctx, const char *path, iso_trajectory_writer **writer);
 
 /* How numbers of rows are written as text: with 1 to 17 significant digits (17 at the beginning), or ISO_HEXADECIMAL
  * as C's %a, both of which read back exactly. */
 enum { ISO_HEXADECIMAL = 0 };
-void iso_trajectory_set_digits(iso_trajectory_writer *writer, int digits);
+ISO_API void iso_trajectory_set_digits(iso_trajectory_writer *writer, int digits);
 
 /* The magic line, the key: value lines and the column names of `header`, whose rows are not looked at.
  * Errors: ISO_BAD_ARGUMENT (a key or value that is no single line), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_trajectory_write_header(iso_context *ctx, iso_trajectory_writer *writer, const iso_record *header);
+ISO_API iso_status iso_trajectory_write_header(iso_context *ctx, iso_trajectory_writer *writer,
+                                               const iso_record *header);
 
 /* One row of as many numbers as the header has columns.
  * Errors: ISO_NUMERICAL (a number is not finite: nothing is written), ISO_BAD_ARGUMENT, ISO_FILE_TROUBLE. */
-iso_status iso_trajectory_write_row(iso_context *ctx, iso_trajectory_writer *writer, const double *row, size_t count);
+ISO_API iso_status iso_trajectory_write_row(iso_context *ctx, iso_trajectory_writer *writer, const double *row,
+                                            size_t count);
 
 /* In the place of a row that could not be made: nan in every column. */
-iso_status iso_trajectory_write_mark(iso_context *ctx, iso_trajectory_writer *writer);
+ISO_API iso_status iso_trajectory_write_mark(iso_context *ctx, iso_trajectory_writer *writer);
 
 /* A line that is known only after the rows. */
-iso_status iso_trajectory_write_line(iso_context *ctx, iso_trajectory_writer *writer, const char *key,
-                                     const char *value);
+ISO_API iso_status iso_trajectory_write_line(iso_context *ctx, iso_trajectory_writer *writer, const char *key,
+                                             const char *value);
 
 /* Ends the file and frees the writer (NULL is allowed). keep: flush to the disk and give the file its name;
  * otherwise no trace of it is left, except of what was written directly. Errors: ISO_FILE_TROUBLE; there is no file
  * then, and one that had the name before is as it was. */
-iso_status iso_trajectory_close(iso_context *ctx, iso_trajectory_writer *writer, bool keep);
+ISO_API iso_status iso_trajectory_close(iso_context *ctx, iso_trajectory_writer *writer, bool keep);
+
+ISO_C_END
 
 #endif

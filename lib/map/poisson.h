@@ -7,7 +7,10 @@
 #ifndef ISO_MAP_POISSON_H
 #define ISO_MAP_POISSON_H
 
+#include "../base/api.h"
 #include "../model/system.h"
+
+ISO_C_BEGIN
 
 /* The matrix B of the bracket at y = (M, gamma): {f,g} = (df, B dg); row-major. */
 void iso_poisson_matrix(const double y[ISO_STATE], double B[ISO_STATE * ISO_STATE]);
@@ -17,5 +20,7 @@ double iso_hamiltonian(const iso_params *p, const double y[ISO_STATE], double gr
 
 /* dy/dtau = B dH. */
 void iso_hamiltonian_rhs(const iso_params *p, const double y[ISO_STATE], double dy[ISO_STATE]);
+
+ISO_C_END
 
 #endif

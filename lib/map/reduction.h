@@ -7,8 +7,11 @@
 #ifndef ISO_MAP_REDUCTION_H
 #define ISO_MAP_REDUCTION_H
 
+#include "../base/api.h"
 #include "../model/conical.h"
 #include "../model/system.h"
+
+ISO_C_BEGIN
 
 /* (lam, mu) and their rates along the ball's motion; and the ball (omega, n) that has them, for every state. */
 void iso_reduction_coordinates(const iso_params *p, const double ball[ISO_STATE], iso_conical *c);
@@ -33,5 +36,7 @@ void iso_reduction_angle_momenta(const iso_params *p, const iso_conical *c, doub
 
 /* The energy as the Hamiltonian of (17): p_lam^2/(4 a N^2) + p_mu^2/(4 b N^2). */
 double iso_reduction_hamiltonian(const iso_params *p, const iso_conical *c, const double momenta[2]);
+
+ISO_C_END
 
 #endif

@@ -9,11 +9,14 @@
 #ifndef ISO_MAP_STATE_H
 #define ISO_MAP_STATE_H
 
+#include "../base/api.h"
 #include "../model/system.h"
 
+ISO_C_BEGIN
+
 /* Each way, all of n's (gamma's) direction and nothing of its length is used; ball and point may be one array. */
-void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE]);
-void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], double ball[ISO_STATE]);
+ISO_API void iso_ball_to_point(const iso_params *p, const double ball[ISO_STATE], double point[ISO_STATE]);
+ISO_API void iso_point_to_ball(const iso_params *p, const double point[ISO_STATE], double ball[ISO_STATE]);
 
 /* The states of iso_system_point_t, (p, gamma) with p = M/NN = J^(1/2) w, likewise. To the point: model/system.h. */
 void iso_ball_to_point_t(const iso_params *p, const double ball[ISO_STATE], double y[ISO_STATE]);
@@ -21,7 +24,9 @@ void iso_point_t_to_ball(const iso_params *p, const double y[ISO_STATE], double 
 
 /* Energies: of the ball h = (w,Jw)/2, and the ball's energy of a point on the level H = 0, (k^2/det J) q^(1/k) M^2/2.
  */
-double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE]);
-double iso_point_energy(const iso_params *p, const double point[ISO_STATE]);
+ISO_API double iso_ball_energy(const iso_params *p, const double ball[ISO_STATE]);
+ISO_API double iso_point_energy(const iso_params *p, const double point[ISO_STATE]);
+
+ISO_C_END
 
 #endif

@@ -26,7 +26,10 @@
 #ifndef ISO_METHOD_METHOD_H
 #define ISO_METHOD_METHOD_H
 
+#include "../base/api.h"
 #include "../model/model.h"
+
+ISO_C_BEGIN
 
 typedef struct iso_integrator iso_integrator;
 
@@ -92,11 +95,11 @@ typedef struct iso_method {
 enum { ISO_DOUBLE_DIGITS = 16 };
 
 /* The registry, ended by NULL. */
-extern const iso_method *const iso_methods[];
+ISO_API extern const iso_method *const iso_methods[];
 
 /* The method called `name`, or NULL. Upper and lower case, '-' and '_' are the same, the family may stand before
  * ("gsl-rk8pd", "cvode_adams"), and a beginning that fits only one method is enough ("dormand_prince"). */
-const iso_method *iso_method_find(const char *name);
+ISO_API const iso_method *iso_method_find(const char *name);
 
 /* Whether the method can simulate the model. If not, `why` says what is missing, in words that follow the method's
  * name. */
@@ -152,5 +155,7 @@ iso_status iso_integrator_event(iso_integrator *it, const iso_event *event, doub
 void iso_integrator_last(const iso_integrator *it, double *t, double y[]);
 
 iso_statistics iso_integrator_statistics(const iso_integrator *it);
+
+ISO_C_END
 
 #endif

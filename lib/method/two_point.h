@@ -20,7 +20,10 @@
 #ifndef ISO_METHOD_TWO_POINT_H
 #define ISO_METHOD_TWO_POINT_H
 
+#include "../base/api.h"
 #include "../model/model.h"
+
+ISO_C_BEGIN
 
 typedef struct iso_two_point iso_two_point;
 
@@ -44,5 +47,7 @@ void iso_two_point_add(iso_two_point *quadrature, const double y[ISO_STATE]);
  * of the samples allows (what defects they have as a rule, 0 or more). False: they are too far apart for that, or the
  * series diverge. */
 bool iso_two_point_measure(iso_two_point *quadrature, double h, double noise, iso_gap *gap);
+
+ISO_C_END
 
 #endif

@@ -23,6 +23,10 @@
 #ifndef ISO_MODEL_CONICAL_H
 #define ISO_MODEL_CONICAL_H
 
+#include "../base/api.h"
+
+ISO_C_BEGIN
+
 typedef struct iso_conical {
     double sine[2], cosine[2]; /* of phi and psi                                                     */
     double speed[2];           /* components of dx/dt in the directions, orthogonal, in which phi and
@@ -44,5 +48,7 @@ void iso_conical_from_vector(const double b[3], const double x[3], const double 
 
 /* The way back, to some units in the last place of each component of x, and of the size of the velocity. */
 void iso_conical_to_vector(const double b[3], const iso_conical *c, double x[3], double velocity[3]);
+
+ISO_C_END
 
 #endif

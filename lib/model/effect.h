@@ -21,7 +21,10 @@
 #ifndef ISO_MODEL_EFFECT_H
 #define ISO_MODEL_EFFECT_H
 
+#include "../base/api.h"
 #include "system.h"
+
+ISO_C_BEGIN
 
 /* A number, vector or matrix of an effect: a key of the scene, and a line "# effect.name" of a trajectory file. */
 typedef struct iso_effect_number {
@@ -143,43 +146,44 @@ typedef struct iso_effect {
 } iso_effect;
 
 /* The registry, in the order of iso_effect_id. */
-extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
+ISO_API extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
 
 /* The effect called `name`; ISO_EFFECTS: there is none. */
-iso_effect_id iso_effect_find(const char *name);
+ISO_API iso_effect_id iso_effect_find(const char *name);
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
 /* Where an effect's number stands: number->count doubles, as const as `effects` is. */
-double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number);
+ISO_API double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const iso_effect_number *number);
 
 /* No effects; every number as it is where a scene does not state it. */
-iso_effects iso_effects_default(void);
+ISO_API iso_effects iso_effects_default(void);
 
 /* Switches an effect on and sets one of its numbers (name NULL: none): "gravity", "up", 3 numbers.
  * Errors: ISO_BAD_ARGUMENT about the name: no such effect, no such number, not so many numbers. */
-iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *effect, const char *name, int count,
-                           const double values[]);
+ISO_API iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *effect, const char *name,
+                                   int count, const double values[]);
 
 /* The energy level of the point that an effect states, c of U = -c (n,J^-1 n)^(-1/k), and whether there is one. */
-bool iso_effects_have_level(const iso_effects *effects);
-double iso_effects_level(const iso_effects *effects);
+ISO_API bool iso_effects_have_level(const iso_effects *effects);
+ISO_API double iso_effects_level(const iso_effects *effects);
 
 /* Sets it: `there` false takes it away. */
-void iso_effects_set_level(iso_effects *effects, bool there, double c);
+ISO_API void iso_effects_set_level(iso_effects *effects, bool there, double c);
 
 /* The name of the effect that states it, and the dimension of c. */
-const char *iso_level_name(void);
+ISO_API const char *iso_level_name(void);
 iso_dimension iso_level_dimension(void);
 
 /* What is wrong with numbers or combinations, as the physics sees it: an effect that cannot matter here (gravity on a
  * level plane, a constant field), numbers that are none. `normal` is n at the start. Makes unit vectors of those that
  * are (to 1e-6). Errors: ISO_BAD_INPUT about the effect's name or its number's. */
-iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3], iso_effects *effects);
+ISO_API iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3],
+                                     iso_effects *effects);
 
 /* Whether gravity has no torque, up to rounding: on a plane with `up`, a unit vector, along the normal the weight
  * only presses the ball down. */
-bool iso_effects_on_level_plane(const iso_params *params, const double normal[3], const iso_effects *effects);
+ISO_API bool iso_effects_on_level_plane(const iso_params *params, const double normal[3], const iso_effects *effects);
 
 /* The effects carried from the caller's units to own ones (power -1), or back (power 1). */
 iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power);
@@ -187,11 +191,11 @@ iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *unit
 /* --- what they do to the motion --------------------------------------------------------------------------------- */
 
 /* Those that act: without observers. */
-iso_effects iso_effects_acting(const iso_effects *effects);
+ISO_API iso_effects iso_effects_acting(const iso_effects *effects);
 
 /* The first effect that breaks the isomorphism, and why; NULL: none. */
-const iso_effect *iso_effects_breaking(const iso_effects *effects);
-const char *iso_effect_why_broken(const iso_effect *effect);
+ISO_API const iso_effect *iso_effects_breaking(const iso_effects *effects);
+ISO_API const char *iso_effect_why_broken(const iso_effect *effect);
 
 /* The first observer that only backend ball has; NULL: none. */
 const iso_effect *iso_effects_ball_only(const iso_effects *effects);
@@ -203,7 +207,7 @@ const iso_effect *iso_effects_beyond_level(const iso_effects *effects);
 const iso_effect *iso_effects_without_frequencies(const iso_problem *f, const char **why);
 
 /* Whether a run ends where contact is lost; and whether the pressure of the contact changes where it begins at 0. */
-bool iso_effects_watch_contact(const iso_effects *effects);
+ISO_API bool iso_effects_watch_contact(const iso_effects *effects);
 bool iso_effects_change_pressure(const iso_params *params, const iso_effects *effects);
 
 /* Whether an effect that is on has the property. */
@@ -224,7 +228,7 @@ double iso_effects_largest(const iso_problem *f, const double y[]); /* that of `
 bool iso_effects_are_free(const iso_effects *effects);
 
 /* Whether one of them has an image: a potential on the point, beyond a level. */
-bool iso_effects_have_image(const iso_effects *effects);
+ISO_API bool iso_effects_have_image(const iso_effects *effects);
 
 /* Whether the effects have potentials, which move a ball that is at rest. */
 bool iso_effects_pull(const iso_effects *effects);
@@ -278,6 +282,9 @@ enum { ISO_MAX_INTEGRALS = 24 };
 
 /* The integrals of a system that hold for a problem, those of its effects last: at most `most` into list, and how
  * many there are. */
-int iso_integrals_holding(const iso_system *system, const iso_problem *f, const iso_integral *list[], int most);
+ISO_API int iso_integrals_holding(const iso_system *system, const iso_problem *f, const iso_integral *list[],
+                                  int most);
+
+ISO_C_END
 
 #endif

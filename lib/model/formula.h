@@ -20,7 +20,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "../base/api.h"
 #include "params.h"
+
+ISO_C_BEGIN
 
 struct iso_problem;
 
@@ -160,5 +163,7 @@ double iso_formula_energy(const iso_formula *F, const iso_params *p, const doubl
 
 /* Of the point: V, and dV/dgamma if not NULL. */
 double iso_formula_image(const iso_formula *F, const iso_params *p, const double y[], double gradient[3]);
+
+ISO_C_END
 
 #endif

@@ -10,7 +10,10 @@
 #ifndef ISO_MODEL_MODEL_H
 #define ISO_MODEL_MODEL_H
 
+#include "../base/api.h"
 #include "effect.h"
+
+ISO_C_BEGIN
 
 /* Room for the states of effects; a model with more is refused. */
 enum { ISO_MOST_EFFECT_STATES = 16, ISO_MAX_STATE = ISO_STATE + ISO_MOST_EFFECT_STATES + ISO_CLOCKS - 1 };
@@ -37,8 +40,8 @@ struct iso_model {
 
 /* Assembles. Of problem->effects the point takes what has an image, the ball everything; problem->at is filled in.
  * with_clock[c] asks for clock c as a state; the independent clock is never one. */
-iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,
-                             const bool with_clock[ISO_CLOCKS]);
+ISO_API iso_model iso_model_assemble(const iso_system *system, const iso_problem *problem, iso_clock clock,
+                                     const bool with_clock[ISO_CLOCKS]);
 
 /* Why the model cannot be simulated: more effects than there is room for; NULL: it can. */
 const char *iso_model_too_large(const iso_model *m);
@@ -48,10 +51,10 @@ const char *iso_model_too_large(const iso_model *m);
 const iso_effect *iso_model_without_formula(const iso_model *m);
 
 /* The state at the start: the system's six numbers as they are, effects at their beginnings, clocks at 0. */
-void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y[]);
+ISO_API void iso_model_begin(const iso_model *m, const double start[ISO_STATE], double y[]);
 
 /* The name of state i, and why it is there: "" for the system's own. */
-const char *iso_model_state_name(const iso_model *m, int i, const char **reason);
+ISO_API const char *iso_model_state_name(const iso_model *m, int i, const char **reason);
 
 /* Restores the constraints of system and effects, and the energy where it is conserved; gives the relative size of
  * the correction. */
@@ -64,5 +67,7 @@ void iso_model_size(const iso_model *m, const double y[], double size[]);
 /* The Jacobian in the system's own clock, moving x moving, row-major: that of the formulas,
  * iso_model_without_formula() must be NULL. */
 void iso_model_slopes(const iso_model *m, const double y[], double jac[]);
+
+ISO_C_END
 
 #endif

@@ -13,12 +13,15 @@
 #ifndef ISO_MODEL_PARAMS_H
 #define ISO_MODEL_PARAMS_H
 
+#include "../base/api.h"
 #include "../base/context.h"
+
+ISO_C_BEGIN
 
 typedef enum iso_surface { ISO_REDUCED, ISO_PLANE, ISO_OUTSIDE, ISO_INSIDE, ISO_SHELL } iso_surface;
 
 /* "reduced", "plane", "outside", "inside", "shell"; NULL past the end. */
-const char *iso_surface_name(int surface);
+ISO_API const char *iso_surface_name(int surface);
 
 /* A ball one can hold, in any consistent units of mass and length. */
 typedef struct iso_body {
@@ -41,20 +44,20 @@ typedef struct iso_params {
 
 /* From k and J directly. They need not belong to a solid body.
  * Errors: ISO_BAD_INPUT about "k" or "J". */
-iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso_params *params);
+ISO_API iso_status iso_params_reduced(iso_context *ctx, double k, const double J[3], iso_params *params);
 
 /* Says what part D = m b^2 of J is the mass's, which only some effects ask for.
  * Errors: ISO_BAD_INPUT about "D": not in (0, min J). */
-iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *params);
+ISO_API iso_status iso_params_set_D(iso_context *ctx, double D, iso_params *params);
 
 /* From a physical ball; J = I + m B^2.
  * Errors: ISO_BAD_INPUT about "mass", "radius", "inertia" or "surface_radius" (not positive, not finite, a triangle
  * inequality I_i <= I_j + I_l broken by more than rounding, radii that give no k). */
-iso_status iso_params_physical(iso_context *ctx, const iso_body *body, iso_params *params);
+ISO_API iso_status iso_params_physical(iso_context *ctx, const iso_body *body, iso_params *params);
 
 /* Coupling of the point and energy of the ball: eps = h det J / k^2 (24), and back. */
-double iso_coupling(const iso_params *params, double h);
-double iso_energy(const iso_params *params, double eps);
+ISO_API double iso_coupling(const iso_params *params, double h);
+ISO_API double iso_energy(const iso_params *params, double eps);
 
 /* The sign of the ball's radius b: -1 inside a sphere and of a shell, else 1. */
 int iso_params_sign_of_radius(const iso_params *params);
@@ -80,6 +83,8 @@ void iso_units_choose(const iso_params *params, double speed, iso_units *units);
 
 /* One own unit of a quantity of dimension d, in the caller's units: caller's number = own number * iso_unit().
  * Infinite or zero when it does not fit a double. */
-double iso_unit(const iso_units *units, iso_dimension d);
+ISO_API double iso_unit(const iso_units *units, iso_dimension d);
+
+ISO_C_END
 
 #endif

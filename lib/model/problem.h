@@ -8,9 +8,12 @@
 
 #include <stdbool.h>
 
+#include "../base/api.h"
 #include "effect_list.h"
 #include "formula.h"
 #include "params.h"
+
+ISO_C_BEGIN
 
 enum { ISO_EFFECT_NUMBERS = 12 }; /* the most numbers of one effect */
 
@@ -28,5 +31,7 @@ typedef struct iso_problem {
     iso_formula motion;  /* the equations of the effects on the ball ...                 */
     iso_formula energy_formula; /* ... and their potential; of the point, their image    */
 } iso_problem;
+
+ISO_C_END
 
 #endif

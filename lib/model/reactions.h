@@ -9,7 +9,10 @@
 #ifndef ISO_MODEL_REACTIONS_H
 #define ISO_MODEL_REACTIONS_H
 
+#include "../base/api.h"
 #include "problem.h"
+
+ISO_C_BEGIN
 
 typedef struct iso_reactions {
     double force[3]; /* |b| N in body axes [energy]                                                        */
@@ -22,5 +25,7 @@ typedef struct iso_reactions {
 
 /* At a state y of the ball's model in this problem; problem->p.D > 0. */
 iso_reactions iso_reactions_at(const iso_problem *problem, const double y[]);
+
+ISO_C_END
 
 #endif

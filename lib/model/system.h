@@ -13,8 +13,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "../base/api.h"
 #include "../base/random.h"
 #include "problem.h"
+
+ISO_C_BEGIN
 
 enum { ISO_STATE = 6 }; /* numbers in a state of either system: two vectors of R^3 */
 
@@ -22,7 +25,7 @@ enum { ISO_STATE = 6 }; /* numbers in a state of either system: two vectors of R
 typedef enum iso_clock { ISO_CLOCK_T, ISO_CLOCK_TAU, ISO_CLOCK_S, ISO_CLOCKS } iso_clock;
 
 /* "t", "tau", "s" and their dimensions. */
-const char *iso_clock_name(iso_clock clock);
+ISO_API const char *iso_clock_name(iso_clock clock);
 iso_dimension iso_clock_dimension(iso_clock clock);
 
 /* Rate d clock / dt > 0 where q = (gamma, J gamma) = 1/(n, J^-1 n), and its exponent e in rate ~ q^e:
@@ -36,7 +39,7 @@ typedef struct iso_integral {
     const char *name, *doc;
     iso_dimension dimension;
     enum { ISO_ANY_VALUE, ISO_ZERO, ISO_ONE } known; /* constraints have a known value     */
-    bool (*holds)(const iso_problem *f); /* for which k, J and effects; NULL: always */
+    bool (*holds)(const iso_problem *f);             /* for which k, J and effects; NULL: always */
     double (*value)(const iso_problem *f, const double y[], double *size);
 } iso_integral;
 
@@ -67,7 +70,8 @@ typedef struct iso_system {
     void (*sample)(iso_problem *f, iso_random *r, double y[ISO_STATE]);
 } iso_system;
 
-extern const iso_system iso_system_ball, iso_system_point;
+ISO_API extern const iso_system iso_system_ball;
+ISO_API extern const iso_system iso_system_point;
 
 /* The point on H = 0 again, y = (J^(1/2) omega, gamma) in the ball's time, free of powers of q: for extreme k
  * (point_t.c). Not in the registry. */
@@ -78,10 +82,10 @@ void iso_point_to_point_t(const iso_params *p, const double point[ISO_STATE], do
 void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double point[ISO_STATE]);
 
 /* The registry, ended by NULL. */
-extern const iso_system *const iso_systems[];
+ISO_API extern const iso_system *const iso_systems[];
 
 /* The system called `name`, or NULL. */
-const iso_system *iso_system_find(const char *name);
+ISO_API const iso_system *iso_system_find(const char *name);
 
 /* Whether powers q^(1/k) may range over more than ten decades along an orbit: series of (24) then overflow, and its
  * steps shrink. */
@@ -89,6 +93,8 @@ bool iso_params_steep(const iso_params *p);
 
 /* Whether two moments of inertia are equal (to 4 units in the last place), making axis `axis` (0-2) one of symmetry.
  */
-bool iso_params_symmetric(const iso_params *p, int axis);
+ISO_API bool iso_params_symmetric(const iso_params *p, int axis);
+
+ISO_C_END
 
 #endif

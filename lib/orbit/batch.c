@@ -12,6 +12,7 @@
 #include <time.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "method/taylor/lanes_impl.h"
@@ -49,12 +50,6 @@ typedef struct member {
 } member;
 
 _Static_assert((int)ISO_MAX_STATE <= (int)ISO_TRAJECTORY_COLUMNS, "a sample has room for a state");
-
-iso_batch_options iso_batch_defaults(void)
-{
-    return (iso_batch_options){
-        .backend = ISO_BACKEND_AUTO, .tolerance = 1e-12, .clock = ISO_CLOCK_T, .shown = ISO_SHOW_BALL};
-}
 
 const char *iso_batch_vectors(int i, int *lanes)
 {
@@ -311,17 +306,19 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
                          iso_status status[])
 {
     ISO_DEFAULT_ARITHMETIC;
-    const iso_lane_code *code = iso_lane_code_find(options->vectors);
-    iso_status checked = check(ctx, options, code, times, rows);
+    iso_batch_options own = iso_batch_defaults();
+    iso_status checked = iso_options_take(ctx, "iso_batch_options", &own, sizeof own, options);
+    if (checked != ISO_OK) return checked;
+    const iso_lane_code *code = iso_lane_code_find(own.vectors);
+    checked = check(ctx, &own, code, times, rows);
     if (checked != ISO_OK) return checked;
     for (size_t i = 0; i < count * rows; i++) iso_sample_blank(&samples[i]);
     const size_t most = count / (size_t)code->lanes + 1; /* more would have no work */
-    const size_t asked = options->threads > 0 ? (size_t)options->threads : processors(),
-                 wanted = asked < most ? asked : most;
+    const size_t asked = own.threads > 0 ? (size_t)own.threads : processors(), wanted = asked < most ? asked : most;
     batch b = {.orbits = orbits,
                .count = count,
                .rows = rows,
-               .options = options,
+               .options = &own,
                .times = times,
                .samples = samples,
                .code = code,

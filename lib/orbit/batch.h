@@ -12,7 +12,10 @@
 #ifndef ISO_ORBIT_BATCH_H
 #define ISO_ORBIT_BATCH_H
 
+#include "../base/api.h"
 #include "orbit.h"
+
+ISO_C_BEGIN
 
 typedef struct iso_batch_orbit {
     const iso_params *params;
@@ -22,6 +25,7 @@ typedef struct iso_batch_orbit {
 
 /* As in iso_orbit_options, for all orbits. */
 typedef struct iso_batch_options {
+    size_t size;         /* set by iso_batch_defaults; see isoroll.h */
     iso_backend backend; /* ISO_BACKEND_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the
                             ball; not ISO_BACKEND_EXACT, whose orbits have nothing to do together: iso_orbit   */
     double tolerance;
@@ -34,7 +38,16 @@ typedef struct iso_batch_options {
 } iso_batch_options;
 
 /* Balls in their time t; backend ISO_BACKEND_AUTO, tolerance 1e-12, no bound on the steps, all processors. */
-iso_batch_options iso_batch_defaults(void);
+static inline iso_batch_options iso_batch_defaults(void)
+{
+    iso_batch_options o = ISO_ALL_ZERO;
+    o.size = sizeof o;
+    o.backend = ISO_BACKEND_AUTO;
+    o.tolerance = 1e-12;
+    o.clock = ISO_CLOCK_T;
+    o.shown = ISO_SHOW_BALL;
+    return o;
+}
 
 /* Fills samples[i rows + j] with orbit i at times[j], in the options' clock: none before 0 and growing, or none after
  * 0 and falling. status[i] (may be NULL) says how orbit i went; the rows that it has not reached are NaN in every
@@ -42,12 +55,14 @@ iso_batch_options iso_batch_defaults(void);
  * (numbers from 0); the others go on. Errors of one orbit: those of iso_orbit_create and iso_orbit_at. Errors of all:
  * ISO_BAD_ARGUMENT (backend, tolerance, times, threads, vectors), ISO_NO_MEMORY, ISO_STOPPED by the context's monitor
  * (asked by the calling thread alone): status and rows of what is done by then are valid. */
-iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
-                         const iso_batch_options *options, const double times[], size_t rows, iso_sample samples[],
-                         iso_status status[]);
+ISO_API iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
+                                 const iso_batch_options *options, const double times[], size_t rows,
+                                 iso_sample samples[], iso_status status[]);
 
 /* The vectors of this processor, widest first: "avx512", "avx2", "plain", and how many orbits stand in one (lanes may
  * be NULL); NULL past the end. */
-const char *iso_batch_vectors(int i, int *lanes);
+ISO_API const char *iso_batch_vectors(int i, int *lanes);
+
+ISO_C_END
 
 #endif

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/convert_impl.h"
 
@@ -116,9 +117,11 @@ iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, con
     c->in = header;
     c->target = *target;
     c->from = to == ISO_BALL ? ISO_POINT : ISO_BALL;
-    c->tolerance = options->tolerance;
-    c->shift_J = options->shift_J;
-    iso_status status = find_columns(c);
+    iso_conversion_options own = iso_conversion_defaults();
+    iso_status status = iso_options_take(ctx, "iso_conversion_options", &own, sizeof own, options);
+    c->tolerance = own.tolerance;
+    c->shift_J = own.shift_J;
+    if (status == ISO_OK) status = find_columns(c);
     if (status == ISO_OK && c->shift_J && (c->from != ISO_POINT || params->k != -1))
         status =
             iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shift-J", "energy can shift J for a point with k = -1 alone");

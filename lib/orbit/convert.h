@@ -7,7 +7,10 @@
 #ifndef ISO_ORBIT_CONVERT_H
 #define ISO_ORBIT_CONVERT_H
 
+#include "../base/api.h"
 #include "description.h"
+
+ISO_C_BEGIN
 
 /* The most steps from one row to the next. Without this limit a damaged time could keep a program busy for ever. */
 enum { ISO_MAX_ROW_STEPS = 10000000 };
@@ -61,35 +64,45 @@ typedef struct iso_conversion_summary {
 typedef struct iso_conversion iso_conversion;
 
 typedef struct iso_conversion_options {
+    size_t size;      /* set by iso_conversion_defaults; see isoroll.h */
     double tolerance; /* of the other clock's gain from row to row, relative                                  */
     bool shift_J;     /* for points with k = -1 off the level H = 0. true: the point becomes the free ball with
                          the moments J + E/eps, E being the energy of the first row; this is the same motion.
                          false: it becomes a ball in the potential of the effect `level`                     */
 } iso_conversion_options;
 
-/* header: columns, lines and row tolerance of what is converted. It must outlive the conversion, and lines may be
- * added to it meanwhile. It must have the six columns of one model. The clock of the result is
+/* Tolerance 1e-14, J as it is. */
+static inline iso_conversion_options iso_conversion_defaults(void)
+{
+    iso_conversion_options o = ISO_ALL_ZERO;
+    o.size = sizeof o;
+    o.tolerance = 1e-14;
+    return o;
+}
+
+/* header: columns, lines and row tolerance of what is converted. It and params must outlive the conversion; lines
+ * may be added to it meanwhile. It must have the six columns of one model. The clock of the result is
  * - the column of the header, if it has the other model's clock;
  * - else computed, from the line `t0` or `s0` of an earlier conversion on, or from 0;
  * - none, if the header has no clock.
  * Errors: ISO_BAD_INPUT about columns or lines, ISO_NOT_MAPPED about an effect that breaks the isomorphism,
  * ISO_BAD_ARGUMENT (shift_J without a point, or with k other than -1), ISO_NO_MEMORY. */
-iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
-                                 iso_model_kind to, const iso_conversion_options *options,
-                                 const iso_conversion_target *target, iso_conversion **conversion);
-void iso_conversion_free(iso_conversion *conversion);
+ISO_API iso_status iso_conversion_create(iso_context *ctx, const iso_params *params, const iso_record *header,
+                                         iso_model_kind to, const iso_conversion_options *options,
+                                         const iso_conversion_target *target, iso_conversion **conversion);
+ISO_API void iso_conversion_free(iso_conversion *conversion);
 
 /* The next row. A point off the level H = 0 becomes a ball in the potential of the effect `level`, which the lines
  * of the result then name. A bad row goes to target->bad: it is no state, it is at rest, its time turns back, or
  * its energy is not that of the rows before. Errors: the status of the target; ISO_NO_MEMORY, ISO_STOPPED. */
-iso_status iso_conversion_put(iso_conversion *conversion, const double row[], size_t line);
+ISO_API iso_status iso_conversion_put(iso_conversion *conversion, const double row[], size_t line);
 
 /* Call this in the place of a row that could not even be read. */
-iso_status iso_conversion_skip(iso_conversion *conversion);
+ISO_API iso_status iso_conversion_skip(iso_conversion *conversion);
 
 /* Call this after the last row. summary may be NULL. Errors: as for a row; if no row could be converted, the reason
  * for the first one. */
-iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary *summary);
+ISO_API iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary *summary);
 
 /* --- whole ------------------------------------------------------------------------------------------------------ */
 
@@ -99,7 +112,9 @@ iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary
  * - ISO_NOT_MAPPED: a row is at rest; the M of a point does not fit eps or h of the record and the energy of the
  *   first row; or an effect breaks the isomorphism;
  * - ISO_NUMERICAL, ISO_NO_MEMORY. */
-iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
-                       double tolerance, iso_record **out);
+ISO_API iso_status iso_convert(iso_context *ctx, const iso_params *params, const iso_record *in, iso_model_kind to,
+                               double tolerance, iso_record **out);
+
+ISO_C_END
 
 #endif

@@ -8,45 +8,50 @@
 #ifndef ISO_ORBIT_DESCRIPTION_H
 #define ISO_ORBIT_DESCRIPTION_H
 
+#include "../base/api.h"
 #include "../base/record.h"
 #include "orbit.h"
+
+ISO_C_BEGIN
 
 /* Writes the lines without which a record cannot be converted back: model, k and J. An orbit (may be NULL) also gives
  * h, eps and the effects. A number that is no normal double in these units is left out: h, eps and the level of a
  * point follow from any row. */
-iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model, const iso_params *params,
-                               const iso_orbit *orbit);
+ISO_API iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model,
+                                       const iso_params *params, const iso_orbit *orbit);
 
 /* Writes only the lines of the effects. */
-iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, const iso_effects *effects);
+ISO_API iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, const iso_effects *effects);
 
 /* Reads the parameters from the lines `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent,
  * wrong). */
-iso_status iso_record_params(iso_context *ctx, const iso_record *record, iso_params *params);
+ISO_API iso_status iso_record_params(iso_context *ctx, const iso_record *record, iso_params *params);
 
 /* The effects of the lines, `up` and `quaternion` as at time 0. Errors: ISO_BAD_INPUT about "effects". */
-iso_status iso_record_effects(iso_context *ctx, const iso_record *record, iso_effects *effects);
+ISO_API iso_status iso_record_effects(iso_context *ctx, const iso_record *record, iso_effects *effects);
 
 /* The coupling that the lines state, by eps or by h; false: they do not, or *status says what is wrong with them. */
-bool iso_record_coupling(iso_context *ctx, const iso_record *record, const iso_params *params, double *eps,
-                         iso_status *status);
+ISO_API bool iso_record_coupling(iso_context *ctx, const iso_record *record, const iso_params *params, double *eps,
+                                 iso_status *status);
 
 /* The six columns of a model. Errors: ISO_BAD_INPUT about "columns". */
-iso_status iso_record_find_state(iso_context *ctx, const iso_record *record, iso_model_kind model,
-                                 int columns[ISO_STATE]);
+ISO_API iso_status iso_record_find_state(iso_context *ctx, const iso_record *record, iso_model_kind model,
+                                         int columns[ISO_STATE]);
 
 /* Six numbers of a row as the start of an orbit in `model`; eps of a point, or NULL. Rows of others have few
  * digits: `tolerance` says how far |n| (|gamma|) may be from 1, and how large a part of omega along n (of M along
  * gamma) may be, relative to omega. A ball that twists may have any such part.
  * Errors: ISO_BAD_INPUT: not within the tolerance (the message names one that takes the row), or no state at all. */
-iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const double y[ISO_STATE], const double *eps,
-                              bool twists, double tolerance, iso_start *start);
+ISO_API iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const double y[ISO_STATE],
+                                      const double *eps, bool twists, double tolerance, iso_start *start);
 
 /* Row `row` of a record as the start of an orbit in `model`, whose columns it must have; of `effects`, those of the
  * record, `up` and `quaternion` become the row's. A point's coupling is the record's eps (or that of its h), or
  * without these lines the one with which H is 0, or the level's.
  * Errors: ISO_BAD_INPUT with the row: a missing column, a row that is no state. */
-iso_status iso_record_start(iso_context *ctx, const iso_record *record, const iso_params *params,
-                            iso_model_kind model, size_t row, iso_start *start, iso_effects *effects);
+ISO_API iso_status iso_record_start(iso_context *ctx, const iso_record *record, const iso_params *params,
+                                    iso_model_kind model, size_t row, iso_start *start, iso_effects *effects);
+
+ISO_C_END
 
 #endif

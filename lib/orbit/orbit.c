@@ -12,18 +12,11 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "method/integrator_impl.h"
 #include "orbit/orbit_impl.h"
-
-iso_orbit_options iso_orbit_defaults(const iso_start *start)
-{
-    return (iso_orbit_options){.backend = ISO_BACKEND_AUTO,
-                               .tolerance = 1e-12,
-                               .clock = start->model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S,
-                               .shown = (iso_shown)start->model};
-}
 
 /* --- making an orbit -------------------------------------------------------------------------------------------- */
 
@@ -90,8 +83,9 @@ iso_status iso_orbit_create(iso_context *ctx, const iso_params *p, const iso_sta
     iso_orbit *o = calloc(1, sizeof *o);
     if (!o) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
     o->ctx = ctx;
-    o->options = *options;
-    const iso_status status = set_up(o, p, start);
+    o->options = iso_orbit_defaults(start);
+    iso_status status = iso_options_take(ctx, "iso_orbit_options", &o->options, sizeof o->options, options);
+    if (status == ISO_OK) status = set_up(o, p, start);
     if (status != ISO_OK) return iso_orbit_free(o), status;
     *orbit = o;
     return ISO_OK;

@@ -13,43 +13,56 @@
 #ifndef ISO_ORBIT_ORBIT_H
 #define ISO_ORBIT_ORBIT_H
 
+#include "../base/api.h"
 #include "../exact/exact.h"
 #include "../method/method.h"
 #include "scene.h"
 
+ISO_C_BEGIN
+
 typedef struct iso_orbit iso_orbit;
 
 typedef struct iso_orbit_options {
-    const iso_effects *effects; /* what acts on the ball, in the caller's units; NULL: nothing             */
-    iso_backend backend;      /* what finds the orbit; ISO_BACKEND_AUTO: steps of the model of the start,
+    size_t size;                 /* set by iso_orbit_defaults; see isoroll.h */
+    const iso_effects *effects;  /* what acts on the ball, in the caller's units; NULL: nothing           */
+    iso_backend backend;         /* what finds the orbit; ISO_BACKEND_AUTO: steps of the model of the start,
                                  of the ball where effects need it, of the model that the method is for    */
-    const iso_method *method; /* NULL: iso_method_auto(); with ISO_BACKEND_EXACT always                    */
-    double tolerance;         /* of the method                                                             */
-    long max_steps;           /* after which a call fails with ISO_NUMERICAL; 0: no bound                  */
-    iso_clock clock;          /* the clock in which times are asked                                        */
-    iso_shown shown;          /* the models filled into samples, not ISO_SHOW_START                        */
-    bool gamma_alone;         /* of the point gamma is filled in, which always fits a double, but not M    */
+    const iso_method *method;    /* NULL: iso_method_auto(); with ISO_BACKEND_EXACT always                    */
+    double tolerance;            /* of the method                                                             */
+    long max_steps;              /* after which a call fails with ISO_NUMERICAL; 0: no bound                  */
+    iso_clock clock;             /* the clock in which times are asked                                        */
+    iso_shown shown;             /* the models filled into samples, not ISO_SHOW_START                        */
+    bool gamma_alone;            /* of the point gamma is filled in, which always fits a double, but not M    */
     bool with_clock[ISO_CLOCKS]; /* other clocks filled into samples                                       */
 } iso_orbit_options;
 
 /* Backend and clock of the start's own model, which is also shown; method auto, tolerance 1e-12, no
  * bound on the steps. */
-iso_orbit_options iso_orbit_defaults(const iso_start *start);
+static inline iso_orbit_options iso_orbit_defaults(const iso_start *start)
+{
+    iso_orbit_options o = ISO_ALL_ZERO;
+    o.size = sizeof o;
+    o.backend = ISO_BACKEND_AUTO;
+    o.tolerance = 1e-12;
+    o.clock = start->model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
+    o.shown = start->model == ISO_BALL ? ISO_SHOW_BALL : ISO_SHOW_POINT;
+    return o;
+}
 
 /* One moment of an orbit. The numbers stand in the order of the columns (iso_column_name); what was not asked for is
  * NaN. */
 typedef struct iso_sample {
-    double clock[ISO_CLOCKS]; /* t, tau, s: all 0 at the start                            */
-    double ball[ISO_STATE];   /* omega, n                                                 */
-    double point[ISO_STATE];  /* M, gamma                                                 */
+    double clock[ISO_CLOCKS];          /* t, tau, s: all 0 at the start                            */
+    double ball[ISO_STATE];            /* omega, n                                                 */
+    double point[ISO_STATE];           /* M, gamma                                                 */
     double effect[ISO_EFFECT_COLUMNS]; /* the columns of effects                          */
 } iso_sample;
 
 /* The number in the column called `name`, such as "pressure" or "e1"; NaN where there is no such column. */
-double iso_sample_get(const iso_sample *sample, const char *name);
+ISO_API double iso_sample_get(const iso_sample *sample, const char *name);
 
 /* The number in a column (iso_column_find). */
-double iso_sample_column(const iso_sample *sample, int column);
+ISO_API double iso_sample_column(const iso_sample *sample, int column);
 void iso_sample_set_column(iso_sample *sample, int column, double value);
 
 /* A point's orbit has a ball at every energy: off the level H = 0 in the potential of the effect `level`, which is
@@ -60,13 +73,13 @@ void iso_sample_set_column(iso_sample *sample, int column, double value);
  * point off H = 0 and of methods that are for (24) alone: the ball and gamma in t, free, can be had by all others for
  * every k; ISO_BAD_ARGUMENT, for ISO_BACKEND_EXACT about "method", or what the closed solution is not for
  * (iso_exact_create); and its ISO_NUMERICAL; ISO_NO_MEMORY. */
-iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
-                            const iso_orbit_options *options, iso_orbit **orbit);
-void iso_orbit_free(iso_orbit *orbit);
+ISO_API iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
+                                    const iso_orbit_options *options, iso_orbit **orbit);
+ISO_API void iso_orbit_free(iso_orbit *orbit);
 
 /* Whether a time can be asked for: finite, within 1e15 turns of the start, and by an explicit method not through more
  * than 1e6 times in which a stiff motion dies away. Errors: ISO_BAD_ARGUMENT about "end" or "method". */
-iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
+ISO_API iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
 
 /* The orbit at `time` of the options' clock, in any order, before or after the start. Cheap when times run away from
  * the start; one that lies steps behind the last is found from the start again. A ball that resistance brings to rest
@@ -74,50 +87,53 @@ iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
  * followed until it turns 1e4 times as fast as at the start.
  * Errors: ISO_BAD_ARGUMENT (a time that iso_orbit_check_time refuses), ISO_NUMERICAL (what stopped, and where; or
  * a result that does not fit a double, or lost its digits). */
-iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
+ISO_API iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
 
 /* The first zero of g(sample) after `from`, not after `to`; see iso_integrator_event. direction as there. The sample
  * that g sees has no time (NaN) in the options' clock, only the clocks carried. Errors: as iso_orbit_at, and
  * ISO_NUMERICAL when g is not finite. */
-iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sample *sample, const void *data), const void *data,
-                           int direction, double from, double to, bool *found, iso_sample *sample);
+ISO_API iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sample *sample, const void *data),
+                                   const void *data, int direction, double from, double to, bool *found,
+                                   iso_sample *sample);
 
 /* The first time after `from`, not after `to`, at which the support would have to pull the ball (`pressure` passes 0
  * downwards along the way; to touch it is no loss, and on a plane it does not change); needs the effect `reactions`.
  * Errors: as iso_orbit_event. */
-iso_status iso_orbit_lost_contact(iso_orbit *orbit, double from, double to, bool *lost, iso_sample *sample);
+ISO_API iso_status iso_orbit_lost_contact(iso_orbit *orbit, double from, double to, bool *lost, iso_sample *sample);
 
 /* How far the integration has come, in the options' clock: for progress. */
-double iso_orbit_reached(const iso_orbit *orbit);
+ISO_API double iso_orbit_reached(const iso_orbit *orbit);
 
 /* The end of the last good step, after a failure. */
-iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);
+ISO_API iso_status iso_orbit_last(iso_orbit *orbit, iso_sample *sample);
 
-iso_statistics iso_orbit_statistics(const iso_orbit *orbit);
+ISO_API iso_statistics iso_orbit_statistics(const iso_orbit *orbit);
 
 /* What the orbit is made of: the backend (not ISO_BACKEND_AUTO), the model in own units, the units, the method. */
-iso_backend iso_orbit_backend(const iso_orbit *orbit);
-const iso_model *iso_orbit_model(const iso_orbit *orbit);
-const iso_units *iso_orbit_units(const iso_orbit *orbit);
-const iso_method *iso_orbit_method(const iso_orbit *orbit);
+ISO_API iso_backend iso_orbit_backend(const iso_orbit *orbit);
+ISO_API const iso_model *iso_orbit_model(const iso_orbit *orbit);
+ISO_API const iso_units *iso_orbit_units(const iso_orbit *orbit);
+ISO_API const iso_method *iso_orbit_method(const iso_orbit *orbit);
 
 /* The closed solution behind an orbit of backend ISO_BACKEND_EXACT, in own units; NULL for other backends. */
-const iso_exact *iso_orbit_exact(const iso_orbit *orbit);
+ISO_API const iso_exact *iso_orbit_exact(const iso_orbit *orbit);
 
 /* Whether the orbit has both models: no effect that breaks the isomorphism, and a ball that moves. */
-bool iso_orbit_has_twin(const iso_orbit *orbit);
+ISO_API bool iso_orbit_has_twin(const iso_orbit *orbit);
 
 /* The effects that act, in the caller's units: those asked for, and the level of a point off H = 0. */
-iso_effects iso_orbit_effects(const iso_orbit *orbit);
+ISO_API iso_effects iso_orbit_effects(const iso_orbit *orbit);
 
 /* Energy h of the ball and coupling eps of the point in the caller's units (infinite
  * or 0 where they do not fit). */
-double iso_orbit_energy(const iso_orbit *orbit);
-double iso_orbit_coupling(const iso_orbit *orbit);
+ISO_API double iso_orbit_energy(const iso_orbit *orbit);
+ISO_API double iso_orbit_coupling(const iso_orbit *orbit);
 
 /* An integral of either system at a sample that shows it: its value and the measure of its drift, in own units
  * (times iso_unit(units, integral->dimension) in the caller's). */
-double iso_orbit_integral(const iso_orbit *orbit, const iso_system *system, const iso_integral *integral,
-                          const iso_sample *sample, double *size);
+ISO_API double iso_orbit_integral(const iso_orbit *orbit, const iso_system *system, const iso_integral *integral,
+                                  const iso_sample *sample, double *size);
+
+ISO_C_END
 
 #endif

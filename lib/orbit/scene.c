@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/place_impl.h"
 #include "base/vec3_impl.h"
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
@@ -235,10 +236,19 @@ static const iso_place *find_place(const iso_scene *scene, const char *key)
     return NULL;
 }
 
+void iso_scene_forget_place(iso_scene *scene, const char *key)
+{
+    int kept = 0;
+    for (int i = 0; i < scene->places; i++)
+        if (strcmp(scene->place[i].key, key) != 0) scene->place[kept++] = scene->place[i];
+    scene->places = kept;
+}
+
 iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status)
 {
     const iso_place *at = status == ISO_OK ? NULL : find_place(scene, iso_context_about(ctx));
     if (!at) return status;
-    return iso_context_fail(ctx, status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status, "", "%s:%d:%d: %s", name,
-                            at->line, at->column, iso_context_message(ctx));
+    return iso_context_placed(ctx,
+                              iso_context_fail(ctx, status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status, "",
+                                               "%s:%d:%d: %s", name, at->line, at->column, iso_context_message(ctx)));
 }

@@ -8,7 +8,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "../base/api.h"
 #include "../model/effect.h"
+
+ISO_C_BEGIN
 
 /* Ball and point have the same values in the three enumerations, so that a cast leads from one to another. */
 
@@ -32,9 +35,9 @@ typedef enum iso_shown {
 } iso_shown;
 
 /* "ball", "point"; "ball", "point", "auto", "exact"; "ball", "point", "both", "auto". NULL past the end. */
-const char *iso_model_kind_name(int kind);
-const char *iso_backend_name(int backend);
-const char *iso_shown_name(int shown);
+ISO_API const char *iso_model_kind_name(int kind);
+ISO_API const char *iso_backend_name(int backend);
+ISO_API const char *iso_shown_name(int shown);
 
 /* Where an orbit starts (its clock at 0), in one of the models. */
 typedef struct iso_start {
@@ -53,14 +56,14 @@ typedef enum iso_spin {
 
 /* Makes a valid start of a ball. The normal is made a unit vector if its length is within 1e-6 of 1.
  * Errors: ISO_BAD_INPUT about "normal" or "angular_velocity", saying what to write instead. */
-iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], iso_spin spin,
-                          iso_start *start);
+ISO_API iso_status iso_start_ball(iso_context *ctx, const double omega[3], const double normal[3], iso_spin spin,
+                                  iso_start *start);
 
 /* Makes a valid start of a point: |gamma| within 1e-6 of 1, (M, gamma) at most 1e-9 |M| (or `project`).
  * eps NULL: start->eps is NAN.
  * Errors: ISO_BAD_INPUT about "gamma", "M" or "eps". */
-iso_status iso_start_point(iso_context *ctx, const double M[3], const double gamma[3], const double *eps, bool project,
-                           iso_start *start);
+ISO_API iso_status iso_start_point(iso_context *ctx, const double M[3], const double gamma[3], const double *eps,
+                                   bool project, iso_start *start);
 
 enum { ISO_MAX_COLUMNS = 64, ISO_NAME_SIZE = 32, ISO_MAX_PLACES = 48 };
 
@@ -89,23 +92,26 @@ typedef struct iso_scene {
 /* Puts "name:line:column: " before the context's message where the failure is about a key that the scene was read
  * with, or one that follows from it (k from `surface`); what is then a mistake in the file is ISO_BAD_INPUT, no longer
  * ISO_BAD_ARGUMENT. Gives the status. */
-iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
+ISO_API iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
+
+/* The value of this key no longer comes from the file: iso_scene_blame puts no place before failures about it. */
+ISO_API void iso_scene_forget_place(iso_scene *scene, const char *key);
 
 /* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_SHOW_START (the model of the start). */
-iso_scene iso_scene_default(void);
+ISO_API iso_scene iso_scene_default(void);
 
 /* More rows than this in a scene file are a mistake in `step`. */
 #define ISO_MOST_ROWS 1e8
 
 /* Errors: ISO_BAD_ARGUMENT about "end" or "step": not finite, or more than ISO_MOST_ROWS rows. */
-iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scene);
+ISO_API iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scene);
 
 /* Output times: row i of a scene's time grid, i = 0 ... iso_scene_rows() - 1; the last row is exactly `end`. */
-size_t iso_scene_rows(const iso_scene *scene);
-double iso_scene_time(const iso_scene *scene, size_t row);
+ISO_API size_t iso_scene_rows(const iso_scene *scene);
+ISO_API double iso_scene_time(const iso_scene *scene, size_t row);
 
 /* Indices of the columns the scene asks for (iso_column_name), and how many: columns[] has room for ISO_MAX_COLUMNS. */
-int iso_scene_columns(const iso_scene *scene, int columns[]);
+ISO_API int iso_scene_columns(const iso_scene *scene, int columns[]);
 
 /* Every column a trajectory can have, in file order: the clocks, the states of the ball and of the point, then those of
  * the effects, in the order of the registry (iso_effect_column_name):
@@ -128,19 +134,21 @@ enum {
 };
 
 /* How many there are, and their names; NULL past the last. */
-int iso_columns_count(void);
-const char *iso_column_name(int column);
+ISO_API int iso_columns_count(void);
+ISO_API const char *iso_column_name(int column);
 
 /* All names, for lists of them; gives their number. */
-int iso_column_names(const char *names[ISO_TRAJECTORY_COLUMNS]);
+ISO_API int iso_column_names(const char *names[ISO_TRAJECTORY_COLUMNS]);
 
 /* The column called `name`; -1: there is none. */
-int iso_column_find(const char *name);
+ISO_API int iso_column_find(const char *name);
 
 /* The effect that a column needs; ISO_EFFECTS: none. */
 iso_effect_id iso_column_effect(int column);
 
 /* Errors: ISO_BAD_INPUT about "columns" when one of the scene's needs an effect that the scene has not. */
-iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene);
+ISO_API iso_status iso_scene_check_columns(iso_context *ctx, const iso_scene *scene);
+
+ISO_C_END
 
 #endif

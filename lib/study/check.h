@@ -2,8 +2,11 @@
 #ifndef ISO_STUDY_CHECK_H
 #define ISO_STUDY_CHECK_H
 
+#include "../base/api.h"
 #include "../base/record.h"
 #include "../orbit/orbit.h"
+
+ISO_C_BEGIN
 
 enum { ISO_MAX_RESIDUALS = 32 };
 
@@ -34,13 +37,15 @@ typedef struct iso_residuals {
  *   length.
  * Errors, with the row: ISO_BAD_INPUT (no model's columns, a row that is no state, a time that is not finite),
  * ISO_NOT_MAPPED (a point with H not 0 in the times of a ball), ISO_NUMERICAL, ISO_NO_MEMORY. */
-iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
-                     iso_residuals *residuals);
+ISO_API iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
+                             iso_residuals *residuals);
 
 /* The drifts of the integrals that hold, row by row, as a new record. The first column is the model's first clock, or
  * "row", the row's number. The others ("h", "F_shell", ...) are |I(row) - I(first row)| / size; for a constraint its
  * exact value stands in the place of I(first row). Errors: those of iso_check. */
-iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record,
-                            iso_record **drifts);
+ISO_API iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record,
+                                    iso_record **drifts);
+
+ISO_C_END
 
 #endif

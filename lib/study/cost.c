@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "study/cost_impl.h"
 
@@ -36,11 +37,6 @@ typedef struct measurer {
     double promised; /* seconds that the least repeats of what was checked will take */
     double share;    /* done */
 } measurer;
-
-iso_cost_options iso_cost_defaults(void)
-{
-    return (iso_cost_options){.backend = ISO_BACKEND_AUTO};
-}
 
 static double elapsed(const measurer *m)
 {
@@ -313,10 +309,13 @@ iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_
                             iso_cost **cost)
 {
     ISO_DEFAULT_ARITHMETIC;
-    measurer m = {.options = options, .begin = processor_seconds()};
+    iso_cost_options own = iso_cost_defaults();
+    measurer m = {.options = &own, .begin = processor_seconds()};
     *cost = NULL;
-    m.seconds = options->seconds > 0 ? options->seconds : options->quick ? QUICK : LONG;
-    iso_status status = iso_cost_problem_open(&m.p, ctx, scene, options);
+    iso_status status = iso_options_take(ctx, "iso_cost_options", &own, sizeof own, options);
+    if (status != ISO_OK) return status;
+    m.seconds = own.seconds > 0 ? own.seconds : own.quick ? QUICK : LONG;
+    status = iso_cost_problem_open(&m.p, ctx, scene, &own);
     if (status != ISO_OK) return status;
     m.out = calloc(1, sizeof *m.out);
     status = m.out ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the measurement");

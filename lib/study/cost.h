@@ -22,9 +22,13 @@
 #ifndef ISO_STUDY_COST_H
 #define ISO_STUDY_COST_H
 
+#include "../base/api.h"
 #include "../orbit/orbit.h"
 
+ISO_C_BEGIN
+
 typedef struct iso_cost_options {
+    size_t size;         /* set by iso_cost_defaults; see isoroll.h */
     bool quick;          /* three tolerances and about 3 s; else every second power of ten and about 40 s       */
     double seconds;      /* of processor time, about how long it may take in all; 0: as above                   */
     int times;           /* output times at which errors are taken; 0: 20                                       */
@@ -35,7 +39,14 @@ typedef struct iso_cost_options {
     void *data;
 } iso_cost_options;
 
-iso_cost_options iso_cost_defaults(void);
+/* All backends, methods and tolerances, about 40 s. */
+static inline iso_cost_options iso_cost_defaults(void)
+{
+    iso_cost_options o = ISO_ALL_ZERO;
+    o.size = sizeof o;
+    o.backend = ISO_BACKEND_AUTO;
+    return o;
+}
 
 typedef struct iso_cost_cell {
     iso_backend backend;
@@ -80,18 +91,18 @@ typedef struct iso_cost {
  * iso_orbit_create); ISO_BAD_ARGUMENT about "end" for a scene without length; ISO_NUMERICAL where no reference gets
  * there; ISO_NO_MEMORY. On ISO_STOPPED *cost holds what was measured so far, NULL if nothing; on other errors it is
  * NULL. */
-iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_cost_options *options,
-                            iso_cost **cost);
-void iso_cost_free(iso_cost *cost);
+ISO_API iso_status iso_cost_measure(iso_context *ctx, const iso_scene *scene, const iso_cost_options *options,
+                                    iso_cost **cost);
+ISO_API void iso_cost_free(iso_cost *cost);
 
 /* Whether a cell has a result. */
-bool iso_cost_is_measured(const iso_cost_cell *cell);
+ISO_API bool iso_cost_is_measured(const iso_cost_cell *cell);
 
 /* Whether its error is at most `want`; an error below the uncertainty of the reference counts as that uncertainty. */
-bool iso_cost_reaches(const iso_cost *cost, const iso_cost_cell *cell, double want);
+ISO_API bool iso_cost_reaches(const iso_cost *cost, const iso_cost_cell *cell, double want);
 
 /* The cell with the least `total` of those that reach `want`; NULL: none does. */
-const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want);
+ISO_API const iso_cost_cell *iso_cost_choose(const iso_cost *cost, double want);
 
 enum { ISO_COST_HORIZONS = 24 };
 
@@ -109,7 +120,9 @@ typedef struct iso_cost_growth {
 
 /* `horizons` lengths, from 1 to ISO_COST_HORIZONS: the scene's end and its doublings. Those beyond about 40 s of
  * processor time are left out. Errors: as iso_cost_measure; ISO_BAD_ARGUMENT about "horizons". */
-iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cost_cell *cell, int horizons,
-                         iso_cost_growth *growth);
+ISO_API iso_status iso_cost_grow(iso_context *ctx, const iso_scene *scene, const iso_cost_cell *cell, int horizons,
+                                 iso_cost_growth *growth);
+
+ISO_C_END
 
 #endif

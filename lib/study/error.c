@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/orbit_impl.h"
 #include "study/seconds_impl.h"
@@ -197,12 +198,15 @@ iso_status iso_error_finder_create(iso_context *ctx, const iso_params *params, c
 {
     ISO_DEFAULT_ARITHMETIC;
     static const iso_error_of unknown = {NAN, NAN, NAN};
-    iso_orbit_options o = *options;
+    iso_orbit_options o = iso_orbit_defaults(start);
     *finder = NULL;
+    const iso_status taken = iso_options_take(ctx, "iso_orbit_options", &o, sizeof o, options);
+    if (taken != ISO_OK) return taken;
+    const double tolerance = o.tolerance;
     if (!make_finer(orbit, &o))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method",
                                 "there is nothing finer than %s at %g for this model", iso_orbit_method(orbit)->name,
-                                options->tolerance);
+                                tolerance);
     iso_error_finder *f = calloc(1, sizeof *f);
     if (!f) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the error of an orbit");
     const double begin = processor_seconds();

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "study/basis_impl.h"
 #include "study/frequencies_impl.h"
@@ -307,13 +308,15 @@ iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, co
                                     iso_frequencies *f)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_status status = iso_frequencies_check(ctx, options);
+    iso_frequencies_options own = iso_frequencies_defaults();
+    iso_status status = iso_options_take(ctx, "iso_frequencies_options", &own, sizeof own, options);
+    if (status == ISO_OK) status = iso_frequencies_check(ctx, &own);
     if (status != ISO_OK) return status;
-    const bool fixed = !isnan(options->turns) || !isnan(options->end) || !isnan(options->samples);
+    const bool fixed = !isnan(own.turns) || !isnan(own.end) || !isnan(own.samples);
     estimator e = {
         .ctx = ctx, .scene = scene, .fixed = fixed, .effects = iso_effects_acting(&scene->effects), .f = f};
     iso_frequencies_blank(f);
     f->estimated = true;
-    status = prepare(&e, options);
+    status = prepare(&e, &own);
     return status == ISO_OK ? estimate(&e) : status;
 }

@@ -7,15 +7,11 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/coordinates.h"
 #include "map/state.h"
 #include "study/frequencies_impl.h"
-
-iso_frequencies_options iso_frequencies_defaults(void)
-{
-    return (iso_frequencies_options){.turns = NAN, .end = NAN, .samples = NAN};
-}
 
 /* --- the closed solution ---------------------------------------------------------------------------------------- */
 
@@ -185,13 +181,15 @@ iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const 
                                 iso_frequencies *f)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_status status = iso_frequencies_check(ctx, options);
+    iso_frequencies_options own = iso_frequencies_defaults();
+    iso_status status = iso_options_take(ctx, "iso_frequencies_options", &own, sizeof own, options);
+    if (status == ISO_OK) status = iso_frequencies_check(ctx, &own);
     if (status == ISO_OK) status = find_exact(ctx, scene, f);
     if (status != ISO_OK || !f->estimated) return status;
     const bool unresolved = f->unresolved;
     char why[sizeof f->why];
     memcpy(why, f->why, sizeof why);
-    status = iso_frequencies_estimate(ctx, scene, options, f);
+    status = iso_frequencies_estimate(ctx, scene, &own, f);
     memcpy(f->why, why, sizeof why);
     f->unresolved = unresolved;
     return status;

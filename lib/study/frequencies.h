@@ -17,21 +17,33 @@
 #ifndef ISO_STUDY_FREQUENCIES_H
 #define ISO_STUDY_FREQUENCIES_H
 
+#include <math.h>
+
+#include "../base/api.h"
 #include "../exact/exact.h"
 #include "../orbit/orbit.h"
 #include "momentum.h"
 #include "spectrum.h"
 
+ISO_C_BEGIN
+
 enum { ISO_MOST_SAMPLES = 1 << 22 };
 
 typedef struct iso_frequencies_options {
+    size_t size;    /* set by iso_frequencies_defaults; see isoroll.h */
     double turns;   /* of n in the estimate, about, 20 or more; NaN: 1000                                */
     double end;     /* length of the orbit in t, 20 turns or more; NaN: by turns                         */
     double samples; /* of the orbit, rounded up to a power of two, 512 or more; NaN: 32 for each turn    */
 } iso_frequencies_options;
 
 /* All NaN: 1000 turns (fewer where |k| < 1/4), up to 16 times as many while the motion is not found regular. */
-iso_frequencies_options iso_frequencies_defaults(void);
+static inline iso_frequencies_options iso_frequencies_defaults(void)
+{
+    iso_frequencies_options o = ISO_ALL_ZERO;
+    o.size = sizeof o;
+    o.turns = o.end = o.samples = NAN;
+    return o;
+}
 
 /* One of the two angles. Everything in the caller's units; NaN: not known. */
 typedef struct iso_angle {
@@ -112,11 +124,13 @@ typedef struct iso_frequencies {
  * - ISO_BAD_ARGUMENT about the options: for an estimate fewer than 20 turns, fewer than 8 samples a turn, too many
  *   samples;
  * - those of iso_orbit_create and iso_orbit_at. */
-iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
-                                iso_frequencies *frequencies);
+ISO_API iso_status iso_frequencies_find(iso_context *ctx, const iso_scene *scene,
+                                        const iso_frequencies_options *options, iso_frequencies *frequencies);
 
 /* The estimate alone, whatever solution there is. */
-iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, const iso_frequencies_options *options,
-                                    iso_frequencies *frequencies);
+ISO_API iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene,
+                                            const iso_frequencies_options *options, iso_frequencies *frequencies);
+
+ISO_C_END
 
 #endif

@@ -11,8 +11,11 @@
 #ifndef ISO_STUDY_MOMENTUM_H
 #define ISO_STUDY_MOMENTUM_H
 
+#include "../base/api.h"
 #include "../base/record.h"
 #include "../model/system.h"
+
+ISO_C_BEGIN
 
 /* Parts of the image. Axes 1, 2, 3 are those of b1, b2, b3. */
 typedef enum iso_momentum_part {
@@ -30,26 +33,29 @@ typedef struct iso_momentum {
 } iso_momentum;
 
 /* False: there is none, k is not 1 or -1, or k = 1 and H is not 0. Any consistent units. */
-bool iso_momentum_make(const iso_params *params, double H, iso_momentum *momentum);
+ISO_API bool iso_momentum_make(const iso_params *params, double H, iso_momentum *momentum);
 
 /* For an energy h > 0 of the ball: the values of F of a part. False: it is empty. */
-bool iso_momentum_interval(const iso_momentum *m, double h, iso_momentum_part part, double *low, double *high);
+ISO_API bool iso_momentum_interval(const iso_momentum *m, double h, iso_momentum_part part, double *low,
+                                   double *high);
 
 /* F of the rotation about axis i = 0, 1, 2; i = 3: where the roots meet (infinite for k = 1). */
-double iso_momentum_rotation(const iso_momentum *m, double h, int i);
+ISO_API double iso_momentum_rotation(const iso_momentum *m, double h, int i);
 
 /* For a picture of the image round an energy h: rows with h' from about 0 to 2 h, then low and high F of each part,
  * then F of the four rotations; NaN where there is none. Errors: ISO_NUMERICAL (h, H or a bound fits no double),
  * ISO_NO_MEMORY. */
 enum { ISO_MOMENTUM_LINES = 4 };
-iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h, iso_record **bounds);
+ISO_API iso_status iso_momentum_bounds(iso_context *ctx, const iso_momentum *m, double h, iso_record **bounds);
 
 /* What moves how in a part, and which rotation it is, in words. */
 enum { ISO_MOMENTUM_WORDS = 64 };
-void iso_momentum_name_part(const iso_momentum *m, iso_momentum_part part, char words[ISO_MOMENTUM_WORDS]);
-void iso_momentum_name_line(const iso_momentum *m, int i, char words[ISO_MOMENTUM_WORDS]);
+ISO_API void iso_momentum_name_part(const iso_momentum *m, iso_momentum_part part, char words[ISO_MOMENTUM_WORDS]);
+ISO_API void iso_momentum_name_line(const iso_momentum *m, int i, char words[ISO_MOMENTUM_WORDS]);
 
 /* The part in which (h, F) lies, the nearest if it lies outside by rounding. */
-iso_momentum_part iso_momentum_find(const iso_momentum *m, double h, double F);
+ISO_API iso_momentum_part iso_momentum_find(const iso_momentum *m, double h, double F);
+
+ISO_C_END
 
 #endif

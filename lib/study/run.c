@@ -9,6 +9,8 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/monitor_impl.h"
+#include "base/options_impl.h"
+#include "base/version.h"
 #include "orbit/description.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
@@ -24,8 +26,9 @@ static void leave_out_unseen(iso_effects *effects, const int columns[], int coun
     }
 }
 
-iso_orbit_options iso_scene_orbit_options(const iso_scene *scene, const int columns[], int count,
-                                          iso_effects *effects)
+/* Options of the orbit that fills these columns (iso_scene_columns) and computes nothing else. Writes *effects; the
+ * options point to it. */
+static iso_orbit_options orbit_options(const iso_scene *scene, const int columns[], int count, iso_effects *effects)
 {
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     bool ball = false, point = false, M = false;
@@ -55,7 +58,7 @@ iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int c
                            iso_orbit **orbit)
 {
     iso_effects effects;
-    const iso_orbit_options o = iso_scene_orbit_options(scene, columns, count, &effects);
+    const iso_orbit_options o = orbit_options(scene, columns, count, &effects);
     return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
 }
 
@@ -88,11 +91,6 @@ typedef struct runner {
     bool pressed;      /* the support presses the ball at the start: the ball can lose contact */
     double safe_to[2]; /* after the start and before it: contact is known to last to this time  */
 } runner;
-
-iso_run_options iso_run_defaults(void)
-{
-    return (iso_run_options){.times = NULL};
-}
 
 static void say(const runner *r, iso_run_note note, const char *words)
 {
@@ -354,7 +352,7 @@ static iso_status check(runner *r)
 
 static iso_status open_orbit(runner *r)
 {
-    r->how = iso_scene_orbit_options(r->scene, r->columns, r->count, &r->effects);
+    r->how = orbit_options(r->scene, r->columns, r->count, &r->effects);
     r->result->clock = r->how.clock;
     iso_status status = iso_orbit_create(r->ctx, &r->scene->params, &r->scene->start, &r->how, &r->orbit);
     if (status != ISO_OK) return status;
@@ -379,10 +377,11 @@ iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_optio
     ISO_DEFAULT_ARITHMETIC;
     iso_run_result unused;
     runner r = {.ctx = ctx, .scene = scene, .sink = sink, .result = result ? result : &unused};
-    r.options = options ? *options : iso_run_defaults();
+    r.options = iso_run_defaults();
     r.monitor = iso_context_monitor(ctx);
     *r.result = (iso_run_result){.error_status = ISO_BAD_ARGUMENT, .error_words = "errors were not asked for"};
-    iso_status status = check(&r);
+    iso_status status = iso_options_take(ctx, "iso_run_options", &r.options, sizeof r.options, options);
+    if (status == ISO_OK) status = check(&r);
     if (status == ISO_OK) status = sort_times(&r);
     if (status == ISO_OK) status = open_orbit(&r);
     if (status == ISO_OK) open_errors(&r);

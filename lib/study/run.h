@@ -11,23 +11,22 @@
 #ifndef ISO_STUDY_RUN_H
 #define ISO_STUDY_RUN_H
 
+#include "../base/api.h"
 #include "../base/record.h"
 #include "error.h"
 
+ISO_C_BEGIN
+
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
-/* Options of the orbit that fills these columns (iso_scene_columns) and computes nothing else. Writes *effects; the
- * options point to it. */
-iso_orbit_options iso_scene_orbit_options(const iso_scene *scene, const int columns[], int count,
-                                          iso_effects *effects);
-
-/* That orbit. Errors: those of iso_orbit_create. */
-iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
-                           iso_orbit **orbit);
+/* The orbit that fills these columns (iso_scene_columns) and computes nothing else. Errors: those of iso_orbit_create. */
+ISO_API iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
+                                   iso_orbit **orbit);
 
 /* --- a run ------------------------------------------------------------------------------------------------------ */
 
 typedef struct iso_run_options {
+    size_t size;         /* set by iso_run_defaults; see isoroll.h */
     const double *times; /* in any order, before and after the start; in t for a ball's scene, in s for a point's.
                             NULL: the scene's own grid                                                           */
     size_t count;        /* of times                                                                             */
@@ -36,7 +35,12 @@ typedef struct iso_run_options {
 } iso_run_options;
 
 /* The scene's own grid, no errors. */
-iso_run_options iso_run_defaults(void);
+static inline iso_run_options iso_run_defaults(void)
+{
+    iso_run_options o = ISO_ALL_ZERO;
+    o.size = sizeof o;
+    return o;
+}
 
 /* What a run can say about the contact of ball and support (effect `reactions`). */
 typedef enum iso_run_note {
@@ -83,7 +87,9 @@ typedef struct iso_run_result {
  * - ISO_BAD_ARGUMENT about "times" (there are none, or one is not finite) or "method" (no method has this name).
  * Errors after it: what the sink answers; those of iso_orbit_at; ISO_STOPPED; ISO_NO_MEMORY.
  * It is no failure if the error of the rows is not known: see result->error_status. */
-iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_options *options, const iso_run_sink *sink,
-                   iso_run_result *result);
+ISO_API iso_status iso_run(iso_context *ctx, const iso_scene *scene, const iso_run_options *options,
+                           const iso_run_sink *sink, iso_run_result *result);
+
+ISO_C_END
 
 #endif

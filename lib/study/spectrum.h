@@ -14,7 +14,10 @@
 
 #include <stddef.h>
 
+#include "../base/api.h"
 #include "../base/context.h"
+
+ISO_C_BEGIN
 
 enum { ISO_MAX_LINES = 24 };
 
@@ -30,7 +33,9 @@ typedef struct iso_line {
  * within the resolution 4 pi/(count step) of a line found before.
  * Errors: ISO_BAD_ARGUMENT (count, step, most), ISO_NUMERICAL (a sample that is not finite), ISO_NO_MEMORY,
  * ISO_STOPPED. */
-iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t count, double step, int most,
-                             iso_line line[], int *found);
+ISO_API iso_status iso_spectrum_find(iso_context *ctx, const double signal[], size_t count, double step, int most,
+                                     iso_line line[], int *found);
+
+ISO_C_END
 
 #endif

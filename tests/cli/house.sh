@@ -50,7 +50,8 @@ grep -nE '^[ \t]*#[ \t]*include[ \t]*<' $public lib/isoroll.h |
 # shellcheck disable=SC2086
 grep -nE '^[ \t]*#[ \t]*define[ \t]' $public lib/isoroll.h |
     grep -vE '#[ \t]*define[ \t]+ISO(_|ROLL_H)' | complain "a macro begins with ISO_"
-"$CC" -std=c11 -E -I lib lib/isoroll.h | awk '
+all=$(echo "$public" | sed 's|^lib/\(.*\)|#include "\1"|') # every public header
+echo "$all" | "$CC" -std=c11 -E -I lib -x c - | awk '
     function check(prefix, name, what) { if (index(name, prefix) != 1) print what " " name }
     function last_word(text) { gsub(/\[[^]]*\]/, "", text); gsub(/[^A-Za-z0-9_]+/, " ", text); sub(/ $/, "", text)
                                sub(/.* /, "", text); return text }
@@ -66,7 +67,8 @@ grep -nE '^[ \t]*#[ \t]*define[ \t]' $public lib/isoroll.h |
                     if (match(item[i], /[A-Za-z_][A-Za-z0-9_]*/)) check("ISO_", substr(item[i], RSTART, RLENGTH), "enumerator")
                 match(text, /[{][^{}]*[}]/)
             }
-            text = before " " substr(text, length(body) + length(before) + 3)
+            end = before ~ /\) *$/ ? ";" : " " # the body of a function ends a declaration
+            text = before end substr(text, length(body) + length(before) + 3)
         }
         n = split(text, statement, ";")
         for (i = 1; i <= n; i++) {
@@ -80,15 +82,46 @@ grep -nE '^[ \t]*#[ \t]*define[ \t]' $public lib/isoroll.h |
         }
     }' | complain "public names begin with iso_, ISO_"
 
-# Exported symbols: what the shared library offers.
+# --- exported symbols: the shared library exports what public headers mark with ISO_API, and nothing else -----------
 library=$ISO_BUILD/libisoroll.so
-nm -D --defined-only "$library" | grep -q ' iso_' || echo "$library exports nothing" | complain "symbols"
-nm -D --defined-only "$library" | awk '$NF !~ /^iso_/ { print $NF }' | complain "an exported symbol begins with iso_"
+exported=$(mktemp) marked=$(mktemp)
+trap 'rm -f "$complaints" "$exported" "$marked"' EXIT
+nm -D --defined-only "$library" | awk '{ print $NF }' | sort >"$exported"
+echo "$all" | "$CC" -std=c11 -E -DISO_API=ISO_API_HERE -I lib -x c - | grep -v '^#' | tr '\n' ' ' |
+    sed 's/ISO_API_HERE/\n&/g' | # one declaration a line; its name stands before the first ( [ or ;
+    sed -n 's/^ISO_API_HERE \([^([;]*[^A-Za-z0-9_]\)\{0,1\}\([A-Za-z0-9_]\{1,\}\) *[([;].*/\2/p' | sort >"$marked"
+[ -s "$exported" ] || echo "$library exports nothing" | complain "exported symbols"
+uniq -d "$marked" | sed 's/$/ is declared twice/' | complain "exported symbols"
+comm -23 "$exported" "$marked" | sed 's/$/ is exported, but no public header marks it/' | complain "exported symbols"
+comm -13 "$exported" "$marked" | sed 's/$/ is marked with ISO_API, but not exported/' | complain "exported symbols"
+grep -rlw ISO_API lib --include='*.c' --include='*_impl.h' | complain "ISO_API stands in public headers only"
 
-# The umbrella header lists every public header, and nothing else.
-for header in $public; do
-    grep -qxF "#include \"${header#lib/}\"" lib/isoroll.h || echo "$header"
-done | complain "lib/isoroll.h lists every public header"
+# A public header compiles alone, in C and in C++.
+alone() {
+    for header in $public lib/isoroll.h; do
+        printf '#include "%s"\ntypedef int iso_nothing;\n' "${header#lib/}" |
+            "$@" -Wall -Wextra -Wpedantic -Werror -fsyntax-only -I lib - 2>&1 |
+            sed "s|^|$header: |"
+    done
+}
+alone "$CC" -std=c11 -x c | complain "a public header compiles alone in C"
+cxx=
+for name in c++ g++ clang++; do
+    [ -n "$cxx" ] || ! command -v "$name" >/dev/null || cxx=$name
+done
+if [ -n "$cxx" ]; then
+    alone "$cxx" -std=c++17 -x c++ | complain "a public header compiles alone in C++"
+    for header in $public; do
+        [ "$header" = lib/base/api.h ] || grep -q '^ISO_C_BEGIN$' "$header" || echo "$header"
+    done | complain "a public header encloses its declarations by ISO_C_BEGIN and ISO_C_END"
+else
+    echo "SKIP house: public headers in C++: no C++ compiler is installed"
+fi
+
+# The umbrella header lists public headers that exist, bottom-up.
+sed -n 's/^#include "\(.*\)".*/\1/p' lib/isoroll.h | while read -r header; do
+    [ -e "lib/$header" ] || echo "$header is not there"
+done | complain "lib/isoroll.h"
 awk -F '["/]' '/^#include "/ { place = index("base model map method exact orbit study io", $2)
                               if (place < last) print $2 " stands too late"; last = place }' lib/isoroll.h |
     complain "lib/isoroll.h goes bottom-up"

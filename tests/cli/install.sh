@@ -61,7 +61,7 @@ bare() {
 bare "-I, -L and -l alone" "$CC" -std=c11 -Wall -Wextra -Wpedantic -Werror
 find "$prefix/include/isoroll" -name '*.h' | sed "s|^$prefix/include/||" >headers
 while read -r header; do # each by itself
-    echo "#include <$header>" >one.c
+    printf "#include <%s>\ntypedef int nothing;\n" "$header" >one.c
     "$CC" -std=c11 -Wpedantic -Werror -fsyntax-only -I"$prefix/include" one.c || { echo "FAIL $header"; exit 1; }
 done <headers
 command -v c++ >/dev/null || { echo "SKIP install: C++: c++ is not installed"; exit 0; }

@@ -1,7 +1,10 @@
 /* outside.c - a program of somebody else, built outside the tree against the installed library (install.sh). */
 #include <stdio.h>
+#include <string.h>
 
 #include <isoroll/isoroll.h>
+#include <isoroll/map/state.h>
+#include <isoroll/study/cost.h>
 
 int main(void)
 {
@@ -12,7 +15,11 @@ int main(void)
         fprintf(stderr, "outside: %s\n", ctx ? iso_context_message(ctx) : "no memory");
         return 1;
     }
-    const int right = p.k == -1 && p.J[0] == J[0] && p.J[1] == J[1] && p.J[2] == J[2];
+    const double ball[ISO_STATE] = {0.3, -0.2, 0.5, 0, 0.6, 0.8};
+    const iso_cost_options cost = iso_cost_defaults();
+    const int same = strcmp(iso_version(), ISO_VERSION) == 0 && iso_ball_energy(&p, ball) > 0;
+    const int right =
+        same && cost.size == sizeof cost && p.k == -1 && p.J[0] == J[0] && p.J[1] == J[1] && p.J[2] == J[2];
     printf("k = %g\n", p.k);
     iso_context_free(ctx);
     return right ? 0 : 1;

@@ -7,6 +7,9 @@
 #include "hard.h"
 #include "isoroll.h"
 #include "laws.h"
+#include "map/state.h"
+#include "study/compare.h"
+#include "study/frequencies.h"
 
 static iso_context *ctx;
 static iso_params params;

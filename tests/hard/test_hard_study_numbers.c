@@ -2,8 +2,16 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/number.h"
 #include "hard.h"
 #include "isoroll.h"
+#include "study/analogue.h"
+#include "study/check.h"
+#include "study/compare.h"
+#include "study/cost.h"
+#include "study/frequencies.h"
+#include "study/momentum.h"
+#include "study/spectrum.h"
 #include "sweep.h"
 
 /* --- records ---------------------------------------------------------------------------------------------------- */
@@ -156,7 +164,7 @@ static iso_status frequencies(iso_context *ctx, const void *data, const double v
     iso_scene scene;
     iso_frequencies f;
     const double *of = v + AFTER_SCENE;
-    const iso_frequencies_options o = {of[0], of[1], of[2]};
+    const iso_frequencies_options o = {.turns = of[0], .end = of[1], .samples = of[2]};
     iso_status status = make_scene(ctx, *(const iso_model_kind *)data, v, &scene);
     if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &o, &f);
     for (int i = 0; status == ISO_OK && i < f.angles; i++) sweep_give(a, f.angle[i].frequency, ISO_CLOCKS);
@@ -168,7 +176,7 @@ static iso_status estimate(iso_context *ctx, const void *data, const double v[],
     iso_scene scene;
     iso_frequencies f;
     const double *of = v + AFTER_SCENE;
-    const iso_frequencies_options o = {of[0], of[1], of[2]};
+    const iso_frequencies_options o = {.turns = of[0], .end = of[1], .samples = of[2]};
     iso_status status = make_scene(ctx, *(const iso_model_kind *)data, v, &scene);
     if (status == ISO_OK) status = iso_frequencies_estimate(ctx, &scene, &o, &f);
     for (int i = 0; status == ISO_OK && i < f.angles; i++) sweep_give(a, f.angle[i].frequency, 1);

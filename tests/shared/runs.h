@@ -93,7 +93,7 @@ static inline kept *run_like(const kept *like, const iso_scene *scene, const dou
     if (!k) give_up("no memory");
     *k = *like;
     const iso_run_sink sink = {keep_header, keep_row, keep_note, keep_progress, k};
-    const iso_run_options o = {times, count, errors};
+    const iso_run_options o = {.times = times, .count = count, .errors = errors};
     k->status = iso_run(ctx, scene, &o, &sink, &k->result);
     gsl_test(k->result.rows != k->rows, "the result counts the sink's rows");
     return k;
