@@ -273,6 +273,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_frequencies f;
     const iso_frequencies_options how = {.turns = o->turns, .end = o->scene.end, .samples = o->samples};
     iso_status status = iso_scene_read(ctx, o->scene.file, &scene);
+    iso_scene_forget_place(&scene, "end"); /* --t-end says it, not the scene */
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     stop_gently();
     iso_context_set_monitor(ctx, not_interrupted, NULL);

@@ -361,7 +361,7 @@ static iso_status dense(iso_integrator *it, double dt, double y[])
 
 #define SPLITTING                                                                                                    \
     .family = "splitting", .own_equations = true, .system = &iso_system_point,                                       \
-    .system_why = "the ball's equations do not split into flows that are known exactly", .steps_in_s = true,         \
+    .system_why = "only its equations split into flows that are known exactly", .steps_in_s = true,         \
     .fixed = true, .create = create, .start = start, .step = step, .dense = dense, .free = release
 
 const iso_method iso_method_strang = {

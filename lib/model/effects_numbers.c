@@ -40,6 +40,10 @@ iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *e
     if (!name) return ISO_OK;
     for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
         if (strcmp(n->name, name) != 0) continue;
+        if (n->scene_only && n->kind != ISO_NUMBER_FLAG)
+            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name,
+                                    "'%s' of '%s' is for scenes alone: set the number that is computed from it", name,
+                                    effect);
         if (n->count != count || !has_room(n))
             return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "'%s' of '%s' has %d numbers, not %d", name, effect,
                                     n->count, count);
@@ -156,6 +160,15 @@ static iso_status check_D(iso_context *ctx, const iso_params *p, const char *eff
                             effect, effect);
 }
 
+/* Whether a group of columns holds the number at later times, if it says so. */
+static bool turns_well(const iso_effect *effect, const iso_effect_number *n)
+{
+    bool found = !n->turns_with;
+    for (const iso_effect_column *c = effect->columns; c && c->name; c++)
+        found = found || (strcmp(c->name, n->turns_with) == 0 && c->count == n->count);
+    return found;
+}
+
 /* What a row lacks, or says twice; NULL: nothing. What is left out, nobody may guess. */
 static const char *what_is_wrong(const iso_effect *effect)
 {
@@ -170,6 +183,8 @@ static const char *what_is_wrong(const iso_effect *effect)
     if (s && !derived && !effect->recall) return "it has states, but no `recall`";
     for (; s && s->name; s++)
         if ((s->kind == ISO_STATE_DERIVED) != derived) return "some of its states are derived, others are not";
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
+        if (!turns_well(effect, n)) return "a number turns with a group of columns that is not there";
     for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
         if (!has_room(n)) return "it has more numbers than there is room for (ISO_EFFECT_NUMBERS)";
     if (effect->is_level && effect != iso_effect_list[level_id()]) return "there is another level";

@@ -62,8 +62,35 @@ static void complete_rows(void)
     gsl_test(iso_columns_count() != ISO_COLUMN_EFFECTS + iso_effect_columns(), "all columns have a name");
 }
 
+/* Numbers set by name: the words of what is wrong name it. */
+static void numbers_by_name(void)
+{
+    static const struct {
+        const char *effect, *name;
+        int count;
+        const char *words;
+    } wrong[] = {{"gravty", "mgb", 1, "no effect 'gravty'"},
+                 {"gravity", "weight", 1, "no number 'weight'"},
+                 {"gravity", "up", 2, "has 3 numbers, not 2"},
+                 {"gravity", "g", 1, "is for scenes alone"}};
+    iso_context *ctx = iso_context_create();
+    iso_effects effects = iso_effects_default();
+    const double x[] = {0.36, 0.48, 0.8};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        const iso_status status = iso_effects_set(ctx, &effects, wrong[i].effect, wrong[i].name, wrong[i].count, x);
+        const char *words = iso_context_message(ctx);
+        gsl_test(status != ISO_BAD_ARGUMENT || !strstr(words, wrong[i].words), "%s.%s: %s", wrong[i].effect,
+                 wrong[i].name, words);
+    }
+    gsl_test(iso_effects_set(ctx, &effects, "gravity", "up", 3, x) != ISO_OK || !effects.on[ISO_GRAVITY] ||
+                 effects.number[ISO_GRAVITY][3] != x[2],
+             "gravity.up is set by its name");
+    iso_context_free(ctx);
+}
+
 int main(void)
 {
     complete_rows();
+    numbers_by_name();
     exit(gsl_test_summary());
 }
