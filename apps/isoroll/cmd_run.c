@@ -149,7 +149,8 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = check_files(ctx, o);
     if (status == ISO_OK) status = scene_with_options(ctx, &o->scene, &scene);
     if (status == ISO_OK && o->times) status = times_read(ctx, o->times, &asked);
-    const int result = status == ISO_OK ? run_scene(ctx, o, &scene, &asked) : finish_scene(ctx, &o->scene, &scene, status);
+    const int result =
+        status == ISO_OK ? run_scene(ctx, o, &scene, &asked) : finish_scene(ctx, &o->scene, &scene, status);
     free(asked.list);
     return result;
 }

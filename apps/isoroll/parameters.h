@@ -15,7 +15,8 @@ typedef struct file_options {
 
 #define FILE_OPTIONS_UNSET                                                                                           \
     {                                                                                                                \
-        .file = "-", .k = NAN, .J = {NAN, NAN, NAN}, .eps = NAN, .h = NAN, .row_tolerance = ISO_ROW_TOLERANCE                                            \
+        .file = "-", .k = NAN, .J = {NAN, NAN, NAN}, .eps = NAN, .h = NAN,                                             \
+        .row_tolerance = ISO_ROW_TOLERANCE                                                                           \
     }
 
 /* Their rows; `from` is the place of a file_options in the struct `type`. */
@@ -38,7 +39,8 @@ typedef struct file_options {
  * the lines. */
 iso_status parameters_of_file(iso_context *ctx, const file_options *o, iso_record *record, iso_params *params);
 
-/* Puts the file's name before the context's message, unless that begins with a place in a file already. Gives `status`. */
+/* Puts the file's name before the context's message, unless that begins with a place in a file already. Gives
+ * `status`. */
 iso_status name_the_file(iso_context *ctx, const char *file, iso_status status);
 
 #endif

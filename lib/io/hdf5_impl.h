@@ -1,7 +1,8 @@
 /* hdf5_impl.h - trajectories as HDF5: the layout of a file, and what its reader and its writer share. All three are
  * compiled where the build has HDF5 (ISO_HDF5).
  *
- *     /             attributes: "format" = "isoroll trajectory 1", and one for each line "# key: value" of the record:
+ *     /             attributes: "format" = "isoroll trajectory 1", and one for each line "# key: value" of the
+ *                   record:
  *                   an array of numbers if the value is numbers, else text
  *     /clock        t, tau, s                 rows
  *     /ball         omega, n, e, q, ...       rows x 3 (q: 4); if a column is missing, omega1 ... for each one there

@@ -49,7 +49,8 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     return iso_gsl_renew_slope(it, g, y);
 }
 
-/* It serves every model, and among the library's explicit methods needs the least time (the table in taylor.c). */
+/* It serves every model, and among the library's explicit methods needs the least time (the table in
+ * taylor/method.c). */
 static iso_suits rk8pd_suits(const iso_model *m)
 {
     return iso_effects_stiffness(&m->problem) > ISO_STIFF ? ISO_IF_NEED_BE : ISO_WELL;

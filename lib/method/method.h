@@ -15,7 +15,7 @@
  *   GSL's methods, of the root mean square for SUNDIALS'. Splittings keep one step in s, which trial runs over the
  *   first two turns choose. The error of a long orbit is larger, because the errors of its steps add up.
  * - The elapsed time is the compensated sum of the steps taken, exact to 1e-30 relative. (The equations do not depend
- *   on the time. The t += h of the other libraries would cost 1e-9 at t = 1000: see SUNDIALS in the README.)
+ *   on the time. The t += h of the other libraries would cost 1e-9 at t = 1000.)
  * - After each step the constraints and the energy of the model are restored where the method allows it (`projects`).
  *   The statistics hold the largest correction, because restored integrals look perfect whatever the error is.
  * - A method may know the state at any time without steps (`at`). Then tolerance and max_steps mean nothing, and only

@@ -90,7 +90,8 @@ typedef struct iso_scene {
 } iso_scene;
 
 /* Puts "name:line:column: " before the context's message where the failure is about a key that the scene was read
- * with, or one that follows from it (k from `surface`); what is then a mistake in the file is ISO_BAD_INPUT, no longer
+ * with, or one that follows from it (k from `surface`); what is then a mistake in the file is ISO_BAD_INPUT, no
+ * longer
  * ISO_BAD_ARGUMENT. Gives the status. */
 ISO_API iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
 
@@ -110,20 +111,24 @@ ISO_API iso_status iso_scene_check_times(iso_context *ctx, const iso_scene *scen
 ISO_API size_t iso_scene_rows(const iso_scene *scene);
 ISO_API double iso_scene_time(const iso_scene *scene, size_t row);
 
-/* Indices of the columns the scene asks for (iso_column_name), and how many: columns[] has room for ISO_MAX_COLUMNS. */
+/* Indices of the columns the scene asks for (iso_column_name), and how many: columns[] has room for
+ * ISO_MAX_COLUMNS. */
 ISO_API int iso_scene_columns(const iso_scene *scene, int columns[]);
 
-/* Every column a trajectory can have, in file order: the clocks, the states of the ball and of the point, then those of
+/* Every column a trajectory can have, in file order: the clocks, the states of the ball and of the point, then
+ * those of
  * the effects, in the order of the registry (iso_effect_column_name):
  *     t tau s   omega1..3 n1..3   M1..3 gamma1..3
  *     e1..3                        gravity: vertical, in body axes
  *     q0..3                        attitude: quaternion from body to space axes
- *     contact1..3                  attitude: contact point in space: a R n from the fixed sphere's centre; on a plane from
+ *     contact1..3                  attitude: contact point in space: a R n from the fixed sphere's centre; on a
+ *                                  plane from
  *                                  the first contact
  *     trace1..3                    attitude: contact point on the ball, -b n in body axes
  *     centre1..3                   attitude: centre of the ball in space, likewise
  *     N1..3                        reactions: contact force, in body axes
- *     pressure friction mu lambda  reactions: its part that pushes the ball off the support, the size of the rest, the
+ *     pressure friction mu lambda  reactions: its part that pushes the ball off the support, the size of the rest,
+ *                                  the
  *                                  friction coefficient needed, the twist torque
  * Lengths and forces of a reduced scene are those of a ball with |b| = 1. */
 enum {

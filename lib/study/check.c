@@ -260,7 +260,8 @@ static void check_effects(checker *c, const iso_sample *flow, size_t row)
         }
 }
 
-/* Whether the record has what an effect that acts on nothing begins with: the numbers that turn with the ball, and on a
+/* Whether the record has what an effect that acts on nothing begins with: the numbers that turn with the ball, and
+ * on a
  * plane the displacement, without which the height is not known. */
 static bool has_beginning(const checker *c, iso_effect_id id)
 {
@@ -271,7 +272,8 @@ static bool has_beginning(const checker *c, iso_effect_id id)
     return has;
 }
 
-/* Whether an effect that acts on nothing can be asked for because its columns are there: no line has to state a number. */
+/* Whether an effect that acts on nothing can be asked for because its columns are there: no line has to state a
+ * number. */
 static bool is_shown(const checker *c, iso_effect_id id)
 {
     const iso_effect *effect = iso_effect_list[id];

@@ -109,7 +109,8 @@ static iso_status open_orbits(iso_error_finder *f, const iso_params *params, con
 {
     iso_orbit_options moved = *o;
     iso_status status = iso_orbit_create(f->ctx, params, start, o, &f->finer);
-    if (o->method->own_equations) moved.method = iso_method_auto(iso_orbit_model(f->orbit)); /* exact enough, and faster */
+    if (o->method->own_equations) /* auto is exact enough, and faster */
+        moved.method = iso_method_auto(iso_orbit_model(f->orbit));
     for (int m = 0; status == ISO_OK && m < MOVED; m++) {
         iso_params p = *params;
         iso_start s = *start;

@@ -1,4 +1,5 @@
-/* no_memory.so, to be preloaded: malloc, calloc, realloc and their like fail, from main() on, as the environment says:
+/* no_memory.so, to be preloaded: malloc, calloc, realloc and their like fail, from main() on, as the environment
+ * says:
  *
  *     ISO_FAIL_AT=n          the n-th call alone, but for those that SUNDIALS and GSL make themselves, which do not
  *                            survive it (lib/base/room_impl.h); calls of the C library, libyaml and jansson count

@@ -124,7 +124,8 @@ static void check_angles(void)
     iso_random_free(random);
 }
 
-/* From an umbilic of J = (1, 2, 3): always on the separatrix, away from a rotation about axis 2 and back to it. There is
+/* From an umbilic of J = (1, 2, 3): always on the separatrix, away from a rotation about axis 2 and back to it.
+ * There is
  * no linear growth of errors to compare by: the stepped orbit itself loses the separatrix. */
 static void check_homoclinic(void)
 {

@@ -1,5 +1,5 @@
 /* Separation of variables: (lam, mu) at k = 1 and not at k = -1 (paper, after (21)); (u, v) of gamma in b = J at
- * k = -1 and in b = 1/J at k = 1 (theory, section 6). */
+ * k = -1 and in b = 1/J at k = 1 (lib/doc/theory.md, section 8). */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -1,4 +1,5 @@
-/* effect_drag.c - the torque of still air on the turning ball: -c |omega| omega. As a plain function, not a formula. */
+/* effect_drag.c - the torque of still air on the turning ball: -c |omega| omega. As a plain function, not a
+ * formula. */
 #include <math.h>
 
 #include "model/effects_impl.h"

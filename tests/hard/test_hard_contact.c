@@ -32,10 +32,12 @@ static double loss(const hard_road *way, const iso_params *p, const iso_start *s
     return lost ? s.clock[ISO_CLOCK_T] : NAN;
 }
 
-/* --- a loop inside a sphere ----------------------------------------------------------------------------------------- */
+/* --- a loop inside a sphere
+ * ----------------------------------------------------------------------------------------- */
 
 /* In the plane of e and n, w = w3: with k = 2, J3 = 1, D = 1/2, mgb = -3/2 and (e,n) = -1, w3^2 = 9 + d at the lowest
- * place: w3^2 = 6 + d - 3 (e,n), and the pressure is 3 + d/2 - 3 (e,n). At the top it touches 0 for d = 0, and passes it
+ * place: w3^2 = 6 + d - 3 (e,n), and the pressure is 3 + d/2 - 3 (e,n). At the top it touches 0 for d = 0, and
+ * passes it
  * for d < 0 at (e,n) = 1 + d/6. The angle between e and n turns at (k-1) w3. */
 typedef struct loop {
     iso_params p;
@@ -70,7 +72,8 @@ static loop loop_with(double d)
     return l;
 }
 
-/* By d as small as the energy is known: 100 errors of steps; 1e-12 for taylor. Whether contact is lost is exact; the time
+/* By d as small as the energy is known: 100 errors of steps; 1e-12 for taylor. Whether contact is lost is exact;
+ * the time
  * of a loss is off by the error of the pressure over its slope there, 3 w sin(angle) = about 3 sqrt(-d). */
 static void grazing(void)
 {
@@ -96,7 +99,8 @@ static void grazing(void)
     hard_naive("losses missed by looking at rows of 0.1", hard_ways - missed, 0);
 }
 
-/* d = 0: a touch is no loss where rounding is all the error; the pressure at the top is 0 to the error of each way. */
+/* d = 0: a touch is no loss where rounding is all the error; the pressure at the top is 0 to the error of each way.
+ * */
 static void touching(void)
 {
     const loop l = loop_with(0);
@@ -154,9 +158,11 @@ static void again(void)
     hard_naive("both at the top", late, 1e-3);
 }
 
-/* --- surfaces ------------------------------------------------------------------------------------------------------------ */
+/* --- surfaces
+ * ------------------------------------------------------------------------------------------------------------ */
 
-/* A start that has pressure and loses it later, with spin out of the plane of e and n; where: by halving on taylor_quad. */
+/* A start that has pressure and loses it later, with spin out of the plane of e and n; where: by halving on
+ * taylor_quad. */
 static double halved(const iso_params *p, const iso_start *start, const iso_effects *e, double end, double *slope)
 {
     const hard_road quad = he_quad();

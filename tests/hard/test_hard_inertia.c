@@ -12,7 +12,8 @@ static iso_context *ctx;
 enum { K = 5 };
 static const double ks[K] = {1, -1, 0.5, 0.75, -0.4};
 
-/* --- scenes ------------------------------------------------------------------------------------------------------- */
+/* --- scenes
+ * ------------------------------------------------------------------------------------------------------- */
 
 typedef struct scene {
     iso_params p;
@@ -72,7 +73,8 @@ static iso_params reduced(double k, const double J[3])
     return p;
 }
 
-/* --- errors by every way ------------------------------------------------------------------------------------------ */
+/* --- errors by every way
+ * ------------------------------------------------------------------------------------------ */
 
 typedef struct worst {
     double error;
@@ -107,7 +109,8 @@ static worst measure(const hard_road *way, bool energy_alone)
     return w;
 }
 
-/* Taylor series and the closed solution: rounding, times the condition. Others: a tolerance a step, of which there are
+/* Taylor series and the closed solution: rounding, times the condition. Others: a tolerance a step, of which there
+ * are
  * some hundreds, times the condition; or, of methods of several steps, which carry each on, 3e4 tolerances in a few
  * turns. What cannot be projected promises its energy
  * alone, to a thousandth or 1e4 tolerances (orbit.c), in such bodies. */
@@ -130,7 +133,8 @@ static void hold_all(double rounding, double ratio)
     count = 0;
 }
 
-/* --- nearly equal ------------------------------------------------------------------------------------------------- */
+/* --- nearly equal
+ * ------------------------------------------------------------------------------------------------- */
 
 static double ulps(double x, int n)
 {
@@ -181,7 +185,8 @@ static void test_nearly_equal(void)
     }
 }
 
-/* --- very different ----------------------------------------------------------------------------------------------- */
+/* --- very different
+ * ----------------------------------------------------------------------------------------------- */
 
 /* (9) with its lambda, the spin taken out along n, classical Runge-Kutta steps. */
 static void naive_rates(const iso_params *p, const double y[6], double dy[6])
@@ -242,7 +247,8 @@ static void test_very_different(double ratio, const char *name)
         hard_naive("(9) with lambda, the spin taken out along n", naive, rounding);
 }
 
-/* --- flat and needle-like bodies ---------------------------------------------------------------------------------- */
+/* --- flat and needle-like bodies
+ * ---------------------------------------------------------------------------------- */
 
 static iso_params body(iso_surface surface, double mass, const double inertia[3])
 {

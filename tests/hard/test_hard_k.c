@@ -1,12 +1,16 @@
-/* Geometry numbers: |k| down to 1e-6, where q^(1/k) spans up to 1e6 decades; up to 1e6, where the normal turns |k| times
+/* Geometry numbers: |k| down to 1e-6, where q^(1/k) spans up to 1e6 decades; up to 1e6, where the normal turns |k|
+ * times
  * as fast as the ball; next to 1/2, 1 and -1, where formulas change.
  *
  * References are runs of taylor_quad by the other backend, which is another formulation, or closed forms. Errors are
- * measured in units of the orbit's condition C, by which errors of the start are magnified on the way, and of what the
+ * measured in units of the orbit's condition C, by which errors of the start are magnified on the way, and of what
+ * the
  * quantity adds to it; what is left is, over the N steps and the angle T of the way,
- *     methods that follow their tolerance:       N tolerance, N up to 1000, of which multistep methods lose 3: FOLLOWING
+ *     methods that follow their tolerance:       N tolerance, N up to 1000, of which multistep methods lose 3:
+ *     FOLLOWING
  *     taylor and rk8pd at their least tolerance: a few roundings a step and a radian:      ROUNDING
- *     the closed solution:                       the same                                                            */
+ *     the closed solution:                       the same
+ *      */
 #include "hard.h"
 
 #include <float.h>
@@ -26,7 +30,8 @@ enum { BODIES = 3 };
 
 static const double FOLLOWING = 3000, ROUNDING = 256 * DBL_EPSILON;
 
-/* --- one orbit, by one way ----------------------------------------------------------------------------------------- */
+/* --- one orbit, by one way
+ * ----------------------------------------------------------------------------------------- */
 
 /* What is asked: of the point gamma alone, or all and the clocks. */
 typedef struct question {
@@ -74,7 +79,8 @@ static double larger(double a, double b)
     return !(b <= a) ? b : a;
 }
 
-/* Largest relative error of omega, n and gamma, and of all that was asked; M and the clocks have powers q^(1 + 1/(2k)). */
+/* Largest relative error of omega, n and gamma, and of all that was asked; M and the clocks have powers q^(1 +
+ * 1/(2k)). */
 static double error_of(const question *q, const iso_sample *a, const iso_sample *b)
 {
     double worst = larger(hard_error(a->ball, b->ball), laws_distance(a->point + 3, b->point + 3)), powers = 0;
@@ -105,7 +111,8 @@ static double condition(const question *q, const iso_sample *truth)
     return worst;
 }
 
-/* --- all ways over many orbits -------------------------------------------------------------------------------------- */
+/* --- all ways over many orbits
+ * -------------------------------------------------------------------------------------- */
 
 /* The least tolerance where a method reaches the rounding level, and the bound that goes with it. */
 static hard_road finest(const hard_road *way, double *bound)
@@ -189,9 +196,11 @@ static void close_book(void)
     }
 }
 
-/* --- naive formulations ----------------------------------------------------------------------------------------------- */
+/* --- naive formulations
+ * ----------------------------------------------------------------------------------------------- */
 
-/* (24) as it stands in t, by rk8pd; or the ball, by one step of rk4 of a given length: how far off omega and n are. */
+/* (24) as it stands in t, by rk8pd; or the ball, by one step of rk4 of a given length: how far off omega and n are.
+ * */
 static double naive(const question *q, const iso_system *system, double step)
 {
     const bool none[ISO_CLOCKS] = {false};
@@ -214,7 +223,8 @@ static double naive(const question *q, const iso_system *system, double step)
     return hard_error(y, truth.ball);
 }
 
-/* --- the cases ---------------------------------------------------------------------------------------------------------- */
+/* --- the cases
+ * ---------------------------------------------------------------------------------------------------------- */
 
 static void small(void)
 {

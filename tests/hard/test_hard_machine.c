@@ -1,4 +1,5 @@
-/* The machine under the numbers: threads, and what a host program may have set for itself, its rounding, its subnormal
+/* The machine under the numbers: threads, and what a host program may have set for itself, its rounding, its
+ * subnormal
  * numbers, its traps and its locale. None of it may change a bit of an answer, lib/base/arithmetic_impl.h. */
 #include <fenv.h>
 #include <locale.h>
@@ -14,7 +15,8 @@
 
 #include "machine.h"
 
-/* --- what they are measured by: the answers in a plain program --------------------------------------------------- */
+/* --- what they are measured by: the answers in a plain program ---------------------------------------------------
+ * */
 
 static answer orbit_answer[HARD_WAYS], study_answer[STUDIES];
 
@@ -29,7 +31,8 @@ static void find_answers(void)
     }
 }
 
-/* --- runs and threads -------------------------------------------------------------------------------------------- */
+/* --- runs and threads --------------------------------------------------------------------------------------------
+ * */
 
 typedef struct walk {
     bool backwards;
@@ -93,7 +96,8 @@ static void check_threads(void)
                fabs(sum_of_batch(false) - sum_of_batch(true)), 0);
 }
 
-/* --- what a host program has set ---------------------------------------------------------------------------------- */
+/* --- what a host program has set
+ * ---------------------------------------------------------------------------------- */
 
 typedef struct host {
     const char *name;
@@ -152,7 +156,8 @@ static bool is_to_zero(void)
     return fegetround() == FE_TOWARDZERO;
 }
 
-/* The ball of the orbits stepped by the classical Runge-Kutta method in the host's own arithmetic; one number of it. */
+/* The ball of the orbits stepped by the classical Runge-Kutta method in the host's own arithmetic; one number of
+ * it. */
 static double runge_kutta(void)
 {
     const orbit o = orbit_sample(ctx, &iso_system_ball, -1, orbit_J, 1);
@@ -221,7 +226,8 @@ static void check_subnormal(void)
 }
 #endif
 
-/* --- traps -------------------------------------------------------------------------------------------------------- */
+/* --- traps
+ * -------------------------------------------------------------------------------------------------------- */
 
 enum { TRAPS = FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW };
 
@@ -267,7 +273,8 @@ static void check_traps(void)
     hard_naive("the same studies, had the host's traps stood: how many raise one", raising, 0);
 }
 
-/* --- a comma for a point ------------------------------------------------------------------------------------------ */
+/* --- a comma for a point
+ * ------------------------------------------------------------------------------------------ */
 
 /* A locale made here, since a fresh machine has none with a comma, also for gnuplot; else one that is there. */
 static bool take_comma(void)

@@ -1,4 +1,5 @@
-/* Memory that is not there, in the library: each call of malloc, calloc, realloc and strdup in our code fails in turn,
+/* Memory that is not there, in the library: each call of malloc, calloc, realloc and strdup in our code fails in
+ * turn,
  * then that and all after it. (Calls inside of the C library, SUNDIALS and GSL: cli/hard_faults.sh.) */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
@@ -28,7 +29,8 @@ static iso_params shell, ellipsoid; /* made while there is memory */
     "[0.9, -0.3, -0.225]}\ntime: {end: 10, step: 2.5}\n"
 static const char closed[] = "reduced: {k: -1" REST, chaotic[] = "reduced: {k: 0.5" REST;
 
-/* --- a malloc that fails ----------------------------------------------------------------------------------------- */
+/* --- a malloc that fails -----------------------------------------------------------------------------------------
+ * */
 
 enum { PLACES = 1 << 16 };
 static struct {
@@ -106,7 +108,8 @@ void __wrap_free(void *block)
     __real_free(block);
 }
 
-/* --- what is called: to the end, and all of it freed ---------------------------------------------------------------- */
+/* --- what is called: to the end, and all of it freed
+ * ---------------------------------------------------------------- */
 
 static double digits; /* of the answer, to tell whether it is whole */
 
@@ -228,7 +231,8 @@ static iso_status measure_cost(const hard_road *way)
     return status;
 }
 
-/* --- each call in turn -------------------------------------------------------------------------------------------- */
+/* --- each call in turn
+ * -------------------------------------------------------------------------------------------- */
 
 typedef iso_status call(const hard_road *way);
 

@@ -19,7 +19,8 @@ static bool keeps_spin(const hard_road *way)
 
 static const char *const lost_spin = "does not keep (omega,n) = 0";
 
-/* --- w as small as doubles are --------------------------------------------------------------------------------------- */
+/* --- w as small as doubles are
+ * --------------------------------------------------------------------------------------- */
 
 /* hard_error of numbers whose squares are none. */
 static double error_of_small(const double a[ISO_STATE], const double b[ISO_STATE])
@@ -56,7 +57,8 @@ static void fading(void)
     hard_naive("|w| from the energy", fabs(sqrt(2 * h) / largest(expected.ball) - 1), 1e-3);
 }
 
-/* --- at rest ----------------------------------------------------------------------------------------------------------- */
+/* --- at rest
+ * ----------------------------------------------------------------------------------------------------------- */
 
 /* What is wrong: w is not 0, or n no unit vector, or another one than where the ball stopped. */
 static double unrest(const iso_sample *late, const iso_sample *stopped)
@@ -143,7 +145,8 @@ static void subnormal(void)
     hard_naive("a |w| below the normal doubles is refused", largest(expected.ball) * unit < DBL_MIN, 0);
 }
 
-/* A stiff one stops in place: n moves by k n x W, W = [J w - (Jw,n) n]/c_r the way that is left, but for c_r^-2. No way is
+/* A stiff one stops in place: n moves by k n x W, W = [J w - (Jw,n) n]/c_r the way that is left, but for c_r^-2. No
+ * way is
  * too slow: explicit steps are as short as the motion, and it ends. */
 static void at_once(void)
 {
@@ -168,9 +171,11 @@ static void at_once(void)
     hard_naive("no motion at all", laws_distance(start.y + 3, n), 1e-9);
 }
 
-/* --- with weight ------------------------------------------------------------------------------------------------------- */
+/* --- with weight
+ * ------------------------------------------------------------------------------------------------------- */
 
-/* In a bowl, and hanging on the outside of a sphere: e and n against each other where the potential mgb (e,n)/(1-k) is
+/* In a bowl, and hanging on the outside of a sphere: e and n against each other where the potential mgb (e,n)/(1-k)
+ * is
  * least, (e,n) = -+1; its angle and w are of the size of the tolerance (1e3 of them, for the steps that keep on). */
 static void lowest(const char *name, double k, double mgb)
 {

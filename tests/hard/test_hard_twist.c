@@ -1,4 +1,5 @@
-/* A contact that resists twisting with -c (w,n) n, from the classical ball, c = 0, to the rubber ball, c = infinity; and
+/* A contact that resists twisting with -c (w,n) n, from the classical ball, c = 0, to the rubber ball, c =
+ * infinity; and
  * backwards in time, where it drives the ball. */
 #include "hard_effects.h"
 
@@ -19,7 +20,8 @@ static iso_start spinning(void)
     return start;
 }
 
-/* --- c = 0 and small ------------------------------------------------------------------------------------------------- */
+/* --- c = 0 and small
+ * ------------------------------------------------------------------------------------------------- */
 
 static void integrals(const double y[ISO_STATE], double value[2])
 {
@@ -78,10 +80,13 @@ static void against_quad(const char *name, const char *why, double c, double tim
     }
 }
 
-/* --- c large ---------------------------------------------------------------------------------------------------------- */
+/* --- c large
+ * ---------------------------------------------------------------------------------------------------------- */
 
-/* Implicit methods reach the rubber ball; the distance is about 1/c (theory), and lambda that of (9), but for 1e4 steps'
- * errors: in a fast variable they are of lower order (order reduction), and do not add up. Explicit ones say that they
+/* Implicit methods reach the rubber ball; the distance is about 1/c (theory), and lambda that of (9), but for 1e4
+ * steps'
+ * errors: in a fast variable they are of lower order (order reduction), and do not add up. Explicit ones say that
+ * they
  * would crawl. */
 static void large(const char *name, double c)
 {
@@ -130,7 +135,8 @@ static void falls(void)
     hard_naive("the ball that stands still", rigid, 1e-3);
 }
 
-/* --- backwards -------------------------------------------------------------------------------------------------------- */
+/* --- backwards
+ * -------------------------------------------------------------------------------------------------------- */
 
 /* Spin grows like exp(c g/(1 - D g) |t|), g = (n,J^-1 n) of 1/3 at least: at c = 10, t = -5 by e^17, and more than a
  * million turns lie on the way. */

@@ -1,4 +1,5 @@
-/* Units of mass, length and time from 1e-40 to 1e40: the same numbers, scaled; to the bit, as the units are powers of two. */
+/* Units of mass, length and time from 1e-40 to 1e40: the same numbers, scaled; to the bit, as the units are powers
+ * of two. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -54,7 +54,8 @@ static bool file_contains(const char *path, const char *text)
     return strstr(content, text);
 }
 
-/* --- records ------------------------------------------------------------------------------------------------------ */
+/* --- records
+ * ------------------------------------------------------------------------------------------------------ */
 
 /* A backend's record: n and gamma on curves, `turn` radians between rows. */
 static iso_record *make_path(size_t rows, double turn)
@@ -104,7 +105,8 @@ static iso_status draw_simple(const char *path, const char *title)
     return draw(path, title, make_path(100, 0.1), make_differences(100, 0.1, 1e-13));
 }
 
-/* --- tests -------------------------------------------------------------------------------------------------------- */
+/* --- tests
+ * -------------------------------------------------------------------------------------------------------- */
 
 static void test_formats(void)
 {

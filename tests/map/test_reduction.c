@@ -209,7 +209,8 @@ static void second_form(const laws_case *c, laws_worst *worst)
     laws_note(worst, fabs(H / iso_ball_energy(p, c->y) - 1), laws_conditioning(p), p, "");
 }
 
-/* T = h also next to the coordinate planes, where A(lam) or A(mu) -> 0 and the rates with it: n_axis = 1e-1 ... 1e-13,
+/* T = h also next to the coordinate planes, where A(lam) or A(mu) -> 0 and the rates with it: n_axis = 1e-1 ...
+ * 1e-13,
  * three moments well apart. Rates taken from b2 alone would lose 1e-16/n_axis of their size at the outer planes. */
 static void near_planes(void)
 {

@@ -1,4 +1,5 @@
-/* What methods need of a model (lib/method/serves.c): a formula of every effect, room, a system; else they refuse it. */
+/* What methods need of a model (lib/method/serves.c): a formula of every effect, room, a system; else they refuse
+ * it. */
 #include <string.h>
 
 #include "numbers.h"
@@ -6,7 +7,8 @@
 
 static iso_context *ctx;
 
-/* An effect whose equations are no formula: a method that calls the right-hand side can simulate it; one that needs slopes
+/* An effect whose equations are no formula: a method that calls the right-hand side can simulate it; one that needs
+ * slopes
  * or series cannot. */
 static const iso_effect no_formula = {.name = "drag"};
 

@@ -66,7 +66,8 @@ static void mean_errors(const bundle *b, const iso_method *m, double steps, doub
 }
 
 /* The slope over the last octave of steps whose errors stand clear of rounding. Before it the error falls faster than
- * any power; order 10 shows no other part of its fall in doubles, and only the least it must be can be asked of it. */
+ * any power; order 10 shows no other part of its fall in doubles, and only the least it must be can be asked of it.
+ * */
 static void check_order(const bundle *b, const iso_method *m)
 {
     enum { OCTAVE = 2, POINTS = 14 }; /* half octaves */
@@ -106,7 +107,8 @@ static int steps_of_long_runs(void)
     return tests_length(100000, 1000000);
 }
 
-/* Energy along a million steps (a short test: 1e5): bounded, its trend not to be told from its scatter; constraints by construction. */
+/* Energy along a million steps (a short test: 1e5): bounded, its trend not to be told from its scatter; constraints
+ * by construction. */
 static void check_energy(const char *name, double k, double step, double bound)
 {
     const orbit o = sample(k, 3);

@@ -93,7 +93,8 @@ static double difference(const iso_sample *a, const iso_sample *b)
     return worst;
 }
 
-/* The two start from roundings apart. Long bodies and steep powers of q amplify these, and so does resistance backwards
+/* The two start from roundings apart. Long bodies and steep powers of q amplify these, and so does resistance
+ * backwards
  * in time: as much as it does omega. */
 static double allowed(const iso_params *p, const iso_start *start, const iso_sample *sample)
 {

@@ -1,4 +1,5 @@
-/* The closed solution as a backend: every picture and clock against the orbits by steps, events, units, order, errors. */
+/* The closed solution as a backend: every picture and clock against the orbits by steps, events, units, order,
+ * errors. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -61,7 +62,8 @@ static bool same(const iso_sample *a, const iso_sample *b)
     return true;
 }
 
-/* --- orbits that have one ---------------------------------------------------------------------------------------- */
+/* --- orbits that have one ----------------------------------------------------------------------------------------
+ * */
 
 enum { SEPARATED = 8, PROBLEMS = SEPARATED + 3 };
 static const double shapes[SEPARATED / 2][3] = {{1.4, 2.1, 3.0}, {3, 1.4, 2.1}, {0.5, 1, 0.7}, {1, 1.02, 1.1}};
@@ -95,7 +97,8 @@ static problem make_problem(int i, iso_random *random)
     return o;
 }
 
-/* --- against the orbits by steps --------------------------------------------------------------------------------- */
+/* --- against the orbits by steps ---------------------------------------------------------------------------------
+ * */
 
 enum { TIMES = 6 };
 static const double times[TIMES] = {0.3, 4, 20, -0.7, -9, 60};
@@ -163,7 +166,8 @@ static void check_shows(const problem *o)
     iso_orbit_free(all);
 }
 
-/* --- near and far, in any order ---------------------------------------------------------------------------------- */
+/* --- near and far, in any order ----------------------------------------------------------------------------------
+ * */
 
 /* The integrals far away are those of the start. */
 static void check_far(const problem *o, laws_worst *worst)
@@ -234,7 +238,8 @@ static void check_backwards(const problem *o, laws_worst *worst)
     iso_orbit_free(orbit);
 }
 
-/* --- events ------------------------------------------------------------------------------------------------------ */
+/* --- events ------------------------------------------------------------------------------------------------------
+ * */
 
 /* The same zeros of n3 as along the orbit by steps, one after the other. */
 static void check_events(const problem *o, int side, laws_worst *worst)
@@ -280,7 +285,8 @@ static void check_far_events(const problem *o)
     iso_orbit_free(orbit);
 }
 
-/* --- units ------------------------------------------------------------------------------------------------------- */
+/* --- units -------------------------------------------------------------------------------------------------------
+ * */
 
 /* The same ball in other units of inertia (c) and of time (1/d): tau ~ J^(1 - 1/(2k)), s ~ J^(-2 + 1/(2k)),
  * M ~ J^(2 - 1/(2k)). */
@@ -308,7 +314,8 @@ static void check_units(double c, double d, laws_worst *worst)
     }
 }
 
-/* --- errors ------------------------------------------------------------------------------------------------------ */
+/* --- errors ------------------------------------------------------------------------------------------------------
+ * */
 
 /* Refused, about that, with these words. */
 static void refused(const iso_params *p, const iso_start *start, const iso_orbit_options *o, const char *about,

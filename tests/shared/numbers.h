@@ -1,6 +1,7 @@
 /* numbers.h - the numbers of effects and the columns of samples, by name.
  *
- *     GRAVITY_MGB(&effects) = 0.7;      copy(up, GRAVITY_UP(&effects), 3);      centre = sample_of(&sample, "centre");
+ *     GRAVITY_MGB(&effects) = 0.7;      copy(up, GRAVITY_UP(&effects), 3);      centre = sample_of(&sample,
+ *                                       "centre");
  *
  * Initializers have them in the order of the rows: .number[ISO_GRAVITY] = {mgb, up 1 to 3}.
  */

@@ -20,7 +20,8 @@ static bool goes_on(void *data)
     return --*left >= 0;
 }
 
-/* It asks before each line that it looks for, and before each that it refines, and once it is told no asks no more. */
+/* It asks before each line that it looks for, and before each that it refines, and once it is told no asks no more.
+ * */
 static void check_stop(const double x[], size_t count, double step)
 {
     iso_line found[ISO_MAX_LINES];

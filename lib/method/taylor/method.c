@@ -2,7 +2,7 @@
  *
  * Each step expands the solution about its left end to a high order by the recurrences of model/series, and
  * goes as far as the last terms allow: few long steps, about as many as half turns of the ball. A free point is
- * expanded in the form that needs fewest products (section 5b of the theory): in s for k = -1, where it is
+ * expanded in the form that needs fewest products (lib/doc/theory.md, section 6): in s for k = -1, where it is
  * polynomial, in the ball's own time for other k, where the powers of q cancel. Other clocks are integrals of a power
  * of q over the step. What stands between the steps is the series itself. Constraints, energy and, for k = 1 and -1,
  * the second integral are restored from defects computed exactly, so that their rounding has no bias.

@@ -5,7 +5,8 @@
  * ball. There are two uses:
  *
  *     series      `expand` computes the coefficients of a solution, order by order
- *     Jacobians   slopes.c sets coefficients 1 of the states to a direction; coefficients 1 of the right-hand side are
+ *     Jacobians   slopes.c sets coefficients 1 of the states to a direction; coefficients 1 of the right-hand side
+ *                 are
  *                 then the Jacobian times this direction
  */
 #include "model/series/evaluate_impl.h"
