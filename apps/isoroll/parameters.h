@@ -15,7 +15,7 @@ typedef struct file_options {
 
 #define FILE_OPTIONS_UNSET                                                                                           \
     {                                                                                                                \
-        .file = "-", .k = NAN, .J = {NAN, NAN, NAN}, .eps = NAN, .h = NAN,                                             \
+        .file = "-", .k = NAN, .J = {NAN, NAN, NAN}, .eps = NAN, .h = NAN,                                           \
         .row_tolerance = ISO_ROW_TOLERANCE                                                                           \
     }
 
