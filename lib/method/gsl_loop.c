@@ -203,8 +203,7 @@ void iso_gsl_start(iso_gsl *g, const double y[], double first_step)
 }
 
 /* Methods that solve linear systems take memory in some of their steps, and give it back. So it is enough to check
- * once
- * in each call of the library. A check in each step took 3.4 % of the instructions of msbdf. */
+ * once in each call of the library. A check in each step took 3.4 % of the instructions of msbdf. */
 static iso_status check_room(iso_integrator *it, const iso_gsl *g)
 {
     if (!g->implicit || !it->called) return ISO_OK;

@@ -1,8 +1,8 @@
 /* effect.h - the table of effects: what can act on the ball beyond (9), or be computed beside its motion.
  *
  * A row holds everything that the library knows of an effect. Nothing else names it. To add an effect, write one
- * file,
- * effect_<name>.c, and one line in effect_list.h. What a row leaves out the effect does not have; code that needs it
+ * file, effect_<name>.c, and one line in effect_list.h. What a row leaves out the effect does not have; code that
+ * needs it
  * refuses the effect by name. The defaults are safe: an effect that does not say so keeps no energy, no
  * integral and no isomorphism.
  *
@@ -112,8 +112,7 @@ typedef struct iso_effect {
     /* Why a scene leaves one of its columns empty; NULL, or answering NULL: it does not. */
     const char *(*empty)(const iso_params *p, const iso_effects *effects, const char *column);
     /* Its columns, one after the other, in own units; and back: the states from the columns. An effect with states
-     * and
-     * columns must have both. */
+     * and columns must have both. */
     void (*show)(const iso_problem *f, const double y[], double columns[]);
     void (*recall)(const iso_problem *f, const double columns[], double y[]);
 

@@ -91,8 +91,7 @@ typedef struct iso_scene {
 
 /* Puts "name:line:column: " before the context's message where the failure is about a key that the scene was read
  * with, or one that follows from it (k from `surface`); what is then a mistake in the file is ISO_BAD_INPUT, no
- * longer
- * ISO_BAD_ARGUMENT. Gives the status. */
+ * longer ISO_BAD_ARGUMENT. Gives the status. */
 ISO_API iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
 
 /* The value of this key no longer comes from the file: iso_scene_blame puts no place before failures about it. */
@@ -116,8 +115,7 @@ ISO_API double iso_scene_time(const iso_scene *scene, size_t row);
 ISO_API int iso_scene_columns(const iso_scene *scene, int columns[]);
 
 /* Every column a trajectory can have, in file order: the clocks, the states of the ball and of the point, then
- * those of
- * the effects, in the order of the registry (iso_effect_column_name):
+ * those of the effects, in the order of the registry (iso_effect_column_name):
  *     t tau s   omega1..3 n1..3   M1..3 gamma1..3
  *     e1..3                        gravity: vertical, in body axes
  *     q0..3                        attitude: quaternion from body to space axes

@@ -2,8 +2,7 @@
  *
  * A problem of a point fixes the ball's J up to a scale s (analogue.h). The angular velocity goes as
  * s^((1/k - 4)/2). With D = m B^2 in the middle of its range, s is 2 D/(J1 + J2 - J3). So there is one D for which
- * the
- * angular velocity is 1. Mass and radius are round numbers with a product m B^2 near this D.
+ * the angular velocity is 1. Mass and radius are round numbers with a product m B^2 near this D.
  */
 #include <math.h>
 #include <stdio.h>

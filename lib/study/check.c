@@ -261,8 +261,7 @@ static void check_effects(checker *c, const iso_sample *flow, size_t row)
 }
 
 /* Whether the record has what an effect that acts on nothing begins with: the numbers that turn with the ball, and
- * on a
- * plane the displacement, without which the height is not known. */
+ * on a plane the displacement, without which the height is not known. */
 static bool has_beginning(const checker *c, iso_effect_id id)
 {
     const int displacement = column_of(id, NULL);

@@ -125,8 +125,7 @@ static void check_angles(void)
 }
 
 /* From an umbilic of J = (1, 2, 3): always on the separatrix, away from a rotation about axis 2 and back to it.
- * There is
- * no linear growth of errors to compare by: the stepped orbit itself loses the separatrix. */
+ * There is no linear growth of errors to compare by: the stepped orbit itself loses the separatrix. */
 static void check_homoclinic(void)
 {
     static const double J[3] = {1, 2, 3}, times[] = {0, 0.3, -2, 5, -9, 14};

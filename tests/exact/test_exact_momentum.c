@@ -70,8 +70,7 @@ static void check_sharp_plane(iso_random *random)
 }
 
 /* H is that of the start, as gamma is rounded here and there: q has 2 units in the last place, q^(-1/k) has 1/|k|
- * times
- * as many. M along the axis of two equal moments is a constant to the bit. */
+ * times as many. M along the axis of two equal moments is a constant to the bit. */
 static void note_energy(const orbit *o, bool plane, iso_random *random, laws_worst *worst)
 {
     const iso_problem *f = &o->model.problem;

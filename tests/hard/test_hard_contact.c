@@ -37,8 +37,7 @@ static double loss(const hard_road *way, const iso_params *p, const iso_start *s
 
 /* In the plane of e and n, w = w3: with k = 2, J3 = 1, D = 1/2, mgb = -3/2 and (e,n) = -1, w3^2 = 9 + d at the lowest
  * place: w3^2 = 6 + d - 3 (e,n), and the pressure is 3 + d/2 - 3 (e,n). At the top it touches 0 for d = 0, and
- * passes it
- * for d < 0 at (e,n) = 1 + d/6. The angle between e and n turns at (k-1) w3. */
+ * passes it for d < 0 at (e,n) = 1 + d/6. The angle between e and n turns at (k-1) w3. */
 typedef struct loop {
     iso_params p;
     iso_start start;
@@ -73,8 +72,7 @@ static loop loop_with(double d)
 }
 
 /* By d as small as the energy is known: 100 errors of steps; 1e-12 for taylor. Whether contact is lost is exact;
- * the time
- * of a loss is off by the error of the pressure over its slope there, 3 w sin(angle) = about 3 sqrt(-d). */
+ * the time of a loss is off by the error of the pressure over its slope there, 3 w sin(angle) = about 3 sqrt(-d). */
 static void grazing(void)
 {
     double missed = 0;

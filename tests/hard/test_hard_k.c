@@ -1,11 +1,9 @@
 /* Geometry numbers: |k| down to 1e-6, where q^(1/k) spans up to 1e6 decades; up to 1e6, where the normal turns |k|
- * times
- * as fast as the ball; next to 1/2, 1 and -1, where formulas change.
+ * times as fast as the ball; next to 1/2, 1 and -1, where formulas change.
  *
  * References are runs of taylor_quad by the other backend, which is another formulation, or closed forms. Errors are
  * measured in units of the orbit's condition C, by which errors of the start are magnified on the way, and of what
- * the
- * quantity adds to it; what is left is, over the N steps and the angle T of the way,
+ * the quantity adds to it; what is left is, over the N steps and the angle T of the way,
  *     methods that follow their tolerance:       N tolerance, N up to 1000, of which multistep methods lose 3:
  *     FOLLOWING
  *     taylor and rk8pd at their least tolerance: a few roundings a step and a radian:      ROUNDING

@@ -1,6 +1,6 @@
 /* The machine under the numbers: threads, and what a host program may have set for itself, its rounding, its
- * subnormal
- * numbers, its traps and its locale. None of it may change a bit of an answer, lib/base/arithmetic_impl.h. */
+ * subnormal numbers, its traps and its locale. None of it may change a bit of an answer, lib/base/arithmetic_impl.h.
+ * */
 #include <fenv.h>
 #include <locale.h>
 #include <pthread.h>

@@ -1,6 +1,5 @@
 /* Memory that is not there, in the library: each call of malloc, calloc, realloc and strdup in our code fails in
- * turn,
- * then that and all after it. (Calls inside of the C library, SUNDIALS and GSL: cli/hard_faults.sh.) */
+ * turn, then that and all after it. (Calls inside of the C library, SUNDIALS and GSL: cli/hard_faults.sh.) */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <pthread.h>

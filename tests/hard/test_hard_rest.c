@@ -146,8 +146,7 @@ static void subnormal(void)
 }
 
 /* A stiff one stops in place: n moves by k n x W, W = [J w - (Jw,n) n]/c_r the way that is left, but for c_r^-2. No
- * way is
- * too slow: explicit steps are as short as the motion, and it ends. */
+ * way is too slow: explicit steps are as short as the motion, and it ends. */
 static void at_once(void)
 {
     const iso_params ball = he_ball(ctx, -1);
@@ -175,8 +174,8 @@ static void at_once(void)
  * ------------------------------------------------------------------------------------------------------- */
 
 /* In a bowl, and hanging on the outside of a sphere: e and n against each other where the potential mgb (e,n)/(1-k)
- * is
- * least, (e,n) = -+1; its angle and w are of the size of the tolerance (1e3 of them, for the steps that keep on). */
+ * is least, (e,n) = -+1; its angle and w are of the size of the tolerance (1e3 of them, for the steps that keep on).
+ * */
 static void lowest(const char *name, double k, double mgb)
 {
     const iso_params ball = he_ball(ctx, k);

@@ -210,8 +210,8 @@ static void second_form(const laws_case *c, laws_worst *worst)
 }
 
 /* T = h also next to the coordinate planes, where A(lam) or A(mu) -> 0 and the rates with it: n_axis = 1e-1 ...
- * 1e-13,
- * three moments well apart. Rates taken from b2 alone would lose 1e-16/n_axis of their size at the outer planes. */
+ * 1e-13, three moments well apart. Rates taken from b2 alone would lose 1e-16/n_axis of their size at the outer
+ * planes. */
 static void near_planes(void)
 {
     const double J[3] = {3, 1.4, 2.1};

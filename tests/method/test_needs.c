@@ -8,8 +8,7 @@
 static iso_context *ctx;
 
 /* An effect whose equations are no formula: a method that calls the right-hand side can simulate it; one that needs
- * slopes
- * or series cannot. */
+ * slopes or series cannot. */
 static const iso_effect no_formula = {.name = "drag"};
 
 static void check_formulas(double twist)

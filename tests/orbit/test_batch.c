@@ -94,8 +94,7 @@ static double difference(const iso_sample *a, const iso_sample *b)
 }
 
 /* The two start from roundings apart. Long bodies and steep powers of q amplify these, and so does resistance
- * backwards
- * in time: as much as it does omega. */
+ * backwards in time: as much as it does omega. */
 static double allowed(const iso_params *p, const iso_start *start, const iso_sample *sample)
 {
     const double before = laws_norm(start->y), now = laws_norm(sample->ball), driven = before > 0 ? now / before : 1;
