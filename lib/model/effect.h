@@ -2,8 +2,7 @@
  *
  * A row holds everything that the library knows of an effect. Nothing else names it. To add an effect, write one
  * file, effect_<name>.c, and one line in effect_list.h. What a row leaves out the effect does not have; code that
- * needs it
- * refuses the effect by name. The defaults are safe: an effect that does not say so keeps no energy, no
+ * needs it refuses the effect by name. The defaults are safe: an effect that does not say so keeps no energy, no
  * integral and no isomorphism.
  *
  *     effect              torque MQ on the ball                 states          isomorphism
