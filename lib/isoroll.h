@@ -19,8 +19,8 @@
  * NULL is allowed only where a header says so, and for option structs, where it means the defaults.
  *
  * Option structs come from their *_defaults function; then members are set. Its member `size` is the size of the
- *   struct in the headers that the program was compiled with, so the struct can grow. 0 means: as in these headers.
- *   The library refuses a size that it does not know.
+ *   struct in the headers that the program was compiled with, so the struct can grow. 0 means: as in
+ *   version 0.1. The library refuses a size that is larger than its own.
  *
  * Units are the caller's own, any that fit together (SI, for example). Angles are in radians. Axes are those of the
  *   body. Vectors have three numbers, states six: omega, n of the ball; M, gamma of the point.

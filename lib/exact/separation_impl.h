@@ -40,7 +40,7 @@ typedef struct separation {
     double norm[3], gap, sign[3];      /* sqrt(product of |b_i - b_j|); of the roots between u and v; of gamma */
 } separation;
 
-/* From (M, gamma); released whatever comes of it. False: too many terms would be needed. */
+/* From (M, gamma). The caller always releases it. False: too many terms would be needed. */
 bool iso_separation_make(separation *s, const iso_problem *problem, const double point[ISO_STATE]);
 void iso_separation_release(separation *s);
 

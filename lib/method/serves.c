@@ -20,13 +20,13 @@ static bool has_formulas(const iso_method *method, const iso_model *model, char 
     const char *needs = method->implicit ? "solves with slopes" : "expands the equations in series";
     if (!method->implicit && !method->own_equations) return true;
     const iso_effect *lacking = iso_model_without_formula(model);
-    if (!model->system->has_recurrences)
+    if (!iso_system_has_recurrences(model->system))
         snprintf(why, ISO_WHY_SIZE, "%s, and there are no recurrences of the %s to make them from", needs,
                  model->system->name);
     else if (lacking)
         snprintf(why, ISO_WHY_SIZE, "%s, and the equations of '%s' are no formula to make them from", needs,
                  lacking->name);
-    return model->system->has_recurrences && !lacking;
+    return iso_system_has_recurrences(model->system) && !lacking;
 }
 
 static bool has_room(const iso_model *model, char why[ISO_WHY_SIZE])

@@ -244,7 +244,6 @@ const iso_system iso_system_ball = {
     .doc = "rubber Chaplygin ball on a sphere or plane, no slip, no twist (9)",
     .clock = ISO_CLOCK_T,
     .state = state_names,
-    .has_recurrences = true,
     .fast_dimension = {0, 0, 1},
     .integrals = integrals,
     .rhs = rhs,

@@ -77,16 +77,17 @@ static iso_effect_id level_id(void)
 
 bool iso_effects_have_level(const iso_effects *effects)
 {
-    return effects->on[level_id()];
+    return level_id() < ISO_EFFECTS && effects->on[level_id()];
 }
 
 double iso_effects_level(const iso_effects *effects)
 {
-    return effects->number[level_id()][0];
+    return level_id() < ISO_EFFECTS ? effects->number[level_id()][0] : NAN;
 }
 
 void iso_effects_set_level(iso_effects *effects, bool there, double c)
 {
+    if (level_id() == ISO_EFFECTS) return;
     effects->on[level_id()] = there;
     effects->number[level_id()][0] = c;
 }
@@ -188,6 +189,8 @@ static const char *what_is_wrong(const iso_effect *effect)
     for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
         if (!has_room(n)) return "it has more numbers than there is room for (ISO_EFFECT_NUMBERS)";
     if (effect->is_level && effect != iso_effect_list[level_id()]) return "there is another level";
+    if (effect->is_level && (!effect->numbers || effect->numbers->at != 0))
+        return "a level has c as its first number";
     return NULL;
 }
 
@@ -217,6 +220,7 @@ static iso_status check_equations(iso_context *ctx, const iso_params *p, const i
     if (at > ISO_MAX_STATE) return ISO_OK; /* the model is refused */
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++) f.effects.on[i] = i == e;
     iso_effects_record_motion(&f, false, &F);
+    if (!F.wrong) iso_effects_record_motion(&f, true, &F);
     if (!F.wrong) iso_effects_record_energy(&f, &F);
     if (!F.wrong) iso_effects_record_image(&f, &F);
     if (!F.wrong) return ISO_OK;

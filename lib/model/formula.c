@@ -96,6 +96,19 @@ static sets not_given(iso_formula_kind kind)
     }
 }
 
+/* How many constants the line reads from its first on: a vector has three, a matrix nine. */
+static int constants_read(iso_operation operation)
+{
+    switch (operation) {
+    case ISO_S_DOT_C:
+    case ISO_V_SCALE_C:
+    case ISO_V_BY:
+    case ISO_V_PLUS: return 3;
+    case ISO_V_MATRIX: return 9;
+    default: return 0;
+    }
+}
+
 /* Writes the line; tells whether it is late. */
 static bool write_line(iso_formula *F, iso_operation operation, int to, int a, int b)
 {
@@ -104,6 +117,8 @@ static bool write_line(iso_formula *F, iso_operation operation, int to, int a, i
     F->line[at] = line_of(operation, to, a, b);
     if (late) F->late_line |= (uint64_t)1 << at;
     F->late = F->late || late;
+    if (constants_read(operation) > 0 && a + constants_read(operation) > F->constants)
+        F->wrong = "a constant is used as a vector or a matrix, and is none";
     if (takes(not_given(F->kind), operation, a, b))
         F->wrong = "an energy depends on what moves, or an image on more than gamma";
     return late;
@@ -128,6 +143,10 @@ void iso_formula_result(iso_formula *F, iso_operation operation, int to, int a, 
     const bool late = write_line(F, operation, to, a, b);
     F->torques = F->torques || operation == ISO_R_TORQUE;
     const bool rate = operation == ISO_R_VECTOR_RATE || operation == ISO_R_SCALAR_RATE;
+    bool is_state = false;
+    for (int i = 0; i < F->states; i++)
+        is_state = is_state || (F->state[i].node == to && F->state[i].is_vector == (operation == ISO_R_VECTOR_RATE));
+    if (rate && !is_state) F->wrong = "a rate is given to what is no state";
     if (late && !rate) F->wrong = "a torque depends on omega', which follows from the torque";
 }
 

@@ -123,7 +123,7 @@ static bool series_overrun(const iso_model *m)
             iso_effects_record_motion(&m->problem, true, &series);
             break;
         }
-    return series.overrun;
+    return series.overrun || series.wrong;
 }
 
 /* Writes down the equations of the effects that act, or have states. */

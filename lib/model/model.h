@@ -64,6 +64,9 @@ double iso_model_project(const iso_model *m, double y[]);
  * progress in one unit of the independent variable. Errors of a step are measured in units of tolerance * size. */
 void iso_model_size(const iso_model *m, const double y[], double size[]);
 
+/* Whether its equations stand in series/recurrences_impl.h, of which slopes and series are made. */
+bool iso_system_has_recurrences(const iso_system *system);
+
 /* The Jacobian in the system's own clock, moving x moving, row-major: that of the formulas,
  * iso_model_without_formula() must be NULL. */
 void iso_model_slopes(const iso_model *m, const double y[], double jac[]);

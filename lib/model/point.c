@@ -192,7 +192,6 @@ const iso_system iso_system_point = {
     .doc = "point on a sphere in the potential -eps (gamma,J gamma)^(-1/k) (24)",
     .clock = ISO_CLOCK_S,
     .state = state_names,
-    .has_recurrences = true,
     .fast_dimension = {2, -1, 1},
     .integrals = integrals,
     .rhs = rhs,

@@ -111,7 +111,6 @@ const iso_system iso_system_point_t = {
     .doc = "point on a sphere on the level H = 0, in the ball's time",
     .clock = ISO_CLOCK_T,
     .state = state_names,
-    .has_recurrences = true,
     .integrals = integrals,
     .rhs = rhs,
     .q = point_q,

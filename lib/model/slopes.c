@@ -17,6 +17,11 @@ enum { MOST = 1 };
 #include "model/model.h"
 #include "model/series/recurrences_impl.h"
 
+bool iso_system_has_recurrences(const iso_system *s)
+{
+    return s == &iso_system_ball || s == &iso_system_point || s == &iso_system_point_t;
+}
+
 /* The terms of the system and its effects. */
 static void call_system(series *S, const iso_model *m)
 {

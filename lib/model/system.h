@@ -48,7 +48,6 @@ typedef struct iso_system {
     iso_clock clock;               /* the clock its equations are written in                               */
     const char *const *state;      /* the six names, as in trajectory files                                */
     iso_dimension fast_dimension;  /* of the first vector, omega or M; the second is a unit vector         */
-    bool has_recurrences;          /* its equations stand in series/recurrences_impl.h, for slopes and series */
     const iso_integral *integrals; /* ended by a row without a name                                        */
 
     void (*rhs)(const iso_problem *f, const double y[ISO_STATE], double dy[ISO_STATE]);

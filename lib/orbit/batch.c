@@ -119,7 +119,7 @@ static iso_status solve_alone(worker *w, size_t i)
     return status;
 }
 
-/* Lanes hold Taylor series: of what moves, is not stiff, and has equations that series can be made of. */
+/* Lanes hold Taylor series. So the ball must move, must not be stiff, and must have equations for series. */
 static bool is_for_lanes(const member *m)
 {
     const iso_model *model = &m->orbit.model;

@@ -96,7 +96,7 @@ iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record *
 
 /* --- convert_clock.c: rows one after the other; calls convert_row.c and convert_write.c --- */
 
-/* Puts a row behind the last one: accepts it, with the clock's way and the defect, or holds it. */
+/* Adds a row: accepts it, with its clock and its defect, or holds it. */
 iso_status iso_conversion_follow(iso_conversion *c, const conversion_row *row);
 
 /* No row comes behind the held one. */

@@ -45,8 +45,8 @@ static double off_level(const iso_conversion *c, const double own[ISO_STATE], do
     return H == level ? 0 : (H - level) / fmax(size, fabs(level));
 }
 
-/* The H of a point must be that of its level, but for the digits that eps is written with. Else the row does not
- * belong to this trajectory. A ball's energy is only noted. */
+/* A point's H must equal its level, up to the digits with which eps is written. Otherwise the row belongs to another
+ * trajectory. A ball's energy is only noted. */
 static iso_status check_energy(iso_conversion *c, conversion_row *r)
 {
     double size;

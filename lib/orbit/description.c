@@ -172,7 +172,8 @@ static const iso_effect_column *find_group(const iso_effect *effect, const char 
     return group;
 }
 
-/* What turns with the ball: vertical and quaternion of a row are those of an orbit that starts there. */
+/* Numbers that turn with the ball: an orbit that starts at this row starts with the vertical, or quaternion, of the
+ * row. */
 static iso_status turn_number(iso_context *ctx, const double row[], const iso_record *r, const iso_effect *effect,
                               const iso_effect_number *n, double x[])
 {

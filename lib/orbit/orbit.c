@@ -100,8 +100,8 @@ void iso_orbit_free(iso_orbit *o)
 
 /* --- samples ---------------------------------------------------------------------------------------------------- */
 
-/* `count` numbers in the caller's units. What does not fit a double there, or loses its digits, must not be shown;
- * but what dies away may vanish. */
+/* Converts `count` numbers to the caller's units. Fails if one overflows or loses digits. Numbers of a motion that
+ * dies away (`vanishes`) may become 0. */
 static iso_status to_users_units(const iso_orbit *o, const char *name, double unit, bool vanishes, double x[],
                                  int count)
 {
@@ -136,8 +136,8 @@ static void as_point(const iso_orbit *o, const double y[], double point[ISO_STAT
     if (o->system == &iso_system_point_t) iso_point_t_to_point(own, y, point);
 }
 
-/* Powers q^(1/(2k)) may leave the range of doubles even in own units, where they are steep; where they are not, a
- * clock is as small as the time. */
+/* Where powers q^(1/(2k)) are steep, they may leave the range of doubles even in own units. Elsewhere a clock is
+ * about as small as the time. */
 static iso_status sample_clock(const iso_orbit *o, double time, iso_clock c, double own, iso_sample *s)
 {
     const bool vanishes = fabs(time) < DBL_MIN; /* such a time has no digits itself */

@@ -96,9 +96,9 @@ ISO_API iso_status iso_orbit_event(iso_orbit *orbit, double (*g)(const iso_sampl
                                    const void *data, int direction, double from, double to, bool *found,
                                    iso_sample *sample);
 
-/* The first time after `from`, not after `to`, at which the support would have to pull the ball (`pressure` passes 0
- * downwards along the way; to touch it is no loss, and on a plane it does not change); needs the effect `reactions`.
- * Errors: as iso_orbit_event. */
+/* The first time after `from`, not after `to`, at which the support would have to pull the ball: `pressure` falls
+ * through 0. A touch is no loss. On a plane the pressure does not change. Needs the effect `reactions`. Errors: as
+ * iso_orbit_event. */
 ISO_API iso_status iso_orbit_lost_contact(iso_orbit *orbit, double from, double to, bool *lost, iso_sample *sample);
 
 /* How far the integration has come, in the options' clock: for progress. */

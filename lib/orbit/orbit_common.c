@@ -60,7 +60,7 @@ bool iso_orbit_has_twin(const iso_orbit *o)
     return !iso_effects_breaking(&o->effects) && (o->h > 0 || iso_effects_pull(&o->effects));
 }
 
-/* Back from own units as they were brought there; up and quaternion have none. */
+/* Converts the effects back to the caller's units. */
 iso_effects iso_orbit_effects(const iso_orbit *o)
 {
     return iso_effects_scaled(&o->effects, &o->units, 1);

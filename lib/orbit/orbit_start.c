@@ -58,8 +58,8 @@ static double falling_speed(const iso_orbit *o, const iso_params *p, const doubl
     return isfinite(speed) ? speed : 0;
 }
 
-/* Potentials that break the isomorphism are no part of the h of a twin, and may need states that are not there
- * yet. */
+/* A potential that breaks the isomorphism is not part of the h that a twin has. It may also need states that do not
+ * exist yet. */
 static void leave_out_broken(iso_effects *effects)
 {
     for (int e = 0; e < ISO_EFFECTS; e++) {
@@ -100,8 +100,8 @@ static double point_speed(const iso_params *p, const iso_start *start)
     return exp2(fmin(fmax(moving, falling) + log2(fabs(p->k)) - 2 * log_J, 1000));
 }
 
-/* The point's coupling, stated or such that H is the level stated (or 0); and its level H, which is the one stated if
- * it is that to 1e-9 of its terms. False: it is not. */
+/* Finds the point's coupling and its level H. A coupling that is not stated is the one for which H is the stated
+ * level (or 0). A stated level is kept if H agrees with it to 1e-9 of its terms. False: it does not agree. */
 static bool find_level(iso_orbit *o, const iso_start *start, iso_problem *problem, double y[ISO_STATE])
 {
     const bool stated = iso_effects_have_level(&o->effects);

@@ -1,5 +1,5 @@
-/* The trajectory of a scene, see run.h: the orbit behind the columns, the header, the order of the times, the moment
- * at which contact is lost, and the rows. */
+/* run.c - the trajectory of a scene, see run.h: the orbit behind the columns, the header, the order of the times, the
+ * moment at which contact is lost, and the rows. */
 #include "study/run.h"
 
 #include <math.h>
@@ -15,7 +15,7 @@
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
-/* What acts on nothing has its states for its columns: without one of them it need not be followed. */
+/* An observer whose states are only columns is left out if no column shows them. */
 static void leave_out_unseen(iso_effects *effects, const int columns[], int count)
 {
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
