@@ -358,7 +358,7 @@ static void refusals(void)
         const iso_status status = iso_analogue_find(ctx, &r->problem, 1, 1, &a);
         gsl_test(status != r->status || strcmp(iso_context_about(ctx), r->field) != 0 ||
                      !strstr(iso_context_message(ctx), r->words),
-                 "refused (%s: %s): %s", r->problem, r->words, iso_context_message(ctx));
+                 "refused (%s: %s): %s", r->field, r->words, iso_context_message(ctx));
     }
 }
 
