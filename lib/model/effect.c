@@ -1,5 +1,9 @@
 /* effect.c - the effects of one orbit together: sums and questions, each a loop over the rows of the effects that are
- * on. */
+ * on.
+ *
+ * The table here lists the rows, and some rows ask the functions here about the other effects: gravity asks whether
+ * attitude is on, the twisting contact whether another torque acts. This circle of calls is meant. It stays within
+ * the files of the effects, the contact and the two systems: effects have a part in their integrals and energies. */
 #include "model/effect.h"
 
 #include <string.h>
