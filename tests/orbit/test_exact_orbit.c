@@ -11,14 +11,9 @@
 #include "numbers.h"
 #include "orbit/batch.h"
 #include "orbit/orbit.h"
+#include "scenes.h"
 
 static iso_context *ctx;
-
-static void give_up(const char *what)
-{
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
 
 /* Everything shown and carried. */
 static iso_orbit_options all_of(const iso_start *start, iso_backend backend, iso_clock clock)
@@ -35,7 +30,7 @@ static iso_orbit_options all_of(const iso_start *start, iso_backend backend, iso
 static iso_orbit *create_with(const iso_params *p, const iso_start *start, const iso_orbit_options *o)
 {
     iso_orbit *orbit;
-    if (iso_orbit_create(ctx, p, start, o, &orbit) != ISO_OK) give_up("an orbit is refused");
+    if (iso_orbit_create(ctx, p, start, o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
     return orbit;
 }
 
@@ -43,13 +38,6 @@ static iso_orbit *create(const iso_params *p, const iso_start *start, iso_backen
 {
     const iso_orbit_options o = all_of(start, backend, clock);
     return create_with(p, start, &o);
-}
-
-static iso_sample at(iso_orbit *orbit, double time)
-{
-    iso_sample s;
-    if (iso_orbit_at(orbit, time, &s) != ISO_OK) give_up("an orbit stops");
-    return s;
 }
 
 /* The same bits, but for NaNs, which only must be in the same places. */
@@ -130,11 +118,11 @@ static void check_against_steps(const problem *o, laws_worst *worst)
         iso_orbit *exact = create(&o->p, &o->start, ISO_BACKEND_EXACT, clock);
         for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
             iso_orbit *steps = create(&o->p, &o->start, backend, clock);
-            const iso_sample begin = at(steps, 0), begin_exact = at(exact, 0);
+            const iso_sample begin = scene_at(ctx, steps, 0), begin_exact = scene_at(ctx, exact, 0);
             gsl_test(backend == ISO_BACKEND_POINT && !same(&begin, &begin_exact), "the start is the point's");
             for (int i = 0; i < TIMES; i++) {
                 const double time = times[i] * unit_of(exact, clock);
-                const iso_sample a = at(exact, time), b = at(steps, time);
+                const iso_sample a = scene_at(ctx, exact, time), b = scene_at(ctx, steps, time);
                 note_difference(worst, &o->p, &a, &b, iso_backend_name((int)backend));
             }
             iso_orbit_free(steps);
@@ -147,7 +135,7 @@ static void check_against_steps(const problem *o, laws_worst *worst)
 static void check_shows(const problem *o)
 {
     iso_orbit *all = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
-    const iso_sample whole = at(all, 7);
+    const iso_sample whole = scene_at(ctx, all, 7);
     for (iso_shown shown = ISO_SHOW_BALL; shown <= ISO_SHOW_BOTH; shown++) {
         iso_orbit_options less = all_of(&o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
         less.shown = shown;
@@ -159,7 +147,7 @@ static void check_shows(const problem *o)
             if (shown == ISO_SHOW_POINT) wanted.ball[i] = NAN;
             if (shown == ISO_SHOW_BALL) wanted.point[i] = NAN;
         }
-        const iso_sample s = at(orbit, 7);
+        const iso_sample s = scene_at(ctx, orbit, 7);
         gsl_test(!same(&s, &wanted), "what is shown of %s", iso_shown_name((int)shown));
         iso_orbit_free(orbit);
     }
@@ -173,7 +161,8 @@ static void check_shows(const problem *o)
 static void check_far(const problem *o, laws_worst *worst)
 {
     iso_orbit *orbit = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
-    const iso_sample start = at(orbit, 0), far[2] = {at(orbit, 1e9), at(orbit, -1e12)};
+    const iso_sample start = scene_at(ctx, orbit, 0),
+                     far[2] = {scene_at(ctx, orbit, 1e9), scene_at(ctx, orbit, -1e12)};
     for (int s = 0; iso_systems[s]; s++) {
         const iso_integral *list[ISO_MAX_INTEGRALS];
         const int count =
@@ -200,7 +189,8 @@ static double third_of_n(const iso_sample *sample, const void *data)
 static bool next_event(iso_orbit *orbit, int direction, double from, double to, iso_sample *sample)
 {
     bool found;
-    if (iso_orbit_event(orbit, third_of_n, NULL, direction, from, to, &found, sample) != ISO_OK) give_up("an event");
+    if (iso_orbit_event(orbit, third_of_n, NULL, direction, from, to, &found, sample) != ISO_OK)
+        scene_stops("an event", ctx);
     return found;
 }
 
@@ -212,7 +202,7 @@ static void check_order(const problem *o)
         fresh = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_S);
         iso_sample event;
         if (i % 3 == 1) next_event(orbit, 0, asked[i], asked[i] + copysign(1, asked[i]), &event);
-        const iso_sample a = at(orbit, asked[i]), b = at(fresh, asked[i]);
+        const iso_sample a = scene_at(ctx, orbit, asked[i]), b = scene_at(ctx, fresh, asked[i]);
         gsl_test(!same(&a, &b), "s = %g whatever was asked before", asked[i]);
         iso_orbit_free(fresh);
     }
@@ -222,14 +212,14 @@ static void check_order(const problem *o)
 static void check_backwards(const problem *o, laws_worst *worst)
 {
     iso_orbit *orbit = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
-    const iso_sample begin = at(orbit, 0), there = at(orbit, 11);
+    const iso_sample begin = scene_at(ctx, orbit, 0), there = scene_at(ctx, orbit, 11);
     iso_start turn = {.model = ISO_BALL};
     copy(there.ball, turn.y, ISO_STATE);
     const iso_effects effects = iso_orbit_effects(orbit); /* the level of a point off H = 0 */
     iso_orbit_options options = all_of(&turn, ISO_BACKEND_EXACT, ISO_CLOCK_T);
     options.effects = &effects;
     iso_orbit *back = create_with(&o->p, &turn, &options);
-    const iso_sample home = at(back, -11);
+    const iso_sample home = scene_at(ctx, back, -11);
     laws_note(worst, laws_distance(home.ball, begin.ball) / laws_norm(begin.ball), ALLOWED, &o->p, "w");
     laws_note(worst, laws_distance(home.ball + 3, begin.ball + 3), ALLOWED, &o->p, "n");
     for (int c = ISO_CLOCK_TAU; c < ISO_CLOCKS; c++)
@@ -257,7 +247,7 @@ static void check_events(const problem *o, int side, laws_worst *worst)
             if (!found) break;
             laws_note(worst, fabs(a.clock[0] - b.clock[0]) / fabs(end), ALLOWED, &o->p, "time");
             laws_note(worst, fabs(a.ball[5]), 1e-14 * 30, &o->p, "n3");
-            const iso_sample again = at(exact, a.clock[0]);
+            const iso_sample again = scene_at(ctx, exact, a.clock[0]);
             gsl_test(!same(&a, &again), "the state at the event is that of its time");
             from = a.clock[0];
         }
@@ -277,7 +267,7 @@ static void check_far_events(const problem *o)
         gsl_test(!next_event(orbit, 0, far[i], far[i] + way, &s), "an event behind t = %g", far[i]);
         gsl_test(iso_orbit_statistics(orbit).states - before > 5000, "found without stepping there: %ld states",
                  iso_orbit_statistics(orbit).states - before);
-        iso_sample a = at(orbit, s.clock[0] - close), b = at(orbit, s.clock[0] + close);
+        iso_sample a = scene_at(ctx, orbit, s.clock[0] - close), b = scene_at(ctx, orbit, s.clock[0] + close);
         gsl_test(!(a.ball[5] * b.ball[5] < 0), "n3 passes 0 at t = %.17g: %g, %g", s.clock[0], a.ball[5], b.ball[5]);
         const bool earlier = next_event(orbit, 0, far[i], s.clock[0] - copysign(close, far[i]), &b);
         gsl_test(earlier, "it is the first");
@@ -301,9 +291,9 @@ static void check_units(double c, double d, laws_worst *worst)
         iso_orbit *orbit = create(&p, &start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
         for (int i = 0; i < 3; i++) start.y[i] *= d;
         iso_orbit *other = create(&other_p, &start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
-        const iso_sample a = at(orbit, 50);
+        const iso_sample a = scene_at(ctx, orbit, 50);
         const double half = 1.0 / (2 * k), M = d * pow(c, 2 - half);
-        iso_sample scaled = at(other, 50 / d);
+        iso_sample scaled = scene_at(ctx, other, 50 / d);
         for (int i = 0; i < 3; i++) scaled.ball[i] /= d, scaled.point[i] /= M;
         scaled.clock[ISO_CLOCK_T] *= d;
         scaled.clock[ISO_CLOCK_TAU] *= d / pow(c, 1 - half);
@@ -338,9 +328,8 @@ static void check_effects_refused(const iso_params *p, const iso_start *start)
                    {ISO_TWIST, "backend ball"},    {ISO_ROLLING_RESISTANCE, "backend ball"},
                    {ISO_ATTITUDE, "backend ball"}, {ISO_REACTIONS, "backend ball"}};
     for (size_t i = 0; i < sizeof effects / sizeof *effects; i++) {
-        iso_effects e = {.number = {[ISO_GRAVITY] = {0.7, 0, 0.6, 0.8},
-                                     [ISO_TWIST] = {10},
-                                     [ISO_ROLLING_RESISTANCE] = {0.01}}};
+        iso_effects e = {
+            .number = {[ISO_GRAVITY] = {0.7, 0, 0.6, 0.8}, [ISO_TWIST] = {10}, [ISO_ROLLING_RESISTANCE] = {0.01}}};
         iso_orbit_options o = all_of(start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
         QUATERNION(&e)[0] = 1;
         e.on[effects[i].effect] = true;

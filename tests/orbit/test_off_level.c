@@ -10,21 +10,16 @@
 #include "laws.h"
 #include "numbers.h"
 #include "orbit/orbit.h"
+#include "scenes.h"
 
 static const double J_three[3] = {1.4, 2.1, 3.0};
 
 static iso_context *ctx;
 
-static void give_up(const char *what)
-{
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
-
 static iso_start point_start(const double M[3], const double gamma[3], const double *eps)
 {
     iso_start start;
-    if (iso_start_point(ctx, M, gamma, eps, true, &start) != ISO_OK) give_up("a point's start");
+    if (iso_start_point(ctx, M, gamma, eps, true, &start) != ISO_OK) scene_stops("a point's start", ctx);
     return start;
 }
 
@@ -38,15 +33,8 @@ static iso_orbit *create(const iso_params *p, const iso_start *start, iso_backen
     o.tolerance = 1e-14;
     o.shown = ISO_SHOW_BOTH;
     for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = true;
-    if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) give_up("an orbit is refused");
+    if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
     return orbit;
-}
-
-static iso_sample at(iso_orbit *orbit, double time)
-{
-    iso_sample s;
-    if (iso_orbit_at(orbit, time, &s) != ISO_OK) give_up("an orbit stops");
-    return s;
 }
 
 /* --- one orbit -------------------------------------------------------------------------------------------------- */
@@ -67,7 +55,7 @@ static double power_of_g(const iso_params *p, const double n[3], double exponent
 }
 
 /* (24), by hand */
-static double energy_of(const off_level *o)
+static double energy_of_start(const off_level *o)
 {
     const double *M = o->start.y, *gamma = o->start.y + 3;
     return dot(M, M) / 2 - o->eps * pow(dot_diag(gamma, o->p.J, gamma), -1 / o->p.k);
@@ -84,11 +72,11 @@ static off_level make(double k, double eps, double part, iso_random *random)
     o.eps = eps * pow(dot_diag(gamma, o.p.J, gamma), 1 / k);
     scale(M, sqrt(2 * part) / norm(M));
     o.start = point_start(M, gamma, &o.eps);
-    o.H = energy_of(&o);
+    o.H = energy_of_start(&o);
     o.c = o.H * k * k / o.p.det_J;
     iso_orbit *orbit = create(&o.p, &o.start, ISO_BACKEND_POINT, ISO_CLOCK_S);
     for (int i = 0; i < TIMES; i++) {
-        o.truth[i] = at(orbit, 0.9 * i - 0.6); /* before and after the start */
+        o.truth[i] = scene_at(ctx, orbit, 0.9 * i - 0.6); /* before and after the start */
         o.w = fmax(o.w, laws_norm(o.truth[i].ball));
         o.M = fmax(o.M, laws_norm(o.truth[i].point));
     }
@@ -123,7 +111,7 @@ static void check_backends(const off_level *o)
         for (iso_clock c = ISO_CLOCK_T; c < ISO_CLOCKS; c++) {
             iso_orbit *orbit = create(&o->p, &o->start, b, c);
             for (int i = 0; i < TIMES; i++) {
-                const iso_sample *truth = &o->truth[i], s = at(orbit, truth->clock[c]);
+                const iso_sample *truth = &o->truth[i], s = scene_at(ctx, orbit, truth->clock[c]);
                 const double bound = allowed(&o->p);
                 laws_note(&backends, laws_distance(s.ball, truth->ball) / o->w, bound, &o->p, "omega");
                 laws_note(&backends, laws_distance(s.ball + 3, truth->ball + 3), bound, &o->p, "n");
@@ -145,10 +133,10 @@ typedef struct slopes {
 static slopes slopes_at(iso_orbit *orbit, double t, double h)
 {
     static const double weight[4] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
-    slopes d = {.here = at(orbit, t)};
+    slopes d = {.here = scene_at(ctx, orbit, t)};
     for (int i = 0; i < 4; i++)
         for (int side = -1; side <= 1; side += 2) {
-            const iso_sample s = at(orbit, t + side * (i + 1) * h);
+            const iso_sample s = scene_at(ctx, orbit, t + side * (i + 1) * h);
             const double factor = side * weight[i] / h;
             add_scaled(d.w, factor, s.ball);
             add_scaled(d.n, factor, s.ball + 3);
@@ -252,11 +240,11 @@ static void check_swing(void)
     const iso_start start = point_start(M, gamma, &eps);
     const iso_orbit_options o = iso_orbit_defaults(&start);
     iso_orbit *orbit;
-    if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) give_up("a swinging point");
+    if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) scene_stops("a swinging point", ctx);
     double worst = 0, size, least = INFINITY, most = 0;
-    const iso_sample begin = at(orbit, 0);
+    const iso_sample begin = scene_at(ctx, orbit, 0);
     for (int i = 1; i <= 100; i++) {
-        const iso_sample s = at(orbit, 0.2 * i);
+        const iso_sample s = scene_at(ctx, orbit, 0.2 * i);
         for (int j = 0; j < 2; j++) {
             const double before = iso_orbit_integral(orbit, &iso_system_point, both[j], &begin, &size);
             worst =

@@ -8,6 +8,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "orbit/orbit.h"
+#include "scenes.h"
 
 static const double J_three[3] = {1.4, 2.1, 3.0};
 
@@ -35,25 +36,12 @@ static iso_orbit_options all_of(const iso_start *start, iso_backend backend, iso
     return o;
 }
 
-static void give_up(const char *what)
-{
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
-
 static iso_orbit *create(const iso_params *p, const iso_start *start, iso_backend backend, iso_clock clock)
 {
     iso_orbit *orbit;
     const iso_orbit_options o = all_of(start, backend, clock, 1e-14);
-    if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) give_up("an orbit is refused");
+    if (iso_orbit_create(ctx, p, start, &o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
     return orbit;
-}
-
-static iso_sample at(iso_orbit *orbit, double time)
-{
-    iso_sample s;
-    if (iso_orbit_at(orbit, time, &s) != ISO_OK) give_up("an orbit stops");
-    return s;
 }
 
 /* Largest of the relative differences of w and M and the differences of n and gamma. */
@@ -111,7 +99,7 @@ static void check_clocks(const iso_params *p, const iso_start *start, iso_backen
     for (iso_clock c = ISO_CLOCK_TAU; c <= ISO_CLOCK_S; c++) {
         iso_orbit *orbit = create(p, start, backend, c);
         for (int i = 0; i < TIMES; i++) {
-            const iso_sample s = at(orbit, truth[i].clock[c]);
+            const iso_sample s = scene_at(ctx, orbit, truth[i].clock[c]);
             note_clock(p, c, &s, &truth[i]);
         }
         iso_orbit_free(orbit);
@@ -124,7 +112,7 @@ static void check_backwards(const iso_params *p, const iso_start *start, iso_bac
     iso_start turn = {.model = ISO_BALL};
     copy(there->ball, turn.y, ISO_STATE);
     iso_orbit *orbit = create(p, &turn, backend, ISO_CLOCK_T);
-    const iso_sample s = at(orbit, -there->clock[0]);
+    const iso_sample s = scene_at(ctx, orbit, -there->clock[0]);
     laws_note(&backwards, laws_distance(s.ball, start->y) / laws_norm(start->y), 10 * allowed(p), p, "w");
     laws_note(&backwards, laws_distance(s.ball + 3, start->y + 3), 10 * allowed(p), p, "n");
     laws_note(&backwards, fabs(s.clock[2] + there->clock[2]) / fabs(s.clock[2]), 10 * allowed(p), p, "s");
@@ -136,7 +124,7 @@ static void check_orbit(const iso_params *p, const iso_start *start)
     iso_orbit *ball = create(p, start, ISO_BACKEND_BALL, ISO_CLOCK_T),
               *point = create(p, start, ISO_BACKEND_POINT, ISO_CLOCK_T);
     const double ulps = 8 * DBL_EPSILON * (1 + 1 / fabs(p->k));
-    iso_sample truth[TIMES], begin[2] = {at(ball, 0), at(point, 0)};
+    iso_sample truth[TIMES], begin[2] = {scene_at(ctx, ball, 0), scene_at(ctx, point, 0)};
     for (int b = 0; b < 2; b++) {
         const double none[ISO_CLOCKS] = {0};
         laws_note(&origin, laws_distance(begin[b].ball, start->y), ulps * laws_norm(start->y), p, "w");
@@ -144,8 +132,8 @@ static void check_orbit(const iso_params *p, const iso_start *start)
         laws_note(&origin, memcmp(begin[b].clock, none, sizeof none) == 0 ? 0 : 1, 0.5, p, "clocks");
     }
     for (int i = 0; i < TIMES; i++) {
-        truth[i] = at(ball, times[i]);
-        const iso_sample other = at(point, times[i]);
+        truth[i] = scene_at(ctx, ball, times[i]);
+        const iso_sample other = scene_at(ctx, point, times[i]);
         laws_note(&backends, state_difference(&other, &truth[i]), allowed(p), p, "state");
         laws_note(&backends, clock_difference(&other, &truth[i]), allowed(p), p, "clocks");
     }
@@ -187,10 +175,10 @@ static void check_order(void)
     int different = 0;
     for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++) {
         iso_orbit *orbit = create(&p, &start, b, ISO_CLOCK_T), *fresh = create(&p, &start, b, ISO_CLOCK_T);
-        for (int i = 0; i < N; i++) forward[i] = at(orbit, 0.31 * (i - N / 4));
+        for (int i = 0; i < N; i++) forward[i] = scene_at(ctx, orbit, 0.31 * (i - N / 4));
         for (int i = 0; i < 4 * N; i++) {
             const int which = (int)iso_random_uniform(random, 0, N);
-            s = at(i % 2 ? orbit : fresh, 0.31 * (which - N / 4));
+            s = scene_at(ctx, i % 2 ? orbit : fresh, 0.31 * (which - N / 4));
             different += memcmp(&s, &forward[which], sizeof s) != 0;
         }
         iso_orbit_free(orbit);
@@ -208,7 +196,7 @@ static laws_worst from_point;
 static void check_point_start(const iso_params *p, const iso_start *ball)
 {
     iso_orbit *orbit = create(p, ball, ISO_BACKEND_BALL, ISO_CLOCK_T);
-    const iso_sample begin = at(orbit, 0), truth = at(orbit, 4);
+    const iso_sample begin = scene_at(ctx, orbit, 0), truth = scene_at(ctx, orbit, 4);
     const double eps[2] = {iso_orbit_coupling(orbit), NAN};
     iso_orbit_free(orbit);
     for (iso_backend b = ISO_BACKEND_BALL; b <= ISO_BACKEND_POINT; b++)
@@ -216,9 +204,9 @@ static void check_point_start(const iso_params *p, const iso_start *ball)
             iso_start start;
             if (iso_start_point(ctx, begin.point, begin.point + 3, isnan(eps[i]) ? NULL : &eps[i], false, &start) !=
                 ISO_OK)
-                give_up("a point's start");
+                scene_stops("a point's start", ctx);
             orbit = create(p, &start, b, ISO_CLOCK_S);
-            const iso_sample s = at(orbit, truth.clock[ISO_CLOCK_S]);
+            const iso_sample s = scene_at(ctx, orbit, truth.clock[ISO_CLOCK_S]);
             laws_note(&from_point, state_difference(&s, &truth), 10 * allowed(p), p, "state");
             laws_note(&from_point, clock_difference(&s, &truth), 10 * allowed(p), p, "clocks");
             laws_note(&from_point, fabs(iso_orbit_coupling(orbit) / eps[0] - 1), 1e-13 * (1 + 1 / fabs(p->k)), p,
@@ -261,8 +249,8 @@ static void check_rest(void)
     iso_orbit_options o = iso_orbit_defaults(&start);
     iso_orbit *orbit;
     o.with_clock[ISO_CLOCK_S] = o.with_clock[ISO_CLOCK_TAU] = true;
-    if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) give_up("a ball at rest");
-    const iso_sample s = at(orbit, 100);
+    if (iso_orbit_create(ctx, &p, &start, &o, &orbit) != ISO_OK) scene_stops("a ball at rest", ctx);
+    const iso_sample s = scene_at(ctx, orbit, 100);
     const double q = 1 / dot_diag(start.y + 3, p.inv_J, start.y + 3);
     gsl_test(laws_norm(s.ball) != 0 || laws_distance(s.ball + 3, start.y + 3) > 1e-15, "at rest nothing moves");
     gsl_test_rel(s.clock[ISO_CLOCK_S], 100 * iso_clock_rate(&p, ISO_CLOCK_S, q, NULL), 1e-13,
@@ -294,14 +282,14 @@ static void check_speeds(const iso_params *p, const iso_start *start, iso_backen
 {
     static const double cs[] = {1e-150, 3e-77, 7e-4, 1.9, 1e9, 3e81, 1e150};
     iso_orbit *orbit = create(p, start, backend, ISO_CLOCK_T);
-    const iso_sample truth = at(orbit, 4);
+    const iso_sample truth = scene_at(ctx, orbit, 4);
     iso_orbit_free(orbit);
     for (size_t i = 0; i < sizeof cs / sizeof *cs; i++) {
         const double c = cs[i], clock[ISO_CLOCKS] = {1 / c, 1 / c, 1 / c};
         iso_start fast = *start;
         scale(fast.y, c);
         orbit = create(p, &fast, backend, ISO_CLOCK_T);
-        const iso_sample s = at(orbit, 4 / c);
+        const iso_sample s = scene_at(ctx, orbit, 4 / c);
         note_scaled(&speeds, p, &truth, &s, clock, c, c, iso_backend_name((int)backend));
         iso_orbit_free(orbit);
     }
@@ -313,7 +301,7 @@ static void check_inertias(const iso_params *p, const iso_start *start, iso_back
     static const double cs[] = {1e-30, 1e-11, 0.37, 5.1, 1e11, 1e30};
     const double half = 1 / (2 * p->k);
     iso_orbit *orbit = create(p, start, backend, ISO_CLOCK_T);
-    const iso_sample truth = at(orbit, 4);
+    const iso_sample truth = scene_at(ctx, orbit, 4);
     const double eps = iso_orbit_coupling(orbit), h = iso_orbit_energy(orbit);
     iso_orbit_free(orbit);
     for (size_t i = 0; i < sizeof cs / sizeof *cs; i++) {
@@ -321,7 +309,7 @@ static void check_inertias(const iso_params *p, const iso_start *start, iso_back
         const double clock[ISO_CLOCKS] = {1, pow(c, 1 - half), pow(c, -2 + half)};
         const iso_params heavy = laws_params(p->k, J);
         orbit = create(&heavy, start, backend, ISO_CLOCK_T);
-        const iso_sample s = at(orbit, 4);
+        const iso_sample s = scene_at(ctx, orbit, 4);
         note_scaled(&inertias, p, &truth, &s, clock, 1, pow(c, 2 - half), iso_backend_name((int)backend));
         laws_note(&inertias, fabs(iso_orbit_coupling(orbit) / pow(c, 4) / eps - 1), 1e-13, p, "eps");
         laws_note(&inertias, fabs(iso_orbit_energy(orbit) / c / h - 1), 1e-13, p, "h");

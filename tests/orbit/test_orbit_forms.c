@@ -10,27 +10,15 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "orbit/orbit.h"
+#include "scenes.h"
 
 static iso_context *ctx;
-
-static void give_up(const char *what)
-{
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
 
 static iso_orbit *create(const iso_params *p, const iso_start *start, const iso_orbit_options *o)
 {
     iso_orbit *orbit;
-    if (iso_orbit_create(ctx, p, start, o, &orbit) != ISO_OK) give_up("an orbit is refused");
+    if (iso_orbit_create(ctx, p, start, o, &orbit) != ISO_OK) scene_stops("an orbit is refused", ctx);
     return orbit;
-}
-
-static iso_sample at(iso_orbit *orbit, double time)
-{
-    iso_sample s;
-    if (iso_orbit_at(orbit, time, &s) != ISO_OK) give_up("an orbit stops");
-    return s;
 }
 
 static iso_orbit_options ball_and_s(const iso_start *start, iso_backend backend, double tolerance)
@@ -59,7 +47,7 @@ static void check_turn(double k, const double J[3], int axis, double W, iso_back
     const iso_orbit_options o = ball_and_s(&start, backend, 1e-14);
     iso_orbit *orbit = create(&p, &start, &o);
     const double T = 2 * M_PI / fabs(k * W), root = sqrt(2 * iso_orbit_coupling(orbit));
-    const iso_sample whole = at(orbit, T), half = at(orbit, -T / 2);
+    const iso_sample whole = scene_at(ctx, orbit, T), half = scene_at(ctx, orbit, -T / 2);
     double opposite[3];
     for (int c = 0; c < 3; c++) opposite[c] = -half.ball[3 + c];
     laws_note(&turn, laws_distance(whole.ball + 3, start.y + 3), 1e-12, &p, "n");
@@ -98,7 +86,7 @@ static void check_circle(void)
             const iso_orbit_options o = ball_and_s(&start, b, 1e-14);
             iso_orbit *orbit = create(&p, &start, &o);
             const double t = 7.3, w = laws_norm(start.y), angle = p.k * w * t;
-            const iso_sample s = at(orbit, t);
+            const iso_sample s = scene_at(ctx, orbit, t);
             double side[3], n[3];
             cross(start.y + 3, start.y, side);
             for (int c = 0; c < 3; c++) n[c] = start.y[3 + c] * cos(angle) + side[c] / w * sin(angle);
@@ -137,8 +125,8 @@ static void check_events(double k, double w, iso_clock clock, int direction, law
         for (int b = 0; b < 2; b++) {
             bool found = false;
             const iso_status status = iso_orbit_event(orbit[b], n3, NULL, direction, from[b], end, &found, &s[b]);
-            if (status != ISO_OK || !found) give_up("an event is not found");
-            const iso_sample there = at(orbit[b], s[b].clock[clock]);
+            if (status != ISO_OK || !found) scene_stops("an event is not found", ctx);
+            const iso_sample there = scene_at(ctx, orbit[b], s[b].clock[clock]);
             laws_note(worst, fabs(s[b].ball[5]), 1e-13, &p, "n3");
             laws_note(worst, laws_distance(there.ball + 3, s[b].ball + 3), 1e-12, &p, "at");
             from[b] = s[b].clock[clock];
@@ -220,7 +208,7 @@ static void check_range(double k, double J, double w, const char *word)
     const iso_start start = {.model = ISO_BALL, .y = {0.8 * w, 0.1 * w, -0.6 * w, 0.6, 0, 0.8}};
     iso_orbit_options o = iso_orbit_defaults(&start);
     iso_orbit *orbit = create(&p, &start, &o);
-    iso_sample s = at(orbit, 3 / (w * fmax(1, fabs(k))));
+    iso_sample s = scene_at(ctx, orbit, 3 / (w * fmax(1, fabs(k))));
     scale(s.ball, 1 / w);
     gsl_test_rel(dot_diag(s.ball, p.J, s.ball) / J, 1.741, 1e-11, "k = %g, J = %g, w = %g: the ball alone", k, J, w);
     iso_orbit_free(orbit);
@@ -279,10 +267,11 @@ static void check_failure(iso_backend backend)
     refused(iso_orbit_at(orbit, 1000, &s), ISO_NUMERICAL, "last good t", "more steps than allowed");
     const char *said = strstr(iso_context_message(ctx), "last good t = ");
     const double said_t = said ? strtod(said + strlen("last good t = "), NULL) : NAN;
-    if (iso_orbit_last(orbit, &s) != ISO_OK) give_up("the last good moment");
+    if (iso_orbit_last(orbit, &s) != ISO_OK) scene_stops("the last good moment", ctx);
     const double t = s.clock[0];
     gsl_test(!(t > 1 && t < 1000) || said_t != t, "the last good time is %g", t);
-    const iso_sample truth = at(whole, t), before = at(orbit, 0.999 * t), truth_before = at(whole, 0.999 * t);
+    const iso_sample truth = scene_at(ctx, whole, t), before = scene_at(ctx, orbit, 0.999 * t),
+                     truth_before = scene_at(ctx, whole, 0.999 * t);
     gsl_test(!(laws_distance(s.ball, truth.ball) < 1e-13) || !(fabs(s.clock[2] / truth.clock[2] - 1) < 1e-13),
              "the last good moment is on the orbit");
     gsl_test(memcmp(&before, &truth_before, sizeof before) != 0, "after a failure: earlier times are still answered");

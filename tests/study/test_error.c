@@ -8,6 +8,7 @@
 #include "laws.h"
 #include "numbers.h"
 #include "reference.h"
+#include "scenes.h"
 #include "study/error.h"
 
 static iso_context *ctx;
@@ -20,21 +21,15 @@ typedef struct trial {
     iso_status found;
 } trial;
 
-static void give_up(const char *what)
-{
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
-
 static trial *try(const iso_params *p, const iso_start *start, const iso_orbit_options *o, double t, size_t rows)
 {
     trial *r = calloc(1, sizeof *r);
     iso_error_finder *finder;
-    if (!r || iso_orbit_create(ctx, p, start, o, &r->orbit) != ISO_OK) give_up("an orbit");
+    if (!r || iso_orbit_create(ctx, p, start, o, &r->orbit) != ISO_OK) scene_stops("an orbit", ctx);
     r->found = iso_error_finder_create(ctx, p, start, o, r->orbit, &finder);
     for (size_t i = 0; i < rows; i++) {
         if (iso_orbit_at(r->orbit, i + 1 == rows ? t : t * (double)i / (double)(rows - 1), &r->last) != ISO_OK)
-            give_up("an orbit stops");
+            scene_stops("an orbit stops", ctx);
         if (r->found == ISO_OK) r->found = iso_error_finder_add(finder, &r->last);
     }
     if (r->found == ISO_OK) r->error = iso_error_finder_read(finder);
@@ -101,7 +96,7 @@ static void check_stiff(double c)
     const iso_start start = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
     iso_effects effects = {.on[ISO_TWIST] = true, .number[ISO_TWIST] = {c}};
     iso_orbit_options o = iso_orbit_defaults(&start);
-    if (iso_params_set_D(ctx, 0.4, &p) != ISO_OK) give_up("D");
+    if (iso_params_set_D(ctx, 0.4, &p) != ISO_OK) scene_stops("D", ctx);
     o.effects = &effects;
     for (double tolerance = 1e-6; tolerance > 1e-12; tolerance *= 1e-2) {
         laws_worst covered = {0}, tight = {0};
@@ -137,7 +132,7 @@ static void random_scene(iso_random *random, iso_params *p, iso_effects *effects
         omega[i] = iso_random_normal(random);
     }
     iso_random_direction(random, n);
-    if (iso_start_ball(ctx, omega, n, ISO_SPIN_REMOVE, start) != ISO_OK) give_up("a start");
+    if (iso_start_ball(ctx, omega, n, ISO_SPIN_REMOVE, start) != ISO_OK) scene_stops("a start", ctx);
 }
 
 /* The largest true error of the rows of r; the truth is by the finest method there is. */
@@ -150,11 +145,11 @@ static double true_error(const trial *r, const iso_params *p, const iso_start *s
     double worst = 0;
     o.method = iso_method_find(iso_method_find("taylor_quad") ? "taylor_quad" : "taylor_extended");
     o.tolerance = 1e-15;
-    if (iso_orbit_create(ctx, p, start, &o, &truth) != ISO_OK) give_up("the truth");
+    if (iso_orbit_create(ctx, p, start, &o, &truth) != ISO_OK) scene_stops("the truth", ctx);
     for (size_t i = 0; i < rows; i++) {
         const double time = i + 1 == rows ? t : t * (double)i / (double)(rows - 1);
         if (iso_orbit_at(r->orbit, time, &a) != ISO_OK || iso_orbit_at(truth, time, &b) != ISO_OK)
-            give_up("the truth stops");
+            scene_stops("the truth stops", ctx);
         worst = fmax(worst, distance(a.ball, b.ball));
     }
     iso_orbit_free(truth);
@@ -168,7 +163,7 @@ static void check_every_row(int scenes)
     const double t = 20;
     iso_random *random = iso_random_create(15);
     laws_worst covered = {0}, tight = {0};
-    if (!random) give_up("no memory");
+    if (!random) scene_stops("no memory", ctx);
     for (int i = 0; i < scenes; i++) {
         iso_params p;
         iso_effects effects;

@@ -164,13 +164,3 @@ bool iso_two_point_measure(iso_two_point *b, double h, double noise, iso_gap *ga
     b->easy = 0;
     return true;
 }
-
-#undef NUMBER
-#undef ROOT
-#undef POW
-#undef FMA
-#undef EPSILON
-#undef FINER
-#undef FINEST_ORDER
-#undef NODES
-#undef LANES

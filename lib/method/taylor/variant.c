@@ -121,15 +121,4 @@ const iso_lane_code iso_lanes_plain = {"plain", LANES, runs_here, solve};
 #endif
 #endif
 
-#undef NUMBER
-#undef ROOT
-#undef POW
-#undef FMA
-#undef EPSILON
-#undef FINER
-#undef FINEST_ORDER
-#undef NODES
-#undef LANES
-#undef PACKED
-
 #endif
