@@ -1,4 +1,5 @@
-/* two_point.h - from one sample of an orbit to the next, by what the equations of motion say at the two of them.
+/* two_point.h - how far the clocks and the state go between two samples of an orbit, from the equations of motion at
+ * both samples.
  *
  *     iso_two_point *b;
  *     iso_two_point_create(ctx, &model, 1e-14, &b);
@@ -10,12 +11,12 @@
  * The equations give every derivative of the state, and of the clocks' rates, at both samples. With the Taylor
  * coefficients f_j at the left one and g_j at the right one
  *
- *     int_0^h f dt = sum_(j=0)^p c_j h^(j+1) (f_j + (-1)^j g_j),   c_j = (p+1)! (2p+1-j)! j! / ((2p+2)! (j+1)!
- *     (p-j)!)
+ *     int_0^h f dt = sum_(j=0)^p c_j h^(j+1) (f_j + (-1)^j g_j)
+ *     c_j = (p+1)! (2p+1-j)! j! / ((2p+2)! (j+1)! (p-j)!)
  *
- * is exact for polynomials of degree 2p+1: two-point Taylor, Hermite's or Obreshkov's quadrature. Of a clock's rate
- * it is how far the clock goes on; of y' it is y1 - y0 if the samples lie on one orbit, and what is left is the
- * defect.
+ * is exact for polynomials of degree 2p+1: two-point Taylor, Hermite's or Obreshkov's quadrature. If f is the rate of
+ * a clock, the integral is the time that the clock goes on. If f is y' and both samples lie on one orbit, the integral
+ * is y1 - y0. If it is not, the difference is the defect.
  */
 #ifndef ISO_METHOD_TWO_POINT_H
 #define ISO_METHOD_TWO_POINT_H

@@ -62,7 +62,7 @@ const char *iso_effect_why_broken(const iso_effect *effect)
 {
     if (effect->breaks) return effect->breaks;
     if (effect->observes || effect->is_level || effect->image) return NULL;
-    return "its row states no image of it on the point";
+    return "its row gives it no image on the point";
 }
 
 const iso_effect *iso_effects_breaking(const iso_effects *effects)

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "io/scene_file.h"
+#include "scenes.h"
 #include "study/run.h"
 
 static iso_context *ctx;
@@ -22,16 +23,10 @@ static iso_context *ctx;
 #define GRAVITY "gravity: {g: 9.81, up: [0.48, 0.6, 0.64]}"
 #define TIME "time: {end: 2, step: 0.25}\n"
 
-static inline void give_up(const char *what)
-{
-    gsl_test(1, "%s: %s", what, iso_context_message(ctx));
-    exit(gsl_test_summary());
-}
-
 static inline iso_scene parse(const char *text)
 {
     iso_scene scene;
-    if (iso_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK) give_up(text);
+    if (iso_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK) scene_stops(text, ctx);
     return scene;
 }
 
@@ -62,7 +57,7 @@ static inline iso_status keep_header(void *data, const iso_record *header)
 static inline iso_status keep_row(void *data, const double row[], size_t count)
 {
     kept *k = data;
-    if (k->rows == MOST || count != k->columns) give_up("a row of another kind");
+    if (k->rows == MOST || count != k->columns) scene_stops("a row of another kind", ctx);
     if (k->rows + 1 == k->stop_at) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "no more rows, please");
     memcpy(k->row[k->rows++], row, count * sizeof *row);
     return ISO_OK;
@@ -90,7 +85,7 @@ static inline kept *run_like(const kept *like, const iso_scene *scene, const dou
                              bool errors)
 {
     kept *k = malloc(sizeof *k);
-    if (!k) give_up("no memory");
+    if (!k) scene_stops("no memory", ctx);
     *k = *like;
     const iso_run_sink sink = {keep_header, keep_row, keep_note, keep_progress, k};
     const iso_run_options o = {.times = times, .count = count, .errors = errors};
@@ -116,7 +111,7 @@ static inline int different(const iso_scene *scene, const kept *k, size_t at, do
     iso_orbit *orbit;
     iso_sample sample;
     if (iso_scene_orbit(ctx, scene, columns, count, &orbit) != ISO_OK || iso_orbit_at(orbit, time, &sample) != ISO_OK)
-        give_up("an orbit");
+        scene_stops("an orbit", ctx);
     for (int c = 0; c < count; c++) wrong += !(k->row[at][c] == iso_sample_column(&sample, columns[c]));
     iso_orbit_free(orbit);
     return wrong + ((size_t)count != k->columns);

@@ -1,13 +1,13 @@
 /* test_run_contact.c - iso_run (study/run.h) of a ball that leaves its support, or is not pressed to it. */
 #include "runs.h"
 
-static int column_of(const iso_scene *scene, const char *name)
+static int place_of(const iso_scene *scene, const char *name)
 {
     int columns[ISO_MAX_COLUMNS];
     const int count = iso_scene_columns(scene, columns);
     for (int c = 0; c < count; c++)
         if (strcmp(iso_column_name(columns[c]), name) == 0) return c;
-    give_up("a column is missing");
+    scene_stops("a column is missing", ctx);
     return -1;
 }
 
@@ -17,7 +17,7 @@ static void check_loss(void)
     const iso_scene scene = parse(OUTSIDE "initial: {normal: [0, 0, 1], angular_velocity: [0.3, 0.2, 0]}\n"
                                           "time: {end: 6, step: 0.25}\n"
                                           "effects: {gravity: {g: 9.81, up: [0, 0, 1]}, reactions: {}}\n");
-    const int pressure = column_of(&scene, "pressure");
+    const int pressure = place_of(&scene, "pressure");
     double times[MOST];
     kept *k = run(&scene, NULL, 0);
     const double lost = k->result.lost_at[0], weight = 2 * 9.81;
