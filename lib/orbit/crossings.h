@@ -1,0 +1,101 @@
+/* crossings.h - many orbits, each followed from crossing to crossing of a section.
+ *
+ *     iso_crossings *c;
+ *     iso_crossings_options o = iso_crossings_defaults();
+ *     iso_crossings_create(ctx, orbits, 1000, &o, &c);
+ *     iso_crossings_go(c, NULL, 500, crossing, NULL, done, status);     crossing[500 i + j]: orbit i, its crossing j
+ *     iso_crossings_go(c, NULL, 500, crossing, NULL, done, status);     the next 500 of each
+ *     iso_crossings_free(c);
+ *
+ * The section of a free orbit is n_a = 0, n_a increasing (map/section.h), which is gamma_a = 0 as well: ball and point
+ * cross it at the same events. Other sections: a column of the samples passes a value, upwards; or no section at all,
+ * but equal steps of the clock.
+ *
+ * With `deviations` the first-order variation of each orbit is computed beside it, for two deviations d1, d2. Both
+ * begin in the plane that is tangent to the constraints and to the level of the energy and normal to the flow, with
+ * the metric |dn|^2 + |dw|^2/|w|^2 of (n, omega), or of (gamma, gamma') for a point. The part along the flow is taken
+ * away wherever they are looked at: it tells only how far ahead of the orbit its neighbour is.
+ *
+ * Free orbits are followed in the lanes of vectors and on all threads (batch.h): what an orbit gets depends on the
+ * kind of vectors, but not by a bit on its neighbours, their order, the number of threads, or how many crossings are
+ * asked at a time.
+ */
+#ifndef ISO_ORBIT_CROSSINGS_H
+#define ISO_ORBIT_CROSSINGS_H
+
+#include "../base/api.h"
+#include "batch.h"
+
+ISO_C_BEGIN
+
+typedef enum iso_section_kind {
+    ISO_SECTION_AXIS,   /* n_a = 0, n_a increasing                                  */
+    ISO_SECTION_COLUMN, /* a column of the samples passes a value, upwards          */
+    ISO_SECTION_CLOCK   /* every multiple of a time of the options' clock           */
+} iso_section_kind;
+
+/* As in iso_batch_options where the names are the same. */
+typedef struct iso_crossings_options {
+    size_t size;         /* set by iso_crossings_defaults; see isoroll.h */
+    iso_backend backend; /* the model that is integrated: ISO_BACKEND_BALL, _POINT, or _AUTO as in batches       */
+    iso_section_kind kind;
+    int axis;            /* of ISO_SECTION_AXIS: 0 to 2; ISO_AXIS_AUTO: the global one of each orbit             */
+    int column;          /* of ISO_SECTION_COLUMN, see iso_column_find                                           */
+    double value;        /* of ISO_SECTION_COLUMN: what the column passes; of ISO_SECTION_CLOCK: the step > 0    */
+    iso_clock clock;     /* of ISO_SECTION_CLOCK                                                                 */
+    bool deviations;
+    double tolerance;
+    long max_steps;      /* between two crossings; 0: no bound                                                   */
+    iso_shown shown;     /* what samples show                                                                    */
+    int threads;
+    const char *vectors;
+} iso_crossings_options;
+
+enum { ISO_AXIS_AUTO = -1, ISO_DEVIATIONS = 2 };
+
+static inline iso_crossings_options iso_crossings_defaults(void)
+{
+    iso_crossings_options o = ISO_ALL_ZERO;
+    o.size = sizeof o;
+    o.backend = ISO_BACKEND_AUTO;
+    o.axis = ISO_AXIS_AUTO;
+    o.tolerance = 1e-12;
+    o.clock = ISO_CLOCK_T;
+    o.shown = ISO_SHOW_BALL;
+    return o;
+}
+
+/* One crossing, in the caller's units. What there is not is NaN. */
+typedef struct iso_crossing {
+    double clock[ISO_CLOCKS]; /* since the start; tau and s need the isomorphism                                 */
+    double l, x;              /* chart of ISO_SECTION_AXIS, see map/section.h                                    */
+    double growth[ISO_DEVIATIONS]; /* ln of the length of d1 and d2; 0 at the start                              */
+    double area;              /* sine of the angle between d1 and d2, in [0, 1]: GALI_2                          */
+    double slope[2][2];       /* ISO_SECTION_AXIS: d(l, x) of this crossing / d(l, x) at the start, where the
+                                 start lies on the section; row: l, x here; column: l, x there                   */
+} iso_crossing;
+
+typedef struct iso_crossings iso_crossings;
+
+/* Errors of all: ISO_BAD_ARGUMENT about "backend", "axis", "column", "value", "tolerance", "threads", "vectors", or
+ * about "deviations" with ISO_SECTION_COLUMN; ISO_NO_MEMORY. What is wrong with one orbit is told by
+ * iso_crossings_go. Orbits, parameters, starts and effects must live as long as the object. */
+ISO_API iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
+                                        const iso_crossings_options *options, iso_crossings **crossings);
+ISO_API void iso_crossings_free(iso_crossings *c);
+
+/* Each orbit i with wanted[i] (NULL: every one) goes on to its next `each` crossings: crossing[each i + j], and
+ * sample[each i + j] (NULL: none), j < done[i]. status[i]: ISO_OK, or why there are fewer; such an orbit does not go
+ * on any more, and gives the same status again. The others go on.
+ * Errors of one orbit: those of iso_orbit_create and iso_orbit_at; ISO_NUMERICAL where two crossings of a global
+ * section are closer or farther apart than they can be (map/section.h), where the ball rests, or where no further
+ * crossing is found within ISO_MOST_BETWEEN turns. The call gives the first one's with its number and reason.
+ * Errors of all: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: done[] and what it counts are valid, and the
+ * next call goes on from there. */
+enum { ISO_MOST_BETWEEN = 10000 };
+ISO_API iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
+                                    iso_sample sample[], size_t done[], iso_status status[]);
+
+ISO_C_END
+
+#endif
