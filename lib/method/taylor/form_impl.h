@@ -1,9 +1,9 @@
 /* form_impl.h - prepares a series: its terms, its numbers, and its first coefficients from a state. */
-#include "method/taylor/quadrature_impl.h"
 #include "model/effects_impl.h"
 #include "model/model.h"
 
-enum { MOST = FINEST_ORDER }; /* the highest order, that of the least tolerance */
+enum { MOST = FINEST_ORDER, KEPT = MOST + 3 }; /* the highest order, that of the least tolerance */
+#include "method/taylor/quadrature_impl.h"
 #include "model/series/recurrences_impl.h"
 
 /* A state, in the own variable of a form: of a point n = gamma, w = gamma'. */
@@ -199,7 +199,7 @@ static void begin(form *T)
     S->n[0] = packed(s->n);
     *(T->is_point ? &S->n[1] : &S->w[0]) = packed(s->w);
     for (int i = 0; i < T->motion.states; i++) {
-        const int node = T->motion.state[i].node * KEPT, at = T->motion.state[i].at - ISO_STATE;
+        const int node = T->motion.state[i].node * ROOM, at = T->motion.state[i].at - ISO_STATE;
         if (T->motion.state[i].is_vector)
             S->vector[node] = packed(s->own + at);
         else

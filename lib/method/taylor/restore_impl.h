@@ -56,7 +56,7 @@ static real potential_at(const form *T, const real n[3], real base, const state 
         else
             scalar[F->state[i].node] = *own;
     }
-    evaluate(F, &t, false, 0);
+    evaluate(F, &t, false, 0, 0);
     return potential;
 }
 

@@ -82,7 +82,7 @@ static void state_at(const form *T, real x, state *s)
     else
         value(S->w, S->order, x, s->w);
     for (int i = 0; i < T->motion.states; i++) {
-        const int node = T->motion.state[i].node * KEPT, at = T->motion.state[i].at - ISO_STATE;
+        const int node = T->motion.state[i].node * ROOM, at = T->motion.state[i].at - ISO_STATE;
         if (T->motion.state[i].is_vector)
             value(S->vector + node, S->order, x, s->own + at);
         else
@@ -111,7 +111,7 @@ static real coefficient(const form *T, int n)
     const real speed = largest(T->is_point ? S->n[1] : S->w[0]);
     most = larger(most, largest(rest) / (speed + spread((NUMBER)ISO_REST)));
     for (int i = 0; i < T->motion.states; i++) {
-        const int node = T->motion.state[i].node * KEPT, kind = T->motion.state[i].kind;
+        const int node = T->motion.state[i].node * ROOM, kind = T->motion.state[i].kind;
         if (kind == ISO_STATE_INTEGRAL) continue;
         const bool is_vector = T->motion.state[i].is_vector;
         const real size = is_vector ? largest(S->vector[node + n]) : magnitude(S->scalar[node + n]);
