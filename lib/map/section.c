@@ -117,19 +117,12 @@ static double frequency_square(const iso_params *p, double eps, int axis, double
     return 2 * eps * pow(q, -1 - 1 / p->k) * ((p->J[axis] - q) / p->k + q);
 }
 
-/* The extremes of W^2 are at the ends of [min J, max J], or where
- *     d ln W^2/dq = -(1 + 1/k)/q - (1-k)/(J_a - (1-k) q) = 0:    q = J_a (1+k)/(1-k).
- * For a global axis that lies outside: beyond J_a itself, on the side where no q is. */
+/* The extremes of W^2 are at the ends of [min J, max J]. It is stationary only at q = J_a (1+k)/(1-k), where its
+ * bracket is -k J_a and W^2 < 0; the bracket is linear in q, so such a q between the ends means that W^2 <= 0 at one
+ * of them. */
 void iso_section_bounds(const iso_params *p, double eps, int axis, double W[2])
 {
-    const double low = min3(p->J), high = max3(p->J), inside = p->J[axis] * (1 + p->k) / (1 - p->k);
-    const double q[3] = {low, high, inside > low && inside < high ? inside : low};
-    double least = INFINITY, most = 0;
-    for (int i = 0; i < 3; i++) {
-        const double square = frequency_square(p, eps, axis, q[i]);
-        least = fmin(least, square);
-        most = fmax(most, square);
-    }
-    W[0] = sqrt(fmax(least, 0));
-    W[1] = sqrt(most);
+    const double low = frequency_square(p, eps, axis, min3(p->J)), high = frequency_square(p, eps, axis, max3(p->J));
+    W[0] = sqrt(fmax(fmin(low, high), 0));
+    W[1] = sqrt(fmax(low, high));
 }

@@ -14,8 +14,8 @@
  * l is in (-pi, pi], x in (-1, 1). The ball's crossing is the image (iso_point_to_ball): the same (l, x). The return
  * map keeps the area dL dl, L = M_a = G x. The boundary x = +-1 is the rotation in the plane gamma_a = 0 itself.
  *
- * An axis is 0, 1 or 2. Units: any consistent ones; eps > 0 is the coupling of the orbit (iso_coupling). In the ball's
- * own units all calls hold for max J/min J up to 1e6 with |k| from 0.05 to 1000, and wherever eps and q^(1/k) do not
+ * An axis is 0, 1 or 2. Units: any consistent ones; eps > 0 is the coupling of the orbit (iso_coupling). In
+ * the ball's own units all calls hold for max J/min J up to 1e6 with |k| from 0.05 to 1000, and wherever eps and q^(1/k) do not
  * overflow.
  */
 #ifndef ISO_MAP_SECTION_H
@@ -28,8 +28,8 @@
 
 ISO_C_BEGIN
 
-/* The axis whose section is global: that of the largest moment for k > 0, of the smallest for k < 0; of equal ones the
- * first. There W^2 > 0 for every q: every orbit but the rotation in the plane gamma_a = 0 crosses for ever, and none
+/* The axis whose section is global: that of the largest moment for k > 0, of the smallest for k < 0; of equal ones
+ * the first. There W^2 > 0 for every q: every orbit but the rotation in the plane gamma_a = 0 crosses for ever, and none
  * only touches. */
 ISO_API int iso_section_axis(const iso_params *p);
 
@@ -61,10 +61,10 @@ ISO_API double iso_section_momentum(const iso_params *p, double eps, int axis, d
 /* The whole section's area, the integral of 2 G dl over the turn, to about 1e-15 of it. */
 ISO_API double iso_section_area(const iso_params *p, double eps, int axis);
 
-/* W[0] <= W <= W[1] for every gamma of the sphere, the closest such bounds. Where W^2 reaches 0 or less, W[0] is 0.
- * By Sturm's comparison two crossings that follow each other are at
- * least 2 pi/W[1] and at most 2 pi/W[0] apart in s (infinite for 0): a return outside was not the first one, or is none.
- * The bounds are rounded; where every gamma has the same W, an orbit's returns meet them to rounding. */
+/* W[0] <= W <= W[1] for every gamma of the sphere, the closest such bounds. Where W^2 reaches 0 or less, W[0] is 0;
+ * W[1] is always above 0. By Sturm's comparison two crossings that follow each other are at least 2 pi/W[1] and at
+ * most 2 pi/W[0] apart in s (infinite for 0). The bounds are rounded, and orbits may meet them: allow a rounding
+ * error. */
 ISO_API void iso_section_bounds(const iso_params *p, double eps, int axis, double W[2]);
 
 /* Points spread evenly over the section by the area dL dl. The first N of them, for every N, leave smaller holes than

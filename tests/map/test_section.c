@@ -118,7 +118,7 @@ static void bounds(const laws_case *c, laws_worst *worst)
             most = fmax(most, square);
         }
         const double near = 64 * laws_rounding(p) * (1 + 1 / fabs(p->k)), step = log(ratio) / SCAN;
-        const double missed = pow((2 + 2 / fabs(p->k)) * step, 2) + near; /* by a scan beside a stationary point */
+        const double missed = pow((2 + 2 / fabs(p->k)) * step, 2) + near; /* if it were at a stationary point */
         laws_note(worst, sqrt(fmax(least, 0)) >= W[0] * (1 - near) && sqrt(most) <= W[1] * (1 + near) ? 0 : 1, 0.5, p,
                   "inside");
         laws_note(worst, fabs(W[0] * W[0] - fmax(least, 0)), missed * fmax(most, 0), p, "W_min");
@@ -128,7 +128,7 @@ static void bounds(const laws_case *c, laws_worst *worst)
     laws_note(worst, iso_section_is_global(p, iso_section_axis(p)) ? 0 : 1, 0.5, p, "axis");
 }
 
-/* W_min and W_max where W^2 has a stationary point inside: k = 0.5, J = (1, 2, 5), axis 1: q = 3 */
+/* W_min and W_max where W^2 < 0 at a stationary point inside: k = 0.5, J = (1, 2, 5), axis 1: q = 3 */
 static void stationary(void)
 {
     const double J[3] = {1, 2, 5};
