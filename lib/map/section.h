@@ -15,8 +15,8 @@
  * map keeps the area dL dl, L = M_a = G x. The boundary x = +-1 is the rotation in the plane gamma_a = 0 itself.
  *
  * An axis is 0, 1 or 2. Units: any consistent ones; eps > 0 is the coupling of the orbit (iso_coupling). In
- * the ball's own units all calls hold for max J/min J up to 1e6 with |k| from 0.05 to 1000, and wherever eps and q^(1/k) do not
- * overflow.
+ * the ball's own units all calls hold for max J/min J up to 1e6 with |k| from 0.05 to 1000, and wherever eps and
+ * q^(1/k) do not overflow.
  */
 #ifndef ISO_MAP_SECTION_H
 #define ISO_MAP_SECTION_H
@@ -29,8 +29,8 @@
 ISO_C_BEGIN
 
 /* The axis whose section is global: that of the largest moment for k > 0, of the smallest for k < 0; of equal ones
- * the first. There W^2 > 0 for every q: every orbit but the rotation in the plane gamma_a = 0 crosses for ever, and none
- * only touches. */
+ * the first. There W^2 > 0 for every q: every orbit but the rotation in the plane gamma_a = 0 crosses for ever, and
+ * none only touches. */
 ISO_API int iso_section_axis(const iso_params *p);
 
 /* Whether `axis` is such an axis; of equal moments each one is. Sections of other axes may be met by every orbit as
