@@ -309,7 +309,7 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
     iso_batch_options own = iso_batch_defaults();
     iso_status checked = iso_options_take(ctx, "iso_batch_options", &own, sizeof own, options);
     if (checked != ISO_OK) return checked;
-    const iso_lane_code *code = iso_lane_code_find(own.vectors);
+    const iso_lane_code *code = iso_lane_code_find(own.vectors, false);
     checked = check(ctx, &own, code, times, rows);
     if (checked != ISO_OK) return checked;
     for (size_t i = 0; i < count * rows; i++) iso_sample_blank(&samples[i]);
