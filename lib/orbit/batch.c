@@ -211,7 +211,7 @@ static void *work(void *data)
 {
     worker *w = data;
     batch *b = w->b;
-    member *members = malloc(b->chunk * sizeof *members);
+    member *members = calloc(b->chunk, sizeof *members);
     bool memory = members != NULL;
     while (memory && going_on(w)) {
         const size_t first = atomic_fetch_add(&b->next, b->chunk);

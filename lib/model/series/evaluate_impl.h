@@ -79,10 +79,11 @@ static inline real sum_of_power(const nodes *t, const real a[], real p, const re
  * faster: it takes n b_n and 1/b_0 from its caller, and adds in two sums. So the two round differently. */
 static inline real power_of_series(const nodes *t, const real a[], real p, const real v[], int c, int n)
 {
+    if (n == 0 && !is_deviation(c)) return raised(a[0], p);
     if (a == t->scalar + ISO_GIVEN_BASE * t->kept)
         return power(a, t->slope, t->over_base, p, v, t->count[n], t->inverse[n], c, n);
     const real *da = a + place(c, 0), *dv = v + place(c, 0);
-    if (n == 0) return is_deviation(c) ? p * v[0] * da[0] / a[0] : raised(a[0], p);
+    if (n == 0) return p * v[0] * da[0] / a[0];
     if (!is_deviation(c)) return sum_of_power(t, a, p, v, n) * (t->inverse[n] / a[0]);
     const real of_da = sum_of_power(t, da, p, v, n) - t->count[n] * da[0] * v[n];
     return (sum_of_power(t, a, p, dv, n) + of_da) * (t->inverse[n] / a[0]);
