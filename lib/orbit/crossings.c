@@ -87,7 +87,7 @@ static iso_status check(iso_context *ctx, const iso_crossings_options *o)
     if (o->threads < 0 || o->threads > MOST_THREADS)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, %d]", o->threads,
                                 MOST_THREADS);
-    if (!iso_lane_code_find(o->vectors))
+    if (!iso_lane_code_find(o->vectors, o->deviations))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors",
                                 "this processor, or this build, has no vectors '%s'", o->vectors);
     return check_section(ctx, o);
