@@ -138,6 +138,21 @@ static void store_events(crew *c, real x, const bool due[])
         if (due[i]) store_event(c, i, &s, &l);
 }
 
+/* The same of crossings, whose times are to be found. */
+static void store_crossings(crew *c, real x, const bool due[])
+{
+    real gained[ISO_CLOCKS];
+    const iso_clock clock = c->T.shape.clock;
+    gained[clock] = x;
+    if (clock != c->T.own) integrate_clocks(&c->T, x, gained);
+    for (int i = 0; i < LANES; i++)
+        if (due[i])
+            c->job[i]->passed[c->job[i]->done] = c->left[i].head + (c->left[i].tail + (double)LANE(gained[clock], i));
+    store_events(c, x, due);
+    for (int i = 0; i < LANES; i++)
+        if (due[i]) c->job[i]->steps = 0;
+}
+
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
 /* Whether a lane's next row lies within its step of dt. *target: the time from the step's left end to the row, or
@@ -232,7 +247,7 @@ static void cross_part(crew *c, real x, const bool crosses[])
         if (crosses[i] && job->done < job->rows) c->seen[i]++;
         found |= due[i];
     }
-    if (found) store_events(c, x, due);
+    if (found) store_crossings(c, x, due);
 }
 
 /* Finds all crossings within the step. The signs at its ends are those of the states: a zero between two steps is neither
@@ -242,6 +257,8 @@ static void find_crossings(crew *c, real length)
     const form *T = &c->T;
     const int parts = parts_of(c, length);
     real a = zero, at_a = T->now.n[c->axis];
+    for (int i = 0; i < LANES; i++)
+        if (c->job[i] && c->job[i]->on_section && c->left[i].head == 0) LANE(at_a, i) = 0;
     for (int part = 1; part <= parts; part++) {
         const real b = part == parts ? length : length * ((NUMBER)part / (NUMBER)parts);
         const real at_b = part == parts ? c->after.n[c->axis] : component(T, c->axis, b);
@@ -359,6 +376,8 @@ static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_optio
         step_together(c);
         going_on = !options->go_on || options->go_on(options->data);
     }
+    for (int i = 0; i < LANES; i++)
+        if (c->job[i]) c->seen[i] = 0, save(c, i); /* stopped between two steps */
     free(c);
     return going_on;
 }
