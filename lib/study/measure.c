@@ -128,6 +128,9 @@ static iso_status draw_block(carrier *c, const uint64_t shift[3], uint64_t first
         c->orbit[i] = (iso_batch_orbit){p, &c->start[i], c->scene->free ? NULL : &c->scene->effects};
         c->kinetic[i] = T;
         c->sharp[i] = ln_g(p, n) / (2 * p->k);
+        double value[FUNCTIONS];
+        functions(c->scene, T, c->start[i].y, value);
+        iso_measure_sums_start(&c->sums, c->sharp[i], value);
     }
     return ISO_OK;
 }
@@ -177,7 +180,7 @@ static void choose_times(carrier *c)
     const double J = p->J[axis[1]], turn = 2 * ISO_PI / (fabs(p->k) * sqrt(2 * c->scene->kinetic / J));
     const double rate = iso_clock_rate(p, c->options->clock, J, NULL);
     const double end = isnan(c->options->end) ? c->options->turns * turn * rate : c->options->end;
-    for (int i = 0; i < ISO_MEASURE_ROWS; i++) c->times[i] = ldexp(end, i + 1 - ISO_MEASURE_ROWS);
+    for (int i = 0; i < ISO_MEASURE_ROWS; i++) c->times[i] = ldexp(end, 2 * (i + 1 - ISO_MEASURE_ROWS));
 }
 
 static iso_status allocate(carrier *c)
@@ -204,10 +207,8 @@ static void release(carrier *c)
 
 static void judge(carrier *c, iso_measure *m)
 {
-    measure_draw right;
     double expected[FUNCTIONS] = {0};
-    iso_measure_draw_prepare(&right, c->scene->params, power_of_g(c->scene->params, c->options->clock, 1));
-    iso_measure_draw_means(&right, OTHERS, functions_of_n, expected);
+    iso_measure_draw_means(&c->draw, OTHERS, functions_of_n, expected);
     *m = (iso_measure){.axis = -1, .clock = c->options->clock, .end = c->times[ISO_MEASURE_ROWS - 1]};
     iso_measure_judge(&c->sums, names, expected, c->times, iso_measure_floor(c->options), c->options->significance,
                       m);

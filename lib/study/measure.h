@@ -16,11 +16,11 @@
  * it keeps N times that; in s it is dgamma dtheta, Liouville's measure of the point on H = 0. The returns to a section
  * keep dL dl = G(l) dx dl (map/section.h).
  *
- * The test. The cloud is made of 64 clouds of equal numbers. Each is one low-discrepancy sequence in the three (of
+ * The test. The cloud is made of 32 clouds of equal numbers. Each is one low-discrepancy sequence in the three (of
  * returns two) variables in which the measure is uniform, shifted by a random vector modulo 1. So every point is
- * distributed by the measure exactly, the 64 clouds are independent, and means over each come much closer to the
+ * distributed by the measure exactly, the 32 clouds are independent, and means over each come much closer to the
  * exact ones than those of random points. The cloud is looked at four times. Then and there the mean of each test
- * function, over each of the 64 clouds, is compared with its exact mean: Student's t with 63 degrees of freedom tells
+ * function, over each of the 32 clouds, is compared with its exact mean: Student's t with 31 degrees of freedom tells
  * how likely so large a deviation is. All these tests count as one (Bonferroni): p is the least probability times
  * their number.
  *
@@ -37,7 +37,12 @@
 
 ISO_C_BEGIN
 
-enum { ISO_MEASURE_CLOUDS = 64, ISO_MEASURE_LEAST = 16 * ISO_MEASURE_CLOUDS, ISO_MEASURE_ROWS = 4 };
+enum {
+    ISO_MEASURE_CLOUDS = 32,
+    ISO_MEASURE_LEAST = 16 * ISO_MEASURE_CLOUDS,
+    ISO_MEASURE_ROWS = 4,
+    ISO_MEASURE_RETURNS = 1 << (ISO_MEASURE_ROWS - 1)
+};
 
 typedef struct iso_measure_options {
     size_t size;  /* set by iso_measure_defaults; see isoroll.h                                        */
@@ -49,7 +54,7 @@ typedef struct iso_measure_options {
                             1/2 of this and all of it                                                         */
     double end;          /* the same as a time of the clock; NaN: by turns                                    */
     iso_clock clock;     /* in equal times of which the flow carries the cloud                                */
-    int returns;         /* carry the cloud on the section; it is looked at after 1/8, ... of them: 8, 16, ... */
+    int returns;         /* ISO_MEASURE_RETURNS or more: carry the cloud on the section, likewise         */
     int axis;            /* of the section: 0 to 2; ISO_AXIS_AUTO (orbit/crossings.h): the global one         */
     double significance; /* the measure is not kept where p is less                                           */
     double tolerance;    /* of the integration                                                                */

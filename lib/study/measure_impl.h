@@ -39,14 +39,16 @@ typedef struct measure_sums {
     size_t count;                       /* points in all clouds                                                  */
     double (*value)[ISO_MEASURE_LINES]; /* of each cloud: sums of the functions, row after row                   */
     double product[ISO_MEASURE_LINES];  /* over all clouds: sums of them times `sharp`                           */
-    double sharp, sharp_square;         /* over all clouds                                                       */
+    double first[ISO_MEASURE_FUNCTIONS], first_product[ISO_MEASURE_FUNCTIONS]; /* the same at the start */
+    double sharp, sharp_square; /* over all clouds                                                       */
 } measure_sums;
 
 iso_status iso_measure_sums_create(iso_context *ctx, int functions, size_t count, measure_sums *sums);
 void iso_measure_sums_free(measure_sums *sums);
 
-/* Adds one point of a cloud: its functions in a row; once for each point its sharp function at the start, d ln(density)
- * / d(exponent). */
+/* Adds one point of a cloud: its functions at the start, then in each row. sharp: d ln(density)/d(exponent) at the
+ * start. */
+void iso_measure_sums_start(measure_sums *sums, double sharp, const double value[]);
 void iso_measure_sums_add(measure_sums *sums, int cloud, int row, double sharp, const double value[]);
 
 /* Fills lines, p, kept and resolution. name, expected: of each function; floor: the least standard error. */

@@ -17,6 +17,16 @@ void iso_measure_sums_free(measure_sums *sums)
     free(sums->value);
 }
 
+void iso_measure_sums_start(measure_sums *sums, double sharp, const double value[])
+{
+    sums->sharp += sharp;
+    sums->sharp_square += sharp * sharp;
+    for (int i = 0; i < sums->functions; i++) {
+        sums->first[i] += value[i];
+        sums->first_product[i] += sharp * value[i];
+    }
+}
+
 void iso_measure_sums_add(measure_sums *sums, int cloud, int row, double sharp, const double value[])
 {
     double *sum = sums->value[cloud] + row * sums->functions, *product = sums->product + row * sums->functions;
@@ -24,20 +34,22 @@ void iso_measure_sums_add(measure_sums *sums, int cloud, int row, double sharp, 
         sum[i] += value[i];
         product[i] += sharp * value[i];
     }
-    if (row == 0) sums->sharp += sharp, sums->sharp_square += sharp * sharp;
 }
 
-/* The mean of the clouds' means, its standard error from their scatter, and d(mean)/d(exponent), the covariance with
- * d ln(density)/d(exponent) at the start. */
+/* The mean of the clouds' means, its standard error from their scatter, and d(mean - expected)/d(exponent): that of the
+ * mean is the covariance with d ln(density)/d(exponent) at the start, that of the expected one the same for the values
+ * at the start. */
 static void find_mean(const measure_sums *sums, int at, iso_measure_line *line)
 {
+    const int f = at % sums->functions;
     const double each = (double)sums->count / ISO_MEASURE_CLOUDS, count = (double)sums->count;
     double mean = 0, square = 0;
     for (int c = 0; c < ISO_MEASURE_CLOUDS; c++) mean += sums->value[c][at] / each / ISO_MEASURE_CLOUDS;
     for (int c = 0; c < ISO_MEASURE_CLOUDS; c++) square += pow(sums->value[c][at] / each - mean, 2);
     line->mean = mean;
     line->error = sqrt(square / (ISO_MEASURE_CLOUDS - 1) / ISO_MEASURE_CLOUDS);
-    line->slope = (sums->product[at] - mean * sums->sharp) / count;
+    line->slope =
+        (sums->product[at] - sums->first_product[f]) / count - sums->sharp / count * (mean - sums->first[f] / count);
 }
 
 void iso_measure_judge(const measure_sums *sums, const char *const name[], const double expected[],
