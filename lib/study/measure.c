@@ -14,8 +14,8 @@ enum { BLOCK = 4096 }; /* orbits that are carried at a time */
 
 /* --- test functions --------------------------------------------------------------------------------------------- */
 
-/* Three kinds of functions: the energy, which has one value; those of n alone; those of n and the direction of v =
- * J^(1/2) w, v' = gamma x v, whose means over theta are 0 at each n. The names say omega for v. */
+/* The energy, which has one value; functions of n alone, of which three have means that are not 0; functions of n and
+ * of v = J^(1/2) omega/|..|, whose means over theta are 0 at each n, with u = gamma x v. */
 enum { ENERGY, LN_G, N1_SQUARE, N2_SQUARE, OTHERS, FUNCTIONS = 23 };
 static const char *const names[FUNCTIONS] = {
     "h",
@@ -28,19 +28,19 @@ static const char *const names[FUNCTIONS] = {
     "n1 n2",
     "n2 n3",
     "n3 n1",
-    "omega1",
-    "omega2",
-    "omega3",
-    "turn1",
-    "turn2",
-    "turn3",
-    "omega1^2",
-    "omega2^2",
-    "omega1 omega2",
-    "omega2 omega3",
-    "omega3 omega1",
-    "omega1 turn1",
-    "omega2 turn2",
+    "v1",
+    "v2",
+    "v3",
+    "u1",
+    "u2",
+    "u3",
+    "v1^2 - (1 - gamma1^2)/2",
+    "v2^2 - (1 - gamma2^2)/2",
+    "v1 v2 + gamma1 gamma2/2",
+    "v2 v3 + gamma2 gamma3/2",
+    "v3 v1 + gamma3 gamma1/2",
+    "v1 u1",
+    "v2 u2",
 };
 
 static double ln_g(const iso_params *p, const double n[3])
@@ -53,14 +53,14 @@ static void functions(const measure_scene *s, double first_kinetic, const double
                       double value[FUNCTIONS])
 {
     const double *w = ball, *n = ball + 3, *root = s->params->root_J;
-    double v[3], gamma[3], turn[3], *next = value + OTHERS;
+    double v[3], gamma[3], u[3], *next = value + OTHERS;
     for (int i = 0; i < 3; i++) {
         v[i] = root[i] * w[i];
         gamma[i] = n[i] / root[i];
     }
     const double size = make_unit(v), kinetic = size * size / 2;
     make_unit(gamma);
-    cross(gamma, v, turn);
+    cross(gamma, v, u);
     value[ENERGY] = (kinetic + iso_measure_potential(s, n) - s->energy) / first_kinetic;
     value[LN_G] = ln_g(s->params, n);
     value[N1_SQUARE] = n[0] * n[0];
@@ -68,13 +68,13 @@ static void functions(const measure_scene *s, double first_kinetic, const double
     for (int i = 0; i < 3; i++) *next++ = n[i];
     for (int i = 0; i < 3; i++) *next++ = n[i] * n[(i + 1) % 3];
     for (int i = 0; i < 3; i++) *next++ = v[i];
-    for (int i = 0; i < 3; i++) *next++ = turn[i];
+    for (int i = 0; i < 3; i++) *next++ = u[i];
     for (int i = 0; i < 2; i++) *next++ = v[i] * v[i] - (1 - gamma[i] * gamma[i]) / 2;
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3;
         *next++ = v[i] * v[j] + gamma[i] * gamma[j] / 2;
     }
-    for (int i = 0; i < 2; i++) *next++ = v[i] * turn[i];
+    for (int i = 0; i < 2; i++) *next++ = v[i] * u[i];
 }
 
 static void functions_of_n(double g, const double n2[3], double value[])

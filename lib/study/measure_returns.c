@@ -12,12 +12,25 @@ enum { BLOCK = 4096, AT_ONCE = 16 }; /* orbits; crossings of one orbit that are 
 
 /* --- test functions --------------------------------------------------------------------------------------------- */
 
-/* Those whose means are not 0 come first. The others are odd under a symmetry of the measure, or have a factor x or
- * x^2 - 1/3. */
-enum { LN_G, COS_2L, COS_4L, FUNCTIONS = 14, OTHERS = 3 };
+/* The energy, which has one value; those of l whose means are not 0. The others are odd under a symmetry of the
+ * measure, or have a factor x or x^2 - 1/3. */
+enum { ENERGY, LN_G, COS_2L, COS_4L, OTHERS, FUNCTIONS = 15 };
 static const char *const names[FUNCTIONS] = {
-    "ln G", "cos 2l",  "cos 4l",  "cos l",    "sin l",    "sin 2l",     "x",
-    "x^2",  "x cos l", "x sin l", "x cos 2l", "x sin 2l", "x^2 cos 2l", "x^2 sin 2l",
+    "h",
+    "ln G",
+    "cos 2l",
+    "cos 4l",
+    "cos l",
+    "sin l",
+    "sin 2l",
+    "x",
+    "x^2 - 1/3",
+    "x cos l",
+    "x sin l",
+    "x cos 2l",
+    "x sin 2l",
+    "(x^2 - 1/3) cos 2l",
+    "(x^2 - 1/3) sin 2l",
 };
 
 static void functions_of_l(const iso_params *p, int axis, double l, double value[OTHERS])
@@ -27,20 +40,12 @@ static void functions_of_l(const iso_params *p, int axis, double l, double value
     value[COS_4L] = cos(4 * l);
 }
 
-static void functions(const iso_params *p, int axis, double l, double x, double value[FUNCTIONS])
+/* `kinetic` is the energy in the unit of the first one's */
+static void functions(const iso_params *p, int axis, double l, double x, double kinetic, double value[FUNCTIONS])
 {
-    const double square = x * x - 1. / 3;
-    const double others[] = {cos(l),
-                             sin(l),
-                             sin(2 * l),
-                             x,
-                             square,
-                             x * cos(l),
-                             x * sin(l),
-                             x * cos(2 * l),
-                             x * sin(2 * l),
-                             square * cos(2 * l),
-                             square * sin(2 * l)};
+    const double y = x * x - 1. / 3, c = cos(l), s = sin(l), c2 = cos(2 * l), s2 = sin(2 * l);
+    const double others[] = {c, s, s2, x, y, x * c, x * s, x * c2, x * s2, y * c2, y * s2};
+    value[ENERGY] = kinetic - 1;
     functions_of_l(p, axis, l, value);
     for (int i = OTHERS; i < FUNCTIONS; i++) value[i] = others[i - OTHERS];
 }
@@ -55,9 +60,9 @@ static void expectations(const iso_params *p, int axis, double exponent, double 
         functions_of_l(p, axis, atan(exp(u)), value);
         const double weight = exp(exponent * value[LN_G]) / cosh(u);
         whole += weight;
-        for (int i = 0; i < OTHERS; i++) mean[i] += weight * value[i];
+        for (int i = LN_G; i < OTHERS; i++) mean[i] += weight * value[i];
     }
-    for (int i = 0; i < OTHERS; i++) mean[i] /= whole;
+    for (int i = LN_G; i < OTHERS; i++) mean[i] /= whole;
 }
 
 /* --- the cloud -------------------------------------------------------------------------------------------------- */
@@ -71,6 +76,7 @@ typedef struct returner {
     iso_start *start;
     iso_batch_orbit *orbit;
     iso_crossing *crossing;
+    iso_sample *sample;
     size_t *done;
     iso_status *status;
     double *sharp; /* of each orbit, at the start */
@@ -96,19 +102,33 @@ static void draw_block(returner *r, int cloud, uint64_t first, size_t count)
         r->orbit[i] = (iso_batch_orbit){p, &r->start[i], r->scene->free ? NULL : &r->scene->effects};
         r->sharp[i] = log(iso_section_momentum(p, 0.5, r->axis, l));
         double value[FUNCTIONS];
-        functions(p, r->axis, l, x, value);
+        functions(p, r->axis, l, x, 1, value);
         iso_measure_sums_start(&r->sums, r->sharp[i], value);
     }
 }
 
-static void add_row(returner *r, int cloud, int row, size_t count, size_t each)
+/* Each orbit's crossing and the ball there. */
+static void add_row(returner *r, int cloud, int row, size_t count)
 {
+    const iso_params *p = r->scene->params;
     for (size_t i = 0; i < count; i++) {
-        const iso_crossing *last = &r->crossing[each * i + each - 1];
+        const double kinetic = iso_ball_energy(p, r->sample[i].ball) / r->scene->energy;
         double value[FUNCTIONS];
-        functions(r->scene->params, r->axis, last->l, last->x, value);
+        functions(p, r->axis, r->crossing[i].l, r->crossing[i].x, kinetic, value);
         iso_measure_sums_add(&r->sums, cloud, row, r->sharp[i], value);
     }
+}
+
+/* The next `number` crossings of each orbit; the last one's stay in r->crossing and r->sample. */
+static iso_status go(returner *r, iso_crossings *c, int number)
+{
+    iso_status status = ISO_OK;
+    while (status == ISO_OK && number > 1) {
+        const int each = number - 1 < AT_ONCE ? number - 1 : AT_ONCE;
+        status = iso_crossings_go(c, NULL, (size_t)each, r->crossing, NULL, r->done, r->status);
+        number -= each;
+    }
+    return status == ISO_OK ? iso_crossings_go(c, NULL, 1, r->crossing, r->sample, r->done, r->status) : status;
 }
 
 static iso_status carry_block(returner *r, int cloud, size_t count)
@@ -120,14 +140,10 @@ static iso_status carry_block(returner *r, int cloud, size_t count)
     o.tolerance = r->options->tolerance;
     o.threads = r->options->threads;
     iso_status status = iso_crossings_create(r->ctx, r->orbit, count, &o, &c);
-    int at = 0;
-    for (int row = 0; row < ISO_MEASURE_ROWS; row++)
-        while (status == ISO_OK && at < r->returns[row]) {
-            const int left = r->returns[row] - at, each = left < AT_ONCE ? left : AT_ONCE;
-            status = iso_crossings_go(c, NULL, (size_t)each, r->crossing, NULL, r->done, r->status);
-            at += each;
-            if (status == ISO_OK && at == r->returns[row]) add_row(r, cloud, row, count, (size_t)each);
-        }
+    for (int row = 0; row < ISO_MEASURE_ROWS && status == ISO_OK; row++) {
+        status = go(r, c, r->returns[row] - (row > 0 ? r->returns[row - 1] : 0));
+        if (status == ISO_OK) add_row(r, cloud, row, count);
+    }
     iso_crossings_free(c);
     return status;
 }
@@ -151,10 +167,11 @@ static iso_status allocate(returner *r)
     r->start = calloc(BLOCK, sizeof *r->start);
     r->orbit = calloc(BLOCK, sizeof *r->orbit);
     r->crossing = calloc((size_t)BLOCK * AT_ONCE, sizeof *r->crossing);
+    r->sample = calloc(BLOCK, sizeof *r->sample);
     r->done = calloc(BLOCK, sizeof *r->done);
     r->status = calloc(BLOCK, sizeof *r->status);
     r->sharp = calloc(BLOCK, sizeof *r->sharp);
-    if (!r->start || !r->orbit || !r->crossing || !r->done || !r->status || !r->sharp)
+    if (!r->start || !r->orbit || !r->crossing || !r->sample || !r->done || !r->status || !r->sharp)
         return iso_context_fail(r->ctx, ISO_NO_MEMORY, "", "no memory for %d orbits", BLOCK);
     return iso_measure_sums_create(r->ctx, FUNCTIONS, r->options->count, &r->sums);
 }
@@ -164,6 +181,7 @@ static void release(returner *r)
     free(r->start);
     free(r->orbit);
     free(r->crossing);
+    free(r->sample);
     free(r->done);
     free(r->status);
     free(r->sharp);
