@@ -20,9 +20,9 @@
  * returns two) variables in which the measure is uniform, shifted by a random vector modulo 1. So every point is
  * distributed by the measure exactly, the 32 clouds are independent, and means over each come much closer to the
  * exact ones than those of random points. The cloud is looked at four times. Each time the mean of each test
- * function, over each of the 32 clouds, is compared with its exact mean, which comes from quadrature. Student's t with
- * 31 degrees of freedom tells how likely so large a deviation is. All these tests count as one (Bonferroni): p is
- * the least probability times their number.
+ * function, over each of the 32 clouds, is compared with its exact mean, which comes from quadrature. Student's t
+ * with 31 degrees of freedom tells how likely so large a deviation is. All these tests count as one (Bonferroni): p
+ * is the least probability times their number.
  *
  * Test functions of equal times: the energy h (relative; a ball that loses energy leaves the level), ln g, which
  * changes most where the exponent is wrong, products of components of n, of v/|v| and of u = gamma x v/|v|. Of
