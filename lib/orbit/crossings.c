@@ -87,7 +87,7 @@ static iso_status check(iso_context *ctx, const iso_crossings_options *o)
     if (o->threads < 0 || o->threads > MOST_THREADS)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, %d]", o->threads,
                                 MOST_THREADS);
-    if (!iso_lane_code_find(o->vectors))
+    if (!iso_lane_code_find(o->vectors, o->deviations))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors",
                                 "this processor, or this build, has no vectors '%s'", o->vectors);
     return check_section(ctx, o);
@@ -120,6 +120,7 @@ void iso_crossings_free(iso_crossings *c)
     if (!c) return;
     for (size_t i = 0; i < c->count; i++) {
         iso_orbit_free(c->orbit[i].alone);
+        iso_crossings_free_lane(c->orbit[i].lane);
         free(c->orbit[i].why);
     }
     free(c->orbit);
@@ -127,13 +128,6 @@ void iso_crossings_free(iso_crossings *c)
 }
 
 /* --- going on --------------------------------------------------------------------------------------------------- */
-
-/* Until crossings_lanes.c is there. */
-bool iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *task, bool taken[])
-{
-    (void)c, (void)task, (void)taken;
-    return true;
-}
 
 static void blank(const iso_crossings *c, const iso_crossings_task *t)
 {
@@ -147,14 +141,13 @@ static void blank(const iso_crossings *c, const iso_crossings_task *t)
     }
 }
 
-/* Keeps a failure that lasts, with its words. */
-static void keep(iso_crossings *c, size_t i, iso_status status)
+void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status)
 {
     iso_crossed *o = &c->orbit[i];
     if (status == ISO_OK || status == ISO_STOPPED) return;
     o->status = status;
-    o->why = strdup(iso_context_message(c->ctx));
-    snprintf(o->about, sizeof o->about, "%s", iso_context_about(c->ctx));
+    o->why = strdup(iso_context_message(ctx));
+    snprintf(o->about, sizeof o->about, "%s", iso_context_about(ctx));
 }
 
 static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, const bool taken[])
@@ -167,7 +160,7 @@ static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, cons
             t->status[i] = iso_crossings_go_alone(c, i, t->each, t->crossing + t->each * i, sample, &t->done[i]);
         if (t->status[i] == ISO_STOPPED) return iso_context_fail(c->ctx, ISO_STOPPED, "", "stopped on request");
         if (t->status[i] == ISO_NO_MEMORY) return ISO_NO_MEMORY;
-        keep(c, i, t->status[i]);
+        iso_crossings_keep(c, c->ctx, i, t->status[i]);
     }
     return ISO_OK;
 }
@@ -191,11 +184,9 @@ iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, 
     const iso_crossings_task task = {wanted, each, crossing, sample, done, status};
     bool *taken = calloc(c->count + 1, sizeof *taken);
     blank(c, &task);
-    if (!taken || !iso_crossings_in_lanes(c, &task, taken)) {
-        free(taken);
-        return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for crossings");
-    }
-    const iso_status answer = one_by_one(c, &task, taken);
+    if (!taken) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for crossings");
+    iso_status answer = iso_crossings_in_lanes(c, &task, taken);
+    if (answer != ISO_NO_MEMORY && answer != ISO_STOPPED) answer = one_by_one(c, &task, taken);
     free(taken);
     return answer == ISO_OK ? tell_first(c, &task) : answer;
 }

@@ -39,14 +39,14 @@ typedef struct iso_crossings_options {
     size_t size;         /* set by iso_crossings_defaults; see isoroll.h */
     iso_backend backend; /* the model that is integrated: ISO_BACKEND_BALL, _POINT, or _AUTO as in batches       */
     iso_section_kind kind;
-    int axis;            /* of ISO_SECTION_AXIS: 0 to 2; ISO_AXIS_AUTO: the global one of each orbit             */
-    int column;          /* of ISO_SECTION_COLUMN, see iso_column_find                                           */
-    double value;        /* of ISO_SECTION_COLUMN: what the column passes; of ISO_SECTION_CLOCK: the step > 0    */
-    iso_clock clock;     /* of ISO_SECTION_CLOCK                                                                 */
+    int axis;        /* of ISO_SECTION_AXIS: 0 to 2; ISO_AXIS_AUTO: the global one of each orbit             */
+    int column;      /* of ISO_SECTION_COLUMN, see iso_column_find                                           */
+    double value;    /* of ISO_SECTION_COLUMN: what the column passes; of ISO_SECTION_CLOCK: the step > 0    */
+    iso_clock clock; /* of ISO_SECTION_CLOCK                                                                 */
     bool deviations;
     double tolerance;
-    long max_steps;      /* between two crossings; 0: no bound                                                   */
-    iso_shown shown;     /* what samples show                                                                    */
+    long max_steps;  /* between two crossings; 0: no bound                                                   */
+    iso_shown shown; /* what samples show                                                                    */
     int threads;
     const char *vectors;
 } iso_crossings_options;
@@ -72,8 +72,8 @@ typedef struct iso_crossing {
                                  gamma. Without the isomorphism, of J^(1/2) omega (for k < 0 of -J^(1/2) omega)
                                  and J^(-1/2) n, which have these directions where there is one                  */
     double growth[ISO_DEVIATIONS]; /* ln of the length of d1 and d2; 0 at the start                              */
-    double area;              /* sine of the angle between d1 and d2, in [0, 1]: GALI_2                          */
-    double slope[2][2];       /* ISO_SECTION_AXIS: d(l, x) of this crossing / d(l, x) at the start, where the
+    double area;        /* sine of the angle between d1 and d2, in [0, 1]: GALI_2                          */
+    double slope[2][2]; /* ISO_SECTION_AXIS: d(l, x) of this crossing / d(l, x) at the start, where the
                                  start lies on the section; row: l, x here; column: l, x there                   */
 } iso_crossing;
 

@@ -13,30 +13,10 @@
 
 /* --- the orbit -------------------------------------------------------------------------------------------------- */
 
-/* Whether the numbers of a model are needed: those that are integrated, those that are asked for, and the column. */
-static bool needs(const iso_crossings_options *o, iso_backend backend, iso_shown model)
-{
-    const bool point = model == ISO_SHOW_POINT;
-    const bool of_point = o->column >= ISO_COLUMN_POINT && o->column < ISO_COLUMN_EFFECTS;
-    if ((int)backend == (int)model || o->shown == model || o->shown == ISO_SHOW_BOTH) return true;
-    return o->kind == ISO_SECTION_COLUMN && of_point == point;
-}
-
 static iso_status create_as(const iso_crossings *c, size_t i, iso_backend backend, bool clocks, iso_orbit **orbit)
 {
-    const iso_crossings_options *o = &c->options;
-    const iso_batch_orbit *of = &c->orbits[i];
-    iso_orbit_options how = iso_orbit_defaults(of->start);
-    how.effects = of->effects;
-    how.backend = backend;
-    how.tolerance = o->tolerance;
-    how.clock = backend == ISO_BACKEND_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
-    if (o->kind == ISO_SECTION_CLOCK) how.clock = o->clock;
-    for (iso_clock k = 0; k < ISO_CLOCKS; k++) how.with_clock[k] = clocks;
-    how.shown = !needs(o, backend, ISO_SHOW_POINT)  ? ISO_SHOW_BALL
-                : !needs(o, backend, ISO_SHOW_BALL) ? ISO_SHOW_POINT
-                                                    : ISO_SHOW_BOTH;
-    return iso_orbit_create(c->ctx, of->params, of->start, &how, orbit);
+    const iso_orbit_options how = iso_crossings_orbit_options(c, i, backend, clocks);
+    return iso_orbit_create(c->ctx, c->orbits[i].params, c->orbits[i].start, &how, orbit);
 }
 
 /* Without an isomorphism there are no other clocks; where they do not fit a double the orbit goes on without them. */
@@ -61,39 +41,9 @@ static iso_status create(const iso_crossings *c, size_t i, iso_orbit **orbit)
 
 /* --- the start -------------------------------------------------------------------------------------------------- */
 
-static iso_model_kind model_of(const iso_orbit *orbit)
-{
-    return iso_orbit_backend(orbit) == ISO_BACKEND_POINT ? ISO_POINT : ISO_BALL;
-}
-
 static const double *state_of(const iso_orbit *orbit, const iso_sample *sample)
 {
-    return model_of(orbit) == ISO_POINT ? sample->point : sample->ball;
-}
-
-/* An orbit in the plane n_a = 0 itself stays there where no potential pulls: n_a and its rate, of size 1, are 0 or
- * rounding. */
-static iso_status check_plane(const iso_crossings *c, const iso_orbit *orbit, const double y[ISO_STATE], int axis)
-{
-    const double swing = fmax(fabs(y[(axis + 1) % 3]), fabs(y[(axis + 2) % 3])) / largest(y);
-    if (fmax(fabs(y[3 + axis]), swing) > 1e-14 || iso_effects_pull(&orbit->effects)) return ISO_OK;
-    return iso_context_fail(c->ctx, ISO_BAD_INPUT, "axis",
-                            "this orbit is the rotation about axis %d, in the plane n_%d = 0 itself: it is the "
-                            "boundary of the section, and crosses it nowhere",
-                            axis + 1, axis + 1);
-}
-
-/* Only free orbits obey gamma_a'' = -W^2 gamma_a. */
-static void find_bounds(iso_crossed *o)
-{
-    const iso_orbit *orbit = o->alone;
-    const bool is_free = !iso_effects_have_level(&orbit->effects) && !iso_effects_beyond_level(&orbit->effects);
-    double W[2];
-    o->bound[0] = o->bound[1] = NAN;
-    if (o->axis < 0 || !is_free || !iso_orbit_has_twin(orbit)) return;
-    iso_section_bounds(&orbit->units.own, orbit->eps, o->axis, W);
-    o->bound[0] = 2 * ISO_PI / W[1];
-    o->bound[1] = 2 * ISO_PI / W[0];
+    return iso_crossings_model(orbit) == ISO_POINT ? sample->point : sample->ball;
 }
 
 static iso_status begin(iso_crossings *c, size_t i)
@@ -108,11 +58,11 @@ static iso_status begin(iso_crossings *c, size_t i)
     if (status != ISO_OK) return status;
     if (o->alone->rests && c->options.kind != ISO_SECTION_CLOCK)
         return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the ball rests: it crosses no section");
-    find_bounds(o);
+    iso_crossings_bounds(o->alone, o);
     if (o->axis < 0) return ISO_OK;
     const double *y = state_of(o->alone, &start);
-    o->begins_on_it = iso_crossings_on_section(c->orbits[i].params, model_of(o->alone), y, o->axis);
-    return check_plane(c, o->alone, y, o->axis);
+    o->begins_on_it = iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(o->alone), y, o->axis);
+    return iso_crossings_check_plane(c->ctx, o->alone, y, o->axis);
 }
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
@@ -163,49 +113,15 @@ static iso_status next_sample(iso_crossings *c, iso_crossed *o, iso_sample *samp
     return next_event(c, o, sample);
 }
 
-/* Sturm: two crossings of a global section are so and so far apart in s. A gap would be a skipped crossing. */
-static iso_status hold(const iso_crossings *c, const iso_crossed *o, double s)
-{
-    const bool least = o->count > 0 || o->begins_on_it;
-    if (iso_crossings_apart(o->bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
-    const double unit = o->alone->unit_clock[ISO_CLOCK_S];
-    return iso_context_fail(c->ctx, ISO_NUMERICAL, "",
-                            "crossings %zu and %zu of n_%d = 0 are %.10g apart in s, not between %.10g and %.10g: "
-                            "the computation is wrong there; take a smaller tolerance",
-                            o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, o->bound[0] * unit,
-                            o->bound[1] * unit);
-}
-
-/* The chart is that of the directions of M and gamma. M has the direction of J^(1/2) omega, for k < 0 of the opposite,
- * and gamma that of J^(-1/2) n (18): so a ball without a twin has a chart as well. */
-static void chart(const iso_orbit *orbit, const double y[ISO_STATE], int axis, double *l, double *x)
-{
-    const iso_params *own = &orbit->units.own;
-    double point[ISO_STATE];
-    copy(y, point, ISO_STATE);
-    for (int i = 0; i < 3 && model_of(orbit) == ISO_BALL; i++) {
-        point[i] *= copysign(own->root_J[i], own->k);
-        point[3 + i] /= own->root_J[i];
-    }
-    iso_section_chart(axis, point, l, x);
-}
-
 static void fill(const iso_crossed *o, const iso_sample *sample, iso_crossing *to)
 {
     iso_crossing_blank(to);
     for (int k = 0; k < ISO_CLOCKS; k++) to->clock[k] = sample->clock[k];
     if (!iso_orbit_has_twin(o->alone)) to->clock[ISO_CLOCK_TAU] = to->clock[ISO_CLOCK_S] = NAN;
     if (o->axis < 0) return;
-    chart(o->alone, state_of(o->alone, sample), o->axis, &to->l, &to->x);
-}
-
-/* What the caller does not ask for is NaN. */
-static void give(const iso_crossings *c, const iso_sample *from, iso_sample *to)
-{
-    *to = *from;
-    for (int i = 0; i < ISO_STATE && c->options.shown == ISO_SHOW_BALL; i++) to->point[i] = NAN;
-    for (int i = 0; i < ISO_STATE && c->options.shown == ISO_SHOW_POINT; i++) to->ball[i] = NAN;
-    for (int i = 0; i < ISO_EFFECT_COLUMNS && c->options.shown == ISO_SHOW_POINT; i++) to->effect[i] = NAN;
+    double point[ISO_STATE];
+    iso_crossings_point(o->alone, state_of(o->alone, sample), point);
+    iso_section_chart(o->axis, point, &to->l, &to->x);
 }
 
 /* Whether this first event is the start itself, up to rounding: an orbit that starts on the section crosses it again
@@ -226,10 +142,10 @@ static iso_status step(iso_crossings *c, iso_crossed *o, iso_crossing *crossing,
     o->time = here.clock[o->alone->options.clock];
     *counts = !is_start(o, o->time, s);
     if (!*counts) return ISO_OK;
-    status = hold(c, o, s);
+    status = iso_crossings_hold(c->ctx, c, o, o->alone, s);
     if (status != ISO_OK) return status;
     fill(o, &here, crossing);
-    if (sample) give(c, &here, sample);
+    if (sample) iso_crossings_give(c, &here, sample);
     o->s = s;
     o->count++;
     return ISO_OK;
