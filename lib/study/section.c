@@ -263,13 +263,14 @@ static iso_status describe(const iso_section_walk *w, iso_record *r)
     return status == ISO_OK ? iso_record_set(w->ctx, r, "isoroll", ISO_VERSION) : status;
 }
 
-static iso_status give_header(const iso_section_walk *w)
+iso_status iso_section_give_header(iso_section_walk *w)
 {
     iso_record *header = NULL;
     iso_status status = create_header(w, &header);
     if (status == ISO_OK) status = describe(w, header);
     if (status == ISO_OK && w->sink->header) status = w->sink->header(w->sink->data, header);
     iso_record_free(header);
+    w->begun = true;
     return status;
 }
 
@@ -340,7 +341,6 @@ iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_s
     iso_status status = iso_options_take(ctx, "iso_section_options", &w.options, sizeof w.options, options);
     if (status == ISO_OK) status = set_up(&w);
     if (status == ISO_OK) tell_nature(&w);
-    if (status == ISO_OK) status = give_header(&w);
     if (status == ISO_OK) status = walk(&w);
     iso_section_free_room(&w);
     iso_orbit_free(w.orbit);

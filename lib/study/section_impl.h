@@ -30,6 +30,7 @@ typedef struct iso_section_walk {
     int columns[ISO_MAX_COLUMNS], count; /* of the samples, behind those                   */
     int models;                          /* 1 or 2 ... */
     iso_model_kind model[2];             /* ... that are integrated; rows are the first one's     */
+    bool begun;                          /* the sink has the header */
     /* the group */
     size_t group, slice, slices; /* orbits in it; crossings asked for at a time; slices kept in memory */
     size_t first, members;
@@ -42,6 +43,9 @@ typedef struct iso_section_walk {
     size_t *done[2];           /* [slice][orbit]                                        */
     iso_status *status[2];
 } iso_section_walk;
+
+/* Gives it to the sink: before the first row, so that a scene without any crossing opens no file. */
+iso_status iso_section_give_header(iso_section_walk *w);
 
 /* Room for a group. Errors: ISO_NO_MEMORY. */
 iso_status iso_section_make_room(iso_section_walk *w);

@@ -210,7 +210,8 @@ static iso_status give_row(iso_section_walk *w, size_t i, const iso_crossing *at
         note_failure(w, i, ISO_NUMERICAL, "a number of a crossing does not fit a double");
         return ISO_OK;
     }
-    const iso_status status = w->sink->row ? w->sink->row(w->sink->data, row, n) : ISO_OK;
+    iso_status status = w->begun ? ISO_OK : iso_section_give_header(w);
+    if (status == ISO_OK && w->sink->row) status = w->sink->row(w->sink->data, row, n);
     w->result->rows += status == ISO_OK;
     return status;
 }
