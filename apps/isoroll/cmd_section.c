@@ -99,6 +99,7 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
 /* `at` is the caller's to free. */
 static iso_status read_options(iso_context *ctx, const options *o, iso_section_options *how, double (**at)[2])
 {
+    int axis;
     *how = iso_section_defaults();
     how->crossings = (size_t)o->crossings;
     how->starts = (size_t)o->starts;
@@ -113,6 +114,9 @@ static iso_status read_options(iso_context *ctx, const options *o, iso_section_o
     how->at = (const double(*)[2]) * at;
     if (status == ISO_OK && o->axis && o->event)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --axis or --event, not both");
+    if (status == ISO_OK && o->plot && how->column >= 0 && !iso_section_is_of_axis(how->column, how->value, &axis))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                "--plot draws sections n_A = 0; an event has no coordinates to be drawn in");
     return status;
 }
 
@@ -177,7 +181,7 @@ static void tell_both(const iso_section_result *r)
 
 static void tell(const iso_section_result *r)
 {
-    complain("%zu orbits, %zu crossings written", r->orbits, r->rows);
+    complain("%zu orbit%s, %zu crossings written", r->orbits, r->orbits == 1 ? "" : "s", r->rows);
     if (r->nature.global) complain("%s", r->nature.words);
     if (r->models == ISO_SHOW_BOTH) tell_both(r);
 }

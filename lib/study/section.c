@@ -64,6 +64,13 @@ iso_section_nature iso_section_of(const iso_orbit *orbit, int axis)
     return n;
 }
 
+bool iso_section_is_of_axis(int column, double value, int *axis)
+{
+    for (int a = 0; a < 3 && value == 0; a++)
+        if (column == ISO_COLUMN_BALL + 3 + a || column == ISO_COLUMN_POINT + 3 + a) return *axis = a, true;
+    return false;
+}
+
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
 static iso_status check_rest(const iso_section_walk *w)
@@ -123,15 +130,10 @@ static iso_status check_column(const iso_section_walk *w)
 
 /* --- what is done ----------------------------------------------------------------------------------------------- */
 
-/* n_a = 0 and gamma_a = 0 as events are the section of that axis. */
 static void choose_section(iso_section_walk *w)
 {
     iso_section_options *o = &w->options;
-    for (int a = 0; a < 3 && o->value == 0; a++)
-        if (o->column == ISO_COLUMN_BALL + 3 + a || o->column == ISO_COLUMN_POINT + 3 + a) {
-            o->column = -1;
-            o->axis = a;
-        }
+    if (iso_section_is_of_axis(o->column, o->value, &o->axis)) o->column = -1;
     w->chart = o->column < 0;
 }
 
