@@ -6,9 +6,9 @@
 #define LANES 1
 #define ROUND_POWERS_ONCE /* splittings add up a rounding error of each kick, without end */
 
-#include "model/series/evaluate_impl.h"
-
 enum { KEPT = 2 }; /* coefficients of each series: the value, and of a state the rate */
+
+#include "model/series/evaluate_impl.h"
 
 typedef struct values {
     real scalar[ISO_FORMULA_SCALARS * KEPT];
@@ -74,7 +74,7 @@ void iso_formula_rates(const iso_formula *F, const iso_params *p, const double y
 {
     values v;
     set_given(&v, F, p, y, false);
-    evaluate(F, &v.nodes, false, 0);
+    evaluate(F, &v.nodes, false, 0, 0);
     for (int i = 0; i < 3; i++) T[i] += v.torque.at[i];
     get_rates(&v, F, false, dy);
 }
@@ -84,8 +84,8 @@ void iso_formula_late_rates(const iso_formula *F, const iso_params *p, const dou
     values v;
     set_given(&v, F, p, y, false);
     v.vector[ISO_GIVEN_OMEGA_DOT * KEPT] = vector_at(dy);
-    evaluate(F, &v.nodes, false, 0);
-    evaluate(F, &v.nodes, true, 0);
+    evaluate(F, &v.nodes, false, 0, 0);
+    evaluate(F, &v.nodes, true, 0, 0);
     get_rates(&v, F, true, dy);
 }
 
@@ -93,7 +93,7 @@ double iso_formula_energy(const iso_formula *F, const iso_params *p, const doubl
 {
     values v;
     set_given(&v, F, p, y, false);
-    evaluate(F, &v.nodes, false, 0);
+    evaluate(F, &v.nodes, false, 0, 0);
     return v.potential;
 }
 
@@ -101,7 +101,7 @@ double iso_formula_image(const iso_formula *F, const iso_params *p, const double
 {
     values v;
     set_given(&v, F, p, y, true);
-    evaluate(F, &v.nodes, false, 0);
+    evaluate(F, &v.nodes, false, 0, 0);
     for (int i = 0; gradient && i < 3; i++) gradient[i] = v.gradient.at[i];
     return v.potential;
 }

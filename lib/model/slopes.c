@@ -11,7 +11,7 @@
 #define FMA fma
 #define LANES 4
 
-enum { MOST = 1 };
+enum { KEPT = 4 }; /* two more than the highest order, 1, and 0 */
 
 #include "model/effects_impl.h"
 #include "model/model.h"
@@ -75,7 +75,7 @@ static void set_states(series *S, const iso_model *m, const double y[], int firs
 /* The terms in their order give coefficient n + 1 of all states. */
 static void call_terms(series *S, int n)
 {
-    for (int i = 0; i < S->terms; i++) S->term[i](S, n);
+    for (int i = 0; i < S->terms; i++) S->term[i](S, 0, n);
 }
 
 void iso_model_rhs_of_recurrences(const iso_model *m, const double y[], double dy[])

@@ -39,14 +39,14 @@ typedef struct iso_crossings_options {
     size_t size;         /* set by iso_crossings_defaults; see isoroll.h */
     iso_backend backend; /* the model that is integrated: ISO_BACKEND_BALL, _POINT, or _AUTO as in batches       */
     iso_section_kind kind;
-    int axis;            /* of ISO_SECTION_AXIS: 0 to 2; ISO_AXIS_AUTO: the global one of each orbit             */
-    int column;          /* of ISO_SECTION_COLUMN, see iso_column_find                                           */
-    double value;        /* of ISO_SECTION_COLUMN: what the column passes; of ISO_SECTION_CLOCK: the step > 0    */
-    iso_clock clock;     /* of ISO_SECTION_CLOCK                                                                 */
+    int axis;        /* of ISO_SECTION_AXIS: 0 to 2; ISO_AXIS_AUTO: the global one of each orbit             */
+    int column;      /* of ISO_SECTION_COLUMN, see iso_column_find                                           */
+    double value;    /* of ISO_SECTION_COLUMN: what the column passes; of ISO_SECTION_CLOCK: the step > 0    */
+    iso_clock clock; /* of ISO_SECTION_CLOCK                                                                 */
     bool deviations;
     double tolerance;
-    long max_steps;      /* between two crossings; 0: no bound                                                   */
-    iso_shown shown;     /* what samples show                                                                    */
+    long max_steps;  /* between two crossings; 0: no bound                                                   */
+    iso_shown shown; /* what samples show                                                                    */
     int threads;
     const char *vectors;
 } iso_crossings_options;
@@ -68,10 +68,12 @@ static inline iso_crossings_options iso_crossings_defaults(void)
 /* One crossing, in the caller's units. What there is not is NaN. */
 typedef struct iso_crossing {
     double clock[ISO_CLOCKS]; /* since the start; tau and s need the isomorphism                                 */
-    double l, x;              /* chart of ISO_SECTION_AXIS, see map/section.h                                    */
+    double l, x;              /* chart of ISO_SECTION_AXIS, see map/section.h: that of the directions of M and
+                                 gamma. Without the isomorphism, of J^(1/2) omega (for k < 0 of -J^(1/2) omega)
+                                 and J^(-1/2) n, which have these directions where there is one                  */
     double growth[ISO_DEVIATIONS]; /* ln of the length of d1 and d2; 0 at the start                              */
-    double area;              /* sine of the angle between d1 and d2, in [0, 1]: GALI_2                          */
-    double slope[2][2];       /* ISO_SECTION_AXIS: d(l, x) of this crossing / d(l, x) at the start, where the
+    double area;        /* sine of the angle between d1 and d2, in [0, 1]: GALI_2                          */
+    double slope[2][2]; /* ISO_SECTION_AXIS: d(l, x) of this crossing / d(l, x) at the start, where the
                                  start lies on the section; row: l, x here; column: l, x there                   */
 } iso_crossing;
 
@@ -89,7 +91,9 @@ ISO_API void iso_crossings_free(iso_crossings *c);
  * on any more, and gives the same status again. The others go on.
  * Errors of one orbit: those of iso_orbit_create and iso_orbit_at; ISO_NUMERICAL where two crossings of a global
  * section are closer or farther apart than they can be (map/section.h), where the ball rests, or where no further
- * crossing is found within ISO_MOST_BETWEEN turns. The call gives the first one's with its number and reason.
+ * crossing is found within ISO_MOST_BETWEEN turns; ISO_BAD_INPUT about "axis" for an orbit in the plane n_a = 0 itself,
+ * the boundary of the chart. Where tau and s do not fit a double (extreme k), the distances are not held to these
+ * bounds. A start on the section, n_a = 0 up to 1e-8 of its oscillation, is no crossing. The call gives the first one's with its number and reason.
  * Errors of all: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: done[] and what it counts are valid, and the
  * next call goes on from there. */
 enum { ISO_MOST_BETWEEN = 10000 };

@@ -1,24 +1,77 @@
 /* crew_impl.h - solves the jobs of lanes_impl.h, LANES side by side. A lane whose job ends takes the next one. */
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
+#include "method/taylor/deviations_impl.h"
 #include "method/taylor/lanes_impl.h"
-#include "method/taylor/restore_impl.h"
+
+enum { MOST_PARTS = 4096 }; /* of a step, in the search for crossings */
 
 typedef struct crew {
     iso_lane_job *job[LANES]; /* NULL: the lane has no job; it goes on with its last orbit, and nothing is stored */
     iso_instant left[LANES];  /* the time at the step's left end */
     double row[LANES];        /* the time of the next row */
-    real direction;
+    bool fresh[LANES];        /* its deviations are still to be found */
+    long seen[LANES];         /* crossings in this step ...                                  */
+    long known[LANES];        /* ... of which so many have been stored by an earlier call    */
+    double since[LANES];      /* how far the variable has gone since the last crossing       */
+    real direction, zeros;
+    bool crossings; /* jobs ask for crossings, of `axis` */
+    int axis;
     iso_lane_job *const *next; /* jobs still to be taken */
     size_t waiting;
     const iso_lane_options *options;
-    form T; /* last: solve() clears all before it, set_shape() this */
+    state after; /* at the end of the step */
+    form T;      /* last: solve() clears all before it, set_shape() this */
 } crew;
+
+/* --- an orbit in parts ------------------------------------------------------------------------------------------ */
+
+/* A lane at the left end of its step. */
+typedef struct saved_lane {
+    bool there;
+    iso_instant left;
+    long known;
+    double since;
+    NUMBER now[CHANNELS][sizeof(state) / sizeof(real)], scale[CHANNELS];
+} saved_lane;
+
+static state *channel_now(crew *c, int channel)
+{
+    return channel == 0 ? &c->T.now : &c->T.deviation[channel];
+}
+
+static void save(crew *c, int lane)
+{
+    const iso_lane_job *job = c->job[lane];
+    saved_lane *s = job->saved;
+    if (!s) return;
+    *s = (saved_lane){true, c->left[lane], c->seen[lane], c->since[lane], {{0}}, {0}};
+    for (int i = 0; i < CHANNELS; i++) {
+        const real *now = (const real *)channel_now(c, i);
+        for (size_t j = 0; j < sizeof(state) / sizeof(real); j++) s->now[i][j] = LANE(now[j], lane);
+        s->scale[i] = LANE(c->T.scale[i], lane);
+    }
+}
+
+static bool recall(crew *c, int lane)
+{
+    const saved_lane *s = c->job[lane]->saved;
+    if (!s || !s->there) return false;
+    c->left[lane] = s->left, c->known[lane] = s->known, c->since[lane] = s->since;
+    for (int i = 0; i < CHANNELS; i++) {
+        real *now = (real *)channel_now(c, i);
+        for (size_t j = 0; j < sizeof(state) / sizeof(real); j++) LANE(now[j], lane) = s->now[i][j];
+        LANE(c->T.scale[i], lane) = s->scale[i];
+    }
+    return true;
+}
+
+/* --- jobs and lanes --------------------------------------------------------------------------------------------- */
 
 static void next_row(crew *c, int lane)
 {
     const iso_lane_job *job = c->job[lane];
-    if (job->done < job->rows) c->row[lane] = job->time[job->done] / job->unit;
+    if (job->time && job->done < job->rows) c->row[lane] = job->time[job->done] / job->unit;
 }
 
 /* Gives the lane the next job that asks for any rows. */
@@ -34,10 +87,73 @@ static void start_next(crew *c, int lane)
     const iso_lane_job *job = c->job[lane];
     if (!job) return;
     c->left[lane] = (iso_instant){0, 0};
-    LANE(c->direction, lane) = job->time[job->rows - 1] < 0 ? -1 : 1;
+    c->since[lane] = 0, c->known[lane] = 0;
+    LANE(c->direction, lane) = job->time && job->time[job->rows - 1] < 0 ? -1 : 1;
+    LANE(c->zeros, lane) = job->zeros;
     next_row(c, lane);
     start_orbit(&c->T, lane, job->model, job->start);
+    c->fresh[lane] = !recall(c, lane);
 }
+
+/* --- what is stored --------------------------------------------------------------------------------------------- */
+
+/* What is seen of the deviations. */
+static void store_look(const form *T, int lane, const state *s, const look *l, iso_lane_event *e)
+{
+    for (int i = 0; i < ISO_LANE_DEVIATIONS; i++) {
+        store_deviation(T, lane, s, &l->deviation[i + 1], e->deviation[i]);
+        e->scale[i] = (double)LANE(T->scale[i + 1], lane);
+        e->growth[i] = e->scale[i] + 0.5 * log((double)LANE(l->square[i + 1], lane));
+    }
+    e->sine = (double)LANE(l->sine, lane);
+}
+
+/* Stores what the lane's job asks for, at x of the series, where the state is s; l: of the deviations, if there are. */
+static void store_event(crew *c, int lane, const state *s, const look *l)
+{
+    form *T = &c->T;
+    iso_lane_job *job = c->job[lane];
+    double y[ISO_MAX_STATE];
+    store(T, lane, s, y);
+    if (!all_finite(y, T->shape.dim)) {
+        job->error = "the series diverges";
+        return;
+    }
+    if (job->states) memcpy(job->states + job->done * job->stride, y, (size_t)T->shape.dim * sizeof *y);
+    if (job->event) {
+        memcpy(job->event[job->done].y, y, sizeof y);
+        if (CHANNELS > 1) store_look(T, lane, s, l, &job->event[job->done]);
+    }
+    job->done++;
+}
+
+/* Stores the state at x of the series in the lanes that are due. */
+static void store_events(crew *c, real x, const bool due[])
+{
+    state s;
+    look l;
+    find_state(&c->T, x, &s);
+    if (CHANNELS > 1) look_at(&c->T, x, &s, &l);
+    for (int i = 0; i < LANES; i++)
+        if (due[i]) store_event(c, i, &s, &l);
+}
+
+/* The same of crossings, whose times are to be found. */
+static void store_crossings(crew *c, real x, const bool due[])
+{
+    real gained[ISO_CLOCKS];
+    const iso_clock clock = c->T.shape.clock;
+    gained[clock] = x;
+    if (clock != c->T.own) integrate_clocks(&c->T, x, gained);
+    for (int i = 0; i < LANES; i++)
+        if (due[i])
+            c->job[i]->passed[c->job[i]->done] = c->left[i].head + (c->left[i].tail + (double)LANE(gained[clock], i));
+    store_events(c, x, due);
+    for (int i = 0; i < LANES; i++)
+        if (due[i]) c->job[i]->steps = 0;
+}
+
+/* --- rows ------------------------------------------------------------------------------------------------------- */
 
 /* Whether a lane's next row lies within its step of dt. *target: the time from the step's left end to the row, or
  * 0. */
@@ -53,10 +169,8 @@ static bool row_is_due(const crew *c, int lane, double dt, double *target)
 }
 
 /* Stores all rows within the step. Each pass takes the next row of every lane that has one. */
-static void output(crew *c, real length, real dt)
+static void find_rows(crew *c, real length, real dt)
 {
-    form *T = &c->T;
-    state s;
     for (;;) {
         bool due[LANES], found = false;
         real target = zero;
@@ -67,20 +181,103 @@ static void output(crew *c, real length, real dt)
             found |= due[i];
         }
         if (!found) return;
-        find_state(T, solve_for_time(T, target, length * (target / dt)), &s);
-        for (int i = 0; i < LANES; i++) {
-            if (!due[i]) continue;
-            iso_lane_job *job = c->job[i];
-            double *row = job->states + job->done * job->stride;
-            store(T, i, &s, row);
-            if (all_finite(row, T->shape.dim))
-                job->done++;
-            else
-                job->error = "the series diverges";
-            if (!job->error) next_row(c, i);
-        }
+        store_events(c, solve_for_time(&c->T, target, length * (target / dt)), due);
+        for (int i = 0; i < LANES; i++)
+            if (due[i] && !c->job[i]->error) next_row(c, i);
     }
 }
+
+/* --- crossings -------------------------------------------------------------------------------------------------- */
+
+static inline real component(const form *T, int axis, real x)
+{
+    const vector *n = T->S.n;
+    real p = zero;
+    for (int i = T->S.order + T->is_point; i >= 0; i--) p = p * x + AT(n[i], axis);
+    return p;
+}
+
+static inline real slope_of_component(const form *T, int axis, real x)
+{
+    const vector *n = T->S.n;
+    real p = zero;
+    for (int i = T->S.order + T->is_point; i >= 1; i--) p = p * x + T->S.count[i] * AT(n[i], axis);
+    return p;
+}
+
+/* The zero of n_axis between a (n_axis < 0) and b (n_axis >= 0), in the lanes that are due: Newton's method, and halving
+ * where it leaves the bracket. */
+static real find_crossing(const crew *c, real a, real at_a, real b, real at_b)
+{
+    const form *T = &c->T;
+    real x = a + (b - a) * (-at_a / (at_b - at_a));
+    const real step = magnitude(b - a);
+    mask far = everywhere();
+    for (int i = 0; i < 60 && any(far); i++) {
+        const real g = component(T, c->axis, x), next = x - g / slope_of_component(T, c->axis, x);
+        a = choose(g < zero, x, a);
+        b = choose(g < zero, b, x);
+        const mask inside = both((next - a) * (next - b) <= zero, next == next);
+        const real better = choose(inside, next, (a + b) / 2);
+        const real change = magnitude(better - x);
+        x = choose(far, better, x);
+        far = both(far, change > (NUMBER)EPSILON * larger(magnitude(x), step));
+    }
+    return x;
+}
+
+/* Into how many parts a step is divided, so that n_axis has at most one zero in each. */
+static int parts_of(const crew *c, real length)
+{
+    double most = 1;
+    for (int i = 0; i < LANES; i++) {
+        const double parts = ceil(fabs((double)(LANE(length, i) * LANE(c->zeros, i))));
+        if (c->job[i] && parts > most) most = parts;
+    }
+    return most < MOST_PARTS ? (int)most : MOST_PARTS;
+}
+
+/* Stores the crossings of lanes in one part of the step, which ends at b. */
+static void cross_part(crew *c, real x, const bool crosses[])
+{
+    bool due[LANES], found = false;
+    for (int i = 0; i < LANES; i++) {
+        const iso_lane_job *job = c->job[i];
+        due[i] = crosses[i] && c->seen[i] >= c->known[i] && !job->error && job->done < job->rows;
+        if (crosses[i] && job->done < job->rows) c->seen[i]++;
+        found |= due[i];
+    }
+    if (found) store_crossings(c, x, due);
+}
+
+/* Finds all crossings within the step. The signs at its ends are those of the states: a zero between two steps is neither
+ * missed nor found twice. */
+static void find_crossings(crew *c, real length)
+{
+    const form *T = &c->T;
+    const int parts = parts_of(c, length);
+    real a = zero, at_a = T->now.n[c->axis];
+    for (int i = 0; i < LANES; i++)
+        if (c->job[i] && c->job[i]->on_section && c->left[i].head == 0) LANE(at_a, i) = 0;
+    for (int part = 1; part <= parts; part++) {
+        const real b = part == parts ? length : length * ((NUMBER)part / (NUMBER)parts);
+        const real at_b = part == parts ? c->after.n[c->axis] : component(T, c->axis, b);
+        bool crosses[LANES], found = false;
+        for (int i = 0; i < LANES; i++) {
+            crosses[i] = c->job[i] && LANE(at_a, i) < 0 && LANE(at_b, i) >= 0;
+            found |= crosses[i];
+        }
+        if (found) {
+            const real x = find_crossing(c, a, at_a, b, at_b);
+            cross_part(c, x, crosses);
+            for (int i = 0; i < LANES; i++)
+                if (crosses[i]) c->since[i] = -(double)LANE(x, i);
+        }
+        a = b, at_a = at_b;
+    }
+}
+
+/* --- steps ------------------------------------------------------------------------------------------------------ */
 
 /* 0 in a lane whose state is finite, else NaN. */
 static real check(const state *s)
@@ -92,12 +289,16 @@ static real check(const state *s)
     return sum - sum;
 }
 
-static void end_step(crew *c, int lane, double dt)
+/* Ends the step of a lane, of dt in the model's clock and of x in the variable of the series. */
+static void end_step(crew *c, int lane, double dt, double x)
 {
     iso_lane_job *job = c->job[lane];
     if (!job) return;
     const double before = c->left[lane].head;
+    if (job->done == job->rows) save(c, lane); /* the next part begins with this step */
     c->left[lane] = iso_instant_later(c->left[lane], dt);
+    c->since[lane] += x;
+    c->known[lane] = 0;
     job->last = isfinite(dt) && !job->error ? c->left[lane].head : before;
     job->steps++;
     if (job->done < job->rows && !job->error) {
@@ -107,8 +308,11 @@ static void end_step(crew *c, int lane, double dt)
             job->error = "steps shrink to nothing";
         else if (c->options->max_steps > 0 && job->steps >= c->options->max_steps)
             job->error = "more steps than allowed";
+        else if (c->crossings && c->since[lane] > 2 * job->longest)
+            job->error = "the orbit lies in the section, and does not cross it";
+        else if (c->crossings && fabs(x) * job->zeros > MOST_PARTS)
+            job->error = "crossings can lie too close together to be told apart";
     }
-    if (job->done == job->rows || job->error) start_next(c, lane);
 }
 
 static bool busy(const crew *c)
@@ -116,6 +320,40 @@ static bool busy(const crew *c)
     for (int i = 0; i < LANES; i++)
         if (c->job[i]) return true;
     return false;
+}
+
+static void find_fresh_deviations(crew *c)
+{
+    bool found = false;
+    for (int i = 0; i < LANES; i++) found |= c->fresh[i];
+    if (CHANNELS == 1 || !found) return;
+    start_deviations(&c->T, c->fresh);
+    for (int i = 0; i < LANES; i++) {
+        for (int d = 1; d < CHANNELS && c->job[i] && c->fresh[i]; d++)
+            store_deviation(&c->T, i, &c->T.now, &c->T.deviation[d], c->job[i]->first[d - 1]);
+        c->fresh[i] = false;
+    }
+}
+
+/* One step in all lanes. A job that is done takes its leave. */
+static void step_together(crew *c)
+{
+    form *T = &c->T;
+    find_fresh_deviations(c);
+    begin(T);
+    expand(&T->S);
+    real gained[ISO_CLOCKS];
+    const real length = choose_step(T, c->direction, gained), dt = gained[T->shape.clock];
+    if (!c->crossings) find_rows(c, length, dt);
+    find_state(T, length, &c->after);
+    for (int i = 0; i < LANES; i++) c->seen[i] = 0;
+    if (c->crossings) find_crossings(c, length);
+    const real step = dt + check(&c->after);
+    for (int i = 0; i < LANES; i++) end_step(c, i, (double)LANE(step, i), (double)LANE(length, i));
+    if (CHANNELS > 1) end_deviations(T, length, &c->after);
+    T->now = c->after;
+    for (int i = 0; i < LANES; i++)
+        if (c->job[i] && (c->job[i]->done == c->job[i]->rows || c->job[i]->error)) start_next(c, i);
 }
 
 static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options)
@@ -129,20 +367,17 @@ static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_optio
         start_orbit(&c->T, i, jobs[0]->model, jobs[0]->start); /* a lane without a job needs numbers, too */
     c->direction = spread(1);
     c->options = options;
+    c->crossings = !jobs[0]->time;
+    c->axis = jobs[0]->axis;
     c->next = jobs;
     c->waiting = count;
     for (int i = 0; i < LANES; i++) start_next(c, i);
     while (busy(c) && going_on) {
-        begin(&c->T);
-        expand(&c->T.S);
-        real gained[ISO_CLOCKS];
-        const real length = choose_step(&c->T, c->direction, gained), dt = gained[c->T.shape.clock];
-        output(c, length, dt);
-        find_state(&c->T, length, &c->T.now);
-        const real step = dt + check(&c->T.now);
-        for (int i = 0; i < LANES; i++) end_step(c, i, (double)LANE(step, i));
+        step_together(c);
         going_on = !options->go_on || options->go_on(options->data);
     }
+    for (int i = 0; i < LANES; i++)
+        if (c->job[i]) c->seen[i] = 0, save(c, i); /* stopped between two steps */
     free(c);
     return going_on;
 }

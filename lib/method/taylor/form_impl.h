@@ -1,10 +1,12 @@
 /* form_impl.h - prepares a series: its terms, its numbers, and its first coefficients from a state. */
-#include "method/taylor/quadrature_impl.h"
 #include "model/effects_impl.h"
 #include "model/model.h"
 
-enum { MOST = FINEST_ORDER }; /* the highest order, that of the least tolerance */
+enum { MOST = FINEST_ORDER, KEPT = MOST + 3 }; /* the highest order, that of the least tolerance */
+#include "method/taylor/quadrature_impl.h"
 #include "model/series/recurrences_impl.h"
+
+enum { SLOTS = 3 }; /* room for channels 0 to 2, also where there are fewer */
 
 /* A state, in the own variable of a form: of a point n = gamma, w = gamma'. */
 typedef struct state {
@@ -33,6 +35,8 @@ typedef struct form {
     iso_clock clock_of[ISO_CLOCKS];
     real rate[ISO_CLOCKS], power[ISO_CLOCKS]; /* clock' = rate base^power, base = q of a point, g of a ball */
     state now;                                /* at the end of the last step */
+    state deviation[SLOTS];                   /* likewise, of channels 1, ...: see deviations_impl.h; ... */
+    real scale[SLOTS];                        /* ... they are exp(scale) times as long     */
     real clock[ISO_CLOCKS];                   /* at its beginning */
     series S;                                 /* last: its coefficients need not be cleared */
 } form;
@@ -191,19 +195,25 @@ static vector packed(const real a[3])
     return v;
 }
 
-/* Coefficients 0 from T->now. The point's gamma' becomes coefficient 1 of gamma. */
-static void begin(form *T)
+/* Coefficients 0 of a channel from a state. The point's gamma' becomes coefficient 1 of gamma. */
+static void begin_channel(form *T, int c, const state *s)
 {
     series *S = &T->S;
-    const state *s = &T->now;
-    S->n[0] = packed(s->n);
-    *(T->is_point ? &S->n[1] : &S->w[0]) = packed(s->w);
+    S->n[place(c, 0)] = packed(s->n);
+    *(T->is_point ? &S->n[place(c, 1)] : &S->w[place(c, 0)]) = packed(s->w);
     for (int i = 0; i < T->motion.states; i++) {
-        const int node = T->motion.state[i].node * KEPT, at = T->motion.state[i].at - ISO_STATE;
+        const int at = T->motion.state[i].at - ISO_STATE, first = T->motion.state[i].node * ROOM + place(c, 0);
         if (T->motion.state[i].is_vector)
-            S->vector[node] = packed(s->own + at);
+            S->vector[first] = packed(s->own + at);
         else
-            S->scalar[node] = s->own[at];
+            S->scalar[first] = s->own[at];
     }
-    memcpy(T->clock, s->clock, sizeof T->clock);
+}
+
+/* Coefficients 0 from T->now, and of the deviations. */
+static void begin(form *T)
+{
+    begin_channel(T, 0, &T->now);
+    for (int c = 1; c < CHANNELS; c++) begin_channel(T, c, &T->deviation[c]);
+    memcpy(T->clock, T->now.clock, sizeof T->clock);
 }

@@ -4,18 +4,38 @@
 
 #include <string.h>
 
+#include "method/methods_impl.h"
+
 const iso_lane_code *const iso_lane_codes[] = {
 #ifdef ISO_TAYLOR_X86
     &iso_lanes_avx512, &iso_lanes_avx2,
 #endif
     &iso_lanes_plain, NULL};
 
-const iso_lane_code *iso_lane_code_find(const char *name)
+static const iso_lane_code *const tangent_codes[] = {
+#ifdef ISO_TAYLOR_X86
+    &iso_tangent_avx512,
+    &iso_tangent_avx2,
+#endif
+    &iso_tangent_plain,
+    &iso_tangent_extended,
+#ifdef ISO_TAYLOR_HAS_QUAD
+    &iso_tangent_quad,
+#endif
+    NULL};
+
+const iso_lane_code *iso_lane_code_find(const char *name, bool deviations)
 {
-    for (int i = 0; iso_lane_codes[i]; i++)
-        if ((!name || strcmp(name, iso_lane_codes[i]->name) == 0) && iso_lane_codes[i]->runs_here())
-            return iso_lane_codes[i];
+    for (const iso_lane_code *const *code = deviations ? tangent_codes : iso_lane_codes; *code; code++)
+        if ((!name || strcmp(name, (*code)->name) == 0) && (*code)->runs_here()) return *code;
     return NULL;
+}
+
+iso_clock iso_lane_clock(const iso_model *m)
+{
+    const bool in_field = m->problem.energy_formula.lines > 0;
+    const bool in_t = !in_field && m->problem.energy == 0 && m->clock == ISO_CLOCK_T && m->problem.p.k != -1;
+    return m->system == &iso_system_point && !in_t ? ISO_CLOCK_S : ISO_CLOCK_T;
 }
 
 bool iso_lanes_alike(const iso_model *a, const iso_model *b)

@@ -10,19 +10,44 @@
 
 #include "method/method.h"
 
-/* One orbit: from `start` at time 0 to times in the model's clock, all on one side of 0, going away from it. */
+enum { ISO_LANE_DEVIATIONS = 2 };
+
+/* An orbit at a row, or at a crossing, with its deviations (deviations_impl.h) if the code has them. */
+typedef struct iso_lane_event {
+    double y[ISO_MAX_STATE];
+    double deviation[ISO_LANE_DEVIATIONS][ISO_MAX_STATE]; /* exp(scale) times this, with its part along the flow */
+    double scale[ISO_LANE_DEVIATIONS];
+    double growth[ISO_LANE_DEVIATIONS]; /* ln of its length, without that part; 0 at the start */
+    double sine;                        /* of the angle between them                           */
+} iso_lane_event;
+
+/* One orbit, from `start` at time 0, to rows or to crossings.
+ *
+ * Rows are times in the model's clock, all on one side of 0, going away from it. Crossings are the times after 0 at which
+ * n_axis (gamma_axis) of a free orbit passes 0 upwards; `zeros` and `longest` bound the way between them.
+ *
+ * An orbit can be followed in parts: with `saved` the next call of solve() goes on where the last one ended, bit for
+ * bit. */
 typedef struct iso_lane_job {
     const iso_model *model;
     double start[ISO_MAX_STATE];
-    size_t rows;
-    const double *time;
-    double unit;    /* time[i]/unit is in the model's units      */
-    double *states; /* model->dim numbers at states[row stride]  */
+    size_t rows;           /* or crossings */
+    const double *time;    /* NULL: crossings                                                           */
+    int axis;              /* 0 to 2                                                                    */
+    double zeros, longest; /* in the variable of the series (iso_lane_job_clock): n_axis has at most one zero within
+                              1/zeros; two crossings are less than `longest` apart                      */
+    double unit;           /* time[i]/unit is in the model's units                                      */
+    double *states;        /* NULL, or: model->dim numbers at states[row stride]                        */
     size_t stride;
-    size_t done; /* how many of them have been reached        */
-    double last; /* the last good time, in the model's units  */
+    iso_lane_event *event; /* NULL, or: one for each row                                                */
+    bool on_section;       /* the start lies on the section: it is no crossing, whatever the sign of n_axis */
+    double *passed;        /* the times of the crossings, in the model's units                          */
+    void *saved;           /* NULL, or: iso_lane_code.saved bytes, which begin with 0                   */
+    size_t done;           /* how many of the rows have been reached                                    */
+    double last;           /* the last good time, in the model's units                                  */
     long steps;
-    const char *error; /* NULL, or why it ended before the last row */
+    const char *error; /* NULL, or why it ended before the last row                                 */
+    double first[ISO_LANE_DEVIATIONS][ISO_MAX_STATE]; /* the deviations at the start                    */
 } iso_lane_job;
 
 typedef struct iso_lane_options {
@@ -36,21 +61,29 @@ typedef struct iso_lane_options {
 typedef struct iso_lane_code {
     const char *name;
     int lanes;
+    int deviations; /* 0 or ISO_LANE_DEVIATIONS */
+    size_t saved;   /* bytes                    */
     bool (*runs_here)(void);
     /* Solves jobs (one at least) of models that are alike and not stiff. False: no memory, or stopped by go_on; jobs
      * that are not done have no error then. */
     bool (*solve)(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options);
 } iso_lane_code;
 
-/* The codes of this build, widest first, ended by NULL; the last runs everywhere. */
+/* The codes of this build without deviations, widest first, ended by NULL; the last runs everywhere. */
 extern const iso_lane_code *const iso_lane_codes[];
 
-/* The one called `name`, or for NULL the widest, that this processor can run; NULL: none. */
-const iso_lane_code *iso_lane_code_find(const char *name);
+/* The one called `name`, or for NULL the widest, that this processor can run; NULL: none. With deviations there are
+ * also "extended" and "quad", one orbit in numbers of more digits. */
+const iso_lane_code *iso_lane_code_find(const char *name, bool deviations);
+
+/* The clock that is the variable of a model's series. */
+iso_clock iso_lane_clock(const iso_model *model);
 
 /* Whether two models can share lanes: the same system, effects and clocks, and the same form of the equations. */
 bool iso_lanes_alike(const iso_model *a, const iso_model *b);
 
 extern const iso_lane_code iso_lanes_plain, iso_lanes_avx2, iso_lanes_avx512;
+extern const iso_lane_code iso_tangent_plain, iso_tangent_avx2, iso_tangent_avx512;
+extern const iso_lane_code iso_tangent_extended, iso_tangent_quad;
 
 #endif

@@ -31,20 +31,22 @@ static inline real restore_length(real a[], int count, real target, mask wanted)
     return worst;
 }
 
-/* The potential of the effects at n (gamma), base g (q), and the sum of the sizes of its terms. */
-static real potential_at(const form *T, const real n[3], real base, const state *s, real *size)
+/* The potential of the effects at n (gamma), base g (q), and the sum of the sizes of its terms; of a point its
+ * gradient. */
+static real potential_at(const form *T, const real n[3], real base, const state *s, real *size, vector *gradient)
 {
     const iso_formula *F = &T->shape.problem.energy_formula;
     real scalar[ISO_FORMULA_SCALARS], potential = zero;
-    vector vectors[ISO_FORMULA_VECTORS], gradient = nought;
+    vector vectors[ISO_FORMULA_VECTORS];
     const nodes t = {.kept = 1,
                      .c = T->c,
                      .scalar = scalar,
                      .vector = vectors,
-                     .gradient = &gradient,
+                     .gradient = gradient,
                      .potential = &potential,
                      .size = size};
     *size = zero;
+    *gradient = nought;
     scalar[ISO_GIVEN_BASE] = base;
     vectors[ISO_GIVEN_N] = packed(n);
     vectors[ISO_GIVEN_OMEGA] = packed(s->w);
@@ -56,7 +58,7 @@ static real potential_at(const form *T, const real n[3], real base, const state 
         else
             scalar[F->state[i].node] = *own;
     }
-    evaluate(F, &t, false, 0);
+    evaluate(F, &t, false, 0, 0);
     return potential;
 }
 
@@ -72,7 +74,8 @@ static real square_of_speed(const form *T, const state *s, real *terms)
     *terms = magnitude(2 * S->energy) + magnitude(own);
     if (!T->in_field) return 2 * S->energy + own;
     real size;
-    const real V = potential_at(T, gamma, q, s, &size);
+    vector gradient;
+    const real V = potential_at(T, gamma, q, s, &size, &gradient);
     *terms += 2 * size;
     return 2 * S->energy + own - 2 * V;
 }
@@ -212,6 +215,7 @@ static void energy_of(const form *T, const state *s, energy_sum *E)
 {
     const series *S = &T->S;
     real spin = zero, g = zero, size;
+    vector gradient;
     *E = (energy_sum){0};
     for (int i = 0; i < 3; i++) {
         add(E, s->w[i], AT(S->J, i) * s->w[i]);
@@ -220,7 +224,7 @@ static void energy_of(const form *T, const state *s, energy_sum *E)
     }
     if (T->twists) add(E, -S->D * spin, spin);
     E->kinetic = E->sum;
-    add(E, 2 * potential_at(T, s->n, g, s, &size), spread(1));
+    add(E, 2 * potential_at(T, s->n, g, s, &size, &gradient), spread(1));
     E->range = larger(2 * T->range, magnitude(E->sum - E->kinetic));
 }
 

@@ -72,22 +72,29 @@ static void find_derived(const form *T, state *s)
     }
 }
 
-static void state_at(const form *T, real x, state *s)
+/* The moving part of the state at x: of the orbit (c = 0), or of a deviation. */
+static inline void channel_at(const form *T, int c, real x, state *s)
 {
     const series *S = &T->S;
-    const iso_model *m = &T->shape;
-    value(S->n, S->order + T->is_point, x, s->n); /* of gamma one more is known, which gamma' needs */
+    const vector *n = S->n + place(c, 0);
+    value(n, S->order + T->is_point, x, s->n); /* of gamma one more is known, which gamma' needs */
     if (T->is_point)
-        rate(S->n, S->count, S->order + 1, x, s->w);
+        rate(n, S->count, S->order + 1, x, s->w);
     else
-        value(S->w, S->order, x, s->w);
+        value(S->w + place(c, 0), S->order, x, s->w);
     for (int i = 0; i < T->motion.states; i++) {
-        const int node = T->motion.state[i].node * KEPT, at = T->motion.state[i].at - ISO_STATE;
+        const int first = T->motion.state[i].node * ROOM + place(c, 0), at = T->motion.state[i].at - ISO_STATE;
         if (T->motion.state[i].is_vector)
-            value(S->vector + node, S->order, x, s->own + at);
+            value(S->vector + first, S->order, x, s->own + at);
         else
-            s->own[at] = number(S->scalar + node, S->order, x);
+            s->own[at] = number(S->scalar + first, S->order, x);
     }
+}
+
+static void state_at(const form *T, real x, state *s)
+{
+    const iso_model *m = &T->shape;
+    channel_at(T, 0, x, s);
     if (T->has_derived) find_derived(T, s);
     if (m->clocks == 0) return;
     real gained[ISO_CLOCKS];
@@ -102,7 +109,8 @@ static inline real largest(vector a)
     return larger(larger(magnitude(AT(a, 0)), magnitude(AT(a, 1))), magnitude(AT(a, 2)));
 }
 
-/* The largest coefficient n of the states, in units of their sizes. */
+/* The largest coefficient n of the states, in units of their sizes. Deviations do not shorten the step: their series
+ * converge where that of the orbit does. */
 static real coefficient(const form *T, int n)
 {
     const series *S = &T->S;
@@ -111,7 +119,7 @@ static real coefficient(const form *T, int n)
     const real speed = largest(T->is_point ? S->n[1] : S->w[0]);
     most = larger(most, largest(rest) / (speed + spread((NUMBER)ISO_REST)));
     for (int i = 0; i < T->motion.states; i++) {
-        const int node = T->motion.state[i].node * KEPT, kind = T->motion.state[i].kind;
+        const int node = T->motion.state[i].node * ROOM, kind = T->motion.state[i].kind;
         if (kind == ISO_STATE_INTEGRAL) continue;
         const bool is_vector = T->motion.state[i].is_vector;
         const real size = is_vector ? largest(S->vector[node + n]) : magnitude(S->scalar[node + n]);

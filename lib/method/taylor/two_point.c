@@ -95,7 +95,7 @@ static void compute_coefficients(iso_two_point *b, sample *s, int p)
     for (int i = 0; i < 3; i++) s->value[i] = AT(fast[0], i), s->value[3 + i] = AT(S->n[0], i);
     for (int c = 0; c < T->clocks; c++) {
         const iso_clock clock = T->clock_of[c];
-        for (int j = 0; j <= p; j++) s->rate[clock][j] = power_of_base(S, T->power[clock], s->rate[clock], j);
+        for (int j = 0; j <= p; j++) s->rate[clock][j] = power_of_base(S, T->power[clock], s->rate[clock], 0, j);
     }
 }
 

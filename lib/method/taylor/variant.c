@@ -1,8 +1,8 @@
 /* variant.c - the code of the Taylor methods, compiled once for each kind of number and vector.
  *
- * The build (CMakeLists.txt) sets ISO_TAYLOR_VARIANT to VARIANT_ and one of the names below. A variant with one orbit
- * is an iso_taylor_code, for the method (method.c). A variant with several orbits has one in each lane of a vector;
- * it is an iso_lane_code, for batches (lanes.c). All project and system headers come before the macros of numbers, so
+ * The build (CMakeLists.txt) sets ISO_TAYLOR_VARIANT to VARIANT_ and one of the names below. The first four are an
+ * iso_taylor_code, for the method (method.c). The others are an iso_lane_code, for batches (lanes.c), with an orbit in
+ * each lane of a vector; those called tangent have two deviations beside each orbit. All project and system headers come before the macros of numbers, so
  * that these reach nothing but the series. They end with this file.
  *
  *     variant       numbers                  orbits   for
@@ -13,6 +13,7 @@
  *     lanes_plain   double                   2        any processor: all have vectors of two doubles, or do without
  *     lanes_avx2    double                   4        x86 with AVX2 and FMA
  *     lanes_avx512  double                   8        x86 with AVX-512
+ *     tangent_...   the same three, and extended and quad with one orbit
  */
 #define VARIANT_PLAIN 1
 #define VARIANT_AVX2 2
@@ -21,6 +22,16 @@
 #define VARIANT_LANES_PLAIN 5
 #define VARIANT_LANES_AVX2 6
 #define VARIANT_LANES_AVX512 7
+#define VARIANT_TANGENT_PLAIN 8
+#define VARIANT_TANGENT_AVX2 9
+#define VARIANT_TANGENT_AVX512 10
+#define VARIANT_TANGENT_EXTENDED 11
+#define VARIANT_TANGENT_QUAD 12
+
+#define IS(name) (ISO_TAYLOR_VARIANT == VARIANT_##name)
+#define IS_QUAD (IS(QUAD) || IS(TANGENT_QUAD))
+#define IS_EXTENDED (IS(EXTENDED) || IS(TANGENT_EXTENDED))
+#define IS_TANGENT (ISO_TAYLOR_VARIANT >= VARIANT_TANGENT_PLAIN)
 
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
@@ -30,11 +41,11 @@
 #include "model/effects_impl.h"
 #include "model/model.h"
 
-#if ISO_TAYLOR_VARIANT != VARIANT_QUAD || defined ISO_TAYLOR_HAS_QUAD
+#if !IS_QUAD || defined ISO_TAYLOR_HAS_QUAD
 
 /* --- the numbers ------------------------------------------------------------------------------------------------ */
 
-#if ISO_TAYLOR_VARIANT == VARIANT_EXTENDED
+#if IS_EXTENDED
 #define NUMBER long double
 #define ROOT sqrtl
 #define POW powl
@@ -43,7 +54,7 @@
 #define FINER 1e-4 /* the tolerance is that of doubles: terms are kept to what is beyond them */
 #define FINEST_ORDER 34
 #define NODES 12
-#elif ISO_TAYLOR_VARIANT == VARIANT_QUAD
+#elif IS_QUAD
 __extension__ typedef _Float128 number_of_128_bits;
 #define NUMBER number_of_128_bits
 #define ROOT sqrtf128
@@ -64,61 +75,77 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define NODES 8
 #endif
 
-#if ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX512
+#if IS(LANES_AVX512) || IS(TANGENT_AVX512)
 #define LANES 8
-#elif ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX2
+#elif IS(LANES_AVX2) || IS(TANGENT_AVX2)
 #define LANES 4
-#elif ISO_TAYLOR_VARIANT == VARIANT_LANES_PLAIN
+#elif IS(LANES_PLAIN) || IS(TANGENT_PLAIN)
 #define LANES 2
 #else
 #define LANES 1
 #endif
 
-#if ISO_TAYLOR_VARIANT == VARIANT_PLAIN || ISO_TAYLOR_VARIANT == VARIANT_AVX2
+#if IS_TANGENT
+#define CHANNELS 3
+#endif
+
+#if IS(PLAIN) || IS(AVX2)
 #define PACKED
 #endif
 
 /* --- the code --------------------------------------------------------------------------------------------------- */
 
-#if LANES == 1
+#if LANES == 1 && !IS_TANGENT
 #include "method/taylor/single_impl.h"
 #else
 #include "method/taylor/crew_impl.h"
-#endif
-
-#if ISO_TAYLOR_VARIANT == VARIANT_PLAIN
-const iso_taylor_code iso_taylor_plain = {create, start, step, dense};
-#elif ISO_TAYLOR_VARIANT == VARIANT_AVX2
-const iso_taylor_code iso_taylor_avx2 = {create, start, step, dense};
-
-bool iso_taylor_has_avx2(void)
-{
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-}
-#elif ISO_TAYLOR_VARIANT == VARIANT_EXTENDED
-const iso_taylor_code iso_taylor_extended = {create, start, step, dense};
-#elif ISO_TAYLOR_VARIANT == VARIANT_QUAD
-const iso_taylor_code iso_taylor_quad = {create, start, step, dense};
-#else
 
 static bool runs_here(void)
 {
-#if ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX512
+#if LANES == 8
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma");
-#elif ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX2
+#elif LANES == 4
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #else
     return true;
 #endif
 }
 
-#if ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX512
-const iso_lane_code iso_lanes_avx512 = {"avx512", LANES, runs_here, solve};
-#elif ISO_TAYLOR_VARIANT == VARIANT_LANES_AVX2
-const iso_lane_code iso_lanes_avx2 = {"avx2", LANES, runs_here, solve};
-#else
-const iso_lane_code iso_lanes_plain = {"plain", LANES, runs_here, solve};
+#define LANE_CODE(name)                                                                                              \
+    {                                                                                                                \
+        name, LANES, IS_TANGENT ? ISO_LANE_DEVIATIONS : 0, sizeof(saved_lane), runs_here, solve                      \
+    }
 #endif
+
+#if IS(PLAIN)
+const iso_taylor_code iso_taylor_plain = {create, start, step, dense};
+#elif IS(AVX2)
+const iso_taylor_code iso_taylor_avx2 = {create, start, step, dense};
+
+bool iso_taylor_has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+}
+#elif IS(EXTENDED)
+const iso_taylor_code iso_taylor_extended = {create, start, step, dense};
+#elif IS(QUAD)
+const iso_taylor_code iso_taylor_quad = {create, start, step, dense};
+#elif IS(LANES_PLAIN)
+const iso_lane_code iso_lanes_plain = LANE_CODE("plain");
+#elif IS(LANES_AVX2)
+const iso_lane_code iso_lanes_avx2 = LANE_CODE("avx2");
+#elif IS(LANES_AVX512)
+const iso_lane_code iso_lanes_avx512 = LANE_CODE("avx512");
+#elif IS(TANGENT_PLAIN)
+const iso_lane_code iso_tangent_plain = LANE_CODE("plain");
+#elif IS(TANGENT_AVX2)
+const iso_lane_code iso_tangent_avx2 = LANE_CODE("avx2");
+#elif IS(TANGENT_AVX512)
+const iso_lane_code iso_tangent_avx512 = LANE_CODE("avx512");
+#elif IS(TANGENT_EXTENDED)
+const iso_lane_code iso_tangent_extended = LANE_CODE("extended");
+#else
+const iso_lane_code iso_tangent_quad = LANE_CODE("quad");
 #endif
 
 #endif

@@ -7,7 +7,8 @@
 #include "model/formula.h"
 #include "model/series/products_impl.h"
 
-/* Where the coefficients are: of scalar (vector) i, number n at [i kept + n]; and where results go. */
+/* Where the coefficients are: of scalar (vector) i, number n of channel c at [i kept + place(c, n)]; and where results
+ * go. */
 typedef struct nodes {
     int kept;
     const real *c; /* constants */
@@ -63,87 +64,101 @@ static inline vector matrix_times(const real M[9], vector a)
     return v;
 }
 
-/* (a^p)_n. `power` of products_impl.h states the same recurrence for the base of the ball and of the point, and is
- * faster: it takes n b_n and 1/b_0 from its caller, and adds in two sums. So the two round differently. */
-static inline real power_of_series(const nodes *t, const real a[], real p, const real v[], int n)
+/* sum_(j>0) ((p+1) j - n) a_j v_(n-j) */
+static inline real sum_of_power(const nodes *t, const real a[], real p, const real v[], int n)
 {
-    if (n == 0) return raised(a[0], p);
-    if (a == t->scalar + ISO_GIVEN_BASE * t->kept)
-        return power(a, t->slope, t->over_base, p, v, t->count[n], t->inverse[n], n);
     real slopes = zero, plain = zero;
     for (int j = n; j > 0; j--) {
         slopes += t->count[j] * a[j] * v[n - j];
         plain += a[j] * v[n - j];
     }
-    return ((p + 1) * slopes - t->count[n] * plain) * (t->inverse[n] / a[0]);
+    return (p + 1) * slopes - t->count[n] * plain;
 }
 
-static inline real scalar_line(const iso_formula_line *l, const nodes *t, int n)
+/* (a^p)_n. `power` of products_impl.h states the same recurrence for the base of the ball and of the point, and is
+ * faster: it takes n b_n and 1/b_0 from its caller, and adds in two sums. So the two round differently. */
+static inline real power_of_series(const nodes *t, const real a[], real p, const real v[], int c, int n)
 {
+    if (n == 0 && !is_deviation(c)) return raised(a[0], p);
+    if (a == t->scalar + ISO_GIVEN_BASE * t->kept)
+        return power(a, t->slope, t->over_base, p, v, t->count[n], t->inverse[n], c, n);
+    const real *da = a + place(c, 0), *dv = v + place(c, 0);
+    if (n == 0) return p * v[0] * da[0] / a[0];
+    if (!is_deviation(c)) return sum_of_power(t, a, p, v, n) * (t->inverse[n] / a[0]);
+    const real of_da = sum_of_power(t, da, p, v, n) - t->count[n] * da[0] * v[n];
+    return (sum_of_power(t, a, p, dv, n) + of_da) * (t->inverse[n] / a[0]);
+}
+
+static inline real scalar_line(const iso_formula_line *l, const nodes *t, int c, int n)
+{
+    const int i = place(c, n);
     const real *a = t->scalar + l->a * t->kept, *b = t->scalar + l->b * t->kept, *own = t->scalar + l->to * t->kept;
     const real *with = t->scalar + l->b * t->kept; /* of ISO_S_TIMES and ISO_S_PLUS, whose a is a constant */
     switch (l->operation) {
-    case ISO_S_ADD: return a[n] + b[n];
-    case ISO_S_SUB: return a[n] - b[n];
-    case ISO_S_MUL: return product(a, b, n);
-    case ISO_S_DIV: return quotient(a[n], b, 1 / b[0], own, n);
-    case ISO_S_TIMES: return t->c[l->a] * with[n];
-    case ISO_S_PLUS: return n == 0 ? t->c[l->a] + with[0] : with[n];
-    case ISO_S_POWER: return power_of_series(t, a, t->c[l->b], own, n);
-    case ISO_S_DOT: return dot(t->vector + l->a * t->kept, t->vector + l->b * t->kept, n);
-    default: return total(by(three(t->c + l->a), t->vector[l->b * t->kept + n])); /* ISO_S_DOT_C */
+    case ISO_S_ADD: return a[i] + b[i];
+    case ISO_S_SUB: return a[i] - b[i];
+    case ISO_S_MUL: return product(a, b, c, n);
+    case ISO_S_DIV: return quotient(a[i], b, 1 / b[0], own, c, n);
+    case ISO_S_TIMES: return t->c[l->a] * with[i];
+    case ISO_S_PLUS: return i == 0 ? t->c[l->a] + with[0] : with[i];
+    case ISO_S_POWER: return power_of_series(t, a, t->c[l->b], own, c, n);
+    case ISO_S_DOT: return dot(t->vector + l->a * t->kept, t->vector + l->b * t->kept, c, n);
+    default: return total(by(three(t->c + l->a), t->vector[l->b * t->kept + i])); /* ISO_S_DOT_C */
     }
 }
 
-static inline vector vector_line(const iso_formula_line *l, const nodes *t, int n)
+static inline vector vector_line(const iso_formula_line *l, const nodes *t, int c, int n)
 {
+    const int i = place(c, n);
     const vector *a = t->vector + l->a * t->kept, *b = t->vector + l->b * t->kept;
     switch (l->operation) {
-    case ISO_V_ADD: return plus(a[n], b[n]);
-    case ISO_V_SUB: return minus(a[n], b[n]);
-    case ISO_V_TIMES: return times(t->c[l->a], b[n]);
-    case ISO_V_SCALE: return scaled(t->scalar + l->a * t->kept, b, n);
-    case ISO_V_SCALE_C: return times(t->scalar[l->b * t->kept + n], three(t->c + l->a));
-    case ISO_V_CROSS: return cross(a, b, n);
-    case ISO_V_BY: return by(three(t->c + l->a), b[n]);
-    case ISO_V_MATRIX: return matrix_times(t->c + l->a, b[n]);
-    default: return n == 0 ? plus(three(t->c + l->a), b[0]) : b[n]; /* ISO_V_PLUS */
+    case ISO_V_ADD: return plus(a[i], b[i]);
+    case ISO_V_SUB: return minus(a[i], b[i]);
+    case ISO_V_TIMES: return times(t->c[l->a], b[i]);
+    case ISO_V_SCALE: return scaled(t->scalar + l->a * t->kept, b, c, n);
+    case ISO_V_SCALE_C: return times(t->scalar[l->b * t->kept + i], three(t->c + l->a));
+    case ISO_V_CROSS: return cross(a, b, c, n);
+    case ISO_V_BY: return by(three(t->c + l->a), b[i]);
+    case ISO_V_MATRIX: return matrix_times(t->c + l->a, b[i]);
+    default: return i == 0 ? plus(three(t->c + l->a), b[0]) : b[i]; /* ISO_V_PLUS */
     }
 }
 
-static inline void add_to_potential(const nodes *t, real x, int n)
+static inline void add_to_potential(const nodes *t, real x, int i)
 {
-    t->potential[n] += x;
+    t->potential[i] += x;
     if (t->size) *t->size += magnitude(x);
 }
 
-static inline void result_line(const iso_formula_line *l, const nodes *t, int n)
+static inline void result_line(const iso_formula_line *l, const nodes *t, int c, int n)
 {
-    const real c = t->c[l->a];
+    const int i = place(c, n);
+    const real factor = t->c[l->a];
     switch (l->operation) {
-    case ISO_R_TORQUE: t->torque[n] = plus(t->torque[n], times(c, t->vector[l->b * t->kept + n])); break;
-    case ISO_R_GRADIENT: t->gradient[n] = plus(t->gradient[n], times(c, t->vector[l->b * t->kept + n])); break;
+    case ISO_R_TORQUE: t->torque[i] = plus(t->torque[i], times(factor, t->vector[l->b * t->kept + i])); break;
+    case ISO_R_GRADIENT: t->gradient[i] = plus(t->gradient[i], times(factor, t->vector[l->b * t->kept + i])); break;
     case ISO_R_VECTOR_RATE:
-        t->vector[l->to * t->kept + n + 1] = times(c * t->inverse[n + 1], t->vector[l->b * t->kept + n]);
+        t->vector[l->to * t->kept + i + 1] = times(factor * t->inverse[n + 1], t->vector[l->b * t->kept + i]);
         break;
     case ISO_R_SCALAR_RATE:
-        t->scalar[l->to * t->kept + n + 1] = c * t->inverse[n + 1] * t->scalar[l->b * t->kept + n];
+        t->scalar[l->to * t->kept + i + 1] = factor * t->inverse[n + 1] * t->scalar[l->b * t->kept + i];
         break;
-    default: add_to_potential(t, c * t->scalar[l->b * t->kept + n], n); break;
+    default: add_to_potential(t, factor * t->scalar[l->b * t->kept + i], i); break;
     }
 }
 
-/* Coefficient n: of the late lines if `late`, of all others if not. */
-static inline void evaluate(const iso_formula *F, const nodes *t, bool late, int n)
+/* Coefficient n in channel c: of the late lines if `late`, of all others if not. */
+static inline void evaluate(const iso_formula *F, const nodes *t, bool late, int c, int n)
 {
-    for (int i = 0; i < F->lines; i++) {
-        const iso_formula_line *l = &F->line[i];
-        if ((F->late_line >> i & 1) != late) continue;
+    const int i = place(c, n);
+    for (int j = 0; j < F->lines; j++) {
+        const iso_formula_line *l = &F->line[j];
+        if ((F->late_line >> j & 1) != late) continue;
         if (l->operation < ISO_V_ADD)
-            t->scalar[l->to * t->kept + n] = scalar_line(l, t, n);
+            t->scalar[l->to * t->kept + i] = scalar_line(l, t, c, n);
         else if (l->operation < ISO_R_TORQUE)
-            t->vector[l->to * t->kept + n] = vector_line(l, t, n);
+            t->vector[l->to * t->kept + i] = vector_line(l, t, c, n);
         else
-            result_line(l, t, n);
+            result_line(l, t, c, n);
     }
 }

@@ -4,6 +4,9 @@
  * by side. A `real` is one NUMBER of each orbit, a `mask` one decision for each, a `vector` three reals. With PACKED
  * (one orbit only) the three share a register of four. No operation mixes lanes: what an orbit gets does not depend
  * on its neighbours.
+ *
+ * KEPT is the number of coefficients of a series. CHANNELS is 1, or 1 and the number of deviations that are computed
+ * beside each orbit (products_impl.h).
  */
 #ifndef ISO_MODEL_SERIES_NUMBER_IMPL_H
 #define ISO_MODEL_SERIES_NUMBER_IMPL_H
@@ -14,6 +17,10 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+#ifndef CHANNELS
+#define CHANNELS 1
+#endif
 
 /* --- reals and masks -------------------------------------------------------------------------------------------- */
 

@@ -6,12 +6,18 @@
  *     (a b)_n = sum_j a_j b_(n-j)                                                     Cauchy's product
  *     r = a/b:    r_n = (a_n - sum_(j>0) b_j r_(n-j))/b_0                             since b r = a
  *     v = b^p:    v_n = sum_(j>0) ((p+1) j - n) b_j v_(n-j) / (n b_0)                 since b v' = p b' v
+ *
+ * First-order variations are computed beside the motion where CHANNELS > 1. Channel 0 of a series is the motion. The
+ * channels after it are deviations: the change of the series, to first order, when the orbit is changed. Channel c
+ * begins at [c KEPT]. Each operation below is differentiated by the rule of products:
+ *
+ *     d(a b) = a db + da b,     b dr + db r = da,     b dv' + db v' = p (b' dv + db' v)
  */
 #include "model/series/number_impl.h"
 
-/* --- products: sums in two parts, which the processor adds side by side ----------------------------------------- */
+/* --- coefficient n of a product: sums in two parts, which the processor adds side by side ------------------------ */
 
-static inline real product(const real a[], const real b[], int n)
+static inline real product_of(const real a[], const real b[], int n)
 {
     real even = zero, odd = zero;
     int j = 0;
@@ -22,8 +28,8 @@ static inline real product(const real a[], const real b[], int n)
     return j == n ? even + odd + a[n] * b[0] : even + odd;
 }
 
-/* (a b)_n for a number a and a vector b */
-static inline vector scaled(const real a[], const vector b[], int n)
+/* for a number a and a vector b */
+static inline vector scaled_by(const real a[], const vector b[], int n)
 {
     vector even = nought, odd = nought;
     int j = 0;
@@ -35,8 +41,8 @@ static inline vector scaled(const real a[], const vector b[], int n)
     return plus(even, odd);
 }
 
-/* the products of components, (a_i b_i)_n */
-static inline vector componentwise(const vector a[], const vector b[], int n)
+/* the products of components */
+static inline vector components_of(const vector a[], const vector b[], int n)
 {
     vector even = nought, odd = nought;
     int j = 0;
@@ -49,7 +55,7 @@ static inline vector componentwise(const vector a[], const vector b[], int n)
 }
 
 /* the squares of components: half as many products */
-static inline vector squares(const vector a[], int n)
+static inline vector squares_of(const vector a[], int n)
 {
     vector even = nought, odd = nought;
     const int half = (n + 1) / 2;
@@ -63,13 +69,8 @@ static inline vector squares(const vector a[], int n)
     return n % 2 == 0 ? plus(twice, by(a[n / 2], a[n / 2])) : twice;
 }
 
-static inline real dot(const vector a[], const vector b[], int n)
-{
-    return total(componentwise(a, b, n));
-}
-
-/* (a x b)_n */
-static inline vector cross(const vector a[], const vector b[], int n)
+/* a x b */
+static inline vector cross_of(const vector a[], const vector b[], int n)
 {
     vector forth = nought, back = nought;
     for (int j = 0; j <= n; j++) {
@@ -79,8 +80,57 @@ static inline vector cross(const vector a[], const vector b[], int n)
     return turn(minus(forth, back));
 }
 
-/* r_n of r = a/b; over_b = 1/b[0] */
-static inline real quotient(real a_n, const real b[], real over_b, const real r[], int n)
+/* --- in a channel ------------------------------------------------------------------------------------------------ */
+
+/* The place of coefficient n in channel c. */
+static inline int place(int c, int n)
+{
+    return CHANNELS > 1 ? c * KEPT + n : n;
+}
+
+static inline bool is_deviation(int c)
+{
+    return CHANNELS > 1 && c > 0;
+}
+
+static inline real product(const real a[], const real b[], int c, int n)
+{
+    if (!is_deviation(c)) return product_of(a, b, n);
+    return product_of(a, b + place(c, 0), n) + product_of(a + place(c, 0), b, n);
+}
+
+static inline vector scaled(const real a[], const vector b[], int c, int n)
+{
+    if (!is_deviation(c)) return scaled_by(a, b, n);
+    return plus(scaled_by(a, b + place(c, 0), n), scaled_by(a + place(c, 0), b, n));
+}
+
+static inline vector componentwise(const vector a[], const vector b[], int c, int n)
+{
+    if (!is_deviation(c)) return components_of(a, b, n);
+    return plus(components_of(a, b + place(c, 0), n), components_of(a + place(c, 0), b, n));
+}
+
+static inline vector squares(const vector a[], int c, int n)
+{
+    if (!is_deviation(c)) return squares_of(a, n);
+    const vector half = components_of(a, a + place(c, 0), n);
+    return plus(half, half);
+}
+
+static inline real dot(const vector a[], const vector b[], int c, int n)
+{
+    return total(componentwise(a, b, c, n));
+}
+
+static inline vector cross(const vector a[], const vector b[], int c, int n)
+{
+    if (!is_deviation(c)) return cross_of(a, b, n);
+    return plus(cross_of(a, b + place(c, 0), n), cross_of(a + place(c, 0), b, n));
+}
+
+/* sum_(j>0) b_j r_(n-j) */
+static inline real known_part(const real b[], const real r[], int n)
 {
     real even = zero, odd = zero;
     int j = n;
@@ -89,14 +139,20 @@ static inline real quotient(real a_n, const real b[], real over_b, const real r[
         odd += b[j - 1] * r[n - j + 1];
     }
     if (j == 1) even += b[1] * r[n - 1];
-    return (a_n - (even + odd)) * over_b;
+    return even + odd;
 }
 
-/* v_n of v = b^p; jb: n b_n; over_b = 1/b[0]; count: n, over_n = 1/n */
-static inline real power(const real b[], const real jb[], real over_b, real p, const real v[], real count,
-                         real over_n, int n)
+/* r_n of r = a/b; a_n is that of the channel, over_b = 1/b[0] */
+static inline real quotient(real a_n, const real b[], real over_b, const real r[], int c, int n)
 {
-    if (n == 0) return raised(b[0], p);
+    if (!is_deviation(c)) return (a_n - known_part(b, r, n)) * over_b;
+    const real *db = b + place(c, 0), *dr = r + place(c, 0);
+    return (a_n - known_part(b, dr, n) - product_of(db, r, n)) * over_b;
+}
+
+/* sum_(j>0) ((p+1) j - n) b_j v_(n-j); jb: n b_n; count: n */
+static inline real power_sum(const real b[], const real jb[], real p, const real v[], real count, int n)
+{
     real even = zero, odd = zero, plain_even = zero, plain_odd = zero;
     int j = n;
     for (; j > 1; j -= 2) { /* v[n-1], known last, comes last */
@@ -109,5 +165,16 @@ static inline real power(const real b[], const real jb[], real over_b, real p, c
         even += jb[1] * v[n - 1];
         plain_even += b[1] * v[n - 1];
     }
-    return ((p + 1) * (even + odd) - count * (plain_even + plain_odd)) * (over_n * over_b);
+    return (p + 1) * (even + odd) - count * (plain_even + plain_odd);
+}
+
+/* v_n of v = b^p; jb: n b_n; over_b = 1/b[0]; count: n, over_n = 1/n */
+static inline real power(const real b[], const real jb[], real over_b, real p, const real v[], real count,
+                         real over_n, int c, int n)
+{
+    const real *db = b + place(c, 0), *dv = v + place(c, 0);
+    if (!is_deviation(c)) return n == 0 ? raised(b[0], p) : power_sum(b, jb, p, v, count, n) * (over_n * over_b);
+    if (n == 0) return p * v[0] * db[0] * over_b;
+    const real of_db = power_sum(db, jb + place(c, 0), p, v, count, n) - count * db[0] * v[n];
+    return (power_sum(b, jb, p, dv, count, n) + of_db) * (over_n * over_b);
 }

@@ -1,0 +1,268 @@
+/* deviations_impl.h - first-order variations of an orbit: two of them beside it, in the channels 1 and 2 of its series.
+ *
+ * A deviation d is tangent to the constraints and to the level of the energy. The equations keep it so; rounding does
+ * not, and off the level a point's equations are unstable. So it is brought back after each step, like the state:
+ *
+ *     (n,dn) = 0
+ *     ball     (dw,n) + (w,dn) = 0,      (w,J dw) = 0 if nothing acts
+ *     point    (dw,n) + (w,dn) = 0,      (w,dw) = f(q) (J n,dn) - (dV,dn),    w = gamma', |w|^2 = F(q) - 2 V, f = F'
+ *
+ * Its length is measured by |dn|^2 + |dw|^2/|w|^2, and by the unit vectors of effects. The part along the flow is taken
+ * away before it is measured: d - f (d,f)/(f,f), f the derivative of the state. A deviation that has become long is
+ * divided by its length, whose logarithm is kept.
+ */
+#include "method/taylor/restore_impl.h"
+
+static inline real inner3(const real a[], const real b[])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void add_times(real a[], real factor, const real b[])
+{
+    for (int i = 0; i < 3; i++) a[i] += factor * b[i];
+}
+
+/* --- back to the constraints ------------------------------------------------------------------------------------ */
+
+/* Along the velocity, or omega: (w,dw) as the energy wants it. */
+static void keep_level_of_point(const form *T, const state *s, state *d)
+{
+    const series *S = &T->S;
+    const real q = q_of(S, s->n), rise = -S->coupling * raised(q, -1 - 1 / S->k);
+    const real slope = T->in_t ? 2 * S->coupling * S->k * q : rise; /* of |w|^2/2, by (J n,dn) */
+    real J_n[3], size;
+    for (int i = 0; i < 3; i++) J_n[i] = AT(S->J, i) * s->n[i];
+    real wanted = slope * inner3(J_n, d->n);
+    if (T->in_field) {
+        vector gradient;
+        potential_at(T, s->n, q, s, &size, &gradient);
+        for (int i = 0; i < 3; i++) wanted -= AT(gradient, i) * d->n[i];
+    }
+    const real square = inner3(s->w, s->w);
+    add_times(d->w, choose(square > zero, (wanted - inner3(s->w, d->w)) / square, zero), s->w);
+}
+
+static void keep_level_of_ball(const form *T, const state *s, state *d)
+{
+    real K[3];
+    for (int i = 0; i < 3; i++) K[i] = AT(T->S.J, i) * s->w[i];
+    const real twice = inner3(K, s->w);
+    add_times(d->w, choose(twice > zero, -inner3(K, d->w) / twice, zero), s->w);
+}
+
+/* The unit vectors among the states of effects. */
+static void keep_unit_states(const form *T, const state *s, state *d)
+{
+    for (int i = 0; i < T->motion.states; i++) {
+        const int at = T->motion.state[i].at - ISO_STATE;
+        if (T->motion.state[i].kind != ISO_STATE_UNIT || !T->motion.state[i].is_vector) continue;
+        add_times(d->own + at, -inner3(s->own + at, d->own + at), s->own + at);
+    }
+}
+
+static void restore_deviation(const form *T, const state *s, state *d)
+{
+    const series *S = &T->S;
+    add_times(d->n, -inner3(s->n, d->n), s->n);
+    keep_unit_states(T, s, d);
+    const real spin = inner3(d->w, s->n) + inner3(s->w, d->n);
+    if (T->is_point || T->is_point_t) {
+        add_times(d->w, -spin, s->n);
+        if (T->is_point)
+            keep_level_of_point(T, s, d);
+        else
+            add_times(d->w, -inner3(s->w, d->w) / inner3(s->w, s->w), s->w);
+        return;
+    }
+    real u[3];
+    for (int i = 0; i < 3; i++) u[i] = AT(S->inv_J, i) * s->n[i];
+    if (!T->twists) add_times(d->w, -spin / inner3(u, s->n), u);
+    if (!T->loaded) keep_level_of_ball(T, s, d);
+}
+
+/* --- along the flow --------------------------------------------------------------------------------------------- */
+
+static inline void second_rate(const vector a[], const real count[], int order, real x, real out[3])
+{
+    vector p = nought;
+    for (int n = order; n >= 2; n--) p = plus(times(x, p), times(count[n] * count[n - 1], a[n]));
+    for (int i = 0; i < 3; i++) out[i] = AT(p, i);
+}
+
+static inline real rate_of_number(const real a[], const real count[], int order, real x)
+{
+    real p = zero;
+    for (int n = order; n >= 1; n--) p = p * x + count[n] * a[n];
+    return p;
+}
+
+/* The derivative of the state at x. */
+static void flow_at(const form *T, real x, state *f)
+{
+    const series *S = &T->S;
+    memset(f, 0, sizeof *f);
+    rate(S->n, S->count, S->order + T->is_point, x, f->n);
+    if (T->is_point)
+        second_rate(S->n, S->count, S->order + 1, x, f->w);
+    else
+        rate(S->w, S->count, S->order, x, f->w);
+    for (int i = 0; i < T->motion.states; i++) {
+        const int node = T->motion.state[i].node * ROOM, at = T->motion.state[i].at - ISO_STATE;
+        if (T->motion.state[i].is_vector)
+            rate(S->vector + node, S->count, S->order, x, f->own + at);
+        else
+            f->own[at] = rate_of_number(S->scalar + node, S->count, S->order, x);
+    }
+}
+
+/* (a,b) of two deviations from s. */
+static real inner(const form *T, const state *s, const state *a, const state *b)
+{
+    const real square = inner3(s->w, s->w);
+    real sum = inner3(a->n, b->n) + inner3(a->w, b->w) / choose(square > zero, square, spread(1));
+    for (int i = 0; i < T->motion.states; i++) {
+        const int at = T->motion.state[i].at - ISO_STATE;
+        if (T->motion.state[i].kind == ISO_STATE_UNIT && T->motion.state[i].is_vector)
+            sum += inner3(a->own + at, b->own + at);
+    }
+    return sum;
+}
+
+static void add_state(const form *T, state *a, real factor, const state *b)
+{
+    add_times(a->n, factor, b->n);
+    add_times(a->w, factor, b->w);
+    for (int i = ISO_STATE; i < T->shape.moving; i++) a->own[i - ISO_STATE] += factor * b->own[i - ISO_STATE];
+}
+
+static void scale_state(const form *T, state *a, real factor)
+{
+    for (int i = 0; i < 3; i++) a->n[i] *= factor, a->w[i] *= factor;
+    for (int i = ISO_STATE; i < T->shape.moving; i++) a->own[i - ISO_STATE] *= factor;
+}
+
+/* --- at the start ----------------------------------------------------------------------------------------------- */
+
+/* The flow at T->now: two coefficients of the series tell it. */
+static void flow_now(form *T, state *flow)
+{
+    const int order = T->S.order;
+    T->S.order = 2;
+    begin(T);
+    expand(&T->S);
+    flow_at(T, zero, flow);
+    T->S.order = order;
+}
+
+/* Two deviations from T->now, orthogonal and of length 1: towards the neighbour beside the orbit, and towards the one that
+ * starts in another direction. */
+static void find_deviations(form *T, state d[SLOTS])
+{
+    const state *s = &T->now;
+    const real square = inner3(s->w, s->w), speed = root(choose(square > zero, square, spread(1)));
+    real across[3];
+    state flow;
+    flow_now(T, &flow);
+    memset(d, 0, SLOTS * sizeof *d);
+    cross_product(s->n, s->w, across);
+    for (int i = 0; i < 3; i++) {
+        d[1].n[i] = (T->is_point ? across[i] : s->w[i]) / speed;
+        d[2].w[i] = across[i];
+    }
+    for (int c = 1; c < CHANNELS; c++) {
+        restore_deviation(T, s, &d[c]);
+        add_state(T, &d[c], -inner(T, s, &d[c], &flow) / inner(T, s, &flow, &flow), &flow);
+        if (c == 2) add_state(T, &d[2], -inner(T, s, &d[1], &d[2]), &d[1]);
+        scale_state(T, &d[c], 1 / root(inner(T, s, &d[c], &d[c])));
+    }
+}
+
+/* The same in the lanes that are fresh. */
+static void start_deviations(form *T, const bool fresh[LANES])
+{
+    state d[SLOTS];
+    find_deviations(T, d);
+    for (int c = 1; c < CHANNELS; c++) {
+        real *to = (real *)&T->deviation[c];
+        const real *from = (const real *)&d[c];
+        for (int lane = 0; lane < LANES; lane++)
+            for (size_t i = 0; fresh[lane] && i < sizeof(state) / sizeof(real); i++)
+                LANE(to[i], lane) = LANE(from[i], lane);
+        for (int lane = 0; lane < LANES; lane++)
+            if (fresh[lane]) LANE(T->scale[c], lane) = 0;
+    }
+}
+
+/* --- on the way ------------------------------------------------------------------------------------------------- */
+
+/* A deviation at x, where the state is s. */
+static void deviation_at(const form *T, int c, real x, const state *s, state *d)
+{
+    memset(d, 0, sizeof *d);
+    channel_at(T, c, x, d);
+    restore_deviation(T, s, d);
+}
+
+/* Deviations at the end of a step, where the state is s. */
+static void end_deviations(form *T, real length, const state *s)
+{
+    for (int c = 1; c < CHANNELS; c++) {
+        state *d = &T->deviation[c];
+        deviation_at(T, c, length, s, d);
+        const real square = inner(T, s, d, d);
+        const mask is_long = both(square > spread((NUMBER)1e16), square < spread((NUMBER)1e290));
+        if (!any(is_long)) continue;
+        const real size = root(choose(is_long, square, spread(1)));
+        scale_state(T, d, 1 / size);
+        for (int i = 0; i < LANES; i++)
+            if (LANE(is_long, i)) LANE(T->scale[c], i) += (NUMBER)log((double)LANE(size, i));
+    }
+}
+
+/* What is seen of the deviations at x, where the state is s: the logarithms of their lengths, and the sine of the angle
+ * between them, without their parts along the flow; and they themselves, with these parts. */
+typedef struct look {
+    state deviation[SLOTS];
+    real square[SLOTS], sine;
+} look;
+
+static void look_at(const form *T, real x, const state *s, look *l)
+{
+    state flow, d[SLOTS];
+    flow_at(T, x, &flow);
+    const real along = 1 / inner(T, s, &flow, &flow);
+    for (int c = 1; c < CHANNELS; c++) {
+        deviation_at(T, c, x, s, &l->deviation[c]);
+        d[c] = l->deviation[c];
+        add_state(T, &d[c], -along * inner(T, s, &d[c], &flow), &flow);
+        l->square[c] = inner(T, s, &d[c], &d[c]);
+    }
+    const real cosine = inner(T, s, &d[1], &d[2]) / l->square[1]; /* the part of d2 that d1 has not */
+    add_state(T, &d[2], -cosine, &d[1]);
+    l->sine = root(inner(T, s, &d[2], &d[2]) / l->square[2]);
+}
+
+/* d of lane, in the variables of the model, where the state is s. Of a point M = gamma' x gamma pace(q). */
+static void store_deviation(const form *T, int lane, const state *s, const state *d, double y[])
+{
+    (void)lane;
+    const series *S = &T->S;
+    for (int i = 0; i < 3; i++) {
+        y[i] = (double)LANE(d->w[i], lane);
+        y[3 + i] = (double)LANE(d->n[i], lane);
+    }
+    for (int i = ISO_STATE; i < T->shape.moving; i++) y[i] = (double)LANE(d->own[i - ISO_STATE], lane);
+    if (!T->is_point) return;
+    real M[3], before[3], after[3], J_n[3];
+    const real speed = pace(T, s->n);
+    cross_product(s->w, s->n, M);
+    cross_product(d->w, s->n, before);
+    cross_product(s->w, d->n, after);
+    for (int i = 0; i < 3; i++) J_n[i] = AT(S->J, i) * s->n[i];
+    const real faster = T->in_t ? (-1 - 1 / (2 * S->k)) * 2 * inner3(J_n, d->n) / q_of(S, s->n) : zero;
+    for (int i = 0; i < 3; i++) {
+        const real dM = speed * (before[i] + after[i] + faster * M[i]);
+        y[i] = (double)LANE(dM, lane);
+    }
+}

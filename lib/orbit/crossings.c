@@ -1,0 +1,192 @@
+/* crossings.c - many orbits from crossing to crossing: checks the options, hands the orbits out to lanes or follows
+ * them one by one, and keeps what each of them answered. */
+#include "orbit/crossings.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
+#include "base/vec3_impl.h"
+#include "map/section.h"
+#include "method/integrator_impl.h"
+#include "method/methods_impl.h"
+#include "method/taylor/lanes_impl.h"
+#include "orbit/crossings_impl.h"
+
+enum { MOST_THREADS = 1024 };
+
+/* --- what both ways of following share -------------------------------------------------------------------------- */
+
+int iso_crossings_axis(const iso_crossings *c, size_t i)
+{
+    if (c->options.kind != ISO_SECTION_AXIS) return -1;
+    return c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(c->orbits[i].params) : c->options.axis;
+}
+
+/* n_a swings with about |k w|, gamma_a with |M|: so n_a'/(|k w|) has the size of n_a. */
+bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis)
+{
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    const double k = model == ISO_BALL ? p->k : 1, pace = fabs(k) * norm(y);
+    const double rise = k * (y[3 + b] * y[c] - y[3 + c] * y[b]); /* n' = k n x w, gamma' = gamma x M */
+    const double swing = hypot(pace * y[3 + axis], rise);
+    return fabs(pace * y[3 + axis]) <= 1e-8 * swing;
+}
+
+bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)
+{
+    const double part = 1e-9 + 100 * tolerance, rounding = 1e-14 * fabs(s);
+    if (isnan(bound[0]) || isnan(bound[1]) || isnan(apart)) return true;
+    if (apart > bound[1] * (1 + part) + rounding) return false;
+    return !least || apart >= bound[0] * (1 - part) - rounding;
+}
+
+void iso_crossing_blank(iso_crossing *crossing)
+{
+    double *number = (double *)crossing;
+    for (size_t i = 0; i < sizeof *crossing / sizeof *number; i++) number[i] = NAN;
+}
+
+/* --- making ----------------------------------------------------------------------------------------------------- */
+
+static iso_status check_section(iso_context *ctx, const iso_crossings_options *o)
+{
+    if (o->kind != ISO_SECTION_AXIS && o->kind != ISO_SECTION_COLUMN && o->kind != ISO_SECTION_CLOCK)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "axis", "there is no such kind of section");
+    if (o->kind == ISO_SECTION_AXIS && (o->axis < ISO_AXIS_AUTO || o->axis > 2))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "axis", "axis %d is none of 0, 1, 2", o->axis);
+    if (o->kind == ISO_SECTION_COLUMN && (o->column < ISO_CLOCKS || o->column >= iso_columns_count()))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "column",
+                                o->column >= 0 && o->column < ISO_CLOCKS
+                                    ? "a clock passes each value once: take equal steps of the clock"
+                                    : "there is no such column");
+    if (o->kind == ISO_SECTION_COLUMN && !isfinite(o->value))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "a column cannot pass %g", o->value);
+    if (o->kind == ISO_SECTION_CLOCK && !(o->value > 0 && isfinite(o->value)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "a step of %g of a clock is none", o->value);
+    if (o->kind == ISO_SECTION_CLOCK && ((int)o->clock < 0 || o->clock >= ISO_CLOCKS))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "there is no such clock");
+    if (o->kind == ISO_SECTION_COLUMN && o->deviations)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "deviations",
+                                "deviations are computed on sections n_a = 0 and at equal steps of a clock");
+    return ISO_OK;
+}
+
+static iso_status check(iso_context *ctx, const iso_crossings_options *o)
+{
+    if (o->backend == ISO_BACKEND_EXACT)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
+                                "crossings are found by integration: take backend ball or point");
+    if ((int)o->backend < 0 || o->backend > ISO_BACKEND_EXACT || (int)o->shown < 0 || o->shown > ISO_SHOW_BOTH)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
+                                "crossings are found by backend ball or point, and shown as ball, point or both");
+    if (iso_tolerance_check(ctx, o->tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
+    if (o->threads < 0 || o->threads > MOST_THREADS)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, %d]", o->threads,
+                                MOST_THREADS);
+    if (!iso_lane_code_find(o->vectors, o->deviations))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors",
+                                "this processor, or this build, has no vectors '%s'", o->vectors);
+    return check_section(ctx, o);
+}
+
+iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
+                                const iso_crossings_options *options, iso_crossings **crossings)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_crossings_options own = iso_crossings_defaults();
+    *crossings = NULL;
+    iso_status status = iso_options_take(ctx, "iso_crossings_options", &own, sizeof own, options);
+    if (status == ISO_OK) status = check(ctx, &own);
+    if (status != ISO_OK) return status;
+    iso_crossings *c = calloc(1, sizeof *c);
+    iso_crossed *each = calloc(count + 1, sizeof *each);
+    if (!c || !each) {
+        free(c);
+        free(each);
+        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the crossings of %zu orbits", count);
+    }
+    *c = (iso_crossings){.ctx = ctx, .orbits = orbits, .count = count, .options = own, .orbit = each};
+    for (size_t i = 0; i < count; i++) each[i].axis = iso_crossings_axis(c, i);
+    *crossings = c;
+    return ISO_OK;
+}
+
+void iso_crossings_free(iso_crossings *c)
+{
+    if (!c) return;
+    for (size_t i = 0; i < c->count; i++) {
+        iso_orbit_free(c->orbit[i].alone);
+        iso_crossings_free_lane(c->orbit[i].lane);
+        free(c->orbit[i].why);
+    }
+    free(c->orbit);
+    free(c);
+}
+
+/* --- going on --------------------------------------------------------------------------------------------------- */
+
+static void blank(const iso_crossings *c, const iso_crossings_task *t)
+{
+    for (size_t i = 0; i < c->count; i++) {
+        t->done[i] = 0;
+        t->status[i] = c->orbit[i].status;
+        for (size_t j = 0; j < t->each; j++) {
+            iso_crossing_blank(&t->crossing[t->each * i + j]);
+            if (t->sample) iso_sample_blank(&t->sample[t->each * i + j]);
+        }
+    }
+}
+
+void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status)
+{
+    iso_crossed *o = &c->orbit[i];
+    if (status == ISO_OK || status == ISO_STOPPED) return;
+    o->status = status;
+    o->why = strdup(iso_context_message(ctx));
+    snprintf(o->about, sizeof o->about, "%s", iso_context_about(ctx));
+}
+
+static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, const bool taken[])
+{
+    for (size_t i = 0; i < c->count; i++) {
+        iso_sample *sample = t->sample ? t->sample + t->each * i : NULL;
+        if (taken[i] || (t->wanted && !t->wanted[i]) || c->orbit[i].status != ISO_OK) continue;
+        t->status[i] = iso_context_goes_on(c->ctx) ? ISO_OK : ISO_STOPPED;
+        if (t->status[i] == ISO_OK)
+            t->status[i] = iso_crossings_go_alone(c, i, t->each, t->crossing + t->each * i, sample, &t->done[i]);
+        if (t->status[i] == ISO_STOPPED) return iso_context_fail(c->ctx, ISO_STOPPED, "", "stopped on request");
+        if (t->status[i] == ISO_NO_MEMORY) return ISO_NO_MEMORY;
+        iso_crossings_keep(c, c->ctx, i, t->status[i]);
+    }
+    return ISO_OK;
+}
+
+/* The first wanted orbit that has failed, in words. */
+static iso_status tell_first(const iso_crossings *c, const iso_crossings_task *t)
+{
+    for (size_t i = 0; i < c->count; i++) {
+        const iso_crossed *o = &c->orbit[i];
+        if (o->status == ISO_OK || (t->wanted && !t->wanted[i])) continue;
+        return iso_context_fail(c->ctx, o->status, o->about, "orbit %zu: %s", i,
+                                o->why ? o->why : iso_status_text(o->status));
+    }
+    return ISO_OK;
+}
+
+iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
+                            iso_sample sample[], size_t done[], iso_status status[])
+{
+    ISO_DEFAULT_ARITHMETIC;
+    const iso_crossings_task task = {wanted, each, crossing, sample, done, status};
+    bool *taken = calloc(c->count + 1, sizeof *taken);
+    blank(c, &task);
+    if (!taken) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for crossings");
+    iso_status answer = iso_crossings_in_lanes(c, &task, taken);
+    if (answer != ISO_NO_MEMORY && answer != ISO_STOPPED) answer = one_by_one(c, &task, taken);
+    free(taken);
+    return answer == ISO_OK ? tell_first(c, &task) : answer;
+}

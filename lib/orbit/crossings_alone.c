@@ -1,0 +1,165 @@
+/* crossings_alone.c - one orbit from crossing to crossing, by itself.
+ *
+ * A crossing of n_a = 0 or of a column's value is an event (iso_orbit_event); equal steps of a clock are asked one
+ * after the other (iso_orbit_at). The orbit is kept between calls, and the search for a crossing depends on the one
+ * before alone: how many are asked at a time does not change a bit of them.
+ */
+#include <math.h>
+
+#include "base/pi_impl.h"
+#include "base/vec3_impl.h"
+#include "map/section.h"
+#include "orbit/crossings_impl.h"
+
+/* --- the orbit -------------------------------------------------------------------------------------------------- */
+
+static iso_status create_as(const iso_crossings *c, size_t i, iso_backend backend, bool clocks, iso_orbit **orbit)
+{
+    const iso_orbit_options how = iso_crossings_orbit_options(c, i, backend, clocks);
+    return iso_orbit_create(c->ctx, c->orbits[i].params, c->orbits[i].start, &how, orbit);
+}
+
+/* Without an isomorphism there are no other clocks; where they do not fit a double the orbit goes on without them. */
+static iso_status create_with_clocks(const iso_crossings *c, size_t i, iso_backend backend, iso_orbit **orbit)
+{
+    const iso_effects *effects = c->orbits[i].effects;
+    const bool mapped = !effects || !iso_effects_breaking(effects);
+    iso_status status = create_as(c, i, backend, mapped, orbit);
+    if (status == ISO_NUMERICAL && mapped) status = create_as(c, i, backend, false, orbit);
+    return status;
+}
+
+/* As in batches: the point needs fewer products than the ball, and small |k| makes the map between them steep. */
+static iso_status create(const iso_crossings *c, size_t i, iso_orbit **orbit)
+{
+    const bool choose = c->options.backend == ISO_BACKEND_AUTO;
+    const bool try_point = choose && fabs(c->orbits[i].params->k) >= 0.125;
+    iso_status status = try_point ? create_with_clocks(c, i, ISO_BACKEND_POINT, orbit) : ISO_NOT_MAPPED;
+    if (status == ISO_OK || status == ISO_NO_MEMORY) return status;
+    return create_with_clocks(c, i, choose ? ISO_BACKEND_BALL : c->options.backend, orbit);
+}
+
+/* --- the start -------------------------------------------------------------------------------------------------- */
+
+static const double *state_of(const iso_orbit *orbit, const iso_sample *sample)
+{
+    return iso_crossings_model(orbit) == ISO_POINT ? sample->point : sample->ball;
+}
+
+static iso_status begin(iso_crossings *c, size_t i)
+{
+    iso_crossed *o = &c->orbit[i];
+    iso_sample start;
+    if (c->options.deviations)
+        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "deviations",
+                                "deviations of an orbit with effects are not computed yet");
+    iso_status status = create(c, i, &o->alone);
+    if (status == ISO_OK) status = iso_orbit_at(o->alone, 0, &start);
+    if (status != ISO_OK) return status;
+    if (o->alone->rests && c->options.kind != ISO_SECTION_CLOCK)
+        return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the ball rests: it crosses no section");
+    iso_crossings_bounds(o->alone, o);
+    if (o->axis < 0) return ISO_OK;
+    const double *y = state_of(o->alone, &start);
+    o->begins_on_it = iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(o->alone), y, o->axis);
+    return iso_crossings_check_plane(c->ctx, o->alone, y, o->axis);
+}
+
+/* --- crossings -------------------------------------------------------------------------------------------------- */
+
+static double unit_vector(const iso_sample *sample, const void *data)
+{
+    const iso_crossed *o = data;
+    return state_of(o->alone, sample)[3 + o->axis];
+}
+
+static double beyond_value(const iso_sample *sample, const void *data)
+{
+    const iso_crossings_options *o = data;
+    return iso_sample_column(sample, o->column) - o->value;
+}
+
+/* One turn of the ball at most, in the orbit's clock and the caller's units. */
+static double turn_of(const iso_orbit *orbit)
+{
+    const iso_params *own = &orbit->units.own;
+    const iso_clock clock = orbit->options.clock;
+    const double rate = clock == ISO_CLOCK_T ? 1
+                                             : fmax(iso_clock_rate(own, clock, min3(own->J), NULL),
+                                                    iso_clock_rate(own, clock, max3(own->J), NULL));
+    return 2 * ISO_PI * rate * orbit->unit_clock[clock];
+}
+
+static iso_status next_event(iso_crossings *c, iso_crossed *o, iso_sample *sample)
+{
+    const bool axis = c->options.kind == ISO_SECTION_AXIS;
+    const double from = o->time, to = from + ISO_MOST_BETWEEN * turn_of(o->alone);
+    bool found;
+    const iso_status status = axis
+                                  ? iso_orbit_event(o->alone, unit_vector, o, 1, from, to, &found, sample)
+                                  : iso_orbit_event(o->alone, beyond_value, &c->options, 1, from, to, &found, sample);
+    if (status != ISO_OK || found) return status;
+    return iso_context_fail(c->ctx, ISO_NUMERICAL, "",
+                            "no crossing within %d turns after %s = %.17g, where crossing %zu is", ISO_MOST_BETWEEN,
+                            iso_clock_name(o->alone->options.clock), from, o->count);
+}
+
+static iso_status next_sample(iso_crossings *c, iso_crossed *o, iso_sample *sample)
+{
+    const long most = c->options.max_steps, so_far = iso_orbit_statistics(o->alone).steps;
+    if (most > 0) iso_orbit_allow_steps(o->alone, so_far + most);
+    if (c->options.kind == ISO_SECTION_CLOCK)
+        return iso_orbit_at(o->alone, (double)(o->count + 1) * c->options.value, sample);
+    return next_event(c, o, sample);
+}
+
+static void fill(const iso_crossed *o, const iso_sample *sample, iso_crossing *to)
+{
+    iso_crossing_blank(to);
+    for (int k = 0; k < ISO_CLOCKS; k++) to->clock[k] = sample->clock[k];
+    if (!iso_orbit_has_twin(o->alone)) to->clock[ISO_CLOCK_TAU] = to->clock[ISO_CLOCK_S] = NAN;
+    if (o->axis < 0) return;
+    double point[ISO_STATE];
+    iso_crossings_point(o->alone, state_of(o->alone, sample), point);
+    iso_section_chart(o->axis, point, &to->l, &to->x);
+}
+
+/* Whether this first event is the start itself, up to rounding: an orbit that starts on the section crosses it again
+ * when n_a has made a full oscillation. */
+static bool is_start(const iso_crossed *o, double time, double s)
+{
+    if (!o->begins_on_it || o->count > 0) return false;
+    return isnan(o->bound[0]) || isnan(s) ? time < 1e-6 * turn_of(o->alone) : s < o->bound[0] / 2;
+}
+
+/* One crossing. *counts false: it is the start. */
+static iso_status step(iso_crossings *c, iso_crossed *o, iso_crossing *crossing, iso_sample *sample, bool *counts)
+{
+    iso_sample here;
+    iso_status status = next_sample(c, o, &here);
+    if (status != ISO_OK) return status;
+    const double s = here.clock[ISO_CLOCK_S] / o->alone->unit_clock[ISO_CLOCK_S];
+    o->time = here.clock[o->alone->options.clock];
+    *counts = !is_start(o, o->time, s);
+    if (!*counts) return ISO_OK;
+    status = iso_crossings_hold(c->ctx, c, o, o->alone, s);
+    if (status != ISO_OK) return status;
+    fill(o, &here, crossing);
+    if (sample) iso_crossings_give(c, &here, sample);
+    o->s = s;
+    o->count++;
+    return ISO_OK;
+}
+
+iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_crossing crossing[],
+                                  iso_sample sample[], size_t *done)
+{
+    iso_crossed *o = &c->orbit[i];
+    iso_status status = o->alone ? ISO_OK : begin(c, i);
+    while (status == ISO_OK && *done < each) {
+        bool counts;
+        status = step(c, o, &crossing[*done], sample ? &sample[*done] : NULL, &counts);
+        *done += status == ISO_OK && counts;
+    }
+    return status;
+}

@@ -1,0 +1,105 @@
+/* crossings_common.c - what orbits in lanes and orbits by themselves have in common: how they are prepared, what bounds
+ * their crossings are held to, and what a crossing tells. */
+#include <math.h>
+
+#include "base/pi_impl.h"
+#include "base/vec3_impl.h"
+#include "map/section.h"
+#include "map/state.h"
+#include "orbit/crossings_impl.h"
+
+/* --- the orbit -------------------------------------------------------------------------------------------------- */
+
+/* Whether the numbers of a model are needed: those that are integrated, those that are asked for, and the column. */
+static bool needs(const iso_crossings_options *o, iso_backend backend, iso_shown model)
+{
+    const bool point = model == ISO_SHOW_POINT;
+    const bool of_point = o->column >= ISO_COLUMN_POINT && o->column < ISO_COLUMN_EFFECTS;
+    if ((int)backend == (int)model || o->shown == model || o->shown == ISO_SHOW_BOTH) return true;
+    return o->kind == ISO_SECTION_COLUMN && of_point == point;
+}
+
+iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_backend backend, bool clocks)
+{
+    const iso_crossings_options *o = &c->options;
+    const iso_batch_orbit *of = &c->orbits[i];
+    iso_orbit_options how = iso_orbit_defaults(of->start);
+    how.effects = of->effects;
+    how.backend = backend;
+    how.tolerance = o->tolerance;
+    how.clock = backend == ISO_BACKEND_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
+    if (o->kind == ISO_SECTION_CLOCK) how.clock = o->clock;
+    for (iso_clock k = 0; k < ISO_CLOCKS; k++) how.with_clock[k] = clocks;
+    how.shown = !needs(o, backend, ISO_SHOW_POINT)  ? ISO_SHOW_BALL
+                : !needs(o, backend, ISO_SHOW_BALL) ? ISO_SHOW_POINT
+                                                    : ISO_SHOW_BOTH;
+    return how;
+}
+
+iso_model_kind iso_crossings_model(const iso_orbit *orbit)
+{
+    return iso_orbit_backend(orbit) == ISO_BACKEND_POINT ? ISO_POINT : ISO_BALL;
+}
+
+/* --- bounds ----------------------------------------------------------------------------------------------------- */
+
+/* An orbit in the plane n_a = 0 itself stays there where no potential pulls: n_a and its rate, of size 1, are 0 or
+ * rounding. */
+iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis)
+{
+    const double swing = fmax(fabs(y[(axis + 1) % 3]), fabs(y[(axis + 2) % 3])) / largest(y);
+    if (fmax(fabs(y[3 + axis]), swing) > 1e-14 || iso_effects_pull(&orbit->effects)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "axis",
+                            "this orbit is the rotation about axis %d, in the plane n_%d = 0 itself: it is the "
+                            "boundary of the section, and crosses it nowhere",
+                            axis + 1, axis + 1);
+}
+
+/* Only free orbits obey gamma_a'' = -W^2 gamma_a. */
+void iso_crossings_bounds(const iso_orbit *orbit, iso_crossed *o)
+{
+    const bool is_free = !iso_effects_have_level(&orbit->effects) && !iso_effects_beyond_level(&orbit->effects);
+    double W[2];
+    o->bound[0] = o->bound[1] = NAN;
+    if (o->axis < 0 || !is_free || !iso_orbit_has_twin(orbit)) return;
+    iso_section_bounds(&orbit->units.own, orbit->eps, o->axis, W);
+    o->bound[0] = 2 * ISO_PI / W[1];
+    o->bound[1] = 2 * ISO_PI / W[0];
+}
+
+/* Sturm: two crossings of a global section are so and so far apart in s. A gap would be a skipped crossing. */
+iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
+                              double s)
+{
+    const bool least = o->count > 0 || o->begins_on_it;
+    if (iso_crossings_apart(o->bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
+    const double unit = orbit->unit_clock[ISO_CLOCK_S];
+    return iso_context_fail(ctx, ISO_NUMERICAL, "",
+                            "crossings %zu and %zu of n_%d = 0 are %.10g apart in s, not between %.10g and %.10g: "
+                            "the computation is wrong there; take a smaller tolerance",
+                            o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, o->bound[0] * unit,
+                            o->bound[1] * unit);
+}
+
+/* --- crossings -------------------------------------------------------------------------------------------------- */
+
+/* The chart is that of the directions of M and gamma. M has the direction of J^(1/2) omega, for k < 0 of the opposite,
+ * and gamma that of J^(-1/2) n (18): so a ball without a twin has a chart as well. */
+void iso_crossings_point(const iso_orbit *orbit, const double y[ISO_STATE], double point[ISO_STATE])
+{
+    const iso_params *own = &orbit->units.own;
+    copy(y, point, ISO_STATE);
+    for (int i = 0; i < 3 && iso_crossings_model(orbit) == ISO_BALL; i++) {
+        point[i] *= copysign(own->root_J[i], own->k);
+        point[3 + i] /= own->root_J[i];
+    }
+}
+
+/* What the caller does not ask for is NaN. */
+void iso_crossings_give(const iso_crossings *c, const iso_sample *from, iso_sample *to)
+{
+    *to = *from;
+    for (int i = 0; i < ISO_STATE && c->options.shown == ISO_SHOW_BALL; i++) to->point[i] = NAN;
+    for (int i = 0; i < ISO_STATE && c->options.shown == ISO_SHOW_POINT; i++) to->ball[i] = NAN;
+    for (int i = 0; i < ISO_EFFECT_COLUMNS && c->options.shown == ISO_SHOW_POINT; i++) to->effect[i] = NAN;
+}

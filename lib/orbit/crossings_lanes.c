@@ -1,0 +1,368 @@
+/* crossings_lanes.c - many orbits from crossing to crossing in the lanes of vectors, on all threads, with deviations
+ * beside them if they are asked for.
+ *
+ * Lanes find the zeros of n_a between the ends of parts of a step, so short that n_a has at most one zero in each. For
+ * a part of length x in s that is W x <= pi, by Sturm. In t, with r = ds/dt ~ q^(1+1/(2k)) and Omega = W r, Lyapunov's
+ * inequality 4 < (s2 - s1) int W^2 ds between two zeros gives
+ *
+ *     4 < int r dt int (Omega^2/r) dt <= Omega_max^2 x^2 (rho + 1)^2/(4 rho),    rho = r_max/r_min in the part
+ *
+ * and as q turns by |q_t/q| <= B = (J_max - J_min) (2 h k^2/det J)^(1/2), rho <= e where x B |1 + 1/(2k)| <= 1. Then two
+ * zeros are more than 1.77/Omega_max apart.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/pi_impl.h"
+#include "base/vec3_impl.h"
+#include "map/section.h"
+#include "map/state.h"
+#include "method/integrator_impl.h"
+#include "orbit/crossings_impl.h"
+#include "orbit/pool_impl.h"
+
+/* Orbits that a thread takes at a time, and the bytes that it has for what lanes tell of them. */
+enum { CHUNK = 64, BYTES = 1 << 24 };
+
+/* An orbit that is followed in lanes. */
+struct iso_crossings_lane {
+    iso_orbit orbit;
+    iso_lane_job job;
+    bool has_clocks;
+    double begin[2][ISO_DEVIATIONS]; /* (dl, dx) of the deviations at the start, one in each column */
+    bool has_begin;
+    unsigned char saved[]; /* iso_lane_code.saved bytes */
+};
+
+typedef struct follower {
+    iso_crossings *c;
+    const iso_crossings_task *task;
+    const iso_lane_code *code;
+    bool *taken;
+} follower;
+
+/* --- preparing -------------------------------------------------------------------------------------------------- */
+
+/* The largest Omega^2 = (2 eps k^3/det J^2) q (J_a - (1-k) q) for q between min J and max J. */
+static double fastest(const iso_params *p, double eps, int axis)
+{
+    const double k = p->k, least = min3(p->J), most = max3(p->J), top = p->J[axis] / (2 * (1 - k));
+    const double q[3] = {least, most, top > least && top < most ? top : most};
+    double square = 0;
+    for (int i = 0; i < 3; i++)
+        square = fmax(square, 2 * eps / p->det_J * (k * k * k / p->det_J) * q[i] * (p->J[axis] - (1 - k) * q[i]));
+    return sqrt(square);
+}
+
+/* The bounds of the search for crossings, in the variable of the series. */
+static void set_search(struct iso_crossings_lane *lane, const iso_crossed *o)
+{
+    const iso_orbit *orbit = &lane->orbit;
+    const iso_params *p = &orbit->units.own;
+    iso_lane_job *job = &lane->job;
+    job->axis = o->axis;
+    job->longest = o->bound[1];
+    job->zeros = 2 / o->bound[0];
+    if (iso_lane_clock(&orbit->model) == ISO_CLOCK_S) return;
+    const double h = orbit->h, turn = sqrt(2 * h * p->k * p->k / p->det_J) * (max3(p->J) - min3(p->J));
+    const double slowest =
+        fmin(iso_clock_rate(p, ISO_CLOCK_S, min3(p->J), NULL), iso_clock_rate(p, ISO_CLOCK_S, max3(p->J), NULL));
+    job->zeros = fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(p, orbit->eps, o->axis) / 1.77);
+    job->longest = o->bound[1] / slowest;
+}
+
+static iso_status prepare_as(iso_pool_worker *w, const iso_crossings *c, size_t i, iso_backend backend, bool clocks,
+                             struct iso_crossings_lane *lane)
+{
+    const iso_batch_orbit *of = &c->orbits[i];
+    memset(&lane->orbit, 0, sizeof lane->orbit);
+    lane->orbit.ctx = w->ctx;
+    lane->orbit.options = iso_crossings_orbit_options(c, i, backend, clocks);
+    if (c->options.kind == ISO_SECTION_AXIS)
+        lane->orbit.options.clock = ISO_CLOCK_T; /* its series are the shortest */
+    lane->has_clocks = clocks;
+    return iso_orbit_prepare(&lane->orbit, of->params, of->start, lane->job.start);
+}
+
+/* With all clocks where there is an isomorphism, and they fit a double. */
+static iso_status prepare_with_clocks(iso_pool_worker *w, const iso_crossings *c, size_t i, iso_backend backend,
+                                      struct iso_crossings_lane *lane)
+{
+    const iso_effects *effects = c->orbits[i].effects;
+    const bool mapped = !effects || !iso_effects_breaking(effects);
+    const iso_status status = prepare_as(w, c, i, backend, mapped, lane);
+    return status == ISO_NUMERICAL && mapped ? prepare_as(w, c, i, backend, false, lane) : status;
+}
+
+static iso_status prepare(iso_pool_worker *w, const iso_crossings *c, size_t i, struct iso_crossings_lane *lane)
+{
+    const bool choose = c->options.backend == ISO_BACKEND_AUTO;
+    const bool try_point = choose && fabs(c->orbits[i].params->k) >= 0.125;
+    iso_status status = try_point ? prepare_with_clocks(w, c, i, ISO_BACKEND_POINT, lane) : ISO_NOT_MAPPED;
+    if (status != ISO_OK) status = prepare_with_clocks(w, c, i, choose ? ISO_BACKEND_BALL : c->options.backend, lane);
+    return status;
+}
+
+/* Whether lanes can follow the orbit: on a section that each orbit crosses for ever, or in equal steps of a clock. */
+static bool suits(const iso_crossings *c, const struct iso_crossings_lane *lane, const iso_crossed *o)
+{
+    if (!iso_pool_suits(&lane->orbit) || c->options.kind == ISO_SECTION_COLUMN) return false;
+    if (c->options.kind == ISO_SECTION_CLOCK) return true;
+    return lane->has_clocks && isfinite(o->bound[0]) && isfinite(o->bound[1]);
+}
+
+/* Prepares orbit i if lanes can follow it; else o->lane stays NULL. */
+static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
+{
+    iso_crossings *c = f->c;
+    iso_crossed *o = &c->orbit[i];
+    struct iso_crossings_lane *lane = calloc(1, sizeof *lane + f->code->saved);
+    if (!lane) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+    iso_status status = prepare(w, c, i, lane);
+    if (status == ISO_OK) iso_crossings_bounds(&lane->orbit, o);
+    if (status != ISO_OK || !suits(c, lane, o)) {
+        free(lane);
+        return status;
+    }
+    const double *y = lane->job.start;
+    if (c->options.kind == ISO_SECTION_AXIS) {
+        o->begins_on_it =
+            iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(&lane->orbit), y, o->axis);
+        status = iso_crossings_check_plane(w->ctx, &lane->orbit, y, o->axis);
+        set_search(lane, o);
+    }
+    lane->job.model = &lane->orbit.model;
+    lane->job.unit = lane->orbit.unit_clock[lane->orbit.options.clock];
+    lane->job.saved = lane->saved;
+    lane->job.on_section = o->begins_on_it;
+    o->lane = lane;
+    return status;
+}
+
+/* --- what a crossing tells -------------------------------------------------------------------------------------- */
+
+/* (M, gamma) of a state, with its lengths, and a deviation of it. */
+static void to_point(const iso_orbit *orbit, const double y[], const double d[], double point[], double deviation[])
+{
+    const iso_params *p = &orbit->units.own;
+    const bool ball = orbit->system == &iso_system_ball;
+    double factor = 1, slope = 0;
+    if (ball) iso_ball_to_point(p, y, point);
+    if (orbit->system == &iso_system_point_t) iso_point_t_to_point(p, y, point);
+    if (orbit->system == &iso_system_point) copy(y, point, ISO_STATE);
+    const double *gamma = point + 3, q = dot_diag(gamma, p->J, gamma);
+    const double NN = sqrt(p->det_J) / p->k * pow(q, -1 / (2 * p->k));
+    double dgamma[3];
+    for (int i = 0; i < 3; i++) dgamma[i] = ball ? sqrt(q) * d[3 + i] / p->root_J[i] : d[3 + i];
+    const double along = dot(gamma, dgamma);
+    for (int i = 0; i < 3; i++) deviation[3 + i] = dgamma[i] -= along * gamma[i];
+    if (orbit->system != &iso_system_point) factor = NN, slope = -dot_diag(gamma, p->J, dgamma) / (p->k * q);
+    for (int i = 0; i < 3; i++) deviation[i] = factor * (ball ? p->root_J[i] : 1) * d[i] + slope * point[i];
+}
+
+/* The chart's slopes (dl, dx) of both deviations, one in each column. */
+static void find_slopes(const iso_orbit *orbit, int axis, const double y[], double d[][ISO_MAX_STATE],
+                        const double scale[], double slopes[2][ISO_DEVIATIONS])
+{
+    for (int i = 0; i < ISO_DEVIATIONS; i++) {
+        double point[ISO_STATE], deviation[ISO_STATE], slope[2];
+        to_point(orbit, y, d[i], point, deviation);
+        iso_section_slope(&orbit->units.own, orbit->eps, axis, point, deviation, slope);
+        for (int j = 0; j < 2; j++) slopes[j][i] = slope[j] * exp(scale[i]);
+    }
+}
+
+/* A B^-1 */
+static void divide(double A[2][2], double B[2][2], double quotient[2][2])
+{
+    const double det = B[0][0] * B[1][1] - B[0][1] * B[1][0];
+    for (int i = 0; i < 2; i++) {
+        quotient[i][0] = (A[i][0] * B[1][1] - A[i][1] * B[1][0]) / det;
+        quotient[i][1] = (A[i][1] * B[0][0] - A[i][0] * B[0][1]) / det;
+    }
+}
+
+static void tell_deviations(struct iso_crossings_lane *lane, const iso_crossed *o, iso_lane_event *e,
+                            iso_crossing *to)
+{
+    double slopes[2][ISO_DEVIATIONS];
+    for (int i = 0; i < ISO_DEVIATIONS; i++) to->growth[i] = e->growth[i];
+    to->area = e->sine;
+    if (o->axis < 0 || !o->begins_on_it) return;
+    if (!lane->has_begin)
+        find_slopes(&lane->orbit, o->axis, lane->job.start, lane->job.first, (double[2]){0}, lane->begin);
+    lane->has_begin = true;
+    find_slopes(&lane->orbit, o->axis, e->y, e->deviation, e->scale, slopes);
+    divide(slopes, lane->begin, to->slope);
+}
+
+static double clock_of(const iso_orbit *orbit, iso_clock clock, const double y[], double time)
+{
+    const iso_model *m = &orbit->model;
+    if (clock == m->clock) return time;
+    for (int i = 0; i < m->clocks; i++)
+        if (m->clock_of[i] == clock) return y[m->moving + i];
+    return NAN;
+}
+
+/* One crossing, at state y and time `time` of the model's clock, own units. */
+static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, const double y[], double time,
+                       iso_lane_event *e, iso_crossing *to, iso_sample *sample)
+{
+    iso_crossed *o = &c->orbit[i];
+    struct iso_crossings_lane *lane = o->lane;
+    const iso_orbit *orbit = &lane->orbit;
+    double point[ISO_STATE];
+    const double s = clock_of(orbit, ISO_CLOCK_S, y, time);
+    iso_status status = iso_crossings_hold(w->ctx, c, o, orbit, s);
+    if (status != ISO_OK) return status;
+    iso_crossing_blank(to);
+    for (iso_clock k = 0; k < ISO_CLOCKS; k++) to->clock[k] = clock_of(orbit, k, y, time) * orbit->unit_clock[k];
+    if (o->axis >= 0) {
+        orbit->system == &iso_system_point_t ? iso_point_t_to_point(&orbit->units.own, y, point)
+                                             : iso_crossings_point(orbit, y, point);
+        iso_section_chart(o->axis, point, &to->l, &to->x);
+    }
+    if (e) tell_deviations(lane, o, e, to);
+    o->s = s;
+    o->count++;
+    if (!sample) return ISO_OK;
+    iso_sample here;
+    status = iso_orbit_make_sample(orbit, time * lane->job.unit, y, &here);
+    if (status == ISO_OK) iso_crossings_give(c, &here, sample);
+    return status;
+}
+
+/* --- following -------------------------------------------------------------------------------------------------- */
+
+/* What lanes store of one orbit, at most `rows` crossings at a time. */
+typedef struct room {
+    size_t rows, dim;
+    double *states, *times;
+    iso_lane_event *events;
+} room;
+
+static void free_room(room *r)
+{
+    free(r->states);
+    free(r->times);
+    free(r->events);
+}
+
+static bool make_room(const follower *f, size_t orbits, room *r)
+{
+    const size_t bytes = f->c->options.deviations ? sizeof(iso_lane_event) : (ISO_MAX_STATE + 1) * sizeof(double);
+    const size_t most = BYTES / (orbits * bytes);
+    r->rows = f->task->each < most ? f->task->each : most;
+    r->dim = ISO_MAX_STATE;
+    r->events = f->c->options.deviations ? malloc(orbits * r->rows * sizeof *r->events) : NULL;
+    r->states = f->c->options.deviations ? NULL : malloc(orbits * r->rows * r->dim * sizeof *r->states);
+    r->times = malloc(orbits * r->rows * sizeof *r->times);
+    if (r->times && (r->events || r->states)) return true;
+    free_room(r);
+    return false;
+}
+
+/* The job of orbit i for its next rows. `at`: its place in the chunk. */
+static iso_lane_job *set_job(const follower *f, size_t i, size_t at, const room *r, size_t rows)
+{
+    const iso_crossings_options *o = &f->c->options;
+    iso_crossed *orbit = &f->c->orbit[i];
+    iso_lane_job *job = &orbit->lane->job;
+    double *times = r->times + at * r->rows;
+    job->rows = rows;
+    job->done = 0;
+    job->error = NULL;
+    job->event = r->events ? r->events + at * r->rows : NULL;
+    job->states = r->states ? r->states + at * r->rows * r->dim : NULL;
+    job->stride = r->dim;
+    job->time = o->kind == ISO_SECTION_CLOCK ? times : NULL;
+    job->passed = times;
+    for (size_t j = 0; j < rows && job->time; j++) times[j] = (double)(orbit->count + j + 1) * o->value;
+    return job;
+}
+
+/* Turns what the lanes have found into crossings. */
+static iso_status finish(iso_pool_worker *w, const follower *f, size_t i)
+{
+    const iso_crossings_task *t = f->task;
+    const struct iso_crossings_lane *lane = f->c->orbit[i].lane;
+    const iso_lane_job *job = &lane->job;
+    size_t *done = &t->done[i];
+    for (size_t j = 0; j < job->done; j++) {
+        const size_t to = t->each * i + *done;
+        const double *y = job->event ? job->event[j].y : job->states + j * job->stride;
+        const double time = job->time ? job->time[j] / job->unit : job->passed[j];
+        const iso_status status = tell(w, f->c, i, y, time, job->event ? &job->event[j] : NULL, &t->crossing[to],
+                                       t->sample ? &t->sample[to] : NULL);
+        if (status != ISO_OK) return status;
+        ++*done;
+    }
+    if (job->error)
+        return iso_context_fail(w->ctx, ISO_NUMERICAL, "", "taylor stopped: %s; last good %s = %.17g", job->error,
+                                iso_clock_name(lane->orbit.model.clock), job->last * job->unit);
+    return job->done == job->rows ? ISO_OK : iso_context_fail(w->ctx, ISO_STOPPED, "", "stopped on request");
+}
+
+/* One pass over the orbits of a chunk that have not all their crossings yet. *waiting: how many there are. */
+static bool pass(iso_pool_worker *w, const follower *f, size_t first, size_t count, const room *r, size_t *waiting)
+{
+    const iso_crossings_options *o = &f->c->options;
+    const iso_crossings_task *t = f->task;
+    iso_lane_job *jobs[CHUNK];
+    size_t orbit[CHUNK];
+    *waiting = 0;
+    for (size_t i = first; i < first + count; i++) {
+        const size_t left = t->each - t->done[i];
+        if (!f->taken[i] || t->status[i] != ISO_OK || left == 0) continue;
+        jobs[*waiting] = set_job(f, i, i - first, r, left < r->rows ? left : r->rows);
+        orbit[(*waiting)++] = i;
+    }
+    const size_t solved = *waiting;
+    const bool memory = iso_pool_in_groups(w, f->code, o->tolerance, o->max_steps, jobs, solved);
+    for (size_t j = 0; j < solved; j++) {
+        const size_t i = orbit[j];
+        t->status[i] = finish(w, f, i);
+        iso_crossings_keep(f->c, w->ctx, i, t->status[i]);
+    }
+    return memory;
+}
+
+static bool solve_chunk(iso_pool_worker *w, void *data, size_t first, size_t count)
+{
+    const follower *f = data;
+    const iso_crossings_task *t = f->task;
+    size_t waiting = 0;
+    for (size_t i = first; i < first + count && iso_pool_goes_on(w); i++) {
+        iso_crossed *o = &f->c->orbit[i];
+        if ((t->wanted && !t->wanted[i]) || o->status != ISO_OK || o->alone) continue;
+        const iso_status status = o->lane ? ISO_OK : begin(w, f, i);
+        f->taken[i] = status != ISO_OK || o->lane;
+        t->status[i] = status;
+        iso_crossings_keep(f->c, w->ctx, i, status);
+        waiting += status == ISO_OK && o->lane;
+    }
+    room r;
+    if (waiting == 0) return true;
+    if (!make_room(f, count, &r)) return false;
+    bool memory = true;
+    while (memory && waiting > 0 && iso_pool_goes_on(w)) memory = pass(w, f, first, count, &r, &waiting);
+    free_room(&r);
+    return memory;
+}
+
+iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *task, bool taken[])
+{
+    follower f = {c, task, iso_lane_code_find(c->options.vectors, c->options.deviations), taken};
+    const size_t threads = iso_pool_threads(c->options.threads, c->count, f.code->lanes);
+    iso_pool pool = {.count = c->count, .chunk = CHUNK, .solve = solve_chunk, .data = &f};
+    if (task->each == 0 || c->options.kind == ISO_SECTION_COLUMN) return ISO_OK;
+    if (c->count / threads < CHUNK) pool.chunk = c->count / threads + 1;
+    return iso_pool_run(c->ctx, &pool, threads, task->status);
+}
+
+void iso_crossings_free_lane(struct iso_crossings_lane *lane)
+{
+    free(lane);
+}

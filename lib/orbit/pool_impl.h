@@ -1,0 +1,54 @@
+/* pool_impl.h - threads that take orbits in chunks until all are taken, or the caller stops them. */
+#ifndef ISO_ORBIT_POOL_IMPL_H
+#define ISO_ORBIT_POOL_IMPL_H
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+#include "method/taylor/lanes_impl.h"
+#include "orbit/orbit.h"
+
+enum { ISO_MOST_THREADS = 1024 };
+
+typedef struct iso_pool iso_pool;
+
+/* A thread. */
+typedef struct iso_pool_worker {
+    iso_pool *all;
+    iso_context *ctx, *asks; /* its own; the caller's, for the thread that may ask it (else NULL)    */
+    size_t failed;           /* the first of its orbits that failed, with its message; else all->count */
+    char message[1024], about[32];
+    pthread_t thread;
+} iso_pool_worker;
+
+/* What all threads share. */
+struct iso_pool {
+    size_t count, chunk; /* orbits, and how many a thread takes at a time */
+    bool (*solve)(iso_pool_worker *w, void *data, size_t first, size_t count); /* false: no memory */
+    void *data;
+    atomic_size_t next; /* the first orbit that nobody has taken */
+    atomic_bool stopped;
+};
+
+/* How many threads have work where `threads` are asked for (0: as many as there are processors). */
+size_t iso_pool_threads(int threads, size_t count, int lanes);
+
+/* Solves all orbits on so many threads. Errors: ISO_NO_MEMORY; ISO_STOPPED by ctx's monitor (asked by this thread alone);
+ * else the status of the first orbit that failed, with its number: `status` has it. */
+iso_status iso_pool_run(iso_context *ctx, iso_pool *pool, size_t threads, const iso_status status[]);
+
+/* Keeps the first failure of a worker: the words are in w->ctx. */
+void iso_pool_note(iso_pool_worker *w, size_t i, iso_status status);
+
+/* Asks the caller's monitor, if this worker may. A monitor itself: `worker` is an iso_pool_worker. */
+bool iso_pool_goes_on(void *worker);
+
+/* Solves jobs on lanes in groups that can share them; jobs[] is used up. False: no memory. */
+bool iso_pool_in_groups(iso_pool_worker *w, const iso_lane_code *code, double tolerance, long max_steps,
+                        iso_lane_job *jobs[], size_t count);
+
+/* Whether lanes can hold an orbit: they hold Taylor series. So the ball must move, must not be stiff, and must have
+ * equations for series. */
+bool iso_pool_suits(const iso_orbit *orbit);
+
+#endif
