@@ -225,6 +225,11 @@ void iso_indicators_add(iso_indicators *it, const iso_beat *beat)
     begin_look(it, it->number++ + ISO_LOOKS);
 }
 
+long iso_indicators_next(const iso_indicators *it)
+{
+    return it->look[(unsigned long)it->number % ISO_LOOKS].last;
+}
+
 iso_verdict iso_indicators_verdict(const iso_indicators *it)
 {
     return (iso_verdict)it->verdict;

@@ -90,6 +90,9 @@ ISO_API void iso_indicators_begin(iso_indicators *it, long most);
 /* Beats are given one after the other, from the first crossing after the start. */
 ISO_API void iso_indicators_add(iso_indicators *it, const iso_beat *beat);
 
+/* The turns at which the verdict is looked at next. */
+ISO_API long iso_indicators_next(const iso_indicators *it);
+
 /* A verdict stays. */
 ISO_API iso_verdict iso_indicators_verdict(const iso_indicators *it);
 ISO_API void iso_indicators_tell(const iso_indicators *it, iso_indication *told);
