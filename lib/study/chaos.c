@@ -42,7 +42,7 @@ static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
 
 static iso_status check_starts(const iso_chaos_walk *w, const iso_effect *effect)
 {
-    if (w->options.starts == 0 || !effect) return ISO_OK;
+    if (w->options.starts + w->options.at_count == 0 || !effect) return ISO_OK;
     return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect->name,
                             "other starts are spread over the section of free motions on H = 0: without '%s'",
                             effect->name);
@@ -55,6 +55,11 @@ static iso_status check_options(const iso_chaos_walk *w)
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "turns", "%ld turns: give 1 or more", o->turns);
     if (o->axis != ISO_AXIS_AUTO && (o->axis < 0 || o->axis > 2))
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "axis", "axis %d is not 1, 2 or 3", o->axis + 1);
+    for (size_t i = 0; i < o->at_count; i++)
+        if (!isfinite(o->at[i][0]) || !(fabs(o->at[i][1]) < 1))
+            return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "at",
+                                    "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1",
+                                    o->at[i][0], o->at[i][1]);
     return ISO_OK;
 }
 
@@ -126,9 +131,11 @@ void iso_chaos_interval(size_t found, size_t count, double *low, double *high)
     *high = count == 0 || found == count ? 1 : middle + half;
 }
 
-static void count_shares(iso_chaos *c)
+static void count_shares(const iso_chaos_walk *w)
 {
+    iso_chaos *c = w->out;
     iso_chaos_share *s = &c->share;
+    s->count = c->starts < w->options.starts ? c->starts : w->options.starts;
     for (size_t i = 0; i < s->count; i++) {
         const iso_chaos_orbit *o = &c->start[i];
         s->chaotic += o->verdict == ISO_CHAOTIC;
@@ -156,10 +163,10 @@ static iso_status run(iso_chaos_walk *w)
     if (status == ISO_OK) status = check_starts(w, effect);
     if (status != ISO_OK) return status;
     choose_turn(w, &start, effect);
-    w->out->start = calloc(w->options.starts + 1, sizeof *w->out->start);
+    w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
     if (!w->out->start) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the starts");
     status = iso_chaos_follow(w);
-    count_shares(w->out);
+    count_shares(w);
     return status;
 }
 
@@ -174,7 +181,6 @@ iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_cha
     if (isnan(w.options.tolerance)) w.options.tolerance = scene->tolerance;
     w.out = calloc(1, sizeof *w.out);
     if (!w.out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the indicators");
-    w.out->starts = w.options.starts;
     w.out->own.verdict = ISO_UNDECIDED;
     status = run(&w);
     iso_orbit_free(w.orbit);

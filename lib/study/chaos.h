@@ -67,7 +67,7 @@ typedef struct iso_chaos_orbit {
     iso_status status[2]; /* ISO_OK, or why it was not followed to its verdict                                 */
 } iso_chaos_orbit;
 
-/* Of the orbits that were spread over the section. */
+/* Of the orbits that were spread over the section, as many as were followed. */
 typedef struct iso_chaos_share {
     size_t count, chaotic, regular, undecided; /* undecided: failed ones and those that disagree as well         */
     size_t disagree, failed;
@@ -93,7 +93,7 @@ typedef struct iso_chaos {
 /* A failure of some orbits is told in the result; the call fails if the scene's own orbit has no model that goes on.
  * options NULL: iso_chaos_defaults().
  * Errors:
- * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1);
+ * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1), "at" (outside of the chart);
  * - ISO_BAD_INPUT: an effect that takes energy or lets the ball roll away (about its name); a ball at rest; `starts`
  *   with effects or off the level H = 0 (about the effect): there the chart has no energy to go with; an orbit in
  *   the plane n_a = 0 itself;

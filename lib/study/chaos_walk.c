@@ -56,6 +56,18 @@ static iso_chaos_orbit *orbit_of(const group *g, size_t i)
     return g->first + i == 0 ? &c->own : &c->start[g->first + i - 1];
 }
 
+/* Spread, or given. */
+static void chart_of(const iso_chaos_walk *w, size_t i, double *l, double *x)
+{
+    const iso_chaos_options *o = &w->options;
+    if (i < o->starts) {
+        iso_section_spread_point(&w->spread, i, l, x);
+        return;
+    }
+    *l = o->at[i - o->starts][0];
+    *x = o->at[i - o->starts][1];
+}
+
 static void make_starts(group *g)
 {
     const iso_chaos_walk *w = g->w;
@@ -64,7 +76,7 @@ static void make_starts(group *g)
         *o = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_UNDECIDED};
         g->start[i] = w->scene->start;
         if (g->first + i > 0) {
-            iso_section_spread_point(&w->spread, g->first + i - 1, &o->l, &o->x);
+            chart_of(w, g->first + i - 1, &o->l, &o->x);
             g->start[i] = start_at(w, o->l, o->x);
         }
         g->orbit[i] = (iso_batch_orbit){&w->scene->params, &g->start[i], &w->effects};
@@ -223,7 +235,7 @@ static void show_progress(const group *g)
             done += r->wanted[i] ? (double)r->shown[i].turns / (double)w->options.turns : 1;
             models += i == 0;
         }
-    const double all = (double)w->options.starts + 1;
+    const double all = (double)(w->options.starts + w->options.at_count) + 1;
     w->options.progress(fmin(1, ((double)g->first + done / models) / all), w->options.data);
 }
 
@@ -262,7 +274,7 @@ static iso_status check_own(const iso_chaos_walk *w)
 static iso_status follow_all(group *g)
 {
     iso_chaos_walk *w = g->w;
-    const size_t orbits = w->options.starts + 1;
+    const size_t orbits = w->options.starts + w->options.at_count + 1;
     iso_status status = ISO_OK;
     for (int m = 0; m < 2 && status == ISO_OK; m++)
         if (w->out->with[m]) status = create_trace(w, m);
@@ -271,7 +283,7 @@ static iso_status follow_all(group *g)
         g->count = first == 0 ? 1 : orbits - first < GROUP ? orbits - first : GROUP;
         status = follow_group(g);
         if (first == 0 && status == ISO_OK) status = check_own(w);
-        if (first > 0) w->out->share.count = first - 1 + g->count;
+        w->out->starts = first + g->count - 1;
     }
     return status;
 }
@@ -279,7 +291,7 @@ static iso_status follow_all(group *g)
 iso_status iso_chaos_follow(iso_chaos_walk *w)
 {
     group *g = calloc(1, sizeof *g);
-    const size_t cells = ROUND * (w->options.starts > 0 ? GROUP : 1);
+    const size_t cells = ROUND * (w->options.starts + w->options.at_count > 0 ? GROUP : 1);
     iso_status status = ISO_OK;
     if (g) {
         g->w = w;
