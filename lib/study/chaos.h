@@ -30,10 +30,12 @@
 ISO_C_BEGIN
 
 typedef struct iso_chaos_options {
-    size_t size;         /* set by iso_chaos_defaults; see isoroll.h */
-    long turns;          /* of each orbit, 1 or more                                                   */
-    size_t starts;       /* orbits spread over the section                                             */
-    uint64_t seed;       /* of their spreading                                                         */
+    size_t size;           /* set by iso_chaos_defaults; see isoroll.h */
+    long turns;            /* of each orbit, 1 or more                                                   */
+    size_t starts;         /* orbits spread over the section                                             */
+    uint64_t seed;         /* of their spreading                                                         */
+    const double (*at)[2]; /* (l, x) of further starts, |x| < 1; they are not in the share */
+    size_t at_count;
     iso_shown models;    /* that are integrated; ISO_SHOW_START: both, where a ball has a twin         */
     int axis;            /* of the section, 0 to 2; ISO_AXIS_AUTO: the global one                      */
     double tolerance;    /* NAN: the scene's                                                           */
@@ -80,8 +82,8 @@ typedef struct iso_chaos {
     double turn;            /* ... of this length in t; NaN: the section's                           */
     bool global;            /* the section is met by every orbit, for ever                          */
     iso_chaos_orbit own;    /* the scene's orbit                                                    */
-    size_t starts;          /* asked for                                                            */
-    iso_chaos_orbit *start; /* of these, as many as share.count                                     */
+    size_t starts;          /* that were followed: spread ones, then given ones */
+    iso_chaos_orbit *start; /* of these */
     iso_chaos_share share;
     /* How the indicators of the scene's orbit went: columns turn, t (of a point's orbit without a ball: s), growth
      * (ln D), megno (Y), mean and gali2. At most some thousand rows, evenly spread; NULL: not integrated. */
