@@ -41,8 +41,8 @@ typedef struct iso_chaos_options {
     double tolerance;    /* NAN: the scene's                                                           */
     int threads;         /* 0: as many as there are processors to run on                               */
     const char *vectors; /* see batch.h                                       */
-    void (*progress)(double part,
-                     void *data); /* the part of the work that is done, in [0, 1]; NULL: nobody is told */
+    /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
+    void (*progress)(double part, void *data);
     void *data;
 } iso_chaos_options;
 

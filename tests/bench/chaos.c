@@ -152,7 +152,7 @@ int main(int argc, char **argv)
            "diff", "fail", "off", "ball", "point");
     for (size_t i = 0; i < sizeof families / sizeof *families; i++) {
         const family *f = &families[i];
-        char what[64];
+        char what[128];
         counts c = {.disagree = 0};
         measure(ctx, f, count, turns, r, &c);
         snprintf(what, sizeof what, "%g; %g %g %g%s", f->k, f->J[0], f->J[1], f->J[2],
