@@ -10,7 +10,7 @@
  * - with two deviations, as for the verdict of `isoroll chaos`: GSL's rk8pd on (9) and its variational equations,
  *   written by hand, 18 numbers, 100 turns; then iso_crossings with deviations.
  * - count: the library holds each return to Sturm's bounds. Here the times s of both models are compared, too: of all
- *   crossings for k = 1 and -1, of the first 20 for other k, before chaos parts them. A crossing that one of them has
+ *   crossings for k = 1 and -1, of the first 6 for other k, before chaos parts them. A crossing that one of them has
  *   missed puts them a turn apart.
  */
 #include <gsl/gsl_errno.h>
@@ -219,7 +219,7 @@ static void count_crossings(double millions)
             iso_crossings_free(c);
         }
         for (int i = 0; i < ORBITS; i++)
-            for (int j = 0; j < (fabs(params.k) == 1 ? EACH : 20); j++) {
+            for (int j = 0; j < (fabs(params.k) == 1 ? EACH : 6); j++) {
                 const double s[2] = {crossing[0][EACH * i + j].clock[2], crossing[1][EACH * i + j].clock[2]};
                 apart = fmax(apart, fabs(s[1] / s[0] - 1));
             }
