@@ -71,6 +71,17 @@ ISO_API iso_status iso_plot_momentum(iso_context *ctx, const char *path, const i
 ISO_API iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis,
                                   const iso_record *lines);
 
+/* How the indicators of chaos went: columns turn, t, growth, megno, mean and gali2, as iso_chaos has them. Above ln D,
+ * below on the left MEGNO and its mean, on the right GALI_2. A record that is NULL or empty is left out.
+ * Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_indicators(iso_context *ctx, const char *path, const char *title, const iso_record *ball,
+                                       const iso_record *point);
+
+/* The section n_axis = 0 (0 to 2), one spot for each row of the columns l, x, and exponent: > 0 chaotic, 0 regular,
+ * NaN undecided. Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis,
+                                      const iso_record *spots);
+
 /* One method's line of a work-precision diagram. */
 typedef struct iso_plot_series {
     const char *panel, *name; /* a name looks the same in every panel; NULL: a thin grey line, one of the others */

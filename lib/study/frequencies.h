@@ -24,6 +24,7 @@
 #include "../orbit/orbit.h"
 #include "momentum.h"
 #include "spectrum.h"
+#include "verdict.h"
 
 ISO_C_BEGIN
 
@@ -62,10 +63,6 @@ typedef struct iso_resonance {
     double beat[ISO_CLOCKS]; /* the time in which p angle[0] - q angle[1] turns once; infinite: never       */
     bool met;                /* the gap is rounding (an estimate: within its error)                         */
 } iso_resonance;
-
-/* ISO_INTEGRABLE: regular because a further integral makes it so, though the estimated frequencies are not
- * settled. */
-typedef enum iso_verdict { ISO_REGULAR, ISO_CHAOTIC, ISO_UNDECIDED, ISO_INTEGRABLE } iso_verdict;
 
 /* A line of n(t), nu = m angle[0].frequency + n angle[1].frequency where `known`. */
 typedef struct iso_named_line {
