@@ -51,8 +51,10 @@ static iso_status begin(iso_crossings *c, size_t i)
     iso_crossed *o = &c->orbit[i];
     iso_sample start;
     if (c->options.deviations)
-        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "deviations",
-                                "deviations of an orbit with effects are not computed yet");
+        return iso_context_fail(
+            c->ctx, ISO_BAD_ARGUMENT, "deviations",
+            "deviations are computed for free orbits on a section that all cross for ever, and in "
+            "equal steps of a clock; not for stiff balls, balls at rest, or effects without a formula");
     iso_status status = create(c, i, &o->alone);
     if (status == ISO_OK) status = iso_orbit_at(o->alone, 0, &start);
     if (status != ISO_OK) return status;
@@ -99,9 +101,12 @@ static iso_status next_event(iso_crossings *c, iso_crossed *o, iso_sample *sampl
                                   ? iso_orbit_event(o->alone, unit_vector, o, 1, from, to, &found, sample)
                                   : iso_orbit_event(o->alone, beyond_value, &c->options, 1, from, to, &found, sample);
     if (status != ISO_OK || found) return status;
+    if (o->count == 0)
+        return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "no crossing within %d turns after the start",
+                                ISO_MOST_BETWEEN);
     return iso_context_fail(c->ctx, ISO_NUMERICAL, "",
-                            "no crossing within %d turns after %s = %.17g, where crossing %zu is", ISO_MOST_BETWEEN,
-                            iso_clock_name(o->alone->options.clock), from, o->count);
+                            "no crossing within %d turns after crossing %zu, at %s = %.17g", ISO_MOST_BETWEEN,
+                            o->count, iso_clock_name(o->alone->options.clock), from);
 }
 
 static iso_status next_sample(iso_crossings *c, iso_crossed *o, iso_sample *sample)

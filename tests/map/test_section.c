@@ -199,6 +199,29 @@ static double part_below(const iso_params *p, int axis, double l)
     return 2 * sum * (l + M_PI) / STEPS / 3 / iso_section_area(p, 1, axis);
 }
 
+/* Part of a turn between point i and the next one, in the integral of G, is 1/r for every i: the integral is inverted
+ * exactly. Simpson's rule is exact to 1e-10 here. */
+static void inversion(void)
+{
+    const double r = 1.3247179572447460, J[3] = {1, 2, 5}, k[] = {0.5, -0.4, 0.2, 4};
+    for (size_t i = 0; i < sizeof k / sizeof *k; i++) {
+        const iso_params p = laws_params(k[i], J);
+        iso_section_spread s;
+        iso_section_spread_prepare(&s, &p, 0, 3);
+        double worst = 0, before = NAN, x_before = NAN;
+        for (uint64_t j = 0; j < 200; j++) {
+            double l, x;
+            iso_section_spread_point(&s, j, &l, &x);
+            const double now = part_below(&p, 0, l), step = now - before - 1 / r,
+                         x_step = (x - x_before) / 2 - 1 / r / r;
+            if (j > 0) worst = fmax(worst, fabs(step - round(step)) + fabs(x_step - round(x_step)));
+            before = now;
+            x_before = x;
+        }
+        gsl_test(!(worst < 1e-9), "steps of the spread, k = %g: off by %.2g", k[i], worst);
+    }
+}
+
 enum { POINTS = 2000, BOXES = 300 };
 
 /* Largest |share of the points - share of the area| over boxes with a corner at (-pi, -1) */
@@ -346,6 +369,7 @@ int main(void)
     laws_hold("Sturm's bounds", &iso_system_point, bounds);
     stationary();
     areas();
+    inversion();
     spread();
     seeds();
     extremes();

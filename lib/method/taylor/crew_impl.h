@@ -127,12 +127,12 @@ static void store_event(crew *c, int lane, const state *s, const look *l)
     job->done++;
 }
 
-/* Stores the state at x of the series in the lanes that are due. */
-static void store_events(crew *c, real x, const bool due[])
+/* Stores the state at x of the series (gained: see state_at) in the lanes that are due. */
+static void store_events(crew *c, real x, const real gained[], const bool due[])
 {
     state s;
     look l;
-    find_state(&c->T, x, &s);
+    find_state(&c->T, x, gained, &s);
     if (CHANNELS > 1) look_at(&c->T, x, &s, &l);
     for (int i = 0; i < LANES; i++)
         if (due[i]) store_event(c, i, &s, &l);
@@ -143,12 +143,11 @@ static void store_crossings(crew *c, real x, const bool due[])
 {
     real gained[ISO_CLOCKS];
     const iso_clock clock = c->T.shape.clock;
-    gained[clock] = x;
-    if (clock != c->T.own) integrate_clocks(&c->T, x, gained);
+    integrate_clocks(&c->T, x, gained);
     for (int i = 0; i < LANES; i++)
         if (due[i])
             c->job[i]->passed[c->job[i]->done] = c->left[i].head + (c->left[i].tail + (double)LANE(gained[clock], i));
-    store_events(c, x, due);
+    store_events(c, x, gained, due);
     for (int i = 0; i < LANES; i++)
         if (due[i]) c->job[i]->steps = 0;
 }
@@ -181,7 +180,7 @@ static void find_rows(crew *c, real length, real dt)
             found |= due[i];
         }
         if (!found) return;
-        store_events(c, solve_for_time(&c->T, target, length * (target / dt)), due);
+        store_events(c, solve_for_time(&c->T, target, length * (target / dt)), NULL, due);
         for (int i = 0; i < LANES; i++)
             if (due[i] && !c->job[i]->error) next_row(c, i);
     }
@@ -197,44 +196,53 @@ static inline real component(const form *T, int axis, real x)
     return p;
 }
 
-static inline real slope_of_component(const form *T, int axis, real x)
+/* The same with its derivative. */
+static inline real component_and_slope(const form *T, int axis, real x, real *slope)
 {
     const vector *n = T->S.n;
-    real p = zero;
-    for (int i = T->S.order + T->is_point; i >= 1; i--) p = p * x + T->S.count[i] * AT(n[i], axis);
+    real p = zero, dp = zero;
+    for (int i = T->S.order + T->is_point; i >= 0; i--) {
+        dp = dp * x + p;
+        p = p * x + AT(n[i], axis);
+    }
+    *slope = dp;
     return p;
 }
 
-/* The zero of n_axis between a (n_axis < 0) and b (n_axis >= 0), in the lanes that are due: Newton's method, and halving
- * where it leaves the bracket. */
-static real find_crossing(const crew *c, real a, real at_a, real b, real at_b)
+/* The zero of n_axis between a (n_axis < 0) and b (n_axis >= 0): Newton's method, and halving where it leaves the bracket.
+ * Its error is about the third power of the last change, as n_axis'' = 0 (in s) where n_axis is. */
+static real find_crossing(const crew *c, real a, real at_a, real b, real at_b, mask crosses)
 {
     const form *T = &c->T;
     real x = a + (b - a) * (-at_a / (at_b - at_a));
     const real step = magnitude(b - a);
-    mask far = everywhere();
+    const NUMBER near = ROOT(ROOT(EPSILON)) / 64;
+    mask far = crosses;
     for (int i = 0; i < 60 && any(far); i++) {
-        const real g = component(T, c->axis, x), next = x - g / slope_of_component(T, c->axis, x);
+        real slope;
+        const real g = component_and_slope(T, c->axis, x, &slope), next = x - g / slope;
         a = choose(g < zero, x, a);
         b = choose(g < zero, b, x);
         const mask inside = both((next - a) * (next - b) <= zero, next == next);
         const real better = choose(inside, next, (a + b) / 2);
         const real change = magnitude(better - x);
         x = choose(far, better, x);
-        far = both(far, change > (NUMBER)EPSILON * larger(magnitude(x), step));
+        far = both(far, change > (NUMBER)near * larger(magnitude(x), step));
     }
     return x;
 }
 
-/* Into how many parts a step is divided, so that n_axis has at most one zero in each. */
-static int parts_of(const crew *c, real length)
+/* Into how many parts each lane's step is divided, so that n_axis has at most one zero in each; gives the largest. */
+static int find_parts(const crew *c, real length, real *parts)
 {
-    double most = 1;
+    int most = 1;
+    *parts = spread(1);
     for (int i = 0; i < LANES; i++) {
-        const double parts = ceil(fabs((double)(LANE(length, i) * LANE(c->zeros, i))));
-        if (c->job[i] && parts > most) most = parts;
+        const double own = ceil(fabs((double)(LANE(length, i) * LANE(c->zeros, i))));
+        if (c->job[i] && own > 1) LANE(*parts, i) = own < MOST_PARTS ? own : MOST_PARTS;
+        if (LANE(*parts, i) > most) most = (int)LANE(*parts, i);
     }
-    return most < MOST_PARTS ? (int)most : MOST_PARTS;
+    return most;
 }
 
 /* Stores the crossings of lanes in one part of the step, which ends at b. */
@@ -255,20 +263,21 @@ static void cross_part(crew *c, real x, const bool crosses[])
 static void find_crossings(crew *c, real length)
 {
     const form *T = &c->T;
-    const int parts = parts_of(c, length);
+    real parts;
+    const int most = find_parts(c, length, &parts);
     real a = zero, at_a = T->now.n[c->axis];
     for (int i = 0; i < LANES; i++)
         if (c->job[i] && c->job[i]->on_section && c->left[i].head == 0) LANE(at_a, i) = 0;
-    for (int part = 1; part <= parts; part++) {
-        const real b = part == parts ? length : length * ((NUMBER)part / (NUMBER)parts);
-        const real at_b = part == parts ? c->after.n[c->axis] : component(T, c->axis, b);
-        bool crosses[LANES], found = false;
-        for (int i = 0; i < LANES; i++) {
-            crosses[i] = c->job[i] && LANE(at_a, i) < 0 && LANE(at_b, i) >= 0;
-            found |= crosses[i];
-        }
-        if (found) {
-            const real x = find_crossing(c, a, at_a, b, at_b);
+    for (int part = 1; part <= most; part++) {
+        const mask last = parts <= spread((NUMBER)part);
+        const real b = choose(last, length, length * ((NUMBER)part / parts));
+        const real inside = part < most ? component(T, c->axis, b) : zero;
+        const real at_b = choose(last, c->after.n[c->axis], inside);
+        const mask passes = both(at_a < zero, at_b >= zero);
+        if (any(passes)) {
+            bool crosses[LANES];
+            const real x = find_crossing(c, a, at_a, b, at_b, passes);
+            for (int i = 0; i < LANES; i++) crosses[i] = c->job[i] && LANE(passes, i);
             cross_part(c, x, crosses);
             for (int i = 0; i < LANES; i++)
                 if (crosses[i]) c->since[i] = -(double)LANE(x, i);
@@ -345,7 +354,7 @@ static void step_together(crew *c)
     real gained[ISO_CLOCKS];
     const real length = choose_step(T, c->direction, gained), dt = gained[T->shape.clock];
     if (!c->crossings) find_rows(c, length, dt);
-    find_state(T, length, &c->after);
+    find_state(T, length, gained, &c->after);
     for (int i = 0; i < LANES; i++) c->seen[i] = 0;
     if (c->crossings) find_crossings(c, length);
     const real step = dt + check(&c->after);

@@ -50,16 +50,23 @@ static void make_rule(quadrature *rule)
     }
 }
 
-/* The integral of b^p from 0 to x, b a series; its relative error, estimated, into *doubt if that is less. */
-static inline real integral_of_power(const quadrature *rule, const real b[], int order, real p, real x, real *doubt)
+/* The values of a series b at the nodes of [0,x]. */
+static inline void values_at_nodes(const quadrature *rule, const real b[], int order, real x, real value[NODES])
 {
-    real at[NODES], value[NODES], sum = zero, c[2] = {zero, zero};
+    real at[NODES];
     for (int i = 0; i < NODES; i++) {
         at[i] = x * rule->node[i];
         value[i] = b[order];
     }
     for (int n = order - 1; n >= 0; n--)
         for (int i = 0; i < NODES; i++) value[i] = value[i] * at[i] + b[n];
+}
+
+/* The integral of b^p from 0 to x, from the values of b at the nodes; its relative error, estimated, into *doubt if that
+ * is less. */
+static inline real integral_of_power(const quadrature *rule, const real value[NODES], real p, real x, real *doubt)
+{
+    real sum = zero, c[2] = {zero, zero};
     for (int i = 0; i < NODES; i++) {
         const real f = raised(value[i], p);
         sum += rule->weight[i] * f;

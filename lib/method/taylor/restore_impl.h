@@ -327,11 +327,11 @@ static void start_orbit(form *T, int lane, const iso_model *m, const double y[])
     if (T->second_of || T->loaded) set_integrals(T, lane, m);
 }
 
-/* The state at x of the series, with its constraints restored; gives the relative size of the corrections. States of
+/* The state at x of the series (gained: see state_at), with its constraints restored; gives the relative size of the corrections. States of
  * effects that no equation moves stay as they are. */
-static real find_state(const form *T, real x, state *s)
+static real find_state(const form *T, real x, const real gained[], state *s)
 {
     if (s != &T->now) *s = T->now;
-    state_at(T, x, s);
+    state_at(T, x, gained, s);
     return restore(T, s);
 }

@@ -26,10 +26,10 @@ static iso_status start(iso_integrator *it)
     return ISO_OK;
 }
 
-static iso_status arrive_at(iso_integrator *it, real x, state *s, double y[])
+static iso_status arrive_at(iso_integrator *it, real x, const real gained[], state *s, double y[])
 {
     single *own = it->data;
-    it->statistics.correction = fmax(it->statistics.correction, (double)find_state(&own->T, x, s));
+    it->statistics.correction = fmax(it->statistics.correction, (double)find_state(&own->T, x, gained, s));
     store(&own->T, 0, s, y);
     if (all_finite(y, it->model.dim)) return ISO_OK;
     return iso_integrator_stopped(it, "the series diverges; taylor_extended has numbers of a wider range, the other "
@@ -51,12 +51,12 @@ static iso_status step(iso_integrator *it, double y[], double *h)
         *h = it->direction * it->options.fixed_step;
         own->length = solve_for_time(T, *h, own->length * part);
     }
-    return arrive_at(it, own->length, &T->now, y);
+    return arrive_at(it, own->length, it->options.fixed_step > 0 ? NULL : gained, &T->now, y);
 }
 
 static iso_status dense(iso_integrator *it, double dt, double y[])
 {
     single *own = it->data;
     state s;
-    return arrive_at(it, solve_for_time(&own->T, dt, own->length * (dt / it->h)), &s, y);
+    return arrive_at(it, solve_for_time(&own->T, dt, own->length * (dt / it->h)), NULL, &s, y);
 }

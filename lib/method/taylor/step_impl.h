@@ -45,11 +45,12 @@ static void store(const form *T, int lane, const state *s, double y[])
 /* How far each clock goes on while the own variable goes from 0 to x. Returns an estimate of the relative error. */
 static inline real integrate_clocks(const form *T, real x, real gained[ISO_CLOCKS])
 {
-    real doubt = zero;
+    real doubt = zero, base[NODES];
     gained[T->own] = x;
+    if (T->clocks > 0) values_at_nodes(&T->rule, T->S.base, T->S.order - 1, x, base);
     for (int i = 0; i < T->clocks; i++) {
         const iso_clock c = T->clock_of[i];
-        gained[c] = integral_of_power(&T->rule, T->S.base, T->S.order - 1, T->power[c], x, &doubt) * T->rate[c];
+        gained[c] = integral_of_power(&T->rule, base, T->power[c], x, &doubt) * T->rate[c];
     }
     return doubt;
 }
@@ -91,14 +92,15 @@ static inline void channel_at(const form *T, int c, real x, state *s)
     }
 }
 
-static void state_at(const form *T, real x, state *s)
+/* The state at x. gained: how far the clocks have gone on until then; NULL: not known. */
+static void state_at(const form *T, real x, const real gained[], state *s)
 {
     const iso_model *m = &T->shape;
     channel_at(T, 0, x, s);
     if (T->has_derived) find_derived(T, s);
     if (m->clocks == 0) return;
-    real gained[ISO_CLOCKS];
-    integrate_clocks(T, x, gained);
+    real found[ISO_CLOCKS];
+    if (!gained) integrate_clocks(T, x, found), gained = found;
     for (int i = 0; i < m->clocks; i++) s->clock[m->clock_of[i]] = T->clock[m->clock_of[i]] + gained[m->clock_of[i]];
 }
 

@@ -82,9 +82,9 @@ static inline mask everywhere(void)
 
 static inline bool any(mask m)
 {
-    bool found = false;
-    for (int i = 0; i < LANES; i++) found |= LANE(m, i) != 0;
-    return found;
+    int64_t found = 0;
+    for (int i = 0; i < LANES; i++) found |= LANE(m, i);
+    return found != 0;
 }
 
 static inline real larger(real a, real b)
@@ -129,6 +129,7 @@ static inline real raised(real a, real p)
     const bool small = first >= -4 && first <= 4;
     const int twice = small ? (int)(2 * first) : 0;
     real result = half_power(a, twice);
+    if (!any(p != spread((NUMBER)twice / 2))) return result;
     for (int i = 0; i < LANES; i++) {
         const NUMBER own = LANE(p, i);
         if (own == (NUMBER)twice / 2) continue;

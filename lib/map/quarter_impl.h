@@ -1,0 +1,47 @@
+/* quarter_impl.h - angles with a given density, by inversion of its integral.
+ *
+ * The density is symmetric about 0 and pi/2. Its integral over a quarter of the turn is tabulated with tan(angle) =
+ * e^u in steps of 1/2, |u| <= 46; what lies outside is 1e-20. A density made of powers of A cos^2 + B sin^2, A and B
+ * >= 0, has its singularities in the complex plane of u at a distance of pi/2 or more from the real line, for every
+ * A/B: Gauss's rule of 8 points in each step is exact to rounding.
+ */
+#ifndef ISO_MAP_QUARTER_IMPL_H
+#define ISO_MAP_QUARTER_IMPL_H
+
+#include <stdint.h>
+
+enum { ISO_QUARTER_STEPS = 184 };
+
+/* The density is value[0] + mix value[1]. `part` are tables of ISO_QUARTER_STEPS + 1 integrals of the two. */
+typedef struct iso_quarter {
+    /* d(integral)/du at sin^2 and cos^2 of the angle; d(angle)/du = sin cos */
+    void (*density)(const void *data, double sin2, double cos2, double value[2]);
+    const void *data;
+    const double *part[2];
+    double mix;
+} iso_quarter;
+
+/* Fills the two tables, which start at u = -46. */
+void iso_quarter_tabulate(void (*density)(const void *data, double sin2, double cos2, double value[2]),
+                          const void *data, double *part[2]);
+
+/* The angle in (-pi, pi) below which lies this part, in (0, 1), of the integral over the turn. */
+double iso_quarter_angle(const iso_quarter *q, double part);
+
+/* Point i of an additive recurrence, modulo 1: the middle of one of 2^52 equal parts of (0, 1), so that neither end
+ * is met. `shift` and `step` are in units of 2^-64. */
+static inline double iso_recurrence(uint64_t shift, uint64_t step, uint64_t i)
+{
+    return ((double)((shift + i * step) >> 12) + 0.5) * 0x1p-52;
+}
+
+/* splitmix64: neighbouring numbers give unrelated ones. */
+static inline uint64_t iso_scatter(uint64_t z)
+{
+    z += 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+}
+
+#endif
