@@ -43,7 +43,7 @@ static iso_status csv_header(iso_context *ctx, iso_trajectory_writer *w, const i
     iso_status status = ISO_OK;
     for (size_t i = 0; iso_record_line(header, i, &key, &value); i++)
         if (!is_line(key, value)) return csv_line(ctx, w, key, value);
-    fputs(ISO_TRAJECTORY_MAGIC ISO_TRAJECTORY_VERSION "\n", file);
+    fprintf(file, "# isoroll %s " ISO_TRAJECTORY_VERSION "\n", w->kind);
     for (size_t i = 0; status == ISO_OK && iso_record_line(header, i, &key, &value); i++)
         status = csv_line(ctx, w, key, value);
     for (size_t i = 0; i < iso_record_columns(header); i++)

@@ -7,6 +7,7 @@
  *     /clock        t, tau, s                 rows
  *     /ball         omega, n, e, q, ...       rows x 3 (q: 4); if a column is missing, omega1 ... for each one there
  *     /point        M, gamma                  rows x 3
+ *     /section      orbit, crossing, l, x     rows; in files of sections, whose "format" is "isoroll section 1"
  *
  * All numbers are doubles, in chunks of ISO_HDF5_BLOCK rows. Datasets of these names at the root are read as well.
  */
@@ -20,7 +21,7 @@
 #include "orbit/scene.h"
 
 enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */ };
-#define ISO_HDF5_FORMAT "isoroll trajectory 1"
+#define ISO_HDF5_FORMAT "isoroll " ISO_TRAJECTORY_KIND " " ISO_TRAJECTORY_VERSION
 
 /* A dataset of the layout: it holds columns first ... first + count - 1 of a trajectory (iso_column_name). */
 typedef struct iso_hdf5_part {

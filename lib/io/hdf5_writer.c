@@ -127,10 +127,21 @@ static bool create_part(iso_hdf5_store *s, const iso_hdf5_part *p, const iso_rec
     return true;
 }
 
+/* Columns that no trajectory has: those of a section. */
+static bool create_others(iso_hdf5_store *s, const iso_record *header)
+{
+    bool good = true;
+    for (size_t c = 0; good && c < iso_record_columns(header); c++)
+        if (iso_column_find(iso_record_name(header, c)) < 0)
+            good = add_set(s, create_set(s->file, "section", iso_record_name(header, c), 1), (int)c, 1);
+    return good;
+}
+
 static iso_status hdf5_header(iso_context *ctx, iso_trajectory_writer *w, const iso_record *header)
 {
     iso_hdf5_store *s = w->data;
     const char *key, *value;
+    char format[64];
     iso_hdf5_part parts[ISO_HDF5_PARTS];
     const int count = iso_hdf5_parts(parts);
     if (!iso_hdf5_store_room(s, iso_record_columns(header)))
@@ -138,8 +149,10 @@ static iso_status hdf5_header(iso_context *ctx, iso_trajectory_writer *w, const 
     bool good = true;
     H5E_BEGIN_TRY
     {
-        good = write_text(s->file, "format", ISO_HDF5_FORMAT);
+        snprintf(format, sizeof format, "isoroll %s " ISO_TRAJECTORY_VERSION, w->kind);
+        good = write_text(s->file, "format", format);
         for (int p = 0; good && p < count; p++) good = create_part(s, &parts[p], header);
+        good = good && create_others(s, header);
     }
     H5E_END_TRY
     iso_status status = good ? ISO_OK : iso_hdf5_trouble(ctx, "write", w->name);

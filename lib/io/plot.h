@@ -11,8 +11,11 @@
 #ifndef ISO_IO_PLOT_H
 #define ISO_IO_PLOT_H
 
+#include <stdint.h>
+
 #include "../base/api.h"
 #include "../base/record.h"
+#include "../model/params.h"
 
 ISO_C_BEGIN
 
@@ -68,6 +71,17 @@ ISO_API iso_status iso_plot_momentum(iso_context *ctx, const char *path, const i
 ISO_API iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis,
                                   const iso_record *lines);
 
+/* How the indicators of chaos went: columns turn, t, growth, megno, mean and gali2, as iso_chaos has them. Above ln D,
+ * below on the left MEGNO and its mean, on the right GALI_2. A record that is NULL or empty is left out.
+ * Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_indicators(iso_context *ctx, const char *path, const char *title, const iso_record *ball,
+                                       const iso_record *point);
+
+/* The section n_axis = 0 (0 to 2), one spot for each row of the columns l, x, and exponent: > 0 chaotic, 0 regular,
+ * NaN undecided. Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis,
+                                      const iso_record *spots);
+
 /* One method's line of a work-precision diagram. */
 typedef struct iso_plot_series {
     const char *panel, *name; /* a name looks the same in every panel; NULL: a thin grey line, one of the others */
@@ -87,6 +101,27 @@ typedef struct iso_plot_work {
 /* A work-precision diagram, time over error, both logarithmic, small errors on the right; panels side by side in the
  * order of the series. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_plot_work *work);
+
+/* Crossings of one section n_a = 0 by both models, as points (l, x) of the chart (map/section.h). */
+typedef struct iso_plot_section {
+    const char *title;        /* one line, any characters; NULL: none                                          */
+    const iso_params *params;
+    double eps;               /* the coupling, > 0: it gives the scale of L                                    */
+    int axis;                 /* a, 0 to 2                                                                     */
+    size_t count;             /* crossings, 1 or more                                                          */
+    const uint32_t *orbit;    /* of each: the orbit it belongs to                                              */
+    const double (*ball)[2];  /* (l, x) of each by the ball ...                                                */
+    const double (*point)[2]; /* ... and by the point; the same array where there is only one                  */
+    size_t orbits;
+    const bool *grey;         /* of each orbit: it is drawn in grey, behind the others; NULL: none             */
+    const char *grey_means;   /* in the key, "chaotic"; NULL: there is no key                                  */
+} iso_plot_section;
+
+/* On the left the ball's section: the direction of n, an angle in the plane n_a = 0, and that of omega,
+ * omega_a/|omega|, fill a rectangle. On the right the point's: l and L = M_a, between the boundaries +-G(l). One
+ * colour for each orbit.
+ * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis or orbit), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 
 ISO_C_END
 

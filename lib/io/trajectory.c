@@ -116,6 +116,7 @@ iso_status iso_trajectory_open(iso_context *ctx, const char *path, iso_trajector
     if (!w) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write a trajectory");
     w->format = is_hdf5(path) ? HDF5(iso_hdf5_writing) : &iso_csv_writing;
     w->digits = 17;
+    w->kind = ISO_TRAJECTORY_KIND;
     status = w->format->open(ctx, w, path);
     if (status == ISO_OK)
         *writer = w;
@@ -127,6 +128,11 @@ iso_status iso_trajectory_open(iso_context *ctx, const char *path, iso_trajector
 void iso_trajectory_set_digits(iso_trajectory_writer *w, int digits)
 {
     w->digits = digits;
+}
+
+void iso_trajectory_set_kind(iso_trajectory_writer *w, const char *kind)
+{
+    w->kind = kind;
 }
 
 /* The header's columns, without rows. */

@@ -4,7 +4,8 @@
 
 #include "io/trajectory.h"
 
-#define ISO_TRAJECTORY_MAGIC   "# isoroll trajectory "
+#define ISO_TRAJECTORY_KIND    "trajectory"
+#define ISO_TRAJECTORY_MAGIC   "# isoroll " ISO_TRAJECTORY_KIND " "
 #define ISO_TRAJECTORY_VERSION "1"
 
 /* How a kind of file is read and written, in two halves; reader->data and writer->data are their own. */
@@ -41,6 +42,7 @@ iso_status iso_trajectory_name_columns(iso_context *ctx, iso_trajectory_reader *
 struct iso_trajectory_writer {
     const iso_trajectory_writing *format;
     const char *name;   /* what messages call it */
+    const char *kind;   /* of file: ISO_TRAJECTORY_KIND, or another one that no reader takes for ours */
     iso_record *header; /* names of the columns, no rows; NULL before it is written */
     size_t rows;
     int digits;

@@ -11,6 +11,7 @@
  * zeros are more than 1.77/Omega_max apart.
  */
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,7 +33,7 @@ struct iso_crossings_lane {
     bool has_clocks;
     double begin[2][ISO_DEVIATIONS]; /* (dl, dx) of the deviations at the start, one in each column */
     bool has_begin;
-    unsigned char saved[]; /* iso_lane_code.saved bytes */
+    _Alignas(max_align_t) unsigned char saved[]; /* iso_lane_code.saved bytes */
 };
 
 typedef struct follower {

@@ -11,8 +11,9 @@
  *   strongest line of the third component that is no multiple of the first.
  * - Two such frequencies are determined only up to integer combinations. Where the problem separates and the motion
  *   is not extreme, they are those of the closed solution.
- * - Both halves of the orbit are analysed too. If their frequencies differ, and longer orbits hardly reduce the
- *   difference, the motion is chaotic.
+ * - The indicators of chaos (chaos.h) say whether the motion is regular or chaotic. Where they do not decide, both
+ *   halves of the orbit are compared: if their frequencies differ, and longer orbits hardly reduce the difference,
+ *   the motion is chaotic.
  */
 #ifndef ISO_STUDY_FREQUENCIES_H
 #define ISO_STUDY_FREQUENCIES_H
@@ -24,6 +25,7 @@
 #include "../orbit/orbit.h"
 #include "momentum.h"
 #include "spectrum.h"
+#include "verdict.h"
 
 ISO_C_BEGIN
 
@@ -62,10 +64,6 @@ typedef struct iso_resonance {
     double beat[ISO_CLOCKS]; /* the time in which p angle[0] - q angle[1] turns once; infinite: never       */
     bool met;                /* the gap is rounding (an estimate: within its error)                         */
 } iso_resonance;
-
-/* ISO_INTEGRABLE: regular because a further integral makes it so, though the estimated frequencies are not
- * settled. */
-typedef enum iso_verdict { ISO_REGULAR, ISO_CHAOTIC, ISO_UNDECIDED, ISO_INTEGRABLE } iso_verdict;
 
 /* A line of n(t), nu = m angle[0].frequency + n angle[1].frequency where `known`. */
 typedef struct iso_named_line {
@@ -110,7 +108,8 @@ typedef struct iso_frequencies {
     iso_separatrix separatrix[ISO_SEPARATRICES];
     int angles; /* 0, 1 or 2                                                                            */
     iso_angle angle[2];
-    double rotation; /* angle[0].frequency/angle[1].frequency, the same in every clock; chaos: NaN        */
+    double rotation; /* angle[0].frequency/angle[1].frequency, the same in every clock; NaN: chaos, or most of the
+                        motion is not explained by two frequencies                                        */
     int resonances;  /* best approximations of `rotation` by fractions q/p with p, q <= 100             */
     iso_resonance resonance[ISO_MAX_RESONANCES];
     double closed[ISO_CLOCKS]; /* the period of a closed orbit: one angle, or a resonance that is met; NaN: it is

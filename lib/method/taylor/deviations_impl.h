@@ -7,7 +7,7 @@
  *     ball     (dw,n) + (w,dn) = 0,      (w,J dw) = 0 if nothing acts
  *     point    (dw,n) + (w,dn) = 0,      (w,dw) = f(q) (J n,dn) - (dV,dn),    w = gamma', |w|^2 = F(q) - 2 V, f = F'
  *
- * Its length is measured by |dn|^2 + |dw|^2/|w|^2, and by the unit vectors of effects. The part along the flow is taken
+ * Its length is measured by |dn|^2 + |dw|^2/|w|^2, and by the unit vectors of effects that act. The part along the flow is taken
  * away before it is measured: d - f (d,f)/(f,f), f the derivative of the state. A deviation that has become long is
  * divided by its length, whose logarithm is kept.
  */
@@ -51,13 +51,43 @@ static void keep_level_of_ball(const form *T, const state *s, state *d)
     add_times(d->w, choose(twice > zero, -inner3(K, d->w) / twice, zero), s->w);
 }
 
-/* The unit vectors among the states of effects. */
-static void keep_unit_states(const form *T, const state *s, state *d)
+/* The unit vectors among the states of effects: where they stand in `own`, and how many numbers each has. Without
+ * `observers`: those that act on the motion. */
+typedef struct units {
+    int count, at[ISO_MOST_EFFECT_STATES], size[ISO_MOST_EFFECT_STATES];
+} units;
+
+static units units_of(const form *T, bool observers)
 {
-    for (int i = 0; i < T->motion.states; i++) {
-        const int at = T->motion.state[i].at - ISO_STATE;
-        if (T->motion.state[i].kind != ISO_STATE_UNIT || !T->motion.state[i].is_vector) continue;
-        add_times(d->own + at, -inner3(s->own + at, d->own + at), s->own + at);
+    const iso_problem *f = &T->shape.problem;
+    units u = {0};
+    for (int e = 0; T->motion.states > 0 && e < ISO_EFFECTS; e++) {
+        if (f->at[e] == 0 || (iso_effect_list[e]->observes && !observers)) continue;
+        int at = f->at[e] - ISO_STATE;
+        for (const iso_effect_state *i = iso_effect_list[e]->states; i->name; i++) {
+            if (i->there && !i->there(f)) continue;
+            if (i->kind == ISO_STATE_UNIT) u.at[u.count] = at, u.size[u.count++] = i->count;
+            at += i->count;
+        }
+    }
+    return u;
+}
+
+static inline real inner_of(const real a[], const real b[], int size)
+{
+    real sum = zero;
+    for (int i = 0; i < size; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+static void keep_units(const form *T, const state *s, state *d)
+{
+    const units u = units_of(T, true);
+    for (int i = 0; i < u.count; i++) {
+        const real *unit = s->own + u.at[i];
+        real *own = d->own + u.at[i];
+        const real along = inner_of(unit, own, u.size[i]);
+        for (int j = 0; j < u.size[i]; j++) own[j] -= along * unit[j];
     }
 }
 
@@ -65,7 +95,7 @@ static void restore_deviation(const form *T, const state *s, state *d)
 {
     const series *S = &T->S;
     add_times(d->n, -inner3(s->n, d->n), s->n);
-    keep_unit_states(T, s, d);
+    keep_units(T, s, d);
     const real spin = inner3(d->w, s->n) + inner3(s->w, d->n);
     if (T->is_point || T->is_point_t) {
         add_times(d->w, -spin, s->n);
@@ -121,11 +151,8 @@ static real inner(const form *T, const state *s, const state *a, const state *b)
 {
     const real square = inner3(s->w, s->w);
     real sum = inner3(a->n, b->n) + inner3(a->w, b->w) / choose(square > zero, square, spread(1));
-    for (int i = 0; i < T->motion.states; i++) {
-        const int at = T->motion.state[i].at - ISO_STATE;
-        if (T->motion.state[i].kind == ISO_STATE_UNIT && T->motion.state[i].is_vector)
-            sum += inner3(a->own + at, b->own + at);
-    }
+    const units u = units_of(T, false);
+    for (int i = 0; i < u.count; i++) sum += inner_of(a->own + u.at[i], b->own + u.at[i], u.size[i]);
     return sum;
 }
 

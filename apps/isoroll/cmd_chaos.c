@@ -1,0 +1,355 @@
+/* isoroll chaos - tells whether an orbit is chaotic, and which part of the section is. */
+#include <math.h>
+#include <string.h>
+
+#include "io/output.h"
+#include "io/plot.h"
+#include "json.h"
+#include "progress.h"
+#include "scene_options.h"
+#include "study/chaos.h"
+
+/* What chaos can be told. */
+typedef struct options {
+    scene_options scene;           /* only its file and tolerance are used */
+    const char *axis, *csv, *plot; /* NULL: not given                      */
+    double turns, starts, seed, threads;
+    iso_shown models; /* ISO_SHOW_START: not given */
+    bool json;
+} options;
+
+static bool set_whole(void *at, const char *text)
+{
+    return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
+}
+
+static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
+{
+    *axis = ISO_AXIS_AUTO;
+    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
+    *axis = text[0] - '1';
+    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--axis '%s': an axis is 1, 2 or 3, or auto: the global section",
+                            text);
+}
+
+static void show(double part, void *unused)
+{
+    (void)unused;
+    progress_show(part);
+}
+
+/* --- the table -------------------------------------------------------------------------------------------------- */
+
+static void print_head(const iso_scene *scene, const iso_chaos *c)
+{
+    const double *J = scene->params.J;
+    printf("k = %.15g, J = %.15g %.15g %.15g\n", scene->params.k, J[0], J[1], J[2]);
+    if (c->axis < 0)
+        printf("a turn is a step of %.6g in t: there is no section n_a = 0 here\n", c->turn);
+    else
+        printf("a turn is a return to the section n_%d = 0, n_%d increasing%s\n", c->axis + 1, c->axis + 1,
+               c->global ? "" : ", which is not global");
+    printf("\nthis orbit: %s", iso_verdict_name(c->own.verdict));
+    if (c->own.disagree) printf(": ball and point disagree");
+    printf("\n\n  model  verdict      turns     MEGNO   GALI_2    largest exponent per unit of\n"
+           "                                                   t                     tau                   s\n");
+}
+
+/* x +- error, in 21 columns */
+static void print_rate(double x, double error)
+{
+    if (isnan(x) || isnan(error))
+        printf("  %-20s", "-");
+    else
+        printf("  %10.3e +- %-7.0e", x, error);
+}
+
+static void print_model(const iso_chaos *c, int model)
+{
+    const iso_indication *i = &c->own.told[model];
+    if (!c->with[model]) return;
+    printf("  %-5s  %-9s  %7ld  %8.4g  %7.1e", iso_model_kind_name(model), iso_verdict_name(i->verdict), i->turns,
+           i->megno, i->gali2);
+    for (int clock = 0; clock < ISO_CLOCKS; clock++) print_rate(i->exponent[clock], i->error[clock]);
+    printf("\n");
+}
+
+/* lam_t by the ball and by the point */
+static void print_agreement(const iso_chaos *c)
+{
+    const iso_indication *one = &c->own.told[ISO_BALL], *other = &c->own.told[ISO_POINT];
+    const double apart = fabs(one->exponent[ISO_CLOCK_T] - other->exponent[ISO_CLOCK_T]),
+                 error = hypot(one->error[ISO_CLOCK_T], other->error[ISO_CLOCK_T]);
+    if (!c->with[ISO_BALL] || !c->with[ISO_POINT] || isnan(apart) || isnan(error)) return;
+    printf("  the exponents per t of both models are %.2g standard errors apart\n", apart / error);
+}
+
+static void print_share(const iso_chaos_share *s)
+{
+    if (s->count == 0) return;
+    printf("\n%zu starts spread evenly over the section, by its area dL dl:\n"
+           "  chaotic    %8.4f   (%zu); 95 %% interval %.4f to %.4f\n"
+           "  regular    %8.4f   (%zu)\n"
+           "  undecided  %8.4f   (%zu)\n",
+           s->count, s->share, s->chaotic, s->low, s->high, (double)s->regular / (double)s->count, s->regular,
+           (double)s->undecided / (double)s->count, s->undecided);
+    if (s->disagree > 0) printf("  of the undecided, ball and point disagree about %zu\n", s->disagree);
+    if (s->failed > 0) printf("  of the undecided, %zu could not be followed to the end\n", s->failed);
+}
+
+static void print_table(const iso_scene *scene, const iso_chaos *c)
+{
+    print_head(scene, c);
+    for (int m = 0; m < 2; m++) print_model(c, m);
+    if (c->own.verdict == ISO_REGULAR)
+        printf("  a regular orbit has the exponents 0: what is shown falls like 1/turns\n");
+    print_agreement(c);
+    print_share(&c->share);
+}
+
+/* --- JSON ------------------------------------------------------------------------------------------------------- */
+
+static json_t *clocks_of(const double x[ISO_CLOCKS])
+{
+    return json_pack("{s:o, s:o, s:o}", "t", json_number(x[0]), "tau", json_number(x[1]), "s", json_number(x[2]));
+}
+
+static json_t *model_of(const iso_chaos *c, int model)
+{
+    const iso_indication *i = &c->own.told[model];
+    if (!c->with[model]) return json_null();
+    return json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
+                     iso_verdict_name(i->verdict), "turns", (json_int_t)i->turns, "exponent", clocks_of(i->exponent),
+                     "error", clocks_of(i->error), "exponent_per_turn", json_number(i->per_turn), "error_per_turn",
+                     json_number(i->per_turn_error), "megno", json_number(i->megno), "megno_now",
+                     json_number(i->megno_now), "megno_mean", json_number(i->megno_mean), "gali2",
+                     json_number(i->gali2), "digits", json_number(i->digits));
+}
+
+static json_t *share_of(const iso_chaos_share *s)
+{
+    const double n = (double)s->count;
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:I}", "chaotic", json_number(s->share),
+                     "error", json_number((s->high - s->low) / 2), "low", json_number(s->low), "high",
+                     json_number(s->high), "regular", json_number((double)s->regular / n), "undecided",
+                     json_number((double)s->undecided / n), "starts", (json_int_t)s->count, "chaotic_starts",
+                     (json_int_t)s->chaotic, "regular_starts", (json_int_t)s->regular, "undecided_starts",
+                     (json_int_t)s->undecided, "disagree", (json_int_t)s->disagree, "failed", (json_int_t)s->failed);
+}
+
+static long turns_of(const iso_chaos *c)
+{
+    long turns = 0;
+    for (int m = 0; m < 2; m++)
+        if (c->with[m] && c->own.told[m].turns > turns) turns = c->own.told[m].turns;
+    return turns;
+}
+
+/* False: there is no memory. */
+static bool print_json(const iso_scene *scene, const iso_chaos *c)
+{
+    const iso_params *p = &scene->params;
+    json_t *section =
+        c->axis < 0 ? json_null() : json_pack("{s:i, s:b}", "axis", c->axis + 1, "global", (int)c->global);
+    json_t *o = json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:b, s:I, s:o, s:o}", "isoroll", iso_version(), "k",
+                          json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]),
+                          "section", section, "turn", json_number(c->turn), "verdict",
+                          iso_verdict_name(c->own.verdict), "disagree", (int)c->own.disagree, "turns",
+                          (json_int_t)turns_of(c), "ball", model_of(c, ISO_BALL), "point", model_of(c, ISO_POINT));
+    if (o && c->share.count > 0) json_object_set_new(o, "share", share_of(&c->share));
+    return json_print(o);
+}
+
+/* --- files ------------------------------------------------------------------------------------------------------ */
+
+/* Per turn, by the first model that tells it; regular: 0; undecided: NaN. */
+static double exponent_of(const iso_chaos *c, const iso_chaos_orbit *o)
+{
+    if (o->verdict == ISO_REGULAR) return 0;
+    if (o->verdict == ISO_UNDECIDED) return NAN;
+    for (int m = 0; m < 2; m++)
+        if (c->with[m] && o->told[m].verdict == o->verdict) return o->told[m].per_turn;
+    return NAN;
+}
+
+/* Orbit 0 is the scene's own. */
+static void write_csv(const iso_chaos *c, FILE *to)
+{
+    static const char *const names[] = {"ball", "point"};
+    fputs("# isoroll chaos 1\norbit,l,x,verdict", to);
+    for (int m = 0; m < 2; m++)
+        if (c->with[m])
+            fprintf(to, ",%s_verdict,%s_turns,%s_exponent,%s_error,%s_megno,%s_gali2", names[m], names[m], names[m],
+                    names[m], names[m], names[m]);
+    fputc('\n', to);
+    for (size_t i = 0; i <= c->share.count; i++) {
+        const iso_chaos_orbit *o = i == 0 ? &c->own : &c->start[i - 1];
+        fprintf(to, "%zu,%.17g,%.17g,%s", i, o->l, o->x, iso_verdict_name(o->verdict));
+        for (int m = 0; m < 2; m++)
+            if (c->with[m])
+                fprintf(to, ",%s,%ld,%.17g,%.17g,%.17g,%.17g", iso_verdict_name(o->told[m].verdict), o->told[m].turns,
+                        o->told[m].exponent[ISO_CLOCK_T], o->told[m].error[ISO_CLOCK_T], o->told[m].megno,
+                        o->told[m].gali2);
+        fputc('\n', to);
+    }
+}
+
+/* Columns l, x, exponent per turn (0: regular, NaN: undecided) of the starts. */
+static iso_status draw_section(iso_context *ctx, const options *o, const iso_chaos *c, const char *title)
+{
+    static const char *const names[] = {"l", "x", "exponent"};
+    iso_record *r;
+    iso_status status = iso_record_create(ctx, 3, names, &r);
+    for (size_t i = 0; i < c->share.count && status == ISO_OK; i++) {
+        double *row;
+        status = iso_record_append(ctx, r, &row);
+        if (status != ISO_OK) break;
+        row[0] = c->start[i].l;
+        row[1] = c->start[i].x;
+        row[2] = exponent_of(c, &c->start[i]);
+    }
+    if (status == ISO_OK) status = iso_plot_exponents(ctx, o->plot, title, c->axis, r);
+    iso_record_free(r);
+    return status;
+}
+
+static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c)
+{
+    const double *J = scene->params.J;
+    char title[160];
+    if (c->share.count > 0) {
+        snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g: %.3g of the area is chaotic, %.3g undecided",
+                 scene->params.k, J[0], J[1], J[2], c->share.share,
+                 (double)c->share.undecided / (double)c->share.count);
+        return draw_section(ctx, o, c, title);
+    }
+    snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g: %s", scene->params.k, J[0], J[1], J[2],
+             iso_verdict_name(c->own.verdict));
+    return iso_plot_indicators(ctx, o->plot, title, c->trace[ISO_BALL], c->trace[ISO_POINT]);
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
+static int worse(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c, iso_output *csv)
+{
+    int result = c->failure == ISO_OK ? EXIT_DONE : EXIT_SOME_FAILED;
+    if (c->failure != ISO_OK) complain("an orbit was not followed to the end: %s", c->words);
+    if (o->json)
+        result = print_json(scene, c) ? result : EXIT_NUMERICAL;
+    else if (!o->csv || strcmp(o->csv, "-") != 0)
+        print_table(scene, c);
+    if (csv) {
+        write_csv(c, iso_output_stream(csv));
+        result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
+    }
+    if (o->plot) result = worse(result, finish(ctx, draw(ctx, o, scene, c)));
+    return result;
+}
+
+/* Reads the scene and opens the files. Refuses wrong options before the work begins. */
+static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_chaos_options *how,
+                          iso_output **csv)
+{
+    *how = iso_chaos_defaults();
+    if (o->csv && strcmp(o->csv, "-") == 0 && o->json)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
+                                "chaos: standard output has room for one: choose --csv - or --json");
+    iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
+    if (status == ISO_OK) status = read_axis(ctx, o->axis, &how->axis);
+    how->turns = (long)o->turns;
+    how->starts = (size_t)o->starts;
+    how->seed = (uint64_t)o->seed;
+    how->threads = o->threads < 4096 ? (int)o->threads : 4096;
+    how->models = o->models;
+    how->tolerance = o->scene.tolerance;
+    how->progress = show;
+    if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
+    return status == ISO_OK && o->csv ? iso_output_open(ctx, o->csv, csv) : status;
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    const options *o = options_given;
+    iso_scene scene = {.places = 0};
+    iso_output *csv = NULL;
+    iso_chaos *c = NULL;
+    iso_chaos_options how;
+    iso_status status = prepare(ctx, o, &scene, &how, &csv);
+    if (status != ISO_OK) return finish(ctx, status);
+    stop_gently();
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    status = iso_chaos_run(ctx, &scene, &how, &c);
+    iso_context_set_monitor(ctx, NULL, NULL);
+    progress_end();
+    int result = finish_scene(ctx, &o->scene, &scene, status);
+    if (status == ISO_STOPPED) complain("interrupted: what is not decided yet counts as undecided");
+    if (c)
+        result = worse(result, report(ctx, o, &scene, c, csv));
+    else
+        iso_output_close(ctx, csv, false);
+    iso_chaos_free(c);
+    return result;
+}
+
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .turns = 3000, .models = ISO_SHOW_START};
+
+static const option_row rows[] = {
+    ROW("turns", "N", "a whole number from 1 on",
+        "most turns of each orbit (default 3000); fewer where it is decided", set_count, options, turns),
+    ROW("starts", "M", "a whole number from 0 on",
+        "M more orbits of the same energy, spread evenly over the section: which part of it is chaotic", set_whole,
+        options, starts),
+    ROW("seed", "N", "a whole number from 0 on", "another spreading of --starts (default 0)", set_whole, options,
+        seed),
+    ROW_OF_WORDS("model", "M", "ball, point or both",
+                 "which model is integrated (default: both, where the ball has a twin)", set_as, options, models,
+                 as_word),
+    ROW("axis", "A", "auto, 1, 2 or 3", "the section n_A = 0, n_A increasing; auto (default): the global one",
+        set_text, options, axis),
+    ROW_TOLERANCE(options, scene),
+    {.name = "threads",
+     .argument = "N",
+     .expected = "a whole number from 1 on",
+     .doc = "threads that work (default: one for each processor)",
+     .set = set_count,
+     .offset = offsetof(options, threads),
+     .letter = 'j'},
+    ROW_PLOT(options, plot),
+    ROW_OF_FILE("csv", "FILE", "a file", "write one row for each orbit to FILE; - is standard output", set_text,
+                options, csv, 0, OPTION_WRITES),
+    ROW_JSON(options, json),
+    ROW_END,
+};
+
+const command command_chaos = {
+    .name = "chaos",
+    .argument = "SCENE",
+    .doc = "tell whether an orbit is chaotic, and which part of the section is",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
+        "regular, chaotic, or undecided after --turns. The indicators are the largest exponent per unit of t, tau "
+        "and "
+        "s with its standard error, MEGNO (2 on regular orbits, 0 where all orbits turn equally fast) and GALI_2. "
+        "Each model is integrated by itself. The scene's times and its solver are not read, except the "
+        "tolerance.\n\n"
+        "With --starts, other orbits of the same energy begin evenly spread over the section. The part of them that "
+        "is chaotic is told with its interval of 95 %.\n\n"
+        "--plot draws the indicators over the turns; with --starts it draws the section, coloured by exponent. After "
+        "Ctrl-C, what is known is printed.\n\n"
+        "Effects that keep the energy, such as gravity, are allowed. Effects that take energy are not: such a motion "
+        "comes to rest.",
+    .example = "isoroll chaos scene.yaml --starts 1000 --plot chaos.png",
+    .exits = "1: interrupted, or some orbits were not followed to the end\n"
+             "4: the computation failed, or no memory",
+    .run = run,
+};

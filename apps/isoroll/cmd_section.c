@@ -1,0 +1,304 @@
+/* isoroll section - the Poincare section of a scene, by the ball, by the point, or by both. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "io/plot.h"
+#include "scene_options.h"
+#include "section_plot.h"
+#include "study/section.h"
+
+enum { MOST_AT = 64 };
+
+/* What section can be told. */
+typedef struct options {
+    scene_options scene;
+    const char *axis, *event, *output, *plot; /* NULL: not given                */
+    const char *at[MOST_AT + 1];              /* as they were typed, then NULL  */
+    double crossings, starts, seed, threads;
+    iso_shown models; /* ISO_SHOW_START: not given      */
+    bool quiet;
+} options;
+
+/* Where the rows go. */
+typedef struct target {
+    iso_context *ctx;
+    const options *o;
+    bool opened; /* what goes wrong from here on is no mistake in the scene */
+    iso_trajectory_writer *writer;
+    section_picture *picture; /* NULL: none is drawn */
+} target;
+
+/* --- what is typed ---------------------------------------------------------------------------------------------- */
+
+static bool set_whole(void *at, const char *text)
+{
+    return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
+}
+
+/* One more --at. */
+static bool set_at(void *at, const char *text)
+{
+    const char **list = at;
+    int i = 0;
+    while (list[i]) i++;
+    if (i == MOST_AT) return false;
+    list[i] = text;
+    return *text != '\0';
+}
+
+static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
+{
+    *axis = ISO_AXIS_AUTO;
+    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
+    *axis = text[0] - '1';
+    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--axis '%s': an axis is 1, 2 or 3, or auto: the global section",
+                            text);
+}
+
+/* Points l,x with semicolons between. */
+static iso_status read_points(iso_context *ctx, const char *text, double (**list)[2], size_t *count)
+{
+    for (const char *c = text; *c; c += *c == ';') {
+        const size_t l = strcspn(c, ",;"), x = c[l] == ',' ? strcspn(c + l + 1, ";") : 0;
+        double(*more)[2] = realloc(*list, (*count + 1) * sizeof *more);
+        if (!more) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the starts");
+        *list = more;
+        if (x == 0 || !iso_number_read(c, l, &more[*count][0]) || !iso_number_read(c + l + 1, x, &more[*count][1]))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                    "--at '%s': expected l,x, or several of them with ; between: 0.5,0.2;1,-0.3",
+                                    text);
+        ++*count;
+        c += l + 1 + x;
+    }
+    return ISO_OK;
+}
+
+/* COLUMN=VALUE */
+static iso_status read_event(iso_context *ctx, const char *text, iso_section_options *how)
+{
+    char name[ISO_NAME_SIZE] = "";
+    const size_t length = text ? strcspn(text, "=") : 0;
+    if (!text) return ISO_OK;
+    if (length < sizeof name) memcpy(name, text, length);
+    if (text[length] != '=' || !iso_number_read(text + length + 1, strlen(text + length + 1), &how->value))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--event '%s': expected COLUMN=VALUE, such as omega1=0.5",
+                                text);
+    how->column = iso_column_find(name);
+    if (how->column >= ISO_CLOCKS) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                            how->column < 0 ? "--event: there is no column '%s'; section 4 of the file formats lists "
+                                              "them, such as omega1, n3, gamma2"
+                                            : "--event: the clock '%s' passes each value only once",
+                            name);
+}
+
+/* `at` is the caller's to free. */
+static iso_status read_options(iso_context *ctx, const options *o, iso_section_options *how, double (**at)[2])
+{
+    int axis;
+    *how = iso_section_defaults();
+    how->crossings = (size_t)o->crossings;
+    how->starts = (size_t)o->starts;
+    how->seed = (uint64_t)o->seed;
+    how->threads = o->threads < 1e6 ? (int)o->threads : 1000000;
+    how->models = o->models;
+    how->tolerance = o->scene.tolerance;
+    if ((int)o->scene.as >= 0) how->shown = o->scene.as;
+    iso_status status = read_axis(ctx, o->axis, &how->axis);
+    if (status == ISO_OK) status = read_event(ctx, o->event, how);
+    for (int i = 0; status == ISO_OK && o->at[i]; i++) status = read_points(ctx, o->at[i], at, &how->at_count);
+    how->at = (const double(*)[2]) * at;
+    if (status == ISO_OK && o->axis && o->event)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --axis or --event, not both");
+    if (status == ISO_OK && o->plot && how->column >= 0 && !iso_section_is_of_axis(how->column, how->value, &axis))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                "--plot draws sections n_A = 0; an event has no coordinates to be drawn in");
+    return status;
+}
+
+/* --- the rows --------------------------------------------------------------------------------------------------- */
+
+static iso_status open_file(void *data, const iso_record *header)
+{
+    target *t = data;
+    t->opened = true;
+    if (t->picture) section_picture_begin(t->picture, header);
+    const iso_status status = iso_trajectory_open(t->ctx, t->o->output, &t->writer);
+    if (status != ISO_OK) return status;
+    iso_trajectory_set_kind(t->writer, "section");
+    return iso_trajectory_write_header(t->ctx, t->writer, header);
+}
+
+static iso_status write_row(void *data, const double row[], size_t count)
+{
+    const target *t = data;
+    if (t->picture && !section_picture_row(t->picture, row))
+        return iso_context_fail(t->ctx, ISO_NO_MEMORY, "", "no memory for the picture");
+    return iso_trajectory_write_row(t->ctx, t->writer, row, count);
+}
+
+static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, const iso_crossing *point)
+{
+    const target *t = data;
+    (void)orbit;
+    if (t->picture) section_picture_pair(t->picture, ball, point);
+    return ISO_OK;
+}
+
+static void tell_note(void *data, const char *words)
+{
+    const target *t = data;
+    if (!t->o->quiet) complain("%s", words);
+}
+
+static void show_progress(void *data, double part)
+{
+    (void)data;
+    progress_show(part);
+}
+
+/* --- the summary ------------------------------------------------------------------------------------------------ */
+
+static void tell_both(const iso_section_result *r)
+{
+    if (r->crossings[ISO_BALL] == r->crossings[ISO_POINT] && r->unequal == 0)
+        complain("ball and point, each by itself: %zu crossings both", r->crossings[ISO_BALL]);
+    else
+        complain("ball and point, each by itself: %zu and %zu crossings; %zu orbits have different numbers",
+                 r->crossings[ISO_BALL], r->crossings[ISO_POINT], r->unequal);
+    if (r->distance > 0)
+        complain("largest distance of the two%s: %.2g, at orbit %zu, crossing %zu",
+                 r->nature.axis < 0 ? "" : " in (l, x)", r->distance, r->distance_orbit, r->distance_crossing);
+    if (r->parted > 0)
+        complain("%zu of %zu orbits part (distance above %g): their rounding errors grow, as in chaos; the first is "
+                 "orbit %zu, at crossing %zu",
+                 r->parted, r->orbits, ISO_SECTION_PARTED, r->parted_orbit, r->parted_crossing);
+}
+
+static void tell(const iso_section_result *r)
+{
+    complain("%zu orbit%s, %zu crossings written", r->orbits, r->orbits == 1 ? "" : "s", r->rows);
+    if (r->nature.global) complain("%s", r->nature.words);
+    if (r->models == ISO_SHOW_BOTH) tell_both(r);
+}
+
+/* --- the whole -------------------------------------------------------------------------------------------------- */
+
+/* Ends the file with all rows there are. */
+static int close_file(const target *t, iso_status status, const iso_section_result *r)
+{
+    const bool keep = r->rows > 0 && status != ISO_FILE_TROUBLE && status != ISO_CLOSED_PIPE;
+    int result = finish(t->ctx, status);
+    if (!t->writer) return result;
+    const iso_status closed = iso_trajectory_close(t->ctx, t->writer, keep);
+    if (closed != ISO_OK) return result == EXIT_DONE ? finish(t->ctx, closed) : result;
+    if (status == ISO_STOPPED) complain("interrupted: %zu crossings were written", r->rows);
+    if (!keep) return result;
+    if (r->failed > 0) {
+        complain("%zu of %zu orbits did not get to the end; %s", r->failed, r->orbits, r->words);
+        result = result == EXIT_DONE ? EXIT_SOME_FAILED : result;
+    }
+    if (status == ISO_OK && !t->o->quiet) tell(r);
+    return result;
+}
+
+static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene, const iso_section_options *how)
+{
+    target t = {.ctx = ctx, .o = o};
+    const iso_section_sink sink = {open_file, write_row, keep_pair, tell_note, show_progress, &t};
+    iso_section_result r;
+    if (o->plot) t.picture = section_picture_create(scene);
+    stop_gently();
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    const iso_status status = o->plot && !t.picture
+                                  ? iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture")
+                                  : iso_section_run(ctx, scene, how, &sink, &r);
+    iso_context_set_monitor(ctx, NULL, NULL);
+    int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, &o->scene, scene, status);
+    if (t.opened && o->plot && r.rows > 0 && result <= EXIT_SOME_FAILED) {
+        const int drawn = finish(ctx, section_picture_draw(ctx, t.picture, o->plot));
+        if (drawn != EXIT_DONE) result = drawn;
+    }
+    section_picture_free(t.picture);
+    return result;
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    const options *o = options_given;
+    iso_scene scene = {.places = 0};
+    iso_section_options how;
+    double(*at)[2] = NULL;
+    iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
+    if (status == ISO_OK) status = read_options(ctx, o, &how, &at);
+    if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, &scene);
+    const int result = status == ISO_OK ? run_scene(ctx, o, &scene, &how) : finish(ctx, status);
+    free(at);
+    return result;
+}
+
+static const options defaults = {
+    .scene = SCENE_OPTIONS_UNSET, .output = "-", .crossings = 500, .models = ISO_SHOW_START};
+
+static const option_row rows[] = {
+    ROW_OUTPUT(options, output),
+    ROW("crossings", "N", "a whole number from 1 on", "crossings of each orbit (default 500)", set_count, options,
+        crossings),
+    ROW("axis", "A", "auto, 1, 2 or 3", "the section n_A = 0, n_A increasing; auto (default): the global one",
+        set_text, options, axis),
+    ROW("event", "COLUMN=VALUE", "COLUMN=VALUE", "in its place: where a column passes a value, upwards", set_text,
+        options, event),
+    ROW("starts", "M", "a whole number from 0 on", "M more orbits of the same energy, spread evenly over the section",
+        set_whole, options, starts),
+    ROW("seed", "N", "a whole number from 0 on", "another spreading of --starts (default 0)", set_whole, options,
+        seed),
+    ROW("at", "L,X", "l,x, at most 64 times", "an orbit that starts at (l, x); several: L,X;L,X or --at again",
+        set_at, options, at),
+    ROW_OF_WORDS("model", "M", "ball, point or both",
+                 "which model is integrated (default: both, where the ball has a twin)", set_as, options, models,
+                 as_word),
+    ROW_OF_WORDS("as", "WHAT", "ball, point or both", "adds the states of a model: ball, point, both", set_as,
+                 options, scene.as, as_word),
+    ROW_PLOT(options, plot),
+    ROW_TOLERANCE(options, scene),
+    {.name = "threads",
+     .argument = "N",
+     .expected = "a whole number from 1 on",
+     .doc = "threads that work (default: one for each processor)",
+     .set = set_count,
+     .offset = offsetof(options, threads),
+     .letter = 'j'},
+    ROW("quiet", NULL, NULL, "print no summary on stderr", set_flag, options, quiet),
+    ROW_END,
+};
+
+const command command_section = {
+    .name = "section",
+    .argument = "SCENE",
+    .doc = "compute the Poincare section of both models",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "Follows orbits and writes each crossing of the section n_A = 0, n_A increasing, which is the same for ball "
+        "and point: orbit, crossing (from 1), t, tau, s, and the coordinates l and x of the section. Orbit 0 is the "
+        "scene's own, then come those of --starts, then those of --at. A start on the section is no crossing. The "
+        "scene's times and its solver are not read, except the tolerance.\n\n"
+        "l is in (-pi, pi]. x is between -1 and 1; the boundary is the rotation about axis A. The return map keeps "
+        "the "
+        "area dL dl, where L = G(l) x is the point's momentum about axis A; --starts are spread evenly by it.\n\n"
+        "With --model both, each model is integrated by itself. The rows are the ball's; stderr tells how far the "
+        "point's are from them, and which orbits part, as chaotic ones do.\n\n"
+        "Every return of a free orbit is held to bounds of its length in s. So no crossing can be skipped unseen.\n\n"
+        "--plot draws the sections of both models side by side.\n\n"
+        "After Ctrl-C, the rows computed so far are kept.",
+    .example = "isoroll section scene.yaml --starts 100 -o section.csv --plot section.png",
+    .exits = "1: interrupted, or some orbits did not get to the end\n"
+             "4: the computation failed before the first crossing",
+    .run = run,
+};

@@ -1,0 +1,25 @@
+/* section_plot.h - collects crossings for the picture of `isoroll section`. */
+#ifndef ISOROLL_SECTION_PLOT_H
+#define ISOROLL_SECTION_PLOT_H
+
+#include "isoroll.h"
+#include "orbit/crossings.h"
+
+typedef struct section_picture section_picture;
+
+/* NULL: no memory. */
+section_picture *section_picture_create(const iso_scene *scene);
+void section_picture_free(section_picture *p);
+
+/* The header of the rows, then each row. Of very many rows only a part is kept, chosen evenly. False: no memory. */
+void section_picture_begin(section_picture *p, const iso_record *header);
+bool section_picture_row(section_picture *p, const double row[]);
+
+/* Of the last row: the same crossing by the point. */
+void section_picture_pair(section_picture *p, const iso_crossing *ball, const iso_crossing *point);
+
+/* Draws it. Errors: ISO_BAD_INPUT where the section is an event, which has no coordinates; those of
+ * iso_plot_sections. */
+iso_status section_picture_draw(iso_context *ctx, const section_picture *p, const char *path);
+
+#endif

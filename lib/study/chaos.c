@@ -1,0 +1,200 @@
+/* chaos.c - which orbits of a scene are chaotic, see chaos.h: what is refused, what a turn is, and the shares. The
+ * orbits are followed by chaos_walk.c. */
+#include "study/chaos.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
+#include "base/pi_impl.h"
+#include "base/vec3_impl.h"
+#include "study/chaos_impl.h"
+
+/* --- what is refused -------------------------------------------------------------------------------------------- */
+
+/* The effect because of which the motion is not that of a free point on H = 0; NULL: none. */
+static const iso_effect *not_free(const iso_effects *effects)
+{
+    const iso_effect *effect = iso_effects_beyond_level(effects);
+    if (effect || !iso_effects_have_level(effects)) return effect;
+    return iso_effect_list[iso_effect_find(iso_level_name())];
+}
+
+static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
+{
+    const iso_problem *problem = &iso_orbit_model(w->orbit)->problem;
+    const bool ball = w->scene->start.model == ISO_BALL;
+    const iso_effect *taking = iso_effects_taking_energy(problem);
+    const char *why;
+    if (taking)
+        return iso_context_fail(w->ctx, ISO_BAD_INPUT, taking->name,
+                                "'%s' takes energy from the ball: a motion that comes to rest is not chaotic, nor "
+                                "regular",
+                                taking->name);
+    const iso_effect *without = iso_effects_without_frequencies(problem, &why);
+    if (without) return iso_context_fail(w->ctx, ISO_BAD_INPUT, without->name, "%s", why);
+    if (largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0 || iso_effects_pull(&problem->effects))
+        return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, ball ? "angular_velocity" : "M", "the %s is at rest",
+                            iso_model_kind_name((int)w->scene->start.model));
+}
+
+static iso_status check_starts(const iso_chaos_walk *w, const iso_effect *effect)
+{
+    if (w->options.starts + w->options.at_count == 0 || !effect) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect->name,
+                            "other starts are spread over the section of free motions on H = 0: without '%s'",
+                            effect->name);
+}
+
+static iso_status check_options(const iso_chaos_walk *w)
+{
+    const iso_chaos_options *o = &w->options;
+    if (o->turns < 1)
+        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "turns", "%ld turns: give 1 or more", o->turns);
+    if (o->axis != ISO_AXIS_AUTO && (o->axis < 0 || o->axis > 2))
+        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "axis", "axis %d is not 1, 2 or 3", o->axis + 1);
+    for (size_t i = 0; i < o->at_count; i++)
+        if (!isfinite(o->at[i][0]) || !(fabs(o->at[i][1]) < 1))
+            return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "at",
+                                    "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1",
+                                    o->at[i][0], o->at[i][1]);
+    return ISO_OK;
+}
+
+/* --- what a turn is --------------------------------------------------------------------------------------------- */
+
+/* n turns at the rate |k omega|. */
+static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_effect *effect)
+{
+    iso_chaos *c = w->out;
+    const iso_units *units = iso_orbit_units(w->orbit);
+    const double speed = w->out->with[ISO_BALL] ? norm(start->ball) : units->w;
+    c->turn = NAN;
+    if (effect) {
+        const bool pulled = iso_effects_pull(&iso_orbit_model(w->orbit)->problem.effects);
+        c->axis = -1;
+        c->turn = 2 * ISO_PI / (fabs(w->scene->params.k) * (pulled ? fmax(speed, units->w) : speed));
+        return;
+    }
+    c->axis = w->options.axis == ISO_AXIS_AUTO ? iso_section_axis(&units->own) : w->options.axis;
+    c->global = iso_section_is_global(&units->own, c->axis);
+    if (w->options.starts > 0) iso_section_spread_prepare(&w->spread, &units->own, c->axis, w->options.seed);
+}
+
+static void choose_models(iso_chaos_walk *w)
+{
+    const iso_effects *e = &w->effects;
+    const bool alone = iso_effects_breaking(e) || iso_effects_ball_only(e);
+    const iso_shown models = w->options.models != ISO_SHOW_START ? w->options.models
+                             : alone                             ? ISO_SHOW_BALL
+                                                                 : ISO_SHOW_BOTH;
+    w->out->with[ISO_BALL] = models != ISO_SHOW_POINT;
+    w->out->with[ISO_POINT] = models != ISO_SHOW_BALL;
+}
+
+static iso_status open_orbit(iso_chaos_walk *w, iso_sample *start)
+{
+    const bool *with = w->out->with;
+    iso_orbit_options o = iso_orbit_defaults(&w->scene->start);
+    o.effects = &w->effects;
+    o.backend = with[ISO_BALL] ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
+    o.clock = with[ISO_BALL] ? ISO_CLOCK_T : ISO_CLOCK_S;
+    o.shown = with[ISO_BALL] && with[ISO_POINT] ? ISO_SHOW_BOTH : with[ISO_BALL] ? ISO_SHOW_BALL : ISO_SHOW_POINT;
+    o.tolerance = w->options.tolerance;
+    const iso_status status = iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit);
+    return status == ISO_OK ? iso_orbit_at(w->orbit, 0, start) : status;
+}
+
+/* --- the result ------------------------------------------------------------------------------------------------- */
+
+void iso_chaos_judge(const iso_chaos *c, iso_chaos_orbit *orbit)
+{
+    bool found[3] = {false, false, false};
+    for (int m = 0; m < 2; m++)
+        if (c->with[m]) found[orbit->told[m].verdict] = true;
+    orbit->disagree = found[ISO_REGULAR] && found[ISO_CHAOTIC];
+    orbit->verdict = orbit->disagree      ? ISO_UNDECIDED
+                     : found[ISO_CHAOTIC] ? ISO_CHAOTIC
+                     : found[ISO_REGULAR] ? ISO_REGULAR
+                                          : ISO_UNDECIDED;
+}
+
+void iso_chaos_interval(size_t found, size_t count, double *low, double *high)
+{
+    static const double z = 1.959963984540054; /* 95 % of a normal distribution are within z */
+    const double n = (double)count, p = n > 0 ? (double)found / n : 0.5;
+    const double middle = (p + z * z / (2 * n)) / (1 + z * z / n),
+                 half = z / (1 + z * z / n) * sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+    *low = count == 0 || found == 0 ? 0 : middle - half;
+    *high = count == 0 || found == count ? 1 : middle + half;
+}
+
+static void count_shares(const iso_chaos_walk *w)
+{
+    iso_chaos *c = w->out;
+    iso_chaos_share *s = &c->share;
+    s->count = c->starts < w->options.starts ? c->starts : w->options.starts;
+    for (size_t i = 0; i < s->count; i++) {
+        const iso_chaos_orbit *o = &c->start[i];
+        s->chaotic += o->verdict == ISO_CHAOTIC;
+        s->regular += o->verdict == ISO_REGULAR;
+        s->disagree += o->disagree;
+        s->failed += o->verdict == ISO_UNDECIDED && (o->status[0] != ISO_OK || o->status[1] != ISO_OK);
+    }
+    s->undecided = s->count - s->chaotic - s->regular;
+    s->share = s->count > 0 ? (double)s->chaotic / (double)s->count : NAN;
+    iso_chaos_interval(s->chaotic, s->count, &s->low, &s->high);
+}
+
+static iso_status run(iso_chaos_walk *w)
+{
+    iso_sample start;
+    iso_status status = check_options(w);
+    if (status != ISO_OK) return status;
+    w->effects = iso_effects_acting(&w->scene->effects);
+    choose_models(w);
+    status = open_orbit(w, &start);
+    if (status != ISO_OK) return status;
+    const iso_effects effects = iso_orbit_effects(w->orbit);
+    const iso_effect *effect = not_free(&effects);
+    status = check_motion(w, &start);
+    if (status == ISO_OK) status = check_starts(w, effect);
+    if (status != ISO_OK) return status;
+    choose_turn(w, &start, effect);
+    w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
+    if (!w->out->start) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the starts");
+    status = iso_chaos_follow(w);
+    count_shares(w);
+    return status;
+}
+
+iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options,
+                         iso_chaos **chaos)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_chaos_walk w = {.ctx = ctx, .scene = scene, .options = iso_chaos_defaults()};
+    *chaos = NULL;
+    iso_status status = iso_options_take(ctx, "iso_chaos_options", &w.options, sizeof w.options, options);
+    if (status != ISO_OK) return status;
+    if (isnan(w.options.tolerance)) w.options.tolerance = scene->tolerance;
+    w.out = calloc(1, sizeof *w.out);
+    if (!w.out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the indicators");
+    w.out->own.verdict = ISO_UNDECIDED;
+    status = run(&w);
+    iso_orbit_free(w.orbit);
+    if (status == ISO_OK || status == ISO_STOPPED)
+        *chaos = w.out;
+    else
+        iso_chaos_free(w.out);
+    return status;
+}
+
+void iso_chaos_free(iso_chaos *chaos)
+{
+    if (!chaos) return;
+    for (int m = 0; m < 2; m++) iso_record_free(chaos->trace[m]);
+    free(chaos->start);
+    free(chaos);
+}

@@ -1,0 +1,30 @@
+/* chaos_impl.h - what chaos.c and chaos_walk.c share.
+ *
+ *     chaos.c        options, refusals, the result
+ *     chaos_walk.c   groups of orbits, round by round
+ */
+#ifndef ISO_STUDY_CHAOS_IMPL_H
+#define ISO_STUDY_CHAOS_IMPL_H
+
+#include "map/section.h"
+#include "study/chaos.h"
+
+typedef struct iso_chaos_walk {
+    iso_context *ctx;
+    const iso_scene *scene;
+    iso_chaos_options options;
+    iso_effects effects; /* that act on the motion */
+    iso_orbit *orbit;    /* the scene's            */
+    iso_section_spread spread;
+    iso_chaos *out;
+    double done, all; /* turns, for progress */
+} iso_chaos_walk;
+
+/* Follows all orbits. Errors: ISO_NO_MEMORY, ISO_STOPPED, those of iso_crossings_create, and the failure of the
+ * scene's own orbit. */
+iso_status iso_chaos_follow(iso_chaos_walk *w);
+
+/* The verdict of both models. */
+void iso_chaos_judge(const iso_chaos *c, iso_chaos_orbit *orbit);
+
+#endif

@@ -1,0 +1,352 @@
+/* section.c - the Poincare section of a scene, see section.h: what kind of section it is, what is refused, the
+ * header, and the orbits group by group. */
+#include "study/section.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
+#include "base/pi_impl.h"
+#include "base/vec3_impl.h"
+#include "base/version.h"
+#include "orbit/description.h"
+#include "study/section_impl.h"
+
+/* --- which section is global ------------------------------------------------------------------------------------ */
+
+/* The effect because of which the motion is not that of a free point on H = 0; NULL: none. */
+static const iso_effect *not_free(const iso_effects *effects)
+{
+    const iso_effect *effect = iso_effects_beyond_level(effects);
+    if (effect || !iso_effects_have_level(effects)) return effect;
+    return iso_effect_list[iso_effect_find(iso_level_name())];
+}
+
+static void name_not_free(const iso_effect *effect, iso_section_nature *n)
+{
+    if (strcmp(effect->name, iso_level_name()) == 0)
+        snprintf(n->words, sizeof n->words,
+                 "n_%d = 0 is not known to be global: off the level H = 0 the point can turn back before it gets "
+                 "there",
+                 n->axis + 1);
+    else
+        snprintf(n->words, sizeof n->words, "n_%d = 0 is not known to be global: '%s' acts on the ball", n->axis + 1,
+                 effect->name);
+}
+
+iso_section_nature iso_section_of(const iso_orbit *orbit, int axis)
+{
+    const iso_units *units = iso_orbit_units(orbit);
+    const iso_effects effects = iso_orbit_effects(orbit);
+    const iso_effect *effect = not_free(&effects);
+    const int good = iso_section_axis(&units->own);
+    iso_section_nature n = {.axis = axis == ISO_AXIS_AUTO ? good : axis};
+    double W[2];
+    if (effect) {
+        name_not_free(effect, &n);
+        return n;
+    }
+    iso_section_bounds(&units->own, iso_orbit_model(orbit)->problem.eps, n.axis, W);
+    const double turn = 2 * ISO_PI * iso_unit(units, iso_clock_dimension(ISO_CLOCK_S));
+    n.global = iso_section_is_global(&units->own, n.axis) || W[0] > 0;
+    if (n.global)
+        snprintf(n.words, sizeof n.words,
+                 "n_%d = 0 is global: every orbit but the rotation about axis %d crosses it for ever, each time "
+                 "%.4g to %.4g later in s",
+                 n.axis + 1, n.axis + 1, turn / W[1], turn / W[0]);
+    else
+        snprintf(n.words, sizeof n.words, "n_%d = 0 is not global: orbits can stay away from it; n_%d = 0 is global",
+                 n.axis + 1, good + 1);
+    return n;
+}
+
+bool iso_section_is_of_axis(int column, double value, int *axis)
+{
+    for (int a = 0; a < 3 && value == 0; a++)
+        if (column == ISO_COLUMN_BALL + 3 + a || column == ISO_COLUMN_POINT + 3 + a) return *axis = a, true;
+    return false;
+}
+
+/* --- what is refused -------------------------------------------------------------------------------------------- */
+
+static iso_status check_rest(const iso_section_walk *w)
+{
+    const iso_start *start = &w->scene->start;
+    const bool moves = largest(start->y) > 0 || iso_effects_pull(&w->effects);
+    if (moves || (start->model == ISO_POINT && start->eps != 0 && !isnan(start->eps))) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
+                            "a %s at rest crosses no section", iso_model_kind_name((int)start->model));
+}
+
+static iso_status check_losses(const iso_section_walk *w)
+{
+    const iso_effect *taking = iso_effects_taking_energy(&iso_orbit_model(w->orbit)->problem);
+    if (!taking) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, taking->name,
+                            "'%s' takes energy from the ball: its orbits do not come back to a section for ever",
+                            taking->name);
+}
+
+/* Starts at (l, x) have the energy of the scene on the level H = 0. */
+static iso_status check_starts(const iso_section_walk *w)
+{
+    const iso_section_options *o = &w->options;
+    const iso_effect *effect = not_free(&w->effects);
+    const char *why = !w->chart ? "an event has no chart"
+                      : effect  ? "the chart is that of free motions on H = 0"
+                                : NULL;
+    if (o->starts == 0 && o->at_count == 0) return ISO_OK;
+    if (why)
+        return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect ? effect->name : "starts",
+                                "no other starts can be given here: %s%s%s", why, effect ? ", without " : "",
+                                effect ? effect->name : "");
+    for (size_t i = 0; i < o->at_count; i++) {
+        const double l = o->at[i][0], x = o->at[i][1];
+        if (isfinite(l) && fabs(x) < 1) continue;
+        if (fabs(x) == 1)
+            return iso_context_fail(w->ctx, ISO_BAD_INPUT, "at",
+                                    "l, x = %g, %g is on the boundary of the chart: it is the rotation about axis "
+                                    "%d, in the plane n_%d = 0, which crosses the section nowhere",
+                                    l, x, o->axis + 1, o->axis + 1);
+        return iso_context_fail(w->ctx, ISO_BAD_INPUT, "at",
+                                "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1", l, x);
+    }
+    return ISO_OK;
+}
+
+static iso_status check_column(const iso_section_walk *w)
+{
+    const int column = w->options.column;
+    if (w->chart || column >= iso_columns_count() || column < ISO_COLUMN_EFFECTS) return ISO_OK;
+    const iso_effect_id effect = iso_column_effect(column);
+    if (w->scene->effects.on[effect]) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "columns", "column '%s' needs the effect '%s'",
+                            iso_column_name(column), iso_effect_list[effect]->name);
+}
+
+/* --- what is done ----------------------------------------------------------------------------------------------- */
+
+static void choose_section(iso_section_walk *w)
+{
+    iso_section_options *o = &w->options;
+    if (iso_section_is_of_axis(o->column, o->value, &o->axis)) o->column = -1;
+    w->chart = o->column < 0;
+}
+
+/* Observers cost time: only the one stays whose column is looked at. */
+static void choose_effects(iso_section_walk *w)
+{
+    const int column = w->options.column;
+    w->effects = iso_effects_acting(&w->scene->effects);
+    if (column < ISO_COLUMN_EFFECTS || column >= iso_columns_count()) return;
+    const iso_effect_id effect = iso_column_effect(column);
+    w->effects.on[effect] = w->scene->effects.on[effect];
+}
+
+static void choose_models(iso_section_walk *w)
+{
+    const iso_effects *e = &w->effects;
+    iso_shown models = w->options.models;
+    if (models == ISO_SHOW_START)
+        models = iso_effects_breaking(e) || iso_effects_ball_only(e) ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
+    w->result->models = models;
+    w->models = models == ISO_SHOW_BOTH ? 2 : 1;
+    w->model[0] = models == ISO_SHOW_POINT ? ISO_POINT : ISO_BALL;
+    w->model[1] = ISO_POINT;
+}
+
+/* The scene's own orbit: with all clocks where they fit. */
+static iso_status open_orbit(iso_section_walk *w)
+{
+    iso_orbit_options o = iso_orbit_defaults(&w->scene->start);
+    const bool mapped = !iso_effects_breaking(&w->effects);
+    o.effects = &w->effects;
+    o.backend = (iso_backend)w->model[0];
+    o.clock = w->model[0] == ISO_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
+    o.shown = w->models == 2 ? ISO_SHOW_BOTH : (iso_shown)w->model[0];
+    o.tolerance = w->options.tolerance;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = mapped;
+    iso_status status = iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit);
+    w->clocks = status == ISO_OK && iso_orbit_has_twin(w->orbit);
+    if (status != ISO_NUMERICAL || !mapped || w->models == 2) return status;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = false;
+    return iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit);
+}
+
+/* The states shown; with those of the ball, the columns of its effects. */
+static void choose_columns(iso_section_walk *w)
+{
+    const iso_shown shown = w->options.shown;
+    const bool ball = shown == ISO_SHOW_BALL || shown == ISO_SHOW_BOTH;
+    const bool point = shown == ISO_SHOW_POINT || shown == ISO_SHOW_BOTH;
+    for (int c = ISO_COLUMN_BALL; c < iso_columns_count(); c++) {
+        const iso_effect_id effect = iso_column_effect(c);
+        const bool there = c < ISO_COLUMN_POINT     ? ball
+                           : c < ISO_COLUMN_EFFECTS ? point
+                                                    : ball && effect < ISO_EFFECTS && w->effects.on[effect];
+        if (there) w->columns[w->count++] = c;
+    }
+}
+
+/* --- the header ------------------------------------------------------------------------------------------------- */
+
+static iso_status create_header(const iso_section_walk *w, iso_record **header)
+{
+    const char *names[ISO_MAX_COLUMNS] = {"orbit", "crossing"};
+    size_t n = 2;
+    for (iso_clock c = 0; c < (w->clocks ? ISO_CLOCKS : 1); c++) names[n++] = iso_clock_name(c);
+    if (w->chart) names[n++] = "l";
+    if (w->chart) names[n++] = "x";
+    for (int c = 0; c < w->count; c++) names[n++] = iso_column_name(w->columns[c]);
+    iso_status status = iso_record_create(w->ctx, n, names, header);
+    if (status == ISO_OK)
+        status =
+            iso_record_describe(w->ctx, *header, iso_shown_name((int)w->result->models), &w->scene->params, w->orbit);
+    return status;
+}
+
+/* Numbers that are whole, as text. */
+static iso_status set_whole(const iso_section_walk *w, iso_record *r, const char *key, uint64_t value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%" PRIu64, value);
+    return iso_record_set(w->ctx, r, key, text);
+}
+
+static iso_status set_start(const iso_section_walk *w, iso_record *r)
+{
+    const iso_start *start = &w->scene->start;
+    const bool ball = start->model == ISO_BALL;
+    const iso_status status =
+        iso_record_set_numbers(w->ctx, r, ball ? "initial.normal" : "initial.gamma", 3, start->y + 3);
+    if (status != ISO_OK) return status;
+    return iso_record_set_numbers(w->ctx, r, ball ? "initial.angular_velocity" : "initial.M", 3, start->y);
+}
+
+static iso_status set_section(const iso_section_walk *w, iso_record *r)
+{
+    const iso_section_options *o = &w->options;
+    char text[96];
+    if (w->chart)
+        snprintf(text, sizeof text, "n%d = 0, increasing; %s", o->axis + 1,
+                 w->result->nature.global ? "global" : "not known to be global");
+    else
+        snprintf(text, sizeof text, "%s = %.17g, increasing", iso_column_name(o->column), o->value);
+    const iso_status status = iso_record_set(w->ctx, r, "section", text);
+    return status == ISO_OK && w->chart ? set_whole(w, r, "axis", (size_t)o->axis + 1) : status;
+}
+
+/* A line of a file has room for so many points, of more only their number is told. */
+static iso_status set_at(const iso_section_walk *w, iso_record *r)
+{
+    enum { MOST = 500 };
+    const iso_section_options *o = &w->options;
+    char text[64];
+    if (o->at_count <= MOST) return iso_record_set_numbers(w->ctx, r, "at", 2 * o->at_count, o->at[0]);
+    snprintf(text, sizeof text, "%zu points l, x", o->at_count);
+    return iso_record_set(w->ctx, r, "at", text);
+}
+
+static iso_status describe(const iso_section_walk *w, iso_record *r)
+{
+    const iso_section_options *o = &w->options;
+    iso_status status = set_start(w, r);
+    if (status == ISO_OK) status = set_section(w, r);
+    if (status == ISO_OK) status = set_whole(w, r, "crossings", o->crossings);
+    if (status == ISO_OK && o->starts > 0) status = set_whole(w, r, "starts", o->starts);
+    if (status == ISO_OK && o->starts > 0) status = set_whole(w, r, "seed", o->seed);
+    if (status == ISO_OK && o->at_count > 0) status = set_at(w, r);
+    if (status == ISO_OK) status = iso_record_set(w->ctx, r, "backend", iso_backend_name((int)w->model[0]));
+    if (status == ISO_OK) status = iso_record_set_numbers(w->ctx, r, "tolerance", 1, &o->tolerance);
+    return status == ISO_OK ? iso_record_set(w->ctx, r, "isoroll", ISO_VERSION) : status;
+}
+
+iso_status iso_section_give_header(iso_section_walk *w)
+{
+    iso_record *header = NULL;
+    iso_status status = create_header(w, &header);
+    if (status == ISO_OK) status = describe(w, header);
+    if (status == ISO_OK && w->sink->header) status = w->sink->header(w->sink->data, header);
+    iso_record_free(header);
+    w->begun = true;
+    return status;
+}
+
+/* --- the whole -------------------------------------------------------------------------------------------------- */
+
+static iso_status check(iso_section_walk *w)
+{
+    iso_section_options *o = &w->options;
+    if (o->crossings == 0) return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "crossings", "no crossing is asked for");
+    if (o->axis < ISO_AXIS_AUTO || o->axis > 2)
+        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "axis", "axis %d is none of 0, 1, 2", o->axis);
+    if (isnan(o->tolerance)) o->tolerance = w->scene->tolerance;
+    choose_section(w);
+    choose_effects(w);
+    choose_models(w);
+    w->result->orbits = 1 + o->starts + o->at_count;
+    const iso_status status = check_rest(w);
+    return status == ISO_OK ? check_column(w) : status;
+}
+
+static void tell_nature(iso_section_walk *w)
+{
+    iso_section_nature *n = &w->result->nature;
+    *n = iso_section_of(w->orbit, w->options.axis);
+    if (w->chart)
+        w->options.axis = n->axis;
+    else
+        *n = (iso_section_nature){.axis = -1, .words = "an event is not known to be a global section"};
+    if (!n->global && w->sink->note) w->sink->note(w->sink->data, n->words);
+}
+
+static iso_status set_up(iso_section_walk *w)
+{
+    iso_status status = check(w);
+    if (status == ISO_OK) status = open_orbit(w);
+    if (status == ISO_OK) status = check_losses(w);
+    if (status != ISO_OK) return status;
+    if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(&w->scene->params);
+    status = check_starts(w);
+    if (status != ISO_OK) return status;
+    choose_columns(w);
+    iso_section_spread_prepare(&w->spread, &w->scene->params, w->options.axis, w->options.seed);
+    status = iso_section_make_room(w);
+    return status == ISO_OK ? iso_section_open_group(w) : status;
+}
+
+static iso_status walk(iso_section_walk *w)
+{
+    iso_status status = ISO_OK;
+    while (status == ISO_OK) {
+        status = iso_section_walk_group(w);
+        iso_section_close_group(w);
+        w->first += w->members;
+        if (status != ISO_OK || w->first >= w->result->orbits) break;
+        status = iso_section_open_group(w);
+    }
+    return status;
+}
+
+iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
+                           const iso_section_sink *sink, iso_section_result *result)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_section_result unused;
+    iso_section_walk w = {.ctx = ctx, .scene = scene, .sink = sink, .result = result ? result : &unused};
+    w.options = iso_section_defaults();
+    *w.result = (iso_section_result){.nature = {.axis = -1}};
+    iso_status status = iso_options_take(ctx, "iso_section_options", &w.options, sizeof w.options, options);
+    if (status == ISO_OK) status = set_up(&w);
+    if (status == ISO_OK) tell_nature(&w);
+    if (status == ISO_OK) status = walk(&w);
+    iso_section_free_room(&w);
+    iso_orbit_free(w.orbit);
+    if (status == ISO_OK && w.result->rows == 0 && w.result->failed > 0)
+        return iso_context_fail(ctx, w.result->failure, "", "%s", w.result->words);
+    return status;
+}

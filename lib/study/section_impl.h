@@ -1,0 +1,61 @@
+/* section_impl.h - what the files of iso_section_run share.
+ *
+ *     section.c           checks, the header, the groups of orbits
+ *     section_walk.c      one group: its starts, its crossings by one model or two, its rows
+ */
+#ifndef ISO_STUDY_SECTION_IMPL_H
+#define ISO_STUDY_SECTION_IMPL_H
+
+#include "map/section.h"
+#include "study/section.h"
+
+/* Of an orbit of the group. */
+typedef struct iso_section_member {
+    size_t found[2]; /* crossings, by the first model and by the second       */
+    bool failed, parted;
+    double distance; /* the largest so far between the two, and its crossing  */
+    size_t crossing;
+} iso_section_member;
+
+typedef struct iso_section_walk {
+    iso_context *ctx;
+    const iso_scene *scene;
+    const iso_section_sink *sink;
+    iso_section_result *result;
+    iso_section_options options;
+    iso_effects effects; /* of the scene, without observers that nobody looks at  */
+    iso_orbit *orbit;    /* the scene's own: its units, its energy                */
+    iso_section_spread spread;
+    bool clocks, chart;                  /* rows have tau and s; l and x                          */
+    int columns[ISO_MAX_COLUMNS], count; /* of the samples, behind those                   */
+    int models;                          /* 1 or 2 ... */
+    iso_model_kind model[2];             /* ... that are integrated; rows are the first one's     */
+    bool begun;                          /* the sink has the header */
+    /* the group */
+    size_t group, slice, slices; /* orbits in it; crossings asked for at a time; slices kept in memory */
+    size_t first, members;
+    iso_start *start;
+    iso_batch_orbit *batch;
+    iso_section_member *member;
+    iso_crossings *crossings[2];
+    iso_crossing *crossing[2]; /* [slice][orbit][crossing]                              */
+    iso_sample *sample;        /* likewise, of the first model; NULL: no column needs it */
+    size_t *done[2];           /* [slice][orbit]                                        */
+    iso_status *status[2];
+} iso_section_walk;
+
+/* Gives it to the sink: before the first row, so that a scene without any crossing opens no file. */
+iso_status iso_section_give_header(iso_section_walk *w);
+
+/* Room for a group. Errors: ISO_NO_MEMORY. */
+iso_status iso_section_make_room(iso_section_walk *w);
+void iso_section_free_room(iso_section_walk *w);
+
+/* Makes the group that begins with orbit w->first. Errors: those of iso_crossings_create. */
+iso_status iso_section_open_group(iso_section_walk *w);
+void iso_section_close_group(iso_section_walk *w);
+
+/* Finds its crossings and gives the rows to the sink. Errors: of the sink, ISO_STOPPED, ISO_NO_MEMORY. */
+iso_status iso_section_walk_group(iso_section_walk *w);
+
+#endif

@@ -1,0 +1,265 @@
+/* Exponent, MEGNO, GALI_2 and the verdict of lib/study/indicators.h, on maps of the plane with exact derivatives. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+
+#include "base/pi_impl.h"
+#include "base/random.h"
+#include "length.h"
+#include "study/indicators.h"
+
+enum { TURNS = 3000 };
+
+/* An orbit of a map with two deviations beside it. The deviation i is d[i] exp(grown[i]). */
+typedef struct orbit {
+    double x, y, d[2][2], grown[2];
+    long turns;
+} orbit;
+
+typedef struct map {
+    const char *name;
+    void (*step)(orbit *o, double parameter);
+    double parameter;
+} map;
+
+static void apply(orbit *o, double a, double b, double c, double d)
+{
+    for (int i = 0; i < 2; i++) {
+        double *v = o->d[i], u = a * v[0] + b * v[1];
+        v[1] = c * v[0] + d * v[1];
+        v[0] = u;
+        const double length = hypot(v[0], v[1]);
+        if (length < 1e6 && length > 1e-6) continue;
+        for (int j = 0; j < 2; j++) v[j] /= length;
+        o->grown[i] += log(length);
+    }
+}
+
+/* y' = y + K sin x, x' = x + y' */
+static void standard(orbit *o, double K)
+{
+    const double slope = K * cos(o->x);
+    o->y = remainder(o->y + K * sin(o->x), 2 * ISO_PI);
+    o->x = remainder(o->x + o->y, 2 * ISO_PI);
+    apply(o, 1 + slope, 1, slope, 1);
+}
+
+/* McMillan: x' = y, y' = -x + 2 mu y/(1 + y^2), with the integral x^2 y^2 + x^2 + y^2 - 2 mu x y. For mu > 1 the
+ * origin is unstable and I = 0 its separatrix. */
+static void mcmillan(orbit *o, double mu)
+{
+    const double y = o->y, square = 1 + y * y;
+    o->y = -o->x + 2 * mu * y / square;
+    o->x = y;
+    apply(o, 0, 1, -1, 2 * mu * (1 - y * y) / (square * square));
+}
+
+/* (x, y) -> (2 x + y, x + y): its exponent is ln((3 + sqrt 5)/2) */
+static void cat(orbit *o, double unused)
+{
+    const double x = o->x, y = o->y;
+    (void)unused;
+    o->x = remainder(2 * x + y, 2 * ISO_PI);
+    o->y = remainder(x + y, 2 * ISO_PI);
+    apply(o, 2, 1, 1, 1);
+}
+
+static void turn(orbit *o, double angle)
+{
+    const double c = cos(angle), s = sin(angle), x = o->x;
+    o->x = c * x - s * o->y;
+    o->y = s * x + c * o->y;
+    apply(o, c, -s, s, c);
+}
+
+static orbit start(double x, double y)
+{
+    return (orbit){.x = x, .y = y, .d = {{1, 0}, {0, 1}}};
+}
+
+/* The clocks run 2, 3 and 1/2 times as fast as the turns. */
+static iso_beat beat_of(const orbit *o)
+{
+    const double n = (double)o->turns, x = o->x, y = o->y;
+    iso_beat b = {.clock = {2 * n, 3 * n, n / 2}};
+    double length[2];
+    for (int i = 0; i < 2; i++) {
+        length[i] = hypot(o->d[i][0], o->d[i][1]);
+        b.growth[i] = o->grown[i] + log(length[i]);
+    }
+    b.area = fabs(o->d[0][0] * o->d[1][1] - o->d[0][1] * o->d[1][0]) / (length[0] * length[1]);
+    b.seen[0] = cos(x) + sin(x) * cos(y);
+    b.seen[1] = sin(x + 1) * sin(x + 1);
+    b.seen[2] = cos(y) + sin(y) / 2;
+    return b;
+}
+
+/* Until it is decided, or `most` turns. */
+static iso_indication follow(const map *m, orbit *o, long most)
+{
+    iso_indicators it;
+    iso_indication told;
+    iso_indicators_begin(&it, most);
+    while (o->turns < most && iso_indicators_verdict(&it) == ISO_UNDECIDED) {
+        m->step(o, m->parameter);
+        o->turns++;
+        const iso_beat b = beat_of(o);
+        iso_indicators_add(&it, &b);
+    }
+    iso_indicators_tell(&it, &told);
+    return told;
+}
+
+/* Whether the orbit goes on to grow apart by exp(40): longer than a regular orbit can make a linear growth. */
+static bool grows(const map *m, orbit *o, long most)
+{
+    const double start_growth = o->grown[0];
+    while (o->turns < most && o->grown[0] - start_growth < 40) {
+        m->step(o, m->parameter);
+        o->turns++;
+    }
+    return o->turns < most;
+}
+
+/* --- single orbits ---------------------------------------------------------------------------------------------- */
+
+static void check_cat(void)
+{
+    const double exact = log((3 + sqrt(5)) / 2);
+    const map m = {"the cat map", cat, 0};
+    orbit o = start(1, 0.3);
+    const iso_indication told = follow(&m, &o, TURNS);
+    gsl_test_int((int)told.verdict, ISO_CHAOTIC, "verdict of the cat map");
+    gsl_test_int(told.turns < 200, 1, "the cat map is decided at %ld turns", told.turns);
+    gsl_test_abs(told.per_turn, exact, 1e-12, "exponent of the cat map");
+    gsl_test_abs(told.exponent[ISO_CLOCK_T], exact / 2, 1e-12, "... per unit of t");
+    gsl_test_abs(told.exponent[ISO_CLOCK_TAU], exact / 3, 1e-12, "... of tau");
+    gsl_test_abs(told.exponent[ISO_CLOCK_S], exact * 2, 1e-12, "... of s");
+    gsl_test_abs(told.megno_now, exact * (double)told.turns, 2, "MEGNO of the cat map, lam n");
+    gsl_test_abs(told.megno_mean, exact * (double)(told.turns + 1) / 2, 2, "its mean, lam n/2");
+    gsl_test(!(told.gali2 < 1e-12), "GALI_2 of the cat map: %g", told.gali2);
+}
+
+/* A rotation has no shear: MEGNO is 0. A rotation is a regular motion. */
+static void check_rotation(void)
+{
+    const map m = {"a rotation", turn, 2.3};
+    orbit o = start(1, 0.3);
+    const iso_indication told = follow(&m, &o, TURNS);
+    gsl_test_int((int)told.verdict, ISO_REGULAR, "verdict of a rotation");
+    gsl_test_abs(told.megno, 0, 0.02, "MEGNO of a rotation");
+    gsl_test_abs(told.gali2, 1, 1e-9, "GALI_2 of a rotation");
+    gsl_test_abs(told.per_turn, 0, 1e-9, "exponent of a rotation");
+}
+
+/* For large K the exponent of the standard map is ln(K/2) + O(1/K^2). The error that is stated is that of many
+ * orbits: about two thirds of them are within it. */
+static void check_exponent(iso_random *r)
+{
+    enum { ORBITS = 300, LONG = 2000 };
+    const map m = {"K = 30", standard, 30};
+    double sum = 0, square = 0, stated = 0;
+    for (int i = 0; i < ORBITS; i++) {
+        orbit o = start(iso_random_uniform(r, -ISO_PI, ISO_PI), iso_random_uniform(r, -ISO_PI, ISO_PI));
+        iso_indicators it;
+        iso_indication told;
+        iso_indicators_begin(&it, LONG);
+        while (o.turns < LONG) {
+            m.step(&o, m.parameter);
+            o.turns++;
+            const iso_beat b = beat_of(&o);
+            iso_indicators_add(&it, &b);
+        }
+        iso_indicators_tell(&it, &told);
+        sum += told.per_turn;
+        square += (told.per_turn - log(15)) * (told.per_turn - log(15));
+        stated += told.per_turn_error;
+    }
+    const double scatter = sqrt(square / ORBITS);
+    gsl_test_abs(sum / ORBITS, log(15), 2e-3, "exponent of the standard map at K = 30");
+    gsl_test_rel(stated / ORBITS, scatter, 0.25, "its stated error, against the scatter of orbits");
+}
+
+/* --- many orbits ------------------------------------------------------------------------------------------------ */
+
+/* Next to a separatrix |d| changes by factors of up to 1e12 and grows like n on the average. */
+static void check_separatrix(iso_random *r)
+{
+    const int count = tests_length(300, 20000);
+    int verdicts[3] = {0}, off = 0;
+    for (int i = 0; i < count; i++) {
+        const double mu = iso_random_uniform(r, 1.1, 3),
+                     I = pow(10, iso_random_uniform(r, -6, -1)) * (i % 2 ? 1 : -1);
+        const double root = (mu - 1) * (mu - 1) + I, square = mu - 1 + sqrt(fmax(root, 0));
+        const map m = {"McMillan", mcmillan, mu};
+        orbit o = start(sqrt(square), sqrt(square));
+        const iso_indication told = follow(&m, &o, TURNS);
+        verdicts[told.verdict]++;
+        off += told.verdict == ISO_REGULAR && fabs(told.megno - 2) > 0.02 && fabs(told.megno) > 0.02;
+    }
+    gsl_test_int(verdicts[ISO_CHAOTIC], 0, "integrable orbits called chaotic, of %d", count);
+    gsl_test(verdicts[ISO_UNDECIDED] > count / 100, "integrable orbits undecided: %d of %d", verdicts[ISO_UNDECIDED],
+             count);
+    gsl_test_int(off, 0, "regular orbits whose MEGNO is not 2 +- 0.02");
+}
+
+/* The chaotic sea, with the orbits that stick to islands for long. What is chaotic, a long run tells. */
+static void check_sea(iso_random *r, double K, double most_undecided)
+{
+    const int count = tests_length(150, 10000);
+    const map m = {"standard", standard, K};
+    int sea[3] = {0}, rest[3] = {0}, all = 0;
+    for (int i = 0; i < count; i++) {
+        orbit o = start(iso_random_uniform(r, -ISO_PI, ISO_PI), iso_random_uniform(r, -ISO_PI, ISO_PI));
+        const iso_indication told = follow(&m, &o, TURNS);
+        const bool chaotic = grows(&m, &o, 100000);
+        (chaotic ? sea : rest)[told.verdict]++;
+        all += chaotic;
+    }
+    gsl_test_int(sea[ISO_REGULAR], 0, "K = %g: chaotic orbits called regular, of %d", K, all);
+    gsl_test(sea[ISO_UNDECIDED] > most_undecided * all + 1, "K = %g: chaotic orbits undecided: %d of %d", K,
+             sea[ISO_UNDECIDED], all);
+    gsl_test(rest[ISO_CHAOTIC] > 0.005 * count + 1, "K = %g: regular orbits called chaotic: %d of %d", K,
+             rest[ISO_CHAOTIC], count - all);
+    gsl_test(rest[ISO_UNDECIDED] > 0.3 * count, "K = %g: regular orbits undecided: %d of %d", K, rest[ISO_UNDECIDED],
+             count - all);
+}
+
+/* A verdict holds, and what is told before there is anything to tell is NaN. */
+static void check_edges(void)
+{
+    iso_indicators it;
+    iso_indication told;
+    iso_indicators_begin(&it, TURNS);
+    iso_indicators_tell(&it, &told);
+    gsl_test_int((int)told.verdict, ISO_UNDECIDED, "verdict of nothing");
+    gsl_test(!isnan(told.per_turn) || !isnan(told.megno), "exponent and MEGNO of nothing are not known");
+    const map m = {"K = 5", standard, 5};
+    orbit o = start(3, 0.2);
+    const iso_indication first = follow(&m, &o, 50);
+    gsl_test_int((int)first.verdict, ISO_UNDECIDED, "verdict at 50 turns");
+    iso_indicators_begin(&it, 50); /* it may go on */
+    for (o = start(3, 0.2); o.turns < 1000; o.turns++) {
+        const iso_beat b = beat_of(&o);
+        if (o.turns > 0) iso_indicators_add(&it, &b);
+        m.step(&o, m.parameter);
+    }
+    gsl_test_int((int)iso_indicators_verdict(&it), ISO_CHAOTIC, "verdict of one that goes on");
+}
+
+int main(void)
+{
+    iso_random *r = iso_random_create(11);
+    if (!r) return 1;
+    check_cat();
+    check_rotation();
+    check_edges();
+    check_exponent(r);
+    check_separatrix(r);
+    check_sea(r, 0.9, 0.06);
+    check_sea(r, 1.5, 0.015);
+    check_sea(r, 5, 0.01);
+    iso_random_free(r);
+    return gsl_test_summary();
+}

@@ -1,0 +1,351 @@
+/* iso_section_run (study/section.h): rows are those of crossings asked for one orbit at a time; starts, both models,
+ * what is refused, and what is kept when a sink, the monitor or a failure ends the work. */
+#include <gsl/gsl_test.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/scene_file.h"
+#include "laws.h"
+#include "length.h"
+#include "map/section.h"
+#include "map/state.h"
+#include "study/section.h"
+
+static iso_context *ctx;
+
+enum { MOST = 20000, WIDTH = 40 };
+
+/* What a sink was given. */
+typedef struct kept {
+    size_t rows, columns, pairs, headers, notes, most; /* most: rows that it takes */
+    double (*row)[WIDTH];
+    char names[512], words[512];
+    double part;
+    iso_section_result result;
+    iso_status status;
+} kept;
+
+static iso_status keep_header(void *data, const iso_record *header)
+{
+    kept *k = data;
+    k->headers++;
+    k->columns = iso_record_columns(header);
+    for (size_t i = 0; i < k->columns; i++) {
+        strcat(k->names, i ? "," : "");
+        strcat(k->names, iso_record_name(header, i));
+    }
+    return ISO_OK;
+}
+
+static iso_status keep_row(void *data, const double row[], size_t count)
+{
+    kept *k = data;
+    gsl_test(count != k->columns || k->headers != 1, "a row has the header's columns");
+    if (k->rows == k->most) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "full");
+    memcpy(k->row[k->rows++], row, count * sizeof *row);
+    return ISO_OK;
+}
+
+static iso_status keep_pair(void *data, size_t orbit, const iso_crossing *ball, const iso_crossing *point)
+{
+    kept *k = data;
+    const double *row = k->row[k->rows - 1];
+    k->pairs += row[0] == (double)orbit && row[2] == ball->clock[ISO_CLOCK_T] && isfinite(point->l);
+    return ISO_OK;
+}
+
+static void keep_note(void *data, const char *words)
+{
+    kept *k = data;
+    k->notes++;
+    snprintf(k->words, sizeof k->words, "%s", words);
+}
+
+static void keep_progress(void *data, double part)
+{
+    kept *k = data;
+    gsl_test(!(part >= k->part && part <= 1), "progress grows to 1: %g after %g", part, k->part);
+    k->part = part;
+}
+
+static kept *run(const char *text, const iso_section_options *o, size_t most)
+{
+    iso_scene scene = iso_scene_default();
+    kept *k = calloc(1, sizeof *k);
+    k->row = calloc(MOST, sizeof *k->row);
+    k->most = most;
+    const iso_section_sink sink = {keep_header, keep_row, keep_pair, keep_note, keep_progress, k};
+    if (iso_scene_parse(ctx, "test", text, strlen(text), &scene) != ISO_OK) {
+        gsl_test(1, "a scene is refused: %s", iso_context_message(ctx));
+        exit(gsl_test_summary());
+    }
+    k->status = iso_section_run(ctx, &scene, o, &sink, &k->result);
+    return k;
+}
+
+static void release(kept *k)
+{
+    free(k->row);
+    free(k);
+}
+
+#define REDUCED(k) "reduced: {k: " k ", J: [1, 2, 5], D: 0.5}\n"
+#define START "initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}\n"
+#define TIME "time: {end: 1}\n"
+#define FREE(k) REDUCED(k) START TIME
+
+/* --- rows ------------------------------------------------------------------------------------------------------- */
+
+/* Rows are ordered by orbit and crossing, and orbit i is the one of the chart's point. */
+static void check_rows(void)
+{
+    static const double at[2][2] = {{0.5, 0.1}, {-2, 0.999999}};
+    iso_section_options o = iso_section_defaults();
+    o.crossings = 7;
+    o.starts = 40;
+    o.seed = 5;
+    o.at = at;
+    o.at_count = 2;
+    o.models = ISO_SHOW_BALL;
+    kept *all = run(FREE("0.5"), &o, MOST);
+    gsl_test_int(all->status, ISO_OK, "a section: %s", iso_context_message(ctx));
+    gsl_test_int((int)all->rows, 43 * 7, "all rows");
+    gsl_test_str(all->names, "orbit,crossing,t,tau,s,l,x", "columns");
+    gsl_test(all->part < 1, "progress comes to its end");
+    gsl_test(!all->result.nature.global || all->result.nature.axis != 2 || all->notes,
+             "the global section is silent");
+    int order = 0;
+    for (size_t i = 0; i < all->rows; i++)
+        order += all->row[i][0] != (double)(i / 7) || all->row[i][1] != (double)(i % 7 + 1);
+    gsl_test_int(order, 0, "rows by orbit, then by crossing");
+    o.starts = 0; /* each orbit of --at stays the same */
+    kept *few = run(FREE("0.5"), &o, MOST);
+    gsl_test_int(memcmp(all->row[0] + 2, few->row[0] + 2, 5 * sizeof(double)), 0, "the scene's own orbit");
+    for (size_t i = 0; i < 14; i++)
+        gsl_test_int(memcmp(all->row[41 * 7 + i] + 2, few->row[7 + i] + 2, 5 * sizeof(double)), 0,
+                     "given starts, row %zu", i);
+    release(few);
+    release(all);
+}
+
+/* All orbits have the scene's energy: h of each row's state. */
+static void check_energy(void)
+{
+    static const char *const scenes[] = {FREE("0.5"), FREE("-1"), FREE("-0.3"), FREE("2")};
+    for (int s = 0; s < 4; s++)
+        for (iso_shown model = ISO_SHOW_BALL; model <= ISO_SHOW_BOTH; model++) {
+            iso_section_options o = iso_section_defaults();
+            const iso_params p = laws_params((const double[]){0.5, -1, -0.3, 2}[s], (const double[]){1, 2, 5});
+            laws_worst energy = {0}, section = {0}, chart = {0};
+            o.crossings = 5;
+            o.starts = 20;
+            o.models = model;
+            o.shown = ISO_SHOW_BOTH;
+            kept *k = run(scenes[s], &o, MOST);
+            const double h = (0.81 + 2 * 0.09 + 5 * 0.225 * 0.225) / 2;
+            for (size_t i = 0; i < k->rows; i++) {
+                const double *ball = k->row[i] + 7, *point = ball + 6;
+                double l, x;
+                iso_section_chart(k->result.nature.axis, point, &l, &x);
+                laws_note(&energy, fabs(iso_ball_energy(&p, ball) / h - 1), 1e-13, &p, "h");
+                laws_note(&energy, fabs(iso_point_energy(&p, point) / h - 1), 1e-12, &p, "h of the point");
+                laws_note(&section, fabs(ball[3 + k->result.nature.axis]), 2e-13, &p, "n_a");
+                laws_note(&chart, fabs(l - k->row[i][5]) + fabs(x - k->row[i][6]), 1e-12, &p, "l, x");
+            }
+            gsl_test_int((int)k->columns, 19, "columns with the states of both: %s", k->names);
+            laws_report(&energy, "all crossings have the energy of the scene");
+            laws_report(&section, "all lie on the section");
+            laws_report(&chart, "l and x are those of the states");
+            release(k);
+        }
+}
+
+/* --- both models ------------------------------------------------------------------------------------------------ */
+
+/* k = -1 is integrable: the models stay together. k = 0.5 is not: chaotic orbits part. */
+static void check_both(void)
+{
+    iso_section_options o = iso_section_defaults();
+    o.starts = (size_t)tests_length(20, 100);
+    o.crossings = (size_t)tests_length(60, 200);
+    kept *k = run(FREE("-1"), &o, MOST);
+    const iso_section_result *r = &k->result;
+    gsl_test_int(r->models, ISO_SHOW_BOTH, "both models, if nothing is said");
+    gsl_test(r->crossings[0] != k->rows || r->crossings[1] != k->rows || r->unequal, "equal numbers of crossings");
+    gsl_test_int((int)k->pairs, (int)k->rows, "each row has its pair");
+    gsl_test(!(r->distance > 0 && r->distance < 1e-9) || r->parted, "k = -1: together, %g apart", r->distance);
+    release(k);
+    k = run(FREE("0.5"), &o, MOST);
+    gsl_test(r->parted == 0 || r->parted_crossing < 5 || r->parted == o.starts + 1, "k = 0.5: some orbits part");
+    gsl_test(k->result.parted == 0, "k = 0.5: %zu part, the first is %zu at %zu", k->result.parted,
+             k->result.parted_orbit, k->result.parted_crossing);
+    gsl_test(!(k->result.distance < ISO_SECTION_PARTED), "and others do not");
+    release(k);
+}
+
+/* A group of orbits more or less changes no row: very long orbits make groups of few. */
+static void check_groups(void)
+{
+    iso_section_options o = iso_section_defaults();
+    o.models = ISO_SHOW_BALL;
+    o.starts = 2;
+    o.crossings = 3000;
+    kept *k = run(FREE("-1"), &o, MOST);
+    gsl_test_int((int)k->rows, 9000, "three long orbits");
+    o.crossings = 3008; /* a multiple of the slices, 3000 is none */
+    kept *more = run(FREE("-1"), &o, MOST);
+    int wrong = 0;
+    for (size_t i = 0; i < 3 * 3000; i++)
+        wrong += memcmp(k->row[i], more->row[i / 3000 * 3008 + i % 3000], 7 * sizeof(double)) != 0;
+    gsl_test_int(wrong, 0, "the same crossings among more");
+    release(more);
+    o.crossings = 300000; /* one orbit in a group, in slices that go away one by one; the sink ends it */
+    kept *one = run(FREE("-1"), &o, 9000);
+    gsl_test_int(one->status, ISO_FILE_TROUBLE, "the sink's answer");
+    gsl_test_int((int)one->rows, 9000, "rows before");
+    gsl_test_int(memcmp(k->row[2999] + 2, one->row[2999] + 2, 5 * sizeof(double)), 0, "the same crossing 3000");
+    release(one);
+    release(k);
+}
+
+/* --- other scenes ----------------------------------------------------------------------------------------------- */
+
+static void check_effects(void)
+{
+    iso_section_options o = iso_section_defaults();
+    o.crossings = 3;
+    o.shown = ISO_SHOW_BALL;
+    kept *k = run(FREE("0.5") "effects: {gravity: {mgb: 0.3, up: [0, 0.6, 0.8]}, attitude: {}}\n", &o, MOST);
+    gsl_test_str(k->names, "orbit,crossing,t,l,x,omega1,omega2,omega3,n1,n2,n3,e1,e2,e3", "gravity: columns");
+    gsl_test(k->rows != 3 || k->result.nature.global || !strstr(k->words, "'gravity'"), "gravity: %s", k->words);
+    gsl_test_int(k->result.models, ISO_SHOW_BALL, "gravity: the ball alone");
+    release(k);
+    k = run(FREE("0.5") "effects: {field: {linear: [0.1, 0.1, 0.05]}}\n", &o, MOST);
+    gsl_test(k->rows != 3 || k->result.nature.global || k->result.distance > 1e-10, "a field has both models");
+    release(k);
+    o.axis = 0;
+    k = run(FREE("0.5"), &o, MOST);
+    gsl_test(k->result.nature.global || !strstr(k->words, "n_3 = 0 is global"), "another axis: %s", k->words);
+    release(k);
+    o.axis = ISO_AXIS_AUTO;
+    o.column = iso_column_find("gamma3");
+    k = run(FREE("0.5"), &o, MOST);
+    kept *same = run(FREE("0.5"), NULL, 3);
+    gsl_test(!k->result.nature.global || memcmp(k->row[2], same->row[2], 7 * sizeof(double)) != 0,
+             "gamma3 = 0 is the section of axis 3");
+    release(same);
+    o.value = 0.3;
+    release(k);
+    k = run(FREE("0.5"), &o, MOST);
+    gsl_test_str(k->names, "orbit,crossing,t,tau,s,omega1,omega2,omega3,n1,n2,n3", "an event has no chart");
+    gsl_test(k->rows != 3 || !(k->result.distance < 1e-9) || k->notes != 1, "an event");
+    release(k);
+}
+
+/* --- refusals and ends ------------------------------------------------------------------------------------------ */
+
+static void refuse(const char *scene, const iso_section_options *o, iso_status status, const char *words)
+{
+    kept *k = run(scene, o, MOST);
+    gsl_test_int(k->status, status, "refused: %s", iso_context_message(ctx));
+    gsl_test(!strstr(iso_context_message(ctx), words), "in the words '%s': %s", words, iso_context_message(ctx));
+    gsl_test(k->headers || k->rows, "before any row");
+    release(k);
+}
+
+static void check_refusals(void)
+{
+    static const double bad[][2] = {{0, 1}, {0, -1}, {0, 1.5}, {NAN, 0}, {0, NAN}};
+    iso_section_options o = iso_section_defaults();
+    o.at_count = 1;
+    for (int i = 0; i < 5; i++) {
+        o.at = &bad[i];
+        refuse(FREE("0.5"), &o, ISO_BAD_INPUT, i < 2 ? "boundary" : "outside the chart");
+    }
+    o = iso_section_defaults();
+    o.crossings = 0, refuse(FREE("0.5"), &o, ISO_BAD_ARGUMENT, "no crossing");
+    o = iso_section_defaults();
+    o.axis = 3, refuse(FREE("0.5"), &o, ISO_BAD_ARGUMENT, "axis 3");
+    o = iso_section_defaults();
+    o.threads = -1, refuse(FREE("0.5"), &o, ISO_BAD_ARGUMENT, "threads");
+    o = iso_section_defaults();
+    refuse(REDUCED("1") "initial: {normal: [0, 0.6, 0.8], angular_velocity: [0, 0, 0]}\n" TIME, &o, ISO_BAD_INPUT,
+           "at rest");
+    refuse(REDUCED("0.5") "initial: {normal: [0.6, 0.8, 0], angular_velocity: [0, 0, 2]}\n" TIME, &o, ISO_BAD_INPUT,
+           "boundary of the section");
+    refuse(FREE("0.5") "effects: {rolling_resistance: {coefficient: 0.1}}\n", &o, ISO_BAD_INPUT, "takes energy");
+    refuse(FREE("0.5") "effects: {twist: {resistance: 3}}\n", &o, ISO_BAD_INPUT, "takes energy");
+    o.starts = 3;
+    refuse(FREE("0.5") "effects: {field: {linear: [0.1, 0.1, 0.05]}}\n", &o, ISO_BAD_INPUT, "free motions");
+    refuse(FREE("0.5") "effects: {level: {c: 0.3}}\n", &o, ISO_BAD_INPUT, "free motions");
+    o.column = iso_column_find("omega1");
+    refuse(FREE("0.5"), &o, ISO_BAD_INPUT, "no chart");
+    o = iso_section_defaults();
+    o.column = iso_column_find("pressure");
+    refuse(FREE("0.5"), &o, ISO_BAD_INPUT, "needs the effect 'reactions'");
+    o = iso_section_defaults();
+    o.models = ISO_SHOW_POINT;
+    refuse(FREE("0.5") "effects: {gravity: {mgb: 0.3, up: [0, 0.6, 0.8]}}\n", &o, ISO_NOT_MAPPED, "gravity");
+}
+
+/* An orbit that cannot go on is counted; the others have all their rows. */
+static void check_failure(void)
+{
+    iso_section_options o = iso_section_defaults();
+    o.starts = 3;
+    o.crossings = 4;
+    kept *k = run(REDUCED("0.5") "initial: {normal: [0.6, 0.8, 0], angular_velocity: [0, 0, 2]}\n" TIME, &o, MOST);
+    gsl_test_int(k->status, ISO_OK, "the others go on: %s", iso_context_message(ctx));
+    gsl_test(k->rows != 12 || k->result.failed != 1 || k->result.failure != ISO_BAD_INPUT || k->row[0][0] != 1,
+             "one orbit of four fails: %s", k->result.words);
+    release(k);
+}
+
+static int questions, patience;
+
+static bool patient(void *unused)
+{
+    (void)unused;
+    return questions++ < patience;
+}
+
+static void check_stop(void)
+{
+    iso_section_options o = iso_section_defaults();
+    o.starts = 5;
+    o.crossings = 400;
+    questions = 0, patience = INT_MAX;
+    iso_context_set_monitor(ctx, patient, NULL);
+    kept *all = run(FREE("0.5"), &o, MOST);
+    patience = questions / 2, questions = 0;
+    kept *k = run(FREE("0.5"), &o, MOST);
+    iso_context_set_monitor(ctx, NULL, NULL);
+    gsl_test_int(k->status, ISO_STOPPED, "stopped");
+    gsl_test(k->rows == 0 || k->rows == all->rows, "before its end, after %zu rows", k->rows);
+    int wrong = 0;
+    for (size_t i = 0; i < k->rows; i++) {
+        const size_t at = (size_t)k->row[i][0] * 400 + (size_t)k->row[i][1] - 1;
+        wrong += memcmp(k->row[i], all->row[at], 7 * sizeof(double)) != 0;
+    }
+    gsl_test_int(wrong, 0, "rows before are the right ones");
+    release(k);
+    release(all);
+}
+
+int main(void)
+{
+    ctx = iso_context_create();
+    check_rows();
+    check_energy();
+    check_both();
+    check_groups();
+    check_effects();
+    check_refusals();
+    check_failure();
+    check_stop();
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}
