@@ -186,6 +186,35 @@ static void tell(const iso_section_result *r)
     if (r->models == ISO_SHOW_BOTH) tell_both(r);
 }
 
+/* --- the picture ------------------------------------------------------------------------------------------------ */
+
+/* Looks which of the orbits are chaotic. If there are very many of them, or where this fails, the picture shows in
+ * which of them the models part. */
+static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_options *how,
+                  const iso_section_result *r, section_picture *picture)
+{
+    enum { MOST_ORBITS = 3000 };
+    iso_chaos *chaos = NULL;
+    iso_chaos_options c = iso_chaos_defaults();
+    c.starts = how->starts;
+    c.seed = how->seed;
+    c.at = how->at;
+    c.at_count = how->at_count;
+    c.models = r->models == ISO_SHOW_BOTH ? ISO_SHOW_BALL : r->models;
+    c.axis = r->nature.axis;
+    c.tolerance = how->tolerance;
+    c.threads = how->threads;
+    if (r->orbits > MOST_ORBITS) return;
+    if (iso_chaos_run(ctx, scene, &c, &chaos) == ISO_OK) section_picture_judge(picture, chaos);
+    iso_chaos_free(chaos);
+}
+
+static int draw(target *t, const iso_scene *scene, const iso_section_options *how, const iso_section_result *r)
+{
+    if (!interrupted()) judge(t->ctx, scene, how, r, t->picture);
+    return finish(t->ctx, section_picture_draw(t->ctx, t->picture, t->o->plot));
+}
+
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
 /* Ends the file with all rows there are. */
@@ -217,12 +246,12 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     const iso_status status = o->plot && !t.picture
                                   ? iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture")
                                   : iso_section_run(ctx, scene, how, &sink, &r);
-    iso_context_set_monitor(ctx, NULL, NULL);
     int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, &o->scene, scene, status);
     if (t.opened && o->plot && r.rows > 0 && result <= EXIT_SOME_FAILED) {
-        const int drawn = finish(ctx, section_picture_draw(ctx, t.picture, o->plot));
+        const int drawn = draw(&t, scene, how, &r);
         if (drawn != EXIT_DONE) result = drawn;
     }
+    iso_context_set_monitor(ctx, NULL, NULL);
     section_picture_free(t.picture);
     return result;
 }
@@ -295,7 +324,7 @@ const command command_section = {
         "With --model both, each model is integrated by itself. The rows are the ball's; stderr tells how far the "
         "point's are from them, and which orbits part, as chaotic ones do.\n\n"
         "Every return of a free orbit is held to bounds of its length in s. So no crossing can be skipped unseen.\n\n"
-        "--plot draws the sections of both models side by side.\n\n"
+        "--plot draws the sections of both models side by side, each orbit in one colour, chaotic orbits in grey.\n\n"
         "After Ctrl-C, the rows computed so far are kept.",
     .example = "isoroll section scene.yaml --starts 100 -o section.csv --plot section.png",
     .exits = "1: interrupted, or some orbits did not get to the end\n"

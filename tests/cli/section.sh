@@ -167,7 +167,9 @@ fi
 if has gnuplot "--plot"; then
     run 0 section wild.yaml --starts 30 --crossings 100 -o wild.csv --plot wild.svg --quiet
     silent
-    check "a picture of both" grep -q "ball and point part" wild.svg
+    check "a picture of both: chaotic orbits" grep -q ">chaotic<" wild.svg
+    run 0 section tame.yaml --starts 30 --crossings 100 -o tame.csv --plot tame.svg --quiet
+    check_not "k = -1: none is chaotic" grep -q ">chaotic<" tame.svg
     check "its axes" grep -q "in the units of the scene" wild.svg
     run 0 section tame.yaml --starts 5 --crossings 20 --model ball -o tame.csv --plot tame.png --quiet
     check "a picture of one" test "$(head -c 4 tame.png | tail -c 3)" = PNG
