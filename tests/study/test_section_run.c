@@ -179,9 +179,9 @@ static void check_both(void)
     gsl_test(!(r->distance > 0 && r->distance < 1e-9) || r->parted, "k = -1: together, %g apart", r->distance);
     release(k);
     k = run(FREE("0.5"), &o, MOST);
-    gsl_test(r->parted == 0 || r->parted_crossing < 5 || r->parted == o.starts + 1, "k = 0.5: some orbits part");
-    gsl_test(k->result.parted == 0, "k = 0.5: %zu part, the first is %zu at %zu", k->result.parted,
-             k->result.parted_orbit, k->result.parted_crossing);
+    r = &k->result;
+    gsl_test(r->parted == 0 || r->parted == o.starts + 1 || r->parted_crossing < 5,
+             "k = 0.5: %zu part, the first is %zu at %zu", r->parted, r->parted_orbit, r->parted_crossing);
     gsl_test(!(k->result.distance < ISO_SECTION_PARTED), "and others do not");
     release(k);
 }
