@@ -16,7 +16,7 @@
 
 static iso_context *ctx;
 
-enum { MOST = 20000, WIDTH = 40 };
+enum { MOST = 24000, WIDTH = 40 };
 
 /* What a sink was given. */
 typedef struct kept {
