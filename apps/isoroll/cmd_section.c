@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "io/plot.h"
 #include "scene_options.h"
+#include "section_cloud.h"
 #include "section_plot.h"
 #include "study/section.h"
 
@@ -18,6 +19,7 @@ typedef struct options {
     const char *axis, *event, *output, *plot; /* NULL: not given                */
     const char *at[MOST_AT + 1];              /* as they were typed, then NULL  */
     double crossings, starts, seed, threads;
+    double cloud;     /* 0: not given                  */
     iso_shown models; /* ISO_SHOW_START: not given      */
     bool quiet;
 } options;
@@ -265,7 +267,11 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = read_options(ctx, o, &how, &at);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, &scene);
-    const int result = status == ISO_OK ? run_scene(ctx, o, &scene, &how) : finish(ctx, status);
+    int result = finish(ctx, status);
+    if (status == ISO_OK && o->cloud > 0)
+        result = section_cloud(ctx, &o->scene, &scene, &how, o->cloud);
+    else if (status == ISO_OK)
+        result = run_scene(ctx, o, &scene, &how);
     free(at);
     return result;
 }
@@ -287,6 +293,9 @@ static const option_row rows[] = {
         seed),
     ROW("at", "L,X", "l,x, at most 64 times", "an orbit that starts at (l, x); several: L,X;L,X or --at again",
         set_at, options, at),
+    ROW("cloud", "N", "a whole number from 1 on",
+        "in place of all that: test with N states, 512 or more, whether the invariant measure is kept", set_count,
+        options, cloud),
     ROW_OF_WORDS("model", "M", "ball, point or both",
                  "which model is integrated (default: both, where the ball has a twin)", set_as, options, models,
                  as_word),
@@ -325,9 +334,13 @@ const command command_section = {
         "point's are from them, and which orbits part, as chaotic ones do.\n\n"
         "Every return of a free orbit is held to bounds of its length in s. So no crossing can be skipped unseen.\n\n"
         "--plot draws the sections of both models side by side, each orbit in one colour, chaotic orbits in grey.\n\n"
+        "--cloud N makes N states that are distributed by the invariant measure (10) at the scene's energy. The flow "
+        "carries them, in equal times t and s, and so do returns to the section, where the measure is dL dl. Each "
+        "cloud is tested against the measure again; a line tells the probability p of what is found, and how sharp "
+        "the test is.\n\n"
         "After Ctrl-C, the rows computed so far are kept.",
     .example = "isoroll section scene.yaml --starts 100 -o section.csv --plot section.png",
-    .exits = "1: interrupted, or some orbits did not get to the end\n"
+    .exits = "1: interrupted, some orbits did not get to the end, or a cloud does not keep the measure\n"
              "4: the computation failed before the first crossing",
     .run = run,
 };
