@@ -13,10 +13,8 @@
 #include "map/section.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
-#include "method/taylor/lanes_impl.h"
 #include "orbit/crossings_impl.h"
-
-enum { MOST_THREADS = 1024 };
+#include "orbit/pool_impl.h"
 
 /* --- what both ways of following share -------------------------------------------------------------------------- */
 
@@ -84,9 +82,9 @@ static iso_status check(iso_context *ctx, const iso_crossings_options *o)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "backend",
                                 "crossings are found by backend ball or point, and shown as ball, point or both");
     if (iso_tolerance_check(ctx, o->tolerance) != ISO_OK) return ISO_BAD_ARGUMENT;
-    if (o->threads < 0 || o->threads > MOST_THREADS)
+    if (o->threads < 0 || o->threads > ISO_MOST_THREADS)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "threads", "%d threads are not in [0, %d]", o->threads,
-                                MOST_THREADS);
+                                ISO_MOST_THREADS);
     if (!iso_lane_code_find(o->vectors, o->deviations))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "vectors",
                                 "this processor, or this build, has no vectors '%s'", o->vectors);
@@ -120,6 +118,7 @@ void iso_crossings_free(iso_crossings *c)
     if (!c) return;
     for (size_t i = 0; i < c->count; i++) {
         iso_orbit_free(c->orbit[i].alone);
+        iso_context_free(c->orbit[i].ctx);
         iso_crossings_free_lane(c->orbit[i].lane);
         free(c->orbit[i].why);
     }
@@ -150,19 +149,51 @@ void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_
     snprintf(o->about, sizeof o->about, "%s", iso_context_about(ctx));
 }
 
+typedef struct loners {
+    iso_crossings *c;
+    const iso_crossings_task *task;
+    const bool *taken;
+} loners;
+
+static void follow_alone(iso_pool_worker *w, const loners *l, size_t i)
+{
+    const iso_crossings_task *t = l->task;
+    iso_crossings *c = l->c;
+    iso_crossed *o = &c->orbit[i];
+    iso_sample *sample = t->sample ? t->sample + t->each * i : NULL;
+    if (!o->ctx) o->ctx = iso_context_create();
+    if (!o->ctx) {
+        t->status[i] = iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+        iso_crossings_keep(c, w->ctx, i, t->status[i]);
+        return;
+    }
+    iso_context_set_monitor(o->ctx, iso_pool_goes_on, w);
+    t->status[i] = iso_crossings_go_alone(c, i, t->each, t->crossing + t->each * i, sample, &t->done[i]);
+    iso_context_set_monitor(o->ctx, NULL, NULL);
+    iso_crossings_keep(c, o->ctx, i, t->status[i]);
+}
+
+static bool follow_chunk(iso_pool_worker *w, void *data, size_t first, size_t count)
+{
+    const loners *l = data;
+    const iso_crossings_task *t = l->task;
+    for (size_t i = first; i < first + count; i++) {
+        if (l->taken[i] || (t->wanted && !t->wanted[i]) || l->c->orbit[i].status != ISO_OK) continue;
+        t->status[i] = ISO_STOPPED;
+        if (iso_pool_goes_on(w)) follow_alone(w, l, i);
+    }
+    return true;
+}
+
+/* The orbits that lanes have not taken, each by itself, on all threads. */
 static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, const bool taken[])
 {
-    for (size_t i = 0; i < c->count; i++) {
-        iso_sample *sample = t->sample ? t->sample + t->each * i : NULL;
-        if (taken[i] || (t->wanted && !t->wanted[i]) || c->orbit[i].status != ISO_OK) continue;
-        t->status[i] = iso_context_goes_on(c->ctx) ? ISO_OK : ISO_STOPPED;
-        if (t->status[i] == ISO_OK)
-            t->status[i] = iso_crossings_go_alone(c, i, t->each, t->crossing + t->each * i, sample, &t->done[i]);
-        if (t->status[i] == ISO_STOPPED) return iso_context_fail(c->ctx, ISO_STOPPED, "", "stopped on request");
-        if (t->status[i] == ISO_NO_MEMORY) return ISO_NO_MEMORY;
-        iso_crossings_keep(c, c->ctx, i, t->status[i]);
-    }
-    return ISO_OK;
+    loners l = {c, t, taken};
+    iso_pool pool = {.count = c->count, .chunk = 1, .solve = follow_chunk, .data = &l};
+    size_t alone = 0;
+    for (size_t i = 0; i < c->count; i++) alone += !taken[i];
+    if (alone == 0) return ISO_OK;
+    return iso_pool_run(c->ctx, &pool, iso_pool_threads(c->options.threads, alone, 1), t->status);
 }
 
 /* The first wanted orbit that has failed, in words. */
@@ -188,5 +219,5 @@ iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, 
     iso_status answer = iso_crossings_in_lanes(c, &task, taken);
     if (answer != ISO_NO_MEMORY && answer != ISO_STOPPED) answer = one_by_one(c, &task, taken);
     free(taken);
-    return answer == ISO_OK ? tell_first(c, &task) : answer;
+    return answer == ISO_NO_MEMORY || answer == ISO_STOPPED ? answer : tell_first(c, &task);
 }

@@ -16,7 +16,7 @@
 static iso_status create_as(const iso_crossings *c, size_t i, iso_backend backend, bool clocks, iso_orbit **orbit)
 {
     const iso_orbit_options how = iso_crossings_orbit_options(c, i, backend, clocks);
-    return iso_orbit_create(c->ctx, c->orbits[i].params, c->orbits[i].start, &how, orbit);
+    return iso_orbit_create(c->orbit[i].ctx, c->orbits[i].params, c->orbits[i].start, &how, orbit);
 }
 
 /* Without an isomorphism there are no other clocks; where they do not fit a double the orbit goes on without them. */
@@ -52,19 +52,19 @@ static iso_status begin(iso_crossings *c, size_t i)
     iso_sample start;
     if (c->options.deviations)
         return iso_context_fail(
-            c->ctx, ISO_BAD_ARGUMENT, "deviations",
+            o->ctx, ISO_BAD_ARGUMENT, "deviations",
             "deviations are computed for free orbits on a section that all cross for ever, and in "
             "equal steps of a clock; not for stiff balls, balls at rest, or effects without a formula");
     iso_status status = create(c, i, &o->alone);
     if (status == ISO_OK) status = iso_orbit_at(o->alone, 0, &start);
     if (status != ISO_OK) return status;
     if (o->alone->rests && c->options.kind != ISO_SECTION_CLOCK)
-        return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "the ball rests: it crosses no section");
+        return iso_context_fail(o->ctx, ISO_NUMERICAL, "", "the ball rests: it crosses no section");
     iso_crossings_bounds(o->alone, o);
     if (o->axis < 0) return ISO_OK;
     const double *y = state_of(o->alone, &start);
     o->begins_on_it = iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(o->alone), y, o->axis);
-    return iso_crossings_check_plane(c->ctx, o->alone, y, o->axis);
+    return iso_crossings_check_plane(o->ctx, o->alone, y, o->axis);
 }
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
@@ -102,9 +102,9 @@ static iso_status next_event(iso_crossings *c, iso_crossed *o, iso_sample *sampl
                                   : iso_orbit_event(o->alone, beyond_value, &c->options, 1, from, to, &found, sample);
     if (status != ISO_OK || found) return status;
     if (o->count == 0)
-        return iso_context_fail(c->ctx, ISO_NUMERICAL, "", "no crossing within %d turns after the start",
+        return iso_context_fail(o->ctx, ISO_NUMERICAL, "", "no crossing within %d turns after the start",
                                 ISO_MOST_BETWEEN);
-    return iso_context_fail(c->ctx, ISO_NUMERICAL, "",
+    return iso_context_fail(o->ctx, ISO_NUMERICAL, "",
                             "no crossing within %d turns after crossing %zu, at %s = %.17g", ISO_MOST_BETWEEN,
                             o->count, iso_clock_name(o->alone->options.clock), from);
 }
@@ -147,7 +147,7 @@ static iso_status step(iso_crossings *c, iso_crossed *o, iso_crossing *crossing,
     o->time = here.clock[o->alone->options.clock];
     *counts = !is_start(o, o->time, s);
     if (!*counts) return ISO_OK;
-    status = iso_crossings_hold(c->ctx, c, o, o->alone, s);
+    status = iso_crossings_hold(o->ctx, c, o, o->alone, s);
     if (status != ISO_OK) return status;
     fill(o, &here, crossing);
     if (sample) iso_crossings_give(c, &here, sample);
@@ -163,7 +163,8 @@ iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_c
     iso_status status = o->alone ? ISO_OK : begin(c, i);
     while (status == ISO_OK && *done < each) {
         bool counts;
-        status = step(c, o, &crossing[*done], sample ? &sample[*done] : NULL, &counts);
+        status = iso_context_goes_on(o->ctx) ? step(c, o, &crossing[*done], sample ? &sample[*done] : NULL, &counts)
+                                             : iso_context_fail(o->ctx, ISO_STOPPED, "", "stopped on request");
         *done += status == ISO_OK && counts;
     }
     return status;

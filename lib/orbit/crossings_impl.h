@@ -14,6 +14,7 @@
 /* What an orbit is held to between its crossings, and where it is. All in own units of the orbit. */
 typedef struct iso_crossed {
     iso_orbit *alone; /* followed by itself; NULL: not begun                                                     */
+    iso_context *ctx; /* its own, so that any thread can go on with it */
     struct iso_crossings_lane *lane; /* followed in lanes, likewise                                                */
     size_t count;      /* crossings so far                                                                        */
     double time, s;    /* of the last one, or 0; time in the orbit's own clock and in the caller's units          */
@@ -51,7 +52,8 @@ void iso_crossings_free_lane(struct iso_crossings_lane *lane);
 /* Keeps a failure of orbit i that lasts, with its words, which are in ctx. */
 void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status);
 
-/* The next crossings of orbit i, by itself. Errors: those of one orbit, see iso_crossings_go. */
+/* The next crossings of orbit i, by itself. Errors: those of one orbit, see iso_crossings_go; the words are in the
+ * context of the orbit, whose monitor is asked before each crossing. */
 iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_crossing crossing[],
                                   iso_sample sample[], size_t *done);
 
