@@ -55,17 +55,18 @@ static void print_head(const iso_scene *scene, const iso_chaos *c)
         printf("\n  it is the rotation about axis %d in a principal plane, which is periodic\n", c->plane + 1);
         return;
     }
-    printf("\n\n  model  verdict      turns     MEGNO   GALI_2    largest exponent per unit of\n"
-           "                                                   t                     tau                   s\n");
+    printf(
+        "\n\n%47s largest exponent per unit of\n  model  verdict      turns     MEGNO   GALI_2  %18s  %18s  %18s\n",
+        "", "t", "tau", "s");
 }
 
-/* x +- error, in 21 columns */
+/* x +- error, in 20 columns */
 static void print_rate(double x, double error)
 {
     if (isnan(x) || isnan(error))
-        printf("  %-20s", "-");
+        printf("  %18s", "-");
     else
-        printf("  %10.3e +- %-7.0e", x, error);
+        printf("  %9.2e +- %5.0e", x, error);
 }
 
 static void print_model(const iso_chaos *c, int model)
