@@ -307,12 +307,13 @@ static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .turns = 3000, .m
 
 static const option_row rows[] = {
     ROW("turns", "N", "a whole number from 1 on",
-        "follow each orbit for at most N turns (default 3000); it ends earlier once there is a verdict", set_count, options, turns),
+        "follow each orbit for at most N turns (default 3000); it ends earlier once there is a verdict", set_count,
+        options, turns),
     ROW("starts", "M", "a whole number from 0 on",
-        "M more orbits of the same energy, spread evenly over the section: tells which part of it is chaotic", set_whole,
-        options, starts),
-    ROW("seed", "N", "a whole number from 0 on", "another number spreads --starts in another way (default 0)", set_whole, options,
-        seed),
+        "M more orbits of the same energy, spread evenly over the section: tells which part of it is chaotic",
+        set_whole, options, starts),
+    ROW("seed", "N", "a whole number from 0 on", "another number spreads --starts in another way (default 0)",
+        set_whole, options, seed),
     ROW_OF_WORDS("model", "M", "ball, point or both",
                  "which model is integrated (default: both, where the ball has a twin)", set_as, options, models,
                  as_word),
@@ -344,14 +345,14 @@ const command command_chaos = {
     .file = offsetof(options, scene.file),
     .description =
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
-        "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0; where none is "
-        "known, it is a step of the time t. The indicators are MEGNO, GALI_2, and the largest exponent with its "
-        "standard error, per unit of t, tau and s. MEGNO is 2 on regular orbits, or 0 if all neighbours turn equally "
-        "fast; on chaotic orbits it grows. GALI_2 is the sine of the angle between the deviations; on chaotic orbits "
-        "it falls exponentially. Each model is integrated by itself. Of the scene's times and solver, only the "
-        "tolerance is read.\n\n"
-        "With --starts, M more orbits of the same energy start on the section, spread evenly. The part of them that "
-        "is chaotic is printed with its confidence interval of 95 %.\n\n"
+        "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0; where none "
+        "is known, it is a step of the time t. The indicators are MEGNO, GALI_2, and the largest exponent with its "
+        "standard error, per unit of t, tau and s. MEGNO is 2 on regular orbits, or 0 if all neighbours turn "
+        "equally fast; on chaotic orbits it grows. GALI_2 is the sine of the angle between the deviations; on "
+        "chaotic orbits it falls exponentially. Each model is integrated by itself. Of the scene's times and "
+        "solver, only the tolerance is read.\n\n"
+        "With --starts, M more orbits of the same energy start on the section, spread evenly. The part of them "
+        "that is chaotic is printed with its confidence interval of 95 %.\n\n"
         "--plot draws the indicators against the number of turns. With --starts it draws the section, coloured by "
         "exponent. After Ctrl-C, what is known so far is printed.\n\n"
         "Effects that keep the energy, such as gravity, are allowed. Effects that take energy are refused: such a "

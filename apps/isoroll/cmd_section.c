@@ -176,8 +176,8 @@ static void tell_both(const iso_section_result *r)
         complain("largest distance of the two%s, where they do not part: %.2g, at orbit %zu, crossing %zu",
                  r->nature.axis < 0 ? "" : " in (l, x)", r->distance, r->distance_orbit, r->distance_crossing);
     if (r->parted > 0)
-        complain("%zu of %zu orbits part (distance above %g): their rounding errors grow, as on chaotic orbits; the first is "
-                 "orbit %zu, at crossing %zu",
+        complain("%zu of %zu orbits part (distance above %g): their rounding errors grow, as on chaotic orbits; the "
+                 "first is orbit %zu, at crossing %zu",
                  r->parted, r->orbits, ISO_SECTION_PARTED, r->parted_orbit, r->parted_crossing);
 }
 
@@ -285,22 +285,22 @@ static const option_row rows[] = {
         crossings),
     ROW("axis", "A", "auto, 1, 2 or 3", "which section n_A = 0, n_A increasing; auto (default): a global one",
         set_text, options, axis),
-    ROW("event", "COLUMN=VALUE", "COLUMN=VALUE", "in place of --axis: crossings where this column passes this value upwards", set_text,
-        options, event),
+    ROW("event", "COLUMN=VALUE", "COLUMN=VALUE",
+        "in place of --axis: crossings where this column passes this value upwards", set_text, options, event),
     ROW("starts", "M", "a whole number from 0 on", "M more orbits of the same energy, spread evenly over the section",
         set_whole, options, starts),
-    ROW("seed", "N", "a whole number from 0 on", "another number spreads --starts in another way (default 0)", set_whole, options,
-        seed),
-    ROW("at", "L,X", "l,x, at most 64 times", "one more orbit, which starts at (l, x); for several: L,X;L,X or --at again",
-        set_at, options, at),
+    ROW("seed", "N", "a whole number from 0 on", "another number spreads --starts in another way (default 0)",
+        set_whole, options, seed),
+    ROW("at", "L,X", "l,x, at most 64 times",
+        "one more orbit, which starts at (l, x); for several: L,X;L,X or --at again", set_at, options, at),
     ROW("cloud", "N", "a whole number from 1 on",
-        "write no crossings: test with N states, 512 or more, whether the flow keeps the invariant measure", set_count,
-        options, cloud),
+        "write no crossings: test with N states, 512 or more, whether the flow keeps the invariant measure",
+        set_count, options, cloud),
     ROW_OF_WORDS("model", "M", "ball, point or both",
                  "which model is integrated (default: both, where the ball has a twin)", set_as, options, models,
                  as_word),
-    ROW_OF_WORDS("as", "WHAT", "ball, point or both", "add the states of a model to each row: ball, point, both", set_as,
-                 options, scene.as, as_word),
+    ROW_OF_WORDS("as", "WHAT", "ball, point or both", "add the states of a model to each row: ball, point, both",
+                 set_as, options, scene.as, as_word),
     ROW_PLOT(options, plot),
     ROW_TOLERANCE(options, scene),
     {.name = "threads",
@@ -323,25 +323,25 @@ const command command_section = {
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
     .description =
-        "Follows orbits and writes a row for each crossing of the section n_A = 0, n_A increasing. The section is the "
-        "same for ball and point. A row has the number of the orbit, the number of the crossing (from 1), t, tau, s, "
-        "and the coordinates l and x of the section. Orbit 0 is the scene's own. Then come those of --starts, then "
-        "those of --at. A start on the section is no crossing. Of the scene's times and solver, only the tolerance is "
-        "read.\n\n"
+        "Follows orbits and writes a row for each crossing of the section n_A = 0, n_A increasing. The section is "
+        "the same for ball and point. A row has the number of the orbit, the number of the crossing (from 1), t, "
+        "tau, s, and the coordinates l and x of the section. Orbit 0 is the scene's own. Then come those of "
+        "--starts, then those of --at. A start on the section is no crossing. Of the scene's times and solver, "
+        "only the tolerance is read.\n\n"
         "l is in (-pi, pi]. x is between -1 and 1; the boundary is the rotation about axis A. The return map keeps "
         "the area dL dl, where L = G(l) x is the point's momentum about axis A. --starts are spread evenly by this "
         "area.\n\n"
         "With --model both, each model is integrated by itself. The rows are the ball's. stderr tells the largest "
         "distance between the crossings of both models, and how many orbits part: on chaotic orbits the rounding "
         "errors of the models grow until they part.\n\n"
-        "On a global section, the length in s of each return is checked against bounds. A return outside them is an "
-        "error: a crossing was skipped, or counted twice.\n\n"
+        "On a global section, the length in s of each return is checked against bounds. A return outside them is "
+        "an error: a crossing was skipped, or counted twice.\n\n"
         "--plot draws the sections of both models side by side, each orbit in one colour, chaotic orbits in grey.\n\n"
         "--cloud N makes clouds of N states that are distributed by the invariant measure (10) at the scene's "
-        "energy. One cloud is carried by the flow in equal times t, one in equal times s, and one by returns to the "
-        "section, where the measure is dL dl. Then each cloud is tested against the measure. Its line has p, the "
-        "probability that a measure that is kept deviates by chance as much as this, and the error of the exponent "
-        "in (10) that this test would detect.\n\n"
+        "energy. One cloud is carried by the flow in equal times t, one in equal times s, and one by returns to "
+        "the section, where the measure is dL dl. Then each cloud is tested against the measure. Its line has p, "
+        "the probability that a measure that is kept deviates by chance as much as this, and the error of the "
+        "exponent in (10) that this test would detect.\n\n"
         "After Ctrl-C, the rows computed so far are kept.",
     .example = "isoroll section scene.yaml --starts 100 -o section.csv --plot section.png",
     .exits = "1: interrupted, some orbits did not get to the end, or a cloud does not keep the measure\n"

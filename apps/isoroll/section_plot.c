@@ -146,8 +146,7 @@ iso_status section_picture_draw(iso_context *ctx, const section_picture *p, cons
     section_picture drawn = *p; /* its arrays are those of p, and thinning out overwrites them */
     char title[160];
     bool any = false;
-    if (p->axis < 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--plot: an event has no coordinates l, x");
+    if (p->axis < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--plot: an event has no coordinates l, x");
     while (drawn.count > most) thin_out(&drawn, drawn.limit / 2);
     for (size_t i = 0; i < p->orbits; i++) any = any || p->grey[i];
     snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g: %zu orbit%s", p->scene->params.k, J[0], J[1], J[2],

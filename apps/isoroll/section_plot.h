@@ -18,8 +18,8 @@ bool section_picture_row(section_picture *p, const double row[]);
 /* Takes the crossing of the last row by both models. */
 void section_picture_pair(section_picture *p, const iso_crossing *ball, const iso_crossing *point);
 
-/* Tells which orbits are chaotic, by their numbers in the rows: these are drawn in grey. Without this call, the orbits
- * on which the two models part are drawn in grey. */
+/* Tells which orbits are chaotic, by their numbers in the rows: these are drawn in grey. Without this call, the
+ * orbits on which the two models part are drawn in grey. */
 void section_picture_judge(section_picture *p, const iso_chaos *chaos);
 
 /* Draws the picture. Errors: ISO_BAD_INPUT if the section is an event, which has no coordinates; those of

@@ -71,15 +71,15 @@ ISO_API iso_status iso_plot_momentum(iso_context *ctx, const char *path, const i
 ISO_API iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis,
                                   const iso_record *lines);
 
-/* The indicators of chaos against the turns. The records have the columns turn, t, growth, megno, mean and gali2, as in
- * iso_chaos. Above: ln D. Below: MEGNO and its mean on the left, GALI_2 on the right. A record that is NULL or empty is
- * left out.
+/* The indicators of chaos against the turns. The records have the columns turn, t, growth, megno, mean and gali2, as
+ * in iso_chaos. Above: ln D. Below: MEGNO and its mean on the left, GALI_2 on the right. A record that is NULL or
+ * empty is left out.
  * Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_indicators(iso_context *ctx, const char *path, const char *title, const iso_record *ball,
                                        const iso_record *point);
 
-/* The section n_axis = 0 (axis: 0 to 2), with one spot for each row. The columns are l, x and exponent: > 0 chaotic, 0
- * regular, NaN undecided. Errors: as iso_plot_momentum. */
+/* The section n_axis = 0 (axis: 0 to 2), with one spot for each row. The columns are l, x and exponent: > 0 chaotic,
+ * 0 regular, NaN undecided. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis,
                                       const iso_record *spots);
 
@@ -118,9 +118,8 @@ typedef struct iso_plot_section {
     const char *grey_means;   /* what the key says of grey, such as "chaotic"; NULL: there is no key           */
 } iso_plot_section;
 
-/* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|; the section fills
- * the rectangle. Right: that of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l). Each orbit has
- * one colour.
+/* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that
+ * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l). Each orbit has one colour.
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis or orbit), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 

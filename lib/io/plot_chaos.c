@@ -1,4 +1,5 @@
-/* plot_chaos.c - pictures of chaos: the indicators of an orbit against the turns, and the section coloured by exponent. */
+/* plot_chaos.c - pictures of chaos: the indicators of an orbit against the turns, and the section coloured by
+ * exponent. */
 #include <math.h>
 
 #include "base/arithmetic_impl.h"

@@ -1,9 +1,9 @@
 /* quarter_impl.h - angles with a given density, by inversion of its integral.
  *
- * The density is symmetric about 0 and pi/2. The table holds its integral over a quarter of the circle. The variable is
- * u, tan(angle) = e^u, in steps of 1/2, |u| <= 46; the rest of the integral is 1e-20. Let the density be made of powers
- * of A cos^2 + B sin^2 with A, B >= 0. Then its singularities in the complex plane of u are pi/2 or more away from the
- * real line, for every A/B. So Gauss's rule of 8 points in each step is exact to rounding.
+ * The density is symmetric about 0 and pi/2. The table holds its integral over a quarter of the circle. The variable
+ * is u, tan(angle) = e^u, in steps of 1/2, |u| <= 46; the rest of the integral is 1e-20. Let the density be made of
+ * powers of A cos^2 + B sin^2 with A, B >= 0. Then its singularities in the complex plane of u are pi/2 or more away
+ * from the real line, for every A/B. So Gauss's rule of 8 points in each step is exact to rounding.
  */
 #ifndef ISO_MAP_QUARTER_IMPL_H
 #define ISO_MAP_QUARTER_IMPL_H

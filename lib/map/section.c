@@ -117,8 +117,9 @@ static double frequency_square(const iso_params *p, double eps, int axis, double
     return 2 * eps * pow(q, -1 - 1 / p->k) * ((p->J[axis] - q) / p->k + q);
 }
 
-/* Both bounds come from the ends of [min J, max J]. Between them, W^2 can have an extreme only at q = J_a (1+k)/(1-k).
- * There J_a - (1-k) q = -k J_a, and so W^2 < 0. This bracket is linear in q, so W^2 <= 0 at one of the ends as well. */
+/* Both bounds come from the ends of [min J, max J]. Between them, W^2 can have an extreme only at q = J_a
+ * (1+k)/(1-k). There J_a - (1-k) q = -k J_a, and so W^2 < 0. This bracket is linear in q, so W^2 <= 0 at one of the
+ * ends as well. */
 void iso_section_bounds(const iso_params *p, double eps, int axis, double W[2])
 {
     const double low = frequency_square(p, eps, axis, min3(p->J)), high = frequency_square(p, eps, axis, max3(p->J));

@@ -1,5 +1,5 @@
-/* crossings.c - many orbits from crossing to crossing: checks the options, follows the orbits in lanes or one by one, and
- * keeps their failures. */
+/* crossings.c - many orbits from crossing to crossing: checks the options, follows the orbits in lanes or one by one,
+ * and keeps their failures. */
 #include "orbit/crossings.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 #include "orbit/crossings_impl.h"
 #include "orbit/pool_impl.h"
 
-/* --- shared by both ways of following -------------------------------------------------------------------------- */
+/* --- shared by both ways of following --------------------------------------------------------------------------- */
 
 int iso_crossings_axis(const iso_crossings *c, size_t i)
 {

@@ -7,17 +7,18 @@
  *     iso_crossings_go(c, NULL, 500, crossing, NULL, done, status);     the next 500 of each
  *     iso_crossings_free(c);
  *
- * The section of a free orbit is n_a = 0, n_a increasing (map/section.h). This is also gamma_a = 0: ball and point cross
- * it at the same events. There are two other kinds: a column of the samples passes a value upwards; or, without a
- * section, equal steps of a clock.
+ * The section of a free orbit is n_a = 0, n_a increasing (map/section.h). This is also gamma_a = 0: ball and point
+ * cross it at the same events. There are two other kinds: a column of the samples passes a value upwards; or, without
+ * a section, equal steps of a clock.
  *
- * With `deviations` the first-order variation of each orbit is computed beside it, for two deviations d1, d2. The metric
- * is |dn|^2 + |dw|^2/|w|^2 of (n, omega), or of (gamma, gamma') for a point. Both deviations begin tangent to the
- * constraints and to the level of the energy, and normal to the flow; they are orthogonal and have length 1. Lengths and
- * angles are given without the part along the flow, which tells only how far ahead of the orbit its neighbour is.
+ * With `deviations` the first-order variation of each orbit is computed beside it, for two deviations d1, d2. The
+ * metric is |dn|^2 + |dw|^2/|w|^2 of (n, omega), or of (gamma, gamma') for a point. Both deviations begin tangent to
+ * the constraints and to the level of the energy, and normal to the flow; they are orthogonal and have length 1.
+ * Lengths and angles are given without the part along the flow, which tells only how far ahead of the orbit its
+ * neighbour is.
  *
- * Free orbits are followed in the lanes of vectors and on all threads (batch.h). The numbers of an orbit depend on the
- * kind of vectors. They do not depend, not even in the last bit, on the other orbits, their order, the number of
+ * Free orbits are followed in the lanes of vectors and on all threads (batch.h). The numbers of an orbit depend on
+ * the kind of vectors. They do not depend, not even in the last bit, on the other orbits, their order, the number of
  * threads, or the number of crossings asked at a time.
  */
 #ifndef ISO_ORBIT_CROSSINGS_H
@@ -87,16 +88,15 @@ ISO_API iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit 
 ISO_API void iso_crossings_free(iso_crossings *c);
 
 /* Each orbit i with wanted[i] (wanted NULL: every orbit) goes on to its next `each` crossings. They are
- * crossing[each i + j] and sample[each i + j] (sample NULL: none), j < done[i]. status[i] is ISO_OK, or tells why there
- * are fewer than `each`. An orbit that has failed does not go on: later calls give the same status. The others go on.
- * A start on the section (n_a = 0 up to 1e-8 of its oscillation) is no crossing.
- * Errors of one orbit: those of iso_orbit_create and iso_orbit_at; ISO_NUMERICAL if two crossings of a global section
- * are outside the bounds of their distance in s (map/section.h), if the ball rests, or if no further crossing is found
- * within ISO_MOST_BETWEEN turns; ISO_BAD_INPUT about "axis" for an orbit in the plane n_a = 0 itself, the boundary of
- * the chart. If s does not fit a double (extreme k), distances are not checked. The call returns the error of the first
- * orbit that failed; the message has its number and the reason.
- * Errors of the call: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: then done[] and the crossings that it counts
- * are valid, and the next call goes on from there. */
+ * crossing[each i + j] and sample[each i + j] (sample NULL: none), j < done[i]. status[i] is ISO_OK, or tells why
+ * there are fewer than `each`. An orbit that has failed does not go on: later calls give the same status. The others
+ * go on. A start on the section (n_a = 0 up to 1e-8 of its oscillation) is no crossing. Errors of one orbit: those of
+ * iso_orbit_create and iso_orbit_at; ISO_NUMERICAL if two crossings of a global section are outside the bounds of
+ * their distance in s (map/section.h), if the ball rests, or if no further crossing is found within ISO_MOST_BETWEEN
+ * turns; ISO_BAD_INPUT about "axis" for an orbit in the plane n_a = 0 itself, the boundary of the chart. If s does
+ * not fit a double (extreme k), distances are not checked. The call returns the error of the first orbit that failed;
+ * the message has its number and the reason. Errors of the call: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor:
+ * then done[] and the crossings that it counts are valid, and the next call goes on from there. */
 enum { ISO_MOST_BETWEEN = 10000 };
 ISO_API iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
                                     iso_sample sample[], size_t done[], iso_status status[]);

@@ -1,8 +1,8 @@
 /* crossings_alone.c - one orbit from crossing to crossing, by itself.
  *
  * A crossing of n_a = 0, or of a column's value, is an event (iso_orbit_event). Equal steps of a clock come from
- * iso_orbit_at. The orbit is kept between calls, and the search for a crossing depends only on the crossing before. So
- * the results do not depend on how many crossings are asked at a time.
+ * iso_orbit_at. The orbit is kept between calls, and the search for a crossing depends only on the crossing before.
+ * So the results do not depend on how many crossings are asked at a time.
  */
 #include <math.h>
 
@@ -51,10 +51,10 @@ static iso_status begin(iso_crossings *c, size_t i)
     iso_crossed *o = &c->orbit[i];
     iso_sample start;
     if (c->options.deviations)
-        return iso_context_fail(
-            o->ctx, ISO_BAD_ARGUMENT, "deviations",
-            "deviations are computed for free orbits on a global section, and at equal steps of a clock; not for stiff "
-            "balls, balls at rest, or effects without a formula");
+        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "deviations",
+                                "deviations are computed for free orbits on a global section, and at equal steps of "
+                                "a clock; not for stiff "
+                                "balls, balls at rest, or effects without a formula");
     iso_status status = create(c, i, &o->alone);
     if (status == ISO_OK) status = iso_orbit_at(o->alone, 0, &start);
     if (status != ISO_OK) return status;

@@ -1,5 +1,5 @@
-/* crossings_common.c - what orbits in lanes and orbits alone have in common: how they are prepared, the bounds between
- * their crossings, and the numbers of a crossing. */
+/* crossings_common.c - what orbits in lanes and orbits alone have in common: how they are prepared, the bounds
+ * between their crossings, and the numbers of a crossing. */
 #include <math.h>
 
 #include "base/pi_impl.h"
@@ -83,8 +83,8 @@ iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const is
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-/* The chart needs only the directions of M and gamma. M has the direction of J^(1/2) omega (for k < 0 the opposite one),
- * and gamma that of J^(-1/2) n (18). So a ball without a twin has a chart as well. */
+/* The chart needs only the directions of M and gamma. M has the direction of J^(1/2) omega (for k < 0 the opposite
+ * one), and gamma that of J^(-1/2) n (18). So a ball without a twin has a chart as well. */
 void iso_crossings_point(const iso_orbit *orbit, const double y[ISO_STATE], double point[ISO_STATE])
 {
     const iso_params *own = &orbit->units.own;

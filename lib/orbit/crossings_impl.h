@@ -52,8 +52,8 @@ void iso_crossings_free_lane(struct iso_crossings_lane *lane);
 /* Keeps a failure of orbit i, with its message, which is in ctx. ISO_STOPPED is not kept: the orbit can go on. */
 void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status);
 
-/* Follows orbit i alone to its next crossings. Errors: those of one orbit, see iso_crossings_go. The message is in the
- * context of the orbit, whose monitor is asked before each crossing. */
+/* Follows orbit i alone to its next crossings. Errors: those of one orbit, see iso_crossings_go. The message is in
+ * the context of the orbit, whose monitor is asked before each crossing. */
 iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_crossing crossing[],
                                   iso_sample sample[], size_t *done);
 

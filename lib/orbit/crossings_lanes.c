@@ -1,8 +1,8 @@
 /* crossings_lanes.c - many orbits from crossing to crossing in the lanes of vectors, on all threads, with deviations
  * beside them if they are asked for.
  *
- * Lanes divide each step into parts so short that n_a has at most one zero in each. A zero shows by the signs of n_a at
- * the ends of a part. In s, a part of length x is short enough if W x <= pi, by Sturm. In t, let r = ds/dt ~
+ * Lanes divide each step into parts so short that n_a has at most one zero in each. A zero shows by the signs of n_a
+ * at the ends of a part. In s, a part of length x is short enough if W x <= pi, by Sturm. In t, let r = ds/dt ~
  * q^(1+1/(2k)) and Omega = W r. Lyapunov's inequality 4 < (s2 - s1) int W^2 ds between two zeros gives
  *
  *     4 < int r dt int (Omega^2/r) dt <= Omega_max^2 x^2 (rho + 1)^2/(4 rho),    rho = r_max/r_min in the part

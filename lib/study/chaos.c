@@ -44,8 +44,7 @@ static iso_status check_starts(const iso_chaos_walk *w, const iso_effect *effect
 {
     if (w->options.starts + w->options.at_count == 0 || !effect) return ISO_OK;
     return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect->name,
-                            "other starts need the section of a free motion on H = 0, without '%s'",
-                            effect->name);
+                            "other starts need the section of a free motion on H = 0, without '%s'", effect->name);
 }
 
 static iso_status check_options(const iso_chaos_walk *w)

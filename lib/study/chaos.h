@@ -14,10 +14,10 @@
  * A rotation in a principal plane is periodic. So it is regular, even if its neighbours leave it exponentially. It is
  * not followed.
  *
- * With `starts`, more orbits of the scene's energy begin on the section, spread evenly by the area dL dl. The share of
- * them that is chaotic estimates the chaotic part of the area. The confidence interval is Wilson's, at 95 %. It holds
- * for random starts; these are more evenly spread, so it is rather too wide. Orbits that stay undecided are counted
- * separately: they are not in the chaotic share.
+ * With `starts`, more orbits of the scene's energy begin on the section, spread evenly by the area dL dl. The share
+ * of them that is chaotic estimates the chaotic part of the area. The confidence interval is Wilson's, at 95 %. It
+ * holds for random starts; these are more evenly spread, so it is rather too wide. Orbits that stay undecided are
+ * counted separately: they are not in the chaotic share.
  */
 #ifndef ISO_STUDY_CHAOS_H
 #define ISO_STUDY_CHAOS_H
@@ -90,7 +90,7 @@ typedef struct iso_chaos {
     size_t starts;          /* other orbits that were followed: spread ones, then given ones */
     iso_chaos_orbit *start; /* these orbits */
     iso_chaos_share share;
-    /* The indicators of the scene's orbit against the turns: columns turn, t (s, if only the point has clocks), growth
+    /* The indicators of the scene's orbit against the turns: columns turn, t (for a point without a ball: s), growth
      * (ln D), megno (Y), mean and gali2. At most some thousand rows, evenly spread. NULL: not integrated. */
     iso_record *trace[2];
     iso_status failure; /* of the first orbit that failed, with its words                         */

@@ -1,5 +1,5 @@
-/* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits without a verdict go
- * on to the next look, first by one model, then by the other. */
+/* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits without a verdict
+ * go on to the next look, first by one model, then by the other. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,8 +33,8 @@ typedef struct group {
 
 /* --- starts ----------------------------------------------------------------------------------------------------- */
 
-/* A start on the section, with the scene's energy and in its model. It is made in own units, in which powers of q fit a
- * double. */
+/* A start on the section, with the scene's energy and in its model. It is made in own units, in which powers of q fit
+ * a double. */
 static iso_start start_at(const iso_chaos_walk *w, double l, double x)
 {
     const iso_units *units = iso_orbit_units(w->orbit);

@@ -71,7 +71,7 @@ static void add_to_look(iso_look *look, long n, double growth, double step, cons
     }
 }
 
-/* --- the results of a look ------------------------------------------------------------------------------------------ */
+/* --- the results of a look -------------------------------------------------------------------------------------- */
 
 /* To how many digits the means over the two halves agree. Differences are divided by the spread of the function. */
 static double digits_of(const iso_look *look)
@@ -120,15 +120,15 @@ static double limit_of_square(const iso_look *look)
 
 /* --- the verdict ------------------------------------------------------------------------------------------------ */
 
-/* Limits for the verdict. Two successive looks must agree. `gain` is the growth of ln D between the middles of the two
- * halves, at 7/16 and 13/16 of the turns: ln(13/7) = 0.62 on a regular orbit, 3/8 lam n on a chaotic one. Next to the
- * separatrix of a resonance a regular orbit looks chaotic for a while. So ln D itself must be large as well, and GALI_2
- * small. */
+/* Limits for the verdict. Two successive looks must agree. `gain` is the growth of ln D between the middles of the
+ * two halves, at 7/16 and 13/16 of the turns: ln(13/7) = 0.62 on a regular orbit, 3/8 lam n on a chaotic one. Next to
+ * the separatrix of a resonance a regular orbit looks chaotic for a while. So ln D itself must be large as well, and
+ * GALI_2 small. */
 static const double MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAIN_BEFORE = 1.25, LEAST_GROWTH = 9,
                     MOST_AREA = 1e-4;
 
-/* For a regular orbit: how close to 2 must be MEGNO, MEGNO of each half, and a rough limit; the least number of digits,
- * and that where D grows little. */
+/* For a regular orbit: how close to 2 must be MEGNO, MEGNO of each half, and a rough limit; the least number of
+ * digits, and that where D grows little. */
 static const double MEGNO = 0.02, HALF = 0.3, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7;
 
 /* A look at fewer turns does not tell a regular orbit from one that sticks to an island. */

@@ -1,5 +1,5 @@
-/* indicators.h - is an orbit chaotic? The answer comes from its turns: returns to a section, or equal steps of a clock.
- * What is measured at the end of a turn is called a beat.
+/* indicators.h - is an orbit chaotic? The answer comes from its turns: returns to a section, or equal steps of a
+ * clock. What is measured at the end of a turn is called a beat.
  *
  *     iso_indicators it;
  *     iso_indicators_begin(&it, 3000);                          no more than 3000 turns
@@ -13,23 +13,23 @@
  * D_n = sqrt((|d1|^2 + |d2|^2)/2). D_n is the same for every such pair. On a regular orbit D_n^2 is a + b n + c n^2,
  * times a bounded factor that depends on the place only. On a chaotic orbit D_n^2 grows like exp(2 lam n).
  *
- * - Exponent: the gain of ln D per unit of a clock, without the first eighth of the turns. Its standard error comes from
- *   the scatter of 14 to 28 equal parts of the other turns.
+ * - Exponent: the gain of ln D per unit of a clock, without the first eighth of the turns. Its standard error comes
+ *   from the scatter of 14 to 28 equal parts of the other turns.
  * - MEGNO: Y_n = (2/n) sum (j - 1/2) ln(D_j/D_(j-1)), and its mean over all turns so far. On a regular orbit both
  *   approach 2 like 1/n. On a chaotic orbit Y_n grows like lam n, and its mean like lam n/2.
  * - The limit of MEGNO on a regular orbit: the mean of 2 (j - 1/2) ln(D_j/D_(j-1)) with the smooth weight
- *   exp(-1/(u (1 - u))), where u goes from 0 to 1 over the last three quarters of the turns. On a quasi-periodic orbit
- *   the error of such a mean is smaller than any power of 1/n. The mean is then 2 + A/n; A/n is fitted and taken away.
- *   If D has grown little (the rotation number hardly depends on the torus), a + b n + c n^2 is fitted to D_n^2
- *   instead: the limit is 2 if c > 0, and 0 if b and c are both 0 (isochronous motion).
+ *   exp(-1/(u (1 - u))), where u goes from 0 to 1 over the last three quarters of the turns. On a quasi-periodic
+ *   orbit the error of such a mean is smaller than any power of 1/n. The mean is then 2 + A/n; A/n is fitted and
+ *   taken away. If D has grown little (the rotation number hardly depends on the torus), a + b n + c n^2 is fitted to
+ *   D_n^2 instead: the limit is 2 if c > 0, and 0 if b and c are both 0 (isochronous motion).
  * - GALI_2: the sine of the angle between d1 and d2.
- * - Digits: two means of a function of the place, with the same weight, over the first and over the second half of those
- *   turns. They agree to many digits on a quasi-periodic orbit (S. Das, Y. Saiki, E. Sander, J. A. Yorke, Nonlinearity
- *   30, 2017), to one or two digits on a chaotic orbit, and to three or four on an orbit that stays near an island for
- *   long.
+ * - Digits: two means of a function of the place, with the same weight, over the first and over the second half of
+ *   those turns. They agree to many digits on a quasi-periodic orbit (S. Das, Y. Saiki, E. Sander, J. A. Yorke,
+ *   Nonlinearity 30, 2017), to one or two digits on a chaotic orbit, and to three or four on an orbit that stays near
+ *   an island for long.
  *
- * A look is a judgement of the orbit so far. The number of turns grows by sqrt(2) from look to look, and one look is at
- * the number given to iso_indicators_begin. indicators.c has the conditions of the verdict, tests/README.md their
+ * A look is a judgement of the orbit so far. The number of turns grows by sqrt(2) from look to look, and one look is
+ * at the number given to iso_indicators_begin. indicators.c has the conditions of the verdict, tests/README.md their
  * calibration.
  */
 #ifndef ISO_STUDY_INDICATORS_H
@@ -87,8 +87,8 @@ typedef struct iso_indication {
     double digits; /* to which the means over the two halves agree                                            */
 } iso_indication;
 
-/* most: the number of turns of the last look, 1 or more. After it the orbit may go on: the next look is at sqrt(2) times
- * as many turns, and so on. */
+/* most: the number of turns of the last look, 1 or more. After it the orbit may go on: the next look is at sqrt(2)
+ * times as many turns, and so on. */
 ISO_API void iso_indicators_begin(iso_indicators *it, long most);
 
 /* Takes the next beat. The first one is that of the first crossing after the start. */

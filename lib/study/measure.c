@@ -14,8 +14,8 @@ enum { BLOCK = 4096 }; /* orbits that are carried at a time */
 
 /* --- test functions --------------------------------------------------------------------------------------------- */
 
-/* The energy, which is the same for all states; functions of n only, three of which have means other than 0; functions
- * of n and of v = J^(1/2) omega/|..|, with u = gamma x v, whose means over theta are 0 at each n. */
+/* The energy, which is the same for all states; functions of n only, three of which have means other than 0;
+ * functions of n and of v = J^(1/2) omega/|..|, with u = gamma x v, whose means over theta are 0 at each n. */
 enum { ENERGY, LN_G, N1_SQUARE, N2_SQUARE, OTHERS, FUNCTIONS = 23 };
 static const char *const names[FUNCTIONS] = {
     "h",
@@ -99,8 +99,8 @@ typedef struct carrier {
     double *kinetic, *sharp; /* of each orbit of the block, at the start */
 } carrier;
 
-/* The power of g in the clock's measure, g^power dn dtheta, for this factor of the exponent 1/(2k). It is the power for t,
- * less e, because d clock/dt is proportional to g^-e (iso_clock_rate gives e). */
+/* The power of g in the clock's measure, g^power dn dtheta, for this factor of the exponent 1/(2k). It is the power
+ * for t, less e, because d clock/dt is proportional to g^-e (iso_clock_rate gives e). */
 static double power_of_g(const iso_params *p, iso_clock clock, double factor)
 {
     double e;
@@ -116,10 +116,11 @@ static iso_status draw_block(carrier *c, const uint64_t shift[3], uint64_t first
         iso_measure_draw_state(&c->draw, shift, first + i, n, v);
         const double T = c->scene->energy - iso_measure_potential(c->scene, n);
         if (!(T > 0))
-            return iso_context_fail(c->ctx, ISO_BAD_INPUT, "energy",
-                                    "with this energy the ball does not reach n = (%.4g, %.4g, %.4g): the test needs an "
-                                    "energy with which it reaches every n",
-                                    n[0], n[1], n[2]);
+            return iso_context_fail(
+                c->ctx, ISO_BAD_INPUT, "energy",
+                "with this energy the ball does not reach n = (%.4g, %.4g, %.4g): the test needs an "
+                "energy with which it reaches every n",
+                n[0], n[1], n[2]);
         c->start[i] = (iso_start){.model = ISO_BALL, .eps = NAN};
         for (int j = 0; j < 3; j++) {
             c->start[i].y[j] = sqrt(2 * T) * v[j] / p->root_J[j];

@@ -11,22 +11,22 @@
  *
  *     g^(1/(2k) - 1/2) dn dtheta = q^(-1 - 1/(2k)) dgamma dtheta,     q = (gamma, J gamma) = 1/g
  *
- * where dn, dgamma are areas on the unit sphere, and theta is the direction of v in the plane normal to gamma. The energy
- * determines the length of v. The flow in equal times t keeps this measure. The flow in equal times of another clock,
- * d clock = N dt, keeps N times this measure; in s it is dgamma dtheta, Liouville's measure of the point on H = 0. The
- * returns to a section keep dL dl = G(l) dx dl (map/section.h).
+ * where dn, dgamma are areas on the unit sphere, and theta is the direction of v in the plane normal to gamma. The
+ * energy determines the length of v. The flow in equal times t keeps this measure. The flow in equal times of another
+ * clock, d clock = N dt, keeps N times this measure; in s it is dgamma dtheta, Liouville's measure of the point on H
+ * = 0. The returns to a section keep dL dl = G(l) dx dl (map/section.h).
  *
  * The test. The cloud consists of 32 smaller clouds with equal numbers of states. Each of these is a low-discrepancy
- * sequence in the three variables (for returns: two) in which the measure is uniform, shifted by a random vector modulo
- * 1. So each state is distributed by the measure exactly, the 32 clouds are independent, and the mean over a cloud is
- * much closer to the exact mean than that of random states. The cloud is tested at four times. At each time the means of
- * each test function over the 32 clouds are compared with the exact mean, which comes from quadrature. Student's t with
- * 31 degrees of freedom gives the probability of such a deviation. All these tests are combined into one (Bonferroni):
- * p is the least probability times the number of tests.
+ * sequence in the three variables (for returns: two) in which the measure is uniform, shifted by a random vector
+ * modulo 1. So each state is distributed by the measure exactly, the 32 clouds are independent, and the mean over a
+ * cloud is much closer to the exact mean than that of random states. The cloud is tested at four times. At each time
+ * the means of each test function over the 32 clouds are compared with the exact mean, which comes from quadrature.
+ * Student's t with 31 degrees of freedom gives the probability of such a deviation. All these tests are combined into
+ * one (Bonferroni): p is the least probability times the number of tests.
  *
- * Test functions at equal times: the relative energy h (a ball that loses energy leaves the level); ln g, which changes
- * most if the exponent is wrong; products of components of n, of v/|v| and of u = gamma x v/|v|. At returns: h, ln G,
- * products of x and of cosines and sines of l.
+ * Test functions at equal times: the relative energy h (a ball that loses energy leaves the level); ln g, which
+ * changes most if the exponent is wrong; products of components of n, of v/|v| and of u = gamma x v/|v|. At returns:
+ * h, ln G, products of x and of cosines and sines of l.
  *
  * `resolution` is the sensitivity of the test: the least relative error of the exponent 1/(2k) that it detects. It is
  * computed from the cloud: the errors of the means, divided by their slopes with the exponent.
@@ -117,8 +117,8 @@ typedef struct iso_measure {
 } iso_measure;
 
 /* The scene gives the ball, the energy and the effects. Of its start only the energy matters. With a potential that
- * depends on n only (effects `field` and `level`) the measure is the same, and the energy gives |w| at each n. Effects
- * without a potential act on the cloud of the free ball; the test detects that they do not keep its measure.
+ * depends on n only (effects `field` and `level`) the measure is the same, and the energy gives |w| at each n.
+ * Effects without a potential act on the cloud of the free ball; the test detects that they do not keep its measure.
  * Errors: ISO_BAD_ARGUMENT about "count", "turns", "end", "exponent", "significance" or "clock"; ISO_NOT_MAPPED for a
  * ball at rest, and about an effect whose potential depends on more than n; ISO_BAD_INPUT about "energy" if the ball
  * cannot reach every n with it; those of iso_batch_run, among them ISO_STOPPED. */

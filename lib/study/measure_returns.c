@@ -220,11 +220,8 @@ static void judge_lost(const returner *r, iso_measure *m)
     m->lost = r->lost;
     m->resolution = NAN;
     m->lines = 1;
-    m->line[0] = (iso_measure_line){.name = "orbits that return",
-                                    .time = m->end,
-                                    .mean = NAN,
-                                    .expected = 1,
-                                    .deviation = -INFINITY};
+    m->line[0] = (iso_measure_line){
+        .name = "orbits that return", .time = m->end, .mean = NAN, .expected = 1, .deviation = -INFINITY};
 }
 
 static void judge(returner *r, iso_measure *m)

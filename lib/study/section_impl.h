@@ -55,7 +55,8 @@ void iso_section_free_room(iso_section_walk *w);
 iso_status iso_section_open_group(iso_section_walk *w);
 void iso_section_close_group(iso_section_walk *w);
 
-/* Finds the crossings of the group and gives the rows to the sink. Errors: of the sink, ISO_STOPPED, ISO_NO_MEMORY. */
+/* Finds the crossings of the group and gives the rows to the sink. Errors: of the sink, ISO_STOPPED,
+ * ISO_NO_MEMORY. */
 iso_status iso_section_walk_group(iso_section_walk *w);
 
 #endif

@@ -23,7 +23,9 @@ static void plan(iso_section_walk *w)
     if (w->group > orbits) w->group = orbits;
     const size_t slice = (most + SLICES - 1) / SLICES, largest_slice = room / SLICES;
     w->slice = slice > largest_slice ? largest_slice : slice;
-    w->slices = w->group == 1 ? 1 : (most + w->slice - 1) / w->slice; /* a single orbit's rows go to the sink slice by slice */
+    w->slices = w->group == 1
+                    ? 1
+                    : (most + w->slice - 1) / w->slice; /* a single orbit's rows go to the sink slice by slice */
 }
 
 iso_status iso_section_make_room(iso_section_walk *w)
@@ -73,8 +75,8 @@ static void chart_of(const iso_section_walk *w, size_t orbit, double *l, double 
     }
 }
 
-/* A start on the section, with the scene's energy and in its model. It is made in own units, in which powers of q fit a
- * double. */
+/* A start on the section, with the scene's energy and in its model. It is made in own units, in which powers of q fit
+ * a double. */
 static iso_start start_of(const iso_section_walk *w, size_t orbit)
 {
     const iso_units *units = iso_orbit_units(w->orbit);
@@ -147,8 +149,8 @@ static void note_failure(iso_section_walk *w, size_t i, iso_status status, const
     snprintf(r->words, sizeof r->words, "orbit %zu: %s", w->first + i, words);
 }
 
-/* The message of iso_crossings_go is about the first failure of the group. It begins with the number of the orbit in the
- * group, which is left out. */
+/* The message of iso_crossings_go is about the first failure of the group. It begins with the number of the orbit in
+ * the group, which is left out. */
 static void note_failures(iso_section_walk *w, const iso_status status[])
 {
     const char *words = strstr(iso_context_message(w->ctx), ": ");

@@ -1,11 +1,11 @@
-/* Calibration of the verdicts of lib/study/chaos.h: how many orbits whose truth is known get which verdict.
+/* Calibration of the verdicts of lib/study/chaos.h, on orbits that are known to be regular or chaotic.
  *
  *     chaos [ORBITS] [TURNS]        orbits of each row (default 300), turns of each (default 3000)
  *
- * Regular, because a further integral makes them so: k = 1, k = -1, two or three equal moments; spread over the
- * section, and next to the separatrix, at distances 1e-3 to 1e-6 of F. Chaotic: orbits of k = 0.5, 0.3 and -0.5 whose
- * deviations grow by exp(60) within five times as many turns, in a run of its own by the point, which knows nothing of
- * the indicators.
+ * Regular orbits have a further integral: k = 1, k = -1, two or three equal moments. They are spread over the
+ * section, or next to the separatrix, at distances of 1e-3 to 1e-6 of F. Chaotic orbits are those of k = 0.5, 0.3 and
+ * -0.5 whose deviations grow by exp(60) within five times as many turns. This is found by a separate run of the
+ * point, without the indicators.
  */
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 #!/bin/sh
-# section.sh ISOROLL - `isoroll section`: reference crossings by each model, files, pictures, what is said and refused.
+# section.sh ISOROLL - `isoroll section`: reference crossings by each model, files, pictures, messages and refusals.
 . "$(dirname "$0")/lib.sh"
 
 # field FILE N: the N-th number of the last row

@@ -1,5 +1,5 @@
-/* Crossings of orbits that are followed one by one, lib/orbit/crossings.h: against reference/section.csv by both
- * backends, in parts and at once, at their limits, and what is refused. */
+/* Crossings of orbits that are followed one by one, lib/orbit/crossings.h: both backends against
+ * reference/section.csv, crossings in parts and at once, limits, and refusals. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
