@@ -89,7 +89,7 @@ ISO_API void iso_crossings_free(iso_crossings *c);
 /* Each orbit i with wanted[i] (NULL: every one) goes on to its next `each` crossings: crossing[each i + j], and
  * sample[each i + j] (NULL: none), j < done[i]. status[i]: ISO_OK, or why there are fewer; such an orbit does not go
  * on any more, and gives the same status again. The others go on.
- * A start on the section, n_a = 0 up to 1e-8 of its oscillation, is no crossing.
+ * A start on the section, n_a = 0 up to 1e-8 of its oscillation and not falling, is no crossing.
  * Errors of one orbit: those of iso_orbit_create and iso_orbit_at; ISO_NUMERICAL where two crossings of a global
  * section are closer or farther apart than they can be (map/section.h), where the ball rests, or where no further
  * crossing is found within ISO_MOST_BETWEEN turns; ISO_BAD_INPUT about "axis" for an orbit in the plane n_a = 0
