@@ -46,7 +46,7 @@ static void print_head(const iso_scene *scene, const iso_chaos *c)
     const double *J = scene->params.J;
     printf("k = %.15g, J = %.15g %.15g %.15g\n", scene->params.k, J[0], J[1], J[2]);
     if (c->axis < 0)
-        printf("a turn is a step of %.6g in t: there is no section n_a = 0 here\n", c->turn);
+        printf("a turn is a step of %.6g in t: no section n_a = 0 is known to be global here\n", c->turn);
     else
         printf("a turn is a return to the section n_%d = 0, n_%d increasing\n", c->axis + 1, c->axis + 1);
     printf("\nthis orbit: %s", iso_verdict_name(c->own.verdict));

@@ -98,6 +98,22 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
                             name);
 }
 
+/* --cloud writes no rows and draws no picture. What asks for them would be lost. */
+static iso_status check_cloud(iso_context *ctx, const options *o)
+{
+    const char *lost = strcmp(o->output, "-") != 0        ? "--output"
+                       : o->plot                          ? "--plot"
+                       : o->event                         ? "--event"
+                       : o->at[0]                         ? "--at"
+                       : o->starts > 0                    ? "--starts"
+                       : (int)o->models != ISO_SHOW_START ? "--model"
+                       : (int)o->scene.as >= 0            ? "--as"
+                                                          : NULL;
+    if (o->cloud == 0 || !lost) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it prints the test alone",
+                            lost);
+}
+
 /* `at` is the caller's to free. */
 static iso_status read_options(iso_context *ctx, const options *o, iso_section_options *how, double (**at)[2])
 {
@@ -264,7 +280,8 @@ static int run(iso_context *ctx, const void *options_given)
     iso_scene scene = {.places = 0};
     iso_section_options how;
     double(*at)[2] = NULL;
-    iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
+    iso_status status = check_cloud(ctx, o);
+    if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK) status = read_options(ctx, o, &how, &at);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, &scene);
     int result = finish(ctx, status);

@@ -275,6 +275,6 @@ void iso_indicators_tell(const iso_indicators *it, iso_indication *told)
     told->megno_now = n > 0 ? 2 * it->step_sum / n : NAN;
     told->megno_mean = n > 0 ? it->mean_sum / n : NAN;
     told->megno = told->verdict == ISO_REGULAR ? it->megno : told->megno_mean;
-    told->gali2 = it->area;
+    told->gali2 = n > 0 ? it->area : NAN;
     told->digits = it->digits;
 }
