@@ -238,13 +238,11 @@ static void check_start_on_section(void)
         gsl_test_rel(first[i % 2][i / 2], first[0][0], 1e-8, "a start on the section is no crossing (%d)", i);
 }
 
-/* A start at which n_a falls through 0 lies about half an oscillation before its first crossing. With moments that are
- * nearly equal the bounds between crossings leave no room for such a distance. */
+/* Where n_a falls through 0, half an oscillation is missing. Nearly equal moments make the bounds narrow. */
 static void check_falling_start(void)
 {
-    const double k[] = {1, -1, 0.5, -0.8};
-    for (int i = 0; i < 8; i++) {
-        const iso_params p = laws_params(k[i / 2], (const double[]){2.05, 2.1, 2});
+    for (int i = 0; i < 4; i++) {
+        const iso_params p = laws_params(i / 2 ? -0.8 : 1, (const double[]){2.05, 2.1, 2});
         const int axis = iso_section_axis(&p);
         iso_start start = {.model = ISO_POINT, .eps = NAN};
         const iso_batch_orbit orbit = {&p, &start, NULL};
@@ -255,7 +253,7 @@ static void check_falling_start(void)
         double W[2];
         o.backend = i % 2 ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
         iso_section_point(&p, 1, axis, 0.7, 0.2, start.y);
-        for (int j = 0; j < 3; j++) start.y[j] *= -1;
+        scale(start.y, -1);
         iso_section_bounds(&p, 1, axis, W);
         iso_crossings *c = follow(&orbit, 1, &o);
         gsl_test_int((int)iso_crossings_go(c, NULL, 2, at, NULL, &done, &status), ISO_OK, "a falling start %d: %s", i,
