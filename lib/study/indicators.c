@@ -128,7 +128,7 @@ static const double MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAI
                     MOST_AREA = 1e-4;
 
 /* Of a regular orbit: its MEGNO; MEGNO of each half, and the fitted limit; digits, more where D grows little. */
-static const double MEGNO = 0.02, HALF = 0.3, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7;
+static const double MEGNO = 0.02, HALF = 0.4, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7;
 
 /* A look at fewer turns does not tell a regular orbit from one that sticks to an island. */
 static const long LEAST_REGULAR = 180;
