@@ -102,6 +102,20 @@ static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators
     return ISO_OK;
 }
 
+/* The message of iso_crossings_go is about the first failure. */
+static void note_failures(group *g, int model)
+{
+    iso_chaos *c = g->w->out;
+    for (size_t i = 0; i < g->count; i++) {
+        const iso_status status = g->model[model].status[i];
+        if (status == ISO_OK || status == ISO_STOPPED) continue;
+        orbit_of(g, i)->status[model] = status;
+        if (c->failure != ISO_OK) continue;
+        c->failure = status;
+        snprintf(c->words, sizeof c->words, "%s", iso_context_message(g->w->ctx));
+    }
+}
+
 /* Adds the new crossings of an orbit, as long as it is not decided. */
 static iso_status take(group *g, int model, size_t i)
 {
@@ -114,6 +128,13 @@ static iso_status take(group *g, int model, size_t i)
         const size_t at = r->each * i + j;
         iso_beat beat;
         make_beat(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &beat);
+        if (isnan(beat.growth[0] + beat.growth[1])) {
+            r->status[i] = ISO_NUMERICAL;
+            iso_context_fail(w->ctx, ISO_NUMERICAL, "", "orbit %zu: its deviations have no length: it stands still",
+                             g->first + i);
+            note_failures(g, model);
+            break;
+        }
         iso_indicators_add(shown, &beat);
         if (g->first + i == 0) status = trace(w, model, shown);
     }
@@ -151,20 +172,6 @@ static iso_status open_model(group *g, int model)
         r->status[i] = ISO_OK;
     }
     return iso_crossings_create(w->ctx, g->orbit, g->count, &c, &r->crossings);
-}
-
-/* The message of iso_crossings_go is about the first failure. */
-static void note_failures(group *g, int model)
-{
-    iso_chaos *c = g->w->out;
-    for (size_t i = 0; i < g->count; i++) {
-        const iso_status status = g->model[model].status[i];
-        if (status == ISO_OK || status == ISO_STOPPED) continue;
-        orbit_of(g, i)->status[model] = status;
-        if (c->failure != ISO_OK) continue;
-        c->failure = status;
-        snprintf(c->words, sizeof c->words, "%s", iso_context_message(g->w->ctx));
-    }
 }
 
 /* Sets what one model has told, for progress as well. */
