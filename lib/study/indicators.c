@@ -128,8 +128,8 @@ static double limit_of_square(const iso_look *look, double digits)
 static const double MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAIN_BEFORE = 1.25, LEAST_GROWTH = 9,
                     MOST_AREA = 1e-4;
 
-/* Of a regular orbit: its MEGNO; MEGNO of each half, and the fitted limit; digits. Where the steps show no limit, D must grow like a
- * polynomial: then more digits, or not quite so many while ln D is below LITTLE. */
+/* Of a regular orbit: its MEGNO; MEGNO of each half, and the fitted limit; digits. Where the steps show no limit, D
+ * must grow like a polynomial: then more digits, or not quite so many while ln D is below LITTLE. */
 static const double MEGNO = 0.02, HALF = 0.4, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7, LITTLE = 3.5,
                     DIGITS_LITTLE = 2.5;
 

@@ -4,9 +4,9 @@
  *                                                rows: all, integrable, others
  *
  * Regular, because a further integral makes them so: k = 1, k = -1, two or three equal moments; spread over the
- * section, and next to the separatrix, at distances 1e-3 to 1e-6 of F. Chaotic: orbits of k = 0.5, 0.3 and -0.5 whose
- * deviations grow by exp(60) within five times as many turns, in a run of its own by the point, which knows nothing of
- * the indicators.
+ * section, and next to the separatrix, at distances 1e-3 to 1e-6 of F. Chaotic: orbits of k = 0.5, 0.3 and -0.5
+ * whose deviations grow by exp(60) within five times as many turns, in a run of its own by the point, which knows
+ * nothing of the indicators.
  */
 #include <math.h>
 #include <stdio.h>
