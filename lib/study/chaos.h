@@ -10,8 +10,8 @@
  * Where effects act that keep the energy, or the point is off its level H = 0, a turn is the time 2 pi/|k omega| of
  * the start. The deviations have no part along the flow nor along the energy: these tell of no chaos.
  *
- * A rotation in a principal plane is periodic, so regular, though its neighbours may leave it exponentially: it is not
- * followed.
+ * A rotation in a principal plane is periodic, so regular, though its neighbours may leave it exponentially: it is
+ * not followed.
  *
  * With `starts`, further orbits of the scene's energy begin on the section, spread evenly by the area dL dl. The
  * part of them that is chaotic estimates the part of the area. Its interval is Wilson's, at 95 %, as if the starts

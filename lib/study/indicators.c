@@ -107,14 +107,15 @@ static void fit_square(const iso_look *look, double coefficient[3])
     coefficient[2] = (m02 * y[0] - m12 * y[1] + m22 * y[2]) / det;
 }
 
-/* The limit of MEGNO where D has grown little; NaN: it cannot be told. */
-static double limit_of_square(const iso_look *look)
+/* The limit of MEGNO where D has grown little; NaN: it cannot be told. The coefficients are as good as the smooth
+ * means are. */
+static double limit_of_square(const iso_look *look, double digits)
 {
     static const double FLAT = 1e-4, GROWING = 1e-3;
     double c[3];
     fit_square(look, c);
     const double size = fabs(c[0]);
-    if (c[2] > GROWING * size && c[0] + c[1] + c[2] > 0) return 2;
+    if (c[2] > fmax(GROWING, pow(10, 1 - digits)) * size && c[0] + c[1] + c[2] > 0) return 2;
     return fabs(c[1]) < FLAT * size && fabs(c[2]) < FLAT * size ? 0 : (double)NAN;
 }
 
@@ -127,8 +128,10 @@ static double limit_of_square(const iso_look *look)
 static const double MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAIN_BEFORE = 1.25, LEAST_GROWTH = 9,
                     MOST_AREA = 1e-4;
 
-/* Of a regular orbit: its MEGNO; MEGNO of each half, and the fitted limit; digits, more where D grows little. */
-static const double MEGNO = 0.02, HALF = 0.3, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7;
+/* Of a regular orbit: its MEGNO; MEGNO of each half, and the fitted limit; digits. Where the steps show no limit, D
+ * must grow like a polynomial: then more digits, or not quite so many while ln D is below LITTLE. */
+static const double MEGNO = 0.02, HALF = 0.4, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7, LITTLE = 3.5,
+                    DIGITS_LITTLE = 2.5;
 
 /* A look at fewer turns does not tell a regular orbit from one that sticks to an island. */
 static const long LEAST_REGULAR = 180;
@@ -148,8 +151,8 @@ static bool looks_regular(iso_indicators *it, const iso_look *look, double withi
         return within > HALF || is_two(it->limit, MEGNO);
     }
     const bool flat = fmin(half[0], half[1]) > -ROUGHLY && fmax(half[0], half[1]) < 2 + ROUGHLY;
-    if (!flat || it->digits < DIGITS_FLAT) return false;
-    it->limit = limit_of_square(look);
+    if (!flat || it->digits < (it->before < LITTLE ? DIGITS_LITTLE : DIGITS_FLAT)) return false;
+    it->limit = limit_of_square(look, it->digits);
     return !isnan(it->limit);
 }
 

@@ -12,7 +12,8 @@
  * D_n = sqrt((|d1|^2 + |d2|^2)/2), which does not depend on how the two begin. On a regular orbit D_n^2 is, but for
  * bounded factors that depend on the place alone, a + b n + c n^2; on a chaotic orbit it grows like exp(2 lam n).
  *
- * - Exponent: ln D gained per unit of a clock, without the first eighth; its error from the scatter of 16 to 32 parts.
+ * - Exponent: ln D gained per unit of a clock, without the first eighth; its error from the scatter of 16 to 32
+ *   parts.
  * - MEGNO: Y_n = (2/n) sum (j - 1/2) ln(D_j/D_(j-1)), and its mean over all turns so far. Both approach 2 like 1/n on
  *   a regular orbit, and grow like lam n, lam n/2 on a chaotic one.
  * - The limit of MEGNO on a regular orbit: the mean of 2 (j - 1/2) ln(D_j/D_(j-1)) with the smooth weight

@@ -58,4 +58,10 @@ void iso_section_close_group(iso_section_walk *w);
 /* Finds its crossings and gives the rows to the sink. Errors: of the sink, ISO_STOPPED, ISO_NO_MEMORY. */
 iso_status iso_section_walk_group(iso_section_walk *w);
 
+/* The effect because of which the motion is not that of a free point on H = 0; NULL: none. */
+const iso_effect *iso_section_not_free(const iso_effects *effects);
+
+/* A start of this model on the section n_axis = 0, at (l, x), of the orbit's energy. */
+iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x);
+
 #endif
