@@ -98,6 +98,22 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
                             name);
 }
 
+/* --cloud writes no rows and draws no picture. What asks for them would be lost. */
+static iso_status check_cloud(iso_context *ctx, const options *o)
+{
+    const char *lost = strcmp(o->output, "-") != 0        ? "--output"
+                       : o->plot                          ? "--plot"
+                       : o->event                         ? "--event"
+                       : o->at[0]                         ? "--at"
+                       : o->starts > 0                    ? "--starts"
+                       : (int)o->models != ISO_SHOW_START ? "--model"
+                       : (int)o->scene.as >= 0            ? "--as"
+                                                          : NULL;
+    if (o->cloud == 0 || !lost) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it prints the test alone",
+                            lost);
+}
+
 /* `at` is the caller's to free. */
 static iso_status read_options(iso_context *ctx, const options *o, iso_section_options *how, double (**at)[2])
 {
@@ -264,7 +280,8 @@ static int run(iso_context *ctx, const void *options_given)
     iso_scene scene = {.places = 0};
     iso_section_options how;
     double(*at)[2] = NULL;
-    iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
+    iso_status status = check_cloud(ctx, o);
+    if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK) status = read_options(ctx, o, &how, &at);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, &scene);
     int result = finish(ctx, status);
@@ -334,8 +351,9 @@ const command command_section = {
         "With --model both, each model is integrated by itself. The rows are the ball's. stderr tells the largest "
         "distance between the crossings of both models, and how many orbits part: on chaotic orbits the rounding "
         "errors of the models grow until they part.\n\n"
-        "On a global section, the length in s of each return is checked against bounds. A return outside them is "
-        "an error: a crossing was skipped, or counted twice.\n\n"
+        "Crossings of a free orbit are searched in pieces of its path that are too short for two zeros of n_A: none "
+        "is skipped. In addition, the length in s of each return is checked against bounds. A return outside them "
+        "is an error.\n\n"
         "--plot draws the sections of both models side by side, each orbit in one colour, chaotic orbits in grey.\n\n"
         "--cloud N makes clouds of N states that are distributed by the invariant measure (10) at the scene's "
         "energy. One cloud is carried by the flow in equal times t, one in equal times s, and one by returns to "

@@ -31,7 +31,7 @@ bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const d
     const double k = model == ISO_BALL ? p->k : 1, pace = fabs(k) * norm(y);
     const double rise = k * (y[3 + b] * y[c] - y[3 + c] * y[b]); /* n' = k n x w, gamma' = gamma x M */
     const double swing = hypot(pace * y[3 + axis], rise);
-    return fabs(pace * y[3 + axis]) <= 1e-8 * swing;
+    return rise >= 0 && fabs(pace * y[3 + axis]) <= 1e-8 * swing;
 }
 
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)

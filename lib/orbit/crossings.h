@@ -90,13 +90,15 @@ ISO_API void iso_crossings_free(iso_crossings *c);
 /* Each orbit i with wanted[i] (wanted NULL: every orbit) goes on to its next `each` crossings. They are
  * crossing[each i + j] and sample[each i + j] (sample NULL: none), j < done[i]. status[i] is ISO_OK, or tells why
  * there are fewer than `each`. An orbit that has failed does not go on: later calls give the same status. The others
- * go on. A start on the section (n_a = 0 up to 1e-8 of its oscillation) is no crossing. Errors of one orbit: those of
- * iso_orbit_create and iso_orbit_at; ISO_NUMERICAL if two crossings of a global section are outside the bounds of
- * their distance in s (map/section.h), if the ball rests, or if no further crossing is found within ISO_MOST_BETWEEN
- * turns; ISO_BAD_INPUT about "axis" for an orbit in the plane n_a = 0 itself, the boundary of the chart. If s does
- * not fit a double (extreme k), distances are not checked. The call returns the error of the first orbit that failed;
- * the message has its number and the reason. Errors of the call: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor:
- * then done[] and the crossings that it counts are valid, and the next call goes on from there. */
+ * go on.
+ * A start on the section (n_a = 0 up to 1e-8 of its oscillation, and not falling) is no crossing.
+ * Errors of one orbit: those of iso_orbit_create and iso_orbit_at; ISO_NUMERICAL if two crossings of a global section
+ * are outside the bounds of their distance in s (map/section.h), if the ball rests, or if no further crossing is
+ * found within ISO_MOST_BETWEEN turns; ISO_BAD_INPUT about "axis" for an orbit in the plane n_a = 0 itself, the
+ * boundary of the chart. If s does not fit a double (extreme k), distances are not checked.
+ * The call returns the error of the first orbit that failed; the message has its number and the reason.
+ * Errors of the call: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: then done[] and the crossings that it
+ * counts are valid, and the next call goes on from there. */
 enum { ISO_MOST_BETWEEN = 10000 };
 ISO_API iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
                                     iso_sample sample[], size_t done[], iso_status status[]);

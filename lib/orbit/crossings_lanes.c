@@ -113,6 +113,16 @@ static bool suits(const iso_crossings *c, const struct iso_crossings_lane *lane,
     return lane->has_clocks && isfinite(o->bound[0]) && isfinite(o->bound[1]);
 }
 
+static bool starts_on_section(const iso_orbit *orbit, const double y[], int axis)
+{
+    const iso_params *own = &orbit->units.own;
+    double point[ISO_STATE];
+    if (orbit->system != &iso_system_point_t)
+        return iso_crossings_on_section(own, iso_crossings_model(orbit), y, axis);
+    iso_point_t_to_point(own, y, point); /* for k < 0 the signs of M and y differ */
+    return iso_crossings_on_section(own, ISO_POINT, point, axis);
+}
+
 /* Prepares orbit i if lanes can follow it; else o->lane stays NULL. */
 static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
 {
@@ -126,11 +136,9 @@ static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
         free(lane);
         return status;
     }
-    const double *y = lane->job.start;
     if (c->options.kind == ISO_SECTION_AXIS) {
-        o->begins_on_it =
-            iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(&lane->orbit), y, o->axis);
-        status = iso_crossings_check_plane(w->ctx, &lane->orbit, y, o->axis);
+        o->begins_on_it = starts_on_section(&lane->orbit, lane->job.start, o->axis);
+        status = iso_crossings_check_plane(w->ctx, &lane->orbit, lane->job.start, o->axis);
         set_search(lane, o);
     }
     lane->job.model = &lane->orbit.model;
@@ -318,6 +326,7 @@ static bool pass(iso_pool_worker *w, const follower *f, size_t first, size_t cou
         const size_t left = t->each - t->done[i];
         if (!f->taken[i] || t->status[i] != ISO_OK || left == 0) continue;
         jobs[*waiting] = set_job(f, i, i - first, r, left < r->rows ? left : r->rows);
+        f->c->orbit[i].lane->orbit.ctx = w->ctx; /* an earlier call had other workers */
         orbit[(*waiting)++] = i;
     }
     const size_t solved = *waiting;

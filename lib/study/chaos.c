@@ -10,16 +10,9 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "study/chaos_impl.h"
+#include "study/section_impl.h"
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
-
-/* The effect that makes the motion other than that of a free point on H = 0; NULL: none. */
-static const iso_effect *not_free(const iso_effects *effects)
-{
-    const iso_effect *effect = iso_effects_beyond_level(effects);
-    if (effect || !iso_effects_have_level(effects)) return effect;
-    return iso_effect_list[iso_effect_find(iso_level_name())];
-}
 
 static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
 {
@@ -34,9 +27,11 @@ static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
                                 taking->name);
     const iso_effect *without = iso_effects_without_frequencies(problem, &why);
     if (without) return iso_context_fail(w->ctx, ISO_BAD_INPUT, without->name, "%s", why);
-    if (largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0 || iso_effects_pull(&problem->effects))
-        return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, ball ? "angular_velocity" : "M", "the %s is at rest",
+    if (largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, ball ? "angular_velocity" : "M",
+                            iso_effects_pull(&problem->effects)
+                                ? "the %s starts at rest, where deviations have no size: let it begin a little later"
+                                : "the %s is at rest",
                             iso_model_kind_name((int)w->scene->start.model));
 }
 
@@ -180,7 +175,7 @@ static iso_status run(iso_chaos_walk *w)
     status = open_orbit(w, &start);
     if (status != ISO_OK) return status;
     const iso_effects effects = iso_orbit_effects(w->orbit);
-    const iso_effect *effect = not_free(&effects);
+    const iso_effect *effect = iso_section_not_free(&effects);
     status = check_motion(w, &start);
     if (status == ISO_OK) status = check_starts(w, effect);
     if (status != ISO_OK) return status;

@@ -1,12 +1,12 @@
 /* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits without a verdict
  * go on to the next look, first by one model, then by the other. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/vec3_impl.h"
-#include "map/state.h"
 #include "study/chaos_impl.h"
+#include "study/section_impl.h"
 
 /* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings. */
 enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000 };
@@ -32,24 +32,6 @@ typedef struct group {
 } group;
 
 /* --- starts ----------------------------------------------------------------------------------------------------- */
-
-/* A start on the section, with the scene's energy and in its model. It is made in own units, in which powers of q fit
- * a double. */
-static iso_start start_at(const iso_chaos_walk *w, double l, double x)
-{
-    const iso_units *units = iso_orbit_units(w->orbit);
-    const double eps = iso_orbit_coupling(w->orbit);
-    double point[ISO_STATE];
-    iso_start start = {.model = w->scene->start.model, .eps = isnormal(eps) ? eps : (double)NAN};
-    const bool ball = start.model == ISO_BALL;
-    iso_section_point(&units->own, iso_orbit_model(w->orbit)->problem.eps, w->out->axis, l, x, point);
-    if (ball)
-        iso_point_to_ball(&units->own, point, start.y);
-    else
-        copy(point, start.y, ISO_STATE);
-    scale(start.y, ball ? units->w : iso_unit(units, iso_system_point.fast_dimension));
-    return start;
-}
 
 static iso_chaos_orbit *orbit_of(const group *g, size_t i)
 {
@@ -78,7 +60,7 @@ static void make_starts(group *g)
         g->start[i] = w->scene->start;
         if (g->first + i > 0) {
             chart_of(w, g->first + i - 1, &o->l, &o->x);
-            g->start[i] = start_at(w, o->l, o->x);
+            g->start[i] = iso_section_start(w->orbit, w->scene->start.model, w->out->axis, o->l, o->x);
         }
         g->orbit[i] = (iso_batch_orbit){&w->scene->params, &g->start[i], &w->effects};
     }
@@ -120,6 +102,20 @@ static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators
     return ISO_OK;
 }
 
+/* The message of iso_crossings_go is about the first failure. */
+static void note_failures(group *g, int model)
+{
+    iso_chaos *c = g->w->out;
+    for (size_t i = 0; i < g->count; i++) {
+        const iso_status status = g->model[model].status[i];
+        if (status == ISO_OK || status == ISO_STOPPED) continue;
+        orbit_of(g, i)->status[model] = status;
+        if (c->failure != ISO_OK) continue;
+        c->failure = status;
+        snprintf(c->words, sizeof c->words, "%s", iso_context_message(g->w->ctx));
+    }
+}
+
 /* Adds the new crossings of an orbit until it has a verdict. */
 static iso_status take(group *g, int model, size_t i)
 {
@@ -132,6 +128,13 @@ static iso_status take(group *g, int model, size_t i)
         const size_t at = r->each * i + j;
         iso_beat beat;
         make_beat(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &beat);
+        if (isnan(beat.growth[0] + beat.growth[1])) {
+            r->status[i] = ISO_NUMERICAL;
+            iso_context_fail(w->ctx, ISO_NUMERICAL, "", "orbit %zu: its deviations have no length: it stands still",
+                             g->first + i);
+            note_failures(g, model);
+            break;
+        }
         iso_indicators_add(shown, &beat);
         if (g->first + i == 0) status = trace(w, model, shown);
     }
@@ -169,20 +172,6 @@ static iso_status open_model(group *g, int model)
         r->status[i] = ISO_OK;
     }
     return iso_crossings_create(w->ctx, g->orbit, g->count, &c, &r->crossings);
-}
-
-/* The message of iso_crossings_go is about the first failure. */
-static void note_failures(group *g, int model)
-{
-    iso_chaos *c = g->w->out;
-    for (size_t i = 0; i < g->count; i++) {
-        const iso_status status = g->model[model].status[i];
-        if (status == ISO_OK || status == ISO_STOPPED) continue;
-        orbit_of(g, i)->status[model] = status;
-        if (c->failure != ISO_OK) continue;
-        c->failure = status;
-        snprintf(c->words, sizeof c->words, "%s", iso_context_message(g->w->ctx));
-    }
 }
 
 /* Sets the indications by one model. */

@@ -107,14 +107,15 @@ static void fit_square(const iso_look *look, double coefficient[3])
     coefficient[2] = (m02 * y[0] - m12 * y[1] + m22 * y[2]) / det;
 }
 
-/* The limit of MEGNO where D has grown little; NaN: not known. */
-static double limit_of_square(const iso_look *look)
+/* The limit of MEGNO where D has grown little; NaN: not known. The coefficients are as accurate as the smooth means,
+ * which agree to `digits`. */
+static double limit_of_square(const iso_look *look, double digits)
 {
     static const double FLAT = 1e-4, GROWING = 1e-3;
     double c[3];
     fit_square(look, c);
     const double size = fabs(c[0]);
-    if (c[2] > GROWING * size && c[0] + c[1] + c[2] > 0) return 2;
+    if (c[2] > fmax(GROWING, pow(10, 1 - digits)) * size && c[0] + c[1] + c[2] > 0) return 2;
     return fabs(c[1]) < FLAT * size && fabs(c[2]) < FLAT * size ? 0 : (double)NAN;
 }
 
@@ -128,8 +129,10 @@ static const double MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAI
                     MOST_AREA = 1e-4;
 
 /* For a regular orbit: how close to 2 must be MEGNO, MEGNO of each half, and a rough limit; the least number of
- * digits, and that where D grows little. */
-static const double MEGNO = 0.02, HALF = 0.3, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7;
+ * digits. If the steps show no limit, D must grow like a polynomial. Then DIGITS_FLAT is the least number of digits;
+ * DIGITS_LITTLE while ln D is below LITTLE. */
+static const double MEGNO = 0.02, HALF = 0.4, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7, LITTLE = 3.5,
+                    DIGITS_LITTLE = 2.5;
 
 /* A look at fewer turns does not tell a regular orbit from one that sticks to an island. */
 static const long LEAST_REGULAR = 180;
@@ -149,8 +152,8 @@ static bool looks_regular(iso_indicators *it, const iso_look *look, double withi
         return within > HALF || is_two(it->limit, MEGNO);
     }
     const bool flat = fmin(half[0], half[1]) > -ROUGHLY && fmax(half[0], half[1]) < 2 + ROUGHLY;
-    if (!flat || it->digits < DIGITS_FLAT) return false;
-    it->limit = limit_of_square(look);
+    if (!flat || it->digits < (it->before < LITTLE ? DIGITS_LITTLE : DIGITS_FLAT)) return false;
+    it->limit = limit_of_square(look, it->digits);
     return !isnan(it->limit);
 }
 
@@ -276,6 +279,6 @@ void iso_indicators_tell(const iso_indicators *it, iso_indication *told)
     told->megno_now = n > 0 ? 2 * it->step_sum / n : NAN;
     told->megno_mean = n > 0 ? it->mean_sum / n : NAN;
     told->megno = told->verdict == ISO_REGULAR ? it->megno : told->megno_mean;
-    told->gali2 = it->area;
+    told->gali2 = n > 0 ? it->area : NAN;
     told->digits = it->digits;
 }

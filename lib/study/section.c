@@ -18,8 +18,7 @@
 
 /* --- which section is global ------------------------------------------------------------------------------------ */
 
-/* The effect that makes the motion other than that of a free point on H = 0; NULL: none. */
-static const iso_effect *not_free(const iso_effects *effects)
+const iso_effect *iso_section_not_free(const iso_effects *effects)
 {
     const iso_effect *effect = iso_effects_beyond_level(effects);
     if (effect || !iso_effects_have_level(effects)) return effect;
@@ -42,7 +41,7 @@ iso_section_nature iso_section_of(const iso_orbit *orbit, int axis)
 {
     const iso_units *units = iso_orbit_units(orbit);
     const iso_effects effects = iso_orbit_effects(orbit);
-    const iso_effect *effect = not_free(&effects);
+    const iso_effect *effect = iso_section_not_free(&effects);
     const int good = iso_section_axis(&units->own);
     iso_section_nature n = {.axis = axis == ISO_AXIS_AUTO ? good : axis};
     double W[2];
@@ -95,7 +94,7 @@ static iso_status check_losses(const iso_section_walk *w)
 static iso_status check_starts(const iso_section_walk *w)
 {
     const iso_section_options *o = &w->options;
-    const iso_effect *effect = not_free(&w->effects);
+    const iso_effect *effect = iso_section_not_free(&w->effects);
     const char *why = !w->chart ? "an event has no chart"
                       : effect  ? "the section has a chart only for free motions on H = 0"
                                 : NULL;

@@ -59,4 +59,10 @@ void iso_section_close_group(iso_section_walk *w);
  * ISO_NO_MEMORY. */
 iso_status iso_section_walk_group(iso_section_walk *w);
 
+/* The effect that makes the motion other than that of a free point on H = 0; NULL: none. */
+const iso_effect *iso_section_not_free(const iso_effects *effects);
+
+/* A start of this model on the section n_axis = 0, at (l, x), with the energy of `orbit`. */
+iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x);
+
 #endif

@@ -75,24 +75,29 @@ static void chart_of(const iso_section_walk *w, size_t orbit, double *l, double 
     }
 }
 
-/* A start on the section, with the scene's energy and in its model. It is made in own units, in which powers of q fit
- * a double. */
-static iso_start start_of(const iso_section_walk *w, size_t orbit)
+/* The start is made in own units, in which powers of q fit a double. */
+iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x)
 {
-    const iso_units *units = iso_orbit_units(w->orbit);
-    const double eps = iso_orbit_coupling(w->orbit);
-    double l, x, point[ISO_STATE];
-    if (orbit == 0) return w->scene->start;
-    iso_start start = {.model = w->scene->start.model, .eps = isnormal(eps) ? eps : NAN};
-    const bool ball = start.model == ISO_BALL;
-    chart_of(w, orbit, &l, &x);
-    iso_section_point(&units->own, iso_orbit_model(w->orbit)->problem.eps, w->options.axis, l, x, point);
+    const iso_units *units = iso_orbit_units(orbit);
+    const double eps = iso_orbit_coupling(orbit);
+    double point[ISO_STATE];
+    iso_start start = {.model = model, .eps = isnormal(eps) ? eps : (double)NAN};
+    const bool ball = model == ISO_BALL;
+    iso_section_point(&units->own, iso_orbit_model(orbit)->problem.eps, axis, l, x, point);
     if (ball)
         iso_point_to_ball(&units->own, point, start.y);
     else
         copy(point, start.y, ISO_STATE);
     scale(start.y, ball ? units->w : iso_unit(units, iso_system_point.fast_dimension));
     return start;
+}
+
+static iso_start start_of(const iso_section_walk *w, size_t orbit)
+{
+    double l, x;
+    if (orbit == 0) return w->scene->start;
+    chart_of(w, orbit, &l, &x);
+    return iso_section_start(w->orbit, w->scene->start.model, w->options.axis, l, x);
 }
 
 static iso_crossings_options options_of(const iso_section_walk *w, int model)

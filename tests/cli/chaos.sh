@@ -78,9 +78,13 @@ refuses 3 "'gravity'" chaos gravity.yaml --starts 10
 refuses 3 "takes energy from the ball" chaos losing.yaml
 scene 0.5 "1, 2, 5" "0, 0, 0" "$normal" 10 0.5 >rest.yaml
 refuses 3 "at rest" chaos rest.yaml --model ball
+{ cat rest.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >released.yaml
+refuses 3 "starts at rest, where deviations have no size" chaos released.yaml
 scene 0.5 "1, 2, 5" "0, 0, 2" "0.6, 0.8, 0" 10 0.5 >plane.yaml
 run 0 chaos plane.yaml
 check "a rotation is periodic" grep -q "rotation about axis 3 in a principal plane, which is periodic" out
+run 0 chaos plane.yaml --json
+check "nothing is told of deviations that are not followed" test "$(grep -c '"gali2": null' out)" -eq 2
 refuses 3 "an axis is 1, 2 or 3" chaos chaotic.yaml --axis 4
 refuses 2 "--turns '0'" chaos chaotic.yaml --turns 0
 refuses 2 "--starts '-1'" chaos chaotic.yaml --starts -1

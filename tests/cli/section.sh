@@ -176,6 +176,8 @@ run 0 section field.yaml --cloud 1024
 check "returns in a field" grep -q "^returns  *not tried: " out
 refuses 3 "gravity.yaml:4:" section gravity.yaml --cloud 1024
 refuses 2 "512" section wild.yaml --cloud 100
+refuses 2 "--cloud takes no --output" section wild.yaml --cloud 1024 -o cloud.csv
+refuses 2 "--cloud takes no --at" section wild.yaml --cloud 1024 --at 0.5,0.2
 
 # --- pictures
 if has gnuplot "--plot"; then
