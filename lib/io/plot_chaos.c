@@ -1,4 +1,4 @@
-/* plot_chaos.c - pictures of chaos: how the indicators of an orbit went, and the section coloured by exponent. */
+/* plot_chaos.c - pictures of chaos: the indicators of an orbit against the turns, and the section coloured by exponent. */
 #include <math.h>
 
 #include "base/arithmetic_impl.h"
@@ -21,7 +21,7 @@ static bool has_rows(const iso_record *r)
     return r && iso_record_rows(r) > 0;
 }
 
-/* A block of the columns of a model. Logarithmic axes begin at 1e-17. */
+/* A block with the columns of a model. Values on logarithmic axes are at least 1e-17. */
 static void put_trace(FILE *f, const char *name, const iso_record *r)
 {
     const size_t rows = has_rows(r) ? iso_record_rows(r) : 0, step = rows / ISO_PLOT_ROWS + 1;
@@ -102,7 +102,7 @@ static spot_kind kind_of(const double *row)
     return isnan(row[2]) ? UNDECIDED : row[2] > 0 ? CHAOTIC : REGULAR;
 }
 
-/* The spots of one kind; gives their number. */
+/* Writes the spots of one kind. Gives their number. */
 static size_t put_spots(FILE *f, const iso_record *r, const char *name, spot_kind kind)
 {
     size_t count = 0;

@@ -1,5 +1,5 @@
-/* crossings.c - many orbits from crossing to crossing: checks the options, hands the orbits out to lanes or follows
- * them one by one, and keeps what each of them answered. */
+/* crossings.c - many orbits from crossing to crossing: checks the options, follows the orbits in lanes or one by one, and
+ * keeps their failures. */
 #include "orbit/crossings.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 #include "orbit/crossings_impl.h"
 #include "orbit/pool_impl.h"
 
-/* --- what both ways of following share -------------------------------------------------------------------------- */
+/* --- shared by both ways of following -------------------------------------------------------------------------- */
 
 int iso_crossings_axis(const iso_crossings *c, size_t i)
 {
@@ -24,7 +24,7 @@ int iso_crossings_axis(const iso_crossings *c, size_t i)
     return c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(c->orbits[i].params) : c->options.axis;
 }
 
-/* n_a swings with about |k w|, gamma_a with |M|: so n_a'/(|k w|) has the size of n_a. */
+/* n_a oscillates at the rate of about |k w|, gamma_a at |M|. So n_a'/|k w| has the size of n_a. */
 bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
@@ -64,12 +64,12 @@ static iso_status check_section(iso_context *ctx, const iso_crossings_options *o
     if (o->kind == ISO_SECTION_COLUMN && !isfinite(o->value))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "a column cannot pass %g", o->value);
     if (o->kind == ISO_SECTION_CLOCK && !(o->value > 0 && isfinite(o->value)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "a step of %g of a clock is none", o->value);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "a clock cannot go on in steps of %g", o->value);
     if (o->kind == ISO_SECTION_CLOCK && ((int)o->clock < 0 || o->clock >= ISO_CLOCKS))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "there is no such clock");
     if (o->kind == ISO_SECTION_COLUMN && o->deviations)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "deviations",
-                                "deviations are computed on sections n_a = 0 and at equal steps of a clock");
+                                "deviations are computed only on sections n_a = 0 and at equal steps of a clock");
     return ISO_OK;
 }
 
@@ -196,7 +196,7 @@ static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, cons
     return iso_pool_run(c->ctx, &pool, iso_pool_threads(c->options.threads, alone, 1), t->status);
 }
 
-/* The first wanted orbit that has failed, in words. */
+/* Fails with the status and the message of the first wanted orbit that has failed. */
 static iso_status tell_first(const iso_crossings *c, const iso_crossings_task *t)
 {
     for (size_t i = 0; i < c->count; i++) {

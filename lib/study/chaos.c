@@ -22,7 +22,7 @@ static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
     const char *why;
     if (taking)
         return iso_context_fail(w->ctx, ISO_BAD_INPUT, taking->name,
-                                "'%s' takes energy from the ball: a motion that comes to rest is not chaotic, nor "
+                                "'%s' takes energy from the ball: a motion that comes to rest is neither chaotic nor "
                                 "regular",
                                 taking->name);
     const iso_effect *without = iso_effects_without_frequencies(problem, &why);
@@ -39,8 +39,7 @@ static iso_status check_starts(const iso_chaos_walk *w, const iso_effect *effect
 {
     if (w->options.starts + w->options.at_count == 0 || !effect) return ISO_OK;
     return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect->name,
-                            "other starts are spread over the section of free motions on H = 0: without '%s'",
-                            effect->name);
+                            "other starts need the section of a free motion on H = 0, without '%s'", effect->name);
 }
 
 static iso_status check_options(const iso_chaos_walk *w)
@@ -74,7 +73,7 @@ static iso_status check_section(const iso_chaos_walk *w)
 
 /* --- what a turn is --------------------------------------------------------------------------------------------- */
 
-/* n turns at the rate |k omega|. */
+/* A turn: a return to the section; under an effect, the time in which n turns once at the rate |k omega|. */
 static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_effect *effect)
 {
     iso_chaos *c = w->out;
@@ -141,7 +140,7 @@ void iso_chaos_judge(const iso_chaos *c, iso_chaos_orbit *orbit)
 
 void iso_chaos_interval(size_t found, size_t count, double *low, double *high)
 {
-    static const double z = 1.959963984540054; /* 95 % of a normal distribution are within z */
+    static const double z = 1.959963984540054; /* 95 % of a normal distribution lie in [-z, z] */
     const double n = (double)count, p = n > 0 ? (double)found / n : 0.5;
     const double middle = (p + z * z / (2 * n)) / (1 + z * z / n),
                  half = z / (1 + z * z / n) * sqrt(p * (1 - p) / n + z * z / (4 * n * n));

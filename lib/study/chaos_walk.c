@@ -1,5 +1,5 @@
-/* chaos_walk.c - groups of orbits of chaos.h, followed round by round: in each round those that are not decided go on
- * up to the next look at their verdict, first by the one model, then by the other. */
+/* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits without a verdict go
+ * on to the next look, first by one model, then by the other. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,13 +8,13 @@
 #include "study/chaos_impl.h"
 #include "study/section_impl.h"
 
-/* Orbits that are followed together, and most turns of a round: some 25 MB of crossings. */
+/* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings. */
 enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000 };
 
 /* One model's part of a group. */
 typedef struct runner {
     iso_crossings *crossings;
-    size_t each; /* turns of the last round; they are the same for all that go on */
+    size_t each; /* turns of the last round, the same for all orbits that go on */
     bool wanted[GROUP];
     iso_indicators shown[GROUP];
     size_t done[GROUP];
@@ -23,7 +23,7 @@ typedef struct runner {
 
 typedef struct group {
     iso_chaos_walk *w;
-    size_t first, count; /* orbits; 0 is the scene's own, i the start i - 1 */
+    size_t first, count; /* orbits; orbit 0 is the scene's own, orbit i is start i - 1 */
     iso_start start[GROUP];
     iso_batch_orbit orbit[GROUP];
     runner model[2];
@@ -39,7 +39,7 @@ static iso_chaos_orbit *orbit_of(const group *g, size_t i)
     return g->first + i == 0 ? &c->own : &c->start[g->first + i - 1];
 }
 
-/* Spread, or given. */
+/* The chart of start i, which is spread or given. */
 static void chart_of(const iso_chaos_walk *w, size_t i, double *l, double *x)
 {
     const iso_chaos_options *o = &w->options;
@@ -68,7 +68,7 @@ static void make_starts(group *g)
 
 /* --- beats ------------------------------------------------------------------------------------------------------ */
 
-/* Smooth functions of the place without a symmetry: u is M/|M| on the section, else n. */
+/* Smooth functions of the place, without a symmetry. u: M/|M| on the section, else n. */
 static void see(const double u[3], double seen[ISO_SEEN])
 {
     seen[0] = u[0] + u[0] * u[0];
@@ -116,7 +116,7 @@ static void note_failures(group *g, int model)
     }
 }
 
-/* Adds the new crossings of an orbit, as long as it is not decided. */
+/* Adds the new crossings of an orbit until it has a verdict. */
 static iso_status take(group *g, int model, size_t i)
 {
     const iso_chaos_walk *w = g->w;
@@ -174,14 +174,14 @@ static iso_status open_model(group *g, int model)
     return iso_crossings_create(w->ctx, g->orbit, g->count, &c, &r->crossings);
 }
 
-/* Sets what one model has told, for progress as well. */
+/* Sets the indications by one model. */
 static void tell(group *g, int model)
 {
     for (size_t i = 0; i < g->count; i++)
         iso_indicators_tell(&g->model[model].shown[i], &orbit_of(g, i)->told[model]);
 }
 
-/* Up to the next look of those that go on; 0: none does. */
+/* The turns until the next look at the orbits that go on, at most ROUND; 0: none goes on. */
 static size_t turns_of_round(const group *g, const runner *r)
 {
     for (size_t i = 0; i < g->count; i++) {
@@ -212,7 +212,7 @@ static iso_status go_on(group *g, int model, bool *any)
     return status;
 }
 
-/* An orbit that is decided by one model is followed by the other until that decides as well. */
+/* An orbit with a verdict counts as done. */
 static void show_progress(const group *g)
 {
     const iso_chaos_walk *w = g->w;
@@ -229,6 +229,7 @@ static void show_progress(const group *g)
     w->options.progress(fmin(1, ((double)g->first + done / models) / all), w->options.data);
 }
 
+/* Each model follows an orbit until its own verdict, even if the other model has decided before. */
 static iso_status follow_group(group *g)
 {
     iso_chaos *c = g->w->out;
@@ -261,7 +262,7 @@ static iso_status check_own(const iso_chaos_walk *w)
     return iso_context_fail(w->ctx, c->failure, iso_context_about(w->ctx), "%s", c->words);
 }
 
-/* A rotation in a principal plane is periodic. */
+/* A rotation in a principal plane is periodic, so regular. */
 static void tell_plane(iso_chaos *c)
 {
     iso_indicators none;

@@ -148,10 +148,10 @@ static double fit(int count, const double x[], const double y[], double *slope)
     return rest / count;
 }
 
-/* The indicators of chaos (chaos.h) say whether the orbit is chaotic, and its exponent. So all cells of a scene say
- * the same, whatever part of the growth their errors show. Where the indicators do not decide, or cannot be asked,
- * the errors do: those of regular orbits grow like t or t^2. Where the fitted power is above STEEP and an
- * exponential fits better, the orbit is chaotic. */
+/* The indicators of chaos (chaos.h) tell whether the orbit is chaotic, and its exponent. So all cells of a scene have the
+ * same answer, whatever part of the growth their errors show. If the indicators do not decide, or cannot be computed,
+ * the errors decide. Errors on regular orbits grow like t or t^2. If the fitted power is above STEEP and an exponential
+ * fits better, the orbit is chaotic. */
 static const double STEEP = 3, INDICATORS = 5;
 
 static iso_status ask_indicators(grower *g, iso_verdict *verdict, double *exponent)

@@ -108,8 +108,8 @@ typedef struct iso_frequencies {
     iso_separatrix separatrix[ISO_SEPARATRICES];
     int angles; /* 0, 1 or 2                                                                            */
     iso_angle angle[2];
-    double rotation; /* angle[0].frequency/angle[1].frequency, the same in every clock; NaN: chaos, or most of the
-                        motion is not explained by two frequencies                                        */
+    double rotation; /* angle[0].frequency/angle[1].frequency, the same in every clock; NaN: the motion is chaotic,
+                        or two frequencies explain less than half of it                                   */
     int resonances;  /* best approximations of `rotation` by fractions q/p with p, q <= 100             */
     iso_resonance resonance[ISO_MAX_RESONANCES];
     double closed[ISO_CLOCKS]; /* the period of a closed orbit: one angle, or a resonance that is met; NaN: it is

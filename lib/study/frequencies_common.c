@@ -69,7 +69,7 @@ static void find_closed(iso_frequencies *f)
     for (int c = 0; c < ISO_CLOCKS && !f->estimated; c++) f->closed[c] = turns * f->angle[0].period[c];
 }
 
-/* Whether two frequencies make the motion. */
+/* Whether two frequencies explain most of the motion. */
 static bool is_steady(const iso_frequencies *f)
 {
     static const double MOST_UNEXPLAINED = 0.5;

@@ -1,14 +1,14 @@
 /* indicators.c - exponent, MEGNO, GALI_2 and the verdict from the beats of an orbit, see indicators.h.
  *
- * A look at N turns takes the turns from N/4 to N. Its sums are gathered while the turns pass: looks at N, sqrt(2) N,
- * 2 N and 2 sqrt(2) N are under way at the same time, those at 4 N begin when those at N end.
+ * A look at N turns uses the turns from N/4 to N. Its sums grow while the turns pass. The sums of the looks at N,
+ * sqrt(2) N, 2 N and 2 sqrt(2) N grow at the same time. Those of the look at 4 N begin when the look at N ends.
  */
 #include "study/indicators.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Looks at fewer turns are not judged: the sums know too little. */
+/* There is no look at fewer turns: the sums would say too little. */
 static const long LEAST_TURNS = 90;
 
 const char *iso_verdict_name(iso_verdict verdict)
@@ -43,7 +43,7 @@ static double weight(double u)
     return u > 0 && u < 1 ? exp(4 - 1 / (u * (1 - u))) : 0;
 }
 
-/* step: ln(D_n/D_(n-1)). The length of D_n^2 is cut off where no polynomial will be fitted to it any more. */
+/* step: ln(D_n/D_(n-1)). D_n^2 is cut off where it is so large that no polynomial will be fitted to it. */
 static void add_to_look(iso_look *look, long n, double growth, double step, const double seen[ISO_SEEN])
 {
     static const double MOST_GROWTH = 100;
@@ -71,9 +71,9 @@ static void add_to_look(iso_look *look, long n, double growth, double step, cons
     }
 }
 
-/* --- what a look tells ------------------------------------------------------------------------------------------ */
+/* --- the results of a look ------------------------------------------------------------------------------------------ */
 
-/* The means over the halves agree to so many digits of the spread of what is averaged. */
+/* To how many digits the means over the two halves agree. Differences are divided by the spread of the function. */
 static double digits_of(const iso_look *look)
 {
     static const double LEAST_SPREAD = 1e-4, ROUNDING = 1e-16;
@@ -121,10 +121,10 @@ static double limit_of_square(const iso_look *look, double digits)
 
 /* --- the verdict ------------------------------------------------------------------------------------------------ */
 
-/* What is measured is compared with these. Two looks must agree. The gain is that of ln D between the middles of the
- * two halves, at 7/16 and 13/16 of the turns: ln(13/7) = 0.62 on a regular orbit, 3/8 lam n on a chaotic one. Next to
- * the separatrix of a resonance a regular orbit looks chaotic for a while, so ln D itself must be large too, which is
- * the same as a small GALI_2. */
+/* Limits for the verdict. Two successive looks must agree. `gain` is the growth of ln D between the middles of the two
+ * halves, at 7/16 and 13/16 of the turns: ln(13/7) = 0.62 on a regular orbit, 3/8 lam n on a chaotic one. Next to the
+ * separatrix of a resonance a regular orbit looks chaotic for a while. So ln D itself must be large as well, and GALI_2
+ * small. */
 static const double MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAIN_BEFORE = 1.25, LEAST_GROWTH = 9,
                     MOST_AREA = 1e-4;
 
@@ -141,7 +141,7 @@ static bool is_two(double megno, double within)
     return fabs(megno - 2) < within;
 }
 
-/* Whether the look says that the orbit is regular, if `within` is HALF, or may be, if it is ROUGHLY. */
+/* within HALF: whether this look says that the orbit is regular. within ROUGHLY: whether it may be regular. */
 static bool looks_regular(iso_indicators *it, const iso_look *look, double within)
 {
     const double *half = it->halves;
@@ -192,7 +192,7 @@ void iso_indicators_begin(iso_indicators *it, long most)
     it->limit = it->digits = it->gain = it->gain_before = NAN;
 }
 
-/* ln D and the clocks at the end of a part. When there is no more room, two parts become one. */
+/* Keeps ln D and the clocks at the end of a part. When there is no more room, every two parts become one. */
 static void end_part(iso_indicators *it)
 {
     if (it->parts == ISO_PARTS) {
@@ -238,9 +238,9 @@ iso_verdict iso_indicators_verdict(const iso_indicators *it)
     return (iso_verdict)it->verdict;
 }
 
-/* --- what they tell --------------------------------------------------------------------------------------------- */
+/* --- the indication --------------------------------------------------------------------------------------------- */
 
-/* The parts from an eighth of the turns on: their number, and what each sum gained. */
+/* The parts after the first eighth of the turns: their number, and the gain of each sum over them. */
 static int late_parts(const iso_indicators *it, int *first, double gained[1 + ISO_CLOCKS])
 {
     *first = it->parts / 8;
@@ -248,8 +248,8 @@ static int late_parts(const iso_indicators *it, int *first, double gained[1 + IS
     return it->parts - *first;
 }
 
-/* ln D gained per unit of column c (-1: per turn), and its error: the scatter of the parts, and what ln D changes by
- * with the place alone. */
+/* The gain of ln D per unit of clock c (-1: per turn). Its error has two parts: the scatter over the parts, and 1 for
+ * the change of ln D with the place. */
 static double rate(const iso_indicators *it, int c, double *error)
 {
     int first;

@@ -23,7 +23,9 @@ static void plan(iso_section_walk *w)
     if (w->group > orbits) w->group = orbits;
     const size_t slice = (most + SLICES - 1) / SLICES, largest_slice = room / SLICES;
     w->slice = slice > largest_slice ? largest_slice : slice;
-    w->slices = w->group == 1 ? 1 : (most + w->slice - 1) / w->slice; /* one orbit's rows go away slice by slice */
+    w->slices = w->group == 1
+                    ? 1
+                    : (most + w->slice - 1) / w->slice; /* a single orbit's rows go to the sink slice by slice */
 }
 
 iso_status iso_section_make_room(iso_section_walk *w)
@@ -152,7 +154,8 @@ static void note_failure(iso_section_walk *w, size_t i, iso_status status, const
     snprintf(r->words, sizeof r->words, "orbit %zu: %s", w->first + i, words);
 }
 
-/* The message of iso_crossings_go is about the first failure of the group, and begins with its number there. */
+/* The message of iso_crossings_go is about the first failure of the group. It begins with the number of the orbit in the
+ * group, which is left out. */
 static void note_failures(iso_section_walk *w, const iso_status status[])
 {
     const char *words = strstr(iso_context_message(w->ctx), ": ");
@@ -162,7 +165,8 @@ static void note_failures(iso_section_walk *w, const iso_status status[])
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-/* How far the two models are apart; on an event, which has no chart, in t by the mean time between crossings. */
+/* The distance of the two models. An event has no chart: there it is |dt|, divided by the mean time between
+ * crossings. */
 static double distance_of(const iso_section_walk *w, const iso_crossing *a, const iso_crossing *b, size_t crossing)
 {
     if (w->chart) return fmax(fabs(remainder(a->l - b->l, 2 * ISO_PI)), fabs(a->x - b->x));
@@ -170,7 +174,7 @@ static double distance_of(const iso_section_walk *w, const iso_crossing *a, cons
     return fabs(t - b->clock[ISO_CLOCK_T]) / (fabs(t) / (double)crossing);
 }
 
-/* Compares a crossing by both models, as long as they have not parted. */
+/* Compares a crossing by both models, unless they have parted before. */
 static void compare(iso_section_walk *w, size_t i, const iso_crossing *a, const iso_crossing *b, size_t crossing)
 {
     iso_section_member *member = &w->member[i];
@@ -188,7 +192,7 @@ static void compare(iso_section_walk *w, size_t i, const iso_crossing *a, const 
     r->parted_crossing = crossing;
 }
 
-/* What the members of a finished group tell together. */
+/* Adds a finished group to the result. */
 static void conclude(iso_section_walk *w)
 {
     iso_section_result *r = w->result;
@@ -254,8 +258,8 @@ static iso_status give_rows(iso_section_walk *w, size_t slices)
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-/* iso_crossings_go wants the crossings of a slice side by side for its members, which are all but in the last group
- * as many as the group has room for. */
+/* Finds the next `each` crossings of all members. iso_crossings_go stores them `each` apart; rows want them w->slice
+ * apart. */
 static iso_status find_slice(iso_section_walk *w, size_t kept, size_t each)
 {
     iso_status status = ISO_OK;
