@@ -63,7 +63,7 @@ int iso_crossings_axis(const iso_crossings *c, size_t i);
 /* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section: n_a = 0 up to 1e-8 of a
  * radian of its oscillation, and not falling. Such a start is no crossing, and an event there is not counted. Without
  * this margin ball and point, or lanes and single orbits, would disagree if n_a is 0 up to rounding. A start at which
- * n_a falls through 0 is half an oscillation away from the section. */
+ * n_a falls through 0 lies half an oscillation before the section. */
 bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis);
 
 /* Whether the distance `apart` in s of two crossings of a free orbit is within the bounds, up to rounding. s: of the
