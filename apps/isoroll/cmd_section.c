@@ -98,7 +98,7 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
                             name);
 }
 
-/* --cloud writes no rows and draws no picture. What asks for them would be lost. */
+/* --cloud writes no rows and draws no picture. Refuses options that ask for them. */
 static iso_status check_cloud(iso_context *ctx, const options *o)
 {
     const char *lost = strcmp(o->output, "-") != 0        ? "--output"
@@ -110,8 +110,7 @@ static iso_status check_cloud(iso_context *ctx, const options *o)
                        : (int)o->scene.as >= 0            ? "--as"
                                                           : NULL;
     if (o->cloud == 0 || !lost) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it prints the test alone",
-                            lost);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it only prints the test", lost);
 }
 
 /* `at` is the caller's to free. */

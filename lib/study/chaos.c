@@ -30,7 +30,7 @@ static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
     if (largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0) return ISO_OK;
     return iso_context_fail(w->ctx, ISO_BAD_INPUT, ball ? "angular_velocity" : "M",
                             iso_effects_pull(&problem->effects)
-                                ? "the %s starts at rest, where deviations have no size: let it begin a little later"
+                                ? "the %s starts at rest, where deviations have no size: start it a little later"
                                 : "the %s is at rest",
                             iso_model_kind_name((int)w->scene->start.model));
 }

@@ -130,7 +130,7 @@ static iso_status take(group *g, int model, size_t i)
         make_beat(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &beat);
         if (isnan(beat.growth[0] + beat.growth[1])) {
             r->status[i] = ISO_NUMERICAL;
-            iso_context_fail(w->ctx, ISO_NUMERICAL, "", "orbit %zu: its deviations have no length: it stands still",
+            iso_context_fail(w->ctx, ISO_NUMERICAL, "", "orbit %zu stands still: its deviations have no length",
                              g->first + i);
             note_failures(g, model);
             break;
