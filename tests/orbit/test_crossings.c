@@ -1,5 +1,4 @@
-/* Crossings of orbits that are followed one by one, lib/orbit/crossings.h: both backends against
- * reference/section.csv, crossings in parts and at once, limits, and refusals. */
+/* Crossings of orbits one by one, lib/orbit/crossings.h: reference/section.csv, parts, limits, refusals. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
