@@ -25,13 +25,14 @@ int iso_crossings_axis(const iso_crossings *c, size_t i)
 }
 
 /* n_a swings with about |k w|, gamma_a with |M|: so n_a'/(|k w|) has the size of n_a. */
-bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis)
+int iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     const double k = model == ISO_BALL ? p->k : 1, pace = fabs(k) * norm(y);
     const double rise = k * (y[3 + b] * y[c] - y[3 + c] * y[b]); /* n' = k n x w, gamma' = gamma x M */
     const double swing = hypot(pace * y[3 + axis], rise);
-    return fabs(pace * y[3 + axis]) <= 1e-8 * swing;
+    if (fabs(pace * y[3 + axis]) > ISO_ON_SECTION * swing) return 0;
+    return rise < 0 ? -1 : 1;
 }
 
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)

@@ -130,11 +130,11 @@ static void fill(const iso_crossed *o, const iso_sample *sample, iso_crossing *t
 }
 
 /* Whether this first event is the start itself, up to rounding: an orbit that starts on the section crosses it again
- * when n_a has made a full oscillation. */
+ * when n_a has made a full oscillation, or half of one. */
 static bool is_start(const iso_crossed *o, double time, double s)
 {
     if (!o->begins_on_it || o->count > 0) return false;
-    return isnan(o->bound[0]) || isnan(s) ? time < 1e-6 * turn_of(o->alone) : s < o->bound[0] / 2;
+    return isnan(o->bound[0]) || isnan(s) ? time < 1e-6 * turn_of(o->alone) : s < o->bound[0] / 4;
 }
 
 /* One crossing. *counts false: it is the start. */

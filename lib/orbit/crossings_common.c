@@ -67,18 +67,22 @@ void iso_crossings_bounds(const iso_orbit *orbit, iso_crossed *o)
     o->bound[1] = 2 * ISO_PI / W[0];
 }
 
-/* Sturm: two crossings of a global section are so and so far apart in s. A gap would be a skipped crossing. */
+/* Sturm: two crossings of a global section are so and so far apart in s. A gap would be a skipped crossing. From a
+ * start on the section where n_a decreases it is half of that. Such a start is on it up to ISO_ON_SECTION. */
 iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
                               double s)
 {
-    const bool least = o->count > 0 || o->begins_on_it;
-    if (iso_crossings_apart(o->bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
+    const bool least = o->count > 0 || o->begins_on_it != 0;
+    const double part = o->count == 0 && o->begins_on_it < 0 ? 0.5 : 1,
+                 loose = o->count == 0 ? ISO_ON_SECTION : 0;
+    const double bound[2] = {part * (1 - loose) * o->bound[0], (1 + loose) * o->bound[1]};
+    if (iso_crossings_apart(bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
     const double unit = orbit->unit_clock[ISO_CLOCK_S];
     return iso_context_fail(ctx, ISO_NUMERICAL, "",
                             "crossings %zu and %zu of n_%d = 0 are %.10g apart in s, not between %.10g and %.10g: "
                             "the computation is wrong there; take a smaller tolerance",
-                            o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, o->bound[0] * unit,
-                            o->bound[1] * unit);
+                            o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, bound[0] * unit,
+                            bound[1] * unit);
 }
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */

@@ -11,6 +11,8 @@
 #include "orbit/crossings.h"
 #include "orbit/orbit_impl.h"
 
+#define ISO_ON_SECTION 1e-8
+
 /* What an orbit is held to between its crossings, and where it is. All in own units of the orbit. */
 typedef struct iso_crossed {
     iso_orbit *alone; /* followed by itself; NULL: not begun                                                     */
@@ -18,7 +20,7 @@ typedef struct iso_crossed {
     struct iso_crossings_lane *lane; /* followed in lanes, likewise                                                */
     size_t count;      /* crossings so far                                                                        */
     double time, s;    /* of the last one, or 0; time in the orbit's own clock and in the caller's units          */
-    bool begins_on_it; /* the start lies on the section: it is no crossing                                        */
+    int begins_on_it;  /* 1, -1: the start lies on the section, n_a increasing, decreasing: it is no crossing     */
     double bound[2];   /* least and largest s between two crossings; NaN: no bounds are known                     */
     int axis;          /* of ISO_SECTION_AXIS                                                                     */
     iso_status status; /* of the last call; ISO_STOPPED does not last                                             */
@@ -60,10 +62,11 @@ iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_c
 /* The axis of the section of an orbit; -1: the section is none of ISO_SECTION_AXIS. */
 int iso_crossings_axis(const iso_crossings *c, size_t i);
 
-/* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section n_a = 0, up to 1e-8 of a
- * radian of the oscillation of n_a. A start that does so is no crossing, and an event there is not counted: ball and
- * point, lanes and single orbits would else disagree where n_a is 0 up to rounding. */
-bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis);
+/* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section n_a = 0, up to ISO_ON_SECTION
+ * radian of the oscillation of n_a: 1 or -1, n_a increasing or decreasing; 0: it does not. A start that does so is no
+ * crossing, and an event there is not counted: ball and point, lanes and single orbits would else disagree where n_a
+ * is 0 up to rounding. */
+int iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis);
 
 /* Whether two crossings of a free orbit are this far apart in s, up to rounding (s: of the second one). NaN bounds
  * allow everything. `least` false: the first is no crossing, only the largest distance counts. */

@@ -136,7 +136,7 @@ static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
     lane->job.model = &lane->orbit.model;
     lane->job.unit = lane->orbit.unit_clock[lane->orbit.options.clock];
     lane->job.saved = lane->saved;
-    lane->job.on_section = o->begins_on_it;
+    lane->job.on_section = o->begins_on_it != 0;
     o->lane = lane;
     return status;
 }

@@ -238,6 +238,41 @@ static void check_start_on_section(void)
         gsl_test_rel(first[i % 2][i / 2], first[0][0], 1e-8, "a start on the section is no crossing (%d)", i);
 }
 
+/* A start on the section where n_a decreases crosses it upwards after half an oscillation, not a full one. */
+static void check_start_downwards(void)
+{
+    static const struct {
+        double k, J[3];
+        int axis;
+    } of[] = {{1, {1, 1, 1}, 2}, {-1, {1, 1, 1}, 0}, {0.5, {1, 1, 2}, 2}, {0.5, {1, 2, 5}, 2}, {-1, {1, 1, 2}, 2}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++)
+        for (int side = -1; side <= 1; side++)
+            for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
+                const iso_params p = laws_params(of[i].k, of[i].J);
+                iso_start up = {.model = ISO_POINT, .eps = NAN}, down;
+                const iso_batch_orbit orbit[2] = {{&p, &up, NULL}, {&p, &down, NULL}};
+                iso_crossings_options o = iso_crossings_defaults();
+                iso_crossing crossing[4];
+                size_t done[2];
+                iso_status status[2];
+                o.backend = backend;
+                o.axis = of[i].axis;
+                iso_section_point(&p, 1, o.axis, 0.7, 0.2, up.y);
+                up.y[3 + o.axis] = side * 9e-9;
+                down = up;
+                for (int j = 0; j < 3; j++) down.y[j] = -up.y[j];
+                iso_crossings *c = follow(orbit, 2, &o);
+                const iso_status went = iso_crossings_go(c, NULL, 2, crossing, NULL, done, status);
+                gsl_test_int((int)went, ISO_OK, "starts downwards, k = %g: %s", p.k,
+                             went == ISO_OK ? "" : iso_context_message(ctx));
+                gsl_test_int(done[0] == 2 && done[1] == 2, 1, "two crossings each, k = %g", p.k);
+                if (of[i].J[0] == of[i].J[1] && done[1] == 2) /* the oscillation is symmetric */
+                    gsl_test_rel(2 * crossing[2].clock[ISO_CLOCK_S], crossing[0].clock[ISO_CLOCK_S], 1e-7,
+                                 "half an oscillation, k = %g", p.k);
+                iso_crossings_free(c);
+            }
+}
+
 /* The same orbit in other units gives the same (l, x). */
 static void check_units(void)
 {
@@ -414,6 +449,7 @@ int main(void)
     check_all_parts();
     check_reversor();
     check_start_on_section();
+    check_start_downwards();
     check_units();
     check_column_and_clock();
     check_refusals();
