@@ -24,14 +24,19 @@ int iso_crossings_axis(const iso_crossings *c, size_t i)
     return c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(c->orbits[i].params) : c->options.axis;
 }
 
-/* n_a oscillates at the rate of about |k w|, gamma_a at |M|. So n_a'/|k w| has the size of n_a. */
+/* By the directions of M and gamma, also of a ball (18): so both models agree about a start. gamma_a oscillates at the
+ * rate of about |M|. So gamma_a'/|M| has the size of gamma_a. */
 bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    const double k = model == ISO_BALL ? p->k : 1, pace = fabs(k) * norm(y);
-    const double rise = k * (y[3 + b] * y[c] - y[3 + c] * y[b]); /* n' = k n x w, gamma' = gamma x M */
-    const double swing = hypot(pace * y[3 + axis], rise);
-    return rise >= 0 && fabs(pace * y[3 + axis]) <= 1e-8 * swing;
+    double M[3], gamma[3];
+    for (int i = 0; i < 3; i++) {
+        M[i] = model == ISO_BALL ? copysign(p->root_J[i], p->k) * (y[i] / largest(y)) : y[i] / largest(y);
+        gamma[i] = model == ISO_BALL ? y[3 + i] / p->root_J[i] : y[3 + i];
+    }
+    const double pace = norm(M), rise = gamma[b] * M[c] - gamma[c] * M[b];
+    const double swing = hypot(pace * gamma[axis], rise);
+    return rise >= 0 && fabs(pace * gamma[axis]) <= ISO_ON_SECTION * swing;
 }
 
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)

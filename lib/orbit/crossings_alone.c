@@ -134,7 +134,7 @@ static void fill(const iso_crossed *o, const iso_sample *sample, iso_crossing *t
 static bool is_start(const iso_crossed *o, double time, double s)
 {
     if (!o->begins_on_it || o->count > 0) return false;
-    return isnan(o->bound[0]) || isnan(s) ? time < 1e-6 * turn_of(o->alone) : s < o->bound[0] / 2;
+    return isnan(o->bound[0]) || isnan(s) ? time < 1e-6 * turn_of(o->alone) : s < o->bound[0] / 4;
 }
 
 /* One crossing. *counts false: it is the start. */

@@ -67,18 +67,20 @@ void iso_crossings_bounds(const iso_orbit *orbit, iso_crossed *o)
     o->bound[1] = 2 * ISO_PI / W[0];
 }
 
-/* By Sturm's comparison. A larger distance means a skipped crossing, a smaller one a crossing found twice. */
+/* By Sturm's comparison. A larger distance means a skipped crossing, a smaller one a crossing found twice. A start on
+ * the section is on it up to ISO_ON_SECTION. */
 iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
                               double s)
 {
     const bool least = o->count > 0 || o->begins_on_it;
-    if (iso_crossings_apart(o->bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
+    const double loose = o->count == 0 ? ISO_ON_SECTION : 0;
+    const double bound[2] = {(1 - loose) * o->bound[0], (1 + loose) * o->bound[1]};
+    if (iso_crossings_apart(bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
     const double unit = orbit->unit_clock[ISO_CLOCK_S];
     return iso_context_fail(ctx, ISO_NUMERICAL, "",
                             "crossings %zu and %zu of n_%d = 0 are %.10g apart in s, not between %.10g and %.10g: "
                             "the computation is wrong there; take a smaller tolerance",
-                            o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, o->bound[0] * unit,
-                            o->bound[1] * unit);
+                            o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, bound[0] * unit, bound[1] * unit);
 }
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */

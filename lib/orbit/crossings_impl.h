@@ -11,6 +11,8 @@
 #include "orbit/crossings.h"
 #include "orbit/orbit_impl.h"
 
+#define ISO_ON_SECTION 1e-8 /* how far from it, in radians of the oscillation of n_a, a start is on the section */
+
 /* One orbit: where it is, and the bounds between its crossings. In own units of the orbit. */
 typedef struct iso_crossed {
     iso_orbit *alone; /* the orbit, if it is followed alone; NULL: not begun                                     */
