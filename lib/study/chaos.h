@@ -92,7 +92,7 @@ typedef struct iso_chaos {
     /* How the indicators of the scene's orbit went: columns turn, t (of a point's orbit without a ball: s), growth
      * (ln D), megno (Y), mean and gali2. At most some thousand rows, evenly spread; NULL: not integrated. */
     iso_record *trace[2];
-    iso_status failure; /* of the first orbit that failed, with its words                         */
+    iso_status failure; /* of the first orbit that failed (0: the scene's; i: start i - 1), with its words */
     char words[512];
 } iso_chaos;
 
