@@ -95,8 +95,8 @@ typedef struct iso_section_result {
     size_t failed;       /* orbits that have less crossings than asked for                                       */
     iso_status failure;  /* of the first of them, with its words                                                 */
     char words[512];
-    /* With both models. Distances are those of (l, x): the larger one of |dl| and |dx|. On an event: of the largest
-     * number of the states, relative to their size. */
+    /* With both models. Distances are those of (l, x): the larger one of |dl| and |dx|. On an event, which has no
+     * chart: those of t, in the mean time between crossings so far. */
     size_t unequal;  /* orbits with different numbers of crossings by the two models                         */
     double distance; /* the largest, of orbits that do not part ...                                          */
     size_t distance_orbit, distance_crossing; /* ... and where it is; crossings count from 1                       */
