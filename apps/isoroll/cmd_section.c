@@ -189,7 +189,8 @@ static void tell_both(const iso_section_result *r)
                  r->crossings[ISO_BALL], r->crossings[ISO_POINT], r->unequal);
     if (r->distance > 0)
         complain("largest distance of the two%s, where they do not part: %.2g, at orbit %zu, crossing %zu",
-                 r->nature.axis < 0 ? "" : " in (l, x)", r->distance, r->distance_orbit, r->distance_crossing);
+                 r->nature.axis < 0 ? " in t, by the mean time between crossings" : " in (l, x)", r->distance,
+                 r->distance_orbit, r->distance_crossing);
     if (r->parted > 0)
         complain("%zu of %zu orbits part (distance above %g): their rounding errors grow, as on chaotic orbits; the "
                  "first is orbit %zu, at crossing %zu",

@@ -224,5 +224,7 @@ iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, 
     iso_status answer = iso_crossings_in_lanes(c, &task, taken);
     if (answer != ISO_NO_MEMORY && answer != ISO_STOPPED) answer = one_by_one(c, &task, taken);
     free(taken);
+    for (size_t i = 0; answer == ISO_STOPPED && i < c->count; i++) /* those that nobody has taken up */
+        if (status[i] == ISO_OK && done[i] < each && (!wanted || wanted[i])) status[i] = ISO_STOPPED;
     return answer == ISO_NO_MEMORY || answer == ISO_STOPPED ? answer : tell_first(c, &task);
 }

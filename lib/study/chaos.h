@@ -93,7 +93,7 @@ typedef struct iso_chaos {
     /* The indicators of the scene's orbit against the turns: columns turn, t (for a point without a ball: s), growth
      * (ln D), megno (Y), mean and gali2. At most some thousand rows, evenly spread. NULL: not integrated. */
     iso_record *trace[2];
-    iso_status failure; /* of the first orbit that failed, with its words                         */
+    iso_status failure; /* of the first orbit that failed (0: the scene's; i: start i - 1), with its words */
     char words[512];
 } iso_chaos;
 
