@@ -114,6 +114,11 @@ static iso_status read_options(iso_context *ctx, const options *o, iso_section_o
     if (status == ISO_OK) status = read_event(ctx, o->event, how);
     for (int i = 0; status == ISO_OK && o->at[i]; i++) status = read_points(ctx, o->at[i], at, &how->at_count);
     how->at = (const double(*)[2]) * at;
+    if (status == ISO_OK && o->cloud > 0 &&
+        (o->plot || strcmp(o->output, "-") != 0 || o->event || o->starts > 0 || o->at[0]))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                                "section: --cloud makes its own states and writes no file: leave out --output, "
+                                "--plot, --event, --starts and --at");
     if (status == ISO_OK && o->axis && o->event)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --axis or --event, not both");
     if (status == ISO_OK && o->plot && how->column >= 0 && !iso_section_is_of_axis(how->column, how->value, &axis))

@@ -93,7 +93,7 @@ ISO_API void iso_crossings_free(iso_crossings *c);
  * Errors of one orbit: those of iso_orbit_create and iso_orbit_at; ISO_NUMERICAL where two crossings of a global
  * section are closer or farther apart than they can be (map/section.h), where the ball rests, or where no further
  * crossing is found within ISO_MOST_BETWEEN turns; ISO_BAD_INPUT about "axis" for an orbit in the plane n_a = 0
- * itself, the boundary of the chart. Where s does not fit a double (extreme k), distances are not held to bounds.
+ * itself, the boundary of the chart, and about "deviations" for an orbit that has none. Where s does not fit a double (extreme k), distances are not held to bounds.
  * The call gives the first one's with its number and reason.
  * Errors of all: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: done[] and what it counts are valid, and the
  * next call goes on from there. */

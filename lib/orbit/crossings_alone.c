@@ -52,7 +52,7 @@ static iso_status begin(iso_crossings *c, size_t i)
     iso_sample start;
     if (c->options.deviations)
         return iso_context_fail(
-            o->ctx, ISO_BAD_ARGUMENT, "deviations",
+            o->ctx, ISO_BAD_INPUT, "deviations",
             "deviations are computed for free orbits on a section that all cross for ever, and in "
             "equal steps of a clock; not for stiff balls, balls at rest, or effects without a formula");
     iso_status status = create(c, i, &o->alone);

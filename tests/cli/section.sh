@@ -176,6 +176,9 @@ run 0 section field.yaml --cloud 1024
 check "returns in a field" grep -q "^returns  *not tried: " out
 refuses 3 "gravity.yaml:4:" section gravity.yaml --cloud 1024
 refuses 2 "512" section wild.yaml --cloud 100
+refuses 2 "leave out" section wild.yaml --cloud 1024 -o cloud.csv
+refuses 2 "leave out" section wild.yaml --cloud 1024 --starts 3
+refuses 2 "crossings '1e300'" section wild.yaml --crossings 1e300
 
 # --- pictures
 if has gnuplot "--plot"; then
