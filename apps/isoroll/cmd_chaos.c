@@ -18,21 +18,6 @@ typedef struct options {
     bool json;
 } options;
 
-static bool set_whole(void *at, const char *text)
-{
-    return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
-}
-
-static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
-{
-    *axis = ISO_AXIS_AUTO;
-    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
-    *axis = text[0] - '1';
-    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--axis '%s': an axis is 1, 2 or 3, or auto: the global section",
-                            text);
-}
-
 static void show(double part, void *unused)
 {
     (void)unused;
@@ -49,6 +34,7 @@ static void print_head(const iso_scene *scene, const iso_chaos *c)
         printf("a turn is a step of %.6g in t: no section n_a = 0 is known to be global here\n", c->turn);
     else
         printf("a turn is a return to the section n_%d = 0, n_%d increasing\n", c->axis + 1, c->axis + 1);
+    if (c->integral) printf("%s is a further integral: no orbit is chaotic\n", c->integral->name);
     printf("\nthis orbit: %s", iso_verdict_name(c->own.verdict));
     if (c->own.disagree) printf(": ball and point disagree");
     if (c->plane >= 0) {
@@ -155,11 +141,12 @@ static bool print_json(const iso_scene *scene, const iso_chaos *c)
 {
     const iso_params *p = &scene->params;
     json_t *section = c->axis < 0 ? json_null() : json_pack("{s:i}", "axis", c->axis + 1);
-    json_t *o = json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:b, s:I, s:o, s:o}", "isoroll", iso_version(), "k",
-                          json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]),
-                          "section", section, "turn", json_number(c->turn), "verdict",
-                          iso_verdict_name(c->own.verdict), "disagree", (int)c->own.disagree, "turns",
-                          (json_int_t)turns_of(c), "ball", model_of(c, ISO_BALL), "point", model_of(c, ISO_POINT));
+    json_t *o =
+        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s?, s:s, s:b, s:I, s:o, s:o}", "isoroll", iso_version(), "k",
+                  json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]), "section",
+                  section, "turn", json_number(c->turn), "integral", c->integral ? c->integral->name : NULL,
+                  "verdict", iso_verdict_name(c->own.verdict), "disagree", (int)c->own.disagree, "turns",
+                  (json_int_t)turns_of(c), "ball", model_of(c, ISO_BALL), "point", model_of(c, ISO_POINT));
     if (o && c->share.count > 0) json_object_set_new(o, "share", share_of(&c->share));
     return json_print(o);
 }

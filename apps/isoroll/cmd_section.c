@@ -35,11 +35,6 @@ typedef struct target {
 
 /* --- what is typed ---------------------------------------------------------------------------------------------- */
 
-static bool set_whole(void *at, const char *text)
-{
-    return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
-}
-
 /* One more --at. */
 static bool set_at(void *at, const char *text)
 {
@@ -49,16 +44,6 @@ static bool set_at(void *at, const char *text)
     if (i == MOST_AT) return false;
     list[i] = text;
     return *text != '\0';
-}
-
-static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
-{
-    *axis = ISO_AXIS_AUTO;
-    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
-    *axis = text[0] - '1';
-    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--axis '%s': an axis is 1, 2 or 3, or auto: the global section",
-                            text);
 }
 
 /* Points l,x with semicolons between. */

@@ -95,7 +95,7 @@ ISO_API void iso_crossings_free(iso_crossings *c);
  * Errors of one orbit: those of iso_orbit_create and iso_orbit_at; ISO_NUMERICAL if two crossings of a global section
  * are outside the bounds of their distance in s (map/section.h), if the ball rests, or if no further crossing is
  * found within ISO_MOST_BETWEEN turns; ISO_BAD_INPUT about "axis" for an orbit in the plane n_a = 0 itself, the
- * boundary of the chart. If s does not fit a double (extreme k), distances are not checked.
+ * boundary of the chart, and about "deviations" for an orbit that has none. If s does not fit a double (extreme k), distances are not checked.
  * The call returns the error of the first orbit that failed; the message has its number and the reason.
  * Errors of the call: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: then done[] and the crossings that it
  * counts are valid, and the next call goes on from there. */

@@ -51,10 +51,9 @@ static iso_status begin(iso_crossings *c, size_t i)
     iso_crossed *o = &c->orbit[i];
     iso_sample start;
     if (c->options.deviations)
-        return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "deviations",
+        return iso_context_fail(o->ctx, ISO_BAD_INPUT, "deviations",
                                 "deviations are computed for free orbits on a global section, and at equal steps of "
-                                "a clock; not for stiff "
-                                "balls, balls at rest, or effects without a formula");
+                                "a clock; not for stiff balls, balls at rest, or effects without a formula");
     iso_status status = create(c, i, &o->alone);
     if (status == ISO_OK) status = iso_orbit_at(o->alone, 0, &start);
     if (status != ISO_OK) return status;

@@ -10,6 +10,7 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "study/chaos_impl.h"
+#include "study/frequencies_impl.h"
 #include "study/section_impl.h"
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
@@ -80,6 +81,7 @@ static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_ef
     const iso_units *units = iso_orbit_units(w->orbit);
     const double speed = w->out->with[ISO_BALL] ? norm(start->ball) : units->w;
     c->turn = NAN;
+    if (!iso_effects_beyond_level(&w->effects)) c->integral = iso_further_integral(w->orbit);
     if (effect) {
         const bool pulled = iso_effects_pull(&iso_orbit_model(w->orbit)->problem.effects);
         c->axis = -1;

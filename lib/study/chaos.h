@@ -81,11 +81,14 @@ typedef struct iso_chaos_share {
 } iso_chaos_share;
 
 typedef struct iso_chaos {
-    bool with[2];           /* whether the ball, the point was integrated                           */
-    int axis;               /* of the section n_a = 0; -1: turns are equal steps of time             */
-    double turn;            /* ... of this length in t; NaN: the section's                           */
-    int plane;              /* 0 to 2: the scene's orbit is the rotation about this axis, in a principal plane; it
+    bool with[2]; /* whether the ball, the point was integrated                           */
+    int axis;     /* of the section n_a = 0; -1: turns are equal steps of time             */
+    double turn;  /* ... of this length in t; NaN: the section's                           */
+    int plane;    /* 0 to 2: the scene's orbit is the rotation about this axis, in a principal plane; it
                                is periodic, and not followed. -1: it is no such rotation             */
+    const iso_integral
+        *integral;          /* a further integral, which excludes chaos: then no verdict is "chaotic"; NULL: none
+                                     is known, or effects act */
     iso_chaos_orbit own;    /* the scene's orbit                                                    */
     size_t starts;          /* other orbits that were followed: spread ones, then given ones */
     iso_chaos_orbit *start; /* these orbits */

@@ -170,6 +170,7 @@ static iso_status open_model(group *g, int model)
     runner *r = &g->model[model];
     for (size_t i = 0; i < g->count; i++) {
         iso_indicators_begin(&r->shown[i], o->turns);
+        r->shown[i].integrable = g->w->out->integral != NULL;
         r->wanted[i] = true;
         r->status[i] = ISO_OK;
     }

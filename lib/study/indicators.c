@@ -123,10 +123,10 @@ static double limit_of_square(const iso_look *look, double digits)
 
 /* Limits for the verdict. Two successive looks must agree. `gain` is the growth of ln D between the middles of the
  * two halves, at 7/16 and 13/16 of the turns: ln(13/7) = 0.62 on a regular orbit, 3/8 lam n on a chaotic one. Next to
- * the separatrix of a resonance a regular orbit looks chaotic for a while. So ln D itself must be large as well, and
- * GALI_2 small. */
-static const double MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAIN_BEFORE = 1.25, LEAST_GROWTH = 9,
-                    MOST_AREA = 1e-4;
+ * the separatrix of a resonance a regular orbit looks chaotic for a while. So ln D itself must be large as well, GALI_2
+ * small, and the exponent larger than its error. */
+static const double ERRORS = 1, MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAIN_BEFORE = 1.25,
+                    LEAST_GROWTH = 9, MOST_AREA = 1e-4;
 
 /* For a regular orbit: how close to 2 must be MEGNO, MEGNO of each half, and a rough limit; the least number of
  * digits. If the steps show no limit, D must grow like a polynomial. Then DIGITS_FLAT is the least number of digits;
@@ -157,10 +157,15 @@ static bool looks_regular(iso_indicators *it, const iso_look *look, double withi
     return !isnan(it->limit);
 }
 
+static double rate(const iso_indicators *it, int c, double *error);
+
 static bool looks_chaotic(const iso_indicators *it)
 {
     const bool gains = it->gain > LEAST_CHAOTIC_GAIN && it->gain_before > LEAST_GAIN_BEFORE;
-    return gains && it->before > LEAST_GROWTH && it->area < MOST_AREA;
+    if (it->integrable || !(gains && it->before > LEAST_GROWTH && it->area < MOST_AREA)) return false;
+    double error;
+    const double exponent = rate(it, -1, &error);
+    return exponent > ERRORS * error;
 }
 
 static void judge(iso_indicators *it, const iso_look *look)

@@ -71,6 +71,9 @@ typedef struct iso_indicators {
     double now[1 + ISO_CLOCKS];
     double limit, megno, digits, gain, gain_before, halves[2]; /* of the last look */
     bool looked_regular;
+    bool
+        integrable; /* set by the caller after iso_indicators_begin: a further integral is known, so the orbit cannot be
+                        chaotic, however its deviations grow near a separatrix */
     int verdict;
     long decided;
 } iso_indicators;

@@ -178,6 +178,7 @@ refuses 3 "gravity.yaml:4:" section gravity.yaml --cloud 1024
 refuses 2 "512" section wild.yaml --cloud 100
 refuses 2 "--cloud takes no --output" section wild.yaml --cloud 1024 -o cloud.csv
 refuses 2 "--cloud takes no --at" section wild.yaml --cloud 1024 --at 0.5,0.2
+refuses 2 "crossings '1e300'" section wild.yaml --crossings 1e300
 
 # --- pictures
 if has gnuplot "--plot"; then

@@ -181,8 +181,10 @@ static void find_rows(crew *c, real length, real dt)
         }
         if (!found) return;
         store_events(c, solve_for_time(&c->T, target, length * (target / dt)), NULL, due);
-        for (int i = 0; i < LANES; i++)
+        for (int i = 0; i < LANES; i++) {
             if (due[i] && !c->job[i]->error) next_row(c, i);
+            if (due[i] && c->job[i]->event) c->job[i]->steps = 0;
+        }
     }
 }
 

@@ -30,6 +30,7 @@ typedef struct form {
     real c[ISO_FORMULA_CONSTANTS];   /* of the energy of the effects                                         */
     real range;                      /* how large their potential can be, at least; see iso_effects_largest  */
     real twice_energy, keeps_energy; /* of a loaded ball at the start; 1 where it is conserved, else 0       */
+    real speed_square;               /* of a loaded ball: of the start, plus what the potential can give       */
     quadrature rule;
     int clocks; /* those that are not the own */
     iso_clock clock_of[ISO_CLOCKS];

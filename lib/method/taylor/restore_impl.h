@@ -315,6 +315,9 @@ static void set_integrals(form *T, int lane, const iso_model *m)
         for (int i = 0; i < m->dim; i++)
             y[i] = i < 3 ? (double)LANE(start.w[i], lane) : i < 6 ? (double)LANE(start.n[i - 3], lane) : 0;
         LANE(T->range, lane) = iso_effects_largest(&m->problem, y);
+        double square = 0, most = 0;
+        for (int i = 0; i < 3; i++) square += y[i] * y[i], most = fmax(most, m->problem.p.J[i]);
+        LANE(T->speed_square, lane) = square + 2 * (double)LANE(T->range, lane) / most;
     }
 }
 
