@@ -1,5 +1,6 @@
 #!/bin/sh
-# pictures.sh BUILD - draws the pictures of examples/README.md: examples/NN_name/picture.svg, and cost.svg of 02.
+# pictures.sh BUILD - draws the pictures of examples/README.md: examples/NN_name/picture.svg (.png of 16), and cost.svg
+# of 02.
 #     cmake -S . -B .build/release && cmake --build .build/release -j 2 && sh examples/pictures.sh .build/release
 # BUILD is a folder that cmake has built, with the tests. Times and steps are shortened to keep the files small.
 # cost.svg shows times of this machine: draw it on a quiet one, with `pictures.sh BUILD cost`.
@@ -74,9 +75,16 @@ plot '$work/rubber.csv' using 't':'n3' with lines lw 2 lc rgb '#0072B2' title 'r
      '$work/marble.csv' using 't':'n3' with lines lw 2 lc rgb '#D55E00' title 'classical ball, c = 0'
 EOF
 
+# sections: of both models, in a file .png, since a .svg would hold each point
+section=16_sections
+"$isoroll" section $section/scene.yaml --starts 80 --crossings 400 -o "$work/wild.csv" --plot $section/picture.png \
+    2>"$work/out"
+"$isoroll" section $section/integrable.yaml --starts 40 --crossings 300 -o "$work/tame.csv" \
+    --plot $section/integrable.png 2>"$work/out"
+
 "$build/tests/example_13_chaos" >"$work/chaos.txt"
 chart 13_chaos/picture.svg <<EOF
 set xlabel 'k'; set ylabel 'chaotic orbits, of 200'; unset key; set yrange [-3:]
 plot '$work/chaos.txt' using 1:2 skip 2 with linespoints pt 7 ps 0.8 lw 1.5 lc rgb '#0072B2'
 EOF
-ls -l ./*/picture.svg
+ls -l ./*/picture.*

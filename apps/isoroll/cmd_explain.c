@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include "scene_options.h"
+#include "study/section.h"
 
 /* What explain can be told. */
 typedef struct options {
@@ -67,6 +68,13 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
     else
         printf("  does not hold: a ball at rest (h = 0) has no twin\n");
     printf("\n");
+}
+
+/* Which Poincare section is global for this orbit, `isoroll section`. */
+static void explain_section(const iso_orbit *orbit)
+{
+    const iso_section_nature n = iso_section_of(orbit, ISO_AXIS_AUTO);
+    if (iso_orbit_has_twin(orbit) || iso_orbit_energy(orbit) != 0) printf("section\n  %s\n\n", n.words);
 }
 
 /* Whether `run --backend exact` can compute these columns, and if not, why. Errors: ISO_NO_MEMORY. */
@@ -211,6 +219,7 @@ static int run(iso_context *ctx, const void *options_given)
     explain_effects(orbit);
     explain_level_plane(&scene, orbit);
     explain_map(&scene.params, orbit);
+    explain_section(orbit);
     status = explain_exact(ctx, &scene, columns, count);
     if (status == ISO_OK) {
         explain_states(&scene, orbit, columns, count);
@@ -242,9 +251,9 @@ const command command_explain = {
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
     .description =
-        "Tells the ball's parameters, the effects that act, whether the orbit has a twin, whether there is a "
-        "closed solution, the backend and the method, which integrals hold, and the measured cost of one "
-        "right-hand side.",
+        "Tells the ball's parameters, the effects that act, whether the orbit has a twin, which Poincare section is "
+        "global, whether there is a closed solution, the backend and the method, which integrals hold, and the "
+        "measured cost of one right-hand side.",
     .example = "isoroll explain scene.yaml",
     .run = run,
 };

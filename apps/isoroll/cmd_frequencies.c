@@ -51,6 +51,8 @@ static void print_head(const iso_scene *scene, const iso_frequencies *f)
         printf("  a chaotic motion has no fixed frequencies: the numbers below hold for this orbit only\n");
     if (f->estimate.unexplained > 1e-4)
         printf("  part of the amplitudes that two frequencies do not explain: %.2g\n", f->estimate.unexplained);
+    if (f->angles == 2 && isnan(f->rotation) && f->estimate.verdict != ISO_CHAOTIC)
+        printf("  that is most of them: there is no rotation number\n");
 }
 
 static void print_separatrices(const iso_frequencies *f)

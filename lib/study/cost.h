@@ -112,7 +112,8 @@ typedef struct iso_cost_growth {
     double end[ISO_COST_HORIZONS], error[ISO_COST_HORIZONS], seconds[ISO_COST_HORIZONS]; /* median, of stepping */
     double uncertainty[ISO_COST_HORIZONS]; /* of the closed solution's error, which has no other measure: NaN */
     double power, time_power; /* error ~ end^power and seconds ~ end^time_power, fitted; NaN: too few        */
-    bool chaotic;             /* the error grows exponentially rather than by a power ...                    */
+    bool chaotic;             /* the orbit is, by the indicators of chaos.h; where these do not decide: the
+                                 error grows exponentially rather than by a power ...                        */
     double lyapunov_time;     /* ... e-fold in this time, in the scene's unit; NaN                           */
     char reference[120], second[120];
     char why[160];            /* it ends before `horizons`; "": it does not                                  */

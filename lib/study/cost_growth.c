@@ -6,6 +6,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
+#include "study/chaos.h"
 #include "study/cost_impl.h"
 
 /* Output times in each doubling of the length, and in all. */
@@ -147,13 +148,28 @@ static double fit(int count, const double x[], const double y[], double *slope)
     return rest / count;
 }
 
-/* The errors of regular orbits grow like t or t^2. Where the fitted power is above STEEP and an exponential fits
+/* The indicators of chaos (chaos.h) say whether the orbit is chaotic, and its exponent. So all cells of a scene say the
+ * same, whatever part of the growth their errors show. Where the indicators do not decide, or cannot be asked, the
+ * errors do: those of regular orbits grow like t or t^2. Where the fitted power is above STEEP and an exponential fits
  * better, the orbit is chaotic. */
-static const double STEEP = 3;
+static const double STEEP = 3, INDICATORS = 5;
 
-static void fit_errors(const grower *g)
+static iso_verdict ask_indicators(grower *g, double *exponent)
 {
-    double t[MOST_TIMES], log_t[MOST_TIMES], e[MOST_TIMES], rate;
+    const int model = g->cell.backend == ISO_BACKEND_BALL ? ISO_BALL : ISO_POINT;
+    iso_chaos *c;
+    *exponent = NAN;
+    iso_cost_allow(&g->p, INDICATORS);
+    const iso_status status = iso_chaos_run(g->p.ctx, g->p.scene, NULL, &c);
+    const iso_verdict verdict = status == ISO_OK ? c->own.verdict : ISO_UNDECIDED;
+    if (status == ISO_OK) *exponent = c->own.told[c->with[model] ? model : 1 - model].exponent[g->p.clock];
+    iso_chaos_free(c);
+    return verdict;
+}
+
+static void fit_errors(grower *g)
+{
+    double t[MOST_TIMES], log_t[MOST_TIMES], e[MOST_TIMES], rate, exponent;
     iso_cost_growth *out = g->out;
     int count = 0;
     for (int i = 0; i < TIMES * out->count; i++) {
@@ -162,9 +178,13 @@ static void fit_errors(const grower *g)
         log_t[count] = log(t[count]);
         e[count++] = log(g->error[i]);
     }
-    out->power = out->lyapunov_time = NAN;
+    const iso_verdict verdict = ask_indicators(g, &exponent);
+    out->chaotic = verdict == ISO_CHAOTIC;
+    out->power = NAN;
+    out->lyapunov_time = out->chaotic ? 1 / exponent : (double)NAN;
     if (count < TIMES / 2) return;
     const double by_power = fit(count, log_t, e, &out->power), exponential = fit(count, t, e, &rate);
+    if (verdict != ISO_UNDECIDED) return;
     out->chaotic = out->power > STEEP && exponential < by_power;
     if (out->chaotic) out->lyapunov_time = 1 / rate;
 }

@@ -7,12 +7,16 @@
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "study/basis_impl.h"
+#include "study/chaos.h"
 #include "study/frequencies_impl.h"
 
 /* Relative differences between the halves of an orbit below this are rounding. */
 static const double ROUNDING = 1e-14;
 
 static const double LEAST_TURNS = 20;
+
+/* The indicators of chaos have so many turns, or as many as the caller gave. */
+enum { MOST_TURNS = 3000 };
 
 typedef struct estimator {
     iso_context *ctx;
@@ -21,6 +25,8 @@ typedef struct estimator {
     bool twin, fixed; /* whether there is a point, and so other clocks; whether the caller gave the length */
     size_t count;
     double end[ISO_CLOCKS];
+    long turns;            /* in which the indicators of chaos may decide */
+    iso_verdict indicated; /* what they say                               */
     iso_frequencies *f;
 } estimator;
 
@@ -128,6 +134,23 @@ static iso_verdict judge(const iso_estimate *e, const basis *b, bool integrable)
     return wanders && slowest_beat(b, e->length) > BEATS ? ISO_CHAOTIC : ISO_UNDECIDED;
 }
 
+/* The indicators of chaos.h are sharper than the drift of frequencies. What they cannot be asked (an orbit in a
+ * principal plane, effects without deviations) or do not decide, the drift decides. */
+static iso_status ask_indicators(estimator *e)
+{
+    const bool point = e->twin && fabs(e->scene->params.k) >= 0.125; /* below, powers q^(1/k) grow large */
+    iso_chaos_options o = iso_chaos_defaults();
+    iso_chaos *c;
+    e->indicated = ISO_UNDECIDED;
+    if (e->f->integral) return ISO_OK;
+    o.turns = e->turns;
+    o.models = point ? ISO_SHOW_POINT : ISO_SHOW_BALL;
+    const iso_status status = iso_chaos_run(e->ctx, e->scene, &o, &c);
+    if (status == ISO_OK) e->indicated = c->own.verdict;
+    iso_chaos_free(c);
+    return status == ISO_STOPPED || status == ISO_NO_MEMORY ? status : ISO_OK;
+}
+
 /* Names each line by its combination of the frequencies of the angles. These are > 0, and in the order of the angles,
  * which is the reverse of that of the basis. */
 static void name_lines(iso_frequencies *f, const lines *l)
@@ -174,7 +197,7 @@ static iso_status estimate_in_t(estimator *e, const series *s, basis *b)
     out->length = e->end[ISO_CLOCK_T];
     out->samples = s->count;
     out->turns = b->angles > 0 ? fabs(b->frequency[0]) * out->length / (2 * ISO_PI) : 0;
-    out->verdict = judge(out, b, f->integral != NULL);
+    out->verdict = e->indicated == ISO_CHAOTIC ? ISO_CHAOTIC : judge(out, b, f->integral != NULL);
     name_lines(f, &l);
     return status;
 }
@@ -228,7 +251,8 @@ static iso_status estimate(estimator *e)
 {
     enum { LEVELS = 3, MOST = 1 << 20 };
     basis b;
-    iso_status status = ISO_OK;
+    iso_estimate *out = &e->f->estimate;
+    iso_status status = ask_indicators(e);
     for (int level = 0; status == ISO_OK && level < (e->fixed ? 1 : LEVELS); level++) {
         series s = {.pair = NULL};
         if (level > 0 && e->count > MOST / 4) break;
@@ -236,10 +260,11 @@ static iso_status estimate(estimator *e)
         status = make_series(e, ISO_CLOCK_T, &s);
         if (status == ISO_OK) status = estimate_in_t(e, &s, &b);
         free(s.pair);
-        const bool wild = level > 0 && e->f->estimate.verdict == ISO_CHAOTIC && e->f->estimate.drift > 1e-4;
-        if (e->f->estimate.verdict == ISO_REGULAR || wild) break;
+        const bool wild = level > 0 && out->verdict == ISO_CHAOTIC && out->drift > 1e-4;
+        if (out->verdict == ISO_REGULAR || e->indicated == ISO_CHAOTIC || wild) break;
     }
-    const bool others = e->twin && e->f->estimate.verdict == ISO_REGULAR;
+    if (e->indicated == ISO_REGULAR) out->verdict = ISO_REGULAR;
+    const bool others = e->twin && out->verdict == ISO_REGULAR;
     for (iso_clock clock = ISO_CLOCK_TAU; status == ISO_OK && others && clock < ISO_CLOCKS; clock++)
         status = estimate_in(e, clock, &b);
     if (status != ISO_OK) return status;
@@ -274,6 +299,7 @@ static iso_status choose_length(estimator *e, double speed, const iso_frequencie
         return iso_context_fail(e->ctx, ISO_BAD_ARGUMENT, isnan(o->end) ? "turns" : "end",
                                 "an orbit to t = %g is %g turns: frequencies are estimated from %g or more", length,
                                 length / turn, LEAST_TURNS);
+    e->turns = e->fixed && length / turn < MOST_TURNS ? (long)(length / turn) : MOST_TURNS;
     const double samples = isnan(o->samples) ? fmax(32 * length / turn, 12 * length * fast) : o->samples;
     e->count = 512;
     while (e->count < ISO_MOST_SAMPLES && (double)e->count < samples) e->count *= 2;

@@ -11,8 +11,9 @@
  *   strongest line of the third component that is no multiple of the first.
  * - Two such frequencies are determined only up to integer combinations. Where the problem separates and the motion
  *   is not extreme, they are those of the closed solution.
- * - Both halves of the orbit are analysed too. If their frequencies differ, and longer orbits hardly reduce the
- *   difference, the motion is chaotic.
+ * - The indicators of chaos (chaos.h) say whether the motion is regular or chaotic. Where they do not decide, both
+ *   halves of the orbit are compared: if their frequencies differ, and longer orbits hardly reduce the difference,
+ *   the motion is chaotic.
  */
 #ifndef ISO_STUDY_FREQUENCIES_H
 #define ISO_STUDY_FREQUENCIES_H
@@ -107,7 +108,8 @@ typedef struct iso_frequencies {
     iso_separatrix separatrix[ISO_SEPARATRICES];
     int angles; /* 0, 1 or 2                                                                            */
     iso_angle angle[2];
-    double rotation; /* angle[0].frequency/angle[1].frequency, the same in every clock; chaos: NaN        */
+    double rotation; /* angle[0].frequency/angle[1].frequency, the same in every clock; NaN: chaos, or most of the
+                        motion is not explained by two frequencies                                        */
     int resonances;  /* best approximations of `rotation` by fractions q/p with p, q <= 100             */
     iso_resonance resonance[ISO_MAX_RESONANCES];
     double closed[ISO_CLOCKS]; /* the period of a closed orbit: one angle, or a resonance that is met; NaN: it is

@@ -69,12 +69,18 @@ static void find_closed(iso_frequencies *f)
     for (int c = 0; c < ISO_CLOCKS && !f->estimated; c++) f->closed[c] = turns * f->angle[0].period[c];
 }
 
+/* Whether two frequencies make the motion. */
+static bool is_steady(const iso_frequencies *f)
+{
+    static const double MOST_UNEXPLAINED = 0.5;
+    return !f->estimated || (f->estimate.verdict != ISO_CHAOTIC && !(f->estimate.unexplained > MOST_UNEXPLAINED));
+}
+
 void iso_frequencies_finish(iso_frequencies *f)
 {
     for (int i = 0; i < f->angles; i++)
         for (int c = 0; c < ISO_CLOCKS; c++) f->angle[i].period[c] = 2 * ISO_PI / f->angle[i].frequency[c];
-    const bool steady = !f->estimated || f->estimate.verdict != ISO_CHAOTIC;
-    if (f->angles == 2 && steady) {
+    if (f->angles == 2 && is_steady(f)) {
         f->rotation = f->angle[0].frequency[ISO_CLOCK_T] / f->angle[1].frequency[ISO_CLOCK_T];
         find_resonances(f);
     }

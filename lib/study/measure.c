@@ -214,6 +214,18 @@ static void judge(carrier *c, iso_measure *m)
                       m);
 }
 
+static iso_status check_times(iso_context *ctx, const iso_measure_options *o)
+{
+    if ((int)o->clock < 0 || o->clock >= ISO_CLOCKS)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "clock", "no such clock");
+    if (isnan(o->end) && !(o->turns > 0 && o->turns <= 1e6))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "turns", "%g turns are not in (0, 1e6]", o->turns);
+    if (!isnan(o->end) && !(o->end > 0 && isfinite(o->end)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "end", "the flow ends at a finite time above 0, not at %g",
+                                o->end);
+    return ISO_OK;
+}
+
 iso_status iso_measure_flow(iso_context *ctx, const iso_scene *scene, const iso_measure_options *options,
                             iso_measure *measure)
 {
@@ -222,6 +234,7 @@ iso_status iso_measure_flow(iso_context *ctx, const iso_scene *scene, const iso_
     measure_scene s;
     carrier c = {.ctx = ctx, .options = &own, .scene = &s};
     iso_status status = iso_measure_open(ctx, scene, options, &own, &s);
+    if (status == ISO_OK) status = check_times(ctx, &own);
     if (status == ISO_OK) status = allocate(&c);
     if (status == ISO_OK) {
         iso_measure_draw_prepare(&c.draw, s.params, power_of_g(s.params, own.clock, own.exponent));

@@ -14,15 +14,6 @@ static iso_status check_options(iso_context *ctx, iso_measure_options *o)
     if (!(o->significance > 0 && o->significance < 1))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "significance", "significance %g is not in (0, 1)",
                                 o->significance);
-    if ((int)o->clock < 0 || o->clock >= ISO_CLOCKS)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "clock", "no such clock");
-    if (isnan(o->end) && !(o->turns > 0 && o->turns <= 1e6))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "turns", "%g turns are not in (0, 1e6]", o->turns);
-    if (!isnan(o->end) && !(o->end > 0 && isfinite(o->end)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "end", "the end of the flow must be a time above 0");
-    if (o->returns < ISO_MEASURE_RETURNS || o->returns > 1000000)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "returns", "%d returns are not in [%d, 1e6]", o->returns,
-                                ISO_MEASURE_RETURNS);
     const size_t clouds = ISO_MEASURE_CLOUDS;
     o->count = (o->count + clouds - 1) / clouds * clouds;
     return ISO_OK;

@@ -5,11 +5,12 @@
 #include "map/quarter_impl.h"
 #include "study/measure.h"
 
-/* --- states of a ball, distributed by g^power dn dtheta (measure_draw.c) ----------------------------------------- */
+/* --- states of a ball, distributed by g^power dn dtheta (measure_draw.c) --------------------------------------- */
 
 /* n by its sphero-conical coordinates in J1 <= J2 <= J3 (the axes sorted):
  *     lam = J1 cos^2 phi + J2 sin^2 phi,   mu = J2 cos^2 psi + J3 sin^2 psi,   g = lam mu/det J
- *     n1 = sin phi (sin^2 psi + m1 cos^2 psi)^(1/2),   n2 = cos phi sin psi,   n3 = cos psi (cos^2 phi + m3 sin^2 phi)^(1/2)
+ *     n1 = sin phi (sin^2 psi + m1 cos^2 psi)^(1/2),   n2 = cos phi sin psi,
+ *     n3 = cos psi (cos^2 phi + m3 sin^2 phi)^(1/2),
  *     m1 = (J2 - J1)/(J3 - J1),   m3 = (J3 - J2)/(J3 - J1)
  * phi and psi each go through a whole turn; every n is met twice.
  *     g^power dn ~ (m1 cos^2 phi + m3 sin^2 psi) a(phi) b(psi) dphi dpsi
@@ -32,7 +33,7 @@ void iso_measure_draw_state(const measure_draw *d, const uint64_t shift[3], uint
 void iso_measure_draw_means(const measure_draw *d, int count, void (*f)(double g, const double n2[3], double value[]),
                             double mean[]);
 
-/* --- sums over clouds, and the test (measure_test.c) -------------------------------------------------------------- */
+/* --- sums over clouds, and the test (measure_test.c) ------------------------------------------------------------ */
 
 typedef struct measure_sums {
     int functions;
@@ -55,7 +56,7 @@ void iso_measure_sums_add(measure_sums *sums, int cloud, int row, double sharp, 
 void iso_measure_judge(const measure_sums *sums, const char *const name[], const double expected[],
                        const double time[ISO_MEASURE_ROWS], double floor, double significance, iso_measure *m);
 
-/* --- what flow and returns share (measure_common.c) ---------------------------------------------------------------- */
+/* --- what flow and returns share (measure_common.c) ------------------------------------------------------------ */
 
 typedef struct measure_scene {
     const iso_params *params;

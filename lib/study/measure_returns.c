@@ -72,6 +72,7 @@ typedef struct returner {
     const iso_measure_options *options;
     const measure_scene *scene;
     int axis, returns[ISO_MEASURE_ROWS];
+    size_t lost;
     measure_sums sums;
     iso_start *start;
     iso_batch_orbit *orbit;
@@ -148,6 +149,12 @@ static iso_status carry_block(returner *r, int cloud, size_t count)
     return status;
 }
 
+/* Effects may stop a ball before it returns: then the section is not mapped to itself. One block tells. */
+static void count_lost(returner *r, size_t count)
+{
+    for (size_t i = 0; i < count; i++) r->lost += r->status[i] != ISO_OK;
+}
+
 static iso_status carry(returner *r)
 {
     const size_t each = r->options->count / ISO_MEASURE_CLOUDS;
@@ -156,6 +163,7 @@ static iso_status carry(returner *r)
             const size_t count = each - first < BLOCK ? each - first : BLOCK;
             draw_block(r, cloud, first, count);
             const iso_status status = carry_block(r, cloud, count);
+            if (status == ISO_NUMERICAL && !r->scene->free) return count_lost(r, count), ISO_OK;
             if (status != ISO_OK) return status;
             iso_measure_progress(r->options, (cloud + (double)(first + count) / (double)each) / ISO_MEASURE_CLOUDS);
         }
@@ -193,6 +201,9 @@ static iso_status check_section(returner *r)
     const int axis = r->options->axis;
     if (axis < ISO_AXIS_AUTO || axis > 2)
         return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "axis", "there is no axis %d", axis + 1);
+    if (r->options->returns < ISO_MEASURE_RETURNS || r->options->returns > 1000000)
+        return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "returns", "%d returns are not in [%d, 1e6]",
+                                r->options->returns, ISO_MEASURE_RETURNS);
     r->axis = axis == ISO_AXIS_AUTO ? iso_section_axis(r->scene->params) : axis;
     for (int i = 0; i < ISO_MEASURE_ROWS; i++) r->returns[i] = r->options->returns >> (ISO_MEASURE_ROWS - 1 - i);
     if (r->scene->pulled)
@@ -202,12 +213,30 @@ static iso_status check_section(returner *r)
     return ISO_OK;
 }
 
+/* One line says that not every orbit returned. */
+static void judge_lost(const returner *r, iso_measure *m)
+{
+    m->count = r->options->count;
+    m->lost = r->lost;
+    m->resolution = NAN;
+    m->lines = 1;
+    m->line[0] = (iso_measure_line){.name = "orbits that return",
+                                    .time = m->end,
+                                    .mean = NAN,
+                                    .expected = 1,
+                                    .deviation = -INFINITY};
+}
+
 static void judge(returner *r, iso_measure *m)
 {
     double expected[FUNCTIONS], number[ISO_MEASURE_ROWS];
     expectations(r->scene->params, r->axis, r->options->exponent, expected);
     for (int i = 0; i < ISO_MEASURE_ROWS; i++) number[i] = r->returns[i];
     *m = (iso_measure){.axis = r->axis, .clock = r->options->clock, .end = number[ISO_MEASURE_ROWS - 1]};
+    if (r->lost > 0) {
+        judge_lost(r, m);
+        return;
+    }
     iso_measure_judge(&r->sums, names, expected, number, iso_measure_floor(r->options), r->options->significance, m);
 }
 

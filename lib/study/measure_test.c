@@ -36,9 +36,9 @@ void iso_measure_sums_add(measure_sums *sums, int cloud, int row, double sharp, 
     }
 }
 
-/* The mean of the clouds' means, its standard error from their scatter, and d(mean - expected)/d(exponent): that of the
- * mean is the covariance with d ln(density)/d(exponent) at the start, that of the expected one the same for the values
- * at the start. */
+/* The mean of the clouds' means, its standard error from their scatter, and d(mean - expected)/d(exponent): that of
+ * the mean is its covariance with d ln(density)/d(exponent) at the start, that of the expected one the covariance of
+ * the values at the start. */
 static void find_mean(const measure_sums *sums, int at, iso_measure_line *line)
 {
     const int f = at % sums->functions;
@@ -56,7 +56,7 @@ void iso_measure_judge(const measure_sums *sums, const char *const name[], const
                        const double time[ISO_MEASURE_ROWS], double floor, double significance, iso_measure *m)
 {
     const double freedom = ISO_MEASURE_CLOUDS - 1, count = (double)sums->count;
-    const bool flat = sums->sharp_square / count - pow(sums->sharp / count, 2) < 1e-20;
+    const bool flat = sums->sharp_square / count - pow(sums->sharp / count, 2) < 1e-13 * sums->sharp_square / count;
     m->count = sums->count;
     m->lines = sums->functions * ISO_MEASURE_ROWS;
     m->worst = 0;

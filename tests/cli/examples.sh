@@ -21,6 +21,13 @@ for file in "$source"/examples/*/scene.yaml; do
     silent
 done
 
+# sections: chaos and order
+folder=$source/examples/16_sections
+run 0 section "$folder/scene.yaml" --starts 30 --crossings 100 -o wild.csv
+check "chaotic orbits part" grep -q "orbits part" err
+run 0 section "$folder/integrable.yaml" --starts 30 --crossings 100 -o tame.csv
+check_not "others do not" grep -q "orbits part" err
+
 # trajectories from elsewhere
 folder=$source/examples/14_from_python
 run 0 convert --to point --scene "$folder/scene.yaml" "$folder/orbit.txt" -o point.csv

@@ -1,0 +1,179 @@
+#!/bin/sh
+# section.sh ISOROLL - `isoroll section`: reference crossings by each model, files, pictures, what is said and refused.
+. "$(dirname "$0")/lib.sh"
+
+# field FILE N: the N-th number of the last row
+field() {
+    tail -n 1 "$1" | cut -d, -f "$2"
+}
+
+# apart A B: their difference, of angles modulo a turn
+apart() {
+    awk -v a="$1" -v b="$2" 'BEGIN {
+        pi = atan2(0, -1); d = a - b; while (d > pi) d -= 2 * pi; while (d < -pi) d += 2 * pi
+        printf "%.3g\n", d < 0 ? -d : d }'
+}
+
+# relative A B
+relative() {
+    awk -v a="$1" -v b="$2" 'BEGIN { d = a / b - 1; printf "%.3g\n", d < 0 ? -d : d }'
+}
+
+# --- crossings in quadruple precision
+count=0
+# shellcheck disable=SC2034 # L and err are not needed
+while IFS=, read -r id k J1 J2 J3 n1 n2 n3 w1 w2 w3 axis crossing t s l x L err; do
+    case $id in s*) ;; *) continue ;; esac
+    count=$((count + 1))
+    cat >ref.yaml <<END
+reduced: {k: $k, J: [$J1, $J2, $J3]}
+initial: {normal: [$n1, $n2, $n3], angular_velocity: [$w1, $w2, $w3], project: true}
+time: {end: 1}
+END
+    for model in ball point; do
+        run 0 section ref.yaml --model "$model" --crossings "$crossing" --quiet
+        silent
+        check "$id, $model: crossing" test "$(field out 2)" = "$crossing"
+        check "$id, $model: axis" grep -q "^# axis: $axis\$" out
+        at_most "$id, $model: t" "$(relative "$(field out 3)" "$t")" 1e-11
+        at_most "$id, $model: s" "$(relative "$(field out 5)" "$s")" 1e-11
+        at_most "$id, $model: l" "$(apart "$(field out 6)" "$l")" 1e-11
+        at_most "$id, $model: x" "$(apart "$(field out 7)" "$x")" 1e-11
+    done
+done <"$source/tests/reference/section.csv"
+check "reference rows" test "$count" -eq 10
+
+# --- the file
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >wild.yaml
+scene -1 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >tame.yaml
+run 0 section tame.yaml --crossings 30 --starts 9 --at "0.5,0.1;-1,0.2" --at 2,-0.5 -o tame.csv
+check "columns" test "$(columns tame.csv)" = "orbit,crossing,t,tau,s,l,x"
+check "rows: 1 + 9 + 3 orbits" test "$(rows tame.csv | wc -l)" -eq 390
+check "first line" test "$(head -n 1 tame.csv)" = "# isoroll section 1"
+for line in "model: both" "k: -1" "J: 1 2 5" "axis: 1" "section: n1 = 0, increasing; global" "crossings: 30" \
+    "starts: 9" "seed: 0" "backend: ball"; do
+    check "line $line" grep -q "^# $line\$" tame.csv
+done
+for key in h eps initial.normal initial.angular_velocity at tolerance isoroll; do
+    check "line of $key" grep -q "^# $key: " tame.csv
+done
+check "summary: counts" grep -q "each by itself: 390 crossings both" err
+check "summary: global" grep -q "n_1 = 0 is global" err
+check "summary: distance" grep -q "largest distance of the two in (l, x): [0-9.]*e-1[0-9], at orbit" err
+check_not "k = -1: nothing parts" grep -q "part" err
+check "orbits and crossings in order" awk -F, '/^[0-9]/ {
+    if ($1 != int(n / 30) || $2 != n % 30 + 1) exit 1; n++ }' tame.csv
+run 0 section wild.yaml --starts 20 --crossings 100 --quiet --threads 1 -o one.csv
+silent
+run 0 section wild.yaml --starts 20 --crossings 100 --quiet -j 2 -o two.csv
+check "threads change nothing" cmp one.csv two.csv
+run 0 section wild.yaml --starts 20 --crossings 100 --seed 7 -o seven.csv
+check "k = 0.5: chaotic orbits part" grep -q "of 21 orbits part" err
+check_not "another seed" cmp one.csv seven.csv
+run 0 section wild.yaml --crossings 3 --as both --model point --quiet
+check "states of both" test "$(columns out | tr -cd , | wc -c)" -eq 18
+check "by the point" grep -q "^# backend: point" out
+run 0 section - --crossings 2 --quiet --tol 1e-6 <wild.yaml
+check "a scene from standard input" grep -q "^# tolerance: 1e-06\|^# tolerance: 9.99.*e-07" out
+
+# --- states on the section pass `check` as a file of states
+run 0 section tame.yaml --crossings 50 --as ball --model ball --quiet -o states.csv
+run 0 check states.csv --k -1 --J 1,2,5 --max 1e-9
+if "$isoroll" section tame.yaml --crossings 50 --as both --quiet -o states.h5 2>err; then
+    check "HDF5" test "$(head -c 4 states.h5 | tail -c 3)" = HDF
+    if has h5ls "columns in HDF5"; then
+        h5ls -r states.h5 >list
+        for set in orbit crossing l x; do check "/section/$set" grep -q "^/section/$set  *Dataset {50/Inf}" list; done
+        check "/ball/omega" grep -q "^/ball/omega  *Dataset {50/Inf, 3}" list
+    fi
+else
+    check "no HDF5 in this build" grep -q "HDF5" err
+fi
+
+# --- sections that are not global say so
+run 0 section wild.yaml --axis 1 --crossings 5
+check "axis 1" grep -q "n_1 = 0 is not global: orbits can stay away from it; n_3 = 0 is global" err
+run 0 section wild.yaml --event gamma1=0.1 --crossings 5 --as point
+check "an event" grep -q "not known to be a global section" err
+check "an event: columns" test "$(columns out)" = "orbit,crossing,t,tau,s,M1,M2,M3,gamma1,gamma2,gamma3"
+at_most "an event: its value" "$(apart "$(field out 9)" 0.1)" 1e-13
+run 0 section wild.yaml --event n3=0 --crossings 5 --quiet -o event.csv
+run 0 section wild.yaml --axis 3 --crossings 5 --quiet -o axis.csv
+check "n3 = 0 is axis 3" cmp event.csv axis.csv
+cat >gravity.yaml <<END
+reduced: {k: 0.5, J: [1, 2, 5]}
+initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}
+time: {end: 1}
+effects: {gravity: {mgb: 0.3, up: [0, 0.6, 0.8]}, attitude: {}}
+END
+run 0 section gravity.yaml --crossings 5
+check "gravity: columns" test "$(columns out)" = "orbit,crossing,t,l,x"
+check "gravity: not global" grep -q "'gravity' acts on the ball" err
+run 0 section gravity.yaml --event q0=0.5 --crossings 3 --as ball --quiet
+check "the column of an observer" grep -q "q0,q1,q2,q3" out
+
+# --- refusals
+refuses 3 "an axis is 1, 2 or 3, or auto" section wild.yaml --axis 4
+refuses 3 "an axis is 1, 2 or 3, or auto" section wild.yaml --axis x
+refuses 3 "is on the boundary of the chart" section wild.yaml --at 0.5,1
+refuses 3 "is on the boundary of the chart" section wild.yaml --at "0.5,0.5;0.5,-1"
+refuses 3 "is outside the chart" section wild.yaml --at 0.5,1.5
+for wrong in 0.5 0.5, ,1 "0.5,nan" "1,0.1;" "1;2" x; do
+    [ "$wrong" = "1,0.1;" ] || refuses 3 "expected l,x" section wild.yaml --at "$wrong"
+done
+scene 0.5 "1, 2, 5" "0, 0, 0" "0.36, 0.48, 0.8" 10 0.5 >rest.yaml
+refuses 3 "rest.yaml:2:" section rest.yaml
+scene 0.5 "1, 2, 5" "0, 0, 2" "0.6, 0.8, 0" 10 0.5 >plane.yaml
+refuses 3 "the boundary of the section" section plane.yaml
+run 1 section plane.yaml --starts 3 --crossings 2
+check "the others of a scene on the boundary" test "$(grep -c '^[0-9]' out)" -eq 6
+check "and why it has none" grep -q "1 of 4 orbits did not get to the end; orbit 0: .*boundary" err
+for effect in "rolling_resistance: {coefficient: 0.1}" "twist: {resistance: 10, D: 0.5}"; do
+    sed "s/^effects:.*/effects: {$effect}/" gravity.yaml >losing.yaml
+    refuses 3 "takes energy from the ball" section losing.yaml
+done
+refuses 3 "breaks the isomorphism" section gravity.yaml --model point
+refuses 3 "no other starts can be given here" section gravity.yaml --starts 2
+refuses 3 "no other starts can be given here" section wild.yaml --event omega1=0.1 --at 0,0
+sed 's/^effects:.*/effects: {level: {c: 0.3}}/' gravity.yaml >level.yaml
+refuses 3 "no other starts can be given here" section level.yaml --starts 2
+run 4 section level.yaml --crossings 2 # this point turns back before it gets there
+check "off the level" grep -q "off the level H = 0 the point can turn back" err
+refuses 3 "there is no column" section wild.yaml --event omega=0.1
+refuses 3 "expected COLUMN=VALUE" section wild.yaml --event omega1
+refuses 3 "passes each value only once" section wild.yaml --event t=3
+refuses 3 "needs the effect 'reactions'" section wild.yaml --event pressure=3
+refuses 3 "an event has no coordinates" section wild.yaml --event omega1=0.1 --plot a.png
+for wrong in "--crossings 0" "--starts -1" "--starts 1.5" "--seed -1" "--threads 0" "--model exact" "--tol 2"; do
+    # shellcheck disable=SC2086 # an option and its value
+    refuses 2 "expected" section wild.yaml $wrong
+done
+refuses 2 "--axis or --event, not both" section wild.yaml --axis 1 --event n1=0
+refuses 2 ".svg, .png or .pdf" section wild.yaml --plot a.gif
+refuses 5 "No such file or directory" section wild.yaml --crossings 1 -o absent/a.csv
+
+# --- an interruption keeps what there is
+if interruptible "Ctrl-C"; then
+    timeout --preserve-status -k 30 -s INT 2 "$isoroll" section wild.yaml --starts 100000 -o stopped.csv 2>err
+    check "interrupted: exit status 1" test $? -eq 1
+    check "interrupted: says so" grep -q "interrupted: [0-9]* crossings were written" err
+    if [ -f stopped.csv ]; then
+        words="interrupted: $(rows stopped.csv | wc -l) crossings"
+        check "interrupted: all rows there are" grep -q "$words" err
+    fi
+fi
+
+# --- pictures
+if has gnuplot "--plot"; then
+    run 0 section wild.yaml --starts 30 --crossings 100 -o wild.csv --plot wild.svg --quiet
+    silent
+    check "a picture of both" grep -q "ball and point part" wild.svg
+    check "its axes" grep -q "in the units of the scene" wild.svg
+    run 0 section tame.yaml --starts 5 --crossings 20 --model ball -o tame.csv --plot tame.png --quiet
+    check "a picture of one" test "$(head -c 4 tame.png | tail -c 3)" = PNG
+    run 5 section tame.yaml --crossings 5 -o kept.csv --plot absent/a.svg
+    check "rows are kept without the picture" test "$(rows kept.csv | wc -l)" -eq 5
+else
+    echo "gnuplot is not installed: no pictures"
+fi
+finish
