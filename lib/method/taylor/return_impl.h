@@ -36,6 +36,14 @@ static void start_on_section(form *T, int axis, NUMBER l, NUMBER x)
     for (int d = 1; d < CHANNELS; d++) restore_deviation(T, s, &T->deviation[d]);
 }
 
+/* -gamma and -gamma', for half a return. */
+static void turn_over(form *T)
+{
+    state *of[] = {&T->now, &T->deviation[1], &T->deviation[2]};
+    for (int d = 0; d < CHANNELS; d++)
+        for (int i = 0; i < 3; i++) of[d]->n[i] = -of[d]->n[i], of[d]->w[i] = -of[d]->w[i];
+}
+
 /* The chart at a crossing: l = atan2(-gamma_c, gamma_b), x = (gamma' x gamma)_a/|gamma'|; and its change with a
  * deviation, whose part along the flow f is taken away so that gamma_a stays 0. */
 static void chart_at(int axis, const state *s, iso_fine to[2])
@@ -127,6 +135,7 @@ static bool go(const iso_model *model, int axis, double zeros, double tolerance,
     set_shape(T, model, tolerance);
     start_orbit(T, 0, model, y);
     start_on_section(T, axis, number_of(r->from[0]), number_of(r->from[1]));
+    if (r->half) turn_over(T);
     T->scale[1] = T->scale[2] = 0;
     T->second_of = NONE; /* the start is exact: nothing to restore it to */
     const bool there = go_round(T, axis, zeros, r);
