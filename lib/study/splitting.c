@@ -52,7 +52,7 @@ static iso_status compute_again(const iso_manifold *m, int terms, const iso_mani
     iso_status status = iso_manifold_solve(&other);
     *again = *c;
     again->theta *= m->size / other.size;
-    if (again->theta > 1) again->theta /= m->lambda, again->halves++;
+    while (again->theta > 1) again->theta /= m->lambda, again->halves++;
     return status == ISO_OK ? iso_manifold_refine(&other, again) : status;
 }
 

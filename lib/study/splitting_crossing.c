@@ -107,21 +107,25 @@ static iso_wide guess(const piece *p, int i)
     return p->at[i - 1].theta * (iso_wide)exp(part * log((double)(p->at[i].theta / p->at[i - 1].theta)));
 }
 
+/* Newton's method. Rounding leaves u some units away from pi/2; x and the slope are carried to pi/2 in first order, with
+ * the change of the slope that the last step has shown. */
 iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
 {
-    const iso_wide pi = iso_wide_pi();
+    const iso_wide pi = iso_wide_pi(), near = (iso_wide)(2000 * m->code->error);
+    iso_wide last_over = 0, last_slope = 0;
     for (int i = 0; i < 30; i++) {
         iso_manifold_point p;
         const iso_status status = iso_manifold_at(m, c->theta, c->halves, &p);
         if (status != ISO_OK) return status;
-        const iso_wide over = iso_wide_turned(p.z[0] - pi / 2), step = over / p.t[0];
-        c->z[0] = p.z[0];
-        c->z[1] = p.z[1] - step * p.t[1];
-        c->slope = p.t[1] / p.t[0];
-        if (iso_wide_size(over) < (iso_wide)(20 * m->code->error)) return ISO_OK;
-        if (i >= 3 && iso_wide_size(over) < (iso_wide)(2000 * m->code->error)) return ISO_OK;
-        if (!(iso_wide_size(step) < c->theta / 2)) break;
-        c->theta -= step;
+        const iso_wide over = iso_wide_turned(p.z[0] - pi / 2), slope = p.t[1] / p.t[0], moved = over - last_over;
+        const bool known = i > 0 && iso_wide_size(moved) > 10 * iso_wide_size(over);
+        c->z[0] = p.z[0] - over;
+        c->z[1] = p.z[1] - over * slope;
+        c->slope = known ? slope - over * (slope - last_slope) / moved : slope;
+        if (i > 0 && iso_wide_size(over) < near) return ISO_OK;
+        if (!(iso_wide_size(over / p.t[0]) < c->theta / 2)) break;
+        c->theta -= over / p.t[0];
+        last_over = over, last_slope = slope;
     }
     return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
                             "splitting at k = %.15g: the crossing with the line of symmetry was not found",
