@@ -69,8 +69,8 @@ static double rounding(const iso_manifold *m, const iso_manifold_crossing *c)
  *
  *     m_a = (x_g/x_a)^2 m_g
  */
-static void tell(const iso_manifold *m, const iso_manifold_crossing *c, const iso_manifold_crossing *again, int digits,
-                 iso_splitting *s)
+static void tell(const iso_manifold *m, const iso_manifold_crossing *c, const iso_manifold_crossing *again,
+                 int digits, iso_splitting *s)
 {
     const double floor = rounding(m, c);
     iso_wide x = c->z[1], slope = c->slope;
@@ -128,7 +128,8 @@ static void begin(double k, iso_splitting *s)
 {
     memset(s, 0, sizeof *s);
     s->k = k;
-    s->lambda = s->x = s->m = s->section_x = s->section_m = s->error = s->x_error = s->next_l = s->next_x = s->next_m = NAN;
+    s->lambda = s->x = s->m = s->section_x = s->section_m = s->error = s->x_error = s->next_l = s->next_x =
+        s->next_m = NAN;
 }
 
 iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], iso_manifold *m)

@@ -26,24 +26,28 @@
 ISO_C_BEGIN
 
 /* Numbers of 64 bits, of 106 bits, or the first and where |m| < 1000 errors the second. */
-typedef enum iso_splitting_digits { ISO_SPLITTING_DOUBLE, ISO_SPLITTING_QUAD, ISO_SPLITTING_AUTO } iso_splitting_digits;
+typedef enum iso_splitting_digits {
+    ISO_SPLITTING_DOUBLE,
+    ISO_SPLITTING_QUAD,
+    ISO_SPLITTING_AUTO
+} iso_splitting_digits;
 
 /* What is found at one k. */
 typedef struct iso_splitting {
     double k;
-    int middle;           /* the middle axis, 0 to 2: O is the rotation about it                           */
-    int axis;             /* a = middle + 1, cyclically: x and m belong to n_a = 0, where O is (l, x) = 0  */
-    double lambda;        /* O's multiplier > 1 of a whole return                                          */
-    double x, x_tail;     /* where W^u(O) first meets l = pi/2: x + x_tail                                 */
-    double m, m_tail;     /* its slope dx/dl there, m + m_tail                                             */
-    double error, x_error; /* of m, and of x                                                               */
-    int section;          /* g: the global section n_g = 0, on which all is computed: a, or the other one  */
+    int middle;                    /* the middle axis, 0 to 2: O is the rotation about it                           */
+    int axis;                      /* a = middle + 1, cyclically: x and m belong to n_a = 0, where O is (l, x) = 0  */
+    double lambda;                 /* O's multiplier > 1 of a whole return                                          */
+    double x, x_tail;              /* where W^u(O) first meets l = pi/2: x + x_tail                                 */
+    double m, m_tail;              /* its slope dx/dl there, m + m_tail                                             */
+    double error, x_error;         /* of m, and of x                                                               */
+    int section;                   /* g: the global section n_g = 0, on which all is computed: a, or the other one  */
     double section_x, section_m;   /* x and m there                                                        */
     double next_l, next_x, next_m; /* there: the next point at which the manifolds meet, and half the difference
                                       of their slopes; NaN: not asked for, or not found                    */
-    int digits;           /* decimal digits of the numbers: 19 or 32                                       */
-    bool from_zero;       /* |m| > 100 errors                                                              */
-    bool is_zero;         /* k is a zero of m between two rows of a scan, to k_error; next_... are there   */
+    int digits;                    /* decimal digits of the numbers: 19 or 32                                       */
+    bool from_zero;                /* |m| > 100 errors                                                              */
+    bool is_zero;                  /* k is a zero of m between two rows of a scan, to k_error; next_... are there   */
     double k_error;
     iso_status status; /* ISO_OK, or why there is nothing                                               */
     char words[200];   /* of a failure                                                                  */
@@ -66,8 +70,8 @@ typedef struct iso_splitting_options {
     size_t count;
     double J[3];
     iso_splitting_digits digits;
-    bool zeros;      /* look for zeros of m between neighbours of this list                    */
-    int threads;     /* 0: as many as there are processors to run on                           */
+    bool zeros;  /* look for zeros of m between neighbours of this list                    */
+    int threads; /* 0: as many as there are processors to run on                           */
     /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
     void (*progress)(double part, void *data);
     void *data;

@@ -5,14 +5,17 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/arithmetic_impl.h"
 #include "study/splitting_impl.h"
 
 enum { MOST_SAMPLES = 4096, MOST_HALVES = 4000 };
-#define CLOSE 0.35 /* samples that are farther apart have another one between them */
+#define CLOSE 0.35       /* samples that are farther apart have another one between them ... */
+#define CLOSE_DRAWN 0.06 /* ... of a line that is drawn */
 
 typedef struct piece {
     const iso_manifold *m;
     int count, halves;
+    double close;
     double base; /* u of the first sample, with whole turns */
     iso_manifold_point *at;
     double *u; /* of each sample, with whole turns */
@@ -29,10 +32,10 @@ static void unwrap(piece *p)
     for (int i = 1; i < p->count; i++) p->u[i] = nearest(p->at[i].z[0], p->u[i - 1]);
 }
 
-static bool is_far(const iso_manifold_point *a, const iso_manifold_point *b)
+static bool is_far(const iso_manifold_point *a, const iso_manifold_point *b, double close)
 {
     const double du = (double)iso_wide_turned(b->z[0] - a->z[0]), dx = (double)(b->z[1] - a->z[1]);
-    return hypot(du, dx) > CLOSE;
+    return hypot(du, dx) > close;
 }
 
 static iso_wide middle(const iso_manifold_point *a, const iso_manifold_point *b)
@@ -44,7 +47,7 @@ static iso_wide middle(const iso_manifold_point *a, const iso_manifold_point *b)
 static iso_status fill(piece *p)
 {
     for (int i = 0; i + 1 < p->count;) {
-        if (!is_far(&p->at[i], &p->at[i + 1])) {
+        if (!is_far(&p->at[i], &p->at[i + 1], p->close)) {
             i++;
             continue;
         }
@@ -62,25 +65,30 @@ static iso_status fill(piece *p)
     return ISO_OK;
 }
 
-static iso_status open_piece(const iso_manifold *m, piece *p)
+static void close_piece(piece *p)
+{
+    free(p->at);
+    free(p->u);
+    p->at = NULL;
+    p->u = NULL;
+}
+
+static iso_status open_piece(const iso_manifold *m, double close, piece *p)
 {
     enum { FIRST = 4 };
     const double step = log((double)m->lambda) / (FIRST - 1);
-    *p = (piece){.m = m, .count = FIRST};
+    *p = (piece){.m = m, .count = FIRST, .close = close};
     p->at = malloc(MOST_SAMPLES * sizeof *p->at);
     p->u = malloc(MOST_SAMPLES * sizeof *p->u);
-    if (!p->at || !p->u) return iso_context_fail(m->ctx, ISO_NO_MEMORY, "", "no memory for a manifold");
+    if (!p->at || !p->u) {
+        close_piece(p);
+        return iso_context_fail(m->ctx, ISO_NO_MEMORY, "", "no memory for a manifold");
+    }
     for (int i = 0; i < FIRST; i++) {
         const iso_wide theta = i == FIRST - 1 ? 1 : i == 0 ? 1 / m->lambda : (iso_wide)exp((i + 1 - FIRST) * step);
         iso_manifold_at(m, theta, 0, &p->at[i]);
     }
     return fill(p);
-}
-
-static void close_piece(piece *p)
-{
-    free(p->at);
-    free(p->u);
 }
 
 static iso_status advance(piece *p)
@@ -102,8 +110,8 @@ static const double quarter = 1.5707963267948966;
 static iso_wide guess(const piece *p, int i)
 {
     const double u0 = p->u[i - 1], u1 = p->u[i];
-    const double part = u0 > 0 ? log(tan(u0 / 2)) / (log(tan(u0 / 2)) - log(tan(fmin(u1, 3) / 2)))
-                               : (quarter - u0) / (u1 - u0);
+    const double part =
+        u0 > 0 ? log(tan(u0 / 2)) / (log(tan(u0 / 2)) - log(tan(fmin(u1, 3) / 2))) : (quarter - u0) / (u1 - u0);
     return p->at[i - 1].theta * (iso_wide)exp(part * log((double)(p->at[i].theta / p->at[i - 1].theta)));
 }
 
@@ -135,7 +143,7 @@ iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
 iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
 {
     piece p;
-    iso_status status = open_piece(m, &p);
+    iso_status status = open_piece(m, CLOSE, &p);
     int found = 0;
     while (status == ISO_OK && found == 0) {
         for (int i = 0; i < p.count && found == 0; i++)
@@ -207,18 +215,21 @@ static iso_status append(iso_context *ctx, const piece *p, int from, iso_record 
     return ISO_OK;
 }
 
+/* Until the lobes are too long to be held: that is no failure. */
 static iso_status draw(iso_context *ctx, const iso_manifold *m, int halves, iso_record *curve)
 {
-    static const double start[2] = {0, 0};
-    double *row;
     piece p;
-    iso_status status = iso_record_append(ctx, curve, &row);
-    row[0] = start[0], row[1] = start[1];
-    if (status == ISO_OK) status = open_piece(m, &p);
-    if (status == ISO_OK) status = append(ctx, &p, 0, curve);
-    for (int left = halves, met = 0; status == ISO_OK && left > 0; left -= met) {
+    double *origin;
+    iso_status status = iso_record_append(ctx, curve, &origin);
+    if (status == ISO_OK) status = open_piece(m, CLOSE_DRAWN, &p);
+    if (status != ISO_OK) return status;
+    status = append(ctx, &p, 0, curve);
+    for (int left = halves, met = 0; status == ISO_OK && left > 0 && p.halves < MOST_HALVES; left -= met) {
         status = advance(&p);
-        if (p.count == MOST_SAMPLES || p.halves > MOST_HALVES) break;
+        if (status == ISO_NUMERICAL && met) {
+            close_piece(&p);
+            return ISO_OK;
+        }
         met = met || p.u[p.count - 1] >= quarter;
         if (status == ISO_OK) status = append(ctx, &p, 1, curve);
     }
@@ -231,6 +242,7 @@ iso_status iso_splitting_curve(iso_context *ctx, double k, const double J[3], in
     static const char *const names[] = {"u", "x"};
     iso_manifold m;
     iso_record *r = NULL;
+    ISO_DEFAULT_ARITHMETIC;
     *curve = NULL;
     iso_status status = iso_manifold_find(ctx, k, J, &m);
     if (status == ISO_OK) status = iso_record_create(ctx, 2, names, &r);

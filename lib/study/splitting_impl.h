@@ -40,7 +40,7 @@ typedef struct iso_manifold {
     double zeros, tolerance;
     iso_wide corner; /* l0 */
     iso_wide lambda, v[2], size, c[2][ISO_MANIFOLD_TERMS];
-    double rate;   /* |c_(i+1)/c_i|, about */
+    double rate; /* |c_(i+1)/c_i|, about */
 } iso_manifold;
 
 /* A place on the manifold and its derivative by theta. */

@@ -35,8 +35,7 @@ iso_wide iso_wide_size(iso_wide x)
 /* pi in three doubles */
 iso_wide iso_wide_pi(void)
 {
-    return (iso_wide)3.141592653589793116 + (iso_wide)1.2246467991473532072e-16 -
-           (iso_wide)2.9947698097183396659e-33;
+    return (iso_wide)3.141592653589793116 + (iso_wide)1.2246467991473532072e-16 - (iso_wide)2.9947698097183396659e-33;
 }
 
 iso_wide iso_wide_turned(iso_wide angle)
@@ -124,8 +123,8 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], iso_
     if (status != ISO_OK) return status;
     const iso_params *p = &m->problem.p;
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "k",
-                                "splitting: k = %.15g: the numbers hold 0.05 <= |k| <= 50", k);
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "splitting: k = %.15g: the numbers hold 0.05 <= |k| <= 50",
+                                k);
     m->problem.eps = 1;
     m->axis = iso_section_axis(p);
     const int b = (m->axis + 1) % 3, c = (m->axis + 2) % 3;

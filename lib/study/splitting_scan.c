@@ -114,7 +114,7 @@ static int by_k(const void *a, const void *b)
 static bool is_bracket(const iso_splitting *a, const iso_splitting *b, bracket *found)
 {
     const double one = a->k < 0 ? -1 : 1;
-    const bool around = a->k < one && one < b->k, fine = a->digits > 19 || b->digits > 19;
+    const bool around = a->k < one && one<b->k, fine = a->digits> 19 || b->digits > 19;
     *found = (bracket){{a->k, b->k}, {a->m, b->m}, around, fine};
     return a->k * b->k > 0 && a->m * b->m < 0 ? !around : around && a->k * b->k > 0;
 }
