@@ -72,21 +72,21 @@ static double rounding(const iso_manifold *m, const iso_manifold_crossing *c)
 static void tell(const iso_manifold *m, const iso_manifold_crossing *c, const iso_manifold_crossing *again,
                  int digits, iso_splitting *s)
 {
-    const double floor = rounding(m, c);
-    iso_wide x = c->z[1], slope = c->slope;
-    double x_factor = 1, factor = 1;
-    s->section_x = (double)x, s->section_m = (double)slope;
-    if (s->axis != m->axis) {
-        const iso_wide other = ISO_WIDE_ROOT((1 - x) * (1 + x)) * (x < 0 ? 1 : -1), ratio = x / other;
-        x_factor = fabs((double)ratio), factor = (double)(ratio * ratio);
-        x = other, slope *= ratio * ratio;
-    }
-    const iso_fine fine_x = iso_wide_fine(x), fine_slope = iso_wide_fine(slope);
+    const double floor = rounding(m, c), of_m = 3 * (double)iso_wide_size(c->slope - again->slope) + floor,
+                 of_x = 3 * (double)iso_wide_size(c->z[1] - again->z[1]) + floor;
+    const iso_wide x = c->z[1], root = ISO_WIDE_ROOT((1 - x) * (1 + x)), ratio = x / root;
+    const bool same = s->axis == m->axis;
+    const iso_fine fine_x = iso_wide_fine(same    ? x
+                                          : x < 0 ? root
+                                                  : -root),
+                   fine_slope = iso_wide_fine(same ? c->slope : c->slope * ratio * ratio);
+    const double r = fabs((double)ratio);
+    s->section_x = (double)x, s->section_m = (double)c->slope;
     s->lambda = (double)(m->lambda * m->lambda);
     s->x = fine_x.head, s->x_tail = fine_x.tail;
     s->m = fine_slope.head, s->m_tail = fine_slope.tail;
-    s->error = factor * (3 * (double)iso_wide_size(c->slope - again->slope) + floor);
-    s->x_error = x_factor * (3 * (double)iso_wide_size(c->z[1] - again->z[1]) + floor);
+    s->error = same ? of_m : r * r * of_m + 2 * r * (1 + r * r) / (double)root * fabs(s->section_m) * of_x;
+    s->x_error = same ? of_x : r * of_x + m->code->error;
     s->digits = digits;
     s->from_zero = fabs(s->m) > 100 * s->error;
 }

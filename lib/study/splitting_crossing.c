@@ -119,7 +119,7 @@ static iso_wide guess(const piece *p, int i)
  * the change of the slope that the last step has shown. */
 iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
 {
-    const iso_wide pi = iso_wide_pi(), near = (iso_wide)(2000 * m->code->error);
+    const iso_wide pi = iso_wide_pi(), near = (iso_wide)m->code->error * (2000 + 100 * m->lambda);
     iso_wide last_over = 0, last_slope = 0;
     for (int i = 0; i < 30; i++) {
         iso_manifold_point p;
@@ -193,7 +193,7 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
         const iso_wide apart = iso_wide_turned(r.z[0] - r.p.z[0]), step = apart / (r.t[0] - r.p.t[0]);
         for (int j = 0; j < 2; j++) c->z[j] = r.p.z[j];
         c->slope = (r.p.t[1] / r.p.t[0] - r.t[1] / r.t[0]) / 2;
-        if (iso_wide_size(apart) < (iso_wide)(2000 * m->code->error)) return ISO_OK;
+        if (iso_wide_size(apart) < (iso_wide)m->code->error * (2000 + 100 * m->lambda)) return ISO_OK;
         if (!(iso_wide_size(step) < c->theta / 2)) break;
         c->theta -= step;
     }

@@ -250,13 +250,13 @@ static iso_status improve(iso_manifold *m, linear *L, double *change)
     return ISO_OK;
 }
 
-/* How fast the coefficients fall, from the first ones: the last may be rounding errors. */
+/* How fast the coefficients fall, from the first ones: the last may be rounding errors, which do not fall. */
 static double falling(const iso_manifold *m)
 {
     double size[ISO_MANIFOLD_TERMS];
     int last = 1;
     for (int i = 0; i < m->terms; i++) size[i] = hypot((double)m->c[0][i], (double)m->c[1][i]);
-    while (last + 1 < m->terms && size[last + 1] > 1e-13 * (double)m->size) last++;
+    while (last + 1 < m->terms && size[last + 1] < size[last] / 3 && size[last + 1] > 1e-13 * (double)m->size) last++;
     return pow(size[last] / size[0], 1.0 / last);
 }
 
