@@ -48,63 +48,67 @@ static bool read_number(const char *text, size_t length, double *x)
     return isfinite(*x);
 }
 
+typedef struct numbers {
+    double *k;
+    size_t count;
+} numbers;
+
 static iso_status bad_k(iso_context *ctx, const char *text)
 {
     return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                            "--k '%s': expected A:B:STEP with STEP towards B, or values with commas between, at most "
-                            "%d of them: 0.25:3:0.25, or 1/3,1/2,-0.5",
+                            "--k '%s': expected values and ranges A:B:STEP, STEP not 0, with commas between, at most "
+                            "%d values: 0.25:3:0.25, or 1/3,1/2,-0.5",
                             text, MOST_K);
 }
 
-/* A, A + STEP, ... up to B, which a rounding error does not cut off. */
-static iso_status read_range(iso_context *ctx, const char *text, double **list, size_t *count)
+static iso_status append(iso_context *ctx, numbers *list, double k)
 {
-    double number[3];
-    const char *c = text;
-    for (int i = 0; i < 3; i++) {
-        const size_t length = strcspn(c, ":");
-        if (!read_number(c, length, &number[i]) || (i < 2) != (c[length] == ':')) return bad_k(ctx, text);
-        c += length + 1;
-    }
-    const double steps = floor((number[1] - number[0]) / number[2] * (1 + 1e-12) + 1e-9);
-    if (!(steps >= 0 && steps < MOST_K)) return bad_k(ctx, text);
-    *count = (size_t)steps + 1;
-    *list = malloc(*count * sizeof **list);
-    if (!*list) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of k", *count);
-    for (size_t i = 0; i < *count; i++) {
-        const double k = number[0] + (double)i * number[2];
-        char digits[32]; /* 0.1 + 2 0.1 shall be 0.3, and 1/3 stay as it is */
-        double rounded;
-        snprintf(digits, sizeof digits, "%.12g", k);
-        (*list)[i] =
-            iso_number_read(digits, strlen(digits), &rounded) && fabs(rounded - k) < 4e-16 * fabs(k) ? rounded : k;
-    }
+    double *more = realloc(list->k, (list->count + 1) * sizeof *more);
+    if (!more) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of k", list->count + 1);
+    list->k = more;
+    list->k[list->count++] = k;
     return ISO_OK;
 }
 
-static iso_status read_list(iso_context *ctx, const char *text, double **list, size_t *count)
+/* 0.1 + 2 0.1 shall be 0.3, and 1/3 stay as it is. */
+static double rounded(double k)
 {
-    size_t most = 1;
-    for (const char *c = text; *c; c++) most += *c == ',';
-    if (most > MOST_K) return bad_k(ctx, text);
-    *list = malloc(most * sizeof **list);
-    if (!*list) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of k", most);
-    for (const char *c = text;; c++) {
-        const size_t length = strcspn(c, ",");
-        if (!read_number(c, length, &(*list)[(*count)++])) return bad_k(ctx, text);
-        c += length;
-        if (!*c) return ISO_OK;
+    char digits[ISO_NUMBER_SIZE];
+    double tidy;
+    iso_number_print_as(digits, k, 12);
+    return iso_number_read(digits, strlen(digits), &tidy) && fabs(tidy - k) < 1e-15 * fmax(1, fabs(k)) ? tidy : k;
+}
+
+/* A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever its sign. */
+static iso_status read_item(iso_context *ctx, const char *text, const char *item, size_t length, numbers *list)
+{
+    double number[3];
+    int parts = 0;
+    for (const char *c = item; c <= item + length; parts++) {
+        const size_t left = (size_t)(item + length - c), part = strcspn(c, ":") < left ? strcspn(c, ":") : left;
+        if (parts == 3 || !read_number(c, part, &number[parts])) return bad_k(ctx, text);
+        c += part + 1;
     }
+    if (parts == 1) return append(ctx, list, number[0]);
+    const double way = number[1] - number[0], step = copysign(number[2], way), steps = floor(way / step + 1e-9);
+    if (parts != 3 || number[2] == 0 || !(steps < MOST_K)) return bad_k(ctx, text);
+    iso_status status = ISO_OK;
+    for (double i = 0; i <= steps && status == ISO_OK; i++) status = append(ctx, list, rounded(number[0] + i * step));
+    return status;
 }
 
 /* The values of k, which are the caller's to free: --k, or the scene's. */
-static iso_status read_k(iso_context *ctx, const options *o, const iso_scene *scene, double **list, size_t *count)
+static iso_status read_k(iso_context *ctx, const options *o, const iso_scene *scene, numbers *list)
 {
-    if (o->k) return strchr(o->k, ':') ? read_range(ctx, o->k, list, count) : read_list(ctx, o->k, list, count);
-    *list = malloc(sizeof **list);
-    if (!*list) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for k");
-    (*list)[(*count)++] = scene->params.k;
-    return ISO_OK;
+    if (!o->k) return append(ctx, list, scene->params.k);
+    for (const char *c = o->k;; c++) {
+        const size_t length = strcspn(c, ",");
+        const iso_status status = read_item(ctx, o->k, c, length, list);
+        if (status != ISO_OK) return status;
+        if (list->count > MOST_K) return bad_k(ctx, o->k);
+        c += length;
+        if (!*c) return ISO_OK;
+    }
 }
 
 /* The isomorphism and its return map are those of the free ball. */
@@ -327,8 +331,7 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
     return result;
 }
 
-static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, double **k, size_t *count,
-                          iso_output **csv)
+static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, numbers *k, iso_output **csv)
 {
     if (o->csv && strcmp(o->csv, "-") == 0 && o->json)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
@@ -336,16 +339,15 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     if (status == ISO_OK) status = check_free(ctx, scene);
-    if (status == ISO_OK) status = read_k(ctx, o, scene, k, count);
+    if (status == ISO_OK) status = read_k(ctx, o, scene, k);
     return status == ISO_OK && o->csv ? iso_output_open(ctx, o->csv, csv) : status;
 }
 
-static int work(iso_context *ctx, const options *o, const iso_scene *scene, const double *k, size_t count,
-                iso_output *csv)
+static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, iso_output *csv)
 {
     iso_splittings *s = NULL;
     iso_splitting_options how = iso_splitting_defaults();
-    how.k = k, how.count = count;
+    how.k = k->k, how.count = k->count;
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
     how.digits = o->digits;
     how.threads = o->threads < 4096 ? (int)o->threads : 4096;
@@ -370,21 +372,20 @@ static int run(iso_context *ctx, const void *options_given)
     const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_output *csv = NULL;
-    double *k = NULL;
-    size_t count = 0;
-    const iso_status status = prepare(ctx, o, &scene, &k, &count, &csv);
+    numbers k = {NULL, 0};
+    const iso_status status = prepare(ctx, o, &scene, &k, &csv);
     const int result =
-        status == ISO_OK ? work(ctx, o, &scene, k, count, csv) : finish_scene(ctx, &o->scene, &scene, status);
-    free(k);
+        status == ISO_OK ? work(ctx, o, &scene, &k, csv) : finish_scene(ctx, &o->scene, &scene, status);
+    free(k.k);
     return result;
 }
 
 static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .digits = ISO_SPLITTING_AUTO};
 
 static const option_row rows[] = {
-    ROW("k", "A:B:STEP", "A:B:STEP or values with commas between",
-        "values of k in place of the scene's: a range, or K1,K2,...; fractions such as 1/3 are numbers", set_text,
-        options, k),
+    ROW("k", "LIST", "values and ranges A:B:STEP",
+        "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
+        set_text, options, k),
     ROW_OF_WORDS("digits", "D", "double, quad or auto",
                  "numbers of 64 bits, of 128 bits, or the first, and the second where m is not told from 0 (default)",
                  set_splitting_digits, options, digits, digits_word),
