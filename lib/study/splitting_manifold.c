@@ -100,9 +100,8 @@ iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code)
 
 /* --- preparing -------------------------------------------------------------------------------------------------- */
 
-static iso_status check_moments(iso_context *ctx, const iso_params *p)
+static iso_status check_moments(iso_context *ctx, const double J[3])
 {
-    const double *J = p->J;
     if (J[0] != J[1] && J[1] != J[2] && J[2] != J[0]) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "J",
                             "splitting: two moments of inertia are equal, J = %.15g %.15g %.15g: the body is "
@@ -119,7 +118,7 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], iso_
     frexp(isfinite(top) && top > 0 ? top : 1, &exponent);
     const double scaled[3] = {ldexp(J[0], 1 - exponent), ldexp(J[1], 1 - exponent), ldexp(J[2], 1 - exponent)};
     iso_status status = iso_params_reduced(ctx, k, scaled, &m->problem.p);
-    if (status == ISO_OK) status = check_moments(ctx, &m->problem.p);
+    if (status == ISO_OK) status = check_moments(ctx, J);
     if (status != ISO_OK) return status;
     const iso_params *p = &m->problem.p;
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
