@@ -162,9 +162,9 @@ static void print_zero(const iso_splitting *s)
     printf("A tangency of one point is no integrability.");
     if (isfinite(s->next_m))
         printf(" On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
-               "and there with the slopes +-%.6e about their mean%s",
+               "and there with slopes %.6e above and below their mean: %s.",
                s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
-               fabs(s->next_m) > 100 * s->error ? ": a transversal crossing" : "");
+               fabs(s->next_m) > 100 * s->error ? "they cross" : "too little for these digits");
     printf("\n");
 }
 
