@@ -67,6 +67,35 @@ void iso_crossings_bounds(const iso_orbit *orbit, iso_crossed *o)
     o->bound[1] = 2 * ISO_PI / W[0];
 }
 
+/* The largest Omega^2 = (2 eps k^3/det J^2) q (J_a - (1-k) q) for q between min J and max J. */
+static double fastest(const iso_params *p, double eps, int axis)
+{
+    const double k = p->k, least = min3(p->J), most = max3(p->J), top = p->J[axis] / (2 * (1 - k));
+    const double q[3] = {least, most, top > least && top < most ? top : most};
+    double square = 0;
+    for (int i = 0; i < 3; i++)
+        square = fmax(square, 2 * eps / p->det_J * (k * k * k / p->det_J) * q[i] * (p->J[axis] - (1 - k) * q[i]));
+    return sqrt(square);
+}
+
+/* The number of parts in a unit of the variable of the series, so that gamma_a has at most one zero in each. A zero
+ * shows by the signs of n_a at the ends of a part. In s, a part of length x is short enough if W x <= pi, by Sturm. In
+ * t, let r = ds/dt ~ q^(1+1/(2k)) and Omega = W r. Lyapunov's inequality 4 < (s2 - s1) int W^2 ds between two zeros
+ * gives
+ *
+ *     4 < int r dt int (Omega^2/r) dt <= Omega_max^2 x^2 (rho + 1)^2/(4 rho),    rho = r_max/r_min in the part
+ *
+ * q changes at a rate of |q_t/q| <= B = (J_max - J_min) (2 h k^2/det J)^(1/2). So rho <= e if x B |1 + 1/(2k)| <= 1.
+ * Then two zeros are more than 1.77/Omega_max apart. */
+double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock variable)
+{
+    double W[2];
+    iso_section_bounds(p, eps, axis, W);
+    if (variable == ISO_CLOCK_S) return W[1] / ISO_PI;
+    const double h = iso_energy(p, eps), turn = sqrt(2 * h * p->k * p->k / p->det_J) * (max3(p->J) - min3(p->J));
+    return fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(p, eps, axis) / 1.77);
+}
+
 /* By Sturm's comparison. A larger distance means a skipped crossing, a smaller one a crossing found twice. A start on
  * the section is on it up to ISO_ON_SECTION. */
 iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,

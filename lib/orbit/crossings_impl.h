@@ -59,6 +59,9 @@ void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_
 iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_crossing crossing[],
                                   iso_sample sample[], size_t *done);
 
+/* n_axis has at most one zero within 1/(this number) of `variable`: the clock t or s of an orbit with coupling eps. */
+double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock variable);
+
 /* The axis of the section of an orbit; -1: the section is none of ISO_SECTION_AXIS. */
 int iso_crossings_axis(const iso_crossings *c, size_t i);
 

@@ -1,14 +1,5 @@
 /* crossings_lanes.c - many orbits from crossing to crossing in the lanes of vectors, on all threads, with deviations
  * beside them if they are asked for.
- *
- * Lanes divide each step into parts so short that n_a has at most one zero in each. A zero shows by the signs of n_a
- * at the ends of a part. In s, a part of length x is short enough if W x <= pi, by Sturm. In t, let r = ds/dt ~
- * q^(1+1/(2k)) and Omega = W r. Lyapunov's inequality 4 < (s2 - s1) int W^2 ds between two zeros gives
- *
- *     4 < int r dt int (Omega^2/r) dt <= Omega_max^2 x^2 (rho + 1)^2/(4 rho),    rho = r_max/r_min in the part
- *
- * q changes at a rate of |q_t/q| <= B = (J_max - J_min) (2 h k^2/det J)^(1/2). So rho <= e if x B |1 + 1/(2k)| <= 1.
- * Then two zeros are more than 1.77/Omega_max apart.
  */
 #include <math.h>
 #include <stddef.h>
@@ -45,17 +36,6 @@ typedef struct follower {
 
 /* --- preparing -------------------------------------------------------------------------------------------------- */
 
-/* The largest Omega^2 = (2 eps k^3/det J^2) q (J_a - (1-k) q) for q between min J and max J. */
-static double fastest(const iso_params *p, double eps, int axis)
-{
-    const double k = p->k, least = min3(p->J), most = max3(p->J), top = p->J[axis] / (2 * (1 - k));
-    const double q[3] = {least, most, top > least && top < most ? top : most};
-    double square = 0;
-    for (int i = 0; i < 3; i++)
-        square = fmax(square, 2 * eps / p->det_J * (k * k * k / p->det_J) * q[i] * (p->J[axis] - (1 - k) * q[i]));
-    return sqrt(square);
-}
-
 /* The bounds of the search for crossings, in the variable of the series. */
 static void set_search(struct iso_crossings_lane *lane, const iso_crossed *o)
 {
@@ -63,14 +43,12 @@ static void set_search(struct iso_crossings_lane *lane, const iso_crossed *o)
     const iso_params *p = &orbit->units.own;
     iso_lane_job *job = &lane->job;
     job->axis = o->axis;
+    const iso_clock variable = iso_lane_clock(&orbit->model);
+    job->zeros = iso_crossings_zeros(p, orbit->eps, o->axis, variable);
     job->longest = o->bound[1];
-    job->zeros = 2 / o->bound[0];
-    if (iso_lane_clock(&orbit->model) == ISO_CLOCK_S) return;
-    const double h = orbit->h, turn = sqrt(2 * h * p->k * p->k / p->det_J) * (max3(p->J) - min3(p->J));
-    const double slowest =
+    if (variable == ISO_CLOCK_S) return;
+    job->longest /=
         fmin(iso_clock_rate(p, ISO_CLOCK_S, min3(p->J), NULL), iso_clock_rate(p, ISO_CLOCK_S, max3(p->J), NULL));
-    job->zeros = fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(p, orbit->eps, o->axis) / 1.77);
-    job->longest = o->bound[1] / slowest;
 }
 
 static iso_status prepare_as(iso_pool_worker *w, const iso_crossings *c, size_t i, iso_backend backend, bool clocks,

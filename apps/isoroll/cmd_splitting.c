@@ -1,0 +1,434 @@
+/* isoroll splitting - how far the separatrix of the middle axis' rotation splits: why only k = 1 and k = -1. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "io/output.h"
+#include "io/plot.h"
+#include "json.h"
+#include "scene_options.h"
+#include "study/splitting.h"
+
+/* What splitting can be told. */
+typedef struct options {
+    scene_options scene;        /* only its file is used */
+    const char *k, *csv, *plot; /* NULL: not given       */
+    iso_splitting_digits digits;
+    double threads;
+    bool json;
+} options;
+
+enum { MOST_K = 100000 };
+
+/* --- what is typed ---------------------------------------------------------------------------------------------- */
+
+static const char *digits_word(int i)
+{
+    static const char *const words[] = {"double", "quad", "auto"};
+    return i < 3 ? words[i] : NULL;
+}
+
+static bool set_splitting_digits(void *at, const char *text)
+{
+    for (int i = 0; digits_word(i); i++)
+        if (strcmp(text, digits_word(i)) == 0) return *(iso_splitting_digits *)at = (iso_splitting_digits)i, true;
+    return false;
+}
+
+/* A number, or a fraction p/q. */
+static bool read_number(const char *text, size_t length, double *x)
+{
+    const char *slash = memchr(text, '/', length);
+    double below;
+    if (!slash) return iso_number_read(text, length, x);
+    const size_t first = (size_t)(slash - text);
+    if (!iso_number_read(text, first, x) || !iso_number_read(slash + 1, length - first - 1, &below)) return false;
+    *x /= below;
+    return isfinite(*x);
+}
+
+typedef struct numbers {
+    double *k;
+    size_t count;
+} numbers;
+
+static iso_status bad_k(iso_context *ctx, const char *text)
+{
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                            "--k '%s': expected values and ranges A:B:STEP, STEP not 0, with commas between, at most "
+                            "%d values: 0.25:3:0.25, or 1/3,1/2,-0.5",
+                            text, MOST_K);
+}
+
+static iso_status append(iso_context *ctx, numbers *list, double k)
+{
+    double *more = realloc(list->k, (list->count + 1) * sizeof *more);
+    if (!more) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of k", list->count + 1);
+    list->k = more;
+    list->k[list->count++] = k;
+    return ISO_OK;
+}
+
+/* 0.1 + 2 0.1 shall be 0.3, and 1/3 stay as it is. */
+static double rounded(double k)
+{
+    char digits[ISO_NUMBER_SIZE];
+    double tidy;
+    iso_number_print_as(digits, k, 12);
+    return iso_number_read(digits, strlen(digits), &tidy) && fabs(tidy - k) < 1e-15 * fmax(1, fabs(k)) ? tidy : k;
+}
+
+/* A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever its sign. */
+static iso_status read_item(iso_context *ctx, const char *text, const char *item, size_t length, numbers *list)
+{
+    double number[3];
+    int parts = 0;
+    for (const char *c = item; c <= item + length; parts++) {
+        const size_t left = (size_t)(item + length - c), part = strcspn(c, ":") < left ? strcspn(c, ":") : left;
+        if (parts == 3 || !read_number(c, part, &number[parts])) return bad_k(ctx, text);
+        c += part + 1;
+    }
+    if (parts == 1) return append(ctx, list, number[0]);
+    const double way = number[1] - number[0], step = copysign(number[2], way), steps = floor(way / step + 1e-9);
+    if (parts != 3 || number[2] == 0 || !(steps < MOST_K)) return bad_k(ctx, text);
+    iso_status status = ISO_OK;
+    for (double i = 0; i <= steps && status == ISO_OK; i++) status = append(ctx, list, rounded(number[0] + i * step));
+    return status;
+}
+
+/* The values of k, which are the caller's to free: --k, or the scene's. */
+static iso_status read_k(iso_context *ctx, const options *o, const iso_scene *scene, numbers *list)
+{
+    if (!o->k) return append(ctx, list, scene->params.k);
+    for (const char *c = o->k;; c++) {
+        const size_t length = strcspn(c, ",");
+        const iso_status status = read_item(ctx, o->k, c, length, list);
+        if (status != ISO_OK) return status;
+        if (list->count > MOST_K) return bad_k(ctx, o->k);
+        c += length;
+        if (!*c) return ISO_OK;
+    }
+}
+
+/* The isomorphism and its return map are those of the free ball. */
+static iso_status check_free(iso_context *ctx, const iso_scene *scene)
+{
+    const iso_effect *acting = iso_effects_beyond_level(&scene->effects);
+    if (acting)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, acting->name,
+                                "splitting is about the free ball: take '%s' out of the scene", acting->name);
+    if (iso_effects_have_level(&scene->effects))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "level",
+                                "splitting is about the free ball, on the level H = 0: take the level out of the "
+                                "scene");
+    return ISO_OK;
+}
+
+/* --- the table -------------------------------------------------------------------------------------------------- */
+
+static void print_head(const iso_scene *scene, const iso_splittings *s)
+{
+    const double *J = scene->params.J;
+    const iso_splitting *row = NULL;
+    for (size_t i = 0; i < s->rows && !row; i++)
+        if (s->row[i].status == ISO_OK) row = &s->row[i];
+    printf("J = %.15g %.15g %.15g\n", J[0], J[1], J[2]);
+    if (!row) return;
+    printf("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x,\n"
+           "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
+           row->middle + 1, row->axis + 1);
+    printf("%12s %14s %22s %24s %10s %7s\n", "k", "multiplier", "x", "m", "error", "digits");
+}
+
+static void print_row(const iso_splitting *s)
+{
+    if (s->status == ISO_STOPPED) return;
+    if (s->status != ISO_OK) {
+        printf("%12.9g %s\n", s->k, s->words);
+        return;
+    }
+    printf("%12.9g %14.8g %22.16g ", s->k, s->lambda, s->x);
+    if (s->from_zero)
+        printf("%24.16e %10.1e %7d\n", s->m, s->error, s->digits);
+    else
+        printf("%24s %10.1e %7d   not distinguishable from 0: below %.0e\n", "0", s->error, s->digits,
+               fabs(s->m) + s->error);
+}
+
+static void print_zero(const iso_splitting *s)
+{
+    printf("\nm = 0 at k = %.16g +- %.1e, where the manifolds touch at x = %.15g.\n", s->k, s->k_error, s->x);
+    printf("A tangency of one point is no integrability.");
+    if (isfinite(s->next_m))
+        printf(" On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
+               "and there with slopes %.6e above and below their mean: %s.",
+               s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
+               fabs(s->next_m) > 100 * s->error ? "they cross" : "too little for these digits");
+    printf("\n");
+}
+
+static void print_table(const iso_scene *scene, const iso_splittings *s)
+{
+    print_head(scene, s);
+    for (size_t i = 0; i < s->rows; i++) print_row(&s->row[i]);
+    for (size_t i = 0; i < s->zeros; i++) print_zero(&s->zero[i]);
+}
+
+/* --- JSON and CSV ----------------------------------------------------------------------------------------------- */
+
+static json_t *row_of(const iso_splitting *s)
+{
+    const bool there = s->status == ISO_OK;
+    if (!there)
+        return json_pack("{s:o, s:n, s:n, s:n, s:n, s:s}", "k", json_number(s->k), "x", "m", "error", "digits",
+                         "failed", s->words);
+    json_t *o =
+        json_pack("{s:o, s:o, s:o, s:o, s:i, s:o, s:o, s:o, s:o, s:b}", "k", json_number(s->k), "x",
+                  json_number(s->x), "m", json_number(s->m), "error", json_number(s->error), "digits", s->digits,
+                  "x_error", json_number(s->x_error), "x_tail", json_number(s->x_tail), "m_tail",
+                  json_number(s->m_tail), "multiplier", json_number(s->lambda), "from_zero", (int)s->from_zero);
+    if (o)
+        json_object_set_new(o, "global",
+                            json_pack("{s:i, s:o, s:o}", "axis", s->section + 1, "x", json_number(s->section_x), "m",
+                                      json_number(s->section_m)));
+    if (o && s->is_zero) {
+        json_object_set_new(o, "k_error", json_number(s->k_error));
+        json_object_set_new(o, "next",
+                            json_pack("{s:i, s:o, s:o, s:o}", "axis", s->section + 1, "l", json_number(s->next_l),
+                                      "x", json_number(s->next_x), "m", json_number(s->next_m)));
+    }
+    return o;
+}
+
+static json_t *list_of(const iso_splitting *rows, size_t count)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++)
+        if (rows[i].status != ISO_STOPPED) json_array_append_new(list, row_of(&rows[i]));
+    return list;
+}
+
+static bool print_json(const iso_scene *scene, const iso_splittings *s)
+{
+    const double *J = scene->params.J;
+    const iso_splitting *r = &s->row[0];
+    return json_print(json_pack("{s:s, s:[o,o,o], s:i, s:i, s:o, s:o}", "isoroll", iso_version(), "J",
+                                json_number(J[0]), json_number(J[1]), json_number(J[2]), "axis", r->axis + 1,
+                                "middle", r->middle + 1, "rows", list_of(s->row, s->rows), "zeros",
+                                list_of(s->zero, s->zeros)));
+}
+
+static void write_rows(FILE *to, const iso_splitting *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const iso_splitting *s = &rows[i];
+        if (s->status == ISO_OK)
+            fprintf(to, "%.17g,%.17g,%.17g,%.3g,%.3g,%.17g,%d,%d\n", s->k, s->x, s->m, s->error, s->x_error,
+                    s->lambda, s->digits, (int)s->is_zero);
+    }
+}
+
+static void write_csv(FILE *to, const iso_splittings *s)
+{
+    fputs("# isoroll splitting 1\nk,x,m,error,x_error,multiplier,digits,zero\n", to);
+    write_rows(to, s->row, s->rows);
+    write_rows(to, s->zero, s->zeros);
+}
+
+/* --- the picture ------------------------------------------------------------------------------------------------ */
+
+/* The row whose curves are best seen: |m| is about 1/30. */
+static const iso_splitting *clearest(const iso_splittings *s)
+{
+    const iso_splitting *best = NULL;
+    double least = INFINITY;
+    for (size_t i = 0; i < s->rows; i++) {
+        const double apart = fabs(log(fmax(fabs(s->row[i].m), 1e-40) * 30));
+        if (s->row[i].status == ISO_OK && apart < least) best = &s->row[i], least = apart;
+    }
+    return best;
+}
+
+static iso_status collect(iso_context *ctx, const iso_splittings *s, iso_record **rows)
+{
+    static const char *const names[] = {"k", "m", "error"};
+    iso_status status = iso_record_create(ctx, 3, names, rows);
+    for (size_t i = 0; i < s->rows && status == ISO_OK; i++) {
+        double *row;
+        if (s->row[i].status != ISO_OK) continue;
+        status = iso_record_append(ctx, *rows, &row);
+        if (status == ISO_OK) row[0] = s->row[i].k, row[1] = s->row[i].m, row[2] = s->row[i].error;
+    }
+    return status;
+}
+
+/* As many half returns beyond the crossing as the lobes need to be seen: they grow like lambda^(1/2) each. */
+static int halves_of(const iso_splitting *s)
+{
+    const double needed = log(0.3 / fmax(fabs(s->section_m), 1e-4)) / (log(s->lambda) / 2);
+    return (int)fmin(fmax(needed, 2) + 2, 60);
+}
+
+static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_splittings *s)
+{
+    const double *J = scene->params.J;
+    const iso_splitting *at = clearest(s);
+    iso_record *rows = NULL, *curve = NULL;
+    char title[160];
+    if (!at) return ISO_OK;
+    snprintf(title, sizeof title, "splitting of the separatrix, J = %.6g %.6g %.6g", J[0], J[1], J[2]);
+    iso_status status = iso_splitting_curve(ctx, at->k, J, halves_of(at), &curve);
+    if (status == ISO_OK && s->rows > 1) status = collect(ctx, s, &rows);
+    if (status == ISO_OK) status = iso_plot_splitting(ctx, o->plot, title, rows, curve, at->k, at->section);
+    iso_record_free(rows);
+    iso_record_free(curve);
+    return status;
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
+static int worse(int a, int b)
+{
+    return a > b ? a : b;
+}
+
+static void show(double part, void *unused)
+{
+    (void)unused;
+    progress_show(part);
+}
+
+/* All rows failed: the first one's reason is that of the command. Some: they are told. */
+static int judge(iso_context *ctx, const iso_splittings *s)
+{
+    size_t failed = 0, first = s->rows;
+    for (size_t i = 0; i < s->rows; i++) {
+        if (s->row[i].status == ISO_OK || s->row[i].status == ISO_STOPPED) continue;
+        if (failed++ == 0) first = i;
+    }
+    if (failed == 0) return EXIT_DONE;
+    if (failed == s->rows)
+        return finish(ctx, iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].words));
+    complain("%zu of %zu values of k failed: %s", failed, s->rows, s->row[first].words);
+    return EXIT_SOME_FAILED;
+}
+
+static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_splittings *s,
+                  iso_output *csv)
+{
+    int result = judge(ctx, s);
+    const bool some = clearest(s) != NULL;
+    if (some && o->json)
+        result = print_json(scene, s) ? result : EXIT_NUMERICAL;
+    else if (some && (!o->csv || strcmp(o->csv, "-") != 0))
+        print_table(scene, s);
+    if (csv) {
+        if (some) write_csv(iso_output_stream(csv), s);
+        result = worse(result, finish(ctx, iso_output_close(ctx, csv, some)));
+    }
+    if (some && o->plot && !interrupted()) result = worse(result, finish(ctx, draw(ctx, o, scene, s)));
+    return result;
+}
+
+static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, numbers *k, iso_output **csv)
+{
+    if (o->csv && strcmp(o->csv, "-") == 0 && o->json)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
+                                "splitting: standard output has room for one: choose --csv - or --json");
+    iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
+    if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
+    if (status == ISO_OK) status = check_free(ctx, scene);
+    if (status == ISO_OK) status = read_k(ctx, o, scene, k);
+    return status == ISO_OK && o->csv ? iso_output_open(ctx, o->csv, csv) : status;
+}
+
+static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, iso_output *csv)
+{
+    iso_splittings *s = NULL;
+    iso_splitting_options how = iso_splitting_defaults();
+    how.k = k->k, how.count = k->count;
+    for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
+    how.digits = o->digits;
+    how.threads = o->threads < 4096 ? (int)o->threads : 4096;
+    how.progress = show;
+    stop_gently();
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    const iso_status status = iso_splitting_run(ctx, &how, &s);
+    iso_context_set_monitor(ctx, NULL, NULL);
+    progress_end();
+    int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish(ctx, status);
+    if (status == ISO_STOPPED) complain("interrupted: only rows that are done are shown");
+    if (s)
+        result = worse(result, report(ctx, o, scene, s, csv));
+    else
+        iso_output_close(ctx, csv, false);
+    iso_splitting_free(s);
+    return result;
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    const options *o = options_given;
+    iso_scene scene = {.places = 0};
+    iso_output *csv = NULL;
+    numbers k = {NULL, 0};
+    const iso_status status = prepare(ctx, o, &scene, &k, &csv);
+    const int result =
+        status == ISO_OK ? work(ctx, o, &scene, &k, csv) : finish_scene(ctx, &o->scene, &scene, status);
+    free(k.k);
+    return result;
+}
+
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .digits = ISO_SPLITTING_AUTO};
+
+static const option_row rows[] = {
+    ROW("k", "LIST", "values and ranges A:B:STEP",
+        "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
+        set_text, options, k),
+    ROW_OF_WORDS("digits", "D", "double, quad or auto",
+                 "numbers of 64 bits, of 128 bits, or the first, and the second where m is not told from 0 (default)",
+                 set_splitting_digits, options, digits, digits_word),
+    {.name = "threads",
+     .argument = "N",
+     .expected = "a whole number from 1 on",
+     .doc = "threads that work (default: one for each processor)",
+     .set = set_count,
+     .offset = offsetof(options, threads),
+     .letter = 'j'},
+    ROW_PLOT(options, plot),
+    ROW_OF_FILE("csv", "FILE", "a file", "write one row for each k to FILE; - is standard output", set_text, options,
+                csv, 'o', OPTION_WRITES),
+    ROW_JSON(options, json),
+    ROW_END,
+};
+
+const command command_splitting = {
+    .name = "splitting",
+    .argument = "SCENE",
+    .doc = "measure how far the separatrix splits: why only k = 1 and k = -1",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "The rotation about the middle axis is unstable. In an integrable system the orbits that leave it are those "
+        "that come back to its mirror: one curve on the section n_a = 0, a the axis after the middle one. Elsewhere "
+        "the curves "
+        "cross. This command finds the first point of the unstable curve with l = pi/2, its x = M_a/|M|, and the "
+        "slope "
+        "m = dx/dl there; the stable curve has the slope -m. So m = 0 at k = 1 and k = -1, and m not 0 says that "
+        "there is no further analytic integral.\n\n"
+        "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not tell it "
+        "from 0, 128 bits are taken, which need some seconds for each k. Other zeros of m between two values of k "
+        "are "
+        "located. There the curves touch at one point and cross at others: it is no integrability.\n\n"
+        "Only k and J of the scene are read. Its start does not matter, nor do its times. --plot draws |m| over k, "
+        "and "
+        "both curves where |m| is largest. After Ctrl-C the rows that are done are printed.",
+    .example = "isoroll splitting scene.yaml --k 0.25:3:0.25 --plot splitting.png",
+    .exits = "1: interrupted, or some values of k failed\n"
+             "3: bad input: equal moments, or a middle axis that is stable\n"
+             "4: the computation failed, or no memory",
+    .run = run,
+};

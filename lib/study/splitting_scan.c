@@ -1,0 +1,212 @@
+/* splitting_scan.c - the splitting at many k on all threads, and the zeros of m between them. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/arithmetic_impl.h"
+#include "orbit/pool_impl.h"
+#include "study/splitting.h"
+
+/* Two neighbours with a zero of m between them. */
+typedef struct bracket {
+    double k[2], m[2];
+    bool around; /* +-1 is between them as well, where m changes its sign anyway */
+    bool fine;   /* 64 bits do not tell these m from 0                          */
+} bracket;
+
+typedef struct scan {
+    const iso_splitting_options *o;
+    iso_splittings *s;
+    const bracket *bracket;
+    atomic_size_t done;
+    size_t all;
+} scan;
+
+/* --- rows ------------------------------------------------------------------------------------------------------- */
+
+static bool solve_rows(iso_pool_worker *w, void *data, size_t first, size_t count)
+{
+    scan *c = data;
+    for (size_t i = first; i < first + count; i++) {
+        if (iso_splitting_at(w->ctx, c->o->k[i], c->o->J, c->o->digits, &c->s->row[i]) == ISO_NO_MEMORY) return false;
+        const size_t now = atomic_fetch_add(&c->done, 1) + 1;
+        if (w->asks && c->o->progress) c->o->progress((double)now / (double)c->all, c->o->data);
+    }
+    return true;
+}
+
+/* --- zeros ------------------------------------------------------------------------------------------------------ */
+
+/* m as the search sees it. */
+static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, double k, double *m, double *error)
+{
+    iso_splitting s;
+    const iso_splitting_digits digits = b->fine ? c->o->digits : ISO_SPLITTING_DOUBLE;
+    const iso_status status = iso_splitting_at(w->ctx, k, c->o->J, digits, &s);
+    *m = s.m, *error = s.error;
+    return status;
+}
+
+/* Takes the side of +-1 that has the zero, by a value of m close to it. */
+static iso_status choose_side(iso_pool_worker *w, const scan *c, bracket *b)
+{
+    const double one = b->k[0] < 0 ? -1 : 1;
+    for (int side = 0; side < 2; side++) {
+        double m, error;
+        const double k = one + 0.05 * (b->k[side] - one);
+        const iso_status status = value_at(w, c, b, k, &m, &error);
+        if (status != ISO_OK) return status;
+        if (!(m * b->m[side] < 0) || fabs(m) < error) continue;
+        b->k[1 - side] = k, b->m[1 - side] = m;
+        return ISO_OK;
+    }
+    return ISO_NUMERICAL;
+}
+
+/* Regula falsi in Illinois' form, until m is not told from 0. slope: dm/dk there. */
+static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *k, double *slope)
+{
+    enum { MOST = 40 };
+    int kept = -1;
+    double m = NAN, error = NAN, aside = NAN;
+    iso_status status = b->around ? choose_side(w, c, b) : ISO_OK;
+    for (int i = 0; i < MOST && status == ISO_OK; i++) {
+        *k = (b->k[0] * b->m[1] - b->k[1] * b->m[0]) / (b->m[1] - b->m[0]);
+        status = value_at(w, c, b, *k, &m, &error);
+        if (status != ISO_OK || fabs(m) < 10 * error || fabs(b->k[1] - b->k[0]) < 1e-15 * fabs(*k)) break;
+        const int side = m * b->m[0] > 0 ? 0 : 1;
+        b->k[side] = *k, b->m[side] = m;
+        if (kept == 1 - side) b->m[1 - side] /= 2;
+        kept = 1 - side;
+    }
+    if (status == ISO_OK) status = value_at(w, c, b, *k * (1 + 1e-4), &aside, &error);
+    *slope = (aside - m) / (*k * 1e-4);
+    return status;
+}
+
+/* The zero of the search, one step of Newton's method farther, with the digits that were asked for. */
+static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_splitting *zero)
+{
+    double k = NAN, slope = NAN;
+    iso_status status = search(w, c, &b, &k, &slope);
+    for (int i = 0; i < 2 && status == ISO_OK; i++) {
+        status = iso_splitting_next_at(w->ctx, k, c->o->J, c->o->digits, zero);
+        k -= zero->m / slope;
+    }
+    zero->k_error = fmax(fabs(zero->m) + zero->error, 4e-16 * fabs(slope * k)) / fabs(slope);
+    zero->is_zero = status == ISO_OK;
+    return status;
+}
+
+static bool solve_zeros(iso_pool_worker *w, void *data, size_t first, size_t count)
+{
+    scan *c = data;
+    for (size_t i = first; i < first + count; i++)
+        if (find_zero(w, c, c->bracket[i], &c->s->zero[i]) == ISO_NO_MEMORY) return false;
+    return true;
+}
+
+static int by_k(const void *a, const void *b)
+{
+    const iso_splitting *const *one = a, *const *other = b;
+    return (*one)->k < (*other)->k ? -1 : (*one)->k > (*other)->k;
+}
+
+static bool is_bracket(const iso_splitting *a, const iso_splitting *b, bracket *found)
+{
+    const double one = a->k < 0 ? -1 : 1;
+    const bool around = a->k < one && one<b->k, fine = a->digits> 19 || b->digits > 19;
+    *found = (bracket){{a->k, b->k}, {a->m, b->m}, around, fine};
+    return a->k * b->k > 0 && a->m * b->m < 0 ? !around : around && a->k * b->k > 0;
+}
+
+/* Rows that are told from 0, by growing k; their number. */
+static size_t sort(const iso_splittings *s, const iso_splitting *list[])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < s->rows; i++)
+        if (s->row[i].status == ISO_OK && s->row[i].from_zero) list[count++] = &s->row[i];
+    qsort(list, count, sizeof *list, by_k);
+    return count;
+}
+
+static size_t find_brackets(const iso_splittings *s, const iso_splitting *list[], bracket brackets[])
+{
+    const size_t told = sort(s, list);
+    size_t count = 0;
+    for (size_t i = 0; i + 1 < told; i++) count += is_bracket(list[i], list[i + 1], &brackets[count]);
+    return count;
+}
+
+/* --- the call --------------------------------------------------------------------------------------------------- */
+
+static void blank(double k, iso_splitting *s)
+{
+    const iso_splitting none = {.k = k, .status = ISO_STOPPED, .words = "not computed", .m = NAN, .x = NAN};
+    *s = none;
+}
+
+static iso_status run_pool(iso_context *ctx, scan *c, size_t count,
+                           bool (*solve)(iso_pool_worker *, void *, size_t, size_t))
+{
+    iso_pool pool = {.count = count, .chunk = 1, .solve = solve, .data = c};
+    return count == 0 ? ISO_OK : iso_pool_run(ctx, &pool, iso_pool_threads(c->o->threads, count - 1, 1), NULL);
+}
+
+static iso_status run_zeros(iso_context *ctx, scan *c)
+{
+    iso_splittings *s = c->s;
+    const iso_splitting **list = calloc(s->rows, sizeof *list);
+    bracket *brackets = calloc(s->rows, sizeof *brackets);
+    iso_status status = ISO_NO_MEMORY;
+    s->zero = calloc(s->rows, sizeof *s->zero);
+    if (list && brackets && s->zero) {
+        s->zeros = find_brackets(s, list, brackets);
+        for (size_t i = 0; i < s->zeros; i++) blank(NAN, &s->zero[i]);
+        c->bracket = brackets;
+        status = run_pool(ctx, c, s->zeros, solve_zeros);
+    } else {
+        iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of k", s->rows);
+    }
+    size_t kept = 0;
+    for (size_t i = 0; i < s->zeros; i++)
+        if (s->zero[i].is_zero) s->zero[kept++] = s->zero[i];
+    s->zeros = kept;
+    free(list);
+    free(brackets);
+    return status;
+}
+
+static iso_status run(iso_context *ctx, const iso_splitting_options *o, iso_splittings *s)
+{
+    scan c = {.o = o, .s = s, .all = o->count};
+    s->rows = o->count;
+    s->row = calloc(o->count, sizeof *s->row);
+    if (!s->row) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of k", o->count);
+    for (size_t i = 0; i < o->count; i++) blank(o->k[i], &s->row[i]);
+    const iso_status status = run_pool(ctx, &c, o->count, solve_rows);
+    return status == ISO_OK && o->zeros ? run_zeros(ctx, &c) : status;
+}
+
+iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *options, iso_splittings **s)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    *s = NULL;
+    if (!options || options->count == 0)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
+    iso_splittings *found = calloc(1, sizeof *found);
+    if (!found) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the splitting");
+    const iso_status status = run(ctx, options, found);
+    if (status == ISO_OK || status == ISO_STOPPED)
+        *s = found;
+    else
+        iso_splitting_free(found);
+    return status;
+}
+
+void iso_splitting_free(iso_splittings *s)
+{
+    if (!s) return;
+    free(s->row);
+    free(s->zero);
+    free(s);
+}

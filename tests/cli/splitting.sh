@@ -1,0 +1,93 @@
+#!/bin/sh
+# splitting.sh ISOROLL - `isoroll splitting`: known values, k = 1, scans, zeros, JSON, CSV, pictures, refusals.
+. "$(dirname "$0")/lib.sh"
+
+# near NAME VALUE WANTED BOUND
+near() {
+    checks=$((checks + 1))
+    awk -v a="$2" -v b="$3" -v bound="$4" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a != "" && d <= bound) }' ||
+        fail "$1: $2 is not $3"
+}
+
+# column ROW NAME: a number of a CSV
+column() {
+    grep -v '^#' split.csv | awk -F, -v row="$1" -v name="$2" \
+        'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i } NR == row + 1 { print $at }'
+}
+
+scene 0.5 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >half.yaml
+run 0 splitting half.yaml
+silent
+check "one row" grep -q '^ *0.5 .* 6.14708829830.*e-03 ' out
+
+# --- a list, as CSV: values of two other programs
+run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 --csv split.csv -j 2
+silent
+near "x at k = 1/2" "$(column 1 x)" -0.5793681 5e-8
+near "m at k = 1/2" "$(column 1 m)" 0.006147 1e-6
+near "x at k = 3/4" "$(column 2 x)" -0.6363709 5e-8
+near "m at k = 3/4" "$(column 2 m)" 0.0001087 1e-7
+near "x at k = 1" "$(column 3 x)" -0.6614378 5e-8
+near "m at k = 1" "$(column 3 m)" 0 "$(column 3 error)"
+near "x at k = -1/2" "$(column 4 x)" 0.8508579 5e-8
+near "m at k = -1/2" "$(column 4 m)" 0.001561 1e-6
+check "k = 1: words" grep -q ' 0 .*not distinguishable from 0: below ' out
+run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -j 1 --csv -
+check "one thread gives the same" cmp -s out split.csv
+
+# --- a range, and the scene's start does not matter
+scene 0.9 "1.4, 2.1, 3.0" "0, 0, 2" "0.6, 0.8, 0" 3 0.5 >other.yaml
+run 0 splitting half.yaml --k 0.5:0.7:0.1 --csv a.csv
+run 0 splitting other.yaml --k 0.7:0.5:0.1 --csv b.csv
+check "three values and a head" test "$(wc -l <a.csv)" -eq 5
+sort a.csv >a.sorted
+sort b.csv >b.sorted
+check "other starts, another order" cmp -s a.sorted b.sorted
+
+# --- a zero
+scene 1 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >wide.yaml
+run 0 splitting wide.yaml --k=-1.7,-1.5 --digits double --json
+silent
+check "JSON: a zero" grep -q '"k": -1.6024081' out
+check "JSON: the next crossing" grep -q '"next": {' out
+run 0 splitting wide.yaml --k=-1.7,-1.5 --digits double
+check "words: a tangency" grep -q 'A tangency of one point is no integrability' out
+run 0 splitting wide.yaml --k 0.9,1.1 --digits double
+check_not "none at k = 1" grep -q 'm = 0 at' out
+
+# --- JSON: the contract
+run 0 splitting half.yaml --json
+for key in rows k x m error digits; do check "JSON: $key" grep -q "\"$key\":" out; done
+check "JSON: digits" grep -q '"digits": 19' out
+
+# --- pictures
+if has gnuplot "pictures"; then
+    run 0 splitting half.yaml --digits double --k 0.4:0.8:0.2 --plot scan.svg
+    check "a picture of a scan" grep -q '</svg>' scan.svg
+    run 0 splitting half.yaml --plot one.svg
+    check "a picture of one k" grep -q '</svg>' one.svg
+fi
+
+# --- 128 bits tell more
+if isoroll_words=$("$isoroll" list methods) && echo "$isoroll_words" | grep -q -w taylor_quad; then
+    run 0 splitting half.yaml --k=-1 --csv split.csv
+    near "128 bits at k = -1" "$(column 1 m)" 0 1e-29
+    check "its digits" test "$(column 1 digits)" = 32
+fi
+
+# --- refusals
+scene 0.5 "1, 2, 2" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >equal.yaml
+refuses 3 "two moments of inertia are equal" splitting equal.yaml
+refuses 3 "0.05 <= |k| <= 50" splitting half.yaml --k 1000
+refuses 3 "k = 0" splitting half.yaml --k 0
+refuses 3 "expected values and ranges" splitting half.yaml --k 1:2
+refuses 3 "expected values and ranges" splitting half.yaml --k 1:2:0
+refuses 3 "expected values and ranges" splitting half.yaml --k 1/0
+refuses 2 "double, quad or auto" splitting half.yaml --digits few
+refuses 2 "choose --csv - or --json" splitting half.yaml --csv - --json
+refuses 2 ".svg, .png or .pdf" splitting half.yaml --plot picture.bmp
+refuses 3 "gravity" splitting "$source/examples/10_bowl/scene.yaml"
+run 1 splitting half.yaml --k 0,0.5
+says "1 of 2 values of k failed"
+check "the other is there" grep -q '^ *0.5 ' out
+finish
