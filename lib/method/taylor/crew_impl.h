@@ -212,13 +212,14 @@ static inline real component_and_slope(const form *T, int axis, real x, real *sl
 }
 
 /* The zero of n_axis between a (n_axis < 0) and b (n_axis >= 0), by Newton's method, with halving where it leaves the
- * bracket. The error is about the third power of the last change, since (in s) n_axis'' = 0 where n_axis = 0. */
+ * bracket. The error is about the second power of the last change; in s the third, since there n_axis'' = 0 where
+ * n_axis = 0. */
 static real find_crossing(const crew *c, real a, real at_a, real b, real at_b, mask crosses)
 {
     const form *T = &c->T;
     real x = a + (b - a) * (-at_a / (at_b - at_a));
     const real step = magnitude(b - a);
-    const NUMBER near = ROOT(ROOT(EPSILON)) / 64;
+    const NUMBER near = ROOT(EPSILON) / 64;
     mask far = crosses;
     for (int i = 0; i < 60 && any(far); i++) {
         real slope;
