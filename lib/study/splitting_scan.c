@@ -62,7 +62,7 @@ static iso_status choose_side(iso_pool_worker *w, const scan *c, bracket *b)
     return ISO_NUMERICAL;
 }
 
-/* Regula falsi in Illinois' form, until m is not told from 0. slope: dm/dk there. */
+/* Regula falsi in Illinois' form, until m is not told from 0, or k stands still. slope: dm/dk there. */
 static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *k, double *slope)
 {
     enum { MOST = 40 };
@@ -70,9 +70,10 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
     double m = NAN, error = NAN, aside = NAN;
     iso_status status = b->around ? choose_side(w, c, b) : ISO_OK;
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
+        const double last = *k;
         *k = (b->k[0] * b->m[1] - b->k[1] * b->m[0]) / (b->m[1] - b->m[0]);
         status = value_at(w, c, b, *k, &m, &error);
-        if (status != ISO_OK || fabs(m) < 10 * error || fabs(b->k[1] - b->k[0]) < 1e-15 * fabs(*k)) break;
+        if (status != ISO_OK || fabs(m) < 10 * error || fabs(*k - last) < 1e-12 * fabs(*k)) break;
         const int side = m * b->m[0] > 0 ? 0 : 1;
         b->k[side] = *k, b->m[side] = m;
         if (kept == 1 - side) b->m[1 - side] /= 2;
