@@ -164,7 +164,7 @@ static void print_zero(const iso_splitting *s)
         printf(" On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
                "and there with slopes %.6e above and below their mean: %s.",
                s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
-               fabs(s->next_m) > 100 * s->error ? "they cross" : "too little for these digits");
+               fabs(s->next_m) > 100 * fmax(s->error, fabs(s->m)) ? "they cross" : "too little for these digits");
     printf("\n");
 }
 
