@@ -138,21 +138,21 @@ static void print_head(const iso_scene *scene, const iso_splittings *s)
     printf("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x,\n"
            "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
            row->middle + 1, row->axis + 1);
-    printf("%12s %14s %22s %24s %10s %7s\n", "k", "multiplier", "x", "m", "error", "digits");
+    printf("%11s %11s %19s %24s %7s %7s\n", "k", "multiplier", "x", "m", "error", "digits");
 }
 
 static void print_row(const iso_splitting *s)
 {
     if (s->status == ISO_STOPPED) return;
     if (s->status != ISO_OK) {
-        printf("%12.9g %s\n", s->k, s->words);
+        printf("%11.9g %s\n", s->k, s->words);
         return;
     }
-    printf("%12.9g %14.8g %22.16g ", s->k, s->lambda, s->x);
+    printf("%11.9g %11.8g %19.16g ", s->k, s->lambda, s->x);
     if (s->from_zero)
-        printf("%24.16e %10.1e %7d\n", s->m, s->error, s->digits);
+        printf("%24.16e %7.1e %7d\n", s->m, s->error, s->digits);
     else
-        printf("%24s %10.1e %7d   not distinguishable from 0: below %.0e\n", "0", s->error, s->digits,
+        printf("%24s %7.1e %7d   not distinguishable from 0: below %.0e\n", "0", s->error, s->digits,
                fabs(s->m) + s->error);
 }
 
@@ -164,7 +164,7 @@ static void print_zero(const iso_splitting *s)
         printf(" On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
                "and there with slopes %.6e above and below their mean: %s.",
                s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
-               fabs(s->next_m) > 100 * s->error ? "they cross" : "too little for these digits");
+               fabs(s->next_m) > 100 * fmax(s->error, fabs(s->m)) ? "they cross" : "too little for these digits");
     printf("\n");
 }
 

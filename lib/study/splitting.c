@@ -22,8 +22,8 @@ static const level with_106_bits = {&iso_return_quad, 21, 18, 32};
 
 /* --- the domain ------------------------------------------------------------------------------------------------- */
 
-/* Coefficients fall like rate^i with rate ~ size^2. So the domain is made so large that the last one, of 12, is at the
- * rounding errors of 64 bits; of 21, of 106 bits. */
+/* Coefficients fall like rate^i with rate ~ size^2. So the domain is made so large that the last one, of 12, is at
+ * the rounding errors of 64 bits; of 21, of 106 bits. */
 static iso_status find_domain(iso_manifold *m)
 {
     const double wanted = 0.01;
@@ -63,9 +63,10 @@ static double rounding(const iso_manifold *m, const iso_manifold_crossing *c)
     return 10 * m->code->error * (1 + fabs((double)c->slope)) * (2 + fabs(log((double)m->lambda)));
 }
 
-/* From the section n_g = 0 on which the manifold was computed to n_a = 0, on which O has l = 0. At the crossing gamma lies
- * on the middle axis, so it is on both: x_a^2 + x_g^2 = 1. A change of x leaves |M|, so x_a dx_a = -x_g dx_g; along the
- * flow a shift of gamma_a = dl_g becomes one of gamma_g, by gamma_a'/gamma_g' = -M_g/M_a, dl_a = -dl_g |x_a/x_g|:
+/* From the section n_g = 0 on which the manifold was computed to n_a = 0, on which O has l = 0. At the crossing
+ * gamma lies on the middle axis, so it is on both: x_a^2 + x_g^2 = 1. A change of x leaves |M|, so x_a dx_a = -x_g
+ * dx_g; along the flow a shift of gamma_a = dl_g becomes one of gamma_g, by gamma_a'/gamma_g' = -M_g/M_a, dl_a =
+ * -dl_g |x_a/x_g|:
  *
  *     m_a = (x_g/x_a)^2 m_g
  */

@@ -1,8 +1,8 @@
 /* splitting.h - the splitting of the separatrix: why only k = 1 and k = -1 are integrable.
  *
  * The rotation about the middle axis is a hyperbolic fixed point O of the return map (map/section.h), with its mirror
- * O', half a turn of l away. At k = +-1 the unstable manifold of O is the stable manifold of O'. At other k they cross.
- * Of the section n_a = 0 with the middle axis c = a - 1, cyclically, O is (l, x) = (0, 0). The reversor
+ * O', half a turn of l away. At k = +-1 the unstable manifold of O is the stable manifold of O'. At other k they
+ * cross. Of the section n_a = 0 with the middle axis c = a - 1, cyclically, O is (l, x) = (0, 0). The reversor
  * (l, x) -> (pi - l, x) turns W^u(O) into W^s(O'), so they meet wherever one of them meets the line l = pi/2, there
  * with the slopes +m and -m, m = dx/dl of W^u(O). m != 0 is a transversal crossing, which excludes a further analytic
  * integral.
@@ -55,8 +55,8 @@ typedef struct iso_splitting {
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and
  * there is no middle axis); a middle axis whose rotation is not hyperbolic; parameters beyond what the numbers hold.
- * ISO_NUMERICAL: no crossing was found, or a return failed. ISO_BAD_ARGUMENT about "digits" where this build has no 128
- * bits. ISO_NO_MEMORY, ISO_STOPPED. The status and its words are in *s as well. */
+ * ISO_NUMERICAL: no crossing was found, or a return failed. ISO_BAD_ARGUMENT about "digits" where this build has no
+ * 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The status and its words are in *s as well. */
 ISO_API iso_status iso_splitting_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits,
                                     iso_splitting *s);
 
@@ -92,8 +92,8 @@ typedef struct iso_splittings {
     iso_splitting *zero; /* zeros of m other than k = +-1, by growing k                                    */
 } iso_splittings;
 
-/* m changes its sign at k = 1 and k = -1. So there is a zero between two neighbours that are told from 0 if their signs
- * differ and +-1 is not between them, or if they agree and it is. A zero of m is a tangency of the manifolds
+/* m changes its sign at k = 1 and k = -1. So there is a zero between two neighbours that are told from 0 if their
+ * signs differ and +-1 is not between them, or if they agree and it is. A zero of m is a tangency of the manifolds
  * at this one point: it is no integrability, as long as they cross elsewhere (next_m != 0).
  * A failure at one k is told in its row, and is no failure of the call.
  * Errors: ISO_BAD_ARGUMENT (no k; "digits"), ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has the rows

@@ -115,8 +115,8 @@ static iso_wide guess(const piece *p, int i)
     return p->at[i - 1].theta * (iso_wide)exp(part * log((double)(p->at[i].theta / p->at[i - 1].theta)));
 }
 
-/* Newton's method. Rounding leaves u some units away from pi/2; x and the slope are carried to pi/2 in first order, with
- * the change of the slope that the last step has shown. */
+/* Newton's method. Rounding leaves u some units away from pi/2; x and the slope are carried to pi/2 in first order,
+ * with the change of the slope that the last step has shown. */
 iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
 {
     const iso_wide pi = iso_wide_pi(), near = (iso_wide)m->code->error * (2000 + 100 * m->lambda);
@@ -163,8 +163,9 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
 
 /* --- the next one ----------------------------------------------------------------------------------------------- */
 
-/* What is left of S3: W^s(O') = S3 W^u(O), and g S3 is a reversor as well: it turns W^u(O) into W^s(O'). The manifolds
- * meet where W^u(O) meets the fixed points of g S3, g(S3 z) = z. The stable one has the direction D(g S3) t there. */
+/* What is left of S3: W^s(O') = S3 W^u(O), and g S3 is a reversor as well: it turns W^u(O) into W^s(O'). The
+ * manifolds meet where W^u(O) meets the fixed points of g S3, g(S3 z) = z. The stable one has the direction D(g S3)
+ * t there. */
 typedef struct mirror {
     iso_manifold_point p;
     iso_wide z[2], t[2]; /* of g S3 p */

@@ -4,8 +4,8 @@
  *
  *     dP(y_j) - lambda^-3 A_j dP(y_j/lambda^2) = [g(W(theta_j/lambda)) - W(theta_j)]/(theta_j y_j)
  *
- * A_j: the derivative of g. As |A_j| ~ lambda, the left side is about the unit matrix. v is fixed, or else theta could
- * be stretched. */
+ * A_j: the derivative of g. As |A_j| ~ lambda, the left side is about the unit matrix. v is fixed, or else theta
+ * could be stretched. */
 #include <math.h>
 #include <string.h>
 

@@ -62,7 +62,7 @@ static iso_status choose_side(iso_pool_worker *w, const scan *c, bracket *b)
     return ISO_NUMERICAL;
 }
 
-/* Regula falsi in Illinois' form, until m is not told from 0. slope: dm/dk there. */
+/* Regula falsi in Illinois' form, until m is not told from 0, or k stands still. slope: dm/dk there. */
 static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *k, double *slope)
 {
     enum { MOST = 40 };
@@ -70,9 +70,10 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
     double m = NAN, error = NAN, aside = NAN;
     iso_status status = b->around ? choose_side(w, c, b) : ISO_OK;
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
+        const double last = *k;
         *k = (b->k[0] * b->m[1] - b->k[1] * b->m[0]) / (b->m[1] - b->m[0]);
         status = value_at(w, c, b, *k, &m, &error);
-        if (status != ISO_OK || fabs(m) < 10 * error || fabs(b->k[1] - b->k[0]) < 1e-15 * fabs(*k)) break;
+        if (status != ISO_OK || fabs(m) < 10 * error || fabs(*k - last) < 1e-12 * fabs(*k)) break;
         const int side = m * b->m[0] > 0 ? 0 : 1;
         b->k[side] = *k, b->m[side] = m;
         if (kept == 1 - side) b->m[1 - side] /= 2;
@@ -83,16 +84,22 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
     return status;
 }
 
-/* The zero of the search, one step of Newton's method farther, with the digits that were asked for. */
+/* The zero of the search, and steps of the secant method farther, with the digits that were asked for, until m is not
+ * told from 0, or as small as the next double of k allows: the next crossing's slope must be seen beside it. */
 static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_splitting *zero)
 {
-    double k = NAN, slope = NAN;
+    enum { MOST = 8 };
+    double k = NAN, slope = NAN, last_k = NAN, last_m = NAN, least = 0;
     iso_status status = search(w, c, &b, &k, &slope);
-    for (int i = 0; i < 2 && status == ISO_OK; i++) {
+    for (int i = 0; i < MOST && status == ISO_OK; i++) {
         status = iso_splitting_next_at(w->ctx, k, c->o->J, c->o->digits, zero);
+        if (i > 0 && fabs(k - last_k) > 1e-12 * fabs(k)) slope = (zero->m - last_m) / (k - last_k);
+        least = 4e-16 * fabs(slope * k);
+        if (fabs(zero->m) < fmax(10 * zero->error, least)) break;
+        last_k = k, last_m = zero->m;
         k -= zero->m / slope;
     }
-    zero->k_error = fmax(fabs(zero->m) + zero->error, 4e-16 * fabs(slope * k)) / fabs(slope);
+    zero->k_error = fmax(fabs(zero->m) + zero->error, least) / fabs(slope);
     zero->is_zero = status == ISO_OK;
     return status;
 }

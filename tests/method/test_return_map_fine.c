@@ -100,7 +100,8 @@ static void check_against_doubles(double l, double x, double *worst)
     *worst = fmax(*worst, most / size_of(&r) / 1e-9);
 }
 
-/* Half-turn traces of Hill's equation, by another program, to 9 digits: J = (1.4, 2.1, 3), axis 2. A full turn has T^2 - 2. */
+/* Half-turn traces of Hill's equation, by another program, to 9 digits: J = (1.4, 2.1, 3), axis 2. A full turn has
+ * T^2 - 2. */
 static void test_traces(void)
 {
     static const double table[][2] = {{-2, -2.08844277},  {-1, -2.35263343}, {-0.5, -3.42625824},
@@ -126,7 +127,8 @@ typedef struct worst {
     double determinant, reversor, halves, codes, doubles;
 } worst;
 
-/* The determinant, to what doubles hold; S1 (l, x) -> (l, -x) is a reversor: f S1 f S1 = 1; two halves are a return. */
+/* The determinant, to what doubles hold; S1 (l, x) -> (l, -x) is a reversor: f S1 f S1 = 1; two halves
+ * are a return. */
 static void check_laws(const iso_return_code *code, double l, double x, worst *w)
 {
     const iso_return f = go_from(code, false, l, x);

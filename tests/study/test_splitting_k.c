@@ -1,4 +1,5 @@
-/* The splitting of the separatrix, lib/study/splitting.h: known values, k = +-1, symmetries, errors, zeros, refusals. */
+/* The splitting of the separatrix, lib/study/splitting.h: known values, k = +-1, symmetries, errors, zeros,
+ * refusals. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
