@@ -1,0 +1,396 @@
+/* integrals.c - the search for further first integrals, see integrals.h: what is refused, the samples, what the parts
+ * of the spaces tell together. Linear algebra is in integrals_part.c. */
+#include "study/integrals.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/finite_impl.h"
+#include "base/options_impl.h"
+#include "base/pi_impl.h"
+#include "base/random.h"
+#include "base/vec3_impl.h"
+#include "map/section.h"
+#include "orbit/batch.h"
+#include "study/integrals_impl.h"
+
+enum { LEAST_ORBITS = 64, PROBES = 16 };
+
+typedef struct search {
+    iso_context *ctx;
+    iso_integral_search_options options;
+    iso_integral_search *out;
+    iso_problem problem; /* the free point, eps = 1/2, J in a unit with which |M| <= 1   */
+    int axis;            /* of the section on which orbits start                         */
+    iso_section_spread spread;
+    integral_samples samples;
+    size_t done, all;              /* parts searched, of how many                        */
+    size_t found[2];               /* in V_(d-1), V_d: how many before, by parity of d   */
+    double gradient[PROBES][2][2]; /* sums of grad f grad f^T over functions f, in the chart of the section */
+    const iso_integral *known[ISO_INTEGRAL_KNOWN];
+} search;
+
+const char *iso_integral_verdict_name(iso_integral_verdict verdict)
+{
+    static const char *const names[] = {"none", "found", "undecided"};
+    return (int)verdict >= 0 && verdict <= ISO_INTEGRALS_UNDECIDED ? names[verdict] : NULL;
+}
+
+/* --- what is refused -------------------------------------------------------------------------------------------- */
+
+static iso_status check_degrees(iso_context *ctx, iso_integral_search_options *o)
+{
+    if (o->degree < 1 || o->degree > ISO_INTEGRAL_DEGREE)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "degree", "degree %d is not in 1 to %d", o->degree,
+                                ISO_INTEGRAL_DEGREE);
+    if (o->coefficients == -1) o->coefficients = o->degree > 2 ? o->degree : 2;
+    if (o->coefficients >= 0 && o->coefficients <= ISO_INTEGRAL_DEGREE) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "coefficients", "degree %d of the coefficients is not in 0 to %d",
+                            o->coefficients, ISO_INTEGRAL_DEGREE);
+}
+
+/* Twice as many conditions as there are terms. */
+static iso_status choose_orbits(iso_context *ctx, iso_integral_search_options *o)
+{
+    size_t most = 0;
+    for (int d = o->degree; d >= o->degree - 1; d--)
+        for (unsigned parity = 0; parity < INTEGRAL_PARITIES; parity++) {
+            const size_t terms = iso_integral_terms(d, o->coefficients, parity, NULL);
+            if (terms > most) most = terms;
+        }
+    const size_t least = 4 + 2 * most / (ISO_INTEGRAL_ROWS - 1);
+    if (o->orbits == 0) o->orbits = least > LEAST_ORBITS ? least : LEAST_ORBITS;
+    if (o->orbits >= least && o->orbits <= 1000000) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "orbits", "%zu orbits: these degrees need %zu to 1000000",
+                            o->orbits, least);
+}
+
+static iso_status check_options(iso_context *ctx, iso_integral_search_options *o)
+{
+    iso_status status = check_degrees(ctx, o);
+    if (status == ISO_OK) status = choose_orbits(ctx, o);
+    if (status != ISO_OK) return status;
+    if (!(o->turns >= 1 && o->turns <= 1e5))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "turns", "%g turns are not in [1, 1e5]", o->turns);
+    if (!(o->within > 0 && o->within < 1))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "within", "within %g is not in (0, 1)", o->within);
+    return ISO_OK;
+}
+
+/* Only free motions on H = 0 are searched: a point off it has the effect `level`. */
+static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
+{
+    const iso_effects given = iso_effects_acting(&scene->effects);
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    iso_orbit *orbit = NULL;
+    o.effects = &given;
+    o.gamma_alone = true;
+    const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    if (status != ISO_OK) return status;
+    const iso_effects effects = iso_orbit_effects(orbit);
+    const iso_effect *effect = iso_effects_beyond_level(&effects);
+    const bool level = iso_effects_have_level(&effects);
+    iso_orbit_free(orbit);
+    if (effect)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
+                                "'%s' acts on the ball: integrals are searched for free motions", effect->name);
+    if (!level) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, iso_level_name(),
+                            "the point is not on the level H = 0: integrals are searched for free motions");
+}
+
+/* --- the orbits ------------------------------------------------------------------------------------------------- */
+
+/* eps = 1/2 and max(q^(-1/k)) = 1: then |M| = q^(-1/(2k)) <= 1, and no power of it overflows. */
+static iso_status choose_units(search *s, const iso_params *p)
+{
+    const double low = fmin(p->J[0], fmin(p->J[1], p->J[2])), high = fmax(p->J[0], fmax(p->J[1], p->J[2]));
+    const double unit = p->k > 0 ? low : high;
+    s->problem.eps = 0.5;
+    iso_status status = iso_params_reduced(
+        s->ctx, p->k, (const double[]){p->J[0] / unit, p->J[1] / unit, p->J[2] / unit}, &s->problem.p);
+    s->axis = iso_section_axis(&s->problem.p);
+    iso_section_spread_prepare(&s->spread, &s->problem.p, s->axis, s->options.seed);
+    return status;
+}
+
+/* A turn of n at |k w|, with w^2 = 2 h/J of the middle moment J. */
+static double turn_of(const search *s)
+{
+    const iso_params *p = &s->problem.p;
+    int axis[3];
+    sort_by(p->J, axis);
+    const double h = iso_energy(p, s->problem.eps);
+    return 2 * ISO_PI / (fabs(p->k) * sqrt(2 * h / p->J[axis[1]]));
+}
+
+/* One time at random in each of the equal parts of the whole. */
+static iso_status choose_times(const search *s, double times[ISO_INTEGRAL_ROWS])
+{
+    iso_random *random = iso_random_create((unsigned long)s->options.seed + 1);
+    if (!random) return iso_context_fail(s->ctx, ISO_NO_MEMORY, "", "no memory for random numbers");
+    const double part = s->options.turns * turn_of(s) / ISO_INTEGRAL_ROWS;
+    for (int i = 0; i < ISO_INTEGRAL_ROWS; i++) times[i] = part * (i + iso_random_uniform(random, 0, 1));
+    iso_random_free(random);
+    return ISO_OK;
+}
+
+/* Takes rounding errors across the surface away: on it, some functions are zero. Gives the error of the energy. */
+static double put_on_surface(const search *s, double y[ISO_STATE])
+{
+    const iso_params *p = &s->problem.p;
+    make_unit(y + 3);
+    remove_along(y, y + 3);
+    const double q = dot_diag(y + 3, p->J, y + 3), length = pow(q, -0.5 / p->k), error = norm(y) / length - 1;
+    scale(y, 1 / (1 + error));
+    return 2 * error;
+}
+
+static void keep_samples(search *s, const iso_sample sample[])
+{
+    double sum = 0;
+    for (size_t i = 0; i < s->samples.rows; i++) {
+        double *y = s->samples.state[i];
+        copy(sample[i].point, y, ISO_STATE);
+        const double error = put_on_surface(s, y);
+        sum += error * error;
+    }
+    s->out->energy = sqrt(sum / (double)s->samples.rows);
+}
+
+static iso_status follow(search *s, iso_start start[], iso_batch_orbit orbit[], iso_sample sample[])
+{
+    double times[ISO_INTEGRAL_ROWS];
+    iso_batch_options o = iso_batch_defaults();
+    o.tolerance = s->options.tolerance;
+    o.threads = s->options.threads;
+    o.shown = ISO_SHOW_POINT;
+    for (size_t i = 0; i < s->options.orbits; i++) {
+        double l, x;
+        iso_section_spread_point(&s->spread, i, &l, &x);
+        start[i] = (iso_start){.model = ISO_POINT, .eps = NAN};
+        iso_section_point(&s->problem.p, s->problem.eps, s->axis, l, x, start[i].y);
+        orbit[i] = (iso_batch_orbit){&s->problem.p, &start[i], NULL};
+    }
+    const iso_status status = choose_times(s, times);
+    if (status != ISO_OK) return status;
+    return iso_batch_run(s->ctx, orbit, s->options.orbits, &o, times, ISO_INTEGRAL_ROWS, sample, NULL);
+}
+
+static iso_status take_samples(search *s)
+{
+    const size_t orbits = s->options.orbits, rows = orbits * ISO_INTEGRAL_ROWS;
+    iso_start *start = calloc(orbits, sizeof *start);
+    iso_batch_orbit *orbit = calloc(orbits, sizeof *orbit);
+    iso_sample *sample = calloc(rows, sizeof *sample);
+    s->samples = (integral_samples){orbits, rows, calloc(rows, sizeof *s->samples.state)};
+    iso_status status = ISO_OK;
+    if (!start || !orbit || !sample || !s->samples.state)
+        status = iso_context_fail(s->ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", orbits);
+    if (status == ISO_OK) status = follow(s, start, orbit, sample);
+    if (status == ISO_OK) keep_samples(s, sample);
+    free(start);
+    free(orbit);
+    free(sample);
+    if (status == ISO_OK && !isfinite(s->out->energy))
+        return iso_context_fail(s->ctx, ISO_NUMERICAL, "", "powers of q do not fit a double for this k and J");
+    return status;
+}
+
+/* --- integrals that are known ----------------------------------------------------------------------------------- */
+
+static void list_known(search *s)
+{
+    iso_integral_search *out = s->out;
+    for (const iso_integral *i = iso_system_point.integrals; i->name; i++) {
+        if (!i->holds || !i->holds(&s->problem) || out->known_count == ISO_INTEGRAL_KNOWN) continue;
+        s->known[out->known_count] = i;
+        out->known[out->known_count++] = (iso_integral_known){i->name, i->doc, 0, INFINITY};
+    }
+}
+
+/* The distance of a known integral from the functions found in this part, by the size of what it varies. */
+static double residual_of(const search *s, const iso_integral *known, const integral_part *part, double *work)
+{
+    const size_t rows = s->samples.rows;
+    double mean = 0, varies = 0, rest = 0, unused;
+    for (size_t i = 0; i < rows; i++) mean += work[i] = known->value(&s->problem, s->samples.state[i], &unused);
+    mean /= (double)rows;
+    for (size_t i = 0; i < rows; i++) varies += (work[i] - mean) * (work[i] - mean);
+    for (size_t f = 0; f < part->found; f++) {
+        const double *basis = part->basis + f * rows;
+        double along = 0;
+        for (size_t i = 0; i < rows; i++) along += basis[i] * work[i];
+        for (size_t i = 0; i < rows; i++) work[i] -= along * basis[i];
+    }
+    for (size_t i = 0; i < rows; i++) rest += work[i] * work[i];
+    return sqrt(rest / varies);
+}
+
+static iso_status compare_with_known(search *s, int degree, const integral_part *part)
+{
+    double *work = malloc(s->samples.rows * sizeof *work);
+    if (!work) return iso_context_fail(s->ctx, ISO_NO_MEMORY, "", "no memory for %zu samples", s->samples.rows);
+    for (int i = 0; i < s->out->known_count; i++) {
+        iso_integral_known *known = &s->out->known[i];
+        const double residual = known->degree == 0 ? residual_of(s, s->known[i], part, work) : INFINITY;
+        if (!(residual < known->residual)) continue;
+        known->residual = residual;
+        if (residual < 1e-6) known->degree = degree;
+    }
+    free(work);
+    return ISO_OK;
+}
+
+/* --- how many do not depend on each other ----------------------------------------------------------------------- */
+
+/* The gradients of the functions found, at points of the section: functions of integrals change with the integrals
+ * alone. Central differences are good to about 1e-9, which is enough to tell 0 from 1. */
+static void add_gradients(search *s, const integral_part *part)
+{
+    const double step = 1e-5;
+    for (uint64_t i = 0; i < PROBES; i++) {
+        double at[2], y[2][ISO_STATE];
+        iso_section_spread_point(&s->spread, i, &at[0], &at[1]);
+        for (size_t f = 0; f < part->found; f++) {
+            double slope[2];
+            for (int c = 0; c < 2; c++) {
+                for (int side = 0; side < 2; side++) {
+                    double to[2] = {at[0], at[1]};
+                    to[c] += (side ? step : -step) * (c == 1 ? 1 - fabs(at[1]) : 1);
+                    iso_section_point(&s->problem.p, s->problem.eps, s->axis, to[0], to[1], y[side]);
+                }
+                slope[c] = (iso_integral_evaluate(&part->function[f], y[1]) -
+                            iso_integral_evaluate(&part->function[f], y[0])) /
+                           (2 * step);
+            }
+            for (int a = 0; a < 2; a++)
+                for (int b = 0; b < 2; b++) s->gradient[i][a][b] += slope[a] * slope[b];
+        }
+    }
+}
+
+/* The rank of the gradients: at most 2, where it is largest. */
+static int independent(const search *s)
+{
+    const double small = 1e-8; /* the square of 1e-4 */
+    int most = 0;
+    for (int i = 0; i < PROBES; i++) {
+        const double(*g)[2] = s->gradient[i];
+        const double half = (g[0][0] + g[1][1]) / 2, root = hypot((g[0][0] - g[1][1]) / 2, g[0][1]);
+        const int rank = half + root < small ? 0 : half - root < small * (half + root) ? 1 : 2;
+        if (rank > most) most = rank;
+    }
+    return most;
+}
+
+/* --- the spaces ------------------------------------------------------------------------------------------------- */
+
+/* Puts a value among the smallest. */
+static void note_value(iso_integral_degree *at, const iso_integral_value *v)
+{
+    size_t i = at->values;
+    if (at->values < ISO_INTEGRAL_VALUES)
+        at->values++;
+    else if (!(v->value < at->value[--i].value))
+        return;
+    for (; i > 0 && v->value < at->value[i - 1].value; i--) at->value[i] = at->value[i - 1];
+    at->value[i] = *v;
+}
+
+static void note_part(const search *s, const integral_part *part, iso_integral_degree *at)
+{
+    const double within = s->options.within;
+    at->terms += part->terms;
+    at->functions += part->functions;
+    at->found += part->found;
+    for (size_t i = 0; i < part->functions; i++) {
+        const iso_integral_value *v = &part->value[i];
+        const bool found = integral_is_found(v, within);
+        note_value(at, v);
+        at->doubtful += !found && v->value <= fmax(v->error, within);
+        if (found)
+            at->largest = fmax(at->largest, v->value);
+        else
+            at->smallest = fmin(at->smallest, v->value);
+    }
+}
+
+static iso_status search_part(search *s, int degree, unsigned parity)
+{
+    integral_part part;
+    if (!iso_context_goes_on(s->ctx))
+        return iso_context_fail(s->ctx, ISO_STOPPED, "", "stopped in degree %d", degree);
+    iso_status status = iso_integral_search_part(s->ctx, &s->samples, degree, s->options.coefficients, parity,
+                                                 s->out->delta, s->options.within, &part);
+    if (status == ISO_OK) {
+        note_part(s, &part, &s->out->at[degree]);
+        add_gradients(s, &part);
+        status = compare_with_known(s, degree, &part);
+    }
+    iso_integral_free_part(&part);
+    if (s->options.progress) s->options.progress((double)++s->done / (double)s->all, s->options.data);
+    return status;
+}
+
+static iso_status search_degree(search *s, int degree)
+{
+    iso_integral_degree *at = &s->out->at[degree];
+    iso_status status = ISO_OK;
+    *at = (iso_integral_degree){.degree = degree, .largest = NAN, .smallest = NAN};
+    for (unsigned parity = 0; parity < INTEGRAL_PARITIES && status == ISO_OK; parity++)
+        status = search_part(s, degree, parity);
+    if (status != ISO_OK) return status;
+    const size_t known = degree <= 2 ? (size_t)(degree == 2) : s->found[degree % 2]; /* V_2: the energy */
+    at->further = at->found > known ? at->found - known : 0;
+    s->found[degree % 2] = at->found;
+    s->out->degrees = degree;
+    return ISO_OK;
+}
+
+static void judge(search *s)
+{
+    iso_integral_search *out = s->out;
+    size_t doubtful = 0;
+    for (int d = 1; d <= out->degrees; d++) doubtful += out->at[d].doubtful;
+    out->independent = independent(s);
+    out->verdict = out->independent > 0                               ? ISO_INTEGRALS_FOUND
+                   : doubtful > 0 || out->degrees < s->options.degree ? ISO_INTEGRALS_UNDECIDED
+                                                                      : ISO_INTEGRALS_NONE;
+}
+
+/* What steps of this tolerance do to an integral, with a margin (measured at k = 1 and k = -1, see the test). */
+static double relative_error(const iso_integral_search_options *o)
+{
+    return 1e-14 + 0.1 * o->tolerance * o->turns;
+}
+
+static iso_status run(search *s, const iso_scene *scene)
+{
+    iso_status status = check_options(s->ctx, &s->options);
+    if (status == ISO_OK) status = check_scene(s->ctx, scene);
+    if (status == ISO_OK) status = choose_units(s, &scene->params);
+    if (status != ISO_OK) return status;
+    s->out->coefficients = s->options.coefficients;
+    s->out->orbits = s->options.orbits;
+    s->out->delta = relative_error(&s->options);
+    s->all = (size_t)s->options.degree * INTEGRAL_PARITIES;
+    list_known(s);
+    status = take_samples(s);
+    for (int d = 1; d <= s->options.degree && status == ISO_OK; d++) status = search_degree(s, d);
+    judge(s);
+    return status;
+}
+
+iso_status iso_integral_search_run(iso_context *ctx, const iso_scene *scene,
+                                   const iso_integral_search_options *options, iso_integral_search *result)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    search s = {.ctx = ctx, .options = iso_integral_search_defaults(), .out = result};
+    *result = (iso_integral_search){.verdict = ISO_INTEGRALS_UNDECIDED};
+    iso_status status = iso_options_take(ctx, "iso_integral_search_options", &s.options, sizeof s.options, options);
+    if (status == ISO_OK) status = run(&s, scene);
+    free(s.samples.state);
+    return status;
+}
