@@ -245,26 +245,17 @@ static iso_status compare_with_known(search *s, int degree, const integral_part 
 
 /* --- how many do not depend on each other ----------------------------------------------------------------------- */
 
-/* The gradients of the functions found, at points of the section: functions of integrals change with the integrals
- * alone. Central differences are good to about 1e-9, which is enough to tell 0 from 1. */
+/* The gradients of the functions found, at points of the section. A function of integrals changes with them alone. */
 static void add_gradients(search *s, const integral_part *part)
 {
-    const double step = 1e-5;
     for (uint64_t i = 0; i < PROBES; i++) {
-        double at[2], y[2][ISO_STATE];
-        iso_section_spread_point(&s->spread, i, &at[0], &at[1]);
+        double l, x, y[ISO_STATE], by[2][ISO_STATE], slope[2];
+        iso_section_spread_point(&s->spread, i, &l, &x);
+        iso_section_point(&s->problem.p, s->problem.eps, s->axis, l, x, y);
+        iso_section_deviations(&s->problem.p, s->problem.eps, s->axis, l, x, by[0], by[1]);
         for (size_t f = 0; f < part->found; f++) {
-            double slope[2];
-            for (int c = 0; c < 2; c++) {
-                for (int side = 0; side < 2; side++) {
-                    double to[2] = {at[0], at[1]};
-                    to[c] += (side ? step : -step) * (c == 1 ? 1 - fabs(at[1]) : 1);
-                    iso_section_point(&s->problem.p, s->problem.eps, s->axis, to[0], to[1], y[side]);
-                }
-                slope[c] = (iso_integral_evaluate(&part->function[f], y[1]) -
-                            iso_integral_evaluate(&part->function[f], y[0])) /
-                           (2 * step);
-            }
+            for (int c = 0; c < 2; c++)
+                slope[c] = iso_integral_slope(&part->function[f], y, by[c]) * (c == 1 ? sqrt(1 - x * x) : 1);
             for (int a = 0; a < 2; a++)
                 for (int b = 0; b < 2; b++) s->gradient[i][a][b] += slope[a] * slope[b];
         }
@@ -274,7 +265,7 @@ static void add_gradients(search *s, const integral_part *part)
 /* The rank of the gradients: at most 2, where it is largest. */
 static int independent(const search *s)
 {
-    const double small = 1e-8; /* the square of 1e-4 */
+    const double small = 1e-10; /* the square of 1e-5: rounding errors are smaller */
     int most = 0;
     for (int i = 0; i < PROBES; i++) {
         const double(*g)[2] = s->gradient[i];
@@ -363,7 +354,7 @@ static void judge(search *s)
 /* What steps of this tolerance do to an integral, with a margin (measured at k = 1 and k = -1, see the test). */
 static double relative_error(const iso_integral_search_options *o)
 {
-    return 1e-14 + 0.1 * o->tolerance * o->turns;
+    return 5e-15 + 1e-4 * o->tolerance * o->turns;
 }
 
 static iso_status run(search *s, const iso_scene *scene)

@@ -35,7 +35,9 @@ typedef struct integral_part {
 /* The terms of V_d of one parity. term: room for them, or NULL: they are only counted. */
 size_t iso_integral_terms(int degree, int coefficients, unsigned parity, integral_term term[]);
 
-double iso_integral_evaluate(const integral_function *f, const double state[ISO_STATE]);
+/* The derivative of a function along a deviation of the state. */
+double iso_integral_slope(const integral_function *f, const double state[ISO_STATE],
+                          const double deviation[ISO_STATE]);
 
 /* The singular values of one parity of V_d on the samples, see integrals.h. Errors: ISO_NO_MEMORY, ISO_NUMERICAL. */
 iso_status iso_integral_search_part(iso_context *ctx, const integral_samples *samples, int degree, int coefficients,

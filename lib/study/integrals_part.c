@@ -7,9 +7,8 @@
 #include "base/finite_impl.h"
 #include "study/integrals_impl.h"
 
-/* A function that is smaller than this part of its terms is left out: it is zero on the surface, or too much of it is
- * rounding. */
-static const double least = 1e-9;
+/* A function that is smaller than this part of its terms is zero on the surface: what is left of it is rounding. */
+static const double least = 1e-13;
 
 /* --- terms ------------------------------------------------------------------------------------------------------ */
 
@@ -66,11 +65,19 @@ static double value_of(const integral_term *t, double power[ISO_STATE][INTEGRAL_
     return product;
 }
 
-double iso_integral_evaluate(const integral_function *f, const double state[ISO_STATE])
+double iso_integral_slope(const integral_function *f, const double state[ISO_STATE],
+                          const double deviation[ISO_STATE])
 {
     double power[ISO_STATE][INTEGRAL_POWERS], sum = 0;
     take_powers(state, power);
-    for (size_t i = 0; i < f->terms; i++) sum += f->coefficient[i] * value_of(&f->term[i], power);
+    for (size_t i = 0; i < f->terms; i++)
+        for (int j = 0; j < ISO_STATE; j++) {
+            integral_term t = f->term[i];
+            const int exponent = t.exponent[j];
+            if (exponent == 0) continue;
+            t.exponent[j]--;
+            sum += f->coefficient[i] * exponent * value_of(&t, power) * deviation[j];
+        }
     return sum;
 }
 
