@@ -17,7 +17,7 @@
  *
  * The search. Orbits start spread evenly over a global section (map/section.h), with one value of eps. Each is sampled
  * at many times. The functions are columns, the samples rows. Relations that hold on the surface (|gamma| = 1,
- * (M, gamma) = 0, the level) make columns dependent: pivoted QR keeps an independent set, and gives an orthonormal
+ * (M, gamma) = 0, the level) make columns dependent: Gram and Schmidt keep an independent set, the largest first, and give an orthonormal
  * basis Q of V_d on the samples. From each column of Q its mean over each orbit is taken away. The singular values of
  * what is left are the sines of the angles between V_d and the functions that are constant on orbits: 0 for an
  * integral. A value is the root mean square of the variation of a function along orbits, of which the root mean square

@@ -83,16 +83,23 @@ double iso_integral_slope(const integral_function *f, const double state[ISO_STA
 
 /* --- linear algebra --------------------------------------------------------------------------------------------- */
 
-/* The room of one part: A P = Q R. */
+/* The room of one part. Column order[i] of A is the sum of Q's columns 0 to i with the factors R[order[i]]. */
 typedef struct algebra {
     const integral_samples *samples;
-    size_t terms, functions; /* columns of A; those that are independent */
+    size_t terms, functions; /* columns of A; those that are independent: of Q                          */
     integral_term *term;
-    double *length; /* of the columns, before they were made unit vectors */
-    gsl_matrix *A, *Q, *varying, *V, *square;
-    gsl_vector *tau, *work, *S;
-    gsl_permutation *P;
+    double *length; /* of the columns of A, before they were made unit vectors                 */
+    double *column; /* what is left of those of A without their parts along Q; the first become Q */
+    double *R;      /* terms x terms                                                           */
+    size_t *order;
+    gsl_matrix *varying, *V, *square, *triangle;
+    gsl_vector *work, *S;
 } algebra;
+
+static double *column_of(const algebra *a, size_t i)
+{
+    return a->column + a->order[i] * a->samples->rows;
+}
 
 static bool begin(algebra *a, const integral_samples *samples, size_t terms)
 {
@@ -100,94 +107,142 @@ static bool begin(algebra *a, const integral_samples *samples, size_t terms)
     a->terms = terms;
     a->term = malloc(terms * sizeof *a->term);
     a->length = calloc(terms, sizeof *a->length);
-    a->A = gsl_matrix_alloc(samples->rows, terms);
-    a->tau = gsl_vector_alloc(terms);
-    a->work = gsl_vector_alloc(terms);
-    a->P = gsl_permutation_alloc(terms);
-    return a->term && a->length && a->A && a->tau && a->work && a->P;
+    a->column = malloc(terms * samples->rows * sizeof *a->column);
+    a->R = calloc(terms * terms, sizeof *a->R);
+    a->order = malloc(terms * sizeof *a->order);
+    return a->term && a->length && a->column && a->R && a->order;
 }
 
 static bool begin_basis(algebra *a)
 {
     const size_t n = a->functions;
-    a->Q = gsl_matrix_alloc(a->samples->rows, n);
     a->varying = gsl_matrix_alloc(a->samples->rows, n);
     a->V = gsl_matrix_alloc(n, n);
     a->square = gsl_matrix_alloc(n, n);
+    a->triangle = gsl_matrix_calloc(n, n);
+    a->work = gsl_vector_alloc(n);
     a->S = gsl_vector_alloc(n);
-    return a->Q && a->varying && a->V && a->square && a->S;
+    return a->varying && a->V && a->square && a->triangle && a->work && a->S;
 }
 
 static void end(algebra *a)
 {
     free(a->term);
     free(a->length);
-    gsl_matrix_free(a->A);
-    gsl_matrix_free(a->Q);
+    free(a->column);
+    free(a->R);
+    free(a->order);
     gsl_matrix_free(a->varying);
     gsl_matrix_free(a->V);
     gsl_matrix_free(a->square);
-    gsl_vector_free(a->tau);
+    gsl_matrix_free(a->triangle);
     gsl_vector_free(a->work);
     gsl_vector_free(a->S);
-    gsl_permutation_free(a->P);
 }
 
-/* A: a row for each sample, a unit column for each term. False: a number does not fit. */
+/* Four sums side by side: the processor adds them at the same time. */
+static double product(const double x[], const double y[], size_t count)
+{
+    double sum[4] = {0};
+    size_t i = 0;
+    for (; i + 4 <= count; i += 4)
+        for (size_t j = 0; j < 4; j++) sum[j] += x[i + j] * y[i + j];
+    for (; i < count; i++) sum[0] += x[i] * y[i];
+    return sum[0] + sum[1] + (sum[2] + sum[3]);
+}
+
+/* Unit columns: the values of each term on the samples. False: a number does not fit. */
 static bool fill(algebra *a)
 {
-    for (size_t row = 0; row < a->samples->rows; row++) {
+    const size_t rows = a->samples->rows;
+    for (size_t row = 0; row < rows; row++) {
         double power[ISO_STATE][INTEGRAL_POWERS];
         take_powers(a->samples->state[row], power);
-        for (size_t j = 0; j < a->terms; j++) gsl_matrix_set(a->A, row, j, value_of(&a->term[j], power));
+        for (size_t j = 0; j < a->terms; j++) a->column[j * rows + row] = value_of(&a->term[j], power);
     }
     for (size_t j = 0; j < a->terms; j++) {
-        gsl_vector_view column = gsl_matrix_column(a->A, j);
-        a->length[j] = gsl_blas_dnrm2(&column.vector);
-        if (a->length[j] > 0) gsl_vector_scale(&column.vector, 1 / a->length[j]);
+        double *x = a->column + j * rows;
+        a->order[j] = j;
+        a->length[j] = sqrt(product(x, x, rows));
+        for (size_t i = 0; i < rows && a->length[j] > 0; i++) x[i] /= a->length[j];
     }
     return all_finite(a->length, (int)a->terms);
 }
 
-/* How many columns are independent, and Q of these. */
-static iso_status make_basis(iso_context *ctx, algebra *a)
+/* Takes the part along Q's column i away from column `order[j]`. */
+static void project(algebra *a, size_t i, size_t j)
 {
-    int sign;
-    gsl_linalg_QRPT_decomp(a->A, a->tau, a->P, &sign, a->work);
-    const double first = fabs(gsl_matrix_get(a->A, 0, 0));
-    while (a->functions < a->terms && fabs(gsl_matrix_get(a->A, a->functions, a->functions)) > least * first)
-        a->functions++;
-    if (a->functions == 0) return ISO_OK;
-    if (!begin_basis(a)) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu functions", a->functions);
-    for (size_t j = 0; j < a->functions; j++) {
-        gsl_vector_view reflectors = gsl_vector_subvector(a->tau, 0, a->functions);
-        gsl_matrix_view columns = gsl_matrix_submatrix(a->A, 0, 0, a->samples->rows, a->functions);
-        gsl_vector_view q = gsl_matrix_column(a->Q, j);
-        gsl_vector_set_basis(&q.vector, j);
-        gsl_linalg_QR_Qvec(&columns.matrix, &reflectors.vector, &q.vector);
-    }
-    return ISO_OK;
+    const size_t rows = a->samples->rows;
+    const double *q = column_of(a, i);
+    double *x = column_of(a, j);
+    const double along = product(q, x, rows);
+    for (size_t row = 0; row < rows; row++) x[row] -= along * q[row];
+    a->R[a->order[j] * a->terms + i] += along;
 }
 
-/* Q without the mean of each orbit. A mean does not change with the length of the orbit's rows. */
+/* The column of which most is left becomes the next of Q. It is freed once more from those before, because rounding
+ * errors grow as it becomes small. False: nothing is left. */
+static bool take_next(algebra *a, double left[])
+{
+    const size_t n = a->functions, rows = a->samples->rows;
+    size_t best = n;
+    for (size_t j = n; j < a->terms; j++)
+        if (left[a->order[j]] > left[a->order[best]]) best = j;
+    const size_t chosen = a->order[best];
+    a->order[best] = a->order[n];
+    a->order[n] = chosen;
+    for (size_t i = 0; i < n; i++) project(a, i, n);
+    double *q = column_of(a, n);
+    const double size = sqrt(product(q, q, rows));
+    if (!(size > least)) return false;
+    for (size_t row = 0; row < rows; row++) q[row] /= size;
+    a->R[chosen * a->terms + n] = size;
+    for (size_t i = 0; i < n; i++) { /* the part that division has made larger; R keeps its digits without it */
+        const double along = product(column_of(a, i), q, rows);
+        for (size_t row = 0; row < rows; row++) q[row] -= along * column_of(a, i)[row];
+    }
+    return true;
+}
+
+/* Gram and Schmidt's way, with the largest column first: how many are independent, Q and R. */
+static bool make_basis(algebra *a)
+{
+    const size_t rows = a->samples->rows;
+    double *left = malloc(a->terms * sizeof *left);
+    if (!left) return false;
+    for (size_t j = 0; j < a->terms; j++) left[j] = a->length[j] > 0;
+    while (a->functions < a->terms && take_next(a, left)) {
+        const size_t n = a->functions++;
+        for (size_t j = n + 1; j < a->terms; j++) {
+            if (!(left[a->order[j]] > least)) continue;
+            project(a, n, j);
+            left[a->order[j]] = sqrt(product(column_of(a, j), column_of(a, j), rows));
+        }
+    }
+    free(left);
+    return true;
+}
+
+/* Q without the mean of each orbit. */
 static void take_means_away(algebra *a)
 {
     const size_t each = ISO_INTEGRAL_ROWS;
-    gsl_matrix_memcpy(a->varying, a->Q);
-    for (size_t orbit = 0; orbit < a->samples->orbits; orbit++)
-        for (size_t j = 0; j < a->functions; j++) {
+    for (size_t j = 0; j < a->functions; j++)
+        for (size_t orbit = 0; orbit < a->samples->orbits; orbit++) {
+            const double *q = column_of(a, j) + orbit * each;
             double mean = 0;
-            for (size_t i = 0; i < each; i++) mean += gsl_matrix_get(a->Q, orbit * each + i, j) / (double)each;
-            for (size_t i = 0; i < each; i++) *gsl_matrix_ptr(a->varying, orbit * each + i, j) -= mean;
+            for (size_t i = 0; i < each; i++) mean += q[i] / (double)each;
+            for (size_t i = 0; i < each; i++) gsl_matrix_set(a->varying, orbit * each + i, j, q[i] - mean);
         }
+    for (size_t j = 0; j < a->functions; j++)
+        for (size_t i = 0; i <= j; i++) gsl_matrix_set(a->triangle, i, j, a->R[a->order[j] * a->terms + i]);
 }
 
 /* The coefficients of Q v in unit columns: R c = v. Gives the sum of |c|. */
 static double coefficients_of(const algebra *a, size_t column, gsl_vector *c)
 {
-    gsl_matrix_const_view R = gsl_matrix_const_submatrix(a->A, 0, 0, a->functions, a->functions);
     gsl_matrix_get_col(c, a->V, column);
-    gsl_blas_dtrsv(CblasUpper, CblasNoTrans, CblasNonUnit, &R.matrix, c);
+    gsl_blas_dtrsv(CblasUpper, CblasNoTrans, CblasNonUnit, a->triangle, c);
     return gsl_blas_dasum(c);
 }
 
@@ -200,25 +255,27 @@ static bool keep_function(const algebra *a, const gsl_vector *c, integral_functi
     if (!f->term || !f->coefficient) return false;
     f->terms = a->functions;
     for (size_t i = 0; i < a->functions; i++) {
-        const size_t j = gsl_permutation_get(a->P, i);
+        const size_t j = a->order[i];
         f->term[i] = a->term[j];
         f->coefficient[i] = gsl_vector_get(c, i) / a->length[j] * sqrt((double)a->samples->rows);
     }
     return true;
 }
 
-static void keep_basis(const algebra *a, size_t column, double *basis)
+static void keep_basis(const algebra *a, size_t column, double basis[])
 {
-    gsl_vector_view to = gsl_vector_view_array(basis, a->samples->rows);
-    gsl_vector_const_view v = gsl_matrix_const_column(a->V, column);
-    gsl_blas_dgemv(CblasNoTrans, 1, a->Q, &v.vector, 0, &to.vector);
+    const size_t rows = a->samples->rows;
+    for (size_t i = 0; i < rows; i++) basis[i] = 0;
+    for (size_t j = 0; j < a->functions; j++) {
+        const double v = gsl_matrix_get(a->V, j, column);
+        for (size_t i = 0; i < rows; i++) basis[i] += v * column_of(a, j)[i];
+    }
 }
 
 /* GSL's singular values fall. */
-static bool keep(const algebra *a, unsigned parity, double delta, double within, integral_part *part)
+static bool keep(algebra *a, unsigned parity, double delta, double within, integral_part *part)
 {
     const size_t n = a->functions, rows = a->samples->rows;
-    gsl_vector_view c = gsl_vector_subvector(a->work, 0, n);
     part->functions = n;
     part->value = calloc(n, sizeof *part->value);
     part->function = calloc(n, sizeof *part->function);
@@ -227,13 +284,13 @@ static bool keep(const algebra *a, unsigned parity, double delta, double within,
         const size_t column = n - 1 - i;
         iso_integral_value *v = &part->value[i];
         *v = (iso_integral_value){.value = gsl_vector_get(a->S, column), .parity = parity};
-        v->error = delta * coefficients_of(a, column, &c.vector);
+        v->error = delta * coefficients_of(a, column, a->work);
         if (!integral_is_found(v, within)) continue;
         double *basis = realloc(part->basis, (part->found + 1) * rows * sizeof *basis);
         if (!basis) return false;
         part->basis = basis;
         keep_basis(a, column, basis + part->found * rows);
-        if (!keep_function(a, &c.vector, &part->function[part->found++])) return false;
+        if (!keep_function(a, a->work, &part->function[part->found++])) return false;
     }
     return true;
 }
@@ -242,11 +299,11 @@ static iso_status solve(iso_context *ctx, algebra *a, int degree, int coefficien
 {
     iso_integral_terms(degree, coefficients, parity, a->term);
     if (!fill(a)) return iso_context_fail(ctx, ISO_NUMERICAL, "", "powers of M do not fit a double for this k and J");
-    const iso_status status = make_basis(ctx, a);
-    if (status != ISO_OK || a->functions == 0) return status;
+    if (!make_basis(a) || (a->functions > 0 && !begin_basis(a)))
+        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu functions", a->functions);
+    if (a->functions == 0) return ISO_OK;
     take_means_away(a);
-    gsl_vector_view work = gsl_vector_subvector(a->work, 0, a->functions);
-    gsl_linalg_SV_decomp_mod(a->varying, a->square, a->V, a->S, &work.vector);
+    gsl_linalg_SV_decomp_mod(a->varying, a->square, a->V, a->S, a->work);
     return ISO_OK;
 }
 
