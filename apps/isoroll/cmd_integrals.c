@@ -83,6 +83,8 @@ static void print_verdict(const options *o, const iso_integral_search *r)
                o->within, smallest_of(r));
     else if (r->degrees < (int)o->degree)
         printf("undecided: stopped after degree %d\n", r->degrees);
+    else if (r->independent > 0)
+        printf("undecided: k and J are so near those of an integrable ball that its integral is constant here\n");
     else
         printf("undecided: there are values between their error and %g\n", o->within);
 }
@@ -143,14 +145,15 @@ static json_t *known_of(const iso_integral_search *r)
 static bool print_json(const options *o, const iso_scene *scene, const iso_integral_search *r)
 {
     const iso_params *p = &scene->params;
-    return json_print(json_pack(
-        "{s:s, s:o, s:[o,o,o], s:i, s:i, s:I, s:o, s:i, s:o, s:o, s:s, s:i, s:b, s:o, s:o, s:o, s:o}", "isoroll",
-        iso_version(), "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]),
-        "degree", (int)o->degree, "coefficients", r->coefficients, "orbits", (json_int_t)r->orbits, "turns",
-        json_number(o->turns), "samples", ISO_INTEGRAL_ROWS, "within", json_number(o->within), "delta",
-        json_number(r->delta), "verdict", iso_integral_verdict_name(r->verdict), "independent", r->independent,
-        "energy", r->degrees >= 2 && r->at[2].found > 0, "energy_spread", json_number(r->energy), "smallest",
-        json_number(smallest_of(r)), "known", known_of(r), "degrees", degrees_of(r)));
+    return json_print(
+        json_pack("{s:s, s:o, s:[o,o,o], s:i, s:i, s:I, s:o, s:i, s:o, s:o, s:s, s:i, s:b, s:b, s:o, s:o, s:o, s:o}",
+                  "isoroll", iso_version(), "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]),
+                  json_number(p->J[2]), "degree", (int)o->degree, "coefficients", r->coefficients, "orbits",
+                  (json_int_t)r->orbits, "turns", json_number(o->turns), "samples", ISO_INTEGRAL_ROWS, "within",
+                  json_number(o->within), "delta", json_number(r->delta), "verdict",
+                  iso_integral_verdict_name(r->verdict), "independent", r->independent, "near", (int)r->near,
+                  "energy", r->degrees >= 2 && r->at[2].found > 0, "energy_spread", json_number(r->energy),
+                  "smallest", json_number(smallest_of(r)), "known", known_of(r), "degrees", degrees_of(r)));
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
@@ -237,8 +240,9 @@ const command command_integrals = {
         "the effects. Orbits start spread evenly over a section and are sampled at many times. The singular values "
         "of the samples tell how little a function of this space can vary along orbits, by its own size.\n\n"
         "The table has a line for each degree: how many independent functions there are, how many of them are "
-        "integrals, how many of these are further, not products of the energy and integrals of lower degree, and "
-        "the smallest value of the others. On the level H = 0 the energy is a constant; it is the one integral of "
+        "integrals, how many of these are further (they are not the energy, and not there two degrees before; "
+        "products of integrals count), and the smallest value of the others. On the level H = 0 the energy is a "
+        "constant; it is the one integral of "
         "degree 2 that every ball has.\n\n"
         "Integrals that are known for this k and J are named where they are found. 'undecided': a value lies "
         "between its own error and --within.",

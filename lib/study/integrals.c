@@ -340,15 +340,33 @@ static iso_status search_degree(search *s, int degree)
     return ISO_OK;
 }
 
+/* Integrals of a neighbour are constant here within rounding: they change by the square of such a difference of
+ * moments, and by 1/100 of such a difference of k. */
+static bool is_near(const iso_params *p)
+{
+    const double k = fabs(fabs(p->k) - 1);
+    if (k > 0 && k < 1e-9) return true;
+    for (int i = 0; i < 3; i++) {
+        const double one = p->J[i], other = p->J[(i + 1) % 3];
+        if (one != other && fabs(one - other) < 1e-6 * fmax(one, other)) return true;
+    }
+    return false;
+}
+
 static void judge(search *s)
 {
     iso_integral_search *out = s->out;
     size_t doubtful = 0;
+    bool known = false;
     for (int d = 1; d <= out->degrees; d++) doubtful += out->at[d].doubtful;
+    for (int i = 0; i < out->known_count; i++) known = known || out->known[i].degree > 0;
     out->independent = independent(s);
-    out->verdict = out->independent > 0                               ? ISO_INTEGRALS_FOUND
-                   : doubtful > 0 || out->degrees < s->options.degree ? ISO_INTEGRALS_UNDECIDED
-                                                                      : ISO_INTEGRALS_NONE;
+    out->near = is_near(&s->problem.p);
+    out->verdict = ISO_INTEGRALS_NONE;
+    if (out->independent > 0 && (known || !out->near))
+        out->verdict = ISO_INTEGRALS_FOUND;
+    else if (out->independent > 0 || doubtful > 0 || out->degrees < s->options.degree)
+        out->verdict = ISO_INTEGRALS_UNDECIDED;
 }
 
 /* What steps of this tolerance do to an integral, with a margin (measured at k = 1 and k = -1, see the test). */
@@ -370,7 +388,7 @@ static iso_status run(search *s, const iso_scene *scene)
     list_known(s);
     status = take_samples(s);
     for (int d = 1; d <= s->options.degree && status == ISO_OK; d++) status = search_degree(s, d);
-    judge(s);
+    if (status == ISO_OK || status == ISO_STOPPED) judge(s);
     return status;
 }
 

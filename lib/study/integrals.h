@@ -78,7 +78,7 @@ static inline iso_integral_search_options iso_integral_search_defaults(void)
 typedef enum iso_integral_verdict {
     ISO_INTEGRALS_NONE,     /* but the energy: every other function varies by more than `within` */
     ISO_INTEGRALS_FOUND,    /* at least one that does not depend on the energy                   */
-    ISO_INTEGRALS_UNDECIDED /* a value is doubtful, or the search was stopped                    */
+    ISO_INTEGRALS_UNDECIDED /* a value is doubtful, the search was stopped, or see `near`        */
 } iso_integral_verdict;
 
 /* "none", "found", "undecided" */
@@ -95,7 +95,7 @@ typedef struct iso_integral_degree {
     int degree;
     size_t terms;     /* h^j M^a gamma^b looked at; multiples of |gamma|^2 and of M3 gamma3 are others already */
     size_t functions; /* dimension of V_d on the surface                                                      */
-    size_t found;     /* integrals, among them powers of the energy and products                              */
+    size_t found;     /* integrals, among them the energy and products of integrals                           */
     size_t further;   /* of them those that are not the energy, nor in V_(d-2)                                */
     size_t doubtful;
     double largest;  /* value of those found; NaN: none                                                       */
@@ -114,6 +114,8 @@ typedef struct iso_integral_known {
 typedef struct iso_integral_search {
     iso_integral_verdict verdict;
     int independent; /* integrals that do not depend on each other, nor on the energy: 0, 1 or 2 */
+    bool near;       /* two moments differ by less than 1e-6 of them, or |k| and 1 by less than 1e-9: what is found
+                        and not known can be the integral of the neighbour with equal ones                       */
     int coefficients;
     size_t orbits;
     double delta;  /* relative error of the samples                              */
