@@ -342,7 +342,7 @@ static iso_status search_degree(search *s, int degree)
 
 /* Integrals of a neighbour are constant here within rounding: they change by the square of such a difference of
  * moments, and by 1/100 of such a difference of k. */
-static bool is_near(const iso_params *p)
+static bool has_neighbour(const iso_params *p)
 {
     const double k = fabs(fabs(p->k) - 1);
     if (k > 0 && k < 1e-9) return true;
@@ -353,6 +353,15 @@ static bool is_near(const iso_params *p)
     return false;
 }
 
+/* Lower degrees than that of the first integral come close to one as well. */
+static bool comes_closer(const iso_integral_search *r)
+{
+    double smallest = INFINITY;
+    int d = 1;
+    for (; d <= r->degrees && r->at[d].further == 0; d++) smallest = fmin(smallest, r->at[d].smallest);
+    return d <= r->degrees && smallest < 1e-3;
+}
+
 static void judge(search *s)
 {
     iso_integral_search *out = s->out;
@@ -361,7 +370,7 @@ static void judge(search *s)
     for (int d = 1; d <= out->degrees; d++) doubtful += out->at[d].doubtful;
     for (int i = 0; i < out->known_count; i++) known = known || out->known[i].degree > 0;
     out->independent = independent(s);
-    out->near = is_near(&s->problem.p);
+    out->near = has_neighbour(&s->problem.p) || comes_closer(out);
     out->verdict = ISO_INTEGRALS_NONE;
     if (out->independent > 0 && (known || !out->near))
         out->verdict = ISO_INTEGRALS_FOUND;

@@ -31,6 +31,10 @@
  * error is below `within`, is an integral. A value above `within` and above its error is none. Others are doubtful:
  * so small a variation can be that of an integral of a neighbouring problem.
  *
+ * Where moments are nearly equal, functions of growing degree come ever closer to an integral: with moments 1 % apart
+ * (k = 0.5) the smallest values of V_2, V_4, V_6 are 4e-6, 2e-10, 5e-14. An integral that is not known is therefore
+ * believed only if it comes all at once.
+ *
  * A search is evidence, no proof: it tells that no function of this space is constant on these orbits.
  */
 #ifndef ISO_STUDY_INTEGRALS_H
@@ -114,8 +118,9 @@ typedef struct iso_integral_known {
 typedef struct iso_integral_search {
     iso_integral_verdict verdict;
     int independent; /* integrals that do not depend on each other, nor on the energy: 0, 1 or 2 */
-    bool near;       /* two moments differ by less than 1e-6 of them, or |k| and 1 by less than 1e-9: what is found
-                        and not known can be the integral of the neighbour with equal ones                       */
+    bool near;       /* a neighbour is integrable: two moments differ by less than 1e-6 of them, or |k| and 1 by less
+                        than 1e-9, or lower degrees than that of the first integral have others below 1e-3. What is
+                        found and not known can then be the neighbour's: `undecided`                             */
     int coefficients;
     size_t orbits;
     double delta;  /* relative error of the samples                              */

@@ -171,6 +171,11 @@ static void doubtful(void)
     gsl_test(r.verdict != ISO_INTEGRALS_UNDECIDED || !r.near, "k = 1 + 1e-13: the neighbour's F");
     r = look(0.5, (double[]){1, 1.0000001, 1.0000002}, 2);
     gsl_test(r.verdict != ISO_INTEGRALS_UNDECIDED || !r.near, "moments 1e-7 apart");
+    r = look(0.5, (double[]){1, 1.001, 1.002}, 4);
+    gsl_test(r.verdict != ISO_INTEGRALS_UNDECIDED || !r.near || r.at[2].found != 1,
+             "moments 1e-3 apart: values of growing degree fall to rounding");
+    r = look(1, (double[]){1, 1.001, 1.002}, 4);
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_FOUND, "moments 1e-3 apart, k = 1: F is there");
     r = look(1, (double[]){1, 1.0000001, 1.0000002}, 2);
     gsl_test_int((int)r.verdict, ISO_INTEGRALS_FOUND, "moments 1e-7 apart, k = 1: F is there");
     const iso_scene scene = scene_of(1, ours);
