@@ -1,18 +1,12 @@
-/* integrals.c - the search for further first integrals, see integrals.h: what is refused, the samples, what the parts
- * of the spaces tell together. Linear algebra is in integrals_part.c. */
+/* integrals.c - the search for further first integrals, see integrals.h: what is refused, and what the parts of the
+ * spaces tell together. Samples are taken in integrals_orbits.c, linear algebra is in integrals_part.c. */
 #include "study/integrals.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
-#include "base/finite_impl.h"
 #include "base/options_impl.h"
-#include "base/pi_impl.h"
-#include "base/random.h"
-#include "base/vec3_impl.h"
-#include "map/section.h"
-#include "orbit/batch.h"
 #include "study/integrals_impl.h"
 
 enum { LEAST_ORBITS = 64, PROBES = 16 };
@@ -21,9 +15,6 @@ typedef struct search {
     iso_context *ctx;
     iso_integral_search_options options;
     iso_integral_search *out;
-    iso_problem problem; /* the free point, eps = 1/2, J in a unit with which |M| <= 1   */
-    int axis;            /* of the section on which orbits start                         */
-    iso_section_spread spread;
     integral_samples samples;
     size_t done, all;              /* parts searched, of how many                        */
     size_t found[2];               /* in V_(d-1), V_d: how many before, by parity of d   */
@@ -100,111 +91,13 @@ static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
                             "the point is not on the level H = 0: integrals are searched for free motions");
 }
 
-/* --- the orbits ------------------------------------------------------------------------------------------------- */
-
-/* eps = 1/2 and max(q^(-1/k)) = 1: then |M| = q^(-1/(2k)) <= 1, and no power of it overflows. */
-static iso_status choose_units(search *s, const iso_params *p)
-{
-    const double low = fmin(p->J[0], fmin(p->J[1], p->J[2])), high = fmax(p->J[0], fmax(p->J[1], p->J[2]));
-    const double unit = p->k > 0 ? low : high;
-    s->problem.eps = 0.5;
-    iso_status status = iso_params_reduced(
-        s->ctx, p->k, (const double[]){p->J[0] / unit, p->J[1] / unit, p->J[2] / unit}, &s->problem.p);
-    s->axis = iso_section_axis(&s->problem.p);
-    iso_section_spread_prepare(&s->spread, &s->problem.p, s->axis, s->options.seed);
-    return status;
-}
-
-/* A turn of n at |k w|, with w^2 = 2 h/J of the middle moment J. */
-static double turn_of(const search *s)
-{
-    const iso_params *p = &s->problem.p;
-    int axis[3];
-    sort_by(p->J, axis);
-    const double h = iso_energy(p, s->problem.eps);
-    return 2 * ISO_PI / (fabs(p->k) * sqrt(2 * h / p->J[axis[1]]));
-}
-
-/* One time at random in each of the equal parts of the whole. */
-static iso_status choose_times(const search *s, double times[ISO_INTEGRAL_ROWS])
-{
-    iso_random *random = iso_random_create((unsigned long)s->options.seed + 1);
-    if (!random) return iso_context_fail(s->ctx, ISO_NO_MEMORY, "", "no memory for random numbers");
-    const double part = s->options.turns * turn_of(s) / ISO_INTEGRAL_ROWS;
-    for (int i = 0; i < ISO_INTEGRAL_ROWS; i++) times[i] = part * (i + iso_random_uniform(random, 0, 1));
-    iso_random_free(random);
-    return ISO_OK;
-}
-
-/* Takes rounding errors across the surface away: on it, some functions are zero. Gives the error of the energy. */
-static double put_on_surface(const search *s, double y[ISO_STATE])
-{
-    const iso_params *p = &s->problem.p;
-    make_unit(y + 3);
-    remove_along(y, y + 3);
-    const double q = dot_diag(y + 3, p->J, y + 3), length = pow(q, -0.5 / p->k), error = norm(y) / length - 1;
-    scale(y, 1 / (1 + error));
-    return 2 * error;
-}
-
-static void keep_samples(search *s, const iso_sample sample[])
-{
-    double sum = 0;
-    for (size_t i = 0; i < s->samples.rows; i++) {
-        double *y = s->samples.state[i];
-        copy(sample[i].point, y, ISO_STATE);
-        const double error = put_on_surface(s, y);
-        sum += error * error;
-    }
-    s->out->energy = sqrt(sum / (double)s->samples.rows);
-}
-
-static iso_status follow(search *s, iso_start start[], iso_batch_orbit orbit[], iso_sample sample[])
-{
-    double times[ISO_INTEGRAL_ROWS];
-    iso_batch_options o = iso_batch_defaults();
-    o.tolerance = s->options.tolerance;
-    o.threads = s->options.threads;
-    o.shown = ISO_SHOW_POINT;
-    for (size_t i = 0; i < s->options.orbits; i++) {
-        double l, x;
-        iso_section_spread_point(&s->spread, i, &l, &x);
-        start[i] = (iso_start){.model = ISO_POINT, .eps = NAN};
-        iso_section_point(&s->problem.p, s->problem.eps, s->axis, l, x, start[i].y);
-        orbit[i] = (iso_batch_orbit){&s->problem.p, &start[i], NULL};
-    }
-    const iso_status status = choose_times(s, times);
-    if (status != ISO_OK) return status;
-    return iso_batch_run(s->ctx, orbit, s->options.orbits, &o, times, ISO_INTEGRAL_ROWS, sample, NULL);
-}
-
-static iso_status take_samples(search *s)
-{
-    const size_t orbits = s->options.orbits, rows = orbits * ISO_INTEGRAL_ROWS;
-    iso_start *start = calloc(orbits, sizeof *start);
-    iso_batch_orbit *orbit = calloc(orbits, sizeof *orbit);
-    iso_sample *sample = calloc(rows, sizeof *sample);
-    s->samples = (integral_samples){orbits, rows, calloc(rows, sizeof *s->samples.state)};
-    iso_status status = ISO_OK;
-    if (!start || !orbit || !sample || !s->samples.state)
-        status = iso_context_fail(s->ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", orbits);
-    if (status == ISO_OK) status = follow(s, start, orbit, sample);
-    if (status == ISO_OK) keep_samples(s, sample);
-    free(start);
-    free(orbit);
-    free(sample);
-    if (status == ISO_OK && !isfinite(s->out->energy))
-        return iso_context_fail(s->ctx, ISO_NUMERICAL, "", "powers of q do not fit a double for this k and J");
-    return status;
-}
-
 /* --- integrals that are known ----------------------------------------------------------------------------------- */
 
 static void list_known(search *s)
 {
     iso_integral_search *out = s->out;
     for (const iso_integral *i = iso_system_point.integrals; i->name; i++) {
-        if (!i->holds || !i->holds(&s->problem) || out->known_count == ISO_INTEGRAL_KNOWN) continue;
+        if (!i->holds || !i->holds(&s->samples.problem) || out->known_count == ISO_INTEGRAL_KNOWN) continue;
         s->known[out->known_count] = i;
         out->known[out->known_count++] = (iso_integral_known){i->name, i->doc, 0, INFINITY};
     }
@@ -215,7 +108,8 @@ static double residual_of(const search *s, const iso_integral *known, const inte
 {
     const size_t rows = s->samples.rows;
     double mean = 0, varies = 0, rest = 0, unused;
-    for (size_t i = 0; i < rows; i++) mean += work[i] = known->value(&s->problem, s->samples.state[i], &unused);
+    for (size_t i = 0; i < rows; i++)
+        mean += work[i] = known->value(&s->samples.problem, s->samples.state[i], &unused);
     mean /= (double)rows;
     for (size_t i = 0; i < rows; i++) varies += (work[i] - mean) * (work[i] - mean);
     for (size_t f = 0; f < part->found; f++) {
@@ -250,9 +144,9 @@ static void add_gradients(search *s, const integral_part *part)
 {
     for (uint64_t i = 0; i < PROBES; i++) {
         double l, x, y[ISO_STATE], by[2][ISO_STATE], slope[2];
-        iso_section_spread_point(&s->spread, i, &l, &x);
-        iso_section_point(&s->problem.p, s->problem.eps, s->axis, l, x, y);
-        iso_section_deviations(&s->problem.p, s->problem.eps, s->axis, l, x, by[0], by[1]);
+        iso_section_spread_point(&s->samples.spread, i, &l, &x);
+        iso_section_point(&s->samples.problem.p, s->samples.problem.eps, s->samples.axis, l, x, y);
+        iso_section_deviations(&s->samples.problem.p, s->samples.problem.eps, s->samples.axis, l, x, by[0], by[1]);
         for (size_t f = 0; f < part->found; f++) {
             for (int c = 0; c < 2; c++)
                 slope[c] = iso_integral_slope(&part->function[f], y, by[c]) * (c == 1 ? sqrt(1 - x * x) : 1);
@@ -370,7 +264,7 @@ static void judge(search *s)
     for (int d = 1; d <= out->degrees; d++) doubtful += out->at[d].doubtful;
     for (int i = 0; i < out->known_count; i++) known = known || out->known[i].degree > 0;
     out->independent = independent(s);
-    out->near = has_neighbour(&s->problem.p) || comes_closer(out);
+    out->near = has_neighbour(&s->samples.problem.p) || comes_closer(out);
     out->verdict = ISO_INTEGRALS_NONE;
     if (out->independent > 0 && (known || !out->near))
         out->verdict = ISO_INTEGRALS_FOUND;
@@ -388,14 +282,15 @@ static iso_status run(search *s, const iso_scene *scene)
 {
     iso_status status = check_options(s->ctx, &s->options);
     if (status == ISO_OK) status = check_scene(s->ctx, scene);
-    if (status == ISO_OK) status = choose_units(s, &scene->params);
+    if (status == ISO_OK)
+        status = iso_integral_prepare(s->ctx, &scene->params, s->options.seed, s->options.orbits, &s->samples);
     if (status != ISO_OK) return status;
     s->out->coefficients = s->options.coefficients;
     s->out->orbits = s->options.orbits;
     s->out->delta = relative_error(&s->options);
     s->all = (size_t)s->options.degree * INTEGRAL_PARITIES;
     list_known(s);
-    status = take_samples(s);
+    status = iso_integral_follow(s->ctx, &s->options, &s->samples, &s->out->energy);
     for (int d = 1; d <= s->options.degree && status == ISO_OK; d++) status = search_degree(s, d);
     if (status == ISO_OK || status == ISO_STOPPED) judge(s);
     return status;

@@ -2,6 +2,7 @@
 #ifndef ISO_STUDY_INTEGRALS_IMPL_H
 #define ISO_STUDY_INTEGRALS_IMPL_H
 
+#include "map/section.h"
 #include "study/integrals.h"
 
 enum { INTEGRAL_POWERS = ISO_INTEGRAL_DEGREE + 1, INTEGRAL_PARITIES = 8 };
@@ -13,6 +14,9 @@ typedef struct integral_term {
 
 /* The states at which functions are looked at: ISO_INTEGRAL_ROWS rows for each orbit. */
 typedef struct integral_samples {
+    iso_problem problem; /* the free point, eps = 1/2, J in a unit with which |M| <= 1 */
+    int axis;            /* of the section on which orbits start                       */
+    iso_section_spread spread;
     size_t orbits, rows;
     double (*state)[ISO_STATE]; /* M, gamma */
 } integral_samples;
@@ -31,6 +35,15 @@ typedef struct integral_part {
     integral_function *function;
     double *basis;
 } integral_part;
+
+/* Everything but the states. */
+iso_status iso_integral_prepare(iso_context *ctx, const iso_params *p, uint64_t seed, size_t orbits,
+                                integral_samples *s);
+
+/* The states; *energy: the root mean square of the energy's relative error. Errors: those of iso_batch_run;
+ * ISO_NUMERICAL where powers of q do not fit a double. */
+iso_status iso_integral_follow(iso_context *ctx, const iso_integral_search_options *options, integral_samples *s,
+                               double *energy);
 
 /* The terms of V_d of one parity. term: room for them, or NULL: they are only counted. */
 size_t iso_integral_terms(int degree, int coefficients, unsigned parity, integral_term term[]);
