@@ -197,10 +197,6 @@ static bool take_next(algebra *a, double left[])
     if (!(size > least)) return false;
     for (size_t row = 0; row < rows; row++) q[row] /= size;
     a->R[chosen * a->terms + n] = size;
-    for (size_t i = 0; i < n; i++) { /* the part that division has made larger; R keeps its digits without it */
-        const double along = product(column_of(a, i), q, rows);
-        for (size_t row = 0; row < rows; row++) q[row] -= along * column_of(a, i)[row];
-    }
     return true;
 }
 

@@ -160,6 +160,19 @@ static void too_small_a_space(void)
     gsl_test_int(r.known[0].degree, 0, "and is told not to be");
 }
 
+/* M c(gamma), c polynomials of degree E, are the tangent fields of the sphere made of gradients of harmonics of degree
+ * E + 1 or less and their rotations by a right angle of degree E or less: 2 E^2 + 6 E + 3. */
+static void dimension(void)
+{
+    const iso_scene scene = scene_of(0.5, ours);
+    iso_integral_search_options o = options(1);
+    for (int E = 0; E <= ISO_INTEGRAL_DEGREE; E++) {
+        o.coefficients = E;
+        const iso_integral_search r = search(&scene, &o);
+        gsl_test_int((int)r.at[1].functions, 2 * E * E + 6 * E + 3, "E = %d: dimension of V_1", E);
+    }
+}
+
 /* --- what is doubtful ------------------------------------------------------------------------------------------- */
 
 static void doubtful(void)
@@ -298,6 +311,7 @@ int main(void)
     none(-0.5, 4);
     none_at_random();
     too_small_a_space();
+    dimension();
     doubtful();
     errors();
     dependence();
