@@ -13,11 +13,6 @@ typedef struct options {
     bool json;
 } options;
 
-static bool set_whole(void *at, const char *text)
-{
-    return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
-}
-
 static void show(double part, void *unused)
 {
     (void)unused;

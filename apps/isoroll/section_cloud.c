@@ -1,5 +1,5 @@
-/* section_cloud.c - `isoroll section --cloud N`: clouds of states are carried by the flow and by the returns to a
- * section, and tested against the invariant measure (10) again (study/measure.h). */
+/* section_cloud.c - `isoroll section --cloud N`: clouds of states are drawn by the invariant measure (10), carried by
+ * the flow and by returns to a section, and then tested against the measure (study/measure.h). */
 #include "section_cloud.h"
 
 #include <math.h>
@@ -31,16 +31,16 @@ static void print_cloud(const char *what, const iso_measure *m)
     const iso_measure_line *worst = &m->line[m->worst];
     progress_end();
     if (m->lost > 0) {
-        printf("%-10s not kept: %zu of %zu orbits never return\n", what, m->lost, m->count);
+        printf("%-10s not kept: at least %zu of %zu orbits do not return\n", what, m->lost, m->count);
         return;
     }
     printf("%-10s %-9s p = %-8.2g  %s at %.6g is off by %.2g standard errors", what, m->kept ? "kept" : "not kept",
            m->p, worst->name, worst->time, fabs(worst->deviation));
-    if (isfinite(m->resolution)) printf("; an exponent wrong by %.2g %% is found out", 100 * m->resolution);
+    if (isfinite(m->resolution)) printf("; an exponent wrong by %.2g %% would be detected", 100 * m->resolution);
     printf("\n");
 }
 
-/* A test that this scene cannot have is left out, and why is told. */
+/* Says why a test is left out that this scene cannot have. */
 static iso_status left_out(iso_context *ctx, const char *what)
 {
     progress_end();

@@ -21,6 +21,15 @@ spin="0.9, -0.3, -0.225" normal="0.36, 0.48, 0.8"
 scene 0.5 "1, 2, 5" "$spin" "$normal" 10 0.5 >chaotic.yaml
 scene -1 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >regular.yaml
 
+# --- a further integral excludes chaos, even where deviations grow by 1e5 next to a separatrix
+printf '%s\n' 'reduced: {k: -1, J: [1.4, 2.1, 3.0]}' 'time: {end: 1, step: 1}' \
+    'initial: {normal: [0.8, 0, 0.6], angular_velocity: [1.0e-5, 1, 1.0e-5], project: true}' >near.yaml
+run 0 chaos near.yaml
+check "the integral" grep -q "F_shell is a further integral: no orbit is chaotic" out
+check "never chaotic" sh -c '! grep -q "orbit: chaotic" out'
+run 0 chaos near.yaml --json
+check "the integral in JSON" grep -q '"integral": "F_shell"' out
+
 # --- one orbit
 run 0 chaos chaotic.yaml
 silent
@@ -78,9 +87,13 @@ refuses 3 "'gravity'" chaos gravity.yaml --starts 10
 refuses 3 "takes energy from the ball" chaos losing.yaml
 scene 0.5 "1, 2, 5" "0, 0, 0" "$normal" 10 0.5 >rest.yaml
 refuses 3 "at rest" chaos rest.yaml --model ball
+{ cat rest.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >released.yaml
+refuses 3 "starts at rest, where deviations have no size" chaos released.yaml
 scene 0.5 "1, 2, 5" "0, 0, 2" "0.6, 0.8, 0" 10 0.5 >plane.yaml
 run 0 chaos plane.yaml
 check "a rotation is periodic" grep -q "rotation about axis 3 in a principal plane, which is periodic" out
+run 0 chaos plane.yaml --json
+check "nothing is told of deviations that are not followed" test "$(grep -c '"gali2": null' out)" -eq 2
 refuses 3 "an axis is 1, 2 or 3" chaos chaotic.yaml --axis 4
 refuses 2 "--turns '0'" chaos chaotic.yaml --turns 0
 refuses 2 "--starts '-1'" chaos chaotic.yaml --starts -1

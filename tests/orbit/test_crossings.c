@@ -1,5 +1,4 @@
-/* Crossings of orbits that are followed one by one, lib/orbit/crossings.h: against reference/section.csv by both
- * backends, in parts and at once, at their limits, and what is refused. */
+/* Crossings of orbits one by one, lib/orbit/crossings.h: reference/section.csv, parts, limits, refusals. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -238,6 +237,31 @@ static void check_start_on_section(void)
         gsl_test_rel(first[i % 2][i / 2], first[0][0], 1e-8, "a start on the section is no crossing (%d)", i);
 }
 
+/* Where n_a falls through 0, half an oscillation is missing. Nearly equal moments make the bounds narrow. */
+static void check_falling_start(void)
+{
+    for (int i = 0; i < 4; i++) {
+        const iso_params p = laws_params(i / 2 ? -0.8 : 1, (const double[]){2.05, 2.1, 2});
+        const int axis = iso_section_axis(&p);
+        iso_start start = {.model = ISO_POINT, .eps = NAN};
+        const iso_batch_orbit orbit = {&p, &start, NULL};
+        iso_crossings_options o = iso_crossings_defaults();
+        iso_crossing at[2];
+        size_t done;
+        iso_status status;
+        double W[2];
+        o.backend = i % 2 ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
+        iso_section_point(&p, 1, axis, 0.7, 0.2, start.y);
+        scale(start.y, -1);
+        iso_section_bounds(&p, 1, axis, W);
+        iso_crossings *c = follow(&orbit, 1, &o);
+        gsl_test_int((int)iso_crossings_go(c, NULL, 2, at, NULL, &done, &status), ISO_OK, "a falling start %d: %s", i,
+                     iso_context_message(ctx));
+        gsl_test_rel(at[0].clock[ISO_CLOCK_S] * (W[0] + W[1]) / 2, ISO_PI, 0.06, "half an oscillation %d", i);
+        iso_crossings_free(c);
+    }
+}
+
 /* The same orbit in other units gives the same (l, x). */
 static void check_units(void)
 {
@@ -414,6 +438,7 @@ int main(void)
     check_all_parts();
     check_reversor();
     check_start_on_section();
+    check_falling_start();
     check_units();
     check_column_and_clock();
     check_refusals();

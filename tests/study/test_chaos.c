@@ -1,4 +1,5 @@
-/* Verdicts of lib/study/chaos.h on orbits whose truth is known, by both models; shares; refusals. */
+/* Verdicts of lib/study/chaos.h by both models, on orbits that are known to be regular or chaotic; shares;
+ * refusals. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* The invariant measure: clouds that are kept, and wrong measures and resistance that are found out. */
+/* The invariant measure: the flow keeps the right measure; wrong measures and resistance are detected. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

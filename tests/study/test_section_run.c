@@ -1,5 +1,5 @@
-/* iso_section_run (study/section.h): rows are those of crossings asked for one orbit at a time; starts, both models,
- * what is refused, and what is kept when a sink, the monitor or a failure ends the work. */
+/* iso_section_run (study/section.h): its rows equal the crossings of each orbit computed separately; starts, both
+ * models, refusals, and the rows that stay when a sink, the monitor or a failure ends the work. */
 #include <gsl/gsl_test.h>
 #include <limits.h>
 #include <math.h>
