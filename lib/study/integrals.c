@@ -9,7 +9,7 @@
 #include "base/options_impl.h"
 #include "study/integrals_impl.h"
 
-enum { LEAST_ORBITS = 64, PROBES = 16 };
+enum { LEAST_ORBITS = 64, MOST_ORBITS = 10000, PROBES = 16 };
 
 typedef struct search {
     iso_context *ctx;
@@ -52,7 +52,7 @@ static iso_status choose_orbits(iso_context *ctx, iso_integral_search_options *o
         }
     const size_t least = 4 + 2 * most / (ISO_INTEGRAL_ROWS - 1);
     if (o->orbits == 0) o->orbits = least > LEAST_ORBITS ? least : LEAST_ORBITS;
-    if (o->orbits >= least && o->orbits <= 1000000) return ISO_OK;
+    if (o->orbits >= least && o->orbits <= MOST_ORBITS) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "orbits", "%zu orbits: these degrees need %zu to 1000000",
                             o->orbits, least);
 }

@@ -56,7 +56,7 @@ typedef struct iso_integral_search_options {
     size_t size;      /* set by iso_integral_search_defaults; see isoroll.h                              */
     int degree;       /* D, of the polynomials in M: 1 to ISO_INTEGRAL_DEGREE                            */
     int coefficients; /* E, of their coefficients in gamma: 0 to ISO_INTEGRAL_DEGREE; -1: D, at least 2  */
-    size_t orbits;    /* 0: 64, more where the degrees need more                                         */
+    size_t orbits;    /* to 10000; 0: 64, more where degrees need it                                       */
     double turns;     /* of n, about, for which each orbit is followed, in [1, 1e5]                      */
     uint64_t seed;    /* of the starts and of the times                                                  */
     double within;    /* in (0, 1): a function that varies more is no integral                           */
@@ -132,7 +132,7 @@ typedef struct iso_integral_search {
 } iso_integral_search;
 
 /* Only k, J and the effects of the scene are read, and whether its start lies on H = 0.
- * Errors: ISO_BAD_ARGUMENT about "degree", "coefficients", "orbits" (too few for the functions), "turns", "within",
+ * Errors: ISO_BAD_ARGUMENT about "degree", "coefficients", "orbits" (too few for the functions, or more than 10000), "turns", "within",
  * "tolerance", "threads"; ISO_BAD_INPUT about an effect that acts on the ball (observers do not matter), or the level
  * of a point off H = 0; those of iso_batch_run; ISO_NUMERICAL where powers of q do not fit a double; ISO_NO_MEMORY;
  * ISO_STOPPED by the context's monitor: the degrees done are valid. */
