@@ -53,8 +53,8 @@ static iso_status choose_orbits(iso_context *ctx, iso_integral_search_options *o
     const size_t least = 4 + 2 * most / (ISO_INTEGRAL_ROWS - 1);
     if (o->orbits == 0) o->orbits = least > LEAST_ORBITS ? least : LEAST_ORBITS;
     if (o->orbits >= least && o->orbits <= MOST_ORBITS) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "orbits", "%zu orbits: these degrees need %zu to 1000000",
-                            o->orbits, least);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "orbits", "%zu orbits: these degrees need %zu to %d", o->orbits,
+                            least, MOST_ORBITS);
 }
 
 static iso_status check_options(iso_context *ctx, iso_integral_search_options *o)
