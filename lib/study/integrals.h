@@ -17,11 +17,11 @@
  *
  * The search. Orbits start spread evenly over a global section (map/section.h), with one value of eps. Each is sampled
  * at many times. The functions are columns, the samples rows. Relations that hold on the surface (|gamma| = 1,
- * (M, gamma) = 0, the level) make columns dependent: Gram and Schmidt keep an independent set, the largest first, and give an orthonormal
- * basis Q of V_d on the samples. From each column of Q its mean over each orbit is taken away. The singular values of
- * what is left are the sines of the angles between V_d and the functions that are constant on orbits: 0 for an
- * integral. A value is the root mean square of the variation of a function along orbits, of which the root mean square
- * itself is 1.
+ * (M, gamma) = 0, the level) make columns dependent. Gram and Schmidt's way, the largest column first, keeps an
+ * independent set and gives an orthonormal basis Q of V_d on the samples. From each column of Q its mean over each
+ * orbit is taken away. The singular values of what is left are the sines of the angles between V_d and the functions
+ * that are constant on orbits: 0 for an integral. A value is the root mean square of the variation of a function along
+ * orbits, if the root mean square of the function itself is 1.
  *
  * Reflections gamma_i -> -gamma_i split V_d into eight parts, by the parity of a_i + b_i for i = 1, 2, 3. Integrals
  * can be chosen in one part each; the parts are searched one by one.
