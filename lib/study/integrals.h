@@ -5,8 +5,8 @@
  *     o.degree = 4;
  *     status = iso_integral_search_run(ctx, &scene, &o, &found);          found.verdict, found.at[2].further
  *
- * The space of functions. The free point keeps H = M^2/2 - eps q^(-1/k), q = (gamma, J gamma), and its orbits on
- * H = 0 are the ball's. (M, s, eps) -> (c M, s/c, c^2 eps) carries orbits to orbits. So an integral on all levels is a
+ * The space of functions. The free point keeps H = M^2/2 - eps q^(-1/k), q = (gamma, J gamma), and its orbits on H =
+ * 0 are the ball's. (M, s, eps) -> (c M, s/c, c^2 eps) carries orbits to orbits. So an integral on all levels is a
  * sum of integrals that are homogeneous in M, and each of them is known from one value of eps. With the ball's
  * energy, h = (1/2) (k^2/det J) q^(1/k) M^2, the space of degree d is
  *
@@ -15,25 +15,25 @@
  * On one level h is a number, and V_d are the polynomials in M of degrees d, d - 2, ... with polynomials in gamma of
  * degree E or less. The energy itself is the constant 1 in V_2, V_4, ...: it is found there, as any other integral.
  *
- * The search. Orbits start spread evenly over a global section (map/section.h), with one value of eps. Each is sampled
- * at many times. The functions are columns, the samples rows. Relations that hold on the surface (|gamma| = 1,
- * (M, gamma) = 0, the level) make columns dependent. Gram and Schmidt's way, the largest column first, keeps an
+ * The search. Orbits start spread evenly over a global section (map/section.h), with one value of eps. Each is
+ * sampled at many times. The functions are columns, the samples rows. Relations that hold on the surface (|gamma| =
+ * 1, (M, gamma) = 0, the level) make columns dependent. Gram and Schmidt's way, the largest column first, keeps an
  * independent set and gives an orthonormal basis Q of V_d on the samples. From each column of Q its mean over each
  * orbit is taken away. The singular values of what is left are the sines of the angles between V_d and the functions
- * that are constant on orbits: 0 for an integral. A value is the root mean square of the variation of a function along
- * orbits, if the root mean square of the function itself is 1.
+ * that are constant on orbits: 0 for an integral. A value is the root mean square of the variation of a function
+ * along orbits, if the root mean square of the function itself is 1.
  *
  * Reflections gamma_i -> -gamma_i split V_d into eight parts, by the parity of a_i + b_i for i = 1, 2, 3. Integrals
  * can be chosen in one part each; the parts are searched one by one.
  *
- * Errors. A unit function has coefficients c in columns of unit length; samples have the relative error delta (of the
- * integration and of rounding), so its value has an error of about delta sum |c|. A value below its error, where the
- * error is below `within`, is an integral. A value above `within` and above its error is none. Others are doubtful:
- * so small a variation can be that of an integral of a neighbouring problem.
+ * Errors. A unit function has coefficients c in columns of unit length; samples have the relative error delta (of
+ * the integration and of rounding), so its value has an error of about delta sum |c|. A value below its error, where
+ * the error is below `within`, is an integral. A value above `within` and above its error is none. Others are
+ * doubtful: so small a variation can be that of an integral of a neighbouring problem.
  *
- * Where moments are nearly equal, functions of growing degree come ever closer to an integral: with moments 1 % apart
- * (k = 0.5) the smallest values of V_2, V_4, V_6 are 4e-6, 2e-10, 5e-14. An integral that is not known is therefore
- * believed only if it comes all at once.
+ * Where moments are nearly equal, functions of growing degree come ever closer to an integral: with moments 1 %
+ * apart (k = 0.5) the smallest values of V_2, V_4, V_6 are 4e-6, 2e-10, 5e-14. An integral that is not known is
+ * therefore believed only if it comes all at once.
  *
  * A search is evidence, no proof: it tells that no function of this space is constant on these orbits.
  */
