@@ -167,7 +167,8 @@ static double exponent_of(const iso_chaos *c, const iso_chaos_orbit *o)
 static void write_csv(const iso_chaos *c, FILE *to)
 {
     static const char *const names[] = {"ball", "point"};
-    fputs("# isoroll chaos 1\norbit,l,x,verdict", to);
+    fputs("# isoroll chaos 1\n# orbit 0: the scene's own; l and x are nan: it need not start on the section\n", to);
+    fputs("# nan elsewhere: not known, since the orbit was not followed\norbit,l,x,verdict", to);
     for (int m = 0; m < 2; m++)
         if (c->with[m])
             fprintf(to, ",%s_verdict,%s_turns,%s_exponent,%s_error,%s_megno,%s_gali2", names[m], names[m], names[m],

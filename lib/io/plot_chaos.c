@@ -136,7 +136,7 @@ static void put_chart(FILE *f, const char *title, int axis)
 iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *r)
 {
     static const char *const name[] = {[REGULAR] = "regular", [CHAOTIC] = "chaotic", [UNDECIDED] = "undecided"};
-    static const char *const mark[] = {[REGULAR] = "1:2 with points pt 7 lc rgb " ISO_PLOT_FAR_BLUE,
+    static const char *const mark[] = {[REGULAR] = ("1:2 with points pt 7 lc rgb " ISO_PLOT_FAR_BLUE),
                                        [CHAOTIC] = "1:2:3 with points pt 7 palette",
                                        [UNDECIDED] = "1:2 with points pt 2 lc rgb 'black'"};
     ISO_DEFAULT_ARITHMETIC;
@@ -148,7 +148,7 @@ iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *ti
     if (status != ISO_OK) return status;
     FILE *f = iso_gnuplot_script(g);
     size_t count[3];
-    for (int kind = REGULAR; kind <= UNDECIDED; kind++) count[kind] = put_spots(f, r, name[kind], kind);
+    for (int kind = REGULAR; kind <= UNDECIDED; kind++) count[kind] = put_spots(f, r, name[kind], (spot_kind)kind);
     put_chart(f, title, axis);
     if (count[CHAOTIC] == 0) fputs("unset colorbox\n", f);
     const char *before = "plot";

@@ -118,7 +118,7 @@ static void check_shares(void)
         const iso_scene scene = scene_of(family[j].k, family[j].J[0], family[j].J[1], family[j].J[2]);
         iso_chaos_options o = iso_chaos_defaults();
         iso_chaos *c;
-        o.starts = (size_t)tests_length(40, 2000);
+        o.starts = (size_t)tests_length(40, 400);
         must(iso_chaos_run(ctx, &scene, &o, &c), "starts");
         const iso_chaos_share *s = &c->share;
         gsl_test_int((int)s->count, (int)o.starts, "k = %g: starts", family[j].k);

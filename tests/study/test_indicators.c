@@ -186,7 +186,7 @@ static void check_exponent(iso_random *r)
 /* Next to a separatrix |d| changes by factors of up to 1e12 and grows like n on the average. */
 static void check_separatrix(iso_random *r)
 {
-    const int count = tests_length(300, 20000);
+    const int count = tests_length(300, 5000);
     int verdicts[3] = {0}, off = 0;
     for (int i = 0; i < count; i++) {
         const double mu = iso_random_uniform(r, 1.1, 3),
@@ -207,7 +207,7 @@ static void check_separatrix(iso_random *r)
 /* The chaotic sea, with the orbits that stick to islands for long. What is chaotic, a long run tells. */
 static void check_sea(iso_random *r, double K, double most_undecided)
 {
-    const int count = tests_length(150, 10000);
+    const int count = tests_length(150, 2500);
     const map m = {"standard", standard, K};
     int sea[3] = {0}, rest[3] = {0}, all = 0;
     for (int i = 0; i < count; i++) {

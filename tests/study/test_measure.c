@@ -167,7 +167,7 @@ static void wrong_exponents(void)
     found_out(iso_measure_returns, &scene, options_of(10000), 0.2);
     if (tests_length(0, 1) == 0) return;
     found_out(iso_measure_flow, &scene, options_of(1000000), 0.01);
-    found_out(iso_measure_returns, &scene, options_of(1000000), 0.01);
+    found_out(iso_measure_returns, &scene, options_of(100000), 0.1);
 }
 
 /* Its energy falls; a strong one is told by the directions as well. */
