@@ -1,4 +1,4 @@
-/* isoroll chaos - tells whether an orbit is chaotic, and which part of the section is. */
+/* isoroll chaos - tells whether an orbit is chaotic, and which part of the section is chaotic. */
 #include <math.h>
 #include <string.h>
 
@@ -18,21 +18,6 @@ typedef struct options {
     bool json;
 } options;
 
-static bool set_whole(void *at, const char *text)
-{
-    return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
-}
-
-static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
-{
-    *axis = ISO_AXIS_AUTO;
-    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
-    *axis = text[0] - '1';
-    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--axis '%s': an axis is 1, 2 or 3, or auto: the global section",
-                            text);
-}
-
 static void show(double part, void *unused)
 {
     (void)unused;
@@ -46,23 +31,28 @@ static void print_head(const iso_scene *scene, const iso_chaos *c)
     const double *J = scene->params.J;
     printf("k = %.15g, J = %.15g %.15g %.15g\n", scene->params.k, J[0], J[1], J[2]);
     if (c->axis < 0)
-        printf("a turn is a step of %.6g in t: there is no section n_a = 0 here\n", c->turn);
+        printf("a turn is a step of %.6g in t: no section n_a = 0 is known to be global here\n", c->turn);
     else
-        printf("a turn is a return to the section n_%d = 0, n_%d increasing%s\n", c->axis + 1, c->axis + 1,
-               c->global ? "" : ", which is not global");
+        printf("a turn is a return to the section n_%d = 0, n_%d increasing\n", c->axis + 1, c->axis + 1);
+    if (c->integral) printf("%s is a further integral: no orbit is chaotic\n", c->integral->name);
     printf("\nthis orbit: %s", iso_verdict_name(c->own.verdict));
     if (c->own.disagree) printf(": ball and point disagree");
-    printf("\n\n  model  verdict      turns     MEGNO   GALI_2    largest exponent per unit of\n"
-           "                                                   t                     tau                   s\n");
+    if (c->plane >= 0) {
+        printf("\n  it is the rotation about axis %d in a principal plane, which is periodic\n", c->plane + 1);
+        return;
+    }
+    printf(
+        "\n\n%47s largest exponent per unit of\n  model  verdict      turns     MEGNO   GALI_2  %18s  %18s  %18s\n",
+        "", "t", "tau", "s");
 }
 
-/* x +- error, in 21 columns */
+/* x +- error, in 20 columns */
 static void print_rate(double x, double error)
 {
     if (isnan(x) || isnan(error))
-        printf("  %-20s", "-");
+        printf("  %18s", "-");
     else
-        printf("  %10.3e +- %-7.0e", x, error);
+        printf("  %9.2e +- %5.0e", x, error);
 }
 
 static void print_model(const iso_chaos *c, int model)
@@ -94,16 +84,16 @@ static void print_share(const iso_chaos_share *s)
            "  undecided  %8.4f   (%zu)\n",
            s->count, s->share, s->chaotic, s->low, s->high, (double)s->regular / (double)s->count, s->regular,
            (double)s->undecided / (double)s->count, s->undecided);
-    if (s->disagree > 0) printf("  of the undecided, ball and point disagree about %zu\n", s->disagree);
-    if (s->failed > 0) printf("  of the undecided, %zu could not be followed to the end\n", s->failed);
+    if (s->disagree > 0) printf("  of the undecided: ball and point disagree about %zu\n", s->disagree);
+    if (s->failed > 0) printf("  of the undecided: %zu could not be followed to the end\n", s->failed);
 }
 
 static void print_table(const iso_scene *scene, const iso_chaos *c)
 {
     print_head(scene, c);
-    for (int m = 0; m < 2; m++) print_model(c, m);
-    if (c->own.verdict == ISO_REGULAR)
-        printf("  a regular orbit has the exponents 0: what is shown falls like 1/turns\n");
+    for (int m = 0; m < 2 && c->plane < 0; m++) print_model(c, m);
+    if (c->plane < 0 && c->own.verdict == ISO_REGULAR)
+        printf("  the exponents of a regular orbit are 0: these estimates fall like 1/turns\n");
     print_agreement(c);
     print_share(&c->share);
 }
@@ -150,20 +140,20 @@ static long turns_of(const iso_chaos *c)
 static bool print_json(const iso_scene *scene, const iso_chaos *c)
 {
     const iso_params *p = &scene->params;
-    json_t *section =
-        c->axis < 0 ? json_null() : json_pack("{s:i, s:b}", "axis", c->axis + 1, "global", (int)c->global);
-    json_t *o = json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:b, s:I, s:o, s:o}", "isoroll", iso_version(), "k",
-                          json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]),
-                          "section", section, "turn", json_number(c->turn), "verdict",
-                          iso_verdict_name(c->own.verdict), "disagree", (int)c->own.disagree, "turns",
-                          (json_int_t)turns_of(c), "ball", model_of(c, ISO_BALL), "point", model_of(c, ISO_POINT));
+    json_t *section = c->axis < 0 ? json_null() : json_pack("{s:i}", "axis", c->axis + 1);
+    json_t *o =
+        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s?, s:s, s:b, s:I, s:o, s:o}", "isoroll", iso_version(), "k",
+                  json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]), "section",
+                  section, "turn", json_number(c->turn), "integral", c->integral ? c->integral->name : NULL,
+                  "verdict", iso_verdict_name(c->own.verdict), "disagree", (int)c->own.disagree, "turns",
+                  (json_int_t)turns_of(c), "ball", model_of(c, ISO_BALL), "point", model_of(c, ISO_POINT));
     if (o && c->share.count > 0) json_object_set_new(o, "share", share_of(&c->share));
     return json_print(o);
 }
 
 /* --- files ------------------------------------------------------------------------------------------------------ */
 
-/* Per turn, by the first model that tells it; regular: 0; undecided: NaN. */
+/* The exponent per turn, from the first model whose verdict is that of the orbit; regular: 0; undecided: NaN. */
 static double exponent_of(const iso_chaos *c, const iso_chaos_orbit *o)
 {
     if (o->verdict == ISO_REGULAR) return 0;
@@ -248,7 +238,10 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
         write_csv(c, iso_output_stream(csv));
         result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
     }
-    if (o->plot) result = worse(result, finish(ctx, draw(ctx, o, scene, c)));
+    if (o->plot && c->plane >= 0 && c->share.count == 0)
+        complain("no picture: a rotation in a principal plane is periodic, and was not followed");
+    else if (o->plot)
+        result = worse(result, finish(ctx, draw(ctx, o, scene, c)));
     return result;
 }
 
@@ -259,7 +252,7 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     *how = iso_chaos_defaults();
     if (o->csv && strcmp(o->csv, "-") == 0 && o->json)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
-                                "chaos: standard output has room for one: choose --csv - or --json");
+                                "chaos: standard output has room for one of --csv - and --json");
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = read_axis(ctx, o->axis, &how->axis);
     how->turns = (long)o->turns;
@@ -288,7 +281,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
     int result = finish_scene(ctx, &o->scene, &scene, status);
-    if (status == ISO_STOPPED) complain("interrupted: what is not decided yet counts as undecided");
+    if (status == ISO_STOPPED) complain("interrupted: orbits without a verdict so far count as undecided");
     if (c)
         result = worse(result, report(ctx, o, &scene, c, csv));
     else
@@ -301,17 +294,19 @@ static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .turns = 3000, .m
 
 static const option_row rows[] = {
     ROW("turns", "N", "a whole number from 1 on",
-        "most turns of each orbit (default 3000); fewer where it is decided", set_count, options, turns),
+        "follow each orbit for at most N turns (default 3000); it ends earlier once there is a verdict", set_count,
+        options, turns),
     ROW("starts", "M", "a whole number from 0 on",
-        "M more orbits of the same energy, spread evenly over the section: which part of it is chaotic", set_whole,
-        options, starts),
-    ROW("seed", "N", "a whole number from 0 on", "another spreading of --starts (default 0)", set_whole, options,
-        seed),
+        "M more orbits of the same energy, spread evenly over the section: tells which part of it is chaotic",
+        set_whole, options, starts),
+    ROW("seed", "N", "a whole number from 0 on", "another number spreads --starts in another way (default 0)",
+        set_whole, options, seed),
     ROW_OF_WORDS("model", "M", "ball, point or both",
                  "which model is integrated (default: both, where the ball has a twin)", set_as, options, models,
                  as_word),
-    ROW("axis", "A", "auto, 1, 2 or 3", "the section n_A = 0, n_A increasing; auto (default): the global one",
-        set_text, options, axis),
+    ROW("axis", "A", "auto, 1, 2 or 3",
+        "a turn is a return to n_A = 0, n_A increasing, which must be global; auto (default): one that is", set_text,
+        options, axis),
     ROW_TOLERANCE(options, scene),
     {.name = "threads",
      .argument = "N",
@@ -330,24 +325,25 @@ static const option_row rows[] = {
 const command command_chaos = {
     .name = "chaos",
     .argument = "SCENE",
-    .doc = "tell whether an orbit is chaotic, and which part of the section is",
+    .doc = "tell whether an orbit is chaotic, and which part of the section is chaotic",
     .rows = rows,
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
     .description =
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
-        "regular, chaotic, or undecided after --turns. The indicators are the largest exponent per unit of t, tau "
-        "and "
-        "s with its standard error, MEGNO (2 on regular orbits, 0 where all orbits turn equally fast) and GALI_2. "
-        "Each model is integrated by itself. The scene's times and its solver are not read, except the "
-        "tolerance.\n\n"
-        "With --starts, other orbits of the same energy begin evenly spread over the section. The part of them that "
-        "is chaotic is told with its interval of 95 %.\n\n"
-        "--plot draws the indicators over the turns; with --starts it draws the section, coloured by exponent. After "
-        "Ctrl-C, what is known is printed.\n\n"
-        "Effects that keep the energy, such as gravity, are allowed. Effects that take energy are not: such a motion "
-        "comes to rest.",
+        "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0; where none "
+        "is known, it is a step of the time t. The indicators are MEGNO, GALI_2, and the largest exponent with its "
+        "standard error, per unit of t, tau and s. MEGNO is 2 on regular orbits, or 0 if all neighbours turn "
+        "equally fast; on chaotic orbits it grows. GALI_2 is the sine of the angle between the deviations; on "
+        "chaotic orbits it falls exponentially. Each model is integrated by itself. Of the scene's times and "
+        "solver, only the tolerance is read.\n\n"
+        "With --starts, M more orbits of the same energy start on the section, spread evenly. The part of them "
+        "that is chaotic is printed with its confidence interval of 95 %.\n\n"
+        "--plot draws the indicators against the number of turns. With --starts it draws the section, coloured by "
+        "exponent. After Ctrl-C, what is known so far is printed.\n\n"
+        "Effects that keep the energy, such as gravity, are allowed. Effects that take energy are refused: such a "
+        "motion comes to rest.",
     .example = "isoroll chaos scene.yaml --starts 1000 --plot chaos.png",
     .exits = "1: interrupted, or some orbits were not followed to the end\n"
              "4: the computation failed, or no memory",

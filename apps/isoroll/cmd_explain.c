@@ -70,7 +70,7 @@ static void explain_map(const iso_params *p, const iso_orbit *orbit)
     printf("\n");
 }
 
-/* Which Poincare section is global for this orbit, `isoroll section`. */
+/* Says which Poincare section (`isoroll section`) is global for this orbit. */
 static void explain_section(const iso_orbit *orbit)
 {
     const iso_section_nature n = iso_section_of(orbit, ISO_AXIS_AUTO);

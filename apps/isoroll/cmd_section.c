@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "io/plot.h"
 #include "scene_options.h"
+#include "section_cloud.h"
 #include "section_plot.h"
 #include "study/section.h"
 
@@ -18,6 +19,7 @@ typedef struct options {
     const char *axis, *event, *output, *plot; /* NULL: not given                */
     const char *at[MOST_AT + 1];              /* as they were typed, then NULL  */
     double crossings, starts, seed, threads;
+    double cloud;     /* 0: not given                  */
     iso_shown models; /* ISO_SHOW_START: not given      */
     bool quiet;
 } options;
@@ -26,17 +28,12 @@ typedef struct options {
 typedef struct target {
     iso_context *ctx;
     const options *o;
-    bool opened; /* what goes wrong from here on is no mistake in the scene */
+    bool opened; /* from here on, an error is no mistake in the scene */
     iso_trajectory_writer *writer;
     section_picture *picture; /* NULL: none is drawn */
 } target;
 
 /* --- what is typed ---------------------------------------------------------------------------------------------- */
-
-static bool set_whole(void *at, const char *text)
-{
-    return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
-}
 
 /* One more --at. */
 static bool set_at(void *at, const char *text)
@@ -47,16 +44,6 @@ static bool set_at(void *at, const char *text)
     if (i == MOST_AT) return false;
     list[i] = text;
     return *text != '\0';
-}
-
-static iso_status read_axis(iso_context *ctx, const char *text, int *axis)
-{
-    *axis = ISO_AXIS_AUTO;
-    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
-    *axis = text[0] - '1';
-    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--axis '%s': an axis is 1, 2 or 3, or auto: the global section",
-                            text);
 }
 
 /* Points l,x with semicolons between. */
@@ -96,6 +83,21 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
                             name);
 }
 
+/* --cloud writes no rows and draws no picture. Refuses options that ask for them. */
+static iso_status check_cloud(iso_context *ctx, const options *o)
+{
+    const char *lost = strcmp(o->output, "-") != 0        ? "--output"
+                       : o->plot                          ? "--plot"
+                       : o->event                         ? "--event"
+                       : o->at[0]                         ? "--at"
+                       : o->starts > 0                    ? "--starts"
+                       : (int)o->models != ISO_SHOW_START ? "--model"
+                       : (int)o->scene.as >= 0            ? "--as"
+                                                          : NULL;
+    if (o->cloud == 0 || !lost) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --cloud takes no %s: it only prints the test", lost);
+}
+
 /* `at` is the caller's to free. */
 static iso_status read_options(iso_context *ctx, const options *o, iso_section_options *how, double (**at)[2])
 {
@@ -116,7 +118,7 @@ static iso_status read_options(iso_context *ctx, const options *o, iso_section_o
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "section: --axis or --event, not both");
     if (status == ISO_OK && o->plot && how->column >= 0 && !iso_section_is_of_axis(how->column, how->value, &axis))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                "--plot draws sections n_A = 0; an event has no coordinates to be drawn in");
+                                "--plot draws sections n_A = 0: an event has no coordinates l, x");
     return status;
 }
 
@@ -171,11 +173,12 @@ static void tell_both(const iso_section_result *r)
         complain("ball and point, each by itself: %zu and %zu crossings; %zu orbits have different numbers",
                  r->crossings[ISO_BALL], r->crossings[ISO_POINT], r->unequal);
     if (r->distance > 0)
-        complain("largest distance of the two%s: %.2g, at orbit %zu, crossing %zu",
-                 r->nature.axis < 0 ? "" : " in (l, x)", r->distance, r->distance_orbit, r->distance_crossing);
+        complain("largest distance of the two%s, where they do not part: %.2g, at orbit %zu, crossing %zu",
+                 r->nature.axis < 0 ? " in t, by the mean time between crossings" : " in (l, x)", r->distance,
+                 r->distance_orbit, r->distance_crossing);
     if (r->parted > 0)
-        complain("%zu of %zu orbits part (distance above %g): their rounding errors grow, as in chaos; the first is "
-                 "orbit %zu, at crossing %zu",
+        complain("%zu of %zu orbits part (distance above %g): their rounding errors grow, as on chaotic orbits; the "
+                 "first is orbit %zu, at crossing %zu",
                  r->parted, r->orbits, ISO_SECTION_PARTED, r->parted_orbit, r->parted_crossing);
 }
 
@@ -186,9 +189,38 @@ static void tell(const iso_section_result *r)
     if (r->models == ISO_SHOW_BOTH) tell_both(r);
 }
 
+/* --- the picture ------------------------------------------------------------------------------------------------ */
+
+/* Finds out which of the orbits are chaotic: the picture draws these in grey. If there are more than MOST_ORBITS, or
+ * if this fails, the picture draws those in grey on which the models part. */
+static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_options *how,
+                  const iso_section_result *r, section_picture *picture)
+{
+    enum { MOST_ORBITS = 3000 };
+    iso_chaos *chaos = NULL;
+    iso_chaos_options c = iso_chaos_defaults();
+    c.starts = how->starts;
+    c.seed = how->seed;
+    c.at = how->at;
+    c.at_count = how->at_count;
+    c.models = r->models == ISO_SHOW_BOTH ? ISO_SHOW_BALL : r->models;
+    c.axis = r->nature.axis;
+    c.tolerance = how->tolerance;
+    c.threads = how->threads;
+    if (r->orbits > MOST_ORBITS) return;
+    if (iso_chaos_run(ctx, scene, &c, &chaos) == ISO_OK) section_picture_judge(picture, chaos);
+    iso_chaos_free(chaos);
+}
+
+static int draw(target *t, const iso_scene *scene, const iso_section_options *how, const iso_section_result *r)
+{
+    if (!interrupted()) judge(t->ctx, scene, how, r, t->picture);
+    return finish(t->ctx, section_picture_draw(t->ctx, t->picture, t->o->plot));
+}
+
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
-/* Ends the file with all rows there are. */
+/* Closes the file. It keeps all rows that were written. */
 static int close_file(const target *t, iso_status status, const iso_section_result *r)
 {
     const bool keep = r->rows > 0 && status != ISO_FILE_TROUBLE && status != ISO_CLOSED_PIPE;
@@ -217,12 +249,12 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     const iso_status status = o->plot && !t.picture
                                   ? iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture")
                                   : iso_section_run(ctx, scene, how, &sink, &r);
-    iso_context_set_monitor(ctx, NULL, NULL);
     int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, &o->scene, scene, status);
     if (t.opened && o->plot && r.rows > 0 && result <= EXIT_SOME_FAILED) {
-        const int drawn = finish(ctx, section_picture_draw(ctx, t.picture, o->plot));
+        const int drawn = draw(&t, scene, how, &r);
         if (drawn != EXIT_DONE) result = drawn;
     }
+    iso_context_set_monitor(ctx, NULL, NULL);
     section_picture_free(t.picture);
     return result;
 }
@@ -233,10 +265,15 @@ static int run(iso_context *ctx, const void *options_given)
     iso_scene scene = {.places = 0};
     iso_section_options how;
     double(*at)[2] = NULL;
-    iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
+    iso_status status = check_cloud(ctx, o);
+    if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK) status = read_options(ctx, o, &how, &at);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, &scene);
-    const int result = status == ISO_OK ? run_scene(ctx, o, &scene, &how) : finish(ctx, status);
+    int result = finish(ctx, status);
+    if (status == ISO_OK && o->cloud > 0)
+        result = section_cloud(ctx, &o->scene, &scene, &how, o->cloud);
+    else if (status == ISO_OK)
+        result = run_scene(ctx, o, &scene, &how);
     free(at);
     return result;
 }
@@ -248,21 +285,24 @@ static const option_row rows[] = {
     ROW_OUTPUT(options, output),
     ROW("crossings", "N", "a whole number from 1 on", "crossings of each orbit (default 500)", set_count, options,
         crossings),
-    ROW("axis", "A", "auto, 1, 2 or 3", "the section n_A = 0, n_A increasing; auto (default): the global one",
+    ROW("axis", "A", "auto, 1, 2 or 3", "which section n_A = 0, n_A increasing; auto (default): a global one",
         set_text, options, axis),
-    ROW("event", "COLUMN=VALUE", "COLUMN=VALUE", "in its place: where a column passes a value, upwards", set_text,
-        options, event),
+    ROW("event", "COLUMN=VALUE", "COLUMN=VALUE",
+        "in place of --axis: crossings where this column passes this value upwards", set_text, options, event),
     ROW("starts", "M", "a whole number from 0 on", "M more orbits of the same energy, spread evenly over the section",
         set_whole, options, starts),
-    ROW("seed", "N", "a whole number from 0 on", "another spreading of --starts (default 0)", set_whole, options,
-        seed),
-    ROW("at", "L,X", "l,x, at most 64 times", "an orbit that starts at (l, x); several: L,X;L,X or --at again",
-        set_at, options, at),
+    ROW("seed", "N", "a whole number from 0 on", "another number spreads --starts in another way (default 0)",
+        set_whole, options, seed),
+    ROW("at", "L,X", "l,x, at most 64 times",
+        "one more orbit, which starts at (l, x); for several: L,X;L,X or --at again", set_at, options, at),
+    ROW("cloud", "N", "a whole number from 1 on",
+        "write no crossings: test with N states, 512 or more, whether the flow keeps the invariant measure",
+        set_count, options, cloud),
     ROW_OF_WORDS("model", "M", "ball, point or both",
                  "which model is integrated (default: both, where the ball has a twin)", set_as, options, models,
                  as_word),
-    ROW_OF_WORDS("as", "WHAT", "ball, point or both", "adds the states of a model: ball, point, both", set_as,
-                 options, scene.as, as_word),
+    ROW_OF_WORDS("as", "WHAT", "ball, point or both", "add the states of a model to each row: ball, point, both",
+                 set_as, options, scene.as, as_word),
     ROW_PLOT(options, plot),
     ROW_TOLERANCE(options, scene),
     {.name = "threads",
@@ -285,20 +325,29 @@ const command command_section = {
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
     .description =
-        "Follows orbits and writes each crossing of the section n_A = 0, n_A increasing, which is the same for ball "
-        "and point: orbit, crossing (from 1), t, tau, s, and the coordinates l and x of the section. Orbit 0 is the "
-        "scene's own, then come those of --starts, then those of --at. A start on the section is no crossing. The "
-        "scene's times and its solver are not read, except the tolerance.\n\n"
+        "Follows orbits and writes a row for each crossing of the section n_A = 0, n_A increasing. The section is "
+        "the same for ball and point. A row has the number of the orbit, the number of the crossing (from 1), t, "
+        "tau, s, and the coordinates l and x of the section. Orbit 0 is the scene's own. Then come those of "
+        "--starts, then those of --at. A start on the section is no crossing. Of the scene's times and solver, "
+        "only the tolerance is read.\n\n"
         "l is in (-pi, pi]. x is between -1 and 1; the boundary is the rotation about axis A. The return map keeps "
-        "the "
-        "area dL dl, where L = G(l) x is the point's momentum about axis A; --starts are spread evenly by it.\n\n"
-        "With --model both, each model is integrated by itself. The rows are the ball's; stderr tells how far the "
-        "point's are from them, and which orbits part, as chaotic ones do.\n\n"
-        "Every return of a free orbit is held to bounds of its length in s. So no crossing can be skipped unseen.\n\n"
-        "--plot draws the sections of both models side by side.\n\n"
+        "the area dL dl, where L = G(l) x is the point's momentum about axis A. --starts are spread evenly by this "
+        "area.\n\n"
+        "With --model both, each model is integrated by itself. The rows are the ball's. stderr tells the largest "
+        "distance between the crossings of both models, and how many orbits part: on chaotic orbits the rounding "
+        "errors of the models grow until they part.\n\n"
+        "Crossings of a free orbit are searched in pieces of its path that are too short for two zeros of n_A: none "
+        "is skipped. In addition, the length in s of each return is checked against bounds. A return outside them "
+        "is an error.\n\n"
+        "--plot draws the sections of both models side by side, each orbit in one colour, chaotic orbits in grey.\n\n"
+        "--cloud N makes clouds of N states that are distributed by the invariant measure (10) at the scene's "
+        "energy. One cloud is carried by the flow in equal times t, one in equal times s, and one by returns to "
+        "the section, where the measure is dL dl. Then each cloud is tested against the measure. Its line has p, "
+        "the probability that a measure that is kept deviates by chance as much as this, and the error of the "
+        "exponent in (10) that this test would detect.\n\n"
         "After Ctrl-C, the rows computed so far are kept.",
     .example = "isoroll section scene.yaml --starts 100 -o section.csv --plot section.png",
-    .exits = "1: interrupted, or some orbits did not get to the end\n"
+    .exits = "1: interrupted, some orbits did not get to the end, or a cloud does not keep the measure\n"
              "4: the computation failed before the first crossing",
     .run = run,
 };

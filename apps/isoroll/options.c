@@ -40,12 +40,18 @@ bool set_positive(void *at, const char *text)
 
 bool set_count(void *at, const char *text)
 {
-    return set_number(at, text) && *(double *)at >= 1 && *(double *)at == floor(*(double *)at);
+    return set_number(at, text) && *(double *)at >= 1 && *(double *)at == floor(*(double *)at) &&
+           *(double *)at < 9e15;
 }
 
 bool set_bound(void *at, const char *text)
 {
     return set_number(at, text) && *(double *)at >= 0;
+}
+
+bool set_whole(void *at, const char *text)
+{
+    return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
 }
 
 bool set_vector(void *at, const char *text)

@@ -45,6 +45,7 @@ bool set_flag(void *at, const char *text);      /* bool                         
 bool set_number(void *at, const char *text);    /* double, finite                       */
 bool set_positive(void *at, const char *text);  /* double, > 0                          */
 bool set_bound(void *at, const char *text);     /* double, >= 0                         */
+bool set_whole(void *at, const char *text);     /* double, a whole number from 0 on     */
 bool set_count(void *at, const char *text);     /* double, a whole number from 1 on     */
 bool set_tolerance(void *at, const char *text); /* double, as the methods take it       */
 bool set_vector(void *at, const char *text);    /* double[3], three numbers and commas  */

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "orbit/crossings.h"
+
 /* What an option says does not stand in the file. Of end and step, a wrong one may be due to the other. */
 static void forget_places(const scene_options *o, iso_scene *scene)
 {
@@ -31,6 +33,16 @@ int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scen
 {
     const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
     return finish(ctx, iso_scene_blame(ctx, scene, name, status));
+}
+
+iso_status read_axis(iso_context *ctx, const char *text, int *axis)
+{
+    *axis = ISO_AXIS_AUTO;
+    if (!text || strcmp(text, "auto") == 0) return ISO_OK;
+    *axis = text[0] - '1';
+    if (strlen(text) == 1 && *axis >= 0 && *axis < 3) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--axis '%s': an axis is 1, 2 or 3, or auto: the global section",
+                            text);
 }
 
 bool not_interrupted(void *unused)

@@ -17,12 +17,12 @@ typedef struct scene_options {
 
 #define SCENE_OPTIONS_UNSET                                                                                          \
     {                                                                                                                \
-        .file = "-", .backend = (iso_backend)-1, .as = (iso_shown)-1, .tolerance = NAN, .end = NAN, .step = NAN    \
+        .file = "-", .backend = (iso_backend)-1, .as = (iso_shown)-1, .tolerance = NAN, .end = NAN, .step = NAN      \
     }
 
 /* Rows of these; `scene` is the place of a scene_options in the struct `type`. */
 #define ROW_BACKEND(type, scene)                                                                                     \
-    ROW_OF_WORDS("backend", "B", "ball, point, exact or auto", "what computes the orbit: ball, point, exact, auto", \
+    ROW_OF_WORDS("backend", "B", "ball, point, exact or auto", "what computes the orbit: ball, point, exact, auto",  \
                  set_backend, type, scene.backend, backend_word)
 #define ROW_METHOD(type, scene)                                                                                      \
     ROW_OF_WORDS("method", "NAME", "a method of 'isoroll list methods', or auto", "the integrator, or auto",         \
@@ -45,6 +45,9 @@ iso_status scene_with_options(iso_context *ctx, const scene_options *o, iso_scen
 /* As finish(), after a failure with the scene: says where in its file the cause stands, unless an option put it
  * there. */
 int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scene, iso_status status);
+
+/* An axis as typed: 1, 2 or 3 becomes 0 to 2; auto or NULL ISO_AXIS_AUTO. Errors: ISO_BAD_INPUT. */
+iso_status read_axis(iso_context *ctx, const char *text, int *axis);
 
 /* Prints the effects that act, with their numbers and, if wanted, what they are. Prints nothing where none acts. */
 void print_effects(const iso_effects *effects, bool docs);

@@ -10,13 +10,13 @@
 #include "orbit/crossings.h"
 #include "study/section.h"
 
-/* Points of a picture: what can be seen in a .png, and what a .svg can hold. */
+/* The most points in a picture: more cannot be seen in a .png, and would make a .svg too large. */
 enum { MOST = 200000, MOST_IN_SVG = 40000 };
 
 struct section_picture {
     const iso_scene *scene;
     double eps;
-    int axis, l, x; /* -1: none; columns of the rows             */
+    int axis, l, x; /* axis: -1: none. l, x: columns of the rows */
     uint64_t rows;  /* that came so far                          */
     uint64_t limit; /* rows whose hash is below it are kept      */
     bool last_kept;
@@ -25,7 +25,8 @@ struct section_picture {
     uint64_t *hash;
     double (*ball)[2], (*point)[2];
     size_t grey_room;
-    bool *grey; /* of each orbit: ball and point have parted */
+    bool *grey;  /* of each orbit: ball and point have parted, or ... */
+    bool judged; /* ... a verdict says that it is chaotic             */
 };
 
 section_picture *section_picture_create(const iso_scene *scene)
@@ -59,10 +60,11 @@ void section_picture_begin(section_picture *p, const iso_record *header)
     p->l = iso_record_find(header, "l");
     p->x = iso_record_find(header, "x");
     p->axis = axis && p->l >= 0 ? axis[0] - '1' : -1;
-    p->eps = eps ? strtod(eps, NULL) : 1;
+    p->eps = eps && !iso_record_get(header, "effects") ? strtod(eps, NULL) : 0; /* with effects L is not G(l) x */
 }
 
-/* Numbers without a pattern: every second row of an orbit that swings between two islands would show one of them. */
+/* Numbers without a pattern, which choose the rows that are kept. If every second row were kept, an orbit that jumps
+ * between two islands would show only one of them. */
 static uint64_t hash_of(uint64_t i)
 {
     i = (i + 1) * UINT64_C(0x9E3779B97F4A7C15);
@@ -70,7 +72,7 @@ static uint64_t hash_of(uint64_t i)
     return i ^ i >> 31;
 }
 
-/* Keeps only the rows below a limit. */
+/* Keeps only the rows whose hash is below a limit. */
 static void thin_out(section_picture *p, uint64_t limit)
 {
     size_t kept = 0;
@@ -124,16 +126,27 @@ void section_picture_pair(section_picture *p, const iso_crossing *ball, const is
     p->point[p->count - 1][1] = point->x;
 }
 
+void section_picture_judge(section_picture *p, const iso_chaos *chaos)
+{
+    for (size_t i = 0; i < p->orbits; i++) {
+        const bool known = i == 0 || i <= chaos->starts;
+        const iso_verdict verdict = !known   ? ISO_UNDECIDED
+                                    : i == 0 ? chaos->own.verdict
+                                             : chaos->start[i - 1].verdict;
+        p->grey[i] = verdict == ISO_CHAOTIC;
+    }
+    p->judged = true;
+}
+
 iso_status section_picture_draw(iso_context *ctx, const section_picture *p, const char *path)
 {
     const double *J = p->scene->params.J;
     const size_t length = strlen(path),
                  most = length > 4 && strcmp(path + length - 4, ".png") == 0 ? MOST : MOST_IN_SVG;
-    section_picture drawn = *p; /* its arrays are p's: what is left out stays behind the end */
+    section_picture drawn = *p; /* its arrays are those of p, and thinning out overwrites them */
     char title[160];
     bool any = false;
-    if (p->axis < 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--plot: an event has no coordinates l, x to be drawn in");
+    if (p->axis < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--plot: an event has no coordinates l, x");
     while (drawn.count > most) thin_out(&drawn, drawn.limit / 2);
     for (size_t i = 0; i < p->orbits; i++) any = any || p->grey[i];
     snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g: %zu orbit%s", p->scene->params.k, J[0], J[1], J[2],
@@ -148,6 +161,8 @@ iso_status section_picture_draw(iso_context *ctx, const section_picture *p, cons
                                       .point = (const double(*)[2])p->point,
                                       .orbits = p->orbits,
                                       .grey = p->grey,
-                                      .grey_means = any ? "ball and point part: chaotic" : NULL};
+                                      .grey_means = !any        ? NULL
+                                                    : p->judged ? "chaotic"
+                                                                : "ball and point part: chaotic"};
     return iso_plot_sections(ctx, path, &section);
 }

@@ -3,7 +3,7 @@
 #define ISOROLL_SECTION_PLOT_H
 
 #include "isoroll.h"
-#include "orbit/crossings.h"
+#include "study/chaos.h"
 
 typedef struct section_picture section_picture;
 
@@ -11,14 +11,18 @@ typedef struct section_picture section_picture;
 section_picture *section_picture_create(const iso_scene *scene);
 void section_picture_free(section_picture *p);
 
-/* The header of the rows, then each row. Of very many rows only a part is kept, chosen evenly. False: no memory. */
+/* Takes the header of the rows, then each row. Of very many rows only an even choice is kept. False: no memory. */
 void section_picture_begin(section_picture *p, const iso_record *header);
 bool section_picture_row(section_picture *p, const double row[]);
 
-/* Of the last row: the same crossing by the point. */
+/* Takes the crossing of the last row by both models. */
 void section_picture_pair(section_picture *p, const iso_crossing *ball, const iso_crossing *point);
 
-/* Draws it. Errors: ISO_BAD_INPUT where the section is an event, which has no coordinates; those of
+/* Tells which orbits are chaotic, by their numbers in the rows: these are drawn in grey. Without this call, the
+ * orbits on which the two models part are drawn in grey. */
+void section_picture_judge(section_picture *p, const iso_chaos *chaos);
+
+/* Draws the picture. Errors: ISO_BAD_INPUT if the section is an event, which has no coordinates; those of
  * iso_plot_sections. */
 iso_status section_picture_draw(iso_context *ctx, const section_picture *p, const char *path);
 

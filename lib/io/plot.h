@@ -71,14 +71,15 @@ ISO_API iso_status iso_plot_momentum(iso_context *ctx, const char *path, const i
 ISO_API iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis,
                                   const iso_record *lines);
 
-/* How the indicators of chaos went: columns turn, t, growth, megno, mean and gali2, as iso_chaos has them. Above ln D,
- * below on the left MEGNO and its mean, on the right GALI_2. A record that is NULL or empty is left out.
+/* The indicators of chaos against the turns. The records have the columns turn, t, growth, megno, mean and gali2, as
+ * in iso_chaos. Above: ln D. Below: MEGNO and its mean on the left, GALI_2 on the right. A record that is NULL or
+ * empty is left out.
  * Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_indicators(iso_context *ctx, const char *path, const char *title, const iso_record *ball,
                                        const iso_record *point);
 
-/* The section n_axis = 0 (0 to 2), one spot for each row of the columns l, x, and exponent: > 0 chaotic, 0 regular,
- * NaN undecided. Errors: as iso_plot_momentum. */
+/* The section n_axis = 0 (axis: 0 to 2), with one spot for each row. The columns are l, x and exponent: > 0 chaotic,
+ * 0 regular, NaN undecided. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis,
                                       const iso_record *spots);
 
@@ -114,7 +115,7 @@ ISO_API iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_p
 typedef struct iso_plot_section {
     const char *title;        /* one line, any characters; NULL: none                                          */
     const iso_params *params;
-    double eps;               /* the coupling, > 0: it gives the scale of L                                    */
+    double eps;               /* the coupling, > 0, if the orbits are free; 0: x is drawn in place of L        */
     int axis;                 /* a, 0 to 2                                                                     */
     size_t count;             /* crossings, 1 or more                                                          */
     const uint32_t *orbit;    /* of each: the orbit it belongs to                                              */
@@ -122,12 +123,11 @@ typedef struct iso_plot_section {
     const double (*point)[2]; /* ... and by the point; the same array where there is only one                  */
     size_t orbits;
     const bool *grey;         /* of each orbit: it is drawn in grey, behind the others; NULL: none             */
-    const char *grey_means;   /* in the key, "chaotic"; NULL: there is no key                                  */
+    const char *grey_means;   /* what the key says of grey, such as "chaotic"; NULL: there is no key           */
 } iso_plot_section;
 
-/* On the left the ball's section: the direction of n, an angle in the plane n_a = 0, and that of omega,
- * omega_a/|omega|, fill a rectangle. On the right the point's: l and L = M_a, between the boundaries +-G(l). One
- * colour for each orbit.
+/* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that
+ * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l). Each orbit has one colour.
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis or orbit), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 

@@ -1,4 +1,5 @@
-/* plot_chaos.c - pictures of chaos: how the indicators of an orbit went, and the section coloured by exponent. */
+/* plot_chaos.c - pictures of chaos: the indicators of an orbit against the turns, and the section coloured by
+ * exponent. */
 #include <math.h>
 
 #include "base/arithmetic_impl.h"
@@ -21,7 +22,7 @@ static bool has_rows(const iso_record *r)
     return r && iso_record_rows(r) > 0;
 }
 
-/* A block of the columns of a model. Logarithmic axes begin at 1e-17. */
+/* A block with the columns of a model. Values on logarithmic axes are at least 1e-17. */
 static void put_trace(FILE *f, const char *name, const iso_record *r)
 {
     const size_t rows = has_rows(r) ? iso_record_rows(r) : 0, step = rows / ISO_PLOT_ROWS + 1;
@@ -102,7 +103,7 @@ static spot_kind kind_of(const double *row)
     return isnan(row[2]) ? UNDECIDED : row[2] > 0 ? CHAOTIC : REGULAR;
 }
 
-/* The spots of one kind; gives their number. */
+/* Writes the spots of one kind. Gives their number. */
 static size_t put_spots(FILE *f, const iso_record *r, const char *name, spot_kind kind)
 {
     size_t count = 0;
@@ -117,19 +118,8 @@ static size_t put_spots(FILE *f, const iso_record *r, const char *name, spot_kin
     return count;
 }
 
-iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *r)
+static void put_chart(FILE *f, const char *title, int axis)
 {
-    ISO_DEFAULT_ARITHMETIC;
-    iso_gnuplot *g;
-    if (!has_rows(r) || iso_record_columns(r) != 3 || axis < 0 || axis > 2)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "a picture of exponents needs a record with three columns and at least one row");
-    iso_status status = iso_gnuplot_open(ctx, path, WIDTH, SECTION_HEIGHT, &g);
-    if (status != ISO_OK) return status;
-    FILE *f = iso_gnuplot_script(g);
-    const size_t regular = put_spots(f, r, "regular", REGULAR), chaotic = put_spots(f, r, "chaotic", CHAOTIC),
-                 undecided = put_spots(f, r, "undecided", UNDECIDED);
-    const double size = fmin(fmax(30 / sqrt((double)iso_record_rows(r)), 0.12), 1.6);
     const int b = (axis + 1) % 3 + 1, c = (axis + 2) % 3 + 1;
     fputs("set border 15 lw 0.8 lc rgb '#606060'; set tics out scale 0.6 nomirror\nset title ", f);
     iso_gnuplot_text(f, title ? title : "", 110);
@@ -141,25 +131,33 @@ iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *ti
             "set palette defined (0 '#F7E3B0', 0.5 '#E69F00', 1 '#8B1A00')\n"
             "set key outside bottom center horizontal samplen 1\n",
             b, c, axis + 1);
-    if (chaotic == 0) fputs("unset colorbox\n", f);
-    fputs("plot ", f);
-    const char *comma = "";
-    if (regular > 0) {
-        fputs("$regular using 1:2 with points pt 7 ps ", f);
-        iso_gnuplot_number(f, size);
-        fputs(" lc rgb " ISO_PLOT_FAR_BLUE " title 'regular'", f);
-        comma = ", ";
-    }
-    if (chaotic > 0) {
-        fprintf(f, "%s$chaotic using 1:2:3 with points pt 7 ps ", comma);
-        iso_gnuplot_number(f, size);
-        fputs(" palette title 'chaotic'", f);
-        comma = ", ";
-    }
-    if (undecided > 0) {
-        fprintf(f, "%s$undecided using 1:2 with points pt 2 ps ", comma);
-        iso_gnuplot_number(f, size);
-        fputs(" lc rgb 'black' title 'undecided'", f);
+}
+
+iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis, const iso_record *r)
+{
+    static const char *const name[] = {[REGULAR] = "regular", [CHAOTIC] = "chaotic", [UNDECIDED] = "undecided"};
+    static const char *const mark[] = {[REGULAR] = "1:2 with points pt 7 lc rgb " ISO_PLOT_FAR_BLUE,
+                                       [CHAOTIC] = "1:2:3 with points pt 7 palette",
+                                       [UNDECIDED] = "1:2 with points pt 2 lc rgb 'black'"};
+    ISO_DEFAULT_ARITHMETIC;
+    iso_gnuplot *g;
+    if (!has_rows(r) || iso_record_columns(r) != 3 || axis < 0 || axis > 2)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                                "a picture of exponents needs a record with three columns and at least one row");
+    iso_status status = iso_gnuplot_open(ctx, path, WIDTH, SECTION_HEIGHT, &g);
+    if (status != ISO_OK) return status;
+    FILE *f = iso_gnuplot_script(g);
+    size_t count[3];
+    for (int kind = REGULAR; kind <= UNDECIDED; kind++) count[kind] = put_spots(f, r, name[kind], kind);
+    put_chart(f, title, axis);
+    if (count[CHAOTIC] == 0) fputs("unset colorbox\n", f);
+    const char *before = "plot";
+    for (int kind = REGULAR; kind <= UNDECIDED; kind++) {
+        if (count[kind] == 0) continue;
+        fprintf(f, "%s $%s using %s ps ", before, name[kind], mark[kind]);
+        iso_gnuplot_number(f, fmin(fmax(30 / sqrt((double)iso_record_rows(r)), 0.12), 1.6));
+        fprintf(f, " title '%s'", name[kind]);
+        before = ",";
     }
     fputs("\nunset output\n", f);
     return iso_gnuplot_close(ctx, g, true);

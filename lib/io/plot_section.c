@@ -30,7 +30,7 @@ static int part_of(double hue, double shift)
     return (int)(255 * fmin(fmax(light, 0), 1));
 }
 
-/* Orbits that follow each other differ by the golden section of the circle of hues. The first is a strong blue. */
+/* The hues of successive orbits differ by the golden section of the circle. The first is a strong blue. */
 static long colour_of(const iso_plot_section *s, uint32_t orbit)
 {
     if (s->grey && s->grey[orbit]) return 0xB0B0B0;
@@ -54,12 +54,18 @@ static spot of_ball(const iso_plot_section *s, const double chart[2])
     return (spot){atan2(p->root_J[c] * sin(l), p->root_J[b] * cos(l)), omega[2] / norm(omega)};
 }
 
-static spot of_point(const iso_plot_section *s, const double chart[2])
+/* G(l). If the orbits are not free, 1: then x is drawn in place of L. */
+static double largest_momentum(const iso_plot_section *s, double l)
 {
-    return (spot){chart[0], chart[1] * iso_section_momentum(s->params, s->eps, s->axis, chart[0])};
+    return s->eps > 0 ? iso_section_momentum(s->params, s->eps, s->axis, l) : 1;
 }
 
-/* A block of crossings, the grey ones first: they lie behind. */
+static spot of_point(const iso_plot_section *s, const double chart[2])
+{
+    return (spot){chart[0], chart[1] * largest_momentum(s, chart[0])};
+}
+
+/* A block of crossings. The grey ones come first, so that they lie behind the others. */
 static void put_crossings(FILE *f, const iso_plot_section *s, bool ball)
 {
     fprintf(f, "$%s << EOD\n", ball ? "ball" : "point");
@@ -73,13 +79,13 @@ static void put_crossings(FILE *f, const iso_plot_section *s, bool ball)
     fputs("EOD\n", f);
 }
 
-/* L = G(l), and the largest of it. */
+/* Writes the boundary L = G(l). Gives the largest G. */
 static double put_boundary(FILE *f, const iso_plot_section *s)
 {
     double most = 0;
     fputs("$boundary << EOD\n", f);
     for (int i = 0; i <= BOUNDARY; i++) {
-        const double l = ISO_PI * (2.0 * i / BOUNDARY - 1), G = iso_section_momentum(s->params, s->eps, s->axis, l);
+        const double l = ISO_PI * (2.0 * i / BOUNDARY - 1), G = largest_momentum(s, l);
         fprintf(f, "%.5f %.6g\n", l, G);
         most = fmax(most, G);
     }
@@ -89,7 +95,7 @@ static double put_boundary(FILE *f, const iso_plot_section *s)
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
-/* The more points, the smaller. */
+/* The size of a spot: the more points, the smaller. */
 static double size_of(size_t count)
 {
     return fmin(fmax(9 / sqrt((double)count), 0.05), 0.4);
@@ -137,10 +143,11 @@ static void put_point(FILE *f, const iso_plot_section *s, double size, double mo
     fputc(':', f);
     iso_gnuplot_number(f, TOP * most);
     fprintf(f,
-            "]\nset title 'point: γ_%d = 0, γ_%d increasing'\n"
-            "set xlabel 'l,  where γ_%d = cos l, γ_%d = −sin l'\n"
-            "set ylabel 'L = M_%d, in the units of the scene'\n",
-            a, a, b, c, a);
+            "]\nset title '%s: γ_%d = 0, γ_%d increasing'\n"
+            "set xlabel 'l,  where γ_%d = cos l, γ_%d = −sin l'\n",
+            s->eps > 0 ? "point" : "directions of γ and M", a, a, b, c);
+    fprintf(f, s->eps > 0 ? "set ylabel 'L = M_%d, in the units of the scene'\n" : "set ylabel 'x = M_%d / |M|'\n",
+            a);
     fputs("plot ", f);
     for (int side = 1; side >= -1; side -= 2) { /* outside of the boundaries */
         fprintf(f, "$boundary using 1:(%d*$2):(", side);

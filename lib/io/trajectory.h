@@ -86,8 +86,8 @@ ISO_API iso_status iso_trajectory_open(iso_context *ctx, const char *path, iso_t
 enum { ISO_HEXADECIMAL = 0 };
 ISO_API void iso_trajectory_set_digits(iso_trajectory_writer *writer, int digits);
 
-/* What the file says that it is: "trajectory" at the beginning; "section" for rows of crossings. Readers take only
- * trajectories for ours. To be called before the header is written. */
+/* Sets the kind of file that the first line names: "trajectory" unless this is called, "section" for rows of
+ * crossings. Call it before the header is written. */
 ISO_API void iso_trajectory_set_kind(iso_trajectory_writer *writer, const char *kind);
 
 /* The magic line, the key: value lines and the column names of `header`, whose rows are not looked at.

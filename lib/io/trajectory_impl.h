@@ -42,7 +42,7 @@ iso_status iso_trajectory_name_columns(iso_context *ctx, iso_trajectory_reader *
 struct iso_trajectory_writer {
     const iso_trajectory_writing *format;
     const char *name;   /* what messages call it */
-    const char *kind;   /* of file: ISO_TRAJECTORY_KIND, or another one that no reader takes for ours */
+    const char *kind;   /* of the file: ISO_TRAJECTORY_KIND, or another kind, such as "section"         */
     iso_record *header; /* names of the columns, no rows; NULL before it is written */
     size_t rows;
     int digits;

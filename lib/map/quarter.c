@@ -39,8 +39,8 @@ static double table(const iso_quarter *q, int i)
     return q->part[0][i] + q->mix * q->part[1][i];
 }
 
-/* u up to which the integral is `part` of the whole: Newton's steps, inside a bracket that only shrinks. Each adds
- * the integral over the step alone. */
+/* The u up to which the integral is `part` of the whole, by Newton's method inside a bracket. Each step integrates
+ * only over its own length. */
 static double invert(const iso_quarter *q, double part)
 {
     const double wanted = part * table(q, ISO_QUARTER_STEPS);

@@ -1,9 +1,9 @@
 /* quarter_impl.h - angles with a given density, by inversion of its integral.
  *
- * The density is symmetric about 0 and pi/2. Its integral over a quarter of the turn is tabulated with tan(angle) =
- * e^u in steps of 1/2, |u| <= 46; what lies outside is 1e-20. A density made of powers of A cos^2 + B sin^2, A and B
- * >= 0, has its singularities in the complex plane of u at a distance of pi/2 or more from the real line, for every
- * A/B: Gauss's rule of 8 points in each step is exact to rounding.
+ * The density is symmetric about 0 and pi/2. The table holds its integral over a quarter of the circle. The variable
+ * is u, tan(angle) = e^u, in steps of 1/2, |u| <= 46; the rest of the integral is 1e-20. Let the density be made of
+ * powers of A cos^2 + B sin^2 with A, B >= 0. Then its singularities in the complex plane of u are pi/2 or more away
+ * from the real line, for every A/B. So Gauss's rule of 8 points in each step is exact to rounding.
  */
 #ifndef ISO_MAP_QUARTER_IMPL_H
 #define ISO_MAP_QUARTER_IMPL_H
@@ -12,7 +12,7 @@
 
 enum { ISO_QUARTER_STEPS = 184 };
 
-/* The density is value[0] + mix value[1]. `part` are tables of ISO_QUARTER_STEPS + 1 integrals of the two. */
+/* The density is value[0] + mix value[1]. `part`: a table of ISO_QUARTER_STEPS + 1 integrals of each of the two. */
 typedef struct iso_quarter {
     /* d(integral)/du at sin^2 and cos^2 of the angle; d(angle)/du = sin cos */
     void (*density)(const void *data, double sin2, double cos2, double value[2]);
@@ -25,11 +25,11 @@ typedef struct iso_quarter {
 void iso_quarter_tabulate(void (*density)(const void *data, double sin2, double cos2, double value[2]),
                           const void *data, double *part[2]);
 
-/* The angle in (-pi, pi) below which lies this part, in (0, 1), of the integral over the turn. */
+/* The angle in (-pi, pi) below which this part of the integral over the circle lies; part is in (0, 1). */
 double iso_quarter_angle(const iso_quarter *q, double part);
 
-/* Point i of an additive recurrence, modulo 1: the middle of one of 2^52 equal parts of (0, 1), so that neither end
- * is met. `shift` and `step` are in units of 2^-64. */
+/* Point i of an additive recurrence modulo 1. It is the middle of one of 2^52 equal parts of (0, 1), so it is never 0
+ * or 1. `shift` and `step` are in units of 2^-64. */
 static inline double iso_recurrence(uint64_t shift, uint64_t step, uint64_t i)
 {
     return ((double)((shift + i * step) >> 12) + 0.5) * 0x1p-52;

@@ -19,7 +19,7 @@ bool iso_section_is_global(const iso_params *p, int axis)
     return p->J[axis] == p->J[iso_section_axis(p)];
 }
 
-/* The components that take the places of the first and second for a = 3. */
+/* The components b and c, which take the places of 1 and 2 in the equations for a = 3. */
 static void sides(int axis, int *b, int *c)
 {
     *b = (axis + 1) % 3;
@@ -60,7 +60,7 @@ void iso_section_chart(int axis, const double point[ISO_STATE], double *l, doubl
 {
     int b, c;
     sides(axis, &b, &c);
-    *l = atan2(0 - point[3 + c], point[3 + b]); /* 0 - 0 is +0: never -pi */
+    *l = atan2(0 - point[3 + c], point[3 + b]); /* 0 - 0 is +0, so l is never -pi */
     const double size = largest(point);         /* the square of M need not fit a double */
     const double M[3] = {point[0] / size, point[1] / size, point[2] / size};
     *x = M[axis] / norm(M);
@@ -111,15 +111,15 @@ void iso_section_slope(const iso_params *p, double eps, int axis, const double p
     slope[1] = (d[axis] - x * dot(M, d) / size) / size;
 }
 
-/* W^2 at q. J_a - (1-k) q as (J_a - q) + k q: it does not cancel at q = J_a for small k. */
+/* W^2 at q. J_a - (1-k) q is computed as (J_a - q) + k q, which loses no digits at q = J_a for small k. */
 static double frequency_square(const iso_params *p, double eps, int axis, double q)
 {
     return 2 * eps * pow(q, -1 - 1 / p->k) * ((p->J[axis] - q) / p->k + q);
 }
 
-/* The extremes of W^2 are at the ends of [min J, max J]. It is stationary only at q = J_a (1+k)/(1-k), where its
- * bracket is -k J_a and W^2 < 0; the bracket is linear in q, so such a q between the ends means that W^2 <= 0 at one
- * of them. */
+/* Both bounds come from the ends of [min J, max J]. Between them, W^2 can have an extreme only at q = J_a
+ * (1+k)/(1-k). There J_a - (1-k) q = -k J_a, and so W^2 < 0. This bracket is linear in q, so W^2 <= 0 at one of the
+ * ends as well. */
 void iso_section_bounds(const iso_params *p, double eps, int axis, double W[2])
 {
     const double low = frequency_square(p, eps, axis, min3(p->J)), high = frequency_square(p, eps, axis, max3(p->J));

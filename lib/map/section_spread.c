@@ -6,7 +6,7 @@
 
 _Static_assert((int)ISO_SPREAD_STEPS == (int)ISO_QUARTER_STEPS, "iso_section_spread holds a table of a quarter");
 
-/* G sin l cos l = G dl/du, in the unit sqrt(2 eps) largest^exponent */
+/* G sin l cos l = G dl/du, as a multiple of sqrt(2 eps) largest^exponent */
 static void density(const void *data, double sin2, double cos2, double value[2])
 {
     const iso_section_spread *s = data;

@@ -81,7 +81,7 @@ static iso_status prepare(iso_pool_worker *w, const batch *b, size_t i, member *
     return status == ISO_OK && b->rows > 0 ? iso_orbit_check_time(&m->orbit, b->times[b->rows - 1]) : status;
 }
 
-/* What lanes cannot hold (iso_pool_suits) is followed by itself. */
+/* Follows an orbit alone, if lanes cannot hold it (iso_pool_suits). */
 static iso_status solve_alone(iso_pool_worker *w, const batch *b, size_t i)
 {
     const iso_orbit_options options = options_of(b, i, b->options->backend);

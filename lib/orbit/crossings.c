@@ -1,5 +1,5 @@
-/* crossings.c - many orbits from crossing to crossing: checks the options, hands the orbits out to lanes or follows
- * them one by one, and keeps what each of them answered. */
+/* crossings.c - many orbits from crossing to crossing: checks the options, follows the orbits in lanes or one by one,
+ * and keeps their failures. */
 #include "orbit/crossings.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 #include "orbit/crossings_impl.h"
 #include "orbit/pool_impl.h"
 
-/* --- what both ways of following share -------------------------------------------------------------------------- */
+/* --- shared by both ways of following --------------------------------------------------------------------------- */
 
 int iso_crossings_axis(const iso_crossings *c, size_t i)
 {
@@ -24,14 +24,19 @@ int iso_crossings_axis(const iso_crossings *c, size_t i)
     return c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(c->orbits[i].params) : c->options.axis;
 }
 
-/* n_a swings with about |k w|, gamma_a with |M|: so n_a'/(|k w|) has the size of n_a. */
+/* By the directions of M and gamma, also of a ball (18): so both models agree about a start. gamma_a oscillates at the
+ * rate of about |M|. So gamma_a'/|M| has the size of gamma_a. */
 bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    const double k = model == ISO_BALL ? p->k : 1, pace = fabs(k) * norm(y);
-    const double rise = k * (y[3 + b] * y[c] - y[3 + c] * y[b]); /* n' = k n x w, gamma' = gamma x M */
-    const double swing = hypot(pace * y[3 + axis], rise);
-    return fabs(pace * y[3 + axis]) <= 1e-8 * swing;
+    double M[3], gamma[3];
+    for (int i = 0; i < 3; i++) {
+        M[i] = model == ISO_BALL ? copysign(p->root_J[i], p->k) * (y[i] / largest(y)) : y[i] / largest(y);
+        gamma[i] = model == ISO_BALL ? y[3 + i] / p->root_J[i] : y[3 + i];
+    }
+    const double pace = norm(M), rise = gamma[b] * M[c] - gamma[c] * M[b];
+    const double swing = hypot(pace * gamma[axis], rise);
+    return rise >= 0 && fabs(pace * gamma[axis]) <= ISO_ON_SECTION * swing;
 }
 
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)
@@ -64,12 +69,12 @@ static iso_status check_section(iso_context *ctx, const iso_crossings_options *o
     if (o->kind == ISO_SECTION_COLUMN && !isfinite(o->value))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "a column cannot pass %g", o->value);
     if (o->kind == ISO_SECTION_CLOCK && !(o->value > 0 && isfinite(o->value)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "a step of %g of a clock is none", o->value);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "a clock cannot go on in steps of %g", o->value);
     if (o->kind == ISO_SECTION_CLOCK && ((int)o->clock < 0 || o->clock >= ISO_CLOCKS))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "there is no such clock");
     if (o->kind == ISO_SECTION_COLUMN && o->deviations)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "deviations",
-                                "deviations are computed on sections n_a = 0 and at equal steps of a clock");
+                                "deviations are computed only on sections n_a = 0 and at equal steps of a clock");
     return ISO_OK;
 }
 
@@ -196,7 +201,7 @@ static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, cons
     return iso_pool_run(c->ctx, &pool, iso_pool_threads(c->options.threads, alone, 1), t->status);
 }
 
-/* The first wanted orbit that has failed, in words. */
+/* Fails with the status and the message of the first wanted orbit that has failed. */
 static iso_status tell_first(const iso_crossings *c, const iso_crossings_task *t)
 {
     for (size_t i = 0; i < c->count; i++) {
@@ -219,5 +224,7 @@ iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, 
     iso_status answer = iso_crossings_in_lanes(c, &task, taken);
     if (answer != ISO_NO_MEMORY && answer != ISO_STOPPED) answer = one_by_one(c, &task, taken);
     free(taken);
+    for (size_t i = 0; answer == ISO_STOPPED && i < c->count; i++) /* those that nobody has taken up */
+        if (status[i] == ISO_OK && done[i] < each && (!wanted || wanted[i])) status[i] = ISO_STOPPED;
     return answer == ISO_NO_MEMORY || answer == ISO_STOPPED ? answer : tell_first(c, &task);
 }

@@ -1,8 +1,8 @@
 /* crossings_alone.c - one orbit from crossing to crossing, by itself.
  *
- * A crossing of n_a = 0 or of a column's value is an event (iso_orbit_event); equal steps of a clock are asked one
- * after the other (iso_orbit_at). The orbit is kept between calls, and the search for a crossing depends on the one
- * before alone: how many are asked at a time does not change a bit of them.
+ * A crossing of n_a = 0, or of a column's value, is an event (iso_orbit_event). Equal steps of a clock come from
+ * iso_orbit_at. The orbit is kept between calls, and the search for a crossing depends only on the crossing before.
+ * So the results do not depend on how many crossings are asked at a time.
  */
 #include <math.h>
 
@@ -19,7 +19,7 @@ static iso_status create_as(const iso_crossings *c, size_t i, iso_backend backen
     return iso_orbit_create(c->orbit[i].ctx, c->orbits[i].params, c->orbits[i].start, &how, orbit);
 }
 
-/* Without an isomorphism there are no other clocks; where they do not fit a double the orbit goes on without them. */
+/* Without an isomorphism there are no other clocks. If they do not fit a double, the orbit goes on without them. */
 static iso_status create_with_clocks(const iso_crossings *c, size_t i, iso_backend backend, iso_orbit **orbit)
 {
     const iso_effects *effects = c->orbits[i].effects;
@@ -51,10 +51,9 @@ static iso_status begin(iso_crossings *c, size_t i)
     iso_crossed *o = &c->orbit[i];
     iso_sample start;
     if (c->options.deviations)
-        return iso_context_fail(
-            o->ctx, ISO_BAD_ARGUMENT, "deviations",
-            "deviations are computed for free orbits on a section that all cross for ever, and in "
-            "equal steps of a clock; not for stiff balls, balls at rest, or effects without a formula");
+        return iso_context_fail(o->ctx, ISO_BAD_INPUT, "deviations",
+                                "deviations are computed for free orbits on a global section, and at equal steps of "
+                                "a clock; not for stiff balls, balls at rest, or effects without a formula");
     iso_status status = create(c, i, &o->alone);
     if (status == ISO_OK) status = iso_orbit_at(o->alone, 0, &start);
     if (status != ISO_OK) return status;
@@ -81,7 +80,7 @@ static double beyond_value(const iso_sample *sample, const void *data)
     return iso_sample_column(sample, o->column) - o->value;
 }
 
-/* One turn of the ball at most, in the orbit's clock and the caller's units. */
+/* The longest time of a turn, in the orbit's clock and the caller's units. */
 static double turn_of(const iso_orbit *orbit)
 {
     const iso_params *own = &orbit->units.own;
@@ -129,12 +128,12 @@ static void fill(const iso_crossed *o, const iso_sample *sample, iso_crossing *t
     iso_section_chart(o->axis, point, &to->l, &to->x);
 }
 
-/* Whether this first event is the start itself, up to rounding: an orbit that starts on the section crosses it again
- * when n_a has made a full oscillation. */
+/* Whether this first event is the start itself, up to rounding. An orbit that starts on the section crosses it again
+ * only after a full oscillation of n_a. */
 static bool is_start(const iso_crossed *o, double time, double s)
 {
     if (!o->begins_on_it || o->count > 0) return false;
-    return isnan(o->bound[0]) || isnan(s) ? time < 1e-6 * turn_of(o->alone) : s < o->bound[0] / 2;
+    return isnan(o->bound[0]) || isnan(s) ? time < 1e-6 * turn_of(o->alone) : s < o->bound[0] / 4;
 }
 
 /* One crossing. *counts false: it is the start. */

@@ -1,5 +1,5 @@
-/* crossings_common.c - what orbits in lanes and orbits by themselves have in common: how they are prepared, what bounds
- * their crossings are held to, and what a crossing tells. */
+/* crossings_common.c - what orbits in lanes and orbits alone have in common: how they are prepared, the bounds
+ * between their crossings, and the numbers of a crossing. */
 #include <math.h>
 
 #include "base/pi_impl.h"
@@ -10,7 +10,7 @@
 
 /* --- the orbit -------------------------------------------------------------------------------------------------- */
 
-/* Whether the numbers of a model are needed: those that are integrated, those that are asked for, and the column. */
+/* Whether the states of a model are needed: because it is integrated, because samples show it, or for the column. */
 static bool needs(const iso_crossings_options *o, iso_backend backend, iso_shown model)
 {
     const bool point = model == ISO_SHOW_POINT;
@@ -43,15 +43,15 @@ iso_model_kind iso_crossings_model(const iso_orbit *orbit)
 
 /* --- bounds ----------------------------------------------------------------------------------------------------- */
 
-/* An orbit in the plane n_a = 0 itself stays there where no potential pulls: n_a and its rate, of size 1, are 0 or
- * rounding. */
+/* Without a potential, an orbit in the plane n_a = 0 stays in it. There n_a is 0, and so is its rate (relative to the
+ * largest), up to rounding. */
 iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis)
 {
     const double swing = fmax(fabs(y[(axis + 1) % 3]), fabs(y[(axis + 2) % 3])) / largest(y);
     if (fmax(fabs(y[3 + axis]), swing) > 1e-14 || iso_effects_pull(&orbit->effects)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "axis",
                             "this orbit is the rotation about axis %d, in the plane n_%d = 0 itself: it is the "
-                            "boundary of the section, and crosses it nowhere",
+                            "boundary of the section, and never crosses it",
                             axis + 1, axis + 1);
 }
 
@@ -83,8 +83,8 @@ static double fastest(const iso_params *p, double eps, int axis)
  *
  *     4 < int r dt int (Omega^2/r) dt <= Omega_max^2 x^2 (rho + 1)^2/(4 rho),    rho = r_max/r_min in the part
  *
- * and as q turns by |q_t/q| <= B = (J_max - J_min) (2 h k^2/det J)^(1/2), rho <= e where x B |1 + 1/(2k)| <= 1. Then two
- * zeros are more than 1.77/Omega_max apart. */
+ * q changes at a rate of |q_t/q| <= B = (J_max - J_min) (2 h k^2/det J)^(1/2). So rho <= e if x B |1 + 1/(2k)| <= 1.
+ * Then two zeros are more than 1.77/Omega_max apart. */
 double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock variable)
 {
     double W[2];
@@ -94,24 +94,26 @@ double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock 
     return fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(p, eps, axis) / 1.77);
 }
 
-/* Sturm: two crossings of a global section are so and so far apart in s. A gap would be a skipped crossing. */
+/* By Sturm's comparison. A larger distance means a skipped crossing, a smaller one a crossing found twice. A start on
+ * the section is on it up to ISO_ON_SECTION. */
 iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
                               double s)
 {
     const bool least = o->count > 0 || o->begins_on_it;
-    if (iso_crossings_apart(o->bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
+    const double loose = o->count == 0 ? ISO_ON_SECTION : 0;
+    const double bound[2] = {(1 - loose) * o->bound[0], (1 + loose) * o->bound[1]};
+    if (iso_crossings_apart(bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
     const double unit = orbit->unit_clock[ISO_CLOCK_S];
     return iso_context_fail(ctx, ISO_NUMERICAL, "",
                             "crossings %zu and %zu of n_%d = 0 are %.10g apart in s, not between %.10g and %.10g: "
                             "the computation is wrong there; take a smaller tolerance",
-                            o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, o->bound[0] * unit,
-                            o->bound[1] * unit);
+                            o->count, o->count + 1, o->axis + 1, (s - o->s) * unit, bound[0] * unit, bound[1] * unit);
 }
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-/* The chart is that of the directions of M and gamma. M has the direction of J^(1/2) omega, for k < 0 of the opposite,
- * and gamma that of J^(-1/2) n (18): so a ball without a twin has a chart as well. */
+/* The chart needs only the directions of M and gamma. M has the direction of J^(1/2) omega (for k < 0 the opposite
+ * one), and gamma that of J^(-1/2) n (18). So a ball without a twin has a chart as well. */
 void iso_crossings_point(const iso_orbit *orbit, const double y[ISO_STATE], double point[ISO_STATE])
 {
     const iso_params *own = &orbit->units.own;

@@ -1,9 +1,9 @@
 /* crossings_impl.h - what the files of crossings share.
  *
- *     crossings.c          checks the options, hands the orbits out, keeps what each of them answered
+ *     crossings.c          checks the options, distributes the orbits, keeps the failures
  *     crossings_lanes.c    free orbits, in the lanes of vectors and on all threads
- *     crossings_common.c   what both have in common
- *     crossings_alone.c    every other orbit, followed by itself with iso_orbit_event or iso_orbit_at
+ *     crossings_alone.c    every other orbit, one by one with iso_orbit_event or iso_orbit_at
+ *     crossings_common.c   what these two have in common
  */
 #ifndef ISO_ORBIT_CROSSINGS_IMPL_H
 #define ISO_ORBIT_CROSSINGS_IMPL_H
@@ -11,18 +11,20 @@
 #include "orbit/crossings.h"
 #include "orbit/orbit_impl.h"
 
-/* What an orbit is held to between its crossings, and where it is. All in own units of the orbit. */
+#define ISO_ON_SECTION 1e-8 /* how far from it, in radians of the oscillation of n_a, a start is on the section */
+
+/* One orbit: where it is, and the bounds between its crossings. In own units of the orbit. */
 typedef struct iso_crossed {
-    iso_orbit *alone; /* followed by itself; NULL: not begun                                                     */
-    iso_context *ctx; /* its own, so that any thread can go on with it */
-    struct iso_crossings_lane *lane; /* followed in lanes, likewise                                                */
+    iso_orbit *alone; /* the orbit, if it is followed alone; NULL: not begun                                     */
+    iso_context *ctx; /* a context of its own, so that any thread can go on with it */
+    struct iso_crossings_lane *lane; /* the orbit, if it is followed in lanes; NULL: not begun                    */
     size_t count;      /* crossings so far                                                                        */
-    double time, s;    /* of the last one, or 0; time in the orbit's own clock and in the caller's units          */
+    double time, s;    /* of the last crossing, or 0; time: of the orbit's own clock, in the caller's units       */
     bool begins_on_it; /* the start lies on the section: it is no crossing                                        */
     double bound[2];   /* least and largest s between two crossings; NaN: no bounds are known                     */
     int axis;          /* of ISO_SECTION_AXIS                                                                     */
-    iso_status status; /* of the last call; ISO_STOPPED does not last                                             */
-    char *why;         /* its words, where there is a failure that lasts                                          */
+    iso_status status; /* the failure that ended the orbit, or ISO_OK                                              */
+    char *why;         /* the message of this failure                                                             */
     char about[32];
 } iso_crossed;
 
@@ -44,16 +46,16 @@ typedef struct iso_crossings_task {
     iso_status *status;
 } iso_crossings_task;
 
-/* Follows in lanes those wanted orbits that lanes can hold: taken[i] becomes true for each of them, and done[i],
- * status[i], its crossings and samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED, or the first orbit's. */
+/* Follows the wanted orbits that lanes can hold. For each of them taken[i] becomes true, and done[i], status[i], the
+ * crossings and samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED, or that of the first orbit that failed. */
 iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *task, bool taken[]);
 void iso_crossings_free_lane(struct iso_crossings_lane *lane);
 
-/* Keeps a failure of orbit i that lasts, with its words, which are in ctx. */
+/* Keeps a failure of orbit i, with its message, which is in ctx. ISO_STOPPED is not kept: the orbit can go on. */
 void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_status status);
 
-/* The next crossings of orbit i, by itself. Errors: those of one orbit, see iso_crossings_go; the words are in the
- * context of the orbit, whose monitor is asked before each crossing. */
+/* Follows orbit i alone to its next crossings. Errors: those of one orbit, see iso_crossings_go. The message is in
+ * the context of the orbit, whose monitor is asked before each crossing. */
 iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_crossing crossing[],
                                   iso_sample sample[], size_t *done);
 
@@ -63,16 +65,18 @@ double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock 
 /* The axis of the section of an orbit; -1: the section is none of ISO_SECTION_AXIS. */
 int iso_crossings_axis(const iso_crossings *c, size_t i);
 
-/* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section n_a = 0, up to 1e-8 of a
- * radian of the oscillation of n_a. A start that does so is no crossing, and an event there is not counted: ball and
- * point, lanes and single orbits would else disagree where n_a is 0 up to rounding. */
+/* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section: n_a = 0 up to 1e-8 of a
+ * radian of its oscillation, and not falling. Such a start is no crossing, and an event there is not counted. Without
+ * this margin ball and point, or lanes and single orbits, would disagree if n_a is 0 up to rounding. A start at which
+ * n_a falls through 0 lies half an oscillation before the section. */
 bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis);
 
-/* Whether two crossings of a free orbit are this far apart in s, up to rounding (s: of the second one). NaN bounds
- * allow everything. `least` false: the first is no crossing, only the largest distance counts. */
+/* Whether the distance `apart` in s of two crossings of a free orbit is within the bounds, up to rounding. s: of the
+ * second crossing. NaN bounds allow everything. `least` false: the first is no crossing, so only the upper bound
+ * counts. */
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance);
 
-/* How an orbit is created: of `backend`, with the other clocks if `clocks`. */
+/* The options with which orbit i is created: by `backend`, with the other clocks if `clocks`. */
 iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_backend backend, bool clocks);
 
 /* The model that an orbit integrates. */
@@ -81,14 +85,14 @@ iso_model_kind iso_crossings_model(const iso_orbit *orbit);
 /* Refuses a free orbit that lies in the plane n_axis = 0 itself. */
 iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis);
 
-/* Sets o->bound of an orbit that is prepared; NaN where there are none. */
+/* Sets o->bound of an orbit that is prepared; NaN if there are no bounds. */
 void iso_crossings_bounds(const iso_orbit *orbit, iso_crossed *o);
 
-/* Holds the crossing at s to the bounds. Errors: ISO_NUMERICAL. */
+/* Checks the crossing at s against the bounds. Errors: ISO_NUMERICAL. */
 iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
                               double s);
 
-/* (M, gamma) of a state of the model, up to the lengths of both; point and y may be one array. */
+/* The directions of (M, gamma) at a state of the model; the lengths differ. point and y may be one array. */
 void iso_crossings_point(const iso_orbit *orbit, const double y[ISO_STATE], double point[ISO_STATE]);
 
 /* The sample that the caller asks for. */

@@ -14,7 +14,7 @@
 #include "orbit/crossings_impl.h"
 #include "orbit/pool_impl.h"
 
-/* Orbits that a thread takes at a time, and the bytes that it has for what lanes tell of them. */
+/* CHUNK: orbits that a thread takes at a time. BYTES: its room for their crossings. */
 enum { CHUNK = 64, BYTES = 1 << 24 };
 
 /* An orbit that is followed in lanes. */
@@ -64,7 +64,7 @@ static iso_status prepare_as(iso_pool_worker *w, const iso_crossings *c, size_t 
     return iso_orbit_prepare(&lane->orbit, of->params, of->start, lane->job.start);
 }
 
-/* With all clocks where there is an isomorphism, and they fit a double. */
+/* With all clocks, if there is an isomorphism and they fit a double. */
 static iso_status prepare_with_clocks(iso_pool_worker *w, const iso_crossings *c, size_t i, iso_backend backend,
                                       struct iso_crossings_lane *lane)
 {
@@ -83,12 +83,22 @@ static iso_status prepare(iso_pool_worker *w, const iso_crossings *c, size_t i, 
     return status;
 }
 
-/* Whether lanes can follow the orbit: on a section that each orbit crosses for ever, or in equal steps of a clock. */
+/* Whether lanes can follow the orbit: on a global section, or in equal steps of a clock. */
 static bool suits(const iso_crossings *c, const struct iso_crossings_lane *lane, const iso_crossed *o)
 {
     if (!iso_pool_suits(&lane->orbit) || c->options.kind == ISO_SECTION_COLUMN) return false;
     if (c->options.kind == ISO_SECTION_CLOCK) return true;
     return lane->has_clocks && isfinite(o->bound[0]) && isfinite(o->bound[1]);
+}
+
+static bool starts_on_section(const iso_orbit *orbit, const double y[], int axis)
+{
+    const iso_params *own = &orbit->units.own;
+    double point[ISO_STATE];
+    if (orbit->system != &iso_system_point_t)
+        return iso_crossings_on_section(own, iso_crossings_model(orbit), y, axis);
+    iso_point_t_to_point(own, y, point); /* for k < 0 the signs of M and y differ */
+    return iso_crossings_on_section(own, ISO_POINT, point, axis);
 }
 
 /* Prepares orbit i if lanes can follow it; else o->lane stays NULL. */
@@ -104,11 +114,9 @@ static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
         free(lane);
         return status;
     }
-    const double *y = lane->job.start;
     if (c->options.kind == ISO_SECTION_AXIS) {
-        o->begins_on_it =
-            iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(&lane->orbit), y, o->axis);
-        status = iso_crossings_check_plane(w->ctx, &lane->orbit, y, o->axis);
+        o->begins_on_it = starts_on_section(&lane->orbit, lane->job.start, o->axis);
+        status = iso_crossings_check_plane(w->ctx, &lane->orbit, lane->job.start, o->axis);
         set_search(lane, o);
     }
     lane->job.model = &lane->orbit.model;
@@ -119,9 +127,9 @@ static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
     return status;
 }
 
-/* --- what a crossing tells -------------------------------------------------------------------------------------- */
+/* --- numbers of a crossing -------------------------------------------------------------------------------------- */
 
-/* (M, gamma) of a state, with its lengths, and a deviation of it. */
+/* (M, gamma) at a state y, and its deviation that belongs to d. */
 static void to_point(const iso_orbit *orbit, const double y[], const double d[], double point[], double deviation[])
 {
     const iso_params *p = &orbit->units.own;
@@ -140,7 +148,7 @@ static void to_point(const iso_orbit *orbit, const double y[], const double d[],
     for (int i = 0; i < 3; i++) deviation[i] = factor * (ball ? p->root_J[i] : 1) * d[i] + slope * point[i];
 }
 
-/* The chart's slopes (dl, dx) of both deviations, one in each column. */
+/* (dl, dx) of both deviations, one in each column. */
 static void find_slopes(const iso_orbit *orbit, int axis, const double y[], double d[][ISO_MAX_STATE],
                         const double scale[], double slopes[2][ISO_DEVIATIONS])
 {
@@ -215,7 +223,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
 
 /* --- following -------------------------------------------------------------------------------------------------- */
 
-/* What lanes store of one orbit, at most `rows` crossings at a time. */
+/* Room for what lanes store: for each orbit of a chunk, at most `rows` crossings at a time. */
 typedef struct room {
     size_t rows, dim;
     double *states, *times;
@@ -284,7 +292,7 @@ static iso_status finish(iso_pool_worker *w, const follower *f, size_t i)
     return job->done == job->rows ? ISO_OK : iso_context_fail(w->ctx, ISO_STOPPED, "", "stopped on request");
 }
 
-/* One pass over the orbits of a chunk that have not all their crossings yet. *waiting: how many there are. */
+/* One pass over the orbits of a chunk that still lack crossings. *waiting: how many they are. */
 static bool pass(iso_pool_worker *w, const follower *f, size_t first, size_t count, const room *r, size_t *waiting)
 {
     const iso_crossings_options *o = &f->c->options;
@@ -296,6 +304,7 @@ static bool pass(iso_pool_worker *w, const follower *f, size_t first, size_t cou
         const size_t left = t->each - t->done[i];
         if (!f->taken[i] || t->status[i] != ISO_OK || left == 0) continue;
         jobs[*waiting] = set_job(f, i, i - first, r, left < r->rows ? left : r->rows);
+        f->c->orbit[i].lane->orbit.ctx = w->ctx; /* an earlier call had other workers */
         orbit[(*waiting)++] = i;
     }
     const size_t solved = *waiting;

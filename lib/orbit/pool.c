@@ -125,7 +125,7 @@ static iso_status run(iso_context *ctx, iso_pool *all, iso_pool_worker workers[]
     return iso_context_fail(ctx, status[first->failed], first->about, "orbit %zu: %s", first->failed, first->message);
 }
 
-/* Those this process may run on. */
+/* The number of processors that this process may use. */
 static size_t processors(void)
 {
     cpu_set_t set;

@@ -15,7 +15,7 @@ typedef struct iso_pool iso_pool;
 /* A thread. */
 typedef struct iso_pool_worker {
     iso_pool *all;
-    iso_context *ctx, *asks; /* its own; the caller's, for the thread that may ask it (else NULL)    */
+    iso_context *ctx, *asks; /* its own; the caller's, if this thread may ask its monitor, else NULL */
     size_t failed;           /* the first of its orbits that failed, with its message; else all->count */
     char message[1024], about[32];
     pthread_t thread;
@@ -30,25 +30,26 @@ struct iso_pool {
     atomic_bool stopped;
 };
 
-/* How many threads have work where `threads` are asked for (0: as many as there are processors). */
+/* The number of threads that have work, if `threads` are asked for (0: as many as there are processors). */
 size_t iso_pool_threads(int threads, size_t count, int lanes);
 
-/* Solves all orbits on so many threads. Errors: ISO_NO_MEMORY; ISO_STOPPED by ctx's monitor (asked by this thread alone);
- * else the status of the first orbit that failed, with its number: `status` has it. */
+/* Solves all orbits on `threads` threads. Only the calling thread asks the monitor of ctx. Errors: ISO_NO_MEMORY;
+ * ISO_STOPPED by the monitor; else the status of the first orbit that failed (status[i]), with its number. */
 iso_status iso_pool_run(iso_context *ctx, iso_pool *pool, size_t threads, const iso_status status[]);
 
-/* Keeps the first failure of a worker: the words are in w->ctx. */
+/* Keeps the first failure of a worker. The message is in w->ctx. */
 void iso_pool_note(iso_pool_worker *w, size_t i, iso_status status);
 
-/* Asks the caller's monitor, if this worker may. A monitor itself: `worker` is an iso_pool_worker. */
+/* Whether to go on. Asks the caller's monitor, if this worker may. It can be used as a monitor, with an
+ * iso_pool_worker as its data. */
 bool iso_pool_goes_on(void *worker);
 
-/* Solves jobs on lanes in groups that can share them; jobs[] is used up. False: no memory. */
+/* Solves jobs in lanes, in groups of jobs that can share the lanes. Overwrites jobs[]. False: no memory. */
 bool iso_pool_in_groups(iso_pool_worker *w, const iso_lane_code *code, double tolerance, long max_steps,
                         iso_lane_job *jobs[], size_t count);
 
-/* Whether lanes can hold an orbit: they hold Taylor series. So the ball must move, must not be stiff, and must have
- * equations for series. */
+/* Whether lanes can follow an orbit. Lanes compute Taylor series, so the ball must move, must not be stiff, and must
+ * have equations for series. */
 bool iso_pool_suits(const iso_orbit *orbit);
 
 #endif

@@ -10,16 +10,10 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "study/chaos_impl.h"
+#include "study/frequencies_impl.h"
+#include "study/section_impl.h"
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
-
-/* The effect because of which the motion is not that of a free point on H = 0; NULL: none. */
-static const iso_effect *not_free(const iso_effects *effects)
-{
-    const iso_effect *effect = iso_effects_beyond_level(effects);
-    if (effect || !iso_effects_have_level(effects)) return effect;
-    return iso_effect_list[iso_effect_find(iso_level_name())];
-}
 
 static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
 {
@@ -29,14 +23,16 @@ static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
     const char *why;
     if (taking)
         return iso_context_fail(w->ctx, ISO_BAD_INPUT, taking->name,
-                                "'%s' takes energy from the ball: a motion that comes to rest is not chaotic, nor "
+                                "'%s' takes energy from the ball: a motion that comes to rest is neither chaotic nor "
                                 "regular",
                                 taking->name);
     const iso_effect *without = iso_effects_without_frequencies(problem, &why);
     if (without) return iso_context_fail(w->ctx, ISO_BAD_INPUT, without->name, "%s", why);
-    if (largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0 || iso_effects_pull(&problem->effects))
-        return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, ball ? "angular_velocity" : "M", "the %s is at rest",
+    if (largest(w->out->with[ISO_BALL] ? start->ball : start->point) > 0) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, ball ? "angular_velocity" : "M",
+                            iso_effects_pull(&problem->effects)
+                                ? "the %s starts at rest, where deviations have no size: start it a little later"
+                                : "the %s is at rest",
                             iso_model_kind_name((int)w->scene->start.model));
 }
 
@@ -44,8 +40,7 @@ static iso_status check_starts(const iso_chaos_walk *w, const iso_effect *effect
 {
     if (w->options.starts + w->options.at_count == 0 || !effect) return ISO_OK;
     return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect->name,
-                            "other starts are spread over the section of free motions on H = 0: without '%s'",
-                            effect->name);
+                            "other starts need the section of a free motion on H = 0, without '%s'", effect->name);
 }
 
 static iso_status check_options(const iso_chaos_walk *w)
@@ -63,15 +58,30 @@ static iso_status check_options(const iso_chaos_walk *w)
     return ISO_OK;
 }
 
+/* Errors: ISO_BAD_INPUT about "axis". */
+static iso_status check_section(const iso_chaos_walk *w)
+{
+    const iso_params *own = &iso_orbit_units(w->orbit)->own;
+    const int axis = w->out->axis;
+    double W[2];
+    if (axis < 0 || iso_section_is_global(own, axis)) return ISO_OK;
+    iso_section_bounds(own, iso_orbit_model(w->orbit)->problem.eps, axis, W);
+    if (W[0] > 0) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "axis",
+                            "orbits can stay away from the section n_%d = 0 for ever: take n_%d = 0, which is global",
+                            axis + 1, iso_section_axis(own) + 1);
+}
+
 /* --- what a turn is --------------------------------------------------------------------------------------------- */
 
-/* n turns at the rate |k omega|. */
+/* A turn: a return to the section; under an effect, the time in which n turns once at the rate |k omega|. */
 static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_effect *effect)
 {
     iso_chaos *c = w->out;
     const iso_units *units = iso_orbit_units(w->orbit);
     const double speed = w->out->with[ISO_BALL] ? norm(start->ball) : units->w;
     c->turn = NAN;
+    if (!iso_effects_beyond_level(&w->effects)) c->integral = iso_further_integral(w->orbit);
     if (effect) {
         const bool pulled = iso_effects_pull(&iso_orbit_model(w->orbit)->problem.effects);
         c->axis = -1;
@@ -79,8 +89,17 @@ static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_ef
         return;
     }
     c->axis = w->options.axis == ISO_AXIS_AUTO ? iso_section_axis(&units->own) : w->options.axis;
-    c->global = iso_section_is_global(&units->own, c->axis);
     if (w->options.starts > 0) iso_section_spread_prepare(&w->spread, &units->own, c->axis, w->options.seed);
+}
+
+/* The axis about which a free orbit rotates in the plane n_axis = 0; -1: it does not. */
+static int find_plane(const double y[ISO_STATE])
+{
+    for (int a = 0; a < 3; a++) {
+        const double swing = fmax(fabs(y[(a + 1) % 3]), fabs(y[(a + 2) % 3])) / largest(y);
+        if (fmax(fabs(y[3 + a]), swing) <= 1e-14) return a;
+    }
+    return -1;
 }
 
 static void choose_models(iso_chaos_walk *w)
@@ -123,7 +142,7 @@ void iso_chaos_judge(const iso_chaos *c, iso_chaos_orbit *orbit)
 
 void iso_chaos_interval(size_t found, size_t count, double *low, double *high)
 {
-    static const double z = 1.959963984540054; /* 95 % of a normal distribution are within z */
+    static const double z = 1.959963984540054; /* 95 % of a normal distribution lie in [-z, z] */
     const double n = (double)count, p = n > 0 ? (double)found / n : 0.5;
     const double middle = (p + z * z / (2 * n)) / (1 + z * z / n),
                  half = z / (1 + z * z / n) * sqrt(p * (1 - p) / n + z * z / (4 * n * n));
@@ -158,11 +177,14 @@ static iso_status run(iso_chaos_walk *w)
     status = open_orbit(w, &start);
     if (status != ISO_OK) return status;
     const iso_effects effects = iso_orbit_effects(w->orbit);
-    const iso_effect *effect = not_free(&effects);
+    const iso_effect *effect = iso_section_not_free(&effects);
     status = check_motion(w, &start);
     if (status == ISO_OK) status = check_starts(w, effect);
     if (status != ISO_OK) return status;
     choose_turn(w, &start, effect);
+    status = check_section(w);
+    if (status != ISO_OK) return status;
+    w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
     w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
     if (!w->out->start) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the starts");
     status = iso_chaos_follow(w);

@@ -1,20 +1,20 @@
-/* chaos_walk.c - groups of orbits of chaos.h, followed round by round: in each round those that are not decided go on
- * up to the next look at their verdict, first by the one model, then by the other. */
+/* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits without a verdict
+ * go on to the next look, first by one model, then by the other. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/vec3_impl.h"
-#include "map/state.h"
 #include "study/chaos_impl.h"
+#include "study/section_impl.h"
 
-/* Orbits that are followed together, and most turns of a round: some 25 MB of crossings. */
+/* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings. */
 enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000 };
 
 /* One model's part of a group. */
 typedef struct runner {
     iso_crossings *crossings;
-    size_t each; /* turns of the last round; they are the same for all that go on */
+    size_t each; /* turns of the last round, the same for all orbits that go on */
     bool wanted[GROUP];
     iso_indicators shown[GROUP];
     size_t done[GROUP];
@@ -23,7 +23,7 @@ typedef struct runner {
 
 typedef struct group {
     iso_chaos_walk *w;
-    size_t first, count; /* orbits; 0 is the scene's own, i the start i - 1 */
+    size_t first, count; /* orbits; orbit 0 is the scene's own, orbit i is start i - 1 */
     iso_start start[GROUP];
     iso_batch_orbit orbit[GROUP];
     runner model[2];
@@ -33,30 +33,13 @@ typedef struct group {
 
 /* --- starts ----------------------------------------------------------------------------------------------------- */
 
-/* A start on the section, of the scene's energy and in its model. It is made in own units, where powers of q fit. */
-static iso_start start_at(const iso_chaos_walk *w, double l, double x)
-{
-    const iso_units *units = iso_orbit_units(w->orbit);
-    const double eps = iso_orbit_coupling(w->orbit);
-    double point[ISO_STATE];
-    iso_start start = {.model = w->scene->start.model, .eps = isnormal(eps) ? eps : (double)NAN};
-    const bool ball = start.model == ISO_BALL;
-    iso_section_point(&units->own, iso_orbit_model(w->orbit)->problem.eps, w->out->axis, l, x, point);
-    if (ball)
-        iso_point_to_ball(&units->own, point, start.y);
-    else
-        copy(point, start.y, ISO_STATE);
-    scale(start.y, ball ? units->w : iso_unit(units, iso_system_point.fast_dimension));
-    return start;
-}
-
 static iso_chaos_orbit *orbit_of(const group *g, size_t i)
 {
     iso_chaos *c = g->w->out;
     return g->first + i == 0 ? &c->own : &c->start[g->first + i - 1];
 }
 
-/* Spread, or given. */
+/* The chart of start i, which is spread or given. */
 static void chart_of(const iso_chaos_walk *w, size_t i, double *l, double *x)
 {
     const iso_chaos_options *o = &w->options;
@@ -77,7 +60,7 @@ static void make_starts(group *g)
         g->start[i] = w->scene->start;
         if (g->first + i > 0) {
             chart_of(w, g->first + i - 1, &o->l, &o->x);
-            g->start[i] = start_at(w, o->l, o->x);
+            g->start[i] = iso_section_start(w->orbit, w->scene->start.model, w->out->axis, o->l, o->x);
         }
         g->orbit[i] = (iso_batch_orbit){&w->scene->params, &g->start[i], &w->effects};
     }
@@ -85,7 +68,7 @@ static void make_starts(group *g)
 
 /* --- beats ------------------------------------------------------------------------------------------------------ */
 
-/* Smooth functions of the place without a symmetry: u is M/|M| on the section, else n. */
+/* Smooth functions of the place, without a symmetry. u: M/|M| on the section, else n. */
 static void see(const double u[3], double seen[ISO_SEEN])
 {
     seen[0] = u[0] + u[0] * u[0];
@@ -119,7 +102,23 @@ static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators
     return ISO_OK;
 }
 
-/* Adds the new crossings of an orbit, as long as it is not decided. */
+/* The message of iso_crossings_go is about the first failure of the group, and begins with its number there. */
+static void note_failures(group *g, int model)
+{
+    iso_chaos *c = g->w->out;
+    const char *words = strstr(iso_context_message(g->w->ctx), ": ");
+    for (size_t i = 0; i < g->count; i++) {
+        const iso_status status = g->model[model].status[i];
+        if (status == ISO_OK || status == ISO_STOPPED) continue;
+        orbit_of(g, i)->status[model] = status;
+        if (c->failure != ISO_OK) continue;
+        c->failure = status;
+        snprintf(c->words, sizeof c->words, "orbit %zu: %s", g->first + i,
+                 words ? words + 2 : iso_status_text(status));
+    }
+}
+
+/* Adds the new crossings of an orbit until it has a verdict. */
 static iso_status take(group *g, int model, size_t i)
 {
     const iso_chaos_walk *w = g->w;
@@ -131,6 +130,13 @@ static iso_status take(group *g, int model, size_t i)
         const size_t at = r->each * i + j;
         iso_beat beat;
         make_beat(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &beat);
+        if (isnan(beat.growth[0] + beat.growth[1])) {
+            r->status[i] = ISO_NUMERICAL;
+            iso_context_fail(w->ctx, ISO_NUMERICAL, "", "orbit %zu: it stands still: its deviations have no length",
+                             i);
+            note_failures(g, model);
+            break;
+        }
         iso_indicators_add(shown, &beat);
         if (g->first + i == 0) status = trace(w, model, shown);
     }
@@ -164,34 +170,21 @@ static iso_status open_model(group *g, int model)
     runner *r = &g->model[model];
     for (size_t i = 0; i < g->count; i++) {
         iso_indicators_begin(&r->shown[i], o->turns);
+        r->shown[i].integrable = g->w->out->integral != NULL;
         r->wanted[i] = true;
         r->status[i] = ISO_OK;
     }
     return iso_crossings_create(w->ctx, g->orbit, g->count, &c, &r->crossings);
 }
 
-/* The message of iso_crossings_go is about the first failure. */
-static void note_failures(group *g, int model)
-{
-    iso_chaos *c = g->w->out;
-    for (size_t i = 0; i < g->count; i++) {
-        const iso_status status = g->model[model].status[i];
-        if (status == ISO_OK || status == ISO_STOPPED) continue;
-        orbit_of(g, i)->status[model] = status;
-        if (c->failure != ISO_OK) continue;
-        c->failure = status;
-        snprintf(c->words, sizeof c->words, "%s", iso_context_message(g->w->ctx));
-    }
-}
-
-/* Sets what one model has told, for progress as well. */
+/* Sets the indications by one model. */
 static void tell(group *g, int model)
 {
     for (size_t i = 0; i < g->count; i++)
         iso_indicators_tell(&g->model[model].shown[i], &orbit_of(g, i)->told[model]);
 }
 
-/* Up to the next look of those that go on; 0: none does. */
+/* The turns until the next look at the orbits that go on, at most ROUND; 0: none goes on. */
 static size_t turns_of_round(const group *g, const runner *r)
 {
     for (size_t i = 0; i < g->count; i++) {
@@ -222,7 +215,7 @@ static iso_status go_on(group *g, int model, bool *any)
     return status;
 }
 
-/* An orbit that is decided by one model is followed by the other until that decides as well. */
+/* An orbit with a verdict counts as done. */
 static void show_progress(const group *g)
 {
     const iso_chaos_walk *w = g->w;
@@ -239,6 +232,7 @@ static void show_progress(const group *g)
     w->options.progress(fmin(1, ((double)g->first + done / models) / all), w->options.data);
 }
 
+/* Each model follows an orbit until its own verdict, even if the other model has decided before. */
 static iso_status follow_group(group *g)
 {
     iso_chaos *c = g->w->out;
@@ -271,6 +265,18 @@ static iso_status check_own(const iso_chaos_walk *w)
     return iso_context_fail(w->ctx, c->failure, iso_context_about(w->ctx), "%s", c->words);
 }
 
+/* A rotation in a principal plane is periodic, so regular. */
+static void tell_plane(iso_chaos *c)
+{
+    iso_indicators none;
+    c->own = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_REGULAR};
+    iso_indicators_begin(&none, 1);
+    for (int m = 0; m < 2; m++) {
+        iso_indicators_tell(&none, &c->own.told[m]);
+        if (c->with[m]) c->own.told[m].verdict = ISO_REGULAR;
+    }
+}
+
 static iso_status follow_all(group *g)
 {
     iso_chaos_walk *w = g->w;
@@ -278,7 +284,8 @@ static iso_status follow_all(group *g)
     iso_status status = ISO_OK;
     for (int m = 0; m < 2 && status == ISO_OK; m++)
         if (w->out->with[m]) status = create_trace(w, m);
-    for (size_t first = 0; first < orbits && status == ISO_OK; first += g->count) {
+    if (w->out->plane >= 0) tell_plane(w->out);
+    for (size_t first = w->out->plane >= 0; first < orbits && status == ISO_OK; first += g->count) {
         g->first = first;
         g->count = first == 0 ? 1 : orbits - first < GROUP ? orbits - first : GROUP;
         status = follow_group(g);

@@ -34,7 +34,7 @@ typedef struct iso_cost_options {
     int times;           /* output times at which errors are taken; 0: 20                                       */
     iso_backend backend; /* this backend alone; ISO_BACKEND_AUTO: all                                           */
     const iso_method *method; /* this method alone; NULL: all that serve the scene, but for slow reference ones */
-    double tolerance;    /* this tolerance alone; 0: all                                                        */
+    double tolerance; /* this tolerance alone; 0: all                                                        */
     void (*progress)(double share, const char *what, void *data); /* may be NULL; share in [0, 1], never falls  */
     void *data;
 } iso_cost_options;
@@ -52,36 +52,36 @@ typedef struct iso_cost_cell {
     iso_backend backend;
     const iso_method *method; /* of the closed solution: NULL, and no tolerance (NaN)                           */
     double tolerance;
-    iso_status status;        /* ISO_OK, or why there is no result; ISO_STOPPED: it would take too long         */
-    char why[160];            /* in words                                                                       */
+    iso_status status; /* ISO_OK, or why there is no result; ISO_STOPPED: it would take too long         */
+    char why[160];     /* in words                                                                       */
     double setup, fastest, median, slowest; /* seconds; the last three of stepping, over the repeats            */
-    double total;             /* set-up and median: what one run takes, and what cells are compared by          */
+    double total; /* set-up and median: what one run takes, and what cells are compared by          */
     int repeats;
     iso_statistics statistics;
-    double error;             /* largest over the output times ...                                              */
-    double clock_error;       /* ... of clock s (of a point's start: t), relative to its largest value; NaN     */
+    double error;       /* largest over the output times ...                                              */
+    double clock_error; /* ... of clock s (of a point's start: t), relative to its largest value; NaN     */
     double energy_drift, constraint_drift; /* ... |I - I(start)|/size of the ball's; NaN: none holds            */
-    bool below;               /* the reference is not exact enough to tell: error < 3 uncertainties             */
-    bool pareto;              /* no other cell is as exact and faster (1.05 times)                              */
+    bool below;  /* the reference is not exact enough to tell: error < 3 uncertainties             */
+    bool pareto; /* no other cell is as exact and faster (1.05 times)                              */
 } iso_cost_cell;
 
 /* One method of one backend, over its tolerances, the loosest first. */
 typedef struct iso_cost_line {
     iso_backend backend;
     const iso_method *method;
-    int first, count;        /* its cells                                                                    */
-    double digit;            /* factor in time for one more digit, fitted where it still gains; NaN: too few */
-    double order;            /* error ~ (steps)^-order, fitted likewise; NaN: too few, or the method's varies */
-    double least;            /* smallest error reached; NaN: none ...                                        */
-    double stops_at;         /* ... and at which tolerance it stops gaining; NaN: it gains to the last       */
+    int first, count; /* its cells                                                                    */
+    double digit;     /* factor in time for one more digit, fitted where it still gains; NaN: too few */
+    double order;     /* error ~ (steps)^-order, fitted likewise; NaN: too few, or the method's varies */
+    double least;     /* smallest error reached; NaN: none ...                                        */
+    double stops_at;  /* ... and at which tolerance it stops gaining; NaN: it gains to the last       */
 } iso_cost_line;
 
 typedef struct iso_cost {
-    double end, turns;       /* the scene's last time, and how often the normal goes round until then, about */
+    double end, turns; /* the scene's last time, and how often the normal goes round until then, about */
     char reference[120], second[120]; /* in words: what errors are measured against, and what that is        */
-    double uncertainty;      /* infinite: there is no second reference                                       */
-    double seconds;          /* that it took                                                                 */
-    bool complete;           /* false: stopped on request; cells not reached have repeats = 0                */
+    double uncertainty; /* infinite: there is no second reference                                       */
+    double seconds;     /* that it took                                                                 */
+    bool complete;      /* false: stopped on request; cells not reached have repeats = 0                */
     int cells, lines;
     iso_cost_cell *cell;
     iso_cost_line *line;
@@ -108,15 +108,15 @@ enum { ISO_COST_HORIZONS = 24 };
 
 /* How error and time grow with the length of an orbit, for one cell: over end, 2 end, 4 end, ... . */
 typedef struct iso_cost_growth {
-    int count;                /* horizons reached                                                            */
+    int count; /* horizons reached                                                            */
     double end[ISO_COST_HORIZONS], error[ISO_COST_HORIZONS], seconds[ISO_COST_HORIZONS]; /* median, of stepping */
     double uncertainty[ISO_COST_HORIZONS]; /* of the closed solution's error, which has no other measure: NaN */
     double power, time_power; /* error ~ end^power and seconds ~ end^time_power, fitted; NaN: too few        */
-    bool chaotic;             /* the orbit is, by the indicators of chaos.h; where these do not decide: the
+    bool chaotic;             /* the indicators of chaos.h call the orbit chaotic; or, if they do not decide, the
                                  error grows exponentially rather than by a power ...                        */
     double lyapunov_time;     /* ... e-fold in this time, in the scene's unit; NaN                           */
     char reference[120], second[120];
-    char why[160];            /* it ends before `horizons`; "": it does not                                  */
+    char why[160]; /* it ends before `horizons`; "": it does not                                  */
 } iso_cost_growth;
 
 /* `horizons` lengths, from 1 to ISO_COST_HORIZONS: the scene's end and its doublings. Those beyond about 40 s of

@@ -148,28 +148,29 @@ static double fit(int count, const double x[], const double y[], double *slope)
     return rest / count;
 }
 
-/* The indicators of chaos (chaos.h) say whether the orbit is chaotic, and its exponent. So all cells of a scene say the
- * same, whatever part of the growth their errors show. Where the indicators do not decide, or cannot be asked, the
- * errors do: those of regular orbits grow like t or t^2. Where the fitted power is above STEEP and an exponential fits
- * better, the orbit is chaotic. */
+/* The indicators of chaos (chaos.h) tell whether the orbit is chaotic, and its exponent. So all cells of a scene have
+ * the same answer, whatever part of the growth their errors show. If the indicators do not decide, or cannot be
+ * computed, the errors decide. Errors on regular orbits grow like t or t^2. If the fitted power is above STEEP and an
+ * exponential fits better, the orbit is chaotic. */
 static const double STEEP = 3, INDICATORS = 5;
 
-static iso_verdict ask_indicators(grower *g, double *exponent)
+static iso_status ask_indicators(grower *g, iso_verdict *verdict, double *exponent)
 {
     const int model = g->cell.backend == ISO_BACKEND_BALL ? ISO_BALL : ISO_POINT;
     iso_chaos *c;
     *exponent = NAN;
     iso_cost_allow(&g->p, INDICATORS);
     const iso_status status = iso_chaos_run(g->p.ctx, g->p.scene, NULL, &c);
-    const iso_verdict verdict = status == ISO_OK ? c->own.verdict : ISO_UNDECIDED;
+    *verdict = status == ISO_OK ? c->own.verdict : ISO_UNDECIDED;
     if (status == ISO_OK) *exponent = c->own.told[c->with[model] ? model : 1 - model].exponent[g->p.clock];
     iso_chaos_free(c);
-    return verdict;
+    return status == ISO_NO_MEMORY ? iso_context_fail(g->p.user, ISO_NO_MEMORY, "", "no memory for the indicators")
+                                   : ISO_OK;
 }
 
-static void fit_errors(grower *g)
+static void fit_errors(const grower *g, iso_verdict verdict, double exponent)
 {
-    double t[MOST_TIMES], log_t[MOST_TIMES], e[MOST_TIMES], rate, exponent;
+    double t[MOST_TIMES], log_t[MOST_TIMES], e[MOST_TIMES], rate;
     iso_cost_growth *out = g->out;
     int count = 0;
     for (int i = 0; i < TIMES * out->count; i++) {
@@ -178,7 +179,6 @@ static void fit_errors(grower *g)
         log_t[count] = log(t[count]);
         e[count++] = log(g->error[i]);
     }
-    const iso_verdict verdict = ask_indicators(g, &exponent);
     out->chaotic = verdict == ISO_CHAOTIC;
     out->power = NAN;
     out->lyapunov_time = out->chaotic ? 1 / exponent : (double)NAN;
@@ -205,6 +205,8 @@ static void fit_seconds(iso_cost_growth *out)
 static iso_status grow(grower *g, int horizons)
 {
     fill_times(g, horizons);
+    iso_verdict verdict;
+    double exponent;
     iso_status status = choose_horizons(g, &horizons);
     if (status == ISO_OK) status = find_errors(g, horizons);
     if (status != ISO_OK) return status;
@@ -212,7 +214,9 @@ static iso_status grow(grower *g, int horizons)
              g->cell.backend == ISO_BACKEND_EXACT ? g->reference.second_what : g->reference.what);
     snprintf(g->out->second, sizeof g->out->second, "%s", g->reference.second_what);
     measure_horizons(g);
-    fit_errors(g);
+    status = ask_indicators(g, &verdict, &exponent);
+    if (status != ISO_OK) return status;
+    fit_errors(g, verdict, exponent);
     fit_seconds(g->out);
     return iso_cost_is_stopped(&g->p) ? iso_context_fail(g->p.user, ISO_STOPPED, "", "stopped on request") : ISO_OK;
 }

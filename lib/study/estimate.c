@@ -15,7 +15,7 @@ static const double ROUNDING = 1e-14;
 
 static const double LEAST_TURNS = 20;
 
-/* The indicators of chaos have so many turns, or as many as the caller gave. */
+/* The most turns for the indicators of chaos. The caller may ask for fewer. */
 enum { MOST_TURNS = 3000 };
 
 typedef struct estimator {
@@ -134,8 +134,8 @@ static iso_verdict judge(const iso_estimate *e, const basis *b, bool integrable)
     return wanders && slowest_beat(b, e->length) > BEATS ? ISO_CHAOTIC : ISO_UNDECIDED;
 }
 
-/* The indicators of chaos.h are sharper than the drift of frequencies. What they cannot be asked (an orbit in a
- * principal plane, effects without deviations) or do not decide, the drift decides. */
+/* The indicators of chaos.h are sharper than the drift of frequencies. The drift decides only where the indicators do
+ * not, or cannot be computed (effects without deviations). */
 static iso_status ask_indicators(estimator *e)
 {
     const bool point = e->twin && fabs(e->scene->params.k) >= 0.125; /* below, powers q^(1/k) grow large */

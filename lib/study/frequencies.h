@@ -76,10 +76,10 @@ typedef struct iso_named_line {
 typedef struct iso_estimate {
     double length, turns; /* of the orbit, in t, and how often n turned, by its strongest line  */
     size_t samples;
-    int axis;             /* 0 to 2: about which n turns                                          */
-    int lines[2];         /* of n_j + i n_l, (axis, j, l) cyclic, and of n_axis, the largest first */
+    int axis;     /* 0 to 2: about which n turns                                          */
+    int lines[2]; /* of n_j + i n_l, (axis, j, l) cyclic, and of n_axis, the largest first */
     iso_named_line line[2][ISO_MAX_LINES];
-    double unexplained;   /* part of the lines' amplitudes that is no combination of the two      */
+    double unexplained;         /* part of the lines' amplitudes that is no combination of the two      */
     double drift, drift_before; /* the larger of the angles', and what it was for the first quarter */
     iso_verdict verdict;
 } iso_estimate;
@@ -95,10 +95,10 @@ typedef struct iso_separatrix {
 
 typedef struct iso_frequencies {
     bool estimated;
-    bool unresolved;     /* estimated although there is a closed solution, which needs too many terms   */
-    char why[256];       /* estimated: why                                                              */
-    iso_exact_kind kind; /* of the closed solution                                                      */
-    char motion[160];    /* in words                                                                    */
+    bool unresolved;              /* estimated although there is a closed solution, which needs too many terms   */
+    char why[256];                /* estimated: why                                                              */
+    iso_exact_kind kind;          /* of the closed solution                                                      */
+    char motion[160];             /* in words                                                                    */
     double h, eps;                /* energy, coupling (NaN without a twin) ...                           */
     double H;                     /* ... and level of the point                                          */
     const iso_integral *integral; /* of the ball, beyond h: it is integrable; NULL: none is known        */
@@ -108,8 +108,8 @@ typedef struct iso_frequencies {
     iso_separatrix separatrix[ISO_SEPARATRICES];
     int angles; /* 0, 1 or 2                                                                            */
     iso_angle angle[2];
-    double rotation; /* angle[0].frequency/angle[1].frequency, the same in every clock; NaN: chaos, or most of the
-                        motion is not explained by two frequencies                                        */
+    double rotation; /* angle[0].frequency/angle[1].frequency, the same in every clock; NaN: the motion is chaotic,
+                        or two frequencies explain less than half of it                                   */
     int resonances;  /* best approximations of `rotation` by fractions q/p with p, q <= 100             */
     iso_resonance resonance[ISO_MAX_RESONANCES];
     double closed[ISO_CLOCKS]; /* the period of a closed orbit: one angle, or a resonance that is met; NaN: it is

@@ -69,7 +69,7 @@ static void find_closed(iso_frequencies *f)
     for (int c = 0; c < ISO_CLOCKS && !f->estimated; c++) f->closed[c] = turns * f->angle[0].period[c];
 }
 
-/* Whether two frequencies make the motion. */
+/* Whether two frequencies explain most of the motion. */
 static bool is_steady(const iso_frequencies *f)
 {
     static const double MOST_UNEXPLAINED = 0.5;
@@ -89,8 +89,7 @@ void iso_frequencies_finish(iso_frequencies *f)
 
 /* --- where the motion lies in its family --------------------------------------------------------------------- */
 
-/* The ball's integral beyond the energy and the constraints. */
-static const iso_integral *further_integral(const iso_orbit *orbit)
+const iso_integral *iso_further_integral(const iso_orbit *orbit)
 {
     const iso_problem *problem = &iso_orbit_model(orbit)->problem;
     for (const iso_integral *i = iso_system_ball.integrals + 1; i->name; i++)
@@ -108,7 +107,7 @@ void iso_frequencies_place(const iso_orbit *orbit, const iso_sample *start, iso_
         f->H = iso_orbit_model(orbit)->problem.energy *
                iso_unit(iso_orbit_units(orbit), (iso_dimension){2 * M.J, 2 * M.J_2k, 2 * M.w});
     }
-    f->integral = further_integral(orbit);
+    f->integral = iso_further_integral(orbit);
     if (!f->integral) return;
     f->F = iso_orbit_integral(orbit, &iso_system_ball, f->integral, start, &size);
     f->F *= iso_unit(iso_orbit_units(orbit), f->integral->dimension);

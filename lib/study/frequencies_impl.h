@@ -19,6 +19,9 @@ iso_status iso_frequencies_open(iso_context *ctx, const iso_scene *scene, const 
 /* h, eps, H and F from the orbit at its start. */
 void iso_frequencies_place(const iso_orbit *orbit, const iso_sample *start, iso_frequencies *f);
 
+/* The ball's integral beyond the energy and the constraints; NULL: none is known. */
+const iso_integral *iso_further_integral(const iso_orbit *orbit);
+
 /* From the frequencies: periods, rotation number, resonances, period of a closed orbit. */
 void iso_frequencies_finish(iso_frequencies *f);
 

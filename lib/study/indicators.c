@@ -1,14 +1,14 @@
 /* indicators.c - exponent, MEGNO, GALI_2 and the verdict from the beats of an orbit, see indicators.h.
  *
- * A look at N turns takes the turns from N/4 to N. Its sums are gathered while the turns pass: looks at N, sqrt(2) N,
- * 2 N and 2 sqrt(2) N are under way at the same time, those at 4 N begin when those at N end.
+ * A look at N turns uses the turns from N/4 to N. Its sums grow while the turns pass. The sums of the looks at N,
+ * sqrt(2) N, 2 N and 2 sqrt(2) N grow at the same time. Those of the look at 4 N begin when the look at N ends.
  */
 #include "study/indicators.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Looks at fewer turns are not judged: the sums know too little. */
+/* There is no look at fewer turns: the sums would say too little. */
 static const long LEAST_TURNS = 90;
 
 const char *iso_verdict_name(iso_verdict verdict)
@@ -43,7 +43,7 @@ static double weight(double u)
     return u > 0 && u < 1 ? exp(4 - 1 / (u * (1 - u))) : 0;
 }
 
-/* step: ln(D_n/D_(n-1)). The length of D_n^2 is cut off where no polynomial will be fitted to it any more. */
+/* step: ln(D_n/D_(n-1)). D_n^2 is cut off where it is so large that no polynomial will be fitted to it. */
 static void add_to_look(iso_look *look, long n, double growth, double step, const double seen[ISO_SEEN])
 {
     static const double MOST_GROWTH = 100;
@@ -71,9 +71,9 @@ static void add_to_look(iso_look *look, long n, double growth, double step, cons
     }
 }
 
-/* --- what a look tells ------------------------------------------------------------------------------------------ */
+/* --- the results of a look -------------------------------------------------------------------------------------- */
 
-/* The means over the halves agree to so many digits of the spread of what is averaged. */
+/* To how many digits the means over the two halves agree. Differences are divided by the spread of the function. */
 static double digits_of(const iso_look *look)
 {
     static const double LEAST_SPREAD = 1e-4, ROUNDING = 1e-16;
@@ -107,28 +107,32 @@ static void fit_square(const iso_look *look, double coefficient[3])
     coefficient[2] = (m02 * y[0] - m12 * y[1] + m22 * y[2]) / det;
 }
 
-/* The limit of MEGNO where D has grown little; NaN: it cannot be told. */
-static double limit_of_square(const iso_look *look)
+/* The limit of MEGNO where D has grown little; NaN: not known. The coefficients are as accurate as the smooth means,
+ * which agree to `digits`. */
+static double limit_of_square(const iso_look *look, double digits)
 {
     static const double FLAT = 1e-4, GROWING = 1e-3;
     double c[3];
     fit_square(look, c);
     const double size = fabs(c[0]);
-    if (c[2] > GROWING * size && c[0] + c[1] + c[2] > 0) return 2;
+    if (c[2] > fmax(GROWING, pow(10, 1 - digits)) * size && c[0] + c[1] + c[2] > 0) return 2;
     return fabs(c[1]) < FLAT * size && fabs(c[2]) < FLAT * size ? 0 : (double)NAN;
 }
 
 /* --- the verdict ------------------------------------------------------------------------------------------------ */
 
-/* What is measured is compared with these. Two looks must agree. The gain is that of ln D between the middles of the
+/* Limits for the verdict. Two successive looks must agree. `gain` is the growth of ln D between the middles of the
  * two halves, at 7/16 and 13/16 of the turns: ln(13/7) = 0.62 on a regular orbit, 3/8 lam n on a chaotic one. Next to
- * the separatrix of a resonance a regular orbit looks chaotic for a while, so ln D itself must be large too, which is
- * the same as a small GALI_2. */
-static const double MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAIN_BEFORE = 1.25, LEAST_GROWTH = 9,
-                    MOST_AREA = 1e-4;
+ * the separatrix of a resonance a regular orbit looks chaotic for a while. So ln D itself must be large as well, GALI_2
+ * small, and the exponent larger than its error. */
+static const double ERRORS = 1, MOST_REGULAR_GAIN = 0.8, LEAST_CHAOTIC_GAIN = 2.5, LEAST_GAIN_BEFORE = 1.25,
+                    LEAST_GROWTH = 9, MOST_AREA = 1e-4;
 
-/* Of a regular orbit: its MEGNO; MEGNO of each half, and the fitted limit; digits, more where D grows little. */
-static const double MEGNO = 0.02, HALF = 0.3, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7;
+/* For a regular orbit: how close to 2 must be MEGNO, MEGNO of each half, and a rough limit; the least number of
+ * digits. If the steps show no limit, D must grow like a polynomial. Then DIGITS_FLAT is the least number of digits;
+ * DIGITS_LITTLE while ln D is below LITTLE. */
+static const double MEGNO = 0.02, HALF = 0.4, ROUGHLY = 1.2, DIGITS = 0.5, DIGITS_FLAT = 7, LITTLE = 3.5,
+                    DIGITS_LITTLE = 2.5;
 
 /* A look at fewer turns does not tell a regular orbit from one that sticks to an island. */
 static const long LEAST_REGULAR = 180;
@@ -138,7 +142,7 @@ static bool is_two(double megno, double within)
     return fabs(megno - 2) < within;
 }
 
-/* Whether the look says that the orbit is regular, if `within` is HALF, or may be, if it is ROUGHLY. */
+/* within HALF: whether this look says that the orbit is regular. within ROUGHLY: whether it may be regular. */
 static bool looks_regular(iso_indicators *it, const iso_look *look, double within)
 {
     const double *half = it->halves;
@@ -148,15 +152,20 @@ static bool looks_regular(iso_indicators *it, const iso_look *look, double withi
         return within > HALF || is_two(it->limit, MEGNO);
     }
     const bool flat = fmin(half[0], half[1]) > -ROUGHLY && fmax(half[0], half[1]) < 2 + ROUGHLY;
-    if (!flat || it->digits < DIGITS_FLAT) return false;
-    it->limit = limit_of_square(look);
+    if (!flat || it->digits < (it->before < LITTLE ? DIGITS_LITTLE : DIGITS_FLAT)) return false;
+    it->limit = limit_of_square(look, it->digits);
     return !isnan(it->limit);
 }
+
+static double rate(const iso_indicators *it, int c, double *error);
 
 static bool looks_chaotic(const iso_indicators *it)
 {
     const bool gains = it->gain > LEAST_CHAOTIC_GAIN && it->gain_before > LEAST_GAIN_BEFORE;
-    return gains && it->before > LEAST_GROWTH && it->area < MOST_AREA;
+    if (it->integrable || !(gains && it->before > LEAST_GROWTH && it->area < MOST_AREA)) return false;
+    double error;
+    const double exponent = rate(it, -1, &error);
+    return exponent > ERRORS * error;
 }
 
 static void judge(iso_indicators *it, const iso_look *look)
@@ -189,7 +198,7 @@ void iso_indicators_begin(iso_indicators *it, long most)
     it->limit = it->digits = it->gain = it->gain_before = NAN;
 }
 
-/* ln D and the clocks at the end of a part. When there is no more room, two parts become one. */
+/* Keeps ln D and the clocks at the end of a part. When there is no more room, every two parts become one. */
 static void end_part(iso_indicators *it)
 {
     if (it->parts == ISO_PARTS) {
@@ -235,9 +244,9 @@ iso_verdict iso_indicators_verdict(const iso_indicators *it)
     return (iso_verdict)it->verdict;
 }
 
-/* --- what they tell --------------------------------------------------------------------------------------------- */
+/* --- the indication --------------------------------------------------------------------------------------------- */
 
-/* The parts from an eighth of the turns on: their number, and what each sum gained. */
+/* The parts after the first eighth of the turns: their number, and the gain of each sum over them. */
 static int late_parts(const iso_indicators *it, int *first, double gained[1 + ISO_CLOCKS])
 {
     *first = it->parts / 8;
@@ -245,8 +254,8 @@ static int late_parts(const iso_indicators *it, int *first, double gained[1 + IS
     return it->parts - *first;
 }
 
-/* ln D gained per unit of column c (-1: per turn), and its error: the scatter of the parts, and what ln D changes by
- * with the place alone. */
+/* The gain of ln D per unit of clock c (-1: per turn). Its error has two parts: the scatter over the parts, and 1 for
+ * the change of ln D with the place. */
 static double rate(const iso_indicators *it, int c, double *error)
 {
     int first;
@@ -275,6 +284,6 @@ void iso_indicators_tell(const iso_indicators *it, iso_indication *told)
     told->megno_now = n > 0 ? 2 * it->step_sum / n : NAN;
     told->megno_mean = n > 0 ? it->mean_sum / n : NAN;
     told->megno = told->verdict == ISO_REGULAR ? it->megno : told->megno_mean;
-    told->gali2 = it->area;
+    told->gali2 = n > 0 ? it->area : NAN;
     told->digits = it->digits;
 }

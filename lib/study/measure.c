@@ -14,8 +14,8 @@ enum { BLOCK = 4096 }; /* orbits that are carried at a time */
 
 /* --- test functions --------------------------------------------------------------------------------------------- */
 
-/* The energy, which has one value; functions of n alone, of which three have means that are not 0; functions of n and
- * of v = J^(1/2) omega/|..|, whose means over theta are 0 at each n, with u = gamma x v. */
+/* The energy, which is the same for all states; functions of n only, three of which have means other than 0;
+ * functions of n and of v = J^(1/2) omega/|..|, with u = gamma x v, whose means over theta are 0 at each n. */
 enum { ENERGY, LN_G, N1_SQUARE, N2_SQUARE, OTHERS, FUNCTIONS = 23 };
 static const char *const names[FUNCTIONS] = {
     "h",
@@ -48,7 +48,7 @@ static double ln_g(const iso_params *p, const double n[3])
     return log(dot_diag(n, p->inv_J, n));
 }
 
-/* h: the relative error of the energy that is `energy`, U included */
+/* h: the error of the energy, with its potential part, relative to the kinetic energy at the start */
 static void functions(const measure_scene *s, double first_kinetic, const double ball[ISO_STATE],
                       double value[FUNCTIONS])
 {
@@ -99,8 +99,8 @@ typedef struct carrier {
     double *kinetic, *sharp; /* of each orbit of the block, at the start */
 } carrier;
 
-/* The power of g with which the clock's measure has the given factor of the exponent: that of t, times d clock/dt,
- * which is g to the power -e of iso_clock_rate. */
+/* The power of g in the clock's measure, g^power dn dtheta, for this factor of the exponent 1/(2k). It is the power
+ * for t, less e, because d clock/dt is proportional to g^-e (iso_clock_rate gives e). */
 static double power_of_g(const iso_params *p, iso_clock clock, double factor)
 {
     double e;
@@ -116,10 +116,11 @@ static iso_status draw_block(carrier *c, const uint64_t shift[3], uint64_t first
         iso_measure_draw_state(&c->draw, shift, first + i, n, v);
         const double T = c->scene->energy - iso_measure_potential(c->scene, n);
         if (!(T > 0))
-            return iso_context_fail(c->ctx, ISO_BAD_INPUT, "energy",
-                                    "with this energy the ball does not reach n = (%.4g, %.4g, %.4g): the measure is "
-                                    "tested where it reaches every n",
-                                    n[0], n[1], n[2]);
+            return iso_context_fail(
+                c->ctx, ISO_BAD_INPUT, "energy",
+                "with this energy the ball does not reach n = (%.4g, %.4g, %.4g): the test needs an "
+                "energy with which it reaches every n",
+                n[0], n[1], n[2]);
         c->start[i] = (iso_start){.model = ISO_BALL, .eps = NAN};
         for (int j = 0; j < 3; j++) {
             c->start[i].y[j] = sqrt(2 * T) * v[j] / p->root_J[j];
@@ -171,7 +172,7 @@ static iso_status carry(carrier *c)
     return status;
 }
 
-/* n turns at |k w|, and w is about (2 T/J)^(1/2) with the middle moment J; clocks as fast as at q = J. */
+/* n turns at the rate |k w|, where |w| is about (2 T/J)^(1/2), J the middle moment. Clocks go as fast as at q = J. */
 static void choose_times(carrier *c)
 {
     const iso_params *p = c->scene->params;

@@ -1,5 +1,5 @@
-/* measure.h - is the invariant measure kept? A cloud of states distributed by it is carried by the flow, and tested
- * against it again.
+/* measure.h - does the flow keep the invariant measure? A cloud of states is drawn by the measure and carried by the
+ * flow. Then it is tested whether the cloud is still distributed by the measure.
  *
  *     iso_measure m;
  *     iso_measure_options o = iso_measure_defaults();
@@ -11,25 +11,25 @@
  *
  *     g^(1/(2k) - 1/2) dn dtheta = q^(-1 - 1/(2k)) dgamma dtheta,     q = (gamma, J gamma) = 1/g
  *
- * where dn, dgamma are areas on the unit sphere and theta is the direction of v in the plane normal to gamma; of its
- * length the energy leaves no choice. This is what the flow keeps in equal times t. In another clock, d clock = N dt,
- * it keeps N times that; in s it is dgamma dtheta, Liouville's measure of the point on H = 0. The returns to a
- * section keep dL dl = G(l) dx dl (map/section.h).
+ * where dn, dgamma are areas on the unit sphere, and theta is the direction of v in the plane normal to gamma. The
+ * energy determines the length of v. The flow in equal times t keeps this measure. The flow in equal times of another
+ * clock, d clock = N dt, keeps N times this measure; in s it is dgamma dtheta, Liouville's measure of the point on H
+ * = 0. The returns to a section keep dL dl = G(l) dx dl (map/section.h).
  *
- * The test. The cloud is made of 32 clouds of equal numbers. Each is one low-discrepancy sequence in the three (of
- * returns two) variables in which the measure is uniform, shifted by a random vector modulo 1. So every point is
- * distributed by the measure exactly, the 32 clouds are independent, and means over each come much closer to the
- * exact ones than those of random points. The cloud is looked at four times. Each time the mean of each test
- * function, over each of the 32 clouds, is compared with its exact mean, which comes from quadrature. Student's t
- * with 31 degrees of freedom tells how likely so large a deviation is. All these tests count as one (Bonferroni): p
- * is the least probability times their number.
+ * The test. The cloud consists of 32 smaller clouds with equal numbers of states. Each of these is a low-discrepancy
+ * sequence in the three variables (for returns: two) in which the measure is uniform, shifted by a random vector
+ * modulo 1. So each state is distributed by the measure exactly, the 32 clouds are independent, and the mean over a
+ * cloud is much closer to the exact mean than that of random states. The cloud is tested at four times. At each time
+ * the means of each test function over the 32 clouds are compared with the exact mean, which comes from quadrature.
+ * Student's t with 31 degrees of freedom gives the probability of such a deviation. All these tests are combined into
+ * one (Bonferroni): p is the least probability times the number of tests.
  *
- * Test functions of equal times: the energy h (relative; a ball that loses energy leaves the level), ln g, which
- * changes most where the exponent is wrong, products of components of n, of v/|v| and of u = gamma x v/|v|. Of
- * returns: h, ln G, products of x and of cosines and sines of l.
+ * Test functions at equal times: the relative energy h (a ball that loses energy leaves the level); ln g, which
+ * changes most if the exponent is wrong; products of components of n, of v/|v| and of u = gamma x v/|v|. At returns:
+ * h, ln G, products of x and of cosines and sines of l.
  *
- * `resolution` tells how sharp the test was: an exponent that is wrong by this part of 1/(2k) is found out. It is
- * computed from the cloud: how the means change with the exponent, against how well they are known.
+ * `resolution` is the sensitivity of the test: the least relative error of the exponent 1/(2k) that it detects. It is
+ * computed from the cloud: the errors of the means, divided by their slopes with the exponent.
  */
 #ifndef ISO_STUDY_MEASURE_H
 #define ISO_STUDY_MEASURE_H
@@ -52,24 +52,24 @@ typedef struct iso_measure_options {
     size_t size;  /* set by iso_measure_defaults; see isoroll.h                                        */
     size_t count; /* orbits, ISO_MEASURE_LEAST or more; rounded up to a multiple of ISO_MEASURE_CLOUDS */
     unsigned long seed;
-    double exponent;     /* the measure that is drawn and tested against is g^(exponent/(2k)) dw dn, of returns
-                            G^exponent dx dl. 1: (10); no other is kept, unless all moments are equal         */
-    double turns;        /* of n, about, for which the flow carries the cloud; it is looked at after 1/64,
-                            1/16, 1/4 of this and all of it                                                   */
-    double end;          /* the same as a time of the clock; NaN: by turns                                    */
-    iso_clock clock;     /* in equal times of which the flow carries the cloud                                */
-    int returns;         /* of the cloud to the section, ISO_MEASURE_RETURNS or more; it is looked at after
-                            1/8, 1/4, 1/2 of them and all of them                                             */
+    double exponent;     /* the measure is g^(exponent/(2k)) dw dn, for returns G^exponent dx dl. 1 is (10). No
+                            other measure is kept, unless all moments are equal                               */
+    double turns;        /* about how many turns of n the flow carries the cloud. It is tested after 1/64, 1/16,
+                            1/4 of them, and at the end                                                       */
+    double end;          /* the end as a time of the clock; NaN: given by `turns`                             */
+    iso_clock clock;     /* the flow carries the cloud in equal times of this clock                           */
+    int returns;         /* number of returns to the section, ISO_MEASURE_RETURNS or more. The cloud is tested
+                            after 1/8, 1/4, 1/2 of them, and at the end                                       */
     int axis;            /* of the section: 0 to 2; ISO_AXIS_AUTO (orbit/crossings.h): the global one         */
-    double significance; /* the measure is not kept where p is less                                           */
+    double significance; /* the measure counts as not kept if p is less than this                             */
     double tolerance;    /* of the integration                                                                */
     iso_backend backend; /* as in batches                                                                     */
     int threads;         /* 0: as many as there are processors to run on                                      */
-    void (*progress)(double share, void *data); /* may be NULL; share of the work done, in [0, 1]             */
+    void (*progress)(double share, void *data); /* may be NULL; share: the part of the work done, in [0, 1]   */
     void *data;
 } iso_measure_options;
 
-/* 100000 orbits, seed 1, the right measure, 8 turns or returns, clock t, significance 1e-4, tolerance 1e-10. */
+/* 100000 orbits, seed 1, exponent 1, 8 turns or returns, clock t, significance 1e-4, tolerance 1e-10. */
 static inline iso_measure_options iso_measure_defaults(void)
 {
     iso_measure_options o = ISO_ALL_ZERO;
@@ -91,11 +91,11 @@ static inline iso_measure_options iso_measure_defaults(void)
 /* One test function at one time. */
 typedef struct iso_measure_line {
     const char *name;      /* the function, such as "ln g"                                                  */
-    double time;           /* of the clock, or the number of the return                                     */
+    double time;           /* the time of the clock, or the number of the return                            */
     double mean, expected; /* over the cloud, and by the measure                                            */
-    double error;          /* standard error of `mean`; at least what the integration's tolerance allows    */
+    double error;          /* standard error of `mean`; not less than the error that the tolerance allows   */
     double deviation;      /* (mean - expected)/error                                                       */
-    double p;              /* the probability of such a deviation, on either side                           */
+    double p;              /* the probability of a deviation as large as this, of either sign               */
     double slope; /* d(mean - expected)/d(exponent)                                                           */
 } iso_measure_line;
 
@@ -103,24 +103,25 @@ enum { ISO_MEASURE_FUNCTIONS = 24, ISO_MEASURE_LINES = ISO_MEASURE_FUNCTIONS * I
 
 typedef struct iso_measure {
     size_t count;     /* orbits of the cloud                                                              */
-    size_t lost;      /* orbits that effects stop before they return: one line, p = 0; the rest is not tried */
+    size_t lost;      /* if an effect stops orbits before they return: how many, among the first few thousand
+                         orbits where this happens. Then there is one line, with p = 0, and the test ends  */
     int axis;         /* of the section; flow: -1                                                              */
     iso_clock clock;  /* flow                                                                                  */
-    double end;       /* the last time, or number of the last return                                           */
-    int lines, worst; /* and the line that deviates most                                                       */
+    double end;       /* the last time, or the number of the last return                                       */
+    int lines, worst; /* number of lines; the line that deviates most                                          */
     iso_measure_line line[ISO_MEASURE_LINES];
-    double p;          /* the probability that a measure that is kept shows a deviation like the worst          */
+    double p;          /* the probability that a measure that is kept deviates as much as the worst line        */
     bool kept;         /* p >= significance                                                                     */
-    double resolution; /* see above; infinite where three moments (on the section two) are equal: every
-                          exponent is right                                                                     */
+    double resolution; /* see above; infinite if the three moments (for returns: the two beside the axis) are
+                          equal, since every exponent is right then                                             */
 } iso_measure;
 
-/* The scene gives the ball, the energy and the effects; its start matters only through the energy. With a potential
- * that depends on n alone (effects `field` and `level`) the measure is the same, and |w| is that of the energy at n.
- * Effects without a potential act on the cloud of the free ball: it is found out that they do not keep its measure.
+/* The scene gives the ball, the energy and the effects. Of its start only the energy matters. With a potential that
+ * depends on n only (effects `field` and `level`) the measure is the same, and the energy gives |w| at each n.
+ * Effects without a potential act on the cloud of the free ball; the test detects that they do not keep its measure.
  * Errors: ISO_BAD_ARGUMENT about "count", "turns", "end", "exponent", "significance" or "clock"; ISO_NOT_MAPPED for a
- * ball at rest, and about an effect whose potential is not one of n alone; ISO_BAD_INPUT about "energy" where not
- * every n can be reached with it; those of iso_batch_run, among them ISO_STOPPED. */
+ * ball at rest, and about an effect whose potential depends on more than n; ISO_BAD_INPUT about "energy" if the ball
+ * cannot reach every n with it; those of iso_batch_run, among them ISO_STOPPED. */
 ISO_API iso_status iso_measure_flow(iso_context *ctx, const iso_scene *scene, const iso_measure_options *options,
                                     iso_measure *measure);
 

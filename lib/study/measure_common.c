@@ -19,7 +19,7 @@ static iso_status check_options(iso_context *ctx, iso_measure_options *o)
     return ISO_OK;
 }
 
-/* A potential must be one of n alone: then it has an image on the point, or is its level. */
+/* A potential must depend on n only: then it has an image on the point, or is its level. */
 static iso_status check_effects(iso_context *ctx, measure_scene *s)
 {
     s->free = true;
@@ -67,7 +67,7 @@ iso_status iso_measure_open(iso_context *ctx, const iso_scene *scene, const iso_
     s->effects = iso_orbit_effects(s->orbit);
     s->kinetic = iso_ball_energy(s->params, sample.ball);
     if (!(s->kinetic > 0))
-        return iso_context_fail(ctx, ISO_NOT_MAPPED, "", "the ball is at rest: its energy has no orbits that move");
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, "", "the ball is at rest: no ball moves with this energy");
     status = check_effects(ctx, s);
     s->energy = s->kinetic + (status == ISO_OK ? iso_measure_potential(s, sample.ball + 3) : 0);
     return status;

@@ -5,7 +5,8 @@
 #include "base/vec3_impl.h"
 #include "study/measure_impl.h"
 
-/* a dphi/du: a = lam^power/(cos^2 phi + m3 sin^2 phi)^(1/2), lam in a unit that keeps it from overflowing */
+/* a dphi/du: a = lam^power/(cos^2 phi + m3 sin^2 phi)^(1/2). lam is divided by one of its ends, so that no power
+ * overflows. */
 static double density_a(const measure_draw *d, double sin2, double cos2)
 {
     const double lam = (d->J[0] * cos2 + d->J[1] * sin2) / (d->power < 0 ? d->J[0] : d->J[1]);
@@ -86,7 +87,7 @@ void iso_measure_draw_state(const measure_draw *d, const uint64_t shift[3], uint
     }
 }
 
-/* The trapezoidal rule in u of both angles (map/quarter_impl.h): exact to rounding. */
+/* The trapezoidal rule in u for both angles (map/quarter_impl.h) is exact to rounding. */
 void iso_measure_draw_means(const measure_draw *d, int count, void (*f)(double g, const double n2[3], double value[]),
                             double mean[])
 {

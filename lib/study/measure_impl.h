@@ -14,7 +14,7 @@
  *     m1 = (J2 - J1)/(J3 - J1),   m3 = (J3 - J2)/(J3 - J1)
  * phi and psi each go through a whole turn; every n is met twice.
  *     g^power dn ~ (m1 cos^2 phi + m3 sin^2 psi) a(phi) b(psi) dphi dpsi
- * is a sum of two products: so is the integral by psi up to any angle, at every phi. */
+ * This is a sum of two products. So two tables give the integral over psi, up to any angle, for every phi. */
 typedef struct measure_draw {
     double power, J[3], root[3], m1, m3; /* J, and its roots: sorted                                                */
     int axis[3];                         /* the axis of J[i]                                                        */
@@ -37,7 +37,7 @@ void iso_measure_draw_means(const measure_draw *d, int count, void (*f)(double g
 
 typedef struct measure_sums {
     int functions;
-    size_t count;                       /* points in all clouds                                                  */
+    size_t count;                       /* points of all clouds together                                         */
     double (*value)[ISO_MEASURE_LINES]; /* of each cloud: sums of the functions, row after row                   */
     double product[ISO_MEASURE_LINES];  /* over all clouds: sums of them times `sharp`                           */
     double first[ISO_MEASURE_FUNCTIONS], first_product[ISO_MEASURE_FUNCTIONS]; /* the same at the start */
@@ -61,7 +61,7 @@ void iso_measure_judge(const measure_sums *sums, const char *const name[], const
 typedef struct measure_scene {
     const iso_params *params;
     iso_effects effects;    /* that act, in the caller's units; with the level of a point's start */
-    bool free, pulled;      /* none acts; there is a potential                                    */
+    bool free, pulled;      /* free: no effect acts. pulled: there is a potential                 */
     iso_orbit *orbit;       /* of the scene, by the ball                                          */
     double energy, kinetic; /* in the caller's units; h, and that of the start's motion           */
 } measure_scene;
@@ -76,10 +76,10 @@ double iso_measure_potential(const measure_scene *s, const double n[3]);
 /* Shifts of cloud number `cloud`, in units of 2^-64. */
 void iso_measure_shift(const iso_measure_options *o, int cloud, int count, uint64_t shift[]);
 
-/* The least standard error of a mean: errors of the integration are no scatter. */
+/* The least standard error of a mean. It stands for the errors of the integration, which do not show as scatter. */
 double iso_measure_floor(const iso_measure_options *o);
 
-/* A part of the work is done. */
+/* Reports the part of the work that is done. */
 void iso_measure_progress(const iso_measure_options *o, double share);
 
 #endif

@@ -1,4 +1,4 @@
-/* measure_returns.c - a cloud on the section, carried by returns, and tested: is it uniform in dL dl? */
+/* measure_returns.c - carries a cloud on the section by returns, and tests whether it stays uniform in dL dl. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -12,8 +12,8 @@ enum { BLOCK = 4096, AT_ONCE = 16 }; /* orbits; crossings of one orbit that are 
 
 /* --- test functions --------------------------------------------------------------------------------------------- */
 
-/* The energy, which has one value; those of l whose means are not 0. The others are odd under a symmetry of the
- * measure, or have a factor x or x^2 - 1/3. */
+/* The energy, which is the same for all states; functions of l whose means are not 0; others, whose means are 0: they
+ * are odd under a symmetry of the measure, or have a factor x or x^2 - 1/3. */
 enum { ENERGY, LN_G, COS_2L, COS_4L, OTHERS, FUNCTIONS = 15 };
 static const char *const names[FUNCTIONS] = {
     "h",
@@ -40,7 +40,7 @@ static void functions_of_l(const iso_params *p, int axis, double l, double value
     value[COS_4L] = cos(4 * l);
 }
 
-/* `kinetic` is the energy in the unit of the first one's */
+/* kinetic: the energy, divided by that of the scene */
 static void functions(const iso_params *p, int axis, double l, double x, double kinetic, double value[FUNCTIONS])
 {
     const double y = x * x - 1. / 3, c = cos(l), s = sin(l), c2 = cos(2 * l), s2 = sin(2 * l);
@@ -83,7 +83,7 @@ typedef struct returner {
     double *sharp; /* of each orbit, at the start */
 } returner;
 
-/* The density is G^exponent, which is the G of k/exponent. */
+/* Draws orbits with the density G^exponent, which is G for k/exponent in the place of k. */
 static void draw_block(returner *r, int cloud, uint64_t first, size_t count)
 {
     const iso_params *p = r->scene->params;
@@ -108,7 +108,7 @@ static void draw_block(returner *r, int cloud, uint64_t first, size_t count)
     }
 }
 
-/* Each orbit's crossing and the ball there. */
+/* Adds the last crossing of each orbit, and the ball there, to the sums. */
 static void add_row(returner *r, int cloud, int row, size_t count)
 {
     const iso_params *p = r->scene->params;
@@ -120,7 +120,7 @@ static void add_row(returner *r, int cloud, int row, size_t count)
     }
 }
 
-/* The next `number` crossings of each orbit; the last one's stay in r->crossing and r->sample. */
+/* Finds the next `number` crossings of each orbit. The last of them stays in r->crossing and r->sample. */
 static iso_status go(returner *r, iso_crossings *c, int number)
 {
     iso_status status = ISO_OK;
@@ -149,7 +149,7 @@ static iso_status carry_block(returner *r, int cloud, size_t count)
     return status;
 }
 
-/* Effects may stop a ball before it returns: then the section is not mapped to itself. One block tells. */
+/* Effects may stop a ball before it returns: then there is no return map. One such block ends the test. */
 static void count_lost(returner *r, size_t count)
 {
     for (size_t i = 0; i < count; i++) r->lost += r->status[i] != ISO_OK;
@@ -208,23 +208,20 @@ static iso_status check_section(returner *r)
     for (int i = 0; i < ISO_MEASURE_ROWS; i++) r->returns[i] = r->options->returns >> (ISO_MEASURE_ROWS - 1 - i);
     if (r->scene->pulled)
         return iso_context_fail(r->ctx, ISO_NOT_MAPPED, "effects",
-                                "returns of a ball in a potential have another chart: the cloud is tested in equal "
-                                "times alone");
+                                "the section of a ball in a potential has another chart: only the flow can be "
+                                "tested");
     return ISO_OK;
 }
 
-/* One line says that not every orbit returned. */
+/* The only line says that not every orbit returned. */
 static void judge_lost(const returner *r, iso_measure *m)
 {
     m->count = r->options->count;
     m->lost = r->lost;
     m->resolution = NAN;
     m->lines = 1;
-    m->line[0] = (iso_measure_line){.name = "orbits that return",
-                                    .time = m->end,
-                                    .mean = NAN,
-                                    .expected = 1,
-                                    .deviation = -INFINITY};
+    m->line[0] = (iso_measure_line){
+        .name = "orbits that return", .time = m->end, .mean = NAN, .expected = 1, .deviation = -INFINITY};
 }
 
 static void judge(returner *r, iso_measure *m)

@@ -36,9 +36,9 @@ void iso_measure_sums_add(measure_sums *sums, int cloud, int row, double sharp, 
     }
 }
 
-/* The mean of the clouds' means, its standard error from their scatter, and d(mean - expected)/d(exponent): that of
- * the mean is its covariance with d ln(density)/d(exponent) at the start, that of the expected one the covariance of
- * the values at the start. */
+/* The mean of the clouds' means, its standard error from their scatter, and d(mean - expected)/d(exponent). Here
+ * d(mean)/d(exponent) is the covariance of the values with d ln(density)/d(exponent) at the start, and
+ * d(expected)/d(exponent) is the same covariance of the values at the start. */
 static void find_mean(const measure_sums *sums, int at, iso_measure_line *line)
 {
     const int f = at % sums->functions;

@@ -18,8 +18,7 @@
 
 /* --- which section is global ------------------------------------------------------------------------------------ */
 
-/* The effect because of which the motion is not that of a free point on H = 0; NULL: none. */
-static const iso_effect *not_free(const iso_effects *effects)
+const iso_effect *iso_section_not_free(const iso_effects *effects)
 {
     const iso_effect *effect = iso_effects_beyond_level(effects);
     if (effect || !iso_effects_have_level(effects)) return effect;
@@ -30,8 +29,8 @@ static void name_not_free(const iso_effect *effect, iso_section_nature *n)
 {
     if (strcmp(effect->name, iso_level_name()) == 0)
         snprintf(n->words, sizeof n->words,
-                 "n_%d = 0 is not known to be global: off the level H = 0 the point can turn back before it gets "
-                 "there",
+                 "n_%d = 0 is not known to be global: off the level H = 0 the point can turn back before it reaches "
+                 "the section",
                  n->axis + 1);
     else
         snprintf(n->words, sizeof n->words, "n_%d = 0 is not known to be global: '%s' acts on the ball", n->axis + 1,
@@ -42,7 +41,7 @@ iso_section_nature iso_section_of(const iso_orbit *orbit, int axis)
 {
     const iso_units *units = iso_orbit_units(orbit);
     const iso_effects effects = iso_orbit_effects(orbit);
-    const iso_effect *effect = not_free(&effects);
+    const iso_effect *effect = iso_section_not_free(&effects);
     const int good = iso_section_axis(&units->own);
     iso_section_nature n = {.axis = axis == ISO_AXIS_AUTO ? good : axis};
     double W[2];
@@ -55,8 +54,8 @@ iso_section_nature iso_section_of(const iso_orbit *orbit, int axis)
     n.global = iso_section_is_global(&units->own, n.axis) || W[0] > 0;
     if (n.global)
         snprintf(n.words, sizeof n.words,
-                 "n_%d = 0 is global: every orbit but the rotation about axis %d crosses it for ever, each time "
-                 "%.4g to %.4g later in s",
+                 "n_%d = 0 is global: every orbit crosses it for ever, except the rotation about axis %d; a return "
+                 "takes %.4g to %.4g in s",
                  n.axis + 1, n.axis + 1, turn / W[1], turn / W[0]);
     else
         snprintf(n.words, sizeof n.words, "n_%d = 0 is not global: orbits can stay away from it; n_%d = 0 is global",
@@ -95,9 +94,9 @@ static iso_status check_losses(const iso_section_walk *w)
 static iso_status check_starts(const iso_section_walk *w)
 {
     const iso_section_options *o = &w->options;
-    const iso_effect *effect = not_free(&w->effects);
+    const iso_effect *effect = iso_section_not_free(&w->effects);
     const char *why = !w->chart ? "an event has no chart"
-                      : effect  ? "the chart is that of free motions on H = 0"
+                      : effect  ? "the section has a chart only for free motions on H = 0"
                                 : NULL;
     if (o->starts == 0 && o->at_count == 0) return ISO_OK;
     if (why)
@@ -110,7 +109,7 @@ static iso_status check_starts(const iso_section_walk *w)
         if (fabs(x) == 1)
             return iso_context_fail(w->ctx, ISO_BAD_INPUT, "at",
                                     "l, x = %g, %g is on the boundary of the chart: it is the rotation about axis "
-                                    "%d, in the plane n_%d = 0, which crosses the section nowhere",
+                                    "%d, in the plane n_%d = 0, which never crosses the section",
                                     l, x, o->axis + 1, o->axis + 1);
         return iso_context_fail(w->ctx, ISO_BAD_INPUT, "at",
                                 "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1", l, x);
@@ -137,7 +136,7 @@ static void choose_section(iso_section_walk *w)
     w->chart = o->column < 0;
 }
 
-/* Observers cost time: only the one stays whose column is looked at. */
+/* Observers cost time: only the observer whose column is used stays. */
 static void choose_effects(iso_section_walk *w)
 {
     const int column = w->options.column;
@@ -159,7 +158,7 @@ static void choose_models(iso_section_walk *w)
     w->model[1] = ISO_POINT;
 }
 
-/* The scene's own orbit: with all clocks where they fit. */
+/* The scene's own orbit, with all clocks if their numbers fit a double. */
 static iso_status open_orbit(iso_section_walk *w)
 {
     iso_orbit_options o = iso_orbit_defaults(&w->scene->start);
@@ -240,7 +239,7 @@ static iso_status set_section(const iso_section_walk *w, iso_record *r)
     return status == ISO_OK && w->chart ? set_whole(w, r, "axis", (size_t)o->axis + 1) : status;
 }
 
-/* A line of a file has room for so many points, of more only their number is told. */
+/* A line of a file has room for MOST points; of more points only the number is written. */
 static iso_status set_at(const iso_section_walk *w, iso_record *r)
 {
     enum { MOST = 500 };

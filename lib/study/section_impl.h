@@ -9,11 +9,11 @@
 #include "map/section.h"
 #include "study/section.h"
 
-/* Of an orbit of the group. */
+/* What is known of one orbit of the group. */
 typedef struct iso_section_member {
     size_t found[2]; /* crossings, by the first model and by the second       */
     bool failed, parted;
-    double distance; /* the largest so far between the two, and its crossing  */
+    double distance; /* the largest so far between the models; its crossing   */
     size_t crossing;
 } iso_section_member;
 
@@ -23,7 +23,7 @@ typedef struct iso_section_walk {
     const iso_section_sink *sink;
     iso_section_result *result;
     iso_section_options options;
-    iso_effects effects; /* of the scene, without observers that nobody looks at  */
+    iso_effects effects; /* of the scene; observers only if a column needs them   */
     iso_orbit *orbit;    /* the scene's own: its units, its energy                */
     iso_section_spread spread;
     bool clocks, chart;                  /* rows have tau and s; l and x                          */
@@ -44,18 +44,25 @@ typedef struct iso_section_walk {
     iso_status *status[2];
 } iso_section_walk;
 
-/* Gives it to the sink: before the first row, so that a scene without any crossing opens no file. */
+/* Gives the header to the sink. This is done just before the first row: a scene without crossings opens no file. */
 iso_status iso_section_give_header(iso_section_walk *w);
 
 /* Room for a group. Errors: ISO_NO_MEMORY. */
 iso_status iso_section_make_room(iso_section_walk *w);
 void iso_section_free_room(iso_section_walk *w);
 
-/* Makes the group that begins with orbit w->first. Errors: those of iso_crossings_create. */
+/* Begins the group whose first orbit is w->first. Errors: those of iso_crossings_create. */
 iso_status iso_section_open_group(iso_section_walk *w);
 void iso_section_close_group(iso_section_walk *w);
 
-/* Finds its crossings and gives the rows to the sink. Errors: of the sink, ISO_STOPPED, ISO_NO_MEMORY. */
+/* Finds the crossings of the group and gives the rows to the sink. Errors: of the sink, ISO_STOPPED,
+ * ISO_NO_MEMORY. */
 iso_status iso_section_walk_group(iso_section_walk *w);
+
+/* The effect that makes the motion other than that of a free point on H = 0; NULL: none. */
+const iso_effect *iso_section_not_free(const iso_effects *effects);
+
+/* A start of this model on the section n_axis = 0, at (l, x), with the energy of `orbit`. */
+iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x);
 
 #endif

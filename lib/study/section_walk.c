@@ -23,7 +23,9 @@ static void plan(iso_section_walk *w)
     if (w->group > orbits) w->group = orbits;
     const size_t slice = (most + SLICES - 1) / SLICES, largest_slice = room / SLICES;
     w->slice = slice > largest_slice ? largest_slice : slice;
-    w->slices = w->group == 1 ? 1 : (most + w->slice - 1) / w->slice; /* one orbit's rows go away slice by slice */
+    w->slices = w->group == 1
+                    ? 1
+                    : (most + w->slice - 1) / w->slice; /* a single orbit's rows go to the sink slice by slice */
 }
 
 iso_status iso_section_make_room(iso_section_walk *w)
@@ -73,23 +75,29 @@ static void chart_of(const iso_section_walk *w, size_t orbit, double *l, double 
     }
 }
 
-/* A start on the section, of the scene's energy and in its model. It is made in own units, where powers of q fit. */
-static iso_start start_of(const iso_section_walk *w, size_t orbit)
+/* The start is made in own units, in which powers of q fit a double. */
+iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x)
 {
-    const iso_units *units = iso_orbit_units(w->orbit);
-    const double eps = iso_orbit_coupling(w->orbit);
-    double l, x, point[ISO_STATE];
-    if (orbit == 0) return w->scene->start;
-    iso_start start = {.model = w->scene->start.model, .eps = isnormal(eps) ? eps : NAN};
-    const bool ball = start.model == ISO_BALL;
-    chart_of(w, orbit, &l, &x);
-    iso_section_point(&units->own, iso_orbit_model(w->orbit)->problem.eps, w->options.axis, l, x, point);
+    const iso_units *units = iso_orbit_units(orbit);
+    const double eps = iso_orbit_coupling(orbit);
+    double point[ISO_STATE];
+    iso_start start = {.model = model, .eps = isnormal(eps) ? eps : (double)NAN};
+    const bool ball = model == ISO_BALL;
+    iso_section_point(&units->own, iso_orbit_model(orbit)->problem.eps, axis, l, x, point);
     if (ball)
         iso_point_to_ball(&units->own, point, start.y);
     else
         copy(point, start.y, ISO_STATE);
     scale(start.y, ball ? units->w : iso_unit(units, iso_system_point.fast_dimension));
     return start;
+}
+
+static iso_start start_of(const iso_section_walk *w, size_t orbit)
+{
+    double l, x;
+    if (orbit == 0) return w->scene->start;
+    chart_of(w, orbit, &l, &x);
+    return iso_section_start(w->orbit, w->scene->start.model, w->options.axis, l, x);
 }
 
 static iso_crossings_options options_of(const iso_section_walk *w, int model)
@@ -146,7 +154,8 @@ static void note_failure(iso_section_walk *w, size_t i, iso_status status, const
     snprintf(r->words, sizeof r->words, "orbit %zu: %s", w->first + i, words);
 }
 
-/* The message of iso_crossings_go is about the first failure of the group, and begins with its number there. */
+/* The message of iso_crossings_go is about the first failure of the group. It begins with the number of the orbit in
+ * the group, which is left out. */
 static void note_failures(iso_section_walk *w, const iso_status status[])
 {
     const char *words = strstr(iso_context_message(w->ctx), ": ");
@@ -156,7 +165,8 @@ static void note_failures(iso_section_walk *w, const iso_status status[])
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-/* How far the two models are apart; on an event, which has no chart, in t by the mean time between crossings. */
+/* The distance of the two models. An event has no chart: there it is |dt|, divided by the mean time between
+ * crossings. */
 static double distance_of(const iso_section_walk *w, const iso_crossing *a, const iso_crossing *b, size_t crossing)
 {
     if (w->chart) return fmax(fabs(remainder(a->l - b->l, 2 * ISO_PI)), fabs(a->x - b->x));
@@ -164,7 +174,7 @@ static double distance_of(const iso_section_walk *w, const iso_crossing *a, cons
     return fabs(t - b->clock[ISO_CLOCK_T]) / (fabs(t) / (double)crossing);
 }
 
-/* Compares a crossing by both models, as long as they have not parted. */
+/* Compares a crossing by both models, unless they have parted before. */
 static void compare(iso_section_walk *w, size_t i, const iso_crossing *a, const iso_crossing *b, size_t crossing)
 {
     iso_section_member *member = &w->member[i];
@@ -182,7 +192,7 @@ static void compare(iso_section_walk *w, size_t i, const iso_crossing *a, const 
     r->parted_crossing = crossing;
 }
 
-/* What the members of a finished group tell together. */
+/* Adds a finished group to the result. */
 static void conclude(iso_section_walk *w)
 {
     iso_section_result *r = w->result;
@@ -248,8 +258,8 @@ static iso_status give_rows(iso_section_walk *w, size_t slices)
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-/* iso_crossings_go wants the crossings of a slice side by side for its members, which are all but in the last group
- * as many as the group has room for. */
+/* Finds the next `each` crossings of all members. iso_crossings_go stores them `each` apart; rows want them w->slice
+ * apart. */
 static iso_status find_slice(iso_section_walk *w, size_t kept, size_t each)
 {
     iso_status status = ISO_OK;

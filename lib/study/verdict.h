@@ -1,4 +1,4 @@
-/* verdict.h - what can be said of an orbit. */
+/* verdict.h - the verdicts on an orbit: regular, chaotic, undecided. */
 #ifndef ISO_STUDY_VERDICT_H
 #define ISO_STUDY_VERDICT_H
 
@@ -6,7 +6,7 @@
 
 ISO_C_BEGIN
 
-/* ISO_INTEGRABLE: regular because a further integral makes it so, though the estimated frequencies are not
+/* ISO_INTEGRABLE: regular because there is a further integral, although the estimated frequencies have not
  * settled. */
 typedef enum iso_verdict { ISO_REGULAR, ISO_CHAOTIC, ISO_UNDECIDED, ISO_INTEGRABLE } iso_verdict;
 

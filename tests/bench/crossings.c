@@ -1,17 +1,17 @@
 /* bench_crossings - how many crossings of the section a second can be computed, alone and with deviations.
  *
  *     bench_crossings [K]            speed, J = (1, 2, 5)
- *     bench_crossings count MILLIONS so many crossings of random and of nearly flat orbits: none may be missed
+ *     bench_crossings count N        N million crossings of random and of nearly flat orbits: none may be missed
  *
- * The orbits start evenly spread over the section. All runs have tolerance 1e-12 and one thread; seconds are processor
- * time. `ratio` is to the first line of its block.
+ * The orbits start evenly spread over the section. All runs have tolerance 1e-12 and one thread; seconds are
+ * processor time. `ratio` is to the first line of its block.
  *
  * - crossings: a loop over iso_orbit_event with the method rk8pd, then iso_crossings with each kind of vectors.
  * - with two deviations, as for the verdict of `isoroll chaos`: GSL's rk8pd on (9) and its variational equations,
  *   written by hand, 18 numbers, 100 turns; then iso_crossings with deviations.
- * - count: the library holds each return to Sturm's bounds. Here the times s of both models are compared, too: of all
- *   crossings for k = 1 and -1, of the first 6 for other k, before chaos parts them. A crossing that one of them has
- *   missed puts them a turn apart.
+ * - count: the library checks each return against Sturm's bounds. Here the times s of both models are compared as
+ *   well: for k = 1 and -1 those of all crossings, for other k those of the first 6, before chaotic orbits part. If
+ *   one model misses a crossing, their times differ by a turn.
  */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>

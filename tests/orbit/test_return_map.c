@@ -1,5 +1,5 @@
 /* The return map of free orbits in lanes, lib/orbit/crossings.h: its derivative, its fixed points, its integrals, and
- * that no orbit feels another. */
+ * that the numbers of an orbit do not depend on other orbits. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

@@ -10,10 +10,10 @@ typedef struct crew {
     iso_lane_job *job[LANES]; /* NULL: the lane has no job; it goes on with its last orbit, and nothing is stored */
     iso_instant left[LANES];  /* the time at the step's left end */
     double row[LANES];        /* the time of the next row */
-    bool fresh[LANES];        /* its deviations are still to be found */
+    bool fresh[LANES];        /* its first deviations are not set yet  */
     long seen[LANES];         /* crossings in this step ...                                  */
-    long known[LANES];        /* ... of which so many have been stored by an earlier call    */
-    double since[LANES];      /* how far the variable has gone since the last crossing       */
+    long known[LANES];        /* ... of these, the number that an earlier call has stored    */
+    double since[LANES];      /* distance of the variable since the last crossing            */
     real direction, zeros;
     bool crossings; /* jobs ask for crossings, of `axis` */
     int axis;
@@ -97,7 +97,7 @@ static void start_next(crew *c, int lane)
 
 /* --- what is stored --------------------------------------------------------------------------------------------- */
 
-/* What is seen of the deviations. */
+/* Stores the deviations, their lengths and their angle. */
 static void store_look(const form *T, int lane, const state *s, const look *l, iso_lane_event *e)
 {
     for (int i = 0; i < ISO_LANE_DEVIATIONS; i++) {
@@ -108,7 +108,7 @@ static void store_look(const form *T, int lane, const state *s, const look *l, i
     e->sine = (double)LANE(l->sine, lane);
 }
 
-/* Stores what the lane's job asks for, at x of the series, where the state is s; l: of the deviations, if there are. */
+/* Stores what the lane's job asks for, where the state is s. l: the deviations there, if they are computed. */
 static void store_event(crew *c, int lane, const state *s, const look *l)
 {
     form *T = &c->T;
@@ -138,7 +138,7 @@ static void store_events(crew *c, real x, const real gained[], const bool due[])
         if (due[i]) store_event(c, i, &s, &l);
 }
 
-/* The same of crossings, whose times are to be found. */
+/* The same for crossings, whose times are computed here. */
 static void store_crossings(crew *c, real x, const bool due[])
 {
     real gained[ISO_CLOCKS];
@@ -181,14 +181,17 @@ static void find_rows(crew *c, real length, real dt)
         }
         if (!found) return;
         store_events(c, solve_for_time(&c->T, target, length * (target / dt)), NULL, due);
-        for (int i = 0; i < LANES; i++)
+        for (int i = 0; i < LANES; i++) {
             if (due[i] && !c->job[i]->error) next_row(c, i);
+            if (due[i] && c->job[i]->event) c->job[i]->steps = 0;
+        }
     }
 }
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-/* Into how many parts each lane's step is divided, so that n_axis has at most one zero in each; gives the largest. */
+/* The number of parts of each lane's step, so that n_axis has at most one zero in each part. Gives the largest
+ * one. */
 static int find_parts(const crew *c, real length, real *parts)
 {
     int most = 1;
@@ -214,8 +217,8 @@ static void cross_part(crew *c, real x, const bool crosses[])
     if (found) store_crossings(c, x, due);
 }
 
-/* Finds all crossings within the step. The signs at its ends are those of the states: a zero between two steps is neither
- * missed nor found twice. */
+/* Finds all crossings within the step. The signs at its ends are those of the stored states, which two successive
+ * steps share. So a zero between two steps is neither missed nor found twice. */
 static void find_crossings(crew *c, real length)
 {
     const form *T = &c->T;
@@ -274,7 +277,7 @@ static void end_step(crew *c, int lane, double dt, double x)
         else if (c->options->max_steps > 0 && job->steps >= c->options->max_steps)
             job->error = "more steps than allowed";
         else if (c->crossings && c->since[lane] > 2 * job->longest)
-            job->error = "the orbit lies in the section, and does not cross it";
+            job->error = "the orbit lies in the section and does not cross it";
         else if (c->crossings && fabs(x) * job->zeros > MOST_PARTS)
             job->error = "crossings can lie too close together to be told apart";
     }
@@ -300,7 +303,7 @@ static void find_fresh_deviations(crew *c)
     }
 }
 
-/* One step in all lanes. A job that is done takes its leave. */
+/* One step in all lanes. A lane whose job is done takes the next job. */
 static void step_together(crew *c)
 {
     form *T = &c->T;

@@ -1,15 +1,17 @@
-/* deviations_impl.h - first-order variations of an orbit: two of them beside it, in the channels 1 and 2 of its series.
+/* deviations_impl.h - two first-order variations of an orbit, computed beside it in channels 1 and 2 of its series.
  *
- * A deviation d is tangent to the constraints and to the level of the energy. The equations keep it so; rounding does
- * not, and off the level a point's equations are unstable. So it is brought back after each step, like the state:
+ * A deviation d is tangent to the constraints and to the level of the energy. The equations keep it tangent, but
+ * rounding does not, and off the level a point's equations are unstable. So each step ends by restoring d, as it
+ * restores the state:
  *
  *     (n,dn) = 0
- *     ball     (dw,n) + (w,dn) = 0,      (w,J dw) = 0 if nothing acts
+ *     ball     (dw,n) + (w,dn) = 0,      (w,J dw) = 0 if nothing acts, else dh = 0 at the start
  *     point    (dw,n) + (w,dn) = 0,      (w,dw) = f(q) (J n,dn) - (dV,dn),    w = gamma', |w|^2 = F(q) - 2 V, f = F'
  *
- * Its length is measured by |dn|^2 + |dw|^2/|w|^2, and by the unit vectors of effects that act. The part along the flow is taken
- * away before it is measured: d - f (d,f)/(f,f), f the derivative of the state. A deviation that has become long is
- * divided by its length, whose logarithm is kept.
+ * The square of its length is |dn|^2 + |dw|^2/|w|^2, plus the same of the unit vectors of effects that act. A ball on
+ * which a potential acts can come to rest; for it |w|^2 is that of the start plus what the potential can give. Before it
+ * is measured, the part along the flow is taken away: d - f (d,f)/(f,f), f the derivative of the state. A deviation
+ * that has become long is divided by its length, and the logarithm of this length is kept.
  */
 #include "method/taylor/restore_impl.h"
 
@@ -25,7 +27,7 @@ static inline void add_times(real a[], real factor, const real b[])
 
 /* --- back to the constraints ------------------------------------------------------------------------------------ */
 
-/* Along the velocity, or omega: (w,dw) as the energy wants it. */
+/* Changes dw along w, so that (w,dw) agrees with the energy. */
 static void keep_level_of_point(const form *T, const state *s, state *d)
 {
     const series *S = &T->S;
@@ -149,7 +151,7 @@ static void flow_at(const form *T, real x, state *f)
 /* (a,b) of two deviations from s. */
 static real inner(const form *T, const state *s, const state *a, const state *b)
 {
-    const real square = inner3(s->w, s->w);
+    const real square = T->loaded ? T->speed_square : inner3(s->w, s->w);
     real sum = inner3(a->n, b->n) + inner3(a->w, b->w) / choose(square > zero, square, spread(1));
     const units u = units_of(T, false);
     for (int i = 0; i < u.count; i++) sum += inner_of(a->own + u.at[i], b->own + u.at[i], u.size[i]);
@@ -171,7 +173,7 @@ static void scale_state(const form *T, state *a, real factor)
 
 /* --- at the start ----------------------------------------------------------------------------------------------- */
 
-/* The flow at T->now: two coefficients of the series tell it. */
+/* The flow at T->now, from two coefficients of the series. */
 static void flow_now(form *T, state *flow)
 {
     const int order = T->S.order;
@@ -182,7 +184,27 @@ static void flow_now(form *T, state *flow)
     T->S.order = order;
 }
 
-/* Two deviations from T->now, orthogonal and of length 1: towards the neighbour beside the orbit, and towards the one that
+/* Takes the change of a loaded ball's energy out of d, where the energy is kept: along w, by a central difference of the
+ * energy. Later on the equations keep it out. */
+static void start_on_level(const form *T, state *d)
+{
+    for (int lane = 0; lane < LANES; lane++) {
+        const iso_problem *f = T->problem[lane];
+        double y[2][ISO_MAX_STATE], step = 1e-5, h[2], size, along = 0;
+        if (!(LANE(T->keeps_energy, lane) > 0)) continue;
+        for (int side = 0; side < 2; side++) {
+            state moved = T->now;
+            add_state(T, &moved, spread((NUMBER)(side == 0 ? -step : step)), d);
+            store(T, lane, &moved, y[side]);
+            h[side] = iso_system_ball.energy(f, y[side], &size);
+        }
+        for (int i = 0; i < 3; i++) along += (double)(LANE(T->now.w[i], lane) * LANE(T->now.w[i], lane)) * f->p.J[i];
+        const double part = along > 0 ? (h[1] - h[0]) / (2 * step * along) : 0;
+        for (int i = 0; i < 3; i++) LANE(d->w[i], lane) -= part * LANE(T->now.w[i], lane);
+    }
+}
+
+/* Two deviations from T->now, orthogonal and of length 1: towards a neighbour beside the orbit, and towards one that
  * starts in another direction. */
 static void find_deviations(form *T, state d[SLOTS])
 {
@@ -199,6 +221,7 @@ static void find_deviations(form *T, state d[SLOTS])
     }
     for (int c = 1; c < CHANNELS; c++) {
         restore_deviation(T, s, &d[c]);
+        if (T->loaded) start_on_level(T, &d[c]);
         add_state(T, &d[c], -inner(T, s, &d[c], &flow) / inner(T, s, &flow, &flow), &flow);
         if (c == 2) add_state(T, &d[2], -inner(T, s, &d[1], &d[2]), &d[1]);
         scale_state(T, &d[c], 1 / root(inner(T, s, &d[c], &d[c])));
@@ -247,8 +270,8 @@ static void end_deviations(form *T, real length, const state *s)
     }
 }
 
-/* What is seen of the deviations at x, where the state is s: the logarithms of their lengths, and the sine of the angle
- * between them, without their parts along the flow; and they themselves, with these parts. */
+/* The deviations at x, where the state is s: the squares of their lengths and the sine of the angle between them,
+ * without their parts along the flow; and the deviations themselves, with these parts. */
 typedef struct look {
     state deviation[SLOTS];
     real square[SLOTS], sine;
@@ -265,12 +288,12 @@ static void look_at(const form *T, real x, const state *s, look *l)
         add_state(T, &d[c], -along * inner(T, s, &d[c], &flow), &flow);
         l->square[c] = inner(T, s, &d[c], &d[c]);
     }
-    const real cosine = inner(T, s, &d[1], &d[2]) / l->square[1]; /* the part of d2 that d1 has not */
+    const real cosine = inner(T, s, &d[1], &d[2]) / l->square[1]; /* the rest of d2 is normal to d1 */
     add_state(T, &d[2], -cosine, &d[1]);
     l->sine = root(inner(T, s, &d[2], &d[2]) / l->square[2]);
 }
 
-/* d of lane, in the variables of the model, where the state is s. Of a point M = gamma' x gamma pace(q). */
+/* Stores d of a lane in the variables of the model, where the state is s. For a point M = gamma' x gamma pace(q). */
 static void store_deviation(const form *T, int lane, const state *s, const state *d, double y[])
 {
     (void)lane;

@@ -6,7 +6,7 @@ enum { MOST = FINEST_ORDER, KEPT = MOST + 3 }; /* the highest order, that of the
 #include "method/taylor/quadrature_impl.h"
 #include "model/series/recurrences_impl.h"
 
-enum { SLOTS = 3 }; /* room for channels 0 to 2, also where there are fewer */
+enum { SLOTS = 3 }; /* room for channels 0 to 2, also if there are fewer */
 
 /* A state, in the own variable of a form: of a point n = gamma, w = gamma'. */
 typedef struct state {
@@ -30,13 +30,14 @@ typedef struct form {
     real c[ISO_FORMULA_CONSTANTS];   /* of the energy of the effects                                         */
     real range;                      /* how large their potential can be, at least; see iso_effects_largest  */
     real twice_energy, keeps_energy; /* of a loaded ball at the start; 1 where it is conserved, else 0       */
+    real speed_square;               /* of a loaded ball: of the start, plus what the potential can give       */
     quadrature rule;
     int clocks; /* those that are not the own */
     iso_clock clock_of[ISO_CLOCKS];
     real rate[ISO_CLOCKS], power[ISO_CLOCKS]; /* clock' = rate base^power, base = q of a point, g of a ball */
     state now;                                /* at the end of the last step */
-    state deviation[SLOTS];                   /* likewise, of channels 1, ...: see deviations_impl.h; ... */
-    real scale[SLOTS];                        /* ... they are exp(scale) times as long     */
+    state deviation[SLOTS];                   /* there, of channels 1, ... (deviations_impl.h), divided */
+    real scale[SLOTS];                        /* by exp(scale)                             */
     real clock[ISO_CLOCKS];                   /* at its beginning */
     series S;                                 /* last: its coefficients need not be cleared */
 } form;

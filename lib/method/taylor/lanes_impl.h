@@ -15,7 +15,7 @@ enum { ISO_LANE_DEVIATIONS = 2 };
 /* An orbit at a row, or at a crossing, with its deviations (deviations_impl.h) if the code has them. */
 typedef struct iso_lane_event {
     double y[ISO_MAX_STATE];
-    double deviation[ISO_LANE_DEVIATIONS][ISO_MAX_STATE]; /* exp(scale) times this, with its part along the flow */
+    double deviation[ISO_LANE_DEVIATIONS][ISO_MAX_STATE]; /* times exp(scale); with the part along the flow      */
     double scale[ISO_LANE_DEVIATIONS];
     double growth[ISO_LANE_DEVIATIONS]; /* ln of its length, without that part; 0 at the start */
     double sine;                        /* of the angle between them                           */
@@ -23,18 +23,18 @@ typedef struct iso_lane_event {
 
 /* One orbit, from `start` at time 0, to rows or to crossings.
  *
- * Rows are times in the model's clock, all on one side of 0, going away from it. Crossings are the times after 0 at which
- * n_axis (gamma_axis) of a free orbit passes 0 upwards; `zeros` and `longest` bound the way between them.
+ * Rows are times in the model's clock, all on one side of 0, going away from it. Crossings are the times after 0 at
+ * which n_axis (gamma_axis) of a free orbit passes 0 upwards. `zeros` and `longest` bound the distance between them.
  *
- * An orbit can be followed in parts: with `saved` the next call of solve() goes on where the last one ended, bit for
- * bit. */
+ * An orbit can be followed in parts: with `saved` the next call of solve() goes on where the last one ended. The
+ * results are the same as those in one part, to the last bit. */
 typedef struct iso_lane_job {
     const iso_model *model;
     double start[ISO_MAX_STATE];
     size_t rows;           /* or crossings */
     const double *time;    /* NULL: crossings                                                           */
     int axis;              /* 0 to 2                                                                    */
-    double zeros, longest; /* in the variable of the series (iso_lane_job_clock): n_axis has at most one zero within
+    double zeros, longest; /* in the variable of the series (iso_lane_clock): n_axis has at most one zero within
                               1/zeros; two crossings are less than `longest` apart                      */
     double unit;           /* time[i]/unit is in the model's units                                      */
     double *states;        /* NULL, or: model->dim numbers at states[row stride]                        */

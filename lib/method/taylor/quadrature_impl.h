@@ -62,8 +62,8 @@ static inline void values_at_nodes(const quadrature *rule, const real b[], int o
         for (int i = 0; i < NODES; i++) value[i] = value[i] * at[i] + b[n];
 }
 
-/* The integral of b^p from 0 to x, from the values of b at the nodes; its relative error, estimated, into *doubt if that
- * is less. */
+/* The integral of b^p from 0 to x, from the values of b at the nodes. Raises *doubt to its estimated relative error,
+ * if that is larger. */
 static inline real integral_of_power(const quadrature *rule, const real value[NODES], real p, real x, real *doubt)
 {
     real sum = zero, c[2] = {zero, zero};

@@ -31,8 +31,8 @@ static inline real restore_length(real a[], int count, real target, mask wanted)
     return worst;
 }
 
-/* The potential of the effects at n (gamma), base g (q), and the sum of the sizes of its terms; of a point its
- * gradient. */
+/* The potential of the effects at n (gamma), with base g (q). Also the sum of the sizes of its terms and, for a
+ * point, its gradient. */
 static real potential_at(const form *T, const real n[3], real base, const state *s, real *size, vector *gradient)
 {
     const iso_formula *F = &T->shape.problem.energy_formula;
@@ -315,6 +315,9 @@ static void set_integrals(form *T, int lane, const iso_model *m)
         for (int i = 0; i < m->dim; i++)
             y[i] = i < 3 ? (double)LANE(start.w[i], lane) : i < 6 ? (double)LANE(start.n[i - 3], lane) : 0;
         LANE(T->range, lane) = iso_effects_largest(&m->problem, y);
+        double square = 0, most = 0;
+        for (int i = 0; i < 3; i++) square += y[i] * y[i], most = fmax(most, m->problem.p.J[i]);
+        LANE(T->speed_square, lane) = square + 2 * (double)LANE(T->range, lane) / most;
     }
 }
 
@@ -327,8 +330,8 @@ static void start_orbit(form *T, int lane, const iso_model *m, const double y[])
     if (T->second_of || T->loaded) set_integrals(T, lane, m);
 }
 
-/* The state at x of the series (gained: see state_at), with its constraints restored; gives the relative size of the corrections. States of
- * effects that no equation moves stay as they are. */
+/* The state at x of the series (gained: see state_at), with its constraints restored. Gives the relative size of the
+ * corrections. States of effects that no equation moves stay as they are. */
 static real find_state(const form *T, real x, const real gained[], state *s)
 {
     if (s != &T->now) *s = T->now;

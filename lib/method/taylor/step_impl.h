@@ -78,7 +78,7 @@ static inline void channel_at(const form *T, int c, real x, state *s)
 {
     const series *S = &T->S;
     const vector *n = S->n + place(c, 0);
-    value(n, S->order + T->is_point, x, s->n); /* of gamma one more is known, which gamma' needs */
+    value(n, S->order + T->is_point, x, s->n); /* gamma has one more coefficient, for gamma' */
     if (T->is_point)
         rate(n, S->count, S->order + 1, x, s->w);
     else
@@ -92,7 +92,7 @@ static inline void channel_at(const form *T, int c, real x, state *s)
     }
 }
 
-/* The state at x. gained: how far the clocks have gone on until then; NULL: not known. */
+/* The state at x. gained: the advance of the clocks from 0 to x; NULL: not known. */
 static void state_at(const form *T, real x, const real gained[], state *s)
 {
     const iso_model *m = &T->shape;
@@ -111,8 +111,8 @@ static inline real largest(vector a)
     return larger(larger(magnitude(AT(a, 0)), magnitude(AT(a, 1))), magnitude(AT(a, 2)));
 }
 
-/* The largest coefficient n of the states, in units of their sizes. Deviations do not shorten the step: their series
- * converge where that of the orbit does. */
+/* The largest coefficient n of the states, relative to their sizes. Deviations do not shorten the step: their series
+ * converge where the series of the orbit converges. */
 static real coefficient(const form *T, int n)
 {
     const series *S = &T->S;

@@ -1,9 +1,9 @@
 /* variant.c - the code of the Taylor methods, compiled once for each kind of number and vector.
  *
  * The build (CMakeLists.txt) sets ISO_TAYLOR_VARIANT to VARIANT_ and one of the names below. The first four are an
- * iso_taylor_code, for the method (method.c). The others are an iso_lane_code, for batches (lanes.c), with an orbit in
- * each lane of a vector; those called tangent have two deviations beside each orbit. All project and system headers come before the macros of numbers, so
- * that these reach nothing but the series. They end with this file.
+ * iso_taylor_code, for the method (method.c). The others are an iso_lane_code, for batches and crossings (lanes.c),
+ * with an orbit in each lane of a vector. Those called tangent compute two deviations beside each orbit. All project
+ * and system headers come before the macros of numbers, so that these reach only the series. They end with this file.
  *
  *     variant       numbers                  orbits   for
  *     plain         double                   1        any processor
@@ -13,7 +13,7 @@
  *     lanes_plain   double                   2        any processor: all have vectors of two doubles, or do without
  *     lanes_avx2    double                   4        x86 with AVX2 and FMA
  *     lanes_avx512  double                   8        x86 with AVX-512
- *     tangent_...   the same three, and extended and quad with one orbit
+ *     tangent_...   as the three lanes_..., and extended and quad with one orbit, all with deviations
  */
 #define VARIANT_PLAIN 1
 #define VARIANT_AVX2 2

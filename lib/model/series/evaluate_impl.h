@@ -7,8 +7,8 @@
 #include "model/formula.h"
 #include "model/series/products_impl.h"
 
-/* Where the coefficients are: of scalar (vector) i, number n of channel c at [i kept + place(c, n)]; and where results
- * go. */
+/* Where the coefficients are, and where results go. Coefficient n of scalar (or vector) i in channel c is at
+ * [i kept + place(c, n)]. */
 typedef struct nodes {
     int kept;
     const real *c; /* constants */
@@ -75,8 +75,8 @@ static inline real sum_of_power(const nodes *t, const real a[], real p, const re
     return (p + 1) * slopes - t->count[n] * plain;
 }
 
-/* (a^p)_n. `power` of products_impl.h states the same recurrence for the base of the ball and of the point, and is
- * faster: it takes n b_n and 1/b_0 from its caller, and adds in two sums. So the two round differently. */
+/* (a^p)_n. `power` of products_impl.h is the same recurrence for the base of the ball and of the point. It is faster:
+ * its caller gives n b_n and 1/b_0, and it adds in two sums. So the two round differently. */
 static inline real power_of_series(const nodes *t, const real a[], real p, const real v[], int c, int n)
 {
     if (n == 0 && !is_deviation(c)) return raised(a[0], p);

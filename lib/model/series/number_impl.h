@@ -5,7 +5,7 @@
  * (one orbit only) the three share a register of four. No operation mixes lanes: what an orbit gets does not depend
  * on its neighbours.
  *
- * KEPT is the number of coefficients of a series. CHANNELS is 1, or 1 and the number of deviations that are computed
+ * KEPT is the number of coefficients of a series. CHANNELS is 1 plus the number of deviations that are computed
  * beside each orbit (products_impl.h).
  */
 #ifndef ISO_MODEL_SERIES_NUMBER_IMPL_H

@@ -7,15 +7,16 @@
  *     r = a/b:    r_n = (a_n - sum_(j>0) b_j r_(n-j))/b_0                             since b r = a
  *     v = b^p:    v_n = sum_(j>0) ((p+1) j - n) b_j v_(n-j) / (n b_0)                 since b v' = p b' v
  *
- * First-order variations are computed beside the motion where CHANNELS > 1. Channel 0 of a series is the motion. The
- * channels after it are deviations: the change of the series, to first order, when the orbit is changed. Channel c
- * begins at [c KEPT]. Each operation below is differentiated by the rule of products:
+ * If CHANNELS > 1, first-order variations are computed beside the motion. Channel 0 of a series is the motion. The
+ * other channels are deviations: the changes of the series, to first order, when the start of the orbit is changed.
+ * Channel c begins at [c KEPT]. Each operation below is differentiated by the product rule:
  *
  *     d(a b) = a db + da b,     b dr + db r = da,     b dv' + db v' = p (b' dv + db' v)
  */
 #include "model/series/number_impl.h"
 
-/* --- coefficient n of a product: sums in two parts, which the processor adds side by side ------------------------ */
+/* --- coefficient n of a product: sums in two parts, which the processor adds side by side
+ * ------------------------ */
 
 static inline real product_of(const real a[], const real b[], int n)
 {
@@ -80,7 +81,8 @@ static inline vector cross_of(const vector a[], const vector b[], int n)
     return turn(minus(forth, back));
 }
 
-/* --- in a channel ------------------------------------------------------------------------------------------------ */
+/* --- in a channel
+ * ------------------------------------------------------------------------------------------------ */
 
 /* The place of coefficient n in channel c. */
 static inline int place(int c, int n)

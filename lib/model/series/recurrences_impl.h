@@ -8,8 +8,8 @@
  *     Jacobians   slopes.c sets coefficients 1 of the states to a direction; coefficients 1 of the right-hand side
  *                 are then the Jacobian times this direction
  *
- * A term computes coefficient n in channel c, which stands at i = place(c, n): of the motion (c = 0), or of a deviation
- * from it (products_impl.h). Where it is linear it reads the same in both.
+ * A term computes coefficient n in channel c, which is at i = place(c, n). Channel 0 is the motion, the others are
+ * its deviations (products_impl.h). A linear term is the same code in all channels.
  */
 #include "model/series/evaluate_impl.h"
 
