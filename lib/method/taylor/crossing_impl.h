@@ -22,8 +22,9 @@ static inline real component_and_slope(const form *T, int axis, real x, real *sl
     return p;
 }
 
-/* The zero of n_axis between a (n_axis < 0) and b (n_axis >= 0): Newton's method, and halving where it leaves the bracket.
- * Its error is about the square of the last change: in t n_axis'' is not 0 where n_axis is, as it is in s. */
+/* The zero of n_axis between a (n_axis < 0) and b (n_axis >= 0): Newton's method, and halving where it leaves the
+ * bracket. Its error is about the square of the last change: in t n_axis'' is not 0 where n_axis is, as it is in s.
+ * */
 static real find_crossing(const form *T, int axis, real a, real at_a, real b, real at_b, mask crosses)
 {
     real x = a + (b - a) * (-at_a / (at_b - at_a));
