@@ -17,8 +17,8 @@ static inline iso_fine fine_of(NUMBER x)
     return (iso_fine){head, (double)(x - (NUMBER)head)};
 }
 
-/* The state and its derivatives by l and x at a point of the chart, in the form's variables. Components stand in the order
- * (b, c, a): gamma = (cos l, -sin l, 0), and gamma' = v (-x sin l, -x cos l, (1-x^2)^(1/2)), v^2 = F(q). */
+/* The state and its derivatives by l and x at a point of the chart, in the form's variables. Components stand in the
+ * order (b, c, a): gamma = (cos l, -sin l, 0), and gamma' = v (-x sin l, -x cos l, (1-x^2)^(1/2)), v^2 = F(q). */
 static void start_on_section(form *T, int axis, NUMBER l, NUMBER x)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;

@@ -11,9 +11,9 @@ typedef struct iso_fine {
 
 /* One return: the start, and what is found.
  *
- * Half a return: the equations are odd in gamma, so that (-gamma, -gamma') of a crossing begins an orbit as well. There
- * gamma_a goes down, and passes 0 upwards after half a return. The square of this map is the return map, and it keeps
- * the fixed points (rotations) as they are: its derivative there has the half-turn trace, up to its sign. */
+ * Half a return: the equations are odd in gamma, so that (-gamma, -gamma') of a crossing begins an orbit as well.
+ * There gamma_a goes down, and passes 0 upwards after half a return. The square of this map is the return map, and
+ * it keeps the fixed points (rotations) as they are: its derivative there has the half-turn trace, up to its sign. */
 typedef struct iso_return {
     iso_fine from[2], to[2];    /* (l, x)                                      */
     bool half;                  /* half a return: the start is the point with -gamma and -gamma' instead */
