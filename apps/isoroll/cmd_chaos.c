@@ -48,21 +48,25 @@ static void print_head(const iso_scene *scene, const iso_chaos *c)
     if (c->axis < 0)
         printf("a turn is a step of %.6g in t: there is no section n_a = 0 here\n", c->turn);
     else
-        printf("a turn is a return to the section n_%d = 0, n_%d increasing%s\n", c->axis + 1, c->axis + 1,
-               c->global ? "" : ", which is not global");
+        printf("a turn is a return to the section n_%d = 0, n_%d increasing\n", c->axis + 1, c->axis + 1);
     printf("\nthis orbit: %s", iso_verdict_name(c->own.verdict));
     if (c->own.disagree) printf(": ball and point disagree");
-    printf("\n\n  model  verdict      turns     MEGNO   GALI_2    largest exponent per unit of\n"
-           "                                                   t                     tau                   s\n");
+    if (c->plane >= 0) {
+        printf("\n  it is the rotation about axis %d in a principal plane, which is periodic\n", c->plane + 1);
+        return;
+    }
+    printf(
+        "\n\n%47s largest exponent per unit of\n  model  verdict      turns     MEGNO   GALI_2  %18s  %18s  %18s\n",
+        "", "t", "tau", "s");
 }
 
-/* x +- error, in 21 columns */
+/* x +- error, in 20 columns */
 static void print_rate(double x, double error)
 {
     if (isnan(x) || isnan(error))
-        printf("  %-20s", "-");
+        printf("  %18s", "-");
     else
-        printf("  %10.3e +- %-7.0e", x, error);
+        printf("  %9.2e +- %5.0e", x, error);
 }
 
 static void print_model(const iso_chaos *c, int model)
@@ -101,8 +105,8 @@ static void print_share(const iso_chaos_share *s)
 static void print_table(const iso_scene *scene, const iso_chaos *c)
 {
     print_head(scene, c);
-    for (int m = 0; m < 2; m++) print_model(c, m);
-    if (c->own.verdict == ISO_REGULAR)
+    for (int m = 0; m < 2 && c->plane < 0; m++) print_model(c, m);
+    if (c->plane < 0 && c->own.verdict == ISO_REGULAR)
         printf("  a regular orbit has the exponents 0: what is shown falls like 1/turns\n");
     print_agreement(c);
     print_share(&c->share);
@@ -150,8 +154,7 @@ static long turns_of(const iso_chaos *c)
 static bool print_json(const iso_scene *scene, const iso_chaos *c)
 {
     const iso_params *p = &scene->params;
-    json_t *section =
-        c->axis < 0 ? json_null() : json_pack("{s:i, s:b}", "axis", c->axis + 1, "global", (int)c->global);
+    json_t *section = c->axis < 0 ? json_null() : json_pack("{s:i}", "axis", c->axis + 1);
     json_t *o = json_pack("{s:s, s:o, s:[o,o,o], s:o, s:o, s:s, s:b, s:I, s:o, s:o}", "isoroll", iso_version(), "k",
                           json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]), json_number(p->J[2]),
                           "section", section, "turn", json_number(c->turn), "verdict",
@@ -248,7 +251,10 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
         write_csv(c, iso_output_stream(csv));
         result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
     }
-    if (o->plot) result = worse(result, finish(ctx, draw(ctx, o, scene, c)));
+    if (o->plot && c->plane >= 0 && c->share.count == 0)
+        complain("no picture: a rotation in a principal plane is periodic, and was not followed");
+    else if (o->plot)
+        result = worse(result, finish(ctx, draw(ctx, o, scene, c)));
     return result;
 }
 
@@ -310,8 +316,9 @@ static const option_row rows[] = {
     ROW_OF_WORDS("model", "M", "ball, point or both",
                  "which model is integrated (default: both, where the ball has a twin)", set_as, options, models,
                  as_word),
-    ROW("axis", "A", "auto, 1, 2 or 3", "the section n_A = 0, n_A increasing; auto (default): the global one",
-        set_text, options, axis),
+    ROW("axis", "A", "auto, 1, 2 or 3",
+        "the section n_A = 0, n_A increasing, a global one; auto (default): the one that always is", set_text,
+        options, axis),
     ROW_TOLERANCE(options, scene),
     {.name = "threads",
      .argument = "N",

@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "io/plot.h"
 #include "scene_options.h"
+#include "section_cloud.h"
 #include "section_plot.h"
 #include "study/section.h"
 
@@ -18,6 +19,7 @@ typedef struct options {
     const char *axis, *event, *output, *plot; /* NULL: not given                */
     const char *at[MOST_AT + 1];              /* as they were typed, then NULL  */
     double crossings, starts, seed, threads;
+    double cloud;     /* 0: not given                  */
     iso_shown models; /* ISO_SHOW_START: not given      */
     bool quiet;
 } options;
@@ -186,6 +188,35 @@ static void tell(const iso_section_result *r)
     if (r->models == ISO_SHOW_BOTH) tell_both(r);
 }
 
+/* --- the picture ------------------------------------------------------------------------------------------------ */
+
+/* Looks which of the orbits are chaotic. If there are very many of them, or where this fails, the picture shows in
+ * which of them the models part. */
+static void judge(iso_context *ctx, const iso_scene *scene, const iso_section_options *how,
+                  const iso_section_result *r, section_picture *picture)
+{
+    enum { MOST_ORBITS = 3000 };
+    iso_chaos *chaos = NULL;
+    iso_chaos_options c = iso_chaos_defaults();
+    c.starts = how->starts;
+    c.seed = how->seed;
+    c.at = how->at;
+    c.at_count = how->at_count;
+    c.models = r->models == ISO_SHOW_BOTH ? ISO_SHOW_BALL : r->models;
+    c.axis = r->nature.axis;
+    c.tolerance = how->tolerance;
+    c.threads = how->threads;
+    if (r->orbits > MOST_ORBITS) return;
+    if (iso_chaos_run(ctx, scene, &c, &chaos) == ISO_OK) section_picture_judge(picture, chaos);
+    iso_chaos_free(chaos);
+}
+
+static int draw(target *t, const iso_scene *scene, const iso_section_options *how, const iso_section_result *r)
+{
+    if (!interrupted()) judge(t->ctx, scene, how, r, t->picture);
+    return finish(t->ctx, section_picture_draw(t->ctx, t->picture, t->o->plot));
+}
+
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
 /* Ends the file with all rows there are. */
@@ -217,12 +248,12 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     const iso_status status = o->plot && !t.picture
                                   ? iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture")
                                   : iso_section_run(ctx, scene, how, &sink, &r);
-    iso_context_set_monitor(ctx, NULL, NULL);
     int result = t.opened ? close_file(&t, status, &r) : finish_scene(ctx, &o->scene, scene, status);
     if (t.opened && o->plot && r.rows > 0 && result <= EXIT_SOME_FAILED) {
-        const int drawn = finish(ctx, section_picture_draw(ctx, t.picture, o->plot));
+        const int drawn = draw(&t, scene, how, &r);
         if (drawn != EXIT_DONE) result = drawn;
     }
+    iso_context_set_monitor(ctx, NULL, NULL);
     section_picture_free(t.picture);
     return result;
 }
@@ -236,7 +267,11 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = read_options(ctx, o, &how, &at);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, &scene);
-    const int result = status == ISO_OK ? run_scene(ctx, o, &scene, &how) : finish(ctx, status);
+    int result = finish(ctx, status);
+    if (status == ISO_OK && o->cloud > 0)
+        result = section_cloud(ctx, &o->scene, &scene, &how, o->cloud);
+    else if (status == ISO_OK)
+        result = run_scene(ctx, o, &scene, &how);
     free(at);
     return result;
 }
@@ -258,6 +293,9 @@ static const option_row rows[] = {
         seed),
     ROW("at", "L,X", "l,x, at most 64 times", "an orbit that starts at (l, x); several: L,X;L,X or --at again",
         set_at, options, at),
+    ROW("cloud", "N", "a whole number from 1 on",
+        "in place of all that: test with N states, 512 or more, whether the invariant measure is kept", set_count,
+        options, cloud),
     ROW_OF_WORDS("model", "M", "ball, point or both",
                  "which model is integrated (default: both, where the ball has a twin)", set_as, options, models,
                  as_word),
@@ -295,10 +333,14 @@ const command command_section = {
         "With --model both, each model is integrated by itself. The rows are the ball's; stderr tells how far the "
         "point's are from them, and which orbits part, as chaotic ones do.\n\n"
         "Every return of a free orbit is held to bounds of its length in s. So no crossing can be skipped unseen.\n\n"
-        "--plot draws the sections of both models side by side.\n\n"
+        "--plot draws the sections of both models side by side, each orbit in one colour, chaotic orbits in grey.\n\n"
+        "--cloud N makes N states that are distributed by the invariant measure (10) at the scene's energy. The flow "
+        "carries them, in equal times t and s, and so do returns to the section, where the measure is dL dl. Each "
+        "cloud is tested against the measure again; a line tells the probability p of what is found, and how sharp "
+        "the test is.\n\n"
         "After Ctrl-C, the rows computed so far are kept.",
     .example = "isoroll section scene.yaml --starts 100 -o section.csv --plot section.png",
-    .exits = "1: interrupted, or some orbits did not get to the end\n"
+    .exits = "1: interrupted, some orbits did not get to the end, or a cloud does not keep the measure\n"
              "4: the computation failed before the first crossing",
     .run = run,
 };

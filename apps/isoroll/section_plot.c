@@ -25,7 +25,8 @@ struct section_picture {
     uint64_t *hash;
     double (*ball)[2], (*point)[2];
     size_t grey_room;
-    bool *grey; /* of each orbit: ball and point have parted */
+    bool *grey;  /* of each orbit: ball and point have parted, or ... */
+    bool judged; /* ... a verdict says that it is chaotic             */
 };
 
 section_picture *section_picture_create(const iso_scene *scene)
@@ -59,7 +60,7 @@ void section_picture_begin(section_picture *p, const iso_record *header)
     p->l = iso_record_find(header, "l");
     p->x = iso_record_find(header, "x");
     p->axis = axis && p->l >= 0 ? axis[0] - '1' : -1;
-    p->eps = eps ? strtod(eps, NULL) : 1;
+    p->eps = eps && !iso_record_get(header, "effects") ? strtod(eps, NULL) : 0; /* with effects L is not G(l) x */
 }
 
 /* Numbers without a pattern: every second row of an orbit that swings between two islands would show one of them. */
@@ -124,6 +125,18 @@ void section_picture_pair(section_picture *p, const iso_crossing *ball, const is
     p->point[p->count - 1][1] = point->x;
 }
 
+void section_picture_judge(section_picture *p, const iso_chaos *chaos)
+{
+    for (size_t i = 0; i < p->orbits; i++) {
+        const bool known = i == 0 || i <= chaos->starts;
+        const iso_verdict verdict = !known   ? ISO_UNDECIDED
+                                    : i == 0 ? chaos->own.verdict
+                                             : chaos->start[i - 1].verdict;
+        p->grey[i] = verdict == ISO_CHAOTIC;
+    }
+    p->judged = true;
+}
+
 iso_status section_picture_draw(iso_context *ctx, const section_picture *p, const char *path)
 {
     const double *J = p->scene->params.J;
@@ -148,6 +161,8 @@ iso_status section_picture_draw(iso_context *ctx, const section_picture *p, cons
                                       .point = (const double(*)[2])p->point,
                                       .orbits = p->orbits,
                                       .grey = p->grey,
-                                      .grey_means = any ? "ball and point part: chaotic" : NULL};
+                                      .grey_means = !any        ? NULL
+                                                    : p->judged ? "chaotic"
+                                                                : "ball and point part: chaotic"};
     return iso_plot_sections(ctx, path, &section);
 }

@@ -3,7 +3,7 @@
 #define ISOROLL_SECTION_PLOT_H
 
 #include "isoroll.h"
-#include "orbit/crossings.h"
+#include "study/chaos.h"
 
 typedef struct section_picture section_picture;
 
@@ -17,6 +17,10 @@ bool section_picture_row(section_picture *p, const double row[]);
 
 /* Of the last row: the same crossing by the point. */
 void section_picture_pair(section_picture *p, const iso_crossing *ball, const iso_crossing *point);
+
+/* Which orbits are chaotic, in the order of the rows' numbers: these are drawn in grey. Without this call, those in
+ * which the two models part. */
+void section_picture_judge(section_picture *p, const iso_chaos *chaos);
 
 /* Draws it. Errors: ISO_BAD_INPUT where the section is an event, which has no coordinates; those of
  * iso_plot_sections. */

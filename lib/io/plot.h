@@ -106,7 +106,7 @@ ISO_API iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_p
 typedef struct iso_plot_section {
     const char *title;        /* one line, any characters; NULL: none                                          */
     const iso_params *params;
-    double eps;               /* the coupling, > 0: it gives the scale of L                                    */
+    double eps;               /* the coupling, > 0, of free orbits: it gives L; else 0: x is drawn, not L      */
     int axis;                 /* a, 0 to 2                                                                     */
     size_t count;             /* crossings, 1 or more                                                          */
     const uint32_t *orbit;    /* of each: the orbit it belongs to                                              */

@@ -54,9 +54,15 @@ static spot of_ball(const iso_plot_section *s, const double chart[2])
     return (spot){atan2(p->root_J[c] * sin(l), p->root_J[b] * cos(l)), omega[2] / norm(omega)};
 }
 
+/* G(l). Without a free point, 1: L is then drawn by its largest value. */
+static double largest_momentum(const iso_plot_section *s, double l)
+{
+    return s->eps > 0 ? iso_section_momentum(s->params, s->eps, s->axis, l) : 1;
+}
+
 static spot of_point(const iso_plot_section *s, const double chart[2])
 {
-    return (spot){chart[0], chart[1] * iso_section_momentum(s->params, s->eps, s->axis, chart[0])};
+    return (spot){chart[0], chart[1] * largest_momentum(s, chart[0])};
 }
 
 /* A block of crossings, the grey ones first: they lie behind. */
@@ -79,7 +85,7 @@ static double put_boundary(FILE *f, const iso_plot_section *s)
     double most = 0;
     fputs("$boundary << EOD\n", f);
     for (int i = 0; i <= BOUNDARY; i++) {
-        const double l = ISO_PI * (2.0 * i / BOUNDARY - 1), G = iso_section_momentum(s->params, s->eps, s->axis, l);
+        const double l = ISO_PI * (2.0 * i / BOUNDARY - 1), G = largest_momentum(s, l);
         fprintf(f, "%.5f %.6g\n", l, G);
         most = fmax(most, G);
     }
@@ -137,10 +143,11 @@ static void put_point(FILE *f, const iso_plot_section *s, double size, double mo
     fputc(':', f);
     iso_gnuplot_number(f, TOP * most);
     fprintf(f,
-            "]\nset title 'point: γ_%d = 0, γ_%d increasing'\n"
-            "set xlabel 'l,  where γ_%d = cos l, γ_%d = −sin l'\n"
-            "set ylabel 'L = M_%d, in the units of the scene'\n",
-            a, a, b, c, a);
+            "]\nset title '%s: γ_%d = 0, γ_%d increasing'\n"
+            "set xlabel 'l,  where γ_%d = cos l, γ_%d = −sin l'\n",
+            s->eps > 0 ? "point" : "directions of γ and M", a, a, b, c);
+    fprintf(f, s->eps > 0 ? "set ylabel 'L = M_%d, in the units of the scene'\n" : "set ylabel 'x = M_%d / |M|'\n",
+            a);
     fputs("plot ", f);
     for (int side = 1; side >= -1; side -= 2) { /* outside of the boundaries */
         fprintf(f, "$boundary using 1:(%d*$2):(", side);

@@ -63,6 +63,20 @@ static iso_status check_options(const iso_chaos_walk *w)
     return ISO_OK;
 }
 
+/* Errors: ISO_BAD_INPUT about "axis". */
+static iso_status check_section(const iso_chaos_walk *w)
+{
+    const iso_params *own = &iso_orbit_units(w->orbit)->own;
+    const int axis = w->out->axis;
+    double W[2];
+    if (axis < 0 || iso_section_is_global(own, axis)) return ISO_OK;
+    iso_section_bounds(own, iso_orbit_model(w->orbit)->problem.eps, axis, W);
+    if (W[0] > 0) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "axis",
+                            "orbits can stay away from the section n_%d = 0 for ever: take n_%d = 0, which is global",
+                            axis + 1, iso_section_axis(own) + 1);
+}
+
 /* --- what a turn is --------------------------------------------------------------------------------------------- */
 
 /* n turns at the rate |k omega|. */
@@ -79,8 +93,17 @@ static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_ef
         return;
     }
     c->axis = w->options.axis == ISO_AXIS_AUTO ? iso_section_axis(&units->own) : w->options.axis;
-    c->global = iso_section_is_global(&units->own, c->axis);
     if (w->options.starts > 0) iso_section_spread_prepare(&w->spread, &units->own, c->axis, w->options.seed);
+}
+
+/* The axis about which a free orbit rotates in the plane n_axis = 0; -1: it does not. */
+static int find_plane(const double y[ISO_STATE])
+{
+    for (int a = 0; a < 3; a++) {
+        const double swing = fmax(fabs(y[(a + 1) % 3]), fabs(y[(a + 2) % 3])) / largest(y);
+        if (fmax(fabs(y[3 + a]), swing) <= 1e-14) return a;
+    }
+    return -1;
 }
 
 static void choose_models(iso_chaos_walk *w)
@@ -163,6 +186,9 @@ static iso_status run(iso_chaos_walk *w)
     if (status == ISO_OK) status = check_starts(w, effect);
     if (status != ISO_OK) return status;
     choose_turn(w, &start, effect);
+    status = check_section(w);
+    if (status != ISO_OK) return status;
+    w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
     w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
     if (!w->out->start) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the starts");
     status = iso_chaos_follow(w);

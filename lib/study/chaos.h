@@ -10,6 +10,9 @@
  * Where effects act that keep the energy, or the point is off its level H = 0, a turn is the time 2 pi/|k omega| of
  * the start. The deviations have no part along the flow nor along the energy: these tell of no chaos.
  *
+ * A rotation in a principal plane is periodic, so regular, though its neighbours may leave it exponentially: it is not
+ * followed.
+ *
  * With `starts`, further orbits of the scene's energy begin on the section, spread evenly by the area dL dl. The
  * part of them that is chaotic estimates the part of the area. Its interval is Wilson's, at 95 %, as if the starts
  * were random; they are spread more evenly than that, so the interval is rather too wide. Orbits that stay undecided
@@ -37,7 +40,7 @@ typedef struct iso_chaos_options {
     const double (*at)[2]; /* (l, x) of further starts, |x| < 1; they are not in the share */
     size_t at_count;
     iso_shown models;    /* that are integrated; ISO_SHOW_START: both, where a ball has a twin         */
-    int axis;            /* of the section, 0 to 2; ISO_AXIS_AUTO: the global one                      */
+    int axis;            /* of the section, 0 to 2, which must be global; ISO_AXIS_AUTO: the global one */
     double tolerance;    /* NAN: the scene's                                                           */
     int threads;         /* 0: as many as there are processors to run on                               */
     const char *vectors; /* see batch.h                                       */
@@ -80,7 +83,8 @@ typedef struct iso_chaos {
     bool with[2];           /* whether the ball, the point was integrated                           */
     int axis;               /* of the section n_a = 0; -1: turns are equal steps of time             */
     double turn;            /* ... of this length in t; NaN: the section's                           */
-    bool global;            /* the section is met by every orbit, for ever                          */
+    int plane;              /* 0 to 2: the scene's orbit is the rotation about this axis, in a principal plane: it is
+                               periodic, and not followed; -1: it is not                             */
     iso_chaos_orbit own;    /* the scene's orbit                                                    */
     size_t starts;          /* that were followed: spread ones, then given ones */
     iso_chaos_orbit *start; /* of these */
@@ -97,8 +101,8 @@ typedef struct iso_chaos {
  * Errors:
  * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1), "at" (outside of the chart);
  * - ISO_BAD_INPUT: an effect that takes energy or lets the ball roll away (about its name); a ball at rest; `starts`
- *   with effects or off the level H = 0 (about the effect): there the chart has no energy to go with; an orbit in
- *   the plane n_a = 0 itself;
+ *   with effects or off the level H = 0 (about the effect): there the chart has no energy to go with; about
+ *   "axis": orbits can stay away from its section;
  * - those of iso_orbit_create: ISO_NOT_MAPPED where the point is asked for and there is none;
  * - ISO_STOPPED by the context's monitor: *chaos has what is known by then. */
 ISO_API iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options,

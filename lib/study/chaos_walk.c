@@ -271,6 +271,18 @@ static iso_status check_own(const iso_chaos_walk *w)
     return iso_context_fail(w->ctx, c->failure, iso_context_about(w->ctx), "%s", c->words);
 }
 
+/* A rotation in a principal plane is periodic. */
+static void tell_plane(iso_chaos *c)
+{
+    iso_indicators none;
+    c->own = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_REGULAR};
+    iso_indicators_begin(&none, 1);
+    for (int m = 0; m < 2; m++) {
+        iso_indicators_tell(&none, &c->own.told[m]);
+        if (c->with[m]) c->own.told[m].verdict = ISO_REGULAR;
+    }
+}
+
 static iso_status follow_all(group *g)
 {
     iso_chaos_walk *w = g->w;
@@ -278,7 +290,8 @@ static iso_status follow_all(group *g)
     iso_status status = ISO_OK;
     for (int m = 0; m < 2 && status == ISO_OK; m++)
         if (w->out->with[m]) status = create_trace(w, m);
-    for (size_t first = 0; first < orbits && status == ISO_OK; first += g->count) {
+    if (w->out->plane >= 0) tell_plane(w->out);
+    for (size_t first = w->out->plane >= 0; first < orbits && status == ISO_OK; first += g->count) {
         g->first = first;
         g->count = first == 0 ? 1 : orbits - first < GROUP ? orbits - first : GROUP;
         status = follow_group(g);

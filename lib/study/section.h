@@ -37,7 +37,8 @@ typedef struct iso_section_nature {
 /* Of n_a = 0 for this orbit (axis: 0 to 2, or ISO_AXIS_AUTO). */
 ISO_API iso_section_nature iso_section_of(const iso_orbit *orbit, int axis);
 
-/* Whether the event that this column passes this value is a section n_a = 0: the column is n_a or gamma_a, the value 0. */
+/* Whether the event that this column passes this value is a section n_a = 0: the column is n_a or gamma_a, the value
+ * is 0. */
 ISO_API bool iso_section_is_of_axis(int column, double value, int *axis);
 
 typedef struct iso_section_options {

@@ -4,7 +4,7 @@
  *
  * Regular, because a further integral makes them so: k = 1, k = -1, two or three equal moments; spread over the
  * section, and next to the separatrix, at distances 1e-3 to 1e-6 of F. Chaotic: orbits of k = 0.5, 0.3 and -0.5 whose
- * deviations grow by exp(60) within ten times as many turns, in a run of its own by the point, which knows nothing of
+ * deviations grow by exp(60) within five times as many turns, in a run of its own by the point, which knows nothing of
  * the indicators.
  */
 #include <math.h>
@@ -113,7 +113,7 @@ static void measure(iso_context *ctx, const family *f, size_t count, long turns,
     o.at_count = f->near ? count : 0;
     if (f->near) place(&scene.params, count, at, r);
     must(ctx, iso_chaos_run(ctx, &scene, &o, &c), "verdicts");
-    if (!f->integrable) find_truth(ctx, f, c, 10 * turns, chaotic);
+    if (!f->integrable) find_truth(ctx, f, c, 5 * turns, chaotic);
     for (size_t i = 0; i < c->starts; i++) {
         const iso_chaos_orbit *one = &c->start[i];
         out->verdict[chaotic[i]][one->verdict]++;

@@ -163,11 +163,27 @@ if interruptible "Ctrl-C"; then
     fi
 fi
 
+# --- clouds: the free flow and the returns keep the measure, a ball that loses energy does not
+run 0 section wild.yaml --cloud 2048
+silent
+check "three clouds" test "$(grep -c '^\(flow in [ts]\|returns\)  *kept  *p = ' out)" -eq 3
+run 0 section wild.yaml --cloud 2048 --seed 3 -j 1
+sed "s/^effects:.*/effects: {rolling_resistance: {coefficient: 0.1}}/" gravity.yaml >losing.yaml
+run 1 section losing.yaml --cloud 1024
+check "rolling resistance is found out" test "$(grep -c 'not kept' out)" -ge 2
+sed "s/^effects:.*/effects: {field: {linear: [0.1, 0.1, 0.05]}}/" gravity.yaml >field.yaml
+run 0 section field.yaml --cloud 1024
+check "returns in a field" grep -q "^returns  *not tried: " out
+refuses 3 "gravity.yaml:4:" section gravity.yaml --cloud 1024
+refuses 2 "512" section wild.yaml --cloud 100
+
 # --- pictures
 if has gnuplot "--plot"; then
     run 0 section wild.yaml --starts 30 --crossings 100 -o wild.csv --plot wild.svg --quiet
     silent
-    check "a picture of both" grep -q "ball and point part" wild.svg
+    check "a picture of both: chaotic orbits" grep -q ">chaotic<" wild.svg
+    run 0 section tame.yaml --starts 30 --crossings 100 -o tame.csv --plot tame.svg --quiet
+    check_not "k = -1: none is chaotic" grep -q ">chaotic<" tame.svg
     check "its axes" grep -q "in the units of the scene" wild.svg
     run 0 section tame.yaml --starts 5 --crossings 20 --model ball -o tame.csv --plot tame.png --quiet
     check "a picture of one" test "$(head -c 4 tame.png | tail -c 3)" = PNG

@@ -217,12 +217,14 @@ static void test_work(void)
     iso_plot_work work = {"a/0 'title'", 3, series, {0, 1e-6}, 1e-14};
     gsl_test((int)iso_plot_cost(ctx, path, &work), "%s", iso_context_message(ctx));
     gsl_test(!file_contains(path, "`touch OWNED` &lt;b"), "a name is drawn as it is");
-    gsl_test(!file_contains(path, "closed solution") || !file_contains(path, "other methods"), "what there is is named");
+    gsl_test(!file_contains(path, "closed solution") || !file_contains(path, "other methods"),
+             "what there is is named");
     work.closed[0] = NAN;
     work.uncertainty = INFINITY;
     work.count = 1;
     gsl_test((int)iso_plot_cost(ctx, path, &work), "nothing is known: %s", iso_context_message(ctx));
-    gsl_test(file_contains(path, "closed solution") || file_contains(path, "other methods"), "what there is not is not");
+    gsl_test(file_contains(path, "closed solution") || file_contains(path, "other methods"),
+             "what there is not is not");
     unlink(path);
     series[0].count = 0;
     gsl_test(iso_plot_cost(ctx, path, &work) != ISO_BAD_ARGUMENT, "no points");
@@ -232,12 +234,42 @@ static void test_work(void)
     static const char *const many[] = {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j", "k", "l"};
     for (int i = 0; i < ISO_PLOT_NAMES + 2; i++) series[i] = (iso_plot_series){"ball", many[i], 5, error, seconds};
     work.count = ISO_PLOT_NAMES;
-    gsl_test((int)iso_plot_cost(ctx, path, &work), "as many names as there is room for: %s", iso_context_message(ctx));
+    gsl_test((int)iso_plot_cost(ctx, path, &work), "as many names as there is room for: %s",
+             iso_context_message(ctx));
     unlink(path);
     work.count++;
     gsl_test(iso_plot_cost(ctx, path, &work) != ISO_BAD_ARGUMENT, "too many names");
     for (int i = 0; i < 4; i++) series[i].panel = many[i];
     gsl_test(iso_plot_cost(ctx, path, &work) != ISO_BAD_ARGUMENT, "too many panels");
+    gsl_test(files_in_folder() != 0, "nothing is left");
+}
+
+/* Sections: two models, grey orbits, one crossing, and what is refused. */
+static void test_sections(void)
+{
+    static const double chart[][2] = {{0.1, 0.2}, {-3, -0.999999}, {3.1, 1 - 1e-12}};
+    static const uint32_t orbit[] = {0, 1, 1}, beyond[] = {0, 2, 1};
+    const char *path = in_folder("s.svg");
+    iso_params p;
+    iso_params_reduced(ctx, -1, (double[]){1, 2, 5}, &p);
+    iso_plot_section section = {"it's `touch OWNED`",  &p,       6.5, 0, 3, orbit, chart, chart, 2,
+                                (bool[]){false, true}, "chaotic"};
+    gsl_test((int)iso_plot_sections(ctx, path, &section), "%s", iso_context_message(ctx));
+    gsl_test(!file_contains(path, ">chaotic<") || !file_contains(path, "units of the scene"), "key and axes");
+    section.eps = 0;
+    section.grey = NULL;
+    section.count = 1;
+    gsl_test((int)iso_plot_sections(ctx, path, &section), "no free point: %s", iso_context_message(ctx));
+    gsl_test(file_contains(path, "units of the scene"), "then x is drawn");
+    unlink(path);
+    section.count = 0;
+    gsl_test(iso_plot_sections(ctx, path, &section) != ISO_BAD_ARGUMENT, "no crossing");
+    section.count = 3;
+    section.orbit = beyond;
+    gsl_test(iso_plot_sections(ctx, path, &section) != ISO_BAD_ARGUMENT, "an orbit that is none");
+    section.orbit = orbit;
+    section.axis = 3;
+    gsl_test(iso_plot_sections(ctx, path, &section) != ISO_BAD_ARGUMENT, "an axis that is none");
     gsl_test(files_in_folder() != 0, "nothing is left");
 }
 
@@ -335,6 +367,7 @@ int main(void)
     test_records();
     test_refused();
     test_work();
+    test_sections();
     test_targets();
     test_no_gnuplot();
     test_odd_hosts();

@@ -85,8 +85,8 @@ static void note_row(const section_row *r, iso_backend backend, laws_worst *char
     iso_status status;
     iso_crossings *c = follow(&orbit, 1, &o);
     gsl_test_int(iso_section_axis(&r->p), r->axis, "%s: its global axis", r->name);
-    gsl_test_int(iso_crossings_go(c, NULL, (size_t)r->crossing, at, NULL, &done, &status), ISO_OK, "%s: %s", r->name,
-                 iso_context_message(ctx));
+    gsl_test_int((int)iso_crossings_go(c, NULL, (size_t)r->crossing, at, NULL, &done, &status), ISO_OK, "%s: %s",
+                 r->name, iso_context_message(ctx));
     const iso_crossing *last = &at[r->crossing - 1];
     laws_note(chart, angle_apart(last->l, r->l), 1e-11, &r->p, r->name);
     laws_note(chart, fabs(last->x - r->x), 1e-11, &r->p, r->name);
@@ -129,7 +129,7 @@ static void check_parts(const char *name, const iso_batch_orbit orbit[2], const 
     size_t done[2];
     iso_status status[2];
     iso_crossings *c = follow(orbit, 2, o);
-    gsl_test_int(iso_crossings_go(c, NULL, ALL, whole, all, done, status), ISO_OK, "%s at once: %s", name,
+    gsl_test_int((int)iso_crossings_go(c, NULL, ALL, whole, all, done, status), ISO_OK, "%s at once: %s", name,
                  iso_context_message(ctx));
     gsl_test(done[0] != ALL || done[1] != ALL, "%s: all crossings", name);
     iso_crossings_free(c);
@@ -194,14 +194,15 @@ static void check_reversor(void)
             iso_crossings_options o = iso_crossings_defaults();
             o.backend = backend;
             iso_crossings *c = follow(&orbit, 1, &o);
-            gsl_test(iso_crossings_go(c, NULL, 1, &there, NULL, &done, &status), "there: %s",
+            gsl_test(iso_crossings_go(c, NULL, 1, &there, NULL, &done, &status) != ISO_OK, "there: %s",
                      iso_context_message(ctx));
             iso_crossings_free(c);
             iso_start mirrored = {.model = ISO_POINT, .eps = 1};
             const iso_batch_orbit return_orbit = {&p, &mirrored, NULL};
             iso_section_point(&p, 1, axis, there.l, -there.x, mirrored.y);
             c = follow(&return_orbit, 1, &o);
-            gsl_test(iso_crossings_go(c, NULL, 1, &home, NULL, &done, &status), "home: %s", iso_context_message(ctx));
+            gsl_test(iso_crossings_go(c, NULL, 1, &home, NULL, &done, &status) != ISO_OK, "home: %s",
+                     iso_context_message(ctx));
             iso_crossings_free(c);
             laws_note(&back, fmax(angle_apart(home.l, l), fabs(home.x + x)), 1e-9, &p, "S1 f S1 f");
             laws_note(&counts, fabs(home.clock[ISO_CLOCK_S] / there.clock[ISO_CLOCK_S] - 1), 1e-9, &p, "time");
@@ -306,7 +307,7 @@ static void refuse(const char *name, const iso_crossings_options *o, const char 
     const iso_start start = {.model = ISO_BALL, .y = {0.9, -0.3, -0.225, 0.36, 0.48, 0.8}};
     const iso_batch_orbit orbit = {&p, &start, NULL};
     iso_crossings *c;
-    gsl_test_int(iso_crossings_create(ctx, &orbit, 1, o, &c), ISO_BAD_ARGUMENT, "%s", name);
+    gsl_test_int((int)iso_crossings_create(ctx, &orbit, 1, o, &c), ISO_BAD_ARGUMENT, "%s", name);
     gsl_test_str(iso_context_about(ctx), about, "%s: what it is about", name);
     gsl_test(c != NULL, "%s: no object", name);
 }
@@ -343,13 +344,13 @@ static void check_failures(void)
     iso_status status[3];
     iso_crossings *c = follow(orbit, 3, NULL);
     for (int again = 0; again < 2; again++) {
-        gsl_test_int(iso_crossings_go(c, NULL, 2, at, NULL, done, status), ISO_NUMERICAL, "the first failure");
+        gsl_test_int((int)iso_crossings_go(c, NULL, 2, at, NULL, done, status), ISO_NUMERICAL, "the first failure");
         gsl_test(!strstr(iso_context_message(ctx), "orbit 1: the ball rests"), "in words: %s",
                  iso_context_message(ctx));
         gsl_test_int((int)done[0], 2, "a good orbit goes on");
-        gsl_test_int(status[0], ISO_OK, "its status");
-        gsl_test_int(status[1], ISO_NUMERICAL, "a ball at rest");
-        gsl_test_int(status[2], ISO_BAD_INPUT, "an orbit on the boundary");
+        gsl_test_int((int)status[0], ISO_OK, "its status");
+        gsl_test_int((int)status[1], ISO_NUMERICAL, "a ball at rest");
+        gsl_test_int((int)status[2], ISO_BAD_INPUT, "an orbit on the boundary");
         gsl_test(done[1] || done[2] || !isnan(at[2].l), "nothing of those");
     }
     const bool third[3] = {false, false, true};
@@ -396,12 +397,12 @@ static void check_stop(void)
     c = follow(&orbit, 1, NULL);
     questions = 0, patience = 40;
     iso_context_set_monitor(ctx, patient, NULL);
-    gsl_test_int(iso_crossings_go(c, NULL, ALL, part, NULL, &done, &status), ISO_STOPPED, "stopped");
-    gsl_test_int(status, ISO_STOPPED, "its status");
+    gsl_test_int((int)iso_crossings_go(c, NULL, ALL, part, NULL, &done, &status), ISO_STOPPED, "stopped");
+    gsl_test_int((int)status, ISO_STOPPED, "its status");
     gsl_test(done == 0 || done >= ALL, "some crossings are there: %d", (int)done);
     gsl_test_int(differ(part, whole, done * sizeof *part), 0, "the right ones");
     iso_context_set_monitor(ctx, NULL, NULL);
-    gsl_test_int(iso_crossings_go(c, NULL, ALL - done, part, NULL, &more, &status), ISO_OK, "goes on");
+    gsl_test_int((int)iso_crossings_go(c, NULL, ALL - done, part, NULL, &more, &status), ISO_OK, "goes on");
     gsl_test_int(differ(part, whole + done, (ALL - done) * sizeof *part), 0, "from there");
     iso_crossings_free(c);
 }

@@ -49,7 +49,7 @@ static void check_chaotic(void)
     must(iso_chaos_run(ctx, &scene, NULL, &c), "a chaotic orbit");
     gsl_test_int((int)c->own.verdict, ISO_CHAOTIC, "k = 0.5, J = 1 2 5: verdict");
     gsl_test_int(c->axis, 2, "its section is that of the largest moment");
-    gsl_test(!c->global || !isnan(c->turn), "its section is global");
+    gsl_test(!isnan(c->turn), "its turns are returns");
     for (int m = 0; m < 2; m++) {
         const iso_indication *i = &c->own.told[m];
         check_indication(i, "a chaotic orbit");
@@ -86,6 +86,23 @@ static void check_regular(void)
     gsl_test_int((int)c->own.verdict, ISO_REGULAR, "three equal moments: verdict");
     gsl_test_abs(c->own.told[ISO_BALL].megno, 0, 0.02, "three equal moments: MEGNO");
     iso_chaos_free(c);
+}
+
+/* Rotations in principal planes are periodic, stable or not. */
+static void check_planes(void)
+{
+    for (int a = 0; a < 3; a++) {
+        iso_scene scene = scene_of(0.5, 1, 2, 5);
+        double omega[3] = {0, 0, 0}, normal[3] = {0, 0, 0};
+        iso_chaos *c;
+        omega[a] = 2;
+        normal[(a + 1) % 3] = 0.6;
+        normal[(a + 2) % 3] = 0.8;
+        must(iso_start_ball(ctx, omega, normal, ISO_SPIN_REFUSE, &scene.start), "a start");
+        must(iso_chaos_run(ctx, &scene, NULL, &c), "a rotation");
+        gsl_test(c->own.verdict != ISO_REGULAR || c->plane != a, "a rotation about axis %d is regular", a + 1);
+        iso_chaos_free(c);
+    }
 }
 
 /* --- many ------------------------------------------------------------------------------------------------------- */
@@ -186,6 +203,9 @@ static void check_refusals(void)
     o.axis = 3;
     refuse(&scene, &o, ISO_BAD_ARGUMENT, "axis");
     o = iso_chaos_defaults();
+    o.axis = 1;
+    refuse(&scene, &o, ISO_BAD_INPUT, "axis");
+    o = iso_chaos_defaults();
     const double boundary[1][2] = {{0.3, 1}};
     o.at = boundary;
     o.at_count = 1;
@@ -214,6 +234,7 @@ int main(void)
     if (!ctx) return 1;
     check_chaotic();
     check_regular();
+    check_planes();
     check_shares();
     check_alone();
     check_interval();

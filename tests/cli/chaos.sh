@@ -1,0 +1,109 @@
+#!/bin/sh
+# chaos.sh ISOROLL - `isoroll chaos`: verdicts, JSON, shares, CSV, pictures, refusals, interruption.
+. "$(dirname "$0")/lib.sh"
+
+# is_json: braces and brackets of `out` close
+is_json() {
+    tr -cd '{}[]' <out | awk '{ n = gsub(/{/, "") - gsub(/}/, ""); m = gsub(/\[/, "") - gsub(/]/, ""); exit n || m }'
+}
+
+# value KEY N: the N-th number of that name in the JSON in `out`
+value() {
+    sed -n "s/^ *\"$1\": \([-0-9.e+]*\),*$/\1/p" out | sed -n "${2-1}p"
+}
+
+# between X LOW HIGH
+between() {
+    awk -v x="$1" -v low="$2" -v high="$3" 'BEGIN { exit !(x != "" && x + 0 >= low && x + 0 <= high) }'
+}
+
+spin="0.9, -0.3, -0.225" normal="0.36, 0.48, 0.8"
+scene 0.5 "1, 2, 5" "$spin" "$normal" 10 0.5 >chaotic.yaml
+scene -1 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >regular.yaml
+
+# --- one orbit
+run 0 chaos chaotic.yaml
+silent
+check "chaotic" grep -q '^this orbit: chaotic$' out
+check "by both models" test "$(grep -c '^  \(ball\|point\) *chaotic ' out)" -eq 2
+check "the section" grep -q 'section n_3 = 0' out
+run 0 chaos regular.yaml
+silent
+check "regular" grep -q '^this orbit: regular$' out
+run 0 chaos regular.yaml --turns 50
+check "50 turns do not decide" grep -q '^this orbit: undecided$' out
+run 0 chaos chaotic.yaml --model point
+check "one model" test "$(grep -c '^  \(ball\|point\) ' out)" -eq 1
+refuses 3 "take n_3 = 0, which is global" chaos chaotic.yaml --axis 2
+"$isoroll" chaos - <regular.yaml >out
+check "a scene from standard input" test $? -eq 0
+
+# --- JSON: the exponents go together with the means of the clocks, and both models agree
+run 0 chaos chaotic.yaml --json
+silent
+check "JSON" is_json
+check "verdicts" test "$(grep -c '"verdict": "chaotic"' out)" -eq 3
+check "turns" between "$(value turns)" 90 3000
+check "exponent per t" between "$(value t 1)" 0.03 0.12
+check "its error" between "$(value t 2)" 0.0005 0.03
+check "by the point" between "$(value t 3)" 0.03 0.12
+check "GALI_2" between "$(value gali2)" 0 1e-6
+check_not "no share" grep -q '"share"' out
+run 0 chaos regular.yaml --json
+check "MEGNO of a regular orbit, by the ball" between "$(value megno 1)" 1.98 2.02
+check "by the point" between "$(value megno 2)" 1.98 2.02
+
+# --- shares: none of an integrable motion, the same for equal seeds, other starts for other seeds
+run 0 chaos regular.yaml --starts 30 --json
+check "none is chaotic" test "$(value chaotic)" = 0.0
+check "30 starts" test "$(value starts)" = 30
+run 0 chaos chaotic.yaml --starts 40 --turns 600 --json
+check "a chaotic part" between "$(value chaotic)" 0.35 0.8
+check "its error" between "$(value error)" 0.05 0.25
+cp out first
+run 0 chaos chaotic.yaml --starts 40 --turns 600 --json -j 1
+check "threads change nothing" cmp -s first out
+run 0 chaos chaotic.yaml --starts 10 --turns 150 --csv starts.csv
+check "CSV: a row for each" test "$(grep -c '^[0-9]' starts.csv)" -eq 11
+run 0 chaos chaotic.yaml --starts 10 --turns 150 --csv - --seed 1
+check "CSV alone on standard output" grep -q '^orbit,l,x,verdict,ball_verdict' out
+check_not "another seed, other starts" cmp -s starts.csv out
+
+# --- effects that keep the energy; refusals
+{ cat chaotic.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >gravity.yaml
+run 0 chaos gravity.yaml
+check "a turn is a time" grep -q '^a turn is a step of' out
+refuses 3 "'gravity'" chaos gravity.yaml --starts 10
+{ cat chaotic.yaml; echo "effects: {rolling_resistance: {coefficient: 0.01}}"; } >losing.yaml
+refuses 3 "takes energy from the ball" chaos losing.yaml
+scene 0.5 "1, 2, 5" "0, 0, 0" "$normal" 10 0.5 >rest.yaml
+refuses 3 "at rest" chaos rest.yaml --model ball
+scene 0.5 "1, 2, 5" "0, 0, 2" "0.6, 0.8, 0" 10 0.5 >plane.yaml
+run 0 chaos plane.yaml
+check "a rotation is periodic" grep -q "rotation about axis 3 in a principal plane, which is periodic" out
+refuses 3 "an axis is 1, 2 or 3" chaos chaotic.yaml --axis 4
+refuses 2 "--turns '0'" chaos chaotic.yaml --turns 0
+refuses 2 "--starts '-1'" chaos chaotic.yaml --starts -1
+refuses 2 "room for one" chaos chaotic.yaml --json --csv -
+
+# --- pictures
+if has gnuplot pictures; then
+    run 0 chaos chaotic.yaml --plot indicators.svg
+    check "indicators" grep -q 'MEGNO' indicators.svg
+    run 0 chaos chaotic.yaml --starts 30 --turns 300 --plot section.svg
+    check "exponents" grep -q 'exponent per turn' section.svg
+    run 0 chaos regular.yaml --starts 5 --turns 400 --plot none.svg
+fi
+refuses 2 "must end in .svg" chaos chaotic.yaml --plot x.gif
+
+# --- Ctrl-C keeps what is known
+if interruptible "chaos after SIGINT"; then
+    checks=$((checks + 1))
+    last="chaos <- INT"
+    timeout --preserve-status -k 30 -s INT 3 "$isoroll" chaos chaotic.yaml --starts 1000000 --json >out 2>err
+    check "interrupted: exit status 1" test $? -eq 1
+    says "interrupted: "
+    check "its JSON is whole" is_json
+    check "and has the orbit's verdict" grep -q '"verdict": "chaotic"' out
+fi
+finish
