@@ -25,12 +25,14 @@ int iso_crossings_axis(const iso_crossings *c, size_t i)
 }
 
 /* n_a swings with about |k w|, gamma_a with |M|: so n_a'/(|k w|) has the size of n_a. */
-bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis)
+bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis,
+                              bool *upwards)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     const double k = model == ISO_BALL ? p->k : 1, pace = fabs(k) * norm(y);
     const double rise = k * (y[3 + b] * y[c] - y[3 + c] * y[b]); /* n' = k n x w, gamma' = gamma x M */
     const double swing = hypot(pace * y[3 + axis], rise);
+    *upwards = rise > 0;
     return fabs(pace * y[3 + axis]) <= 1e-8 * swing;
 }
 

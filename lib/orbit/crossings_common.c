@@ -98,7 +98,7 @@ double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock 
 iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
                               double s)
 {
-    const bool least = o->count > 0 || o->begins_on_it;
+    const bool least = o->count > 0 || (o->begins_on_it && o->upwards);
     if (iso_crossings_apart(o->bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
     const double unit = orbit->unit_clock[ISO_CLOCK_S];
     return iso_context_fail(ctx, ISO_NUMERICAL, "",

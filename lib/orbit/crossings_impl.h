@@ -19,6 +19,7 @@ typedef struct iso_crossed {
     size_t count;      /* crossings so far                                                                        */
     double time, s;    /* of the last one, or 0; time in the orbit's own clock and in the caller's units          */
     bool begins_on_it; /* the start lies on the section: it is no crossing                                        */
+    bool upwards;           /* ... and n_a increases there: a whole return to the first crossing                  */
     double bound[2];   /* least and largest s between two crossings; NaN: no bounds are known                     */
     int axis;          /* of ISO_SECTION_AXIS                                                                     */
     iso_status status; /* of the last call; ISO_STOPPED does not last                                             */
@@ -65,8 +66,10 @@ int iso_crossings_axis(const iso_crossings *c, size_t i);
 
 /* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section n_a = 0, up to 1e-8 of a
  * radian of the oscillation of n_a. A start that does so is no crossing, and an event there is not counted: ball and
- * point, lanes and single orbits would else disagree where n_a is 0 up to rounding. */
-bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis);
+ * point, lanes and single orbits would else disagree where n_a is 0 up to rounding.
+ * *upwards: n_a increases; else the first crossing comes half a return later. */
+bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis,
+                              bool *upwards);
 
 /* Whether two crossings of a free orbit are this far apart in s, up to rounding (s: of the second one). NaN bounds
  * allow everything. `least` false: the first is no crossing, only the largest distance counts. */

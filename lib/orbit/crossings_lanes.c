@@ -107,7 +107,7 @@ static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
     const double *y = lane->job.start;
     if (c->options.kind == ISO_SECTION_AXIS) {
         o->begins_on_it =
-            iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(&lane->orbit), y, o->axis);
+            iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(&lane->orbit), y, o->axis, &o->upwards);
         status = iso_crossings_check_plane(w->ctx, &lane->orbit, y, o->axis);
         set_search(lane, o);
     }

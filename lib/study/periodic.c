@@ -127,6 +127,7 @@ iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_
 void iso_periodic_free(iso_periodic *found)
 {
     if (!found) return;
+    for (size_t i = 0; i < found->count; i++) free(found->orbit[i].half);
     free(found->orbit);
     free(found);
 }

@@ -85,6 +85,7 @@ typedef struct iso_periodic_orbit {
     double clock[ISO_CLOCKS]; /* its period in t, tau and s, in the scene's units                                */
     double ball[ISO_STATE], point[ISO_STATE]; /* its start at (l, x), with the scene's energy                    */
     double copy[16][2];       /* a point (l, x) of each copy                                                     */
+    double (*half)[2];        /* (l, x) of g z, g^2 z = f z, ...: 2 period points, the last is z                 */
 } iso_periodic_orbit;
 
 typedef struct iso_periodic_options {
@@ -124,6 +125,11 @@ typedef struct iso_periodic {
 ISO_API iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_options *options,
                                     iso_periodic **found);
 ISO_API void iso_periodic_free(iso_periodic *found);
+
+/* head + tail with up to 31 digits, as text; the reversors of `symmetry`: "S1 S3", "none". */
+enum { ISO_DIGITS_SIZE = 48 };
+ISO_API void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE]);
+ISO_API int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE]);
 
 /* The half-turn trace of Hill's equation about `axis` (0 to 2), by numbers of 64 bits of mantissa, and in *error how
  * far it may be off. */

@@ -44,9 +44,13 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
 /* g^halves of a point in more digits, its derivative, and the clocks that pass. False: it failed. */
 typedef struct iso_periodic_fine {
     iso_wide to[2], slope[2][2], clock[ISO_CLOCKS];
+    iso_wide determinant; /* of slope: the product of those of the returns, which do not cancel */
 } iso_periodic_fine;
 bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
                       iso_periodic_fine *found);
+
+/* The law of the derivative's determinant, from l to another l: G(l)/G(l'). */
+iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to);
 
 /* The code of numbers of 64 bits, or of 128 (NULL: there is none). */
 const iso_return_code *iso_periodic_code(bool polish);

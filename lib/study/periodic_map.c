@@ -136,20 +136,63 @@ static void chain(const iso_return *r, iso_wide slope[2][2])
     memcpy(slope, product, sizeof product);
 }
 
+static iso_wide determinant_of(const iso_return *r)
+{
+    return iso_wide_of(r->slope[0][0]) * iso_wide_of(r->slope[1][1]) -
+           iso_wide_of(r->slope[0][1]) * iso_wide_of(r->slope[1][0]);
+}
+
+/* G(l)/G(l') */
+iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to)
+{
+    const iso_wide Jb = map->p.J[(map->axis + 1) % 3], Jc = map->p.J[(map->axis + 2) % 3];
+    const iso_wide C[2] = {WIDE_COS(l), WIDE_COS(to)}, S[2] = {WIDE_SIN(l), WIDE_SIN(to)};
+    const iso_wide q = Jb * C[0] * C[0] + Jc * S[0] * S[0], q_to = Jb * C[1] * C[1] + Jc * S[1] * S[1];
+    return WIDE_POW(q_to / q, 1 / (2 * (iso_wide)map->p.k));
+}
+
+/* How far the determinant is from the law, in units of the rounding errors that its terms explain. */
+static double doubt(const iso_periodic_map *map, const iso_return_code *code, const iso_return *r)
+{
+    const iso_wide law = iso_periodic_determinant(map, iso_wide_of(r->from[0]), iso_wide_of(r->to[0]));
+    const double terms = fabs(r->slope[0][0].head * r->slope[1][1].head) +
+                         fabs(r->slope[0][1].head * r->slope[1][0].head) + (double)law;
+    return fabs((double)(determinant_of(r) - law)) / (terms * code->error);
+}
+
+/* One return. Now and then a step is too long by chance: last terms that are small, and the next ones are not. The
+ * determinant shows it; then other steps are tried, and the best of them counts. */
+static bool go_once(const iso_periodic_map *map, const iso_return_code *code, iso_return *r)
+{
+    static const double part[] = {1, 1e-2, 1e-4};
+    const double tolerance = code->error < 1e-20 ? 1e-16 : 1e-15, allowed = 200;
+    iso_return best = *r;
+    double least = INFINITY;
+    for (int i = 0; i < 3 && least > allowed; i++) {
+        iso_return next = *r;
+        if (!iso_context_goes_on(map->ctx) || !code->go(&map->model, map->axis, map->zeros, tolerance * part[i], &next))
+            return false;
+        const double off = doubt(map, code, &next);
+        if (off < least || i == 0) best = next, least = off;
+    }
+    *r = best;
+    return true;
+}
+
 bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
                       iso_periodic_fine *found)
 {
     memset(found, 0, sizeof *found);
-    found->slope[0][0] = found->slope[1][1] = 1;
+    found->slope[0][0] = found->slope[1][1] = found->determinant = 1;
     for (int i = 0; i < 2; i++) found->to[i] = from[i];
     while (halves > 0) {
         iso_return r = {.half = halves % 2 == 1};
         for (int i = 0; i < 2; i++) r.from[i] = iso_fine_of(found->to[i]);
-        if (!iso_context_goes_on(map->ctx) || !code->go(&map->model, map->axis, map->zeros, code->error < 1e-20 ? 1e-16 : 1e-15, &r))
-            return false;
+        if (!go_once(map, code, &r)) return false;
         for (int i = 0; i < 2; i++) found->to[i] = iso_wide_of(r.to[i]);
         for (int c = 0; c < ISO_CLOCKS; c++) found->clock[c] += iso_wide_of(r.clock[c]);
         chain(&r, found->slope);
+        found->determinant *= determinant_of(&r);
         halves -= r.half ? 1 : 2;
     }
     return true;

@@ -6,6 +6,7 @@
  * Delta = G(z)/G(g^p z) of A its trace is 2 + 4 A_01 A_10/Delta = 4 A_00 A_11/Delta - 2.
  */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -89,20 +90,11 @@ static iso_wide off_line(int line, const iso_wide z[2])
     return wrap(z[0] - (line == LINE_0 ? 0 : WIDE_PI / 2), WIDE_PI);
 }
 
-/* G(l)/G(l') */
-static iso_wide determinant(const iso_periodic_map *map, iso_wide l, iso_wide to)
-{
-    const iso_wide Jb = map->p.J[(map->axis + 1) % 3], Jc = map->p.J[(map->axis + 2) % 3];
-    const iso_wide C[2] = {WIDE_COS(l), WIDE_COS(to)}, S[2] = {WIDE_SIN(l), WIDE_SIN(to)};
-    const iso_wide q = Jb * C[0] * C[0] + Jc * S[0] * S[0], q_to = Jb * C[1] * C[1] + Jc * S[1] * S[1];
-    return WIDE_POW(q_to / q, 1 / (2 * (iso_wide)map->p.k));
-}
-
 /* By the half; the product that is smaller loses less digits. */
 static iso_wide trace_of_half(const solver *s)
 {
     const iso_wide(*A)[2] = s->half.slope;
-    const iso_wide Delta = determinant(&s->w->map, s->z[0], s->half.to[0]);
+    const iso_wide Delta = iso_periodic_determinant(&s->w->map, s->z[0], s->half.to[0]);
     const iso_wide across = A[0][1] * A[1][0] / Delta, along = A[0][0] * A[1][1] / Delta;
     return WIDE_ABS(across) < WIDE_ABS(along) ? 2 + 4 * across : 4 * along - 2;
 }
@@ -179,21 +171,22 @@ static bool close_up(const solver *s, iso_periodic_orbit *o)
     const iso_wide(*A)[2] = s->half.slope;
     iso_wide M[2][2], end[2] = {s->half.to[0], s->half.to[1]}, trace = A[0][0] + A[1][1];
     memcpy(M, A, sizeof M);
-    const double half = largest4(A), Delta = (double)determinant(&s->w->map, s->z[0], s->half.to[0]);
+    const double half = largest4(A), Delta = (double)iso_periodic_determinant(&s->w->map, s->z[0], s->half.to[0]);
     double error = 0, doubt = half;
+    iso_wide det = s->half.determinant;
     if (s->line >= 0) {
         iso_periodic_fine rest;
         if (!iso_periodic_far(&s->w->map, s->code, s->half.to, s->period, &rest)) return false;
         for (int i = 0; i < 2; i++)
             for (int j = 0; j < 2; j++) M[i][j] = rest.slope[i][0] * A[0][j] + rest.slope[i][1] * A[1][j];
         end[0] = rest.to[0], end[1] = rest.to[1];
+        det *= rest.determinant;
         trace = trace_of_half(s);
         const double across = fabs((double)A[0][1]) + fabs((double)A[1][0]),
                      along = fabs((double)A[0][0]) + fabs((double)A[1][1]);
         doubt = fmin(across, along) * half / Delta;
         error = fabs((double)(M[0][0] + M[1][1] - trace)) / 16;
     }
-    const iso_wide det = M[0][0] * M[1][1] - M[0][1] * M[1][0];
     const iso_fine t = iso_fine_of(trace);
     o->trace = t.head;
     o->trace_tail = t.tail;
@@ -202,11 +195,11 @@ static bool close_up(const solver *s, iso_periodic_orbit *o)
     o->closure = hypot((double)wrap(end[0] - s->z[0], 2 * WIDE_PI), (double)(end[1] - s->z[1])) /
                  fmax(1, largest4((const iso_wide(*)[2])M));
     const double moved = s->slope_of_trace * (fabs((double)s->step) + digits);
-    o->error = fmin(error, 64 * digits * s->period * doubt) + 64 * digits * s->period * doubt + moved;
-    if (digits > 1e-25) o->error += 0x1p-53 * fabs(o->trace);
+    o->error = error + 64 * digits * s->period * doubt + 4 * moved;
+    if (digits > 1e-25) o->error += 0x1p-52 * fabs(o->trace);
     const double close_to_2 = fmax(4 * o->error, 1e-15);
-    o->multipliers = iso_multipliers_of(o->trace, close_to_2, (double)M[1][0]);
-    o->torus = fabs(s->w->map.p.k) == 1 && o->multipliers.stability == ISO_DEGENERATE && o->trace > 0;
+    o->torus = fabs(s->w->map.p.k) == 1 && fabs(o->trace - 2) <= fmax(1000 * o->error, 1e-9);
+    o->multipliers = iso_multipliers_of(o->trace, o->torus ? 1e-6 : close_to_2, (double)M[1][0]);
     return true;
 }
 
@@ -315,6 +308,13 @@ static int least_period(const solver *s, const iso_periodic_point points[])
     return s->period;
 }
 
+static bool keep_points(const solver *s, const iso_periodic_point points[], iso_periodic_orbit *o)
+{
+    o->half = malloc(2 * (size_t)s->period * sizeof *o->half);
+    for (int n = 0; n < 2 * s->period && o->half; n++) o->half[n][0] = points[n].l, o->half[n][1] = points[n].x;
+    return o->half;
+}
+
 static iso_status finish(solver *s, const iso_periodic_point points[], bool *added)
 {
     iso_periodic_orbit o = {.period = s->period};
@@ -322,9 +322,27 @@ static iso_status finish(solver *s, const iso_periodic_point points[], bool *add
     tell_states(s, &o);
     find_symmetry(points, &o);
     find_copies(points, &o);
-    const iso_status status = remember(s->w, o.period, points, 2 * o.period);
-    *added = true;
-    return status == ISO_OK ? append(s->w, &o) : status;
+    if (!keep_points(s, points, &o)) return iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+    iso_status status = remember(s->w, o.period, points, 2 * o.period);
+    if (status == ISO_OK) status = append(s->w, &o);
+    *added = status == ISO_OK;
+    if (!*added) free(o.half);
+    return status;
+}
+
+/* The other half of a symmetric orbit: g^(2p - n) z = S g^n z. */
+static void mirror(const iso_periodic_candidate *c, iso_periodic_point points[])
+{
+    for (int n = 1; n <= c->period; n++) {
+        const iso_periodic_point *from = &points[n - 1];
+        double image[2] = {c->l, c->x};
+        if (n < c->period) {
+            reverse(c->line, (double[2]){from->l, from->x}, image);
+            points[2 * c->period - n - 1] = (iso_periodic_point){.l = image[0], .x = image[1]};
+        } else {
+            points[2 * c->period - 1] = (iso_periodic_point){.l = c->l, .x = c->x};
+        }
+    }
 }
 
 iso_status iso_periodic_add(iso_periodic_work *w, const iso_periodic_candidate *c, bool *added)
@@ -338,10 +356,34 @@ iso_status iso_periodic_add(iso_periodic_work *w, const iso_periodic_candidate *
     s.z[1] = c->x;
     iso_periodic_point points[2 * ISO_PERIODIC_MOST];
     const double from[1][2] = {{c->l, c->x}};
-    const iso_status status = iso_periodic_walk(&w->map, 1, from, 2 * c->period, false, 1e-12, points);
+    const int halves = c->line >= 0 ? c->period : 2 * c->period;
+    const iso_status status = iso_periodic_walk(&w->map, 1, from, halves, false, 1e-13, points);
     if (status != ISO_OK) return status;
+    if (c->line >= 0) mirror(c, points);
     if (least_period(&s, points) < c->period) return ISO_OK; /* found with that period */
     if (!solve(&s)) return w->out->lost += c->line >= 0, ISO_OK;
     if (is_known(w, c->period, (double)s.z[0], (double)s.z[1]) || !(fabs((double)s.z[1]) < 1)) return ISO_OK;
     return finish(&s, points, added);
+}
+
+/* --- numbers as text -------------------------------------------------------------------------------------------- */
+
+void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE])
+{
+#ifdef ISO_TAYLOR_HAS_QUAD
+    strfromf128(text, ISO_DIGITS_SIZE, "%.31g", (iso_wide)head + (iso_wide)tail);
+#else
+    snprintf(text, ISO_DIGITS_SIZE, "%.19Lg", (iso_wide)head + (iso_wide)tail);
+#endif
+}
+
+int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE])
+{
+    static const char *const names[] = {"S1", "S2", "S3", "TS1", "TS2", "TS3"};
+    int length = 0;
+    text[0] = 0;
+    for (int i = 0; i < 6; i++)
+        if (symmetry & 1 << i)
+            length += snprintf(text + length, (size_t)(ISO_DIGITS_SIZE - length), "%s%s", length ? " " : "", names[i]);
+    return length > 0 ? length : snprintf(text, ISO_DIGITS_SIZE, "none");
 }
