@@ -23,12 +23,12 @@ static inline real component_and_slope(const form *T, int axis, real x, real *sl
 }
 
 /* The zero of n_axis between a (n_axis < 0) and b (n_axis >= 0): Newton's method, and halving where it leaves the bracket.
- * Its error is about the third power of the last change, as n_axis'' = 0 (in s) where n_axis is. */
+ * Its error is about the second power of the last change; the third in s, where n_axis'' = 0 at the crossing. */
 static real find_crossing(const form *T, int axis, real a, real at_a, real b, real at_b, mask crosses)
 {
     real x = a + (b - a) * (-at_a / (at_b - at_a));
     const real step = magnitude(b - a);
-    const NUMBER near = ROOT(ROOT(EPSILON)) / 64;
+    const NUMBER near = ROOT(EPSILON) / 64;
     mask far = crosses;
     for (int i = 0; i < 60 && any(far); i++) {
         real slope;
