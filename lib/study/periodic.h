@@ -93,6 +93,7 @@ typedef struct iso_periodic_options {
     int period;  /* the longest, 1 to ISO_PERIODIC_MOST                                                         */
     bool all;    /* orbits without a symmetry as well, by Newton's method from a grid                            */
     long grid;   /* its points                                                                                   */
+    bool no_lines; /* with `all`: the grid alone, to test one search by the other                               */
     bool polish; /* everything in numbers of 128 bits                                                            */
     int threads; /* 0: as many as there are processors to run on                                                 */
     void (*progress)(double part, void *data); /* NULL: nobody is told                                           */
