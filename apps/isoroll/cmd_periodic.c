@@ -4,6 +4,7 @@
 
 #include "io/output.h"
 #include "io/plot.h"
+#include "periodic_chart.h"
 #include "periodic_report.h"
 #include "progress.h"
 #include "scene_options.h"
@@ -12,7 +13,8 @@
 typedef struct options {
     scene_options scene; /* only its file is used */
     const char *output, *plot;
-    double period, grid, threads;
+    const char *chart, *k;
+    double period, grid, steps, threads;
     bool all, polish, json;
 } options;
 
@@ -89,9 +91,11 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     if (o->output && strcmp(o->output, "-") == 0 && o->json)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output",
                                 "periodic: standard output has room for one: choose -o - or --json");
+    if (o->k && !o->chart)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "periodic: --k is the range of --chart");
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
-    return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
+    return status == ISO_OK && o->output && !o->chart ? iso_output_open(ctx, o->output, csv) : status;
 }
 
 static int run(iso_context *ctx, const void *options_given)
@@ -101,18 +105,26 @@ static int run(iso_context *ctx, const void *options_given)
     iso_output *csv = NULL;
     const iso_status status = prepare(ctx, o, &scene, &csv);
     if (status != ISO_OK) return finish(ctx, status);
+    if (o->chart)
+        return draw_chart(ctx, &scene, &(periodic_chart){o->chart, o->k, o->steps, o->output, o->plot, o->json});
     return list(ctx, o, &scene, csv);
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .period = 6, .grid = 2000};
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .period = 6, .grid = 2000, .steps = 120};
 
 static const option_row rows[] = {
-    ROW("period", "P", "a whole number from 1 on", "orbits of at most P returns to the section (default 6)", set_count,
-        options, period),
-    ROW("all", NULL, NULL, "orbits without a symmetry line as well, by Newton's method from a grid", set_flag, options,
-        all),
+    ROW("period", "P", "a whole number from 1 on", "orbits of at most P returns to the section (default 6)",
+        set_count, options, period),
+    ROW("all", NULL, NULL, "orbits without a symmetry line as well, by Newton's method from a grid", set_flag,
+        options, all),
     ROW("grid", "N", "a whole number from 1 on", "points of that grid (default 2000)", set_count, options, grid),
     ROW("polish", NULL, NULL, "compute with 128 bits and print 30 digits", set_flag, options, polish),
+    ROW("chart", "MOMENT", "J1, J2 or J3, or J2=A:B",
+        "in place of all that: where rotations are stable, in the plane of k and a moment, from A to B", set_text,
+        options, chart),
+    ROW("k", "A:B", "two numbers and a colon", "k of --chart (default -3:3)", set_text, options, k),
+    ROW("steps", "N", "a whole number from 1 on", "steps of --chart in both directions (default 120)", set_count,
+        options, steps),
     {.name = "threads",
      .argument = "N",
      .expected = "a whole number from 1 on",
@@ -138,13 +150,19 @@ const command command_periodic = {
         "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found in "
         "two ways, stable between -2 and 2. Then all symmetric periodic orbits of at most P returns to the section "
         "n_a = 0, found as roots along the symmetry lines x = 0, l = 0 and l = pi/2.\n\n"
-        "For each orbit: a point (l, x) of the section, the trace of the return map's derivative over the period with "
+        "For each orbit: a point (l, x) of the section, the trace of the return map's derivative over the period "
+        "with "
         "its error, stability, which reversors map the orbit to itself, how many copies R, S1 S2 and T make of it "
         "(itself among them), and its period in t. JSON and -o add the start in both models, the periods in tau "
         "and s, and how well the orbit closes. lib/doc/theory.md explains R, S1, S2, S3 and T.\n\n"
-        "Only k, J and the energy of the scene are read. Orbits do not depend on the energy, only their clocks do.\n\n"
+        "Only k, J and the energy of the scene are read. Orbits do not depend on the energy, only their clocks "
+        "do.\n\n"
         "For k = 1 and k = -1 orbits fill tori: those on the symmetry lines are shown, and called degenerate.\n\n"
-        "-o FILE writes one row for each orbit. --plot draws all orbits and their copies on the section, unstable ones "
+        "--chart J2 shows in which part of the plane of k and J2 the rotations about the axes of the least and of "
+        "the "
+        "greatest moment are stable, and the borders on which a trace is 2 or -2.\n\n"
+        "-o FILE writes one row for each orbit. --plot draws all orbits and their copies on the section, unstable "
+        "ones "
         "in grey.",
     .example = "isoroll periodic scene.yaml --period 8 --plot orbits.svg",
     .exits = "1: interrupted",

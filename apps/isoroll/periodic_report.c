@@ -46,8 +46,8 @@ static void print_orbit(const periodic_report *r, size_t i)
     iso_periodic_digits(o->l, o->l_tail, l);
     iso_periodic_digits(o->x, o->x_tail, x);
     iso_periodic_digits(o->trace, o->trace_tail, trace);
-    printf("%4zu  %4d  %34s  %34s  %34s  %.0e  %.0e  %-10s  %s\n", i + 1, o->period, l, x, trace, o->error, o->closure,
-           iso_stability_name(o->multipliers.stability), words);
+    printf("%4zu  %4d  %34s  %34s  %34s  %.0e  %.0e  %-10s  %s\n", i + 1, o->period, l, x, trace, o->error,
+           o->closure, iso_stability_name(o->multipliers.stability), words);
 }
 
 void periodic_print(const periodic_report *r)
@@ -70,9 +70,10 @@ void periodic_print(const periodic_report *r)
     }
     if (f->count > 0) printf("with their copies by R, S1 S2 and T: %zu\n", copies);
     if (tori > 0)
-        printf("k = %g: %zu of them lie on resonant tori, which are full of such orbits: the trace is 2, and they are "
-               "degenerate\n",
-               r->scene->params.k, tori);
+        printf(
+            "k = %g: %zu of them lie on resonant tori, which are full of such orbits: the trace is 2, and they are "
+            "degenerate\n",
+            r->scene->params.k, tori);
 }
 
 /* --- JSON ------------------------------------------------------------------------------------------------------- */
@@ -168,9 +169,10 @@ bool periodic_print_json(const periodic_report *r)
 
 void periodic_write_csv(const periodic_report *r, FILE *to)
 {
-    fputs("# isoroll periodic 1\norbit,period,l,x,trace,error,stability,symmetry,copies,t,tau,s,closure,omega1,omega2,"
-          "omega3,n1,n2,n3,M1,M2,M3,gamma1,gamma2,gamma3\n",
-          to);
+    fputs(
+        "# isoroll periodic 1\norbit,period,l,x,trace,error,stability,symmetry,copies,t,tau,s,closure,omega1,omega2,"
+        "omega3,n1,n2,n3,M1,M2,M3,gamma1,gamma2,gamma3\n",
+        to);
     for (size_t i = 0; i < r->found->count; i++) {
         const iso_periodic_orbit *o = &r->found->orbit[i];
         char words[ISO_DIGITS_SIZE];
@@ -215,13 +217,18 @@ iso_status periodic_draw(iso_context *ctx, const periodic_report *r, const char 
     char title[160];
     snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g: periodic orbits of %d returns at most",
              r->scene->params.k, J[0], J[1], J[2], r->period);
-    iso_status status = p.at && p.orbit && p.grey
-                            ? ISO_OK
-                            : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture");
+    iso_status status =
+        p.at && p.orbit && p.grey ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture");
     for (size_t i = 0; i < f->count && status == ISO_OK; i++) put_orbit(&p, &f->orbit[i], i);
-    const iso_plot_section plot = {.title = title, .params = &r->scene->params, .axis = f->axis, .count = p.count,
-                                   .orbit = p.orbit, .ball = (const double(*)[2])p.at,
-                                   .point = (const double(*)[2])p.at, .orbits = f->count, .grey = p.grey,
+    const iso_plot_section plot = {.title = title,
+                                   .params = &r->scene->params,
+                                   .axis = f->axis,
+                                   .count = p.count,
+                                   .orbit = p.orbit,
+                                   .ball = (const double(*)[2])p.at,
+                                   .point = (const double(*)[2])p.at,
+                                   .orbits = f->count,
+                                   .grey = p.grey,
                                    .grey_means = "unstable"};
     if (status == ISO_OK) status = iso_plot_sections(ctx, path, &plot);
     free(p.at);

@@ -48,10 +48,11 @@ static iso_status check_moments(const iso_periodic_work *w)
 {
     for (int i = 0; i < 3; i++)
         if (iso_params_symmetric(&w->scene->params, i))
-            return iso_context_fail(w->ctx, ISO_BAD_INPUT, "J",
-                                    "J%d and J%d are equal: a rotation about axis %d carries every orbit along, so no "
-                                    "periodic orbit is isolated",
-                                    (i + 1) % 3 + 1, (i + 2) % 3 + 1, i + 1);
+            return iso_context_fail(
+                w->ctx, ISO_BAD_INPUT, "J",
+                "J%d and J%d are equal: a rotation about axis %d carries every orbit along, so no "
+                "periodic orbit is isolated",
+                (i + 1) % 3 + 1, (i + 2) % 3 + 1, i + 1);
     return ISO_OK;
 }
 
@@ -94,8 +95,7 @@ static iso_status work(iso_periodic_work *w)
     if (status == ISO_OK) status = check_scene(w);
     if (status != ISO_OK) return status;
     const double slow = 1 / sqrt(iso_coupling(&w->units.own, w->h));
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++)
-        w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++) w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
     iso_periodic_map_prepare(w->ctx, &w->units.own, w->options.threads, &w->map);
     w->out->axis = w->map.axis;
     status = iso_periodic_rotations(w);

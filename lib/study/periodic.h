@@ -26,17 +26,17 @@
 #include <stdint.h>
 
 #include "../base/api.h"
-#include "../orbit/scene.h"
 #include "../model/system.h"
+#include "../orbit/scene.h"
 
 ISO_C_BEGIN
 
 /* The multipliers of a map of the plane that keeps an area: lambda and 1/lambda, lambda + 1/lambda = trace. */
 typedef enum iso_stability {
-    ISO_STABLE,     /* |trace| < 2: exp(+-i angle), of first order stable                                        */
-    ISO_UNSTABLE,   /* trace > 2: a saddle                                                                       */
-    ISO_INVERSE,    /* trace < -2: a saddle with two negative multipliers                                        */
-    ISO_DEGENERATE  /* |trace| is 2 within its error                                                             */
+    ISO_STABLE,    /* |trace| < 2: exp(+-i angle), of first order stable                                        */
+    ISO_UNSTABLE,  /* trace > 2: a saddle                                                                       */
+    ISO_INVERSE,   /* trace < -2: a saddle with two negative multipliers                                        */
+    ISO_DEGENERATE /* |trace| is 2 within its error                                                             */
 } iso_stability;
 /* "stable", "unstable", "inverse", "degenerate". */
 ISO_API const char *iso_stability_name(iso_stability stability);
@@ -44,7 +44,7 @@ ISO_API const char *iso_stability_name(iso_stability stability);
 typedef struct iso_multipliers {
     iso_stability stability;
     double value[2][2]; /* real and imaginary part of each; the larger one first                                 */
-    int krein;          /* of exp(i angle), 0 < angle < pi: 1 or -1, the sense in which neighbours turn in the plane of
+    int krein; /* of exp(i angle), 0 < angle < pi: 1 or -1, the sense in which neighbours turn in the plane of
                            the two coordinates; 0: the multipliers are real                                      */
 } iso_multipliers;
 
@@ -56,12 +56,12 @@ typedef struct iso_multipliers {
 typedef struct iso_rotation {
     int axis; /* 0 to 2 */
     double half_turn_trace, error;
-    double tail;            /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
-    double by_section;      /* the same by the derivative of g at the fixed point; NaN: of the section's own axis */
-    double turn_trace;      /* half_turn_trace^2 - 2: of a whole turn                                             */
-    iso_multipliers half;   /* of half a turn                                                                    */
+    double tail;              /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
+    double by_section;        /* the same by the derivative of g at the fixed point; NaN: of the section's own axis */
+    double turn_trace;        /* half_turn_trace^2 - 2: of a whole turn                                             */
+    iso_multipliers half;     /* of half a turn                                                                    */
     double clock[ISO_CLOCKS]; /* of a whole turn, in the scene's units                                            */
-    double l, x;            /* its fixed point; x = 1: the boundary of the section                               */
+    double l, x;              /* its fixed point; x = 1: the boundary of the section                               */
 } iso_rotation;
 
 enum { ISO_PERIODIC_MOST = 64 }; /* the longest period that can be asked for */
@@ -84,18 +84,18 @@ typedef struct iso_periodic_orbit {
                                  among them                                                                      */
     double clock[ISO_CLOCKS]; /* its period in t, tau and s, in the scene's units                                */
     double ball[ISO_STATE], point[ISO_STATE]; /* its start at (l, x), with the scene's energy                    */
-    double copy[16][2];       /* a point (l, x) of each copy                                                     */
-    double (*half)[2];        /* (l, x) of g z, g^2 z = f z, ...: 2 period points, the last is z                 */
+    double copy[16][2]; /* a point (l, x) of each copy                                                     */
+    double (*half)[2];  /* (l, x) of g z, g^2 z = f z, ...: 2 period points, the last is z                 */
 } iso_periodic_orbit;
 
 typedef struct iso_periodic_options {
-    size_t size; /* set by iso_periodic_defaults; see isoroll.h */
-    int period;  /* the longest, 1 to ISO_PERIODIC_MOST                                                         */
-    bool all;    /* orbits without a symmetry as well, by Newton's method from a grid                            */
-    long grid;   /* its points                                                                                   */
+    size_t size;   /* set by iso_periodic_defaults; see isoroll.h */
+    int period;    /* the longest, 1 to ISO_PERIODIC_MOST                                                         */
+    bool all;      /* orbits without a symmetry as well, by Newton's method from a grid                            */
+    long grid;     /* its points                                                                                   */
     bool no_lines; /* with `all`: the grid alone, to test one search by the other                               */
-    bool polish; /* everything in numbers of 128 bits                                                            */
-    int threads; /* 0: as many as there are processors to run on                                                 */
+    bool polish;   /* everything in numbers of 128 bits                                                            */
+    int threads;   /* 0: as many as there are processors to run on                                                 */
     void (*progress)(double part, void *data); /* NULL: nobody is told                                           */
     void *data;
 } iso_periodic_options;

@@ -26,8 +26,7 @@ static bool step(const iso_periodic_point *end, double z[2], bool *found)
 /* The points that go on move to the front; those that have arrived are tried. */
 static iso_status sweep(iso_periodic_work *w, int period, double (*z)[2], iso_periodic_point *at, size_t *count)
 {
-    iso_status status =
-        iso_periodic_walk(&w->map, *count, (const double(*)[2])z, period, true, 1e-12, at);
+    iso_status status = iso_periodic_walk(&w->map, *count, (const double(*)[2])z, period, true, 1e-12, at);
     size_t left = 0;
     for (size_t i = 0; i < *count && status == ISO_OK; i++) {
         bool found = false;

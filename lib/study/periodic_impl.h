@@ -65,7 +65,7 @@ typedef struct iso_periodic_work {
     const iso_scene *scene;
     iso_periodic_options options;
     iso_periodic_map map;
-    double h;                /* of the scene's orbit, own units                            */
+    double h; /* of the scene's orbit, own units                            */
     iso_units units;
     double unit_clock[ISO_CLOCKS]; /* the scene's clocks of one own clock at eps = 1 */
     iso_periodic *out;

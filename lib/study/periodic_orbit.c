@@ -195,7 +195,7 @@ static bool close_up(const solver *s, iso_periodic_orbit *o)
     o->closure = hypot((double)wrap(end[0] - s->z[0], 2 * WIDE_PI), (double)(end[1] - s->z[1])) /
                  fmax(1, largest4((const iso_wide(*)[2])M));
     const double moved = s->slope_of_trace * (fabs((double)s->step) + digits);
-    o->error = error + 64 * digits * s->period * doubt + 4 * moved;
+    o->error = error + 64 * digits * s->period * doubt + 4 * moved + fabs(o->determinant) * (1 + fabs(o->trace));
     if (digits > 1e-25) o->error += 0x1p-52 * fabs(o->trace);
     const double close_to_2 = fmax(4 * o->error, 1e-15);
     o->torus = fabs(s->w->map.p.k) == 1 && fabs(o->trace - 2) <= fmax(1000 * o->error, 1e-9);
@@ -384,6 +384,7 @@ int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE])
     text[0] = 0;
     for (int i = 0; i < 6; i++)
         if (symmetry & 1 << i)
-            length += snprintf(text + length, (size_t)(ISO_DIGITS_SIZE - length), "%s%s", length ? " " : "", names[i]);
+            length +=
+                snprintf(text + length, (size_t)(ISO_DIGITS_SIZE - length), "%s%s", length ? " " : "", names[i]);
     return length > 0 ? length : snprintf(text, ISO_DIGITS_SIZE, "none");
 }

