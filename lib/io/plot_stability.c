@@ -4,6 +4,8 @@
 #include "io/gnuplot_impl.h"
 #include "io/plot_impl.h"
 
+#define EDGE (2 + 1e-9) /* with equal moments a trace is -2 up to rounding */
+
 /* Rows of which column `c` is in (low, high]. */
 static size_t put_part(FILE *f, const iso_record *r, int c, double low, double high, const char *name)
 {
@@ -34,9 +36,9 @@ static void put_panel(FILE *f, const iso_record *grid, const iso_record *borders
 {
     static const char *const names[] = {"least", "greatest"};
     const int c = 2 + which;
-    put_part(f, grid, c, -INFINITY, -2, "inverse");
-    put_part(f, grid, c, -2, 2, "stable");
-    put_part(f, grid, c, 2, INFINITY, "unstable");
+    put_part(f, grid, c, -INFINITY, -EDGE, "inverse");
+    put_part(f, grid, c, -EDGE, EDGE, "stable");
+    put_part(f, grid, c, EDGE, INFINITY, "unstable");
     put_borders(f, borders, which);
     fprintf(f, "set title 'rotation about the axis of the %s moment'\n", names[which]);
     fprintf(f, "set lmargin at screen %s; set rmargin at screen %s\n", which ? "0.56" : "0.08",

@@ -208,6 +208,7 @@ static void tell_states(const solver *s, iso_periodic_orbit *o)
     const iso_periodic_work *w = s->w;
     const iso_fine z[2] = {iso_fine_of(wrap(s->z[0], 2 * WIDE_PI)), iso_fine_of(s->z[1])};
     o->period = s->period;
+    o->line = s->line;
     o->l = z[0].head;
     o->l_tail = z[0].tail;
     o->x = z[1].head;
