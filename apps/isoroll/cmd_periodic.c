@@ -5,6 +5,7 @@
 #include "io/output.h"
 #include "io/plot.h"
 #include "periodic_chart.h"
+#include "periodic_follow.h"
 #include "periodic_report.h"
 #include "progress.h"
 #include "scene_options.h"
@@ -13,9 +14,9 @@
 typedef struct options {
     scene_options scene; /* only its file is used */
     const char *output, *plot;
-    const char *chart, *k;
-    double period, grid, steps, threads;
-    bool all, polish, json;
+    const char *chart, *k, *follow;
+    double period, grid, steps, threads, orbit; /* orbit 0: all */
+    bool all, polish, json, branches;
 } options;
 
 static void show(double part, void *unused)
@@ -38,6 +39,17 @@ static int tell_gaps(const iso_periodic *f)
                  f->unresolved);
     if (f->lost > 0) complain("%zu sign changes did not lead to an orbit: orbits may be missing", f->lost);
     return EXIT_DONE;
+}
+
+static int follow(iso_context *ctx, const options *o, const iso_scene *scene, const iso_periodic *found)
+{
+    const periodic_follow how = {.range = o->follow,
+                                 .orbit = o->orbit,
+                                 .branches = o->branches,
+                                 .output = o->output,
+                                 .plot = o->plot,
+                                 .json = o->json};
+    return follow_orbits(ctx, scene, found, &how);
 }
 
 static int report(iso_context *ctx, const options *o, const periodic_report *r, iso_output *csv)
@@ -71,14 +83,16 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     stop_gently();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     const iso_status status = iso_periodic_run(ctx, scene, &how, &found);
-    iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
     int result = finish_scene(ctx, &o->scene, scene, status);
     if (status == ISO_STOPPED) complain("interrupted: orbits are missing");
-    if (found)
+    if (found && o->follow)
+        result = worse(result, follow(ctx, o, scene, found));
+    else if (found)
         result = worse(result, report(ctx, o, &(periodic_report){scene, found, how.period, o->polish}, csv));
-    else
+    else if (csv)
         iso_output_close(ctx, csv, false);
+    iso_context_set_monitor(ctx, NULL, NULL);
     iso_periodic_free(found);
     return result;
 }
@@ -91,11 +105,15 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     if (o->output && strcmp(o->output, "-") == 0 && o->json)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output",
                                 "periodic: standard output has room for one: choose -o - or --json");
+    if (o->chart && o->follow)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "chart", "periodic: --chart or --follow, not both");
+    if ((o->orbit > 0 || o->branches) && !o->follow)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "follow", "periodic: --orbit and --branches go with --follow");
     if (o->k && !o->chart)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "periodic: --k is the range of --chart");
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
-    return status == ISO_OK && o->output && !o->chart ? iso_output_open(ctx, o->output, csv) : status;
+    return status == ISO_OK && o->output && !o->chart && !o->follow ? iso_output_open(ctx, o->output, csv) : status;
 }
 
 static int run(iso_context *ctx, const void *options_given)
@@ -119,6 +137,11 @@ static const option_row rows[] = {
         options, all),
     ROW("grid", "N", "a whole number from 1 on", "points of that grid (default 2000)", set_count, options, grid),
     ROW("polish", NULL, NULL, "compute with 128 bits and print 30 digits", set_flag, options, polish),
+    ROW("follow", "NAME=A:B", "k, J1, J2, J3 or ratio, =, two numbers and a colon",
+        "follow orbits while k, a moment or the ratio (J2 - J1)/(J3 - J1) goes from A to B", set_text, options,
+        follow),
+    ROW("orbit", "N", "a whole number from 1 on", "follow orbit N of the list alone", set_count, options, orbit),
+    ROW("branches", NULL, NULL, "follow what branches off, too", set_flag, options, branches),
     ROW("chart", "MOMENT", "J1, J2 or J3, or J2=A:B",
         "in place of all that: where rotations are stable, in the plane of k and a moment, from A to B", set_text,
         options, chart),
@@ -158,6 +181,9 @@ const command command_periodic = {
         "Only k, J and the energy of the scene are read. Orbits do not depend on the energy, only their clocks "
         "do.\n\n"
         "For k = 1 and k = -1 orbits fill tori: those on the symmetry lines are shown, and called degenerate.\n\n"
+        "--follow k=A:B follows symmetric orbits from the scene's k to A and to B, or until they end: folds, period "
+        "doublings, symmetry breaking and collisions with rotations are located. Where a branch cannot be followed, "
+        "a line says where and why, and the part so far is kept.\n\n"
         "--chart J2 shows in which part of the plane of k and J2 the rotations about the axes of the least and of "
         "the "
         "greatest moment are stable, and the borders on which a trace is 2 or -2.\n\n"
@@ -165,6 +191,6 @@ const command command_periodic = {
         "ones "
         "in grey.",
     .example = "isoroll periodic scene.yaml --period 8 --plot orbits.svg",
-    .exits = "1: interrupted",
+    .exits = "1: interrupted, or a branch could not be followed to its end",
     .run = run,
 };

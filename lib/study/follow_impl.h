@@ -23,12 +23,12 @@ typedef struct iso_follow_family {
 /* A point of the curve. Coordinates are u and v = value/width. */
 typedef struct iso_follow_point {
     double u, v, value;
-    double off;           /* F                                                                   */
-    double by_u, by_v;    /* its slopes                                                          */
-    double across;        /* the other number of A across its diagonal                           */
-    double diagonal[2];   /* A_00, A_11                                                          */
+    double off;         /* F                                                                   */
+    double by_u, by_v;  /* its slopes                                                          */
+    double across;      /* the other number of A across its diagonal                           */
+    double diagonal[2]; /* A_00, A_11                                                          */
     double trace;
-    double tangent[2];    /* (du, dv), of length 1                                               */
+    double tangent[2]; /* (du, dv), of length 1                                               */
 } iso_follow_point;
 
 /* The parameters at a value. False: there are none, or their section has another axis. */

@@ -22,8 +22,8 @@ const char *iso_vary_name(int vary)
 
 const char *iso_branch_kind_name(iso_branch_kind kind)
 {
-    static const char *const names[] = {"fold", "period doubling", "symmetry breaking", "collision",
-                                        "torus", "end", "failure"};
+    static const char *const names[] = {"fold", "period doubling", "symmetry breaking", "collision", "torus",
+                                        "end",  "failure"};
     return names[kind];
 }
 
@@ -85,20 +85,21 @@ static iso_status accept(const iso_follow_family *f, iso_branch *b, const iso_fo
                          const iso_follow_point *next, double ds, double arc, bool *over)
 {
     iso_branch_event e;
-    const double sign = arc < 0 ? -1 : 1;
     *over = true;
     if (next->value < f->options.from) return end_at(f, b, at, f->options.from, arc + ds);
     if (next->value > f->options.to) return end_at(f, b, at, f->options.to, arc + ds);
     if (ends_in_collision(at, next) && iso_follow_collision(f, at, next, &e)) {
-        e.at.arc = arc + sign * ds;
+        e.at.arc = arc + ds;
         return iso_follow_add_event(f, b, &e);
     }
+    if (next->u < 0 || next->u > ISO_PI / 2)
+        return fail_at(f, b, at, arc, "it comes as close to a rotation as can be followed");
     *over = false;
     const iso_status status = iso_follow_events(f, b, at, next, ds, arc);
     return status == ISO_OK ? add_point(f, b, next, arc + ds) : status;
 }
 
-/* From `at` along its tangent. backwards: arcs are counted downwards. */
+/* From `at` along its tangent. */
 static iso_status go(const iso_follow_family *f, iso_branch *b, iso_follow_point at)
 {
     double ds = f->options.longest / 4, arc = 0;
@@ -110,8 +111,7 @@ static iso_status go(const iso_follow_family *f, iso_branch *b, iso_follow_point
         const double room = fmin(at.u, ISO_PI / 2 - at.u);
         double taken = fmin(ds, fmax(room / 2, NEAR_END / 4));
         while (!iso_follow_step(f, &at, taken, &next, &steps)) {
-            if (!iso_context_goes_on(f->ctx))
-                return iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request");
+            if (!iso_context_goes_on(f->ctx)) return iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request");
             taken /= 2;
             if (taken < 1e-7) {
                 iso_params p;
@@ -189,15 +189,15 @@ static iso_status check(const iso_follow_family *f, double own)
     if (!name || !(o->from < o->to) || !isfinite(o->to - o->from))
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "%g to %g is no range", o->from, o->to);
     if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "k = 0 lies between %g and %g: there is no such ball",
-                                o->from, o->to);
+        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
+                                "k = 0 lies between %g and %g: there is no such ball", o->from, o->to);
     if (!(own >= o->from && own <= o->to))
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "the scene has %s = %.12g, outside %g to %g", name,
                                 own, o->from, o->to);
     if (o->vary != ISO_VARY_K && (!iso_follow_params(f, o->from, &p) || !iso_follow_params(f, o->to, &p)))
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
-                                "%s from %g to %g leaves the range in which J%d is the %s moment", name, o->from, o->to,
-                                f->axis + 1, f->base.k > 0 ? "largest" : "smallest");
+                                "%s from %g to %g leaves the range in which J%d is the %s moment", name, o->from,
+                                o->to, f->axis + 1, f->base.k > 0 ? "largest" : "smallest");
     return ISO_OK;
 }
 
