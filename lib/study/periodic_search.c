@@ -244,9 +244,17 @@ static iso_status find_roots(search *s)
     return status;
 }
 
+static int by_place(const void *a, const void *b)
+{
+    const bracket *one = a, *other = b;
+    return (one->u > other->u) - (one->u < other->u);
+}
+
+/* Of an orbit's points on the line the one with the least u counts. */
 static iso_status add_roots(search *s)
 {
     iso_status status = ISO_OK;
+    if (s->brackets > 0) qsort(s->bracket, s->brackets, sizeof *s->bracket, by_place);
     for (int n = 1; n <= s->periods; n++)
         for (size_t i = 0; i < s->brackets && status == ISO_OK; i++) {
             if (s->bracket[i].n != n) continue;
