@@ -89,6 +89,7 @@ static void name_turn(const iso_follow_family *f, const iso_follow_point *at, is
     half.period = f->period / 2;
     const bool doubled =
         f->period % 2 == 0 && iso_follow_evaluate(&half, at->u, at->v, false, &there) && fabs(there.off) < 1e-4;
+    e->joins = true;
     e->kind = doubled ? ISO_BRANCH_DOUBLING : ISO_BRANCH_BREAKING;
     snprintf(e->words, sizeof e->words, "it branches off there from an orbit of %s at %s = %.12g",
              doubled ? "half its period" : "more symmetry", iso_vary_name((int)f->options.vary), at->value);

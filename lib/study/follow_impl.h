@@ -3,6 +3,7 @@
  *     periodic_follow.c   the call, the two directions, the branches that are switched to
  *     follow_curve.c      the curve F(u, value) = 0: one evaluation, the corrector, one step
  *     follow_events.c     what happens between two points of the curve, and exactly where
+ *     follow_switch.c     the orbits that branch off
  */
 #ifndef ISO_STUDY_FOLLOW_IMPL_H
 #define ISO_STUDY_FOLLOW_IMPL_H
@@ -54,5 +55,10 @@ iso_status iso_follow_add_event(const iso_follow_family *f, iso_branch *b, const
 /* The collision beyond a point near the end of the line; false: there is none near. */
 bool iso_follow_collision(const iso_follow_family *f, const iso_follow_point *a, const iso_follow_point *b,
                           iso_branch_event *e);
+
+/* Looks for an orbit that branches off at an event, and gives its parameter and value to `found`. */
+iso_status iso_follow_switch(const iso_follow_family *f, const iso_branch *b, const iso_branch_event *e,
+                             iso_status (*found)(void *data, const iso_follow_family *f, double u, double value),
+                             void *data);
 
 #endif

@@ -211,6 +211,35 @@ static iso_branch *new_branch(const iso_follow_family *f, iso_follow *out, int p
     return b;
 }
 
+/* --- branches that are switched to ------------------------------------------------------------------------------ */
+
+typedef struct switcher {
+    iso_follow *out;
+    int parent;
+} switcher;
+
+static iso_status follow_found(void *data, const iso_follow_family *f, double u, double value)
+{
+    const switcher *s = data;
+    iso_branch *b = new_branch(f, s->out, s->parent);
+    if (!b) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
+    return follow_branch(f, u, value, b);
+}
+
+/* What branches off from branch i. */
+static iso_status switch_branches(const iso_follow_family *f, iso_follow *out, size_t i)
+{
+    switcher s = {out, (int)i};
+    iso_status status = ISO_OK;
+    for (size_t j = 0; j < out->branch[i].events && status == ISO_OK; j++) {
+        const iso_branch b = out->branch[i]; /* the list may move */
+        const iso_branch_event e = b.event[j];
+        const bool off = !e.joins && (e.kind == ISO_BRANCH_DOUBLING || e.kind == ISO_BRANCH_BREAKING);
+        if (off) status = iso_follow_switch(f, &b, &e, follow_found, &s);
+    }
+    return status;
+}
+
 static iso_status follow_orbit(iso_follow_family *f, const iso_periodic_orbit *o, double own, iso_follow *out)
 {
     if (o->line < 0)
@@ -221,7 +250,9 @@ static iso_status follow_orbit(iso_follow_family *f, const iso_periodic_orbit *o
     iso_branch *b = new_branch(f, out, -1);
     if (!b) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
     const double u = o->line == LINE_X ? fabs(o->l) : asin(fabs(o->x));
-    return follow_branch(f, u, own, b);
+    const size_t at = out->count - 1;
+    const iso_status status = follow_branch(f, u, own, b);
+    return status == ISO_OK && f->options.branches ? switch_branches(f, out, at) : status;
 }
 
 iso_status iso_follow_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[], size_t count,

@@ -39,6 +39,7 @@ typedef struct iso_branch_point {
 
 typedef struct iso_branch_event {
     iso_branch_kind kind;
+    bool joins; /* this branch is the one that branches off */
     iso_branch_point at;
     int axis; /* of a collision: the rotation's, 0 to 2 */
     char words[160];
