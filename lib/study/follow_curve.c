@@ -42,10 +42,23 @@ static double off_of(const iso_follow_family *f, const iso_periodic_fine *at)
     return (double)(l - WIDE_ROUND(l / WIDE_PI) * WIDE_PI);
 }
 
+/* The slope by v, by differences: its error is of the order of h^2. */
+static bool find_by_v(const iso_follow_family *f, iso_follow_point *at)
+{
+    const double h = 2e-5;
+    double ends[2];
+    for (int i = 0; i < 2; i++) {
+        iso_periodic_fine side;
+        if (!far_from(f, at->u, (at->v + (2 * i - 1) * h) * f->width, &side)) return false;
+        ends[i] = off_of(f, &side);
+    }
+    at->by_v = (ends[1] - ends[0]) / (2 * h);
+    return true;
+}
+
 bool iso_follow_evaluate(const iso_follow_family *f, double u, double v, bool slopes, iso_follow_point *at)
 {
-    const double h = 2e-5; /* of v: the truncated error of the slope is h^2 */
-    iso_periodic_fine found, side;
+    iso_periodic_fine found;
     if (!far_from(f, u, v * f->width, &found)) return false;
     const double stretch = f->line == LINE_X ? 1 : cos(u); /* of the line's coordinate by u */
     const int row = f->line == LINE_X ? 1 : 0;
@@ -59,14 +72,7 @@ bool iso_follow_evaluate(const iso_follow_family *f, double u, double v, bool sl
     const double det = (double)found.determinant;
     at->trace = fabs(A[0][1] * A[1][0]) < fabs(A[0][0] * A[1][1]) ? 2 + 4 * A[0][1] * A[1][0] / det
                                                                   : 4 * A[0][0] * A[1][1] / det - 2;
-    if (!slopes) return true;
-    double ends[2];
-    for (int i = 0; i < 2; i++) {
-        if (!far_from(f, u, (v + (2 * i - 1) * h) * f->width, &side)) return false;
-        ends[i] = off_of(f, &side);
-    }
-    at->by_v = (ends[1] - ends[0]) / (2 * h);
-    return true;
+    return !slopes || find_by_v(f, at);
 }
 
 void iso_follow_turn(iso_follow_point *at, const double like[2])
@@ -78,23 +84,23 @@ void iso_follow_turn(iso_follow_point *at, const double like[2])
     if (along < 0) at->tangent[0] = -at->tangent[0], at->tangent[1] = -at->tangent[1];
 }
 
-/* Newton's method across the tangent of `a`; by_v is kept from the predicted point. */
+/* Newton's method across the tangent of `a`; by_v is kept from the predicted point, and found again at the end. */
 bool iso_follow_step(const iso_follow_family *f, const iso_follow_point *a, double ds, iso_follow_point *to,
                      int *steps)
 {
-    enum { MOST = 7 };
+    enum { MOST = 8 };
     const double *t = a->tangent;
-    double u = a->u + ds * t[0], v = a->v + ds * t[1], by_v = 0;
-    for (*steps = 0; *steps < MOST; ++*steps) {
+    double u = a->u + ds * t[0], v = a->v + ds * t[1];
+    bool there = false;
+    for (*steps = 0; *steps < MOST && !there; ++*steps) {
         if (!iso_follow_evaluate(f, u, v, *steps == 0, to)) return false;
-        if (*steps == 0) by_v = to->by_v;
-        const double det = to->by_u * t[1] - by_v * t[0];
-        const double du = -to->off * t[1] / det, dv = to->off * t[0] / det;
+        const double det = to->by_u * t[1] - to->by_v * t[0];
+        const double du = -to->off * t[1] / det, dv = to->off * t[0] / det, length = hypot(du, dv);
+        if (!(length < 2 * fabs(ds) + 1e-9)) return false;
+        there = length < 1e-12;
         u += du, v += dv;
-        if (!(hypot(du, dv) < 2 * fabs(ds) + 1e-9)) return false;
-        if (hypot(du, dv) < 1e-11) break;
     }
-    if (*steps == MOST || !iso_follow_evaluate(f, u, v, true, to)) return false;
+    if (!there || !find_by_v(f, to)) return false;
     iso_follow_turn(to, t);
     return to->tangent[0] * t[0] + to->tangent[1] * t[1] > 0.9;
 }

@@ -59,7 +59,7 @@ static void check_branch(void)
     iso_periodic *f = orbits_of(&scene, 1);
     iso_follow_options o = iso_follow_defaults();
     iso_follow *follow;
-    o.from = 0.3, o.to = 0.8, o.branches = true;
+    o.from = 0.3, o.to = 0.8, o.branches = true, o.longest = 0.08;
     gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
     const iso_branch *b = &follow->branch[0];
     const iso_branch_event *doubling = event_of(b, ISO_BRANCH_DOUBLING), *end = event_of(b, ISO_BRANCH_END);
@@ -92,7 +92,7 @@ static void check_torus(void)
     iso_periodic *f = orbits_of(&scene, 5);
     iso_follow_options o = iso_follow_defaults();
     iso_follow *follow;
-    o.from = 0.96, o.to = 1.02;
+    o.from = 0.96, o.to = 1.02, o.longest = 0.1;
     gsl_test(f->count < 2, "there are orbits");
     gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, 2, &o, &follow), ISO_OK, "followed");
     int tori = 0;
