@@ -109,7 +109,7 @@ static iso_status go(const iso_follow_family *f, iso_branch *b, iso_follow_point
         bool over;
         /* slowly towards the ends, which are singular */
         const double room = fmin(at.u, ISO_PI / 2 - at.u);
-        double taken = fmin(ds, fmax(room / 2, NEAR_END / 4));
+        double taken = fmin(ds, fmax(room / 2, NEAR_END / 4) / (fabs(at.tangent[0]) + 1e-9));
         while (!iso_follow_step(f, &at, taken, &next, &steps)) {
             if (!iso_context_goes_on(f->ctx)) return iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request");
             taken /= 2;
@@ -125,7 +125,7 @@ static iso_status go(const iso_follow_family *f, iso_branch *b, iso_follow_point
         if (status != ISO_OK || over) return status;
         at = next;
         arc += taken;
-        ds = steps <= 3 ? fmin(1.4 * taken, f->options.longest) : taken;
+        ds = steps <= 5 ? fmin(1.4 * taken, f->options.longest) : taken;
     }
     return fail_at(f, b, &at, arc, "the most steps were taken");
 }

@@ -186,6 +186,13 @@ static bool has(const iso_periodic *f, const iso_periodic_orbit *o)
     return false;
 }
 
+/* Newton's method from a grid can find it: very unstable orbits attract few points of the grid, and with a trace near 2
+ * there are many next to each other. */
+static bool is_easy(const iso_periodic_orbit *o)
+{
+    return fabs(o->trace) < 100 && fabs(o->trace - 2) > 0.05;
+}
+
 /* The search from a grid, without lines, against the search along lines: orbits that S1, S2 or S3 maps to itself. */
 static void check_both_searches(void)
 {
@@ -206,8 +213,8 @@ static void check_both_searches(void)
                 gsl_test(!has(lines, &grid->orbit[j]),
                          "k = %.17g, J = %.17g %.17g %.17g: lines have period %d, l = %g", k, J[0], J[1], J[2],
                          grid->orbit[j].period, grid->orbit[j].l);
-        for (size_t j = 0; j < lines->count; j++) /* with a trace near 2 Newton's method goes to one of many */
-            gsl_test(fabs(lines->orbit[j].trace - 2) > 0.05 && !has(grid, &lines->orbit[j]),
+        for (size_t j = 0; j < lines->count; j++)
+            gsl_test(is_easy(&lines->orbit[j]) && !has(grid, &lines->orbit[j]),
                      "k = %.17g, J = %.17g %.17g %.17g: grid has period %d, l = %g, x = %g", k, J[0], J[1], J[2],
                      lines->orbit[j].period, lines->orbit[j].l, lines->orbit[j].x);
         iso_periodic_free(lines);
