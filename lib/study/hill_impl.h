@@ -62,7 +62,8 @@ static void HILL(turn)(NUMBER k, NUMBER Ji, NUMBER Ja, NUMBER Jb, NUMBER y[2][2]
         double apart = fabs((double)phi - middle);
         if (middle == 0) apart = fmin(apart, ISO_PI - (double)phi);
         double h = PART * hypot(apart, height);
-        h = fmin(h, 0.5 / (1 + sqrt(fabs(1 / (double)k) * (double)(Ji / (Ja < Jb ? Ja : Jb)) + 1)) * 2);
+        const double pace = sqrt(fabs((double)(Ji / (Ja < Jb ? Ja : Jb) / k)) + 1); /* of y, at most */
+        h = fmin(h, 1 / (1 + pace));
         const bool last = (NUMBER)h >= PI - phi;
         const NUMBER length = last ? PI - phi : (NUMBER)h;
         HILL(step)(&p, phi, length, y);

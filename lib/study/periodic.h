@@ -36,7 +36,7 @@ typedef enum iso_stability {
     ISO_STABLE,    /* |trace| < 2: exp(+-i angle), of first order stable                                        */
     ISO_UNSTABLE,  /* trace > 2: a saddle                                                                       */
     ISO_INVERSE,   /* trace < -2: a saddle with two negative multipliers                                        */
-    ISO_DEGENERATE /* |trace| is 2 within its error                                                             */
+    ISO_DEGENERATE /* |trace| is 2 within 4 errors                                                               */
 } iso_stability;
 /* "stable", "unstable", "inverse", "degenerate". */
 ISO_API const char *iso_stability_name(iso_stability stability);
@@ -48,7 +48,7 @@ typedef struct iso_multipliers {
                            the two coordinates; 0: the multipliers are real                                      */
 } iso_multipliers;
 
-/* The rotation about axis i, in the plane gamma_i = 0 (study: Hill's equation). With q = J_a cos^2 phi + J_b sin^2 phi
+/* The rotation about axis i, in the plane gamma_i = 0: Hill's equation. With q = J_a cos^2 phi + J_b sin^2 phi
  *
  *     d^2 gamma_i/dphi^2 = q'/(2 k q) dgamma_i/dphi - (1/k) (J_i/q - (1 - k)) gamma_i
  *

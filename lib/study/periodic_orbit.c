@@ -197,7 +197,7 @@ static bool close_up(const solver *s, iso_periodic_orbit *o)
     const double moved = s->slope_of_trace * (fabs((double)s->step) + digits);
     o->error = error + 64 * digits * s->period * doubt + 4 * moved + fabs(o->determinant) * (1 + fabs(o->trace));
     if (digits > 1e-25) o->error += 0x1p-52 * fabs(o->trace);
-    const double close_to_2 = fmax(4 * o->error, 1e-15);
+    const double close_to_2 = fmin(fmax(4 * o->error, 1e-15), 0.5);
     o->torus = fabs(s->w->map.p.k) == 1 && fabs(o->trace - 2) <= fmax(1000 * o->error, 1e-9);
     o->multipliers = iso_multipliers_of(o->trace, o->torus ? 1e-6 : close_to_2, (double)M[1][0]);
     return true;
@@ -362,7 +362,9 @@ iso_status iso_periodic_add(iso_periodic_work *w, const iso_periodic_candidate *
     if (status != ISO_OK) return status;
     if (c->line >= 0) mirror(c, points);
     if (least_period(&s, points) < c->period) return ISO_OK; /* found with that period */
-    if (!solve(&s)) return w->out->lost += c->line >= 0, ISO_OK;
+    const bool solved = solve(&s);
+    if (!iso_context_goes_on(w->ctx)) return iso_context_fail(w->ctx, ISO_STOPPED, "", "stopped on request");
+    if (!solved) return w->out->lost += c->line >= 0, ISO_OK;
     if (is_known(w, c->period, (double)s.z[0], (double)s.z[1]) || !(fabs((double)s.z[1]) < 1)) return ISO_OK;
     return finish(&s, points, added);
 }
