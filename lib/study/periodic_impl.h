@@ -27,6 +27,7 @@ typedef struct iso_periodic_map {
     int axis, threads;
     iso_model model; /* the point on H = 0, eps = 1, with all clocks */
     double zeros;    /* see iso_lane_job */
+    double finer;    /* of one point: the tolerance is this part of the usual one */
 } iso_periodic_map;
 
 void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, int threads, iso_periodic_map *map);

@@ -15,7 +15,7 @@ void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, int threa
 {
     const iso_problem problem = {.p = *own, .eps = 1, .energy = 0};
     const bool with[ISO_CLOCKS] = {true, true, true};
-    *map = (iso_periodic_map){.ctx = ctx, .p = *own, .axis = iso_section_axis(own), .threads = threads};
+    *map = (iso_periodic_map){.ctx = ctx, .p = *own, .axis = iso_section_axis(own), .threads = threads, .finer = 1};
     map->model = iso_model_assemble(&iso_system_point, &problem, ISO_CLOCK_T, with);
     map->zeros = iso_crossings_zeros(own, 1, map->axis, ISO_CLOCK_T);
 }
@@ -164,7 +164,7 @@ static double doubt(const iso_periodic_map *map, const iso_return_code *code, co
 static bool go_once(const iso_periodic_map *map, const iso_return_code *code, iso_return *r)
 {
     enum { TRIES = 4, ALLOWED = 200 };
-    double tolerance = code->error < 1e-20 ? 1e-16 : 1e-15, least = INFINITY;
+    double tolerance = map->finer * (code->error < 1e-20 ? 1e-16 : 1e-15), least = INFINITY;
     iso_return best = *r;
     for (int i = 0; i < TRIES && !(least <= ALLOWED); i++, tolerance *= 1e-3) {
         iso_return next = *r;

@@ -165,6 +165,27 @@ iso_multipliers iso_multipliers_of(double trace, double error, double sense)
     return m;
 }
 
+/* What other steps and the last digit of k change: in the trace, and by the root that they have. Where an orbit passes near a saddle, rounding
+ * errors grow more on the way than the derivative of the whole tells. */
+static double by_other_steps(const solver *s)
+{
+    solver other = *s;
+    iso_periodic_map map = s->w->map;
+    iso_params p;
+    if (s->code->error > 1e-25) { /* the constants of the equations are rounded like k */
+        if (iso_params_reduced(map.ctx, nextafter(map.p.k, 0), map.p.J, &p) != ISO_OK) return NAN;
+        iso_periodic_map_prepare(map.ctx, &p, 1, &map);
+    }
+    map.finer = 0.03;
+    if (!iso_periodic_far(&map, s->code, s->z, s->line >= 0 ? s->period : 2 * s->period, &other.half)) return NAN;
+    const iso_wide *const A[2] = {s->half.slope[0], s->half.slope[1]}, *const B[2] = {other.half.slope[0],
+                                                                                      other.half.slope[1]};
+    const iso_wide change =
+        s->line >= 0 ? trace_of_half(&other) - trace_of_half(s) : B[0][0] + B[1][1] - A[0][0] - A[1][1];
+    s->line >= 0 ? step_on_line(&other) : step_in_plane(&other);
+    return fabs((double)change) + s->slope_of_trace * fabs((double)other.step);
+}
+
 /* The whole derivative of f^p by following the second half as well, the closure, and what rounding made of the trace. */
 static bool close_up(const solver *s, iso_periodic_orbit *o)
 {
@@ -194,8 +215,9 @@ static bool close_up(const solver *s, iso_periodic_orbit *o)
     o->determinant = (double)(det - 1);
     o->closure = hypot((double)wrap(end[0] - s->z[0], 2 * WIDE_PI), (double)(end[1] - s->z[1])) /
                  fmax(1, largest4((const iso_wide(*)[2])M));
-    const double moved = s->slope_of_trace * (fabs((double)s->step) + digits);
-    o->error = error + 64 * digits * s->period * doubt + 4 * moved + fabs(o->determinant) * (1 + fabs(o->trace));
+    const double moved = s->slope_of_trace * (fabs((double)s->step) + digits + 4 * o->closure);
+    o->error = error + 256 * digits * s->period * doubt + 4 * moved + fabs(o->determinant) * (1 + fabs(o->trace));
+    o->error += 8 * by_other_steps(s);
     if (digits > 1e-25) o->error += 0x1p-52 * fabs(o->trace);
     const double close_to_2 = fmin(fmax(4 * o->error, 1e-15), 0.5);
     o->torus = fabs(s->w->map.p.k) == 1 && fabs(o->trace - 2) <= fmax(1000 * o->error, 1e-9);
