@@ -217,7 +217,7 @@ static bool close_up(const solver *s, iso_periodic_orbit *o)
                  fmax(1, largest4((const iso_wide(*)[2])M));
     const double moved = s->slope_of_trace * (fabs((double)s->step) + digits + 4 * o->closure);
     o->error = error + 256 * digits * s->period * doubt + 4 * moved + fabs(o->determinant) * (1 + fabs(o->trace));
-    o->error += 8 * by_other_steps(s);
+    o->error += 100 * by_other_steps(s); /* it has been seen to be 70 times too small */
     if (digits > 1e-25) o->error += 0x1p-52 * fabs(o->trace);
     const double close_to_2 = fmin(fmax(4 * o->error, 1e-15), 0.5);
     o->torus = fabs(s->w->map.p.k) == 1 && fabs(o->trace - 2) <= fmax(1000 * o->error, 1e-9);
