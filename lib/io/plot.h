@@ -131,6 +131,16 @@ typedef struct iso_plot_section {
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis or orbit), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 
+/* Where the rotations about the axes of least and greatest moment are stable: the records of study/stability_chart.h.
+ * moment: the name of the one that varies. Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const char *moment,
+                                      const iso_record *grid, const iso_record *borders);
+
+/* Followed orbits: columns branch (0, 1, ...), value, x, trace, by branch and along it; x is |x|, or on x = 0 the part
+ * 2 l/pi. parameter: the name of what varies. Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_branches(iso_context *ctx, const char *path, const char *title, const char *parameter,
+                                     const iso_record *points);
+
 ISO_C_END
 
 #endif

@@ -26,7 +26,8 @@ int iso_crossings_axis(const iso_crossings *c, size_t i)
 
 /* By the directions of M and gamma, also of a ball (18): so both models agree about a start. gamma_a oscillates at the
  * rate of about |M|. So gamma_a'/|M| has the size of gamma_a. */
-bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis)
+bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis,
+                              bool *upwards)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
     double M[3], gamma[3];
@@ -36,7 +37,8 @@ bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const d
     }
     const double pace = norm(M), rise = gamma[b] * M[c] - gamma[c] * M[b];
     const double swing = hypot(pace * gamma[axis], rise);
-    return rise >= 0 && fabs(pace * gamma[axis]) <= ISO_ON_SECTION * swing;
+    *upwards = rise >= 0;
+    return fabs(pace * gamma[axis]) <= ISO_ON_SECTION * swing;
 }
 
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)

@@ -62,7 +62,8 @@ static iso_status begin(iso_crossings *c, size_t i)
     iso_crossings_bounds(o->alone, o);
     if (o->axis < 0) return ISO_OK;
     const double *y = state_of(o->alone, &start);
-    o->begins_on_it = iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(o->alone), y, o->axis);
+    o->begins_on_it =
+        iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(o->alone), y, o->axis, &o->upwards);
     return iso_crossings_check_plane(o->ctx, o->alone, y, o->axis);
 }
 

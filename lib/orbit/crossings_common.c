@@ -101,7 +101,7 @@ double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock 
 iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
                               double s)
 {
-    const bool least = o->count > 0 || o->begins_on_it;
+    const bool least = o->count > 0 || (o->begins_on_it && o->upwards);
     const double loose = o->count == 0 ? ISO_ON_SECTION : 0;
     const double bound[2] = {(1 - loose) * o->bound[0], (1 + loose) * o->bound[1]};
     if (iso_crossings_apart(bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;

@@ -21,6 +21,7 @@ typedef struct iso_crossed {
     size_t count;      /* crossings so far                                                                        */
     double time, s;    /* of the last crossing, or 0; time: of the orbit's own clock, in the caller's units       */
     bool begins_on_it; /* the start lies on the section: it is no crossing                                        */
+    bool upwards;      /* ... and n_a increases there: a whole return to the first crossing                  */
     double bound[2];   /* least and largest s between two crossings; NaN: no bounds are known                     */
     int axis;          /* of ISO_SECTION_AXIS                                                                     */
     iso_status status; /* the failure that ended the orbit, or ISO_OK                                              */
@@ -66,10 +67,11 @@ double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock 
 int iso_crossings_axis(const iso_crossings *c, size_t i);
 
 /* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section: n_a = 0 up to 1e-8 of a
- * radian of its oscillation, and not falling. Such a start is no crossing, and an event there is not counted. Without
- * this margin ball and point, or lanes and single orbits, would disagree if n_a is 0 up to rounding. A start at which
- * n_a falls through 0 lies half an oscillation before the section. */
-bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis);
+ * radian of its oscillation. Such a start is no crossing, and an event there is not counted. Without this margin ball
+ * and point, or lanes and single orbits, would disagree if n_a is 0 up to rounding. *upwards: n_a increases; else the
+ * first crossing comes after half an oscillation. */
+bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis,
+                              bool *upwards);
 
 /* Whether the distance `apart` in s of two crossings of a free orbit is within the bounds, up to rounding. s: of the
  * second crossing. NaN bounds allow everything. `least` false: the first is no crossing, so only the upper bound

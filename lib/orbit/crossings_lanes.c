@@ -91,14 +91,14 @@ static bool suits(const iso_crossings *c, const struct iso_crossings_lane *lane,
     return lane->has_clocks && isfinite(o->bound[0]) && isfinite(o->bound[1]);
 }
 
-static bool starts_on_section(const iso_orbit *orbit, const double y[], int axis)
+static bool starts_on_section(const iso_orbit *orbit, const double y[], int axis, bool *upwards)
 {
     const iso_params *own = &orbit->units.own;
     double point[ISO_STATE];
     if (orbit->system != &iso_system_point_t)
-        return iso_crossings_on_section(own, iso_crossings_model(orbit), y, axis);
+        return iso_crossings_on_section(own, iso_crossings_model(orbit), y, axis, upwards);
     iso_point_t_to_point(own, y, point); /* for k < 0 the signs of M and y differ */
-    return iso_crossings_on_section(own, ISO_POINT, point, axis);
+    return iso_crossings_on_section(own, ISO_POINT, point, axis, upwards);
 }
 
 /* Prepares orbit i if lanes can follow it; else o->lane stays NULL. */
@@ -115,7 +115,7 @@ static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
         return status;
     }
     if (c->options.kind == ISO_SECTION_AXIS) {
-        o->begins_on_it = starts_on_section(&lane->orbit, lane->job.start, o->axis);
+        o->begins_on_it = starts_on_section(&lane->orbit, lane->job.start, o->axis, &o->upwards);
         status = iso_crossings_check_plane(w->ctx, &lane->orbit, lane->job.start, o->axis);
         set_search(lane, o);
     }

@@ -1,0 +1,20 @@
+/* periodic_follow.h - `isoroll periodic --follow`: orbits while k or a moment changes. */
+#ifndef ISOROLL_PERIODIC_FOLLOW_H
+#define ISOROLL_PERIODIC_FOLLOW_H
+
+#include <stdbool.h>
+
+#include "isoroll.h"
+#include "study/periodic.h"
+
+typedef struct periodic_follow {
+    const char *range; /* "k=0.4:0.6"                     */
+    double orbit;      /* from 1; 0: all with a symmetry  */
+    bool branches, json;
+    const char *output, *plot; /* NULL: not given */
+} periodic_follow;
+
+/* Gives the exit status. */
+int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *found, const periodic_follow *how);
+
+#endif

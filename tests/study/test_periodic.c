@@ -1,0 +1,308 @@
+/* Periodic orbits (lib/study/periodic.h): the rotations' traces against a table and the section, orbits against their
+ * laws, the search along lines against Newton's method from a grid, k = 1 and -1. */
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "laws.h"
+#include "length.h"
+#include "map/section.h"
+#include "orbit/crossings.h"
+#include "study/periodic.h"
+
+static iso_context *ctx;
+
+static iso_scene scene_of(double k, const double J[3])
+{
+    static const double omega[3] = {0.9, -0.3, -0.225}, normal[3] = {0.36, 0.48, 0.8};
+    iso_scene scene = iso_scene_default();
+    scene.params = laws_params(k, J);
+    if (iso_start_ball(ctx, omega, normal, ISO_SPIN_REMOVE, &scene.start) != ISO_OK) exit(1);
+    return scene;
+}
+
+static iso_periodic *orbits_of(double k, const double J[3], const iso_periodic_options *o)
+{
+    const iso_scene scene = scene_of(k, J);
+    iso_periodic *found = NULL;
+    const iso_status status = iso_periodic_run(ctx, &scene, o, &found);
+    gsl_test(status != ISO_OK, "k = %g, J = %g %g %g: %s", k, J[0], J[1], J[2], iso_context_message(ctx));
+    if (!found) exit(gsl_test_summary());
+    return found;
+}
+
+/* --- rotations -------------------------------------------------------------------------------------------------- */
+
+/* SciPy's DOP853 with a tolerance of 1e-13. */
+static const struct row {
+    double k, J[3], trace[3];
+} table[] = {
+    {-2, {1.4, 2.1, 3}, {-1.90296522, -2.08844277, -1.64204496}},
+    {-1, {1.4, 2.1, 3}, {-1.65403520, -2.35263343, -0.29106773}},
+    {-0.5, {1.4, 2.1, 3}, {-0.90274035, -3.42625824, 7.66156228}},
+    {0.5, {1.4, 2.1, 3}, {0.73482572, -3.56858865, 0.25320105}},
+    {1, {1.4, 2.1, 3}, {-1.45392350, -2.36990950, -1.17309135}},
+    {2, {1.4, 2.1, 3}, {-1.87809342, -2.09058642, -1.75094206}},
+    {-2, {1, 2, 5}, {-1.80648488, -2.28865596, 4.46092545}},
+    {-1, {1, 2, 5}, {-1.35831099, -3.08144739, 42.73314819}},
+    {-0.5, {1, 2, 5}, {-0.21511903, -6.10571740, 489.475321}},
+    {0.5, {1, 2, 5}, {6.27038962, -11.14417488, 0.61065405}},
+    {1, {1, 2, 5}, {-0.61506031, -3.62894679, 1.76285884}},
+    {2, {1, 2, 5}, {-1.71561231, -2.35469722, -0.09928153}},
+};
+
+static void check_rotation(const struct row *t, const iso_rotation *r, int section)
+{
+    const int a = r->axis;
+    const double trace = r->half_turn_trace;
+    gsl_test_abs(trace, t->trace[a], 1.01e-8 * fmax(1, fabs(trace) / 10), "k = %g, J3 = %g, axis %d", t->k, t->J[2],
+                 a + 1);
+    gsl_test(!(r->error < 1e-12 * fmax(1, fabs(trace))), "error %g", r->error);
+    if (a != section) gsl_test_rel(r->by_section, trace, 1e-12, "axis %d by the section", a + 1);
+    gsl_test((r->half.stability == ISO_STABLE) != (fabs(trace) < 2), "stability");
+    gsl_test((r->half.krein != 0) != (fabs(trace) < 2), "Krein's sign");
+    const double(*m)[2] = r->half.value;
+    gsl_test_abs(m[0][0] + m[1][0], trace, 1e-13 * fmax(1, fabs(trace)), "sum of the multipliers");
+    gsl_test_abs(m[0][0] * m[1][0] - m[0][1] * m[1][1], 1, 1e-13 * fmax(1, fabs(trace)), "their product");
+}
+
+static void check_rotations(void)
+{
+    iso_periodic_options o = iso_periodic_defaults();
+    o.period = 1;
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        iso_periodic *f = orbits_of(table[i].k, table[i].J, &o);
+        for (int a = 0; a < 3; a++) check_rotation(&table[i], &f->rotation[a], f->axis);
+        iso_periodic_free(f);
+    }
+}
+
+/* Hill's equation once more, in the time s and by GSL: y'' = (2 eps/k) q^(-1-1/k) ((1-k) q - J_i) y. */
+typedef struct hill {
+    double k, Ji, Ja, Jb;
+} hill;
+
+static int hill_slope(double phi, const double y[], double dy[], void *data)
+{
+    const hill *p = data;
+    const double C = cos(phi), S = sin(phi), q = p->Ja * C * C + p->Jb * S * S;
+    const double pace = sqrt(2) * pow(q, -1 / (2 * p->k)); /* dphi/ds */
+    for (int i = 0; i < 2; i++) {
+        dy[2 * i] = y[2 * i + 1] / pace;
+        dy[2 * i + 1] = 2 / p->k * pow(q, -1 - 1 / p->k) * ((1 - p->k) * q - p->Ji) * y[2 * i] / pace;
+    }
+    return GSL_SUCCESS;
+}
+
+static void check_by_gsl(void)
+{
+    iso_random *random = iso_random_create(17);
+    for (int i = 0; i < tests_length(20, 200); i++) {
+        const double k = (i % 2 ? 1 : -1) * iso_random_uniform(random, 0.3, 3);
+        const double J[3] = {iso_random_uniform(random, 1, 2), iso_random_uniform(random, 1, 3),
+                             iso_random_uniform(random, 1, 4)};
+        const int a = i % 3;
+        hill p = {k, J[a], J[(a + 1) % 3], J[(a + 2) % 3]};
+        gsl_odeiv2_system system = {hill_slope, NULL, 4, &p};
+        gsl_odeiv2_driver *d = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-14, 1e-14);
+        double y[4] = {1, 0, 0, 1}, phi = 0, error;
+        gsl_odeiv2_driver_apply(d, &phi, acos(-1), y);
+        const double trace = iso_hill_trace(k, J, a, &error), size = fabs(y[0]) + fabs(y[3]) + 1;
+        gsl_test_abs(trace, y[0] + y[3], 1e-11 * size, "k = %g, axis %d: trace by GSL", k, a + 1);
+        gsl_test(!(error < 1e-12 * size), "its error %g", error);
+        gsl_odeiv2_driver_free(d);
+    }
+    iso_random_free(random);
+}
+
+/* --- orbits ----------------------------------------------------------------------------------------------------- */
+
+/* Follows the orbit in doubles, from its point's start, and compares clocks, closure and trace. */
+static void check_by_crossings(const iso_scene *scene, int axis, const iso_periodic_orbit *o)
+{
+    iso_crossings_options how = iso_crossings_defaults();
+    iso_crossing at[ISO_PERIODIC_MOST];
+    iso_crossings *c;
+    size_t done;
+    iso_status status;
+    iso_start start = {.model = ISO_BALL, .eps = NAN};
+    for (int i = 0; i < ISO_STATE; i++) start.y[i] = o->ball[i];
+    const iso_batch_orbit orbit = {&scene->params, &start, NULL};
+    how.deviations = true;
+    how.axis = axis;
+    how.backend = ISO_BACKEND_BALL;
+    how.tolerance = 1e-14;
+    if (iso_crossings_create(ctx, &orbit, 1, &how, &c) != ISO_OK) exit(1);
+    iso_crossings_go(c, NULL, (size_t)o->period, at, NULL, &done, &status);
+    const iso_crossing *end = &at[o->period - 1];
+    const double(*M)[2] = end->slope, size = fabs(M[0][0]) + fabs(M[0][1]) + fabs(M[1][0]) + fabs(M[1][1]) + 1;
+    gsl_test_abs(remainder(end->l - o->l, 2 * acos(-1)), 0, 1e-12 * size, "period %d: l comes back", o->period);
+    gsl_test_abs(end->x, o->x, 1e-12 * size, "period %d: x comes back", o->period);
+    gsl_test_abs(M[0][0] + M[1][1], o->trace, 1e-10 * size * size, "period %d: trace", o->period);
+    for (iso_clock k = 0; k < ISO_CLOCKS; k++)
+        gsl_test_rel(end->clock[k], o->clock[k], 1e-11 * size, "period %d in %s", o->period, iso_clock_name(k));
+    iso_crossings_free(c);
+}
+
+static void check_orbit(const iso_scene *scene, int axis, const iso_periodic_orbit *o)
+{
+    gsl_test(!(o->closure <= 1e-14), "closure %g", o->closure);
+    gsl_test(!(fabs(o->determinant) <= 1e-12), "determinant 1 %+g", o->determinant);
+    gsl_test(!(o->error >= 0 && o->error <= 1e-9 * (1 + fabs(o->trace))), "trace %g +- %g", o->trace, o->error);
+    gsl_test(o->copies < 1 || o->copies > 16 || 16 % o->copies != 0, "%d copies", o->copies);
+    gsl_test((o->multipliers.stability == ISO_STABLE) != (o->multipliers.krein != 0), "Krein's sign");
+    if (fabs(o->trace) < 1e4) check_by_crossings(scene, axis, o);
+}
+
+static void check_orbits(void)
+{
+    static const double J[2][3] = {{1.4, 2.1, 3}, {1, 2, 5}}, k[] = {0.5, -0.6, 0.75, 2};
+    iso_periodic_options o = iso_periodic_defaults();
+    for (int i = 0; i < 4; i++) {
+        o.period = i == 0 ? 4 : 5;
+        const double *moments = J[i == 0];
+        const iso_scene scene = scene_of(k[i], moments);
+        iso_periodic *f = orbits_of(k[i], moments, &o);
+        gsl_test(i < 3 && f->count == 0, "k = %g: there are orbits", k[i]);
+        gsl_test(f->lost > 0 || f->unresolved > 0, "k = %g: none is lost", k[i]);
+        for (size_t j = 0; j < f->count; j++) check_orbit(&scene, f->axis, &f->orbit[j]);
+        iso_periodic_free(f);
+    }
+}
+
+/* Each orbit of one list that the other should have: symmetric, and found only once. */
+static bool has(const iso_periodic *f, const iso_periodic_orbit *o)
+{
+    for (size_t i = 0; i < f->count; i++) {
+        const iso_periodic_orbit *p = &f->orbit[i];
+        if (p->period == o->period && fabs(p->trace - o->trace) < 1e-7 * (1 + fabs(o->trace)) &&
+            fabs(p->clock[0] / o->clock[0] - 1) < 1e-9)
+            return true;
+    }
+    return false;
+}
+
+/* Newton's method from a grid can find it: very unstable orbits attract few points of the grid, and with a trace near 2
+ * there are many next to each other. */
+static bool is_easy(const iso_periodic_orbit *o)
+{
+    return fabs(o->trace) < 100 && fabs(o->trace - 2) > 0.05;
+}
+
+/* The search from a grid, without lines, against the search along lines: orbits that S1, S2 or S3 maps to itself. */
+static void check_both_searches(void)
+{
+    iso_random *random = iso_random_create(4);
+    for (int i = 0; i < tests_length(2, 50); i++) {
+        const double k = (i % 2 ? 1 : -1) * iso_random_uniform(random, 0.45, 0.7);
+        const double J[3] = {iso_random_uniform(random, 1, 1.3), iso_random_uniform(random, 1.5, 2),
+                             iso_random_uniform(random, 2.2, 3)};
+        iso_periodic_options o = iso_periodic_defaults();
+        o.period = tests_length(3, 6);
+        iso_periodic *lines = orbits_of(k, J, &o);
+        o.all = true;
+        o.no_lines = true;
+        o.grid = tests_length(500, 3000);
+        iso_periodic *grid = orbits_of(k, J, &o);
+        for (size_t j = 0; j < grid->count; j++)
+            if (grid->orbit[j].symmetry & (ISO_S1 | ISO_S2 | ISO_S3))
+                gsl_test(!has(lines, &grid->orbit[j]),
+                         "k = %.17g, J = %.17g %.17g %.17g: lines have period %d, l = %g", k, J[0], J[1], J[2],
+                         grid->orbit[j].period, grid->orbit[j].l);
+        for (size_t j = 0; j < lines->count; j++)
+            gsl_test(is_easy(&lines->orbit[j]) && !has(grid, &lines->orbit[j]),
+                     "k = %.17g, J = %.17g %.17g %.17g: grid has period %d, l = %g, x = %g", k, J[0], J[1], J[2],
+                     lines->orbit[j].period, lines->orbit[j].l, lines->orbit[j].x);
+        iso_periodic_free(lines);
+        iso_periodic_free(grid);
+    }
+    iso_random_free(random);
+}
+
+/* k = 1, -1: orbits lie on resonant tori. */
+static void check_tori(void)
+{
+    static const double J[2][3] = {{1.4, 2.1, 3}, {1, 1.7, 2.4}};
+    iso_periodic_options o = iso_periodic_defaults();
+    o.period = 7;
+    for (int i = 0; i < 4; i++) {
+        iso_periodic *f = orbits_of(i < 2 ? 1 : -1, J[i % 2], &o);
+        gsl_test(f->count == 0, "k = +-1: there are orbits");
+        for (size_t j = 0; j < f->count; j++) {
+            const iso_periodic_orbit *p = &f->orbit[j];
+            gsl_test(!p->torus || p->multipliers.stability != ISO_DEGENERATE, "period %d is on a torus", p->period);
+            gsl_test_abs(p->trace, 2, 1e-12, "its trace");
+        }
+        iso_periodic_free(f);
+    }
+}
+
+/* The trace's error covers its distance from 128 bits, and orbits close to 1e-28 there. */
+static void check_polish(void)
+{
+    static const double J[3] = {1.2, 2, 3.1};
+    iso_periodic_options o = iso_periodic_defaults();
+    o.period = tests_length(2, 6);
+    iso_periodic *rough = orbits_of(0.45, J, &o), *fine = NULL;
+    const iso_scene scene = scene_of(0.45, J);
+    o.polish = true;
+    const iso_status status = iso_periodic_run(ctx, &scene, &o, &fine);
+    const bool absent = status == ISO_BAD_ARGUMENT; /* no numbers of 128 bits here */
+    gsl_test(!absent && (status != ISO_OK || fine->count != rough->count || fine->count == 0),
+             "both have the same orbits");
+    for (size_t i = 0; status == ISO_OK && i < fine->count && i < rough->count; i++) {
+        const iso_periodic_orbit *a = &rough->orbit[i], *b = &fine->orbit[i];
+        const double apart = fabs((a->trace - b->trace) + (a->trace_tail - b->trace_tail));
+        gsl_test(!(apart <= a->error), "trace %.17g: %g from 128 bits, error %g", a->trace, apart, a->error);
+        gsl_test(!(b->closure <= 1e-28), "closure %g", b->closure);
+    }
+    iso_periodic_free(rough);
+    iso_periodic_free(fine);
+}
+
+/* --- refusals --------------------------------------------------------------------------------------------------- */
+
+static void refuse(const iso_scene *scene, const iso_periodic_options *o, iso_status wanted, const char *about)
+{
+    iso_periodic *found = NULL;
+    gsl_test_int((int)iso_periodic_run(ctx, scene, o, &found), (int)wanted, "refused: %s", about);
+    gsl_test(strcmp(iso_context_about(ctx), about) != 0, "about %s, not %s", iso_context_about(ctx), about);
+    gsl_test(found != NULL, "nothing is given");
+}
+
+static void check_refusals(void)
+{
+    static const double J[3] = {1.4, 2.1, 3}, round[3] = {1.4, 1.4, 3};
+    iso_scene scene = scene_of(0.5, J);
+    iso_periodic_options o = iso_periodic_defaults();
+    o.period = 0;
+    refuse(&scene, &o, ISO_BAD_ARGUMENT, "period");
+    o.period = ISO_PERIODIC_MOST + 1;
+    refuse(&scene, &o, ISO_BAD_ARGUMENT, "period");
+    o = iso_periodic_defaults();
+    o.grid = 0;
+    refuse(&scene, &o, ISO_BAD_ARGUMENT, "grid");
+    scene = scene_of(0.5, round);
+    refuse(&scene, NULL, ISO_BAD_INPUT, "J");
+    scene = scene_of(0.5, J);
+    for (int i = 0; i < 3; i++) scene.start.y[i] = 0;
+    refuse(&scene, NULL, ISO_BAD_INPUT, "angular_velocity");
+}
+
+int main(void)
+{
+    ctx = iso_context_create();
+    check_rotations();
+    check_by_gsl();
+    check_orbits();
+    check_both_searches();
+    check_tori();
+    check_polish();
+    check_refusals();
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}
