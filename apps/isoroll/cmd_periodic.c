@@ -74,7 +74,7 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
 {
     iso_periodic_options how = iso_periodic_defaults();
     iso_periodic *found = NULL;
-    how.period = o->period <= ISO_PERIODIC_MOST ? (int)o->period : ISO_PERIODIC_MOST + 1;
+    how.period = o->period < 1e9 ? (int)o->period : 1000000000;
     how.grid = o->grid < 1e8 ? (long)o->grid : 100000000;
     how.all = o->all;
     how.polish = o->polish;

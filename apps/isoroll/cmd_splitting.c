@@ -323,6 +323,7 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
         result = print_json(scene, s) ? result : EXIT_NUMERICAL;
     else if (some && (!o->csv || strcmp(o->csv, "-") != 0))
         print_table(scene, s);
+    if (s->lost > 0) complain("%zu zeros of m lie between these values of k, but were not found", s->lost);
     if (csv) {
         if (some) write_csv(iso_output_stream(csv), s);
         result = worse(result, finish(ctx, iso_output_close(ctx, csv, some)));

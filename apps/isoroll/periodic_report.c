@@ -46,7 +46,7 @@ static void print_orbit(const periodic_report *r, size_t i)
     iso_periodic_digits(o->l, o->l_tail, l);
     iso_periodic_digits(o->x, o->x_tail, x);
     iso_periodic_digits(o->trace, o->trace_tail, trace);
-    printf("%4zu  %4d  %34s  %34s  %34s  %.0e  %.0e  %-10s  %s\n", i + 1, o->period, l, x, trace, o->error,
+    printf("%4zu  %4d  %34s  %34s  %34s  %.0e  %7.0e  %-10s  %s\n", i + 1, o->period, l, x, trace, o->error,
            o->closure, iso_stability_name(o->multipliers.stability), words);
 }
 
@@ -60,7 +60,7 @@ void periodic_print(const periodic_report *r)
     print_rotations(r);
     printf("\nperiodic orbits of %d returns at most, but the rotations: %zu\n", r->period, f->count);
     if (f->count > 0)
-        printf(r->polish ? "  no  period  %25s  %34s  %34s  error  closure  stability\n"
+        printf(r->polish ? "  no  period  %25s  %34s  %34s  error  closure  stability   symmetry\n"
                          : "  no  period  %10s  %18s  %24s  error  stability   symmetry  copies  t\n",
                "l", "x", "trace");
     for (size_t i = 0; i < f->count; i++) {

@@ -44,8 +44,8 @@ ISO_API const char *iso_stability_name(iso_stability stability);
 typedef struct iso_multipliers {
     iso_stability stability;
     double value[2][2]; /* real and imaginary part of each; the larger one first                                 */
-    int krein; /* of exp(i angle), 0 < angle < pi: 1 or -1, the sense in which neighbours turn in the plane of
-                           the two coordinates; 0: the multipliers are real                                      */
+    int krein; /* of exp(i angle), 0 < angle < pi: 1 if neighbours turn from l to x, of a rotation from gamma_i to
+                  dgamma_i/dphi (the same sense), by this angle; -1: the other way; 0: the multipliers are real  */
 } iso_multipliers;
 
 /* The rotation about axis i, in the plane gamma_i = 0: Hill's equation. With q = J_a cos^2 phi + J_b sin^2 phi
@@ -55,7 +55,8 @@ typedef struct iso_multipliers {
  * half_turn_trace is the trace of its matrix from phi = 0 to pi: stable for |trace| < 2. */
 typedef struct iso_rotation {
     int axis; /* 0 to 2 */
-    double half_turn_trace, error;
+    double half_turn_trace;
+    double error;             /* of it, or with `polish` of half_turn_trace + tail                                  */
     double tail;              /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
     double by_section;        /* the same by the derivative of g at the fixed point; NaN: of the section's own axis */
     double turn_trace;        /* half_turn_trace^2 - 2: of a whole turn                                             */

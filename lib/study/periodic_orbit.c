@@ -165,8 +165,8 @@ iso_multipliers iso_multipliers_of(double trace, double error, double sense)
     return m;
 }
 
-/* What other steps and the last digit of k change: in the trace, and by the root that they have. Where an orbit passes near a saddle, rounding
- * errors grow more on the way than the derivative of the whole tells. */
+/* What other steps and the last digit of k change: in the trace, and by the root that they have. Where an orbit
+ * passes near a saddle, rounding errors grow more on the way than the derivative of the whole tells. */
 static double by_other_steps(const solver *s)
 {
     solver other = *s;
@@ -186,7 +186,8 @@ static double by_other_steps(const solver *s)
     return fabs((double)change) + s->slope_of_trace * fabs((double)other.step);
 }
 
-/* The whole derivative of f^p by following the second half as well, the closure, and what rounding made of the trace. */
+/* The whole derivative of f^p by following the second half as well, the closure, and what rounding made of the
+ * trace. */
 static bool close_up(const solver *s, iso_periodic_orbit *o)
 {
     const iso_wide(*A)[2] = s->half.slope;

@@ -44,6 +44,17 @@ static void find_clocks(const iso_periodic_work *w, iso_rotation *r)
     for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] *= w->unit_clock[c];
 }
 
+/* How far apart the two ways are that give the trace; Y: by numbers of 128 bits. Polished, the section has as many
+ * digits as Hill's equation; its own axis, which it does not see, has the determinant in its place. */
+static double error_of(const iso_periodic_work *w, iso_wide Y[2][2], double rough, const iso_wide *section)
+{
+    const iso_wide trace = Y[0][0] + Y[1][1];
+    const double size = fabs((double)trace), apart = section ? fabs((double)(*section - trace)) : 0;
+    if (!w->options.polish) return fmax(apart, fmax(fabs(rough - (double)trace), 0x1p-53 * size));
+    const double off = fabs((double)(Y[0][0] * Y[1][1] - Y[0][1] * Y[1][0] - 1));
+    return fmax(apart, 1e-31 * size) + (section ? 0 : 4 * off * (1 + size));
+}
+
 static bool find_rotation(iso_periodic_work *w, int axis)
 {
     iso_rotation *r = &w->out->rotation[axis];
@@ -59,15 +70,13 @@ static bool find_rotation(iso_periodic_work *w, int axis)
     const iso_fine trace = iso_fine_of(Y[0][0] + Y[1][1]);
     r->half_turn_trace = trace.head;
     r->tail = trace.tail;
-    r->error = fmax(fabs(rough - trace.head), 0x1p-53 * fabs(trace.head));
     find_clocks(w, r);
-    if (axis != w->map.axis) {
-        if (!ask_section(w, r, &section)) return false;
-        r->by_section = (double)section;
-        r->error = fmax(r->error, fabs((double)(section - (Y[0][0] + Y[1][1]))));
-    }
+    const bool seen = axis != w->map.axis;
+    if (seen && !ask_section(w, r, &section)) return false;
+    if (seen) r->by_section = (double)section;
+    r->error = error_of(w, Y, rough, seen ? &section : NULL);
     r->turn_trace = trace.head * trace.head - 2;
-    r->half = iso_multipliers_of(trace.head, fmax(4 * r->error, 1e-15), (double)Y[0][1]);
+    r->half = iso_multipliers_of(trace.head, fmax(4 * r->error, 1e-15), (double)Y[1][0]);
     return true;
 }
 

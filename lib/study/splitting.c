@@ -73,14 +73,14 @@ static double rounding(const iso_manifold *m, const iso_manifold_crossing *c)
 static void tell(const iso_manifold *m, const iso_manifold_crossing *c, const iso_manifold_crossing *again,
                  int digits, iso_splitting *s)
 {
-    const double floor = rounding(m, c), of_m = 3 * (double)iso_wide_size(c->slope - again->slope) + floor,
-                 of_x = 3 * (double)iso_wide_size(c->z[1] - again->z[1]) + floor;
-    const iso_wide x = c->z[1], root = ISO_WIDE_ROOT((1 - x) * (1 + x)), ratio = x / root;
+    const double floor = rounding(m, c), of_m = 3 * (double)WIDE_ABS(c->slope - again->slope) + floor,
+                 of_x = 3 * (double)WIDE_ABS(c->z[1] - again->z[1]) + floor;
+    const iso_wide x = c->z[1], root = WIDE_ROOT((1 - x) * (1 + x)), ratio = x / root;
     const bool same = s->axis == m->axis;
-    const iso_fine fine_x = iso_wide_fine(same    ? x
-                                          : x < 0 ? root
-                                                  : -root),
-                   fine_slope = iso_wide_fine(same ? c->slope : c->slope * ratio * ratio);
+    const iso_fine fine_x = iso_fine_of(same    ? x
+                                        : x < 0 ? root
+                                                : -root),
+                   fine_slope = iso_fine_of(same ? c->slope : c->slope * ratio * ratio);
     const double r = fabs((double)ratio);
     s->section_x = (double)x, s->section_m = (double)c->slope;
     s->lambda = (double)(m->lambda * m->lambda);

@@ -88,6 +88,7 @@ static inline iso_splitting_options iso_splitting_defaults(void)
 
 typedef struct iso_splittings {
     size_t rows, zeros;
+    size_t lost;         /* zeros that lie between two rows and were not found: a failure, or too close to +-1   */
     iso_splitting *row;  /* one for each k of the options, in their order; status ISO_STOPPED: not done    */
     iso_splitting *zero; /* zeros of m other than k = +-1, by growing k                                    */
 } iso_splittings;

@@ -40,7 +40,7 @@ static bool is_far(const iso_manifold_point *a, const iso_manifold_point *b, dou
 
 static iso_wide middle(const iso_manifold_point *a, const iso_manifold_point *b)
 {
-    return ISO_WIDE_ROOT(a->theta * b->theta);
+    return WIDE_ROOT(a->theta * b->theta);
 }
 
 /* Puts samples between those that are far apart. */
@@ -119,19 +119,19 @@ static iso_wide guess(const piece *p, int i)
  * with the change of the slope that the last step has shown. */
 iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
 {
-    const iso_wide pi = iso_wide_pi(), near = (iso_wide)m->code->error * (2000 + 100 * m->lambda);
+    const iso_wide pi = WIDE_PI, near = (iso_wide)m->code->error * (2000 + 100 * m->lambda);
     iso_wide last_over = 0, last_slope = 0;
     for (int i = 0; i < 30; i++) {
         iso_manifold_point p;
         const iso_status status = iso_manifold_at(m, c->theta, c->halves, &p);
         if (status != ISO_OK) return status;
         const iso_wide over = iso_wide_turned(p.z[0] - pi / 2), slope = p.t[1] / p.t[0], moved = over - last_over;
-        const bool known = i > 0 && iso_wide_size(moved) > 10 * iso_wide_size(over);
+        const bool known = i > 0 && WIDE_ABS(moved) > 10 * WIDE_ABS(over);
         c->z[0] = p.z[0] - over;
         c->z[1] = p.z[1] - over * slope;
         c->slope = known ? slope - over * (slope - last_slope) / moved : slope;
-        if (i > 0 && iso_wide_size(over) < near) return ISO_OK;
-        if (!(iso_wide_size(over / p.t[0]) < c->theta / 2)) break;
+        if (i > 0 && WIDE_ABS(over) < near) return ISO_OK;
+        if (!(WIDE_ABS(over / p.t[0]) < c->theta / 2)) break;
         c->theta -= over / p.t[0];
         last_over = over, last_slope = slope;
     }
@@ -176,7 +176,7 @@ static iso_status look(const iso_manifold *m, iso_wide theta, int halves, mirror
     iso_wide A[2][2];
     iso_status status = iso_manifold_at(m, theta, halves, &r->p);
     if (status != ISO_OK) return status;
-    const iso_wide z[2] = {iso_wide_pi() - r->p.z[0], r->p.z[1]}, t[2] = {-r->p.t[0], r->p.t[1]};
+    const iso_wide z[2] = {WIDE_PI - r->p.z[0], r->p.z[1]}, t[2] = {-r->p.t[0], r->p.t[1]};
     status = iso_manifold_map(m, z, r->z, A);
     for (int i = 0; i < 2; i++) r->t[i] = A[i][0] * t[0] + A[i][1] * t[1];
     return status;
@@ -185,7 +185,7 @@ static iso_status look(const iso_manifold *m, iso_wide theta, int halves, mirror
 iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing *from, iso_manifold_crossing *c)
 {
     *c = *from;
-    c->theta *= ISO_WIDE_ROOT(m->lambda);
+    c->theta *= WIDE_ROOT(m->lambda);
     if (c->theta > 1) c->theta /= m->lambda, c->halves++;
     for (int i = 0; i < 30; i++) {
         mirror r;
@@ -194,8 +194,8 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
         const iso_wide apart = iso_wide_turned(r.z[0] - r.p.z[0]), step = apart / (r.t[0] - r.p.t[0]);
         for (int j = 0; j < 2; j++) c->z[j] = r.p.z[j];
         c->slope = (r.p.t[1] / r.p.t[0] - r.t[1] / r.t[0]) / 2;
-        if (iso_wide_size(apart) < (iso_wide)m->code->error * (2000 + 100 * m->lambda)) return ISO_OK;
-        if (!(iso_wide_size(step) < c->theta / 2)) break;
+        if (WIDE_ABS(apart) < (iso_wide)m->code->error * (2000 + 100 * m->lambda)) return ISO_OK;
+        if (!(WIDE_ABS(step) < c->theta / 2)) break;
         c->theta -= step;
     }
     return iso_context_fail(m->ctx, ISO_NUMERICAL, "",

@@ -14,18 +14,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "method/methods_impl.h"
-#include "method/taylor/return_map_impl.h"
 #include "study/splitting.h"
-
-/* Numbers with as many digits as there are. */
-#ifdef ISO_TAYLOR_HAS_QUAD
-__extension__ typedef _Float128 iso_wide;
-#define ISO_WIDE_ROOT sqrtf128
-#else
-typedef long double iso_wide;
-#define ISO_WIDE_ROOT sqrtl
-#endif
+#include "study/wide_impl.h"
 
 enum { ISO_MANIFOLD_TERMS = 24 };
 
@@ -86,10 +76,6 @@ iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c);
 /* The next point where the manifolds meet, between that and its image. */
 iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing *from, iso_manifold_crossing *c);
 
-iso_wide iso_wide_of(iso_fine x);
-iso_fine iso_wide_fine(iso_wide x);
-iso_wide iso_wide_size(iso_wide x); /* |x| */
-iso_wide iso_wide_pi(void);
 iso_wide iso_wide_turned(iso_wide angle); /* into (-pi, pi] */
 
 #endif

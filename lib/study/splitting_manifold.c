@@ -16,31 +16,9 @@
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
-iso_wide iso_wide_of(iso_fine x)
-{
-    return (iso_wide)x.head + (iso_wide)x.tail;
-}
-
-iso_fine iso_wide_fine(iso_wide x)
-{
-    const double head = (double)x;
-    return (iso_fine){head, (double)(x - (iso_wide)head)};
-}
-
-iso_wide iso_wide_size(iso_wide x)
-{
-    return x < 0 ? -x : x;
-}
-
-/* pi in three doubles */
-iso_wide iso_wide_pi(void)
-{
-    return (iso_wide)3.141592653589793116 + (iso_wide)1.2246467991473532072e-16 - (iso_wide)2.9947698097183396659e-33;
-}
-
 iso_wide iso_wide_turned(iso_wide angle)
 {
-    const iso_wide pi = iso_wide_pi();
+    const iso_wide pi = WIDE_PI;
     while (angle > pi) angle -= 2 * pi;
     while (angle <= -pi) angle += 2 * pi;
     return angle;
@@ -56,9 +34,9 @@ static iso_status no_return(const iso_manifold *m)
 
 iso_status iso_manifold_map(const iso_manifold *m, const iso_wide z[2], iso_wide image[2], iso_wide A[2][2])
 {
-    iso_return r = {.from = {iso_wide_fine(iso_wide_turned(m->corner + z[0])), iso_wide_fine(z[1])}, .half = true};
+    iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])}, .half = true};
     if (!iso_context_goes_on(m->ctx)) return iso_context_fail(m->ctx, ISO_STOPPED, "", "stopped on request");
-    if (!(iso_wide_size(z[1]) < 1)) return no_return(m);
+    if (!(WIDE_ABS(z[1]) < 1)) return no_return(m);
     if (!m->code->go(&m->model, m->axis, m->zeros, m->tolerance, &r)) return no_return(m);
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++) A[i][j] = m->sign * iso_wide_of(r.slope[i][j]);
@@ -82,10 +60,10 @@ static iso_status find_direction(iso_manifold *m)
                                 "splitting: at k = %.15g the rotation about the middle axis is not hyperbolic "
                                 "(half-turn trace %.12g): it has no separatrix",
                                 m->problem.p.k, (double)trace);
-    m->lambda = (trace + ISO_WIDE_ROOT((trace - 2) * (trace + 2))) / 2;
+    m->lambda = (trace + WIDE_ROOT((trace - 2) * (trace + 2))) / 2;
     m->v[0] = m->sign * A[0][1];
     m->v[1] = m->lambda - m->sign * A[0][0];
-    const iso_wide length = ISO_WIDE_ROOT(m->v[0] * m->v[0] + m->v[1] * m->v[1]) * (m->v[0] < 0 ? -1 : 1);
+    const iso_wide length = WIDE_ROOT(m->v[0] * m->v[0] + m->v[1] * m->v[1]) * (m->v[0] < 0 ? -1 : 1);
     for (int i = 0; i < 2; i++) m->v[i] /= length;
     return ISO_OK;
 }
@@ -128,7 +106,7 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], iso_
     m->axis = iso_section_axis(p);
     const int b = (m->axis + 1) % 3, c = (m->axis + 2) % 3;
     const bool at_zero = k > 0 ? p->J[c] > p->J[b] : p->J[c] < p->J[b]; /* c is the middle axis */
-    m->corner = at_zero ? 0 : iso_wide_pi() / 2;
+    m->corner = at_zero ? 0 : WIDE_PI / 2;
     const bool none[ISO_CLOCKS] = {false};
     m->model = iso_model_assemble(&iso_system_point, &m->problem, ISO_CLOCK_T, none);
     m->zeros = iso_crossings_zeros(p, 1, m->axis, k == -1 ? ISO_CLOCK_S : ISO_CLOCK_T);
@@ -182,7 +160,7 @@ static void eliminate(linear *L)
     for (int i = 0; i < L->n; i++) {
         int pivot = i;
         for (int j = i + 1; j < L->n; j++)
-            if (iso_wide_size(L->a[j][i]) > iso_wide_size(L->a[pivot][i])) pivot = j;
+            if (WIDE_ABS(L->a[j][i]) > WIDE_ABS(L->a[pivot][i])) pivot = j;
         for (int c = i; c < L->n; c++) {
             const iso_wide kept = L->a[i][c];
             L->a[i][c] = L->a[pivot][c], L->a[pivot][c] = kept;
@@ -212,7 +190,7 @@ static iso_wide node(int j, int count)
 static iso_status set_rows(const iso_manifold *m, int j, linear *L)
 {
     const int n = m->terms;
-    const iso_wide y = node(j, n), theta = ISO_WIDE_ROOT(y), inner = y / (m->lambda * m->lambda),
+    const iso_wide y = node(j, n), theta = WIDE_ROOT(y), inner = y / (m->lambda * m->lambda),
                    factor = 1 / (m->lambda * m->lambda * m->lambda);
     iso_wide T[ISO_MANIFOLD_TERMS], Ti[ISO_MANIFOLD_TERMS], unused[ISO_MANIFOLD_TERMS], image[2], A[2][2];
     iso_manifold_point from, to;
@@ -241,7 +219,7 @@ static iso_status improve(iso_manifold *m, linear *L, double *change)
     }
     eliminate(L);
     for (int i = 0; i < L->n; i++) {
-        const iso_wide size = iso_wide_size(L->b[i]);
+        const iso_wide size = WIDE_ABS(L->b[i]);
         m->c[i / m->terms][i % m->terms] += L->b[i];
         if (!(size <= most)) most = size;
     }

@@ -121,7 +121,8 @@ static int by_k(const void *a, const void *b)
 static bool is_bracket(const iso_splitting *a, const iso_splitting *b, bracket *found)
 {
     const double one = a->k < 0 ? -1 : 1;
-    const bool around = a->k < one && one<b->k, fine = a->digits> 19 || b->digits > 19;
+    const bool fine = a->digits > 19 || b->digits > 19;
+    const bool around = a->k < one && b->k > one;
     *found = (bracket){{a->k, b->k}, {a->m, b->m}, around, fine};
     return a->k * b->k > 0 && a->m * b->m < 0 ? !around : around && a->k * b->k > 0;
 }
@@ -177,6 +178,7 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     size_t kept = 0;
     for (size_t i = 0; i < s->zeros; i++)
         if (s->zero[i].is_zero) s->zero[kept++] = s->zero[i];
+    if (status == ISO_OK) s->lost = s->zeros - kept;
     s->zeros = kept;
     free(list);
     free(brackets);
