@@ -127,12 +127,18 @@ static iso_status check_free(iso_context *ctx, const iso_scene *scene)
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
+/* The axes are those of each row that did not fail; NULL: all did. */
+static const iso_splitting *first_good(const iso_splittings *s)
+{
+    for (size_t i = 0; i < s->rows; i++)
+        if (s->row[i].status == ISO_OK) return &s->row[i];
+    return NULL;
+}
+
 static void print_head(const iso_scene *scene, const iso_splittings *s)
 {
     const double *J = scene->params.J;
-    const iso_splitting *row = NULL;
-    for (size_t i = 0; i < s->rows && !row; i++)
-        if (s->row[i].status == ISO_OK) row = &s->row[i];
+    const iso_splitting *row = first_good(s);
     printf("J = %.15g %.15g %.15g\n", J[0], J[1], J[2]);
     if (!row) return;
     printf("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x,\n"
@@ -212,11 +218,11 @@ static json_t *list_of(const iso_splitting *rows, size_t count)
 static bool print_json(const iso_scene *scene, const iso_splittings *s)
 {
     const double *J = scene->params.J;
-    const iso_splitting *r = &s->row[0];
-    return json_print(json_pack("{s:s, s:[o,o,o], s:i, s:i, s:o, s:o}", "isoroll", iso_version(), "J",
+    const iso_splitting *r = first_good(s);
+    return json_print(json_pack("{s:s, s:[o,o,o], s:i, s:i, s:o, s:o, s:I}", "isoroll", iso_version(), "J",
                                 json_number(J[0]), json_number(J[1]), json_number(J[2]), "axis", r->axis + 1,
                                 "middle", r->middle + 1, "rows", list_of(s->row, s->rows), "zeros",
-                                list_of(s->zero, s->zeros)));
+                                list_of(s->zero, s->zeros), "lost", (json_int_t)s->lost));
 }
 
 static void write_rows(FILE *to, const iso_splitting *rows, size_t count)
