@@ -89,7 +89,7 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     if (found && o->follow)
         result = worse(result, follow(ctx, o, scene, found));
     else if (found)
-        result = worse(result, report(ctx, o, &(periodic_report){scene, found, how.period, o->polish}, csv));
+        result = worse(result, report(ctx, o, &(periodic_report){scene, found, how.period, o->polish, o->all}, csv));
     else if (csv)
         iso_output_close(ctx, csv, false);
     iso_context_set_monitor(ctx, NULL, NULL);
@@ -133,7 +133,7 @@ static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .period = 6, .gri
 static const option_row rows[] = {
     ROW("period", "P", "a whole number from 1 on", "orbits of at most P returns to the section (default 6)",
         set_count, options, period),
-    ROW("all", NULL, NULL, "orbits without a symmetry line as well, by Newton's method from a grid", set_flag,
+    ROW("all", NULL, NULL, "orbits without a point on a symmetry line as well, by Newton's method from a grid", set_flag,
         options, all),
     ROW("grid", "N", "a whole number from 1 on", "points of that grid (default 2000)", set_count, options, grid),
     ROW("polish", NULL, NULL, "compute with 128 bits and print 30 digits", set_flag, options, polish),
@@ -171,8 +171,10 @@ const command command_periodic = {
     .file = offsetof(options, scene.file),
     .description =
         "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found in "
-        "two ways, stable between -2 and 2. Then all symmetric periodic orbits of at most P returns to the section "
-        "n_a = 0, found as roots along the symmetry lines x = 0, l = 0 and l = pi/2.\n\n"
+        "two ways, stable between -2 and 2. Then all periodic orbits of at most P returns to the section n_a = 0 "
+        "that "
+        "the reversor S1, S2 or S3 maps to themselves, found as roots along the symmetry lines x = 0, l = 0 and "
+        "l = pi/2. Others, with those that only T S1, T S2 or T S3 maps to themselves, need --all.\n\n"
         "For each orbit: a point (l, x) of the section, the trace of the return map's derivative over the period "
         "with "
         "its error, stability, which reversors map the orbit to itself, how many copies R, S1 S2 and T make of it "

@@ -58,7 +58,8 @@ void periodic_print(const periodic_report *r)
     printf("k = %.15g, J = %.15g %.15g %.15g; section n_%d = 0, n_%d increasing\n\n", r->scene->params.k, J[0], J[1],
            J[2], f->axis + 1, f->axis + 1);
     print_rotations(r);
-    printf("\nperiodic orbits of %d returns at most, but the rotations: %zu\n", r->period, f->count);
+    printf("\nperiodic orbits of %d returns at most%s, but the rotations: %zu\n", r->period,
+           r->all ? "" : " that S1, S2 or S3 maps to themselves", f->count);
     if (f->count > 0)
         printf(r->polish ? "  no  period  %25s  %34s  %34s  error  closure  stability   symmetry\n"
                          : "  no  period  %10s  %18s  %24s  error  stability   symmetry  copies  t\n",

@@ -12,8 +12,8 @@
 typedef struct periodic_report {
     const iso_scene *scene;
     const iso_periodic *found;
-    int period; /* the longest that was sought */
-    bool polish;
+    int period;       /* the longest that was sought */
+    bool polish, all; /* all: not only those of S1, S2, S3 */
 } periodic_report;
 
 void periodic_print(const periodic_report *r);

@@ -13,7 +13,9 @@
  *
  * An orbit that S maps to itself is symmetric. If its period is p, it or its image by T has a point z on the line that
  * S leaves where it is (x = 0; l = 0 or pi; l = pi/2 or -pi/2), and g^p z is on this line again. The search looks for
- * these z along each line. So nothing but the distance of its samples can hide an orbit.
+ * these z along each line. So nothing but the distance of its samples can hide an orbit of S1, S2 or S3. Orbits that
+ * only T S1, T S2 or T S3 maps to themselves have no point on these lines: only the grid (`all`) finds them, and it may
+ * miss some. Near k = 1 and k = -1 a resonant torus of even period can leave one orbit of each sort.
  *
  * R: (l, x) -> (l + pi, x) and S1 S2: (l, x) -> (-l, -x) and T carry orbits to orbits of the same kind: copies. One of
  * them is listed.
