@@ -157,9 +157,11 @@ static void print_row(const iso_splitting *s)
     printf("%11.9g %11.8g %19.16g ", s->k, s->lambda, s->x);
     if (s->from_zero)
         printf("%24.16e %7.1e %7d\n", s->m, s->error, s->digits);
-    else
-        printf("%24s %7.1e %7d   not distinguishable from 0: below %.0e\n", "0", s->error, s->digits,
-               fabs(s->m) + s->error);
+    else if (fabs(s->m) > s->error)
+        printf("%24.16e %7.1e %7d   undecided: less than 100 errors from 0\n", s->m, s->error, s->digits);
+    else /* 1.05: rounding of the bound to two digits must not make it smaller */
+        printf("%24s %7.1e %7d   not distinguishable from 0: below %.1e\n", "0", s->error, s->digits,
+               1.05 * (fabs(s->m) + s->error));
 }
 
 static void print_zero(const iso_splitting *s)
