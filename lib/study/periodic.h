@@ -80,7 +80,8 @@ typedef struct iso_periodic_orbit {
     double trace, trace_tail; /* of the derivative of f^period                                                   */
     double error;             /* of the trace                                                                    */
     double determinant;       /* of the same derivative, minus 1                                                 */
-    double closure;           /* |f^period z - z| in (l, x), with all digits of z                                */
+    double closure;           /* |f^period z - z| in (l, x), with all digits of z, by the largest number of the
+                                 derivative of f^period if that is above 1                                         */
     iso_multipliers multipliers;
     bool torus;               /* k = 1 or -1: on a torus that is full of such orbits                             */
     int symmetry;             /* which reversors map it to itself: bits                                          */
