@@ -73,9 +73,10 @@ enum { ISO_PERIODIC_MOST = 64 }; /* the longest period that can be asked for */
 enum { ISO_S1 = 1, ISO_S2 = 2, ISO_S3 = 4, ISO_TS1 = 8, ISO_TS2 = 16, ISO_TS3 = 32 };
 
 typedef struct iso_periodic_orbit {
-    int line;                 /* the symmetry line of (l, x): 0: x = 0, 1: l = 0, 2: l = pi/2; -1: none           */
+    int line;                 /* a symmetry line that it passes, as in iso_line_words; -1: none                    */
+    double u;                 /* where: 0 to pi/2                                                                */
     int period;               /* returns to the section                                                          */
-    double l, x;              /* a point of it; of a symmetric orbit on a symmetry line, where there is one       */
+    double l, x;              /* a point of it: on the line, or the first one behind a line half way              */
     double l_tail, x_tail;    /* l + l_tail: more digits                                                         */
     double trace, trace_tail; /* of the derivative of f^period                                                   */
     double error;             /* of the trace                                                                    */

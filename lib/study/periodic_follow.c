@@ -43,14 +43,14 @@ static iso_status add_point(const iso_follow_family *f, iso_branch *b, const iso
         if (!larger) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
         b->point = larger;
     }
-    b->point[b->points++] = iso_follow_tell(f, at, arc);
+    b->point[b->points++] = iso_follow_tell(at, arc);
     return ISO_OK;
 }
 
 static iso_status fail_at(const iso_follow_family *f, iso_branch *b, const iso_follow_point *at, double arc,
                           const char *why)
 {
-    iso_branch_event e = {.kind = ISO_BRANCH_FAILURE, .at = iso_follow_tell(f, at, arc), .axis = -1};
+    iso_branch_event e = {.kind = ISO_BRANCH_FAILURE, .at = iso_follow_tell(at, arc), .axis = -1};
     snprintf(e.words, sizeof e.words, "%s at %s = %.12g, l = %.9g, x = %.9g", why,
              iso_vary_name((int)f->options.vary), at->value, e.at.l, e.at.x);
     return iso_follow_add_event(f, b, &e);
@@ -68,7 +68,7 @@ static iso_status end_at(const iso_follow_family *f, iso_branch *b, const iso_fo
         if (fabs(at.off / at.by_u) < 1e-12) break;
     }
     at.value = value;
-    iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_follow_tell(f, &at, arc), .axis = -1};
+    iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_follow_tell(&at, arc), .axis = -1};
     snprintf(e.words, sizeof e.words, "the end of the range");
     const iso_status status = add_point(f, b, &at, arc);
     return status == ISO_OK ? iso_follow_add_event(f, b, &e) : status;
@@ -249,9 +249,8 @@ static iso_status follow_orbit(iso_follow_family *f, const iso_periodic_orbit *o
     f->period = o->period;
     iso_branch *b = new_branch(f, out, -1);
     if (!b) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
-    const double u = o->line == LINE_X ? fabs(o->l) : asin(fabs(o->x));
     const size_t at = out->count - 1;
-    const iso_status status = follow_branch(f, u, own, b);
+    const iso_status status = follow_branch(f, o->u, own, b);
     return status == ISO_OK && f->options.branches ? switch_branches(f, out, at) : status;
 }
 

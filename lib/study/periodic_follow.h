@@ -33,7 +33,7 @@ typedef enum iso_branch_kind {
 ISO_API const char *iso_branch_kind_name(iso_branch_kind kind);
 
 typedef struct iso_branch_point {
-    double value, l, x, trace;
+    double value, u, l, x, trace; /* u: of the line; (l, x): the first point on the section */
     double arc; /* along the branch, from the start: negative on one side */
 } iso_branch_point;
 

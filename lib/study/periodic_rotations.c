@@ -21,7 +21,7 @@ static bool ask_section(iso_periodic_work *w, iso_rotation *r, iso_wide *trace)
     const iso_periodic_map *map = &w->map;
     iso_periodic_fine found;
     const iso_wide z[2] = {r->x == 0 && r->l > 0 ? WIDE_PI / 2 : 0, 0};
-    if (!iso_periodic_far(map, iso_periodic_code(w->options.polish), z, 1, &found)) return false;
+    if (!iso_periodic_far(map, iso_periodic_code(w->options.polish), z, 1, NULL, &found)) return false;
     *trace = -(found.slope[0][0] + found.slope[1][1]);
     for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] = 2 * (double)found.clock[c] * w->unit_clock[c];
     return true;
