@@ -30,6 +30,7 @@ typedef struct bracket {
     int n;
     double low, high, off_low; /* F_n(low); F_n(high) has the other sign */
     double u, z[2];            /* the best guess, and its point of the section */
+    double end[2];             /* g^n of this point */
     bool there;                /* it is the orbit's own mirror image           */
     bool done;
 } bracket;
@@ -59,7 +60,8 @@ static iso_status grow(iso_context *ctx, void **list, size_t *room, size_t count
 
 /* F_1 to F_halves of the line at u[i], and their slopes, are off[halves i], ... */
 typedef struct misses {
-    double (*z)[2]; /* the first point on the section */
+    double (*z)[2];   /* the first point on the section */
+    double (*end)[2]; /* g^halves of it                 */
     double *off, *slope;
     bool *there;
 } misses;
@@ -67,6 +69,7 @@ typedef struct misses {
 static void free_misses(misses *m)
 {
     free(m->z);
+    free(m->end);
     free(m->off);
     free(m->slope);
     free(m->there);
@@ -75,10 +78,11 @@ static void free_misses(misses *m)
 static iso_status make_misses(const search *s, size_t count, size_t halves, misses *m)
 {
     m->z = malloc((count + 1) * sizeof *m->z);
+    m->end = malloc((count + 1) * sizeof *m->end);
     m->off = malloc((count * halves + 1) * sizeof *m->off);
     m->slope = malloc((count * halves + 1) * sizeof *m->slope);
     m->there = malloc((count * halves + 1) * sizeof *m->there);
-    if (m->z && m->off && m->slope && m->there) return ISO_OK;
+    if (m->z && m->end && m->off && m->slope && m->there) return ISO_OK;
     free_misses(m);
     return iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
 }
@@ -99,6 +103,7 @@ static iso_status evaluate(const search *s, size_t count, const double u[], int 
             m->off[n] = iso_periodic_miss(s->line, &before, &at[n], by_u[i], &m->slope[n], &m->there[n]);
             before = at[n];
         }
+        m->end[i][0] = before.l, m->end[i][1] = before.x;
     }
     free(by_u);
     free(at);
@@ -238,6 +243,7 @@ static iso_status step_roots(search *s, int n, double u[], size_t of[], misses *
         const size_t end = (size_t)n * (i + 1) - 1;
         bracket *b = &s->bracket[of[i]];
         memcpy(b->z, m->z[i], sizeof b->z);
+        memcpy(b->end, m->end[i], sizeof b->end);
         b->there = m->there[end];
         next_guess(b, m->off[end], m->slope[end]);
         *left += !b->done;
@@ -270,18 +276,29 @@ static int by_place(const void *a, const void *b)
     return (one->u > other->u) - (one->u < other->u);
 }
 
-/* Of an orbit's points on the line the one with the least u counts. */
+/* Whether b seems to be the other point on the line of an orbit that has one before b. Copies of both count. */
+static bool comes_again(const search *s, const bracket *b)
+{
+    for (const bracket *a = s->bracket; a < b; a++) {
+        const double l = fabs(remainder(a->end[0], ISO_PI)) - fabs(remainder(b->z[0], ISO_PI));
+        if (a->n == b->n && a->there && fabs(l) < 1e-4 && fabs(fabs(a->end[1]) - fabs(b->z[1])) < 1e-4) return true;
+    }
+    return false;
+}
+
+/* Of an orbit's points on the line the one with the least u counts. Those that seem to be others come last: by then
+ * their orbits are known, and most need not be solved. */
 static iso_status add_roots(search *s)
 {
     iso_periodic_candidate *c = malloc((s->brackets + 1) * sizeof *c);
     iso_status status = c ? ISO_OK : iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
     if (s->brackets > 0) qsort(s->bracket, s->brackets, sizeof *s->bracket, by_place);
-    for (int n = 1; n <= s->periods && status == ISO_OK; n++) {
+    for (int turn = 0; turn < 2 * s->periods && status == ISO_OK; turn++) {
+        const int n = turn / 2 + 1;
         size_t count = 0;
-        for (size_t i = 0; i < s->brackets; i++) {
-            const bracket *b = &s->bracket[i];
-            if (b->n == n && b->there) c[count++] = (iso_periodic_candidate){s->line, n, b->u, b->z[0], b->z[1]};
-        }
+        for (const bracket *b = s->bracket; b < s->bracket + s->brackets; b++)
+            if (b->n == n && b->there && comes_again(s, b) == turn % 2)
+                c[count++] = (iso_periodic_candidate){s->line, n, b->u, b->z[0], b->z[1]};
         status = iso_periodic_add(s->w, c, count);
     }
     free(c);
