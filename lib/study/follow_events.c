@@ -159,17 +159,19 @@ bool iso_follow_collision(const iso_follow_family *f, const iso_follow_point *a,
     const bool end = b->u > ISO_PI / 4;
     const double near_a = end ? ISO_PI / 2 - a->u : a->u, near_b = end ? ISO_PI / 2 - b->u : b->u;
     const int axis = iso_line_axis_at(f->axis, f->line, end);
-    /* value ~ value* + c u^2 */
-    const double guess = b->value - (a->value - b->value) * near_b * near_b / (near_a * near_a - near_b * near_b);
+    /* value ~ value* + c u^2, trace ~ 2 + d u^2 */
+    const double part = near_b * near_b / (near_a * near_a - near_b * near_b);
+    const double guess = b->value - (a->value - b->value) * part, trace = b->trace - (a->trace - b->trace) * part;
+    const double doubt = 0.3 * fabs(guess - b->value) + 1e-6 * f->width;
     const double target = target_of(f, axis, mismatch(f, axis, guess, 0));
     double x0 = guess, x1 = guess + 1e-6 * f->width, F0 = mismatch(f, axis, x0, target);
     bool exact = isfinite(F0);
     for (int i = 0; i < 30 && exact && fabs(x1 - x0) > 1e-14 * f->width; i++) {
         const double F1 = mismatch(f, axis, x1, target), next = F1 == 0 ? x1 : x1 - F1 * (x1 - x0) / (F1 - F0);
-        exact = isfinite(next) && fabs(next - guess) < 1e-3 * f->width;
+        exact = isfinite(next) && fabs(next - guess) < doubt;
         x0 = x1, F0 = F1, x1 = next;
     }
-    if (!exact) return false;
+    if (!exact || fabs(trace - 2) > 0.05) return false;
     *e = (iso_branch_event){.kind = ISO_BRANCH_COLLISION, .axis = axis};
     iso_follow_point at = *b;
     at.value = x1;

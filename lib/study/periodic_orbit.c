@@ -234,14 +234,19 @@ void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE])
 #endif
 }
 
-int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE])
+const char *iso_line_name(int line)
 {
     static const char *const names[] = {"S1", "S2", "S3", "TS1", "TS2", "TS3"};
+    return line >= 0 && line < LINES ? names[line] : NULL;
+}
+
+int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE])
+{
     int length = 0;
     text[0] = 0;
     for (int i = 0; i < 6; i++)
         if (symmetry & 1 << i)
             length +=
-                snprintf(text + length, (size_t)(ISO_DIGITS_SIZE - length), "%s%s", length ? " " : "", names[i]);
+                snprintf(text + length, (size_t)(ISO_DIGITS_SIZE - length), "%s%s", length ? " " : "", iso_line_name(i));
     return length > 0 ? length : snprintf(text, ISO_DIGITS_SIZE, "none");
 }
