@@ -58,9 +58,10 @@ typedef struct iso_multipliers {
 typedef struct iso_rotation {
     int axis; /* 0 to 2 */
     double half_turn_trace;
-    double error;             /* of it, or with `polish` of half_turn_trace + tail                                  */
-    double tail;              /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
-    double by_section;        /* the same by the derivative of g at the fixed point; NaN: of the section's own axis */
+    double error; /* of it, or with `polish` of half_turn_trace + tail                                  */
+    double tail;  /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
+    double
+        by_section; /* the same by the derivative of g at the fixed point, of the section's own axis by another section */
     double turn_trace;        /* half_turn_trace^2 - 2: of a whole turn                                             */
     iso_multipliers half;     /* of half a turn                                                                    */
     double clock[ISO_CLOCKS]; /* of a whole turn, in the scene's units                                            */
