@@ -19,20 +19,27 @@ static bool needs(const iso_crossings_options *o, iso_backend backend, iso_shown
     return o->kind == ISO_SECTION_COLUMN && of_point == point;
 }
 
-iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_backend backend, bool clocks)
+iso_way iso_crossings_way(const iso_crossings *c, size_t i)
+{
+    const iso_backend asked = c->options.backend, last = asked == ISO_BACKEND_AUTO ? ISO_BACKEND_BALL : asked;
+    const iso_effects *effects = c->orbits[i].effects;
+    return iso_way_first(c->orbits[i].params, asked, last, !effects || !iso_effects_breaking(effects));
+}
+
+iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_way way)
 {
     const iso_crossings_options *o = &c->options;
     const iso_batch_orbit *of = &c->orbits[i];
     iso_orbit_options how = iso_orbit_defaults(of->start);
     how.effects = of->effects;
-    how.backend = backend;
+    how.backend = way.backend;
     how.tolerance = o->tolerance;
-    how.clock = backend == ISO_BACKEND_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
+    how.clock = way.backend == ISO_BACKEND_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
     if (o->kind == ISO_SECTION_CLOCK) how.clock = o->clock;
-    for (iso_clock k = 0; k < ISO_CLOCKS; k++) how.with_clock[k] = clocks;
-    how.shown = !needs(o, backend, ISO_SHOW_POINT)  ? ISO_SHOW_BALL
-                : !needs(o, backend, ISO_SHOW_BALL) ? ISO_SHOW_POINT
-                                                    : ISO_SHOW_BOTH;
+    for (iso_clock k = 0; k < ISO_CLOCKS; k++) how.with_clock[k] = way.clocks;
+    how.shown = !needs(o, way.backend, ISO_SHOW_POINT)  ? ISO_SHOW_BALL
+                : !needs(o, way.backend, ISO_SHOW_BALL) ? ISO_SHOW_POINT
+                                                        : ISO_SHOW_BOTH;
     return how;
 }
 

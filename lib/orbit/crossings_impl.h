@@ -78,8 +78,11 @@ bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const d
  * counts. */
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance);
 
-/* The options with which orbit i is created: by `backend`, with the other clocks if `clocks`. */
-iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_backend backend, bool clocks);
+/* The first way to prepare orbit i. Without an isomorphism there are no other clocks. */
+iso_way iso_crossings_way(const iso_crossings *c, size_t i);
+
+/* The options with which orbit i is created. */
+iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_way way);
 
 /* The model that an orbit integrates. */
 iso_model_kind iso_crossings_model(const iso_orbit *orbit);

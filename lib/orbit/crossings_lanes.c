@@ -51,35 +51,20 @@ static void set_search(struct iso_crossings_lane *lane, const iso_crossed *o)
         fmin(iso_clock_rate(p, ISO_CLOCK_S, min3(p->J), NULL), iso_clock_rate(p, ISO_CLOCK_S, max3(p->J), NULL));
 }
 
-static iso_status prepare_as(iso_pool_worker *w, const iso_crossings *c, size_t i, iso_backend backend, bool clocks,
-                             struct iso_crossings_lane *lane)
-{
-    const iso_batch_orbit *of = &c->orbits[i];
-    memset(&lane->orbit, 0, sizeof lane->orbit);
-    lane->orbit.ctx = w->ctx;
-    lane->orbit.options = iso_crossings_orbit_options(c, i, backend, clocks);
-    if (c->options.kind == ISO_SECTION_AXIS)
-        lane->orbit.options.clock = ISO_CLOCK_T; /* its series are the shortest */
-    lane->has_clocks = clocks;
-    return iso_orbit_prepare(&lane->orbit, of->params, of->start, lane->job.start);
-}
-
-/* With all clocks, if there is an isomorphism and they fit a double. */
-static iso_status prepare_with_clocks(iso_pool_worker *w, const iso_crossings *c, size_t i, iso_backend backend,
-                                      struct iso_crossings_lane *lane)
-{
-    const iso_effects *effects = c->orbits[i].effects;
-    const bool mapped = !effects || !iso_effects_breaking(effects);
-    const iso_status status = prepare_as(w, c, i, backend, mapped, lane);
-    return status == ISO_NUMERICAL && mapped ? prepare_as(w, c, i, backend, false, lane) : status;
-}
-
 static iso_status prepare(iso_pool_worker *w, const iso_crossings *c, size_t i, struct iso_crossings_lane *lane)
 {
-    const bool choose = c->options.backend == ISO_BACKEND_AUTO;
-    const bool try_point = choose && fabs(c->orbits[i].params->k) >= 0.125;
-    iso_status status = try_point ? prepare_with_clocks(w, c, i, ISO_BACKEND_POINT, lane) : ISO_NOT_MAPPED;
-    if (status != ISO_OK) status = prepare_with_clocks(w, c, i, choose ? ISO_BACKEND_BALL : c->options.backend, lane);
+    const iso_batch_orbit *of = &c->orbits[i];
+    iso_orbit *orbit = &lane->orbit;
+    iso_way way = iso_crossings_way(c, i);
+    iso_status status;
+    do {
+        memset(orbit, 0, sizeof *orbit);
+        orbit->ctx = w->ctx;
+        orbit->options = iso_crossings_orbit_options(c, i, way);
+        if (c->options.kind == ISO_SECTION_AXIS) orbit->options.clock = ISO_CLOCK_T; /* its series are the shortest */
+        lane->has_clocks = way.clocks;
+        status = iso_orbit_prepare(orbit, of->params, of->start, lane->job.start);
+    } while (iso_way_next(&way, status));
     return status;
 }
 
