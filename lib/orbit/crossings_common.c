@@ -50,12 +50,10 @@ iso_model_kind iso_crossings_model(const iso_orbit *orbit)
 
 /* --- bounds ----------------------------------------------------------------------------------------------------- */
 
-/* Without a potential, an orbit in the plane n_a = 0 stays in it. There n_a is 0, and so is its rate (relative to the
- * largest), up to rounding. */
+/* Without a potential, an orbit in the plane n_a = 0 stays in it. */
 iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis)
 {
-    const double swing = fmax(fabs(y[(axis + 1) % 3]), fabs(y[(axis + 2) % 3])) / largest(y);
-    if (fmax(fabs(y[3 + axis]), swing) > 1e-14 || iso_effects_pull(&orbit->effects)) return ISO_OK;
+    if (!iso_section_is_rotation(y, axis) || iso_effects_pull(&orbit->effects)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "axis",
                             "this orbit is the rotation about axis %d, in the plane n_%d = 0 itself: it is the "
                             "boundary of the section, and never crosses it",
