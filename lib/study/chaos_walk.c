@@ -39,27 +39,16 @@ static iso_chaos_orbit *orbit_of(const group *g, size_t i)
     return g->first + i == 0 ? &c->own : &c->start[g->first + i - 1];
 }
 
-/* The chart of start i, which is spread or given. */
-static void chart_of(const iso_chaos_walk *w, size_t i, double *l, double *x)
-{
-    const iso_chaos_options *o = &w->options;
-    if (i < o->starts) {
-        iso_section_spread_point(&w->spread, i, l, x);
-        return;
-    }
-    *l = o->at[i - o->starts][0];
-    *x = o->at[i - o->starts][1];
-}
-
 static void make_starts(group *g)
 {
     const iso_chaos_walk *w = g->w;
+    const iso_chaos_options *how = &w->options;
     for (size_t i = 0; i < g->count; i++) {
         iso_chaos_orbit *o = orbit_of(g, i);
         *o = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_UNDECIDED};
         g->start[i] = w->scene->start;
         if (g->first + i > 0) {
-            chart_of(w, g->first + i - 1, &o->l, &o->x);
+            iso_section_chart_of_start(&w->spread, how->starts, how->at, g->first + i - 1, &o->l, &o->x);
             g->start[i] = iso_section_start(w->orbit, w->scene->start.model, w->out->axis, o->l, o->x);
         }
         g->orbit[i] = (iso_batch_orbit){&w->scene->params, &g->start[i], &w->effects};

@@ -63,15 +63,14 @@ void iso_section_free_room(iso_section_walk *w)
 
 /* --- starts ----------------------------------------------------------------------------------------------------- */
 
-/* The chart's point of this orbit: spread, or given. */
-static void chart_of(const iso_section_walk *w, size_t orbit, double *l, double *x)
+void iso_section_chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
+                                double *l, double *x)
 {
-    const iso_section_options *o = &w->options;
-    if (orbit <= o->starts) {
-        iso_section_spread_point(&w->spread, orbit - 1, l, x);
+    if (i < starts) {
+        iso_section_spread_point(spread, i, l, x);
     } else {
-        *l = o->at[orbit - 1 - o->starts][0];
-        *x = o->at[orbit - 1 - o->starts][1];
+        *l = at[i - starts][0];
+        *x = at[i - starts][1];
     }
 }
 
@@ -94,10 +93,11 @@ iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int ax
 
 static iso_start start_of(const iso_section_walk *w, size_t orbit)
 {
+    const iso_section_options *o = &w->options;
     double l, x;
     if (orbit == 0) return w->scene->start;
-    chart_of(w, orbit, &l, &x);
-    return iso_section_start(w->orbit, w->scene->start.model, w->options.axis, l, x);
+    iso_section_chart_of_start(&w->spread, o->starts, o->at, orbit - 1, &l, &x);
+    return iso_section_start(w->orbit, w->scene->start.model, o->axis, l, x);
 }
 
 static iso_crossings_options options_of(const iso_section_walk *w, int model)
