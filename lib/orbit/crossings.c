@@ -203,14 +203,19 @@ static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, cons
     return iso_pool_run(c->ctx, &pool, iso_pool_threads(c->options.threads, alone, 1), t->status);
 }
 
+const char *iso_crossings_why(const iso_crossings *c, size_t i)
+{
+    const iso_crossed *o = &c->orbit[i];
+    return o->why ? o->why : iso_status_text(o->status);
+}
+
 /* Fails with the status and the message of the first wanted orbit that has failed. */
 static iso_status tell_first(const iso_crossings *c, const iso_crossings_task *t)
 {
     for (size_t i = 0; i < c->count; i++) {
         const iso_crossed *o = &c->orbit[i];
         if (o->status == ISO_OK || (t->wanted && !t->wanted[i])) continue;
-        return iso_context_fail(c->ctx, o->status, o->about, "orbit %zu: %s", i,
-                                o->why ? o->why : iso_status_text(o->status));
+        return iso_context_fail(c->ctx, o->status, o->about, "orbit %zu: %s", i, iso_crossings_why(c, i));
     }
     return ISO_OK;
 }

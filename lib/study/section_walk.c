@@ -154,13 +154,11 @@ static void note_failure(iso_section_walk *w, size_t i, iso_status status, const
     snprintf(r->words, sizeof r->words, "orbit %zu: %s", w->first + i, words);
 }
 
-/* The message of iso_crossings_go is about the first failure of the group. It begins with the number of the orbit in
- * the group, which is left out. */
-static void note_failures(iso_section_walk *w, const iso_status status[])
+static void note_failures(iso_section_walk *w, int model)
 {
-    const char *words = strstr(iso_context_message(w->ctx), ": ");
+    const iso_status *status = w->status[model];
     for (size_t i = 0; i < w->members; i++)
-        if (status[i] != ISO_OK) note_failure(w, i, status[i], words ? words + 2 : iso_status_text(status[i]));
+        if (status[i] != ISO_OK) note_failure(w, i, status[i], iso_crossings_why(w->crossings[model], i));
 }
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
@@ -274,7 +272,7 @@ static iso_status find_slice(iso_section_walk *w, size_t kept, size_t each)
             if (sample) memmove(sample + i * w->slice, sample + i * each, each * sizeof *sample);
         }
         if (status == ISO_STOPPED || status == ISO_NO_MEMORY) break;
-        if (status != ISO_OK) note_failures(w, w->status[m]);
+        if (status != ISO_OK) note_failures(w, m);
         status = ISO_OK;
     }
     return status;
