@@ -222,11 +222,6 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scen
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static int worse(int a, int b)
-{
-    return a > b ? a : b;
-}
-
 static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c, iso_output *csv)
 {
     int result = c->failure == ISO_OK ? EXIT_DONE : EXIT_SOME_FAILED;

@@ -25,11 +25,6 @@ static void show(double part, void *unused)
     progress_show(part);
 }
 
-static int worse(int a, int b)
-{
-    return a > b ? a : b;
-}
-
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
 static int tell_gaps(const iso_periodic *f)
