@@ -18,12 +18,6 @@ typedef struct options {
     bool json;
 } options;
 
-static void show(double part, void *unused)
-{
-    (void)unused;
-    progress_show(part);
-}
-
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
 static void print_head(const iso_scene *scene, const iso_chaos *c)
@@ -257,7 +251,7 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     how->threads = o->threads < 4096 ? (int)o->threads : 4096;
     how->models = o->models;
     how->tolerance = o->scene.tolerance;
-    how->progress = show;
+    how->progress = progress_told;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     return status == ISO_OK && o->csv ? iso_output_open(ctx, o->csv, csv) : status;
 }
