@@ -210,7 +210,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
 
 /* Room for what lanes store: for each orbit of a chunk, at most `rows` crossings at a time. */
 typedef struct room {
-    size_t rows, dim;
+    size_t rows;
     double *states, *times;
     iso_lane_event *events;
 } room;
@@ -227,9 +227,8 @@ static bool make_room(const follower *f, size_t orbits, room *r)
     const size_t bytes = f->c->options.deviations ? sizeof(iso_lane_event) : (ISO_MAX_STATE + 1) * sizeof(double);
     const size_t most = BYTES / (orbits * bytes);
     r->rows = f->task->each < most ? f->task->each : most;
-    r->dim = ISO_MAX_STATE;
     r->events = f->c->options.deviations ? malloc(orbits * r->rows * sizeof *r->events) : NULL;
-    r->states = f->c->options.deviations ? NULL : malloc(orbits * r->rows * r->dim * sizeof *r->states);
+    r->states = f->c->options.deviations ? NULL : malloc(orbits * r->rows * ISO_MAX_STATE * sizeof *r->states);
     r->times = malloc(orbits * r->rows * sizeof *r->times);
     if (r->times && (r->events || r->states)) return true;
     free_room(r);
@@ -247,8 +246,8 @@ static iso_lane_job *set_job(const follower *f, size_t i, size_t at, const room 
     job->done = 0;
     job->error = NULL;
     job->event = r->events ? r->events + at * r->rows : NULL;
-    job->states = r->states ? r->states + at * r->rows * r->dim : NULL;
-    job->stride = r->dim;
+    job->states = r->states ? r->states + at * r->rows * ISO_MAX_STATE : NULL;
+    job->stride = ISO_MAX_STATE;
     job->time = o->kind == ISO_SECTION_CLOCK ? times : NULL;
     job->passed = times;
     for (size_t j = 0; j < rows && job->time; j++) times[j] = (double)(orbit->count + j + 1) * o->value;
