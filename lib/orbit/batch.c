@@ -11,7 +11,7 @@
 #include "orbit/orbit_impl.h"
 #include "orbit/pool_impl.h"
 
-/* Orbits that a thread takes at a time, if there are so many: enough to keep its lanes busy to the end. */
+/* Orbits that a thread takes at a time: enough to keep its lanes busy to the end. */
 enum { CHUNK = 256 };
 
 /* What all threads share. */
@@ -195,7 +195,6 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
     const size_t threads = iso_pool_threads(own.threads, count, code->lanes);
     batch b = {.orbits = orbits, .rows = rows, .options = &own, .times = times, .samples = samples, .code = code};
     iso_pool pool = {.count = count, .chunk = CHUNK, .solve = solve_chunk, .data = &b};
-    if (count / threads < CHUNK) pool.chunk = count / threads + 1;
     b.status = status ? status : malloc((count + 1) * sizeof *b.status);
     if (!b.status) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a batch");
     for (size_t i = 0; i < count; i++) b.status[i] = ISO_STOPPED;

@@ -330,7 +330,6 @@ iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *ta
     const size_t threads = iso_pool_threads(c->options.threads, c->count, f.code->lanes);
     iso_pool pool = {.count = c->count, .chunk = CHUNK, .solve = solve_chunk, .data = &f};
     if (task->each == 0 || c->options.kind == ISO_SECTION_COLUMN) return ISO_OK;
-    if (c->count / threads < CHUNK) pool.chunk = c->count / threads + 1;
     return iso_pool_run(c->ctx, &pool, threads, task->status);
 }
 

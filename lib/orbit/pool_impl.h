@@ -23,7 +23,7 @@ typedef struct iso_pool_worker {
 
 /* What all threads share. */
 struct iso_pool {
-    size_t count, chunk; /* orbits, and how many a thread takes at a time */
+    size_t count, chunk; /* orbits, and how many a thread takes at a time: fewer, if there are not so many */
     bool (*solve)(iso_pool_worker *w, void *data, size_t first, size_t count); /* false: no memory */
     void *data;
     atomic_size_t next; /* the first orbit that nobody has taken */
