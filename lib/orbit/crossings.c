@@ -200,7 +200,7 @@ static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, cons
     size_t alone = 0;
     for (size_t i = 0; i < c->count; i++) alone += !taken[i];
     if (alone == 0) return ISO_OK;
-    return iso_pool_run(c->ctx, &pool, iso_pool_threads(c->options.threads, alone, 1), t->status);
+    return iso_pool_run(c->ctx, &pool, iso_pool_threads(c->options.threads, alone, 1), NULL);
 }
 
 const char *iso_crossings_why(const iso_crossings *c, size_t i)
@@ -229,9 +229,9 @@ iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, 
     blank(c, &task);
     if (!taken) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for crossings");
     iso_status answer = iso_crossings_in_lanes(c, &task, taken);
-    if (answer != ISO_NO_MEMORY && answer != ISO_STOPPED) answer = one_by_one(c, &task, taken);
+    if (answer == ISO_OK) answer = one_by_one(c, &task, taken);
     free(taken);
     for (size_t i = 0; answer == ISO_STOPPED && i < c->count; i++) /* those that nobody has taken up */
         if (status[i] == ISO_OK && done[i] < each && (!wanted || wanted[i])) status[i] = ISO_STOPPED;
-    return answer == ISO_NO_MEMORY || answer == ISO_STOPPED ? answer : tell_first(c, &task);
+    return answer == ISO_OK ? tell_first(c, &task) : answer;
 }

@@ -48,7 +48,7 @@ typedef struct iso_crossings_task {
 } iso_crossings_task;
 
 /* Follows the wanted orbits that lanes can hold. For each of them taken[i] becomes true, and done[i], status[i], the
- * crossings and samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED, or that of the first orbit that failed. */
+ * crossings and samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED; failures of orbits are in status[i]. */
 iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *task, bool taken[]);
 void iso_crossings_free_lane(struct iso_crossings_lane *lane);
 

@@ -330,7 +330,7 @@ iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *ta
     const size_t threads = iso_pool_threads(c->options.threads, c->count, f.code->lanes);
     iso_pool pool = {.count = c->count, .chunk = CHUNK, .solve = solve_chunk, .data = &f};
     if (task->each == 0 || c->options.kind == ISO_SECTION_COLUMN) return ISO_OK;
-    return iso_pool_run(c->ctx, &pool, threads, task->status);
+    return iso_pool_run(c->ctx, &pool, threads, NULL);
 }
 
 void iso_crossings_free_lane(struct iso_crossings_lane *lane)
