@@ -111,7 +111,7 @@ static void fill(const iso_crossed *o, const iso_sample *sample, iso_crossing *t
     if (!iso_orbit_has_twin(o->alone)) to->clock[ISO_CLOCK_TAU] = to->clock[ISO_CLOCK_S] = NAN;
     if (o->axis < 0) return;
     double point[ISO_STATE];
-    iso_crossings_point(o->alone, state_of(o->alone, sample), point);
+    iso_crossings_point(&o->alone->units.own, iso_crossings_model(o->alone), state_of(o->alone, sample), point);
     iso_section_chart(o->axis, point, &to->l, &to->x);
 }
 

@@ -101,6 +101,14 @@ double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock 
     return fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(p, eps, axis) / 1.77);
 }
 
+bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)
+{
+    const double part = 1e-9 + 100 * tolerance, rounding = 1e-14 * fabs(s);
+    if (isnan(bound[0]) || isnan(bound[1]) || isnan(apart)) return true;
+    if (apart > bound[1] * (1 + part) + rounding) return false;
+    return !least || apart >= bound[0] * (1 - part) - rounding;
+}
+
 /* By Sturm's comparison. A larger distance means a skipped crossing, a smaller one a crossing found twice. A start on
  * the section is on it up to ISO_ON_SECTION. */
 iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
@@ -121,14 +129,36 @@ iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const is
 
 /* The chart needs only the directions of M and gamma. M has the direction of J^(1/2) omega (for k < 0 the opposite
  * one), and gamma that of J^(-1/2) n (18). So a ball without a twin has a chart as well. */
-void iso_crossings_point(const iso_orbit *orbit, const double y[ISO_STATE], double point[ISO_STATE])
+void iso_crossings_point(const iso_params *p, iso_model_kind model, const double y[ISO_STATE],
+                         double point[ISO_STATE])
 {
-    const iso_params *own = &orbit->units.own;
     copy(y, point, ISO_STATE);
-    for (int i = 0; i < 3 && iso_crossings_model(orbit) == ISO_BALL; i++) {
-        point[i] *= copysign(own->root_J[i], own->k);
-        point[3 + i] /= own->root_J[i];
+    for (int i = 0; i < 3 && model == ISO_BALL; i++) {
+        point[i] *= copysign(p->root_J[i], p->k);
+        point[3 + i] /= p->root_J[i];
     }
+}
+
+/* By the directions of M and gamma, also of a ball: so both models agree about a start. gamma_a oscillates at the rate
+ * of about |M|. So gamma_a'/|M| has the size of gamma_a. */
+bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis,
+                              bool *upwards)
+{
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    double point[ISO_STATE];
+    for (int i = 0; i < 3; i++) point[i] = y[i] / largest(y), point[3 + i] = y[3 + i];
+    iso_crossings_point(p, model, point, point);
+    const double *M = point, *gamma = point + 3;
+    const double pace = norm(M), rise = gamma[b] * M[c] - gamma[c] * M[b];
+    const double swing = hypot(pace * gamma[axis], rise);
+    *upwards = rise >= 0;
+    return fabs(pace * gamma[axis]) <= ISO_ON_SECTION * swing;
+}
+
+void iso_crossing_blank(iso_crossing *crossing)
+{
+    double *number = (double *)crossing;
+    for (size_t i = 0; i < sizeof *crossing / sizeof *number; i++) number[i] = NAN;
 }
 
 /* What the caller does not ask for is NaN. */

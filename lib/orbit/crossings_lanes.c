@@ -185,6 +185,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     iso_crossed *o = &c->orbit[i];
     struct iso_crossings_lane *lane = o->lane;
     const iso_orbit *orbit = &lane->orbit;
+    const iso_params *own = &orbit->units.own;
     double point[ISO_STATE];
     const double s = clock_of(orbit, ISO_CLOCK_S, y, time);
     iso_status status = iso_crossings_hold(w->ctx, c, o, orbit, s);
@@ -192,8 +193,8 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     iso_crossing_blank(to);
     for (iso_clock k = 0; k < ISO_CLOCKS; k++) to->clock[k] = clock_of(orbit, k, y, time) * orbit->unit_clock[k];
     if (o->axis >= 0) {
-        orbit->system == &iso_system_point_t ? iso_point_t_to_point(&orbit->units.own, y, point)
-                                             : iso_crossings_point(orbit, y, point);
+        orbit->system == &iso_system_point_t ? iso_point_t_to_point(own, y, point)
+                                             : iso_crossings_point(own, iso_crossings_model(orbit), y, point);
         iso_section_chart(o->axis, point, &to->l, &to->x);
     }
     if (e) tell_deviations(lane, o, e, to);
