@@ -163,11 +163,16 @@ static void note_failures(iso_section_walk *w, int model)
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
+double iso_section_distance(const iso_crossing *a, const iso_crossing *b)
+{
+    return fmax(fabs(remainder(a->l - b->l, 2 * ISO_PI)), fabs(a->x - b->x));
+}
+
 /* The distance of the two models. An event has no chart: there it is |dt|, divided by the mean time between
  * crossings. */
 static double distance_of(const iso_section_walk *w, const iso_crossing *a, const iso_crossing *b, size_t crossing)
 {
-    if (w->chart) return fmax(fabs(remainder(a->l - b->l, 2 * ISO_PI)), fabs(a->x - b->x));
+    if (w->chart) return iso_section_distance(a, b);
     const double t = a->clock[ISO_CLOCK_T];
     return fabs(t - b->clock[ISO_CLOCK_T]) / (fabs(t) / (double)crossing);
 }
