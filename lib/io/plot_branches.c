@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "io/gnuplot_impl.h"
+#include "io/plot.h"
 #include "io/plot_impl.h"
 
 /* Each branch is a block of its own: two empty lines between. */

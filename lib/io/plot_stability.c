@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "io/gnuplot_impl.h"
+#include "io/plot.h"
 #include "io/plot_impl.h"
 
 #define EDGE (2 + 1e-9) /* with equal moments a trace is -2 up to rounding */
