@@ -25,6 +25,11 @@ static void show(double part, void *unused)
     progress_show(part);
 }
 
+static int how_many_threads(const options *o)
+{
+    return o->threads < 4096 ? (int)o->threads : 4096;
+}
+
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
 static int tell_gaps(const iso_periodic *f)
@@ -36,12 +41,15 @@ static int tell_gaps(const iso_periodic *f)
     return EXIT_DONE;
 }
 
-static int follow(iso_context *ctx, const options *o, const iso_scene *scene, const iso_periodic *found)
+static int follow(iso_context *ctx, const options *o, const iso_scene *scene, const iso_periodic *found,
+                  iso_output *csv)
 {
     const periodic_follow how = {.range = o->follow,
                                  .orbit = o->orbit,
                                  .branches = o->branches,
-                                 .output = o->output,
+                                 .threads = how_many_threads(o),
+                                 .rows = csv,
+                                 .alone = o->output && strcmp(o->output, "-") == 0,
                                  .plot = o->plot,
                                  .json = o->json};
     return follow_orbits(ctx, scene, found, &how);
@@ -73,7 +81,7 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     how.grid = o->grid < 1e8 ? (long)o->grid : 100000000;
     how.all = o->all;
     how.polish = o->polish;
-    how.threads = o->threads < 4096 ? (int)o->threads : 4096;
+    how.threads = how_many_threads(o);
     how.progress = show;
     stop_gently();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
@@ -82,7 +90,7 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     int result = finish_scene(ctx, &o->scene, scene, status);
     if (status == ISO_STOPPED) complain("interrupted: orbits are missing");
     if (found && o->follow)
-        result = worse(result, follow(ctx, o, scene, found));
+        result = worse(result, follow(ctx, o, scene, found, csv));
     else if (found)
         result = worse(result, report(ctx, o, &(periodic_report){scene, found, how.period, o->polish, o->all}, csv));
     else if (csv)
@@ -108,7 +116,7 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "periodic: --k is the range of --chart");
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
-    return status == ISO_OK && o->output && !o->chart && !o->follow ? iso_output_open(ctx, o->output, csv) : status;
+    return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
 }
 
 static int run(iso_context *ctx, const void *options_given)
@@ -119,7 +127,14 @@ static int run(iso_context *ctx, const void *options_given)
     const iso_status status = prepare(ctx, o, &scene, &csv);
     if (status != ISO_OK) return finish(ctx, status);
     if (o->chart)
-        return draw_chart(ctx, &scene, &(periodic_chart){o->chart, o->k, o->steps, o->output, o->plot, o->json});
+        return draw_chart(ctx, &scene,
+                          &(periodic_chart){.moment = o->chart,
+                                            .k = o->k,
+                                            .steps = o->steps,
+                                            .rows = csv,
+                                            .alone = o->output && strcmp(o->output, "-") == 0,
+                                            .plot = o->plot,
+                                            .json = o->json});
     return list(ctx, o, &scene, csv);
 }
 
@@ -128,8 +143,8 @@ static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .period = 6, .gri
 static const option_row rows[] = {
     ROW("period", "P", "a whole number from 1 on", "orbits of at most P returns to the section (default 6)",
         set_count, options, period),
-    ROW("all", NULL, NULL, "orbits without a point on a symmetry line as well, by Newton's method from a grid", set_flag,
-        options, all),
+    ROW("all", NULL, NULL, "orbits without a symmetry as well, by Newton's method from a grid", set_flag, options,
+        all),
     ROW("grid", "N", "a whole number from 1 on", "points of that grid (default 2000)", set_count, options, grid),
     ROW("polish", NULL, NULL, "compute with 128 bits and print 30 digits", set_flag, options, polish),
     ROW("follow", "NAME=A:B", "k, J1, J2, J3 or ratio, =, two numbers and a colon",
@@ -166,10 +181,10 @@ const command command_periodic = {
     .file = offsetof(options, scene.file),
     .description =
         "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found in "
-        "two ways, stable between -2 and 2. Then all periodic orbits of at most P returns to the section n_a = 0 "
-        "that "
-        "the reversor S1, S2 or S3 maps to themselves, found as roots along the symmetry lines x = 0, l = 0 and "
-        "l = pi/2. Others, with those that only T S1, T S2 or T S3 maps to themselves, need --all.\n\n"
+        "two ways, stable between -2 and 2. Then all symmetric periodic orbits of at most P returns to the section "
+        "n_a = 0, found as roots along the six symmetry lines: x = 0, l = 0 and l = pi/2 of the section, for the "
+        "reversors S1, S2, S3; and three lines half way between two crossings, for T S1, T S2, T S3. Orbits without "
+        "a symmetry need --all.\n\n"
         "For each orbit: a point (l, x) of the section, the trace of the return map's derivative over the period "
         "with "
         "its error, stability, which reversors map the orbit to itself, how many copies R, S1 S2 and T make of it "

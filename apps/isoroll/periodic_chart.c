@@ -102,14 +102,11 @@ static void print_table(const iso_stability_options *o, const iso_record *grid, 
 static iso_status write_all(iso_context *ctx, const periodic_chart *c, const iso_stability_options *o,
                             const iso_record *grid, const iso_record *borders)
 {
-    iso_output *output;
     char title[160], moment[3] = {'J', (char)('1' + o->moment), 0};
     iso_status status = ISO_OK;
-    if (c->output) {
-        status = iso_output_open(ctx, c->output, &output);
-        if (status != ISO_OK) return status;
-        write_rows(o, grid, borders, iso_output_stream(output));
-        status = iso_output_close(ctx, output, true);
+    if (c->rows) {
+        write_rows(o, grid, borders, iso_output_stream(c->rows));
+        status = iso_output_close(ctx, c->rows, true);
     }
     const int a = (o->moment + 1) % 3, b = (o->moment + 2) % 3;
     snprintf(title, sizeof title, "J%d = %.6g, J%d = %.6g", a + 1, o->J[a], b + 1, o->J[b]);
@@ -124,8 +121,11 @@ int draw_chart(iso_context *ctx, const iso_scene *scene, const periodic_chart *c
     if (status == ISO_OK) status = iso_stability_chart(ctx, &o, &grid, &borders);
     if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT;
     if (status == ISO_OK && c->json && !print_json(&o, grid, borders)) status = ISO_NO_MEMORY;
-    if (status == ISO_OK && !c->json && (!c->output || strcmp(c->output, "-") != 0)) print_table(&o, grid, borders);
-    if (status == ISO_OK) status = write_all(ctx, c, &o, grid, borders);
+    if (status == ISO_OK && !c->json && !c->alone) print_table(&o, grid, borders);
+    if (status == ISO_OK)
+        status = write_all(ctx, c, &o, grid, borders);
+    else if (c->rows)
+        iso_output_close(ctx, c->rows, false);
     iso_record_free(grid);
     iso_record_free(borders);
     return finish(ctx, status);

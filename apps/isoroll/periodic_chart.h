@@ -4,13 +4,16 @@
 
 #include <stdbool.h>
 
+#include "io/output.h"
 #include "isoroll.h"
 
 typedef struct periodic_chart {
     const char *moment; /* "J2", "J3=1:4": which one varies, and where */
     const char *k;      /* "A:B"; NULL: -3:3                           */
     double steps;
-    const char *output, *plot; /* NULL: not given */
+    iso_output *rows; /* is closed there; NULL: none                   */
+    bool alone;       /* rows go to standard output: no table there  */
+    const char *plot; /* NULL: none                                  */
     bool json;
 } periodic_chart;
 

@@ -30,6 +30,7 @@ static iso_status read_words(iso_context *ctx, const periodic_follow *how, iso_f
     o->from = range[0];
     o->to = range[1];
     o->branches = how->branches;
+    o->threads = how->threads;
     return ISO_OK;
 }
 
@@ -37,12 +38,11 @@ static iso_status read_words(iso_context *ctx, const periodic_follow *how, iso_f
 
 static void print_branch(const iso_follow *f, size_t i, const char *name)
 {
-    static const char *const lines[] = {"x = 0", "l = 0", "l = pi/2"};
     const iso_branch *b = &f->branch[i];
     double low = INFINITY, high = -INFINITY;
     for (size_t j = 0; j < b->points; j++) low = fmin(low, b->point[j].value), high = fmax(high, b->point[j].value);
-    printf("branch %zu: period %d, on %s, %s from %.12g to %.12g, %zu points", i + 1, b->period, lines[b->line], name,
-           low, high, b->points);
+    printf("branch %zu: period %d, on the line of %s, %s from %.12g to %.12g, %zu points", i + 1, b->period,
+           iso_line_name(b->line), name, low, high, b->points);
     if (b->parent >= 0) printf(", from branch %d", b->parent + 1);
     putchar('\n');
     for (size_t j = 0; j < b->events; j++)
@@ -53,15 +53,16 @@ static void print_branch(const iso_follow *f, size_t i, const char *name)
 
 static void write_rows(const iso_follow *f, const char *name, FILE *to)
 {
-    fprintf(to, "# isoroll periodic follow 1\nbranch,period,%s,l,x,trace,event\n", name);
+    fprintf(to, "# isoroll periodic follow 1\nbranch,line,period,%s,l,x,trace,event\n", name);
     for (size_t i = 0; i < f->count; i++) {
         const iso_branch *b = &f->branch[i];
         for (size_t j = 0; j < b->points; j++)
-            fprintf(to, "%zu,%d,%.17g,%.17g,%.17g,%.17g,\n", i + 1, b->period, b->point[j].value, b->point[j].l,
-                    b->point[j].x, b->point[j].trace);
+            fprintf(to, "%zu,%s,%d,%.17g,%.17g,%.17g,%.17g,\n", i + 1, iso_line_name(b->line), b->period,
+                    b->point[j].value, b->point[j].l, b->point[j].x, b->point[j].trace);
         for (size_t j = 0; j < b->events; j++)
-            fprintf(to, "%zu,%d,%.17g,%.17g,%.17g,%.17g,%s\n", i + 1, b->period, b->event[j].at.value,
-                    b->event[j].at.l, b->event[j].at.x, b->event[j].at.trace, iso_branch_kind_name(b->event[j].kind));
+            fprintf(to, "%zu,%s,%d,%.17g,%.17g,%.17g,%.17g,%s\n", i + 1, iso_line_name(b->line), b->period,
+                    b->event[j].at.value, b->event[j].at.l, b->event[j].at.x, b->event[j].at.trace,
+                    iso_branch_kind_name(b->event[j].kind));
     }
 }
 
@@ -82,7 +83,7 @@ static json_t *branch_of(const iso_branch *b, const char *name)
         if (b->event[j].axis >= 0) json_object_set_new(e, "axis", json_integer(b->event[j].axis + 1));
         json_array_append_new(events, e);
     }
-    return json_pack("{s:i, s:o, s:o, s:o}", "period", b->period, "parent",
+    return json_pack("{s:i, s:s, s:o, s:o, s:o}", "period", b->period, "line", iso_line_name(b->line), "parent",
                      b->parent < 0 ? json_null() : json_integer(b->parent + 1), "points", points, "events", events);
 }
 
@@ -109,7 +110,7 @@ static iso_status draw(iso_context *ctx, const iso_scene *scene, const iso_follo
             status = iso_record_append(ctx, r, &row);
             if (status != ISO_OK) break;
             row[0] = (double)i, row[1] = p->value, row[3] = p->trace;
-            row[2] = f->branch[i].line == 0 ? 2 * fabs(p->l) / acos(-1) : fabs(p->x);
+            row[2] = 2 * p->u / acos(-1);
         }
     snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g, along %s", scene->params.k, J[0], J[1], J[2], name);
     if (status == ISO_OK) status = iso_plot_branches(ctx, path, title, name, r);
@@ -123,23 +124,20 @@ static int show(iso_context *ctx, const iso_scene *scene, const iso_follow *f, c
                 const periodic_follow *how)
 {
     const char *name = iso_vary_name((int)o->vary);
-    iso_output *output;
     iso_status status = ISO_OK;
     size_t failed = 0;
     for (size_t i = 0; i < f->count; i++)
         for (size_t j = 0; j < f->branch[i].events; j++) failed += f->branch[i].event[j].kind == ISO_BRANCH_FAILURE;
-    if (how->json && !print_json(f, name)) return EXIT_NUMERICAL;
-    if (!how->json && (!how->output || strcmp(how->output, "-") != 0))
+    bool printed = true;
+    if (how->json) printed = print_json(f, name);
+    if (!how->json && !how->alone)
         for (size_t i = 0; i < f->count; i++) print_branch(f, i, name);
-    if (how->output) {
-        status = iso_output_open(ctx, how->output, &output);
-        if (status == ISO_OK) {
-            write_rows(f, name, iso_output_stream(output));
-            status = iso_output_close(ctx, output, true);
-        }
+    if (how->rows) {
+        write_rows(f, name, iso_output_stream(how->rows));
+        status = iso_output_close(ctx, how->rows, true);
     }
     if (status == ISO_OK && how->plot) status = draw(ctx, scene, f, name, how->plot);
-    const int result = finish(ctx, status);
+    const int result = printed ? finish(ctx, status) : EXIT_NUMERICAL;
     if (failed > 0) complain("%zu branches could not be followed to their ends: see their failures", failed);
     return result == EXIT_DONE && failed > 0 ? EXIT_SOME_FAILED : result;
 }
@@ -173,6 +171,8 @@ int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *
     if (f) {
         const int shown = show(ctx, scene, f, &o, how);
         if (shown > result) result = shown;
+    } else if (how->rows) {
+        iso_output_close(ctx, how->rows, false);
     }
     free(list);
     iso_follow_free(f);

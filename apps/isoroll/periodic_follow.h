@@ -4,14 +4,18 @@
 
 #include <stdbool.h>
 
+#include "io/output.h"
 #include "isoroll.h"
 #include "study/periodic.h"
 
 typedef struct periodic_follow {
     const char *range; /* "k=0.4:0.6"                     */
     double orbit;      /* from 1; 0: all with a symmetry  */
+    int threads;       /* 0: one for each processor      */
     bool branches, json;
-    const char *output, *plot; /* NULL: not given */
+    iso_output *rows; /* is closed here; NULL: none                  */
+    bool alone;       /* rows go to standard output: no table there  */
+    const char *plot; /* NULL: none                                  */
 } periodic_follow;
 
 /* Gives the exit status. */

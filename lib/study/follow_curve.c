@@ -22,24 +22,14 @@ bool iso_follow_params(const iso_follow_family *f, double value, iso_params *p)
     return iso_section_axis(p) == f->axis;
 }
 
-/* g^p of the point at (u, value). */
-static bool far_from(const iso_follow_family *f, double u, double value, iso_periodic_fine *found)
+/* Half the orbit, from (u, value) to the line again. */
+static bool shoot(const iso_follow_family *f, double u, double value, iso_periodic_shot *shot)
 {
     iso_params p;
     iso_periodic_map map;
-    double z[2];
     if (!iso_follow_params(f, value, &p)) return false;
     iso_periodic_map_prepare(f->ctx, &p, 1, &map);
-    iso_periodic_point_on(f->line, u, z);
-    const iso_wide from[2] = {f->line == LINE_QUARTER ? WIDE_PI / 2 : (iso_wide)z[0], z[1]};
-    return fabs(z[1]) < 1 && iso_periodic_far(&map, &iso_return_extended, from, f->period, found);
-}
-
-static double off_of(const iso_follow_family *f, const iso_periodic_fine *at)
-{
-    if (f->line == LINE_X) return (double)at->to[1];
-    const iso_wide l = at->to[0] - (f->line == LINE_0 ? 0 : WIDE_PI / 2);
-    return (double)(l - WIDE_ROUND(l / WIDE_PI) * WIDE_PI);
+    return iso_periodic_shoot(&map, &iso_return_extended, f->line, u, f->period, shot);
 }
 
 /* The slope by v, by differences: its error is of the order of h^2. */
@@ -48,9 +38,9 @@ static bool find_by_v(const iso_follow_family *f, iso_follow_point *at)
     const double h = 2e-5;
     double ends[2];
     for (int i = 0; i < 2; i++) {
-        iso_periodic_fine side;
-        if (!far_from(f, at->u, (at->v + (2 * i - 1) * h) * f->width, &side)) return false;
-        ends[i] = off_of(f, &side);
+        iso_periodic_shot side;
+        if (!shoot(f, at->u, (at->v + (2 * i - 1) * h) * f->width, &side)) return false;
+        ends[i] = (double)side.off;
     }
     at->by_v = (ends[1] - ends[0]) / (2 * h);
     return true;
@@ -58,20 +48,15 @@ static bool find_by_v(const iso_follow_family *f, iso_follow_point *at)
 
 bool iso_follow_evaluate(const iso_follow_family *f, double u, double v, bool slopes, iso_follow_point *at)
 {
-    iso_periodic_fine found;
-    if (!far_from(f, u, v * f->width, &found)) return false;
-    const double stretch = f->line == LINE_X ? 1 : cos(u); /* of the line's coordinate by u */
-    const int row = f->line == LINE_X ? 1 : 0;
-    double A[2][2];
-    for (int i = 0; i < 4; i++) A[i / 2][i % 2] = (double)found.slope[i / 2][i % 2];
+    iso_periodic_shot shot;
+    if (!shoot(f, u, v * f->width, &shot)) return false;
     at->u = u, at->v = v, at->value = v * f->width;
-    at->off = off_of(f, &found);
-    at->by_u = A[row][1 - row] * stretch;
-    at->across = A[1 - row][row];
-    at->diagonal[0] = A[0][0], at->diagonal[1] = A[1][1];
-    const double det = (double)found.determinant;
-    at->trace = fabs(A[0][1] * A[1][0]) < fabs(A[0][0] * A[1][1]) ? 2 + 4 * A[0][1] * A[1][0] / det
-                                                                  : 4 * A[0][0] * A[1][1] / det - 2;
+    for (int i = 0; i < 2; i++) at->z[i] = (double)shot.z[i];
+    at->off = (double)shot.off;
+    at->by_u = (double)shot.D[1][0];
+    at->across = (double)shot.D[0][1];
+    at->diagonal[0] = (double)shot.D[0][0], at->diagonal[1] = (double)shot.D[1][1];
+    at->trace = (double)shot.trace;
     return !slopes || find_by_v(f, at);
 }
 
@@ -105,9 +90,7 @@ bool iso_follow_step(const iso_follow_family *f, const iso_follow_point *a, doub
     return to->tangent[0] * t[0] + to->tangent[1] * t[1] > 0.9;
 }
 
-iso_branch_point iso_follow_tell(const iso_follow_family *f, const iso_follow_point *at, double arc)
+iso_branch_point iso_follow_tell(const iso_follow_point *at, double arc)
 {
-    double z[2];
-    iso_periodic_point_on(f->line, at->u, z);
-    return (iso_branch_point){at->value, z[0], z[1], at->trace, arc};
+    return (iso_branch_point){at->value, at->u, at->z[0], at->z[1], at->trace, arc};
 }

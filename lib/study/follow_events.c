@@ -103,6 +103,13 @@ static bool is_there(const iso_branch *b, const iso_branch_event *e)
     return false;
 }
 
+/* Half way the coordinates of what stays on the line can themselves turn over: the trace tells. */
+static bool is_true(const iso_follow_family *f, const iso_follow_point *at, int test)
+{
+    const bool doubling = test == TEST_DIAGONAL || test == TEST_OTHER_DIAGONAL;
+    return !iso_line_is_half_way(f->line) || test == TEST_TURN || fabs(at->trace - (doubling ? -2 : 2)) < 0.01;
+}
+
 iso_status iso_follow_events(const iso_follow_family *f, iso_branch *b, const iso_follow_point *a,
                              const iso_follow_point *to, double ds, double arc)
 {
@@ -114,9 +121,10 @@ iso_status iso_follow_events(const iso_follow_family *f, iso_branch *b, const is
         if (test_of(a, test) * test_of(to, test) >= 0) continue;
         if (test == TEST_TURN && a->by_u * to->by_u < 0) continue; /* a fold */
         locate(f, a, to, test, ds, &at, &part);
+        if (!is_true(f, &at, test)) continue;
         name(f, &at, test, test == TEST_FOLD && a->tangent[1] * to->tangent[1] < 0, &e);
         if (test == TEST_TURN) name_turn(f, &at, &e);
-        e.at = iso_follow_tell(f, &at, arc + part);
+        e.at = iso_follow_tell(&at, arc + part);
         if (is_there(b, &e)) continue;
         status = iso_follow_add_event(f, b, &e);
     }
@@ -124,14 +132,6 @@ iso_status iso_follow_events(const iso_follow_family *f, iso_branch *b, const is
 }
 
 /* --- collisions ------------------------------------------------------------------------------------------------- */
-
-/* The rotation at an end of the line. */
-static int axis_at(const iso_follow_family *f, bool end)
-{
-    const int b = (f->axis + 1) % 3, c = (f->axis + 2) % 3;
-    if (f->line == LINE_X) return end ? b : c;
-    return end ? f->axis : f->line == LINE_0 ? c : b;
-}
 
 static double mismatch(const iso_follow_family *f, int axis, double value, double target)
 {
@@ -158,23 +158,27 @@ bool iso_follow_collision(const iso_follow_family *f, const iso_follow_point *a,
 {
     const bool end = b->u > ISO_PI / 4;
     const double near_a = end ? ISO_PI / 2 - a->u : a->u, near_b = end ? ISO_PI / 2 - b->u : b->u;
-    const int axis = axis_at(f, end);
-    /* value ~ value* + c u^2 */
-    const double guess = b->value - (a->value - b->value) * near_b * near_b / (near_a * near_a - near_b * near_b);
+    const int axis = iso_line_axis_at(f->axis, f->line, end);
+    /* value ~ value* + c u^2, trace ~ 2 + d u^2 */
+    const double part = near_b * near_b / (near_a * near_a - near_b * near_b);
+    const double guess = b->value - (a->value - b->value) * part, trace = b->trace - (a->trace - b->trace) * part;
+    const double doubt = 0.3 * fabs(guess - b->value) + 1e-6 * f->width;
     const double target = target_of(f, axis, mismatch(f, axis, guess, 0));
     double x0 = guess, x1 = guess + 1e-6 * f->width, F0 = mismatch(f, axis, x0, target);
     bool exact = isfinite(F0);
     for (int i = 0; i < 30 && exact && fabs(x1 - x0) > 1e-14 * f->width; i++) {
         const double F1 = mismatch(f, axis, x1, target), next = F1 == 0 ? x1 : x1 - F1 * (x1 - x0) / (F1 - F0);
-        exact = isfinite(next) && fabs(next - guess) < 1e-3 * f->width;
+        exact = isfinite(next) && fabs(next - guess) < doubt;
         x0 = x1, F0 = F1, x1 = next;
     }
-    if (!exact) return false;
+    if (!exact || fabs(trace - 2) > 0.05) return false;
     *e = (iso_branch_event){.kind = ISO_BRANCH_COLLISION, .axis = axis};
     iso_follow_point at = *b;
     at.value = x1;
     at.u = end ? ISO_PI / 2 : 0;
-    e->at = iso_follow_tell(f, &at, 0);
+    at.z[0] = axis == (f->axis + 1) % 3 ? ISO_PI / 2 : 0; /* the fixed point of the rotation */
+    at.z[1] = axis == f->axis ? 1 : 0;
+    e->at = iso_follow_tell(&at, 0);
     snprintf(e->words, sizeof e->words, "it shrinks onto the rotation about axis %d at %s = %.12g", axis + 1,
              iso_vary_name((int)f->options.vary), at.value);
     return true;

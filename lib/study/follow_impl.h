@@ -24,10 +24,11 @@ typedef struct iso_follow_family {
 /* A point of the curve. Coordinates are u and v = value/width. */
 typedef struct iso_follow_point {
     double u, v, value;
+    double z[2];        /* the first point on the section: l, x                                */
     double off;         /* F                                                                   */
     double by_u, by_v;  /* its slopes                                                          */
-    double across;      /* the other number of A across its diagonal                           */
-    double diagonal[2]; /* A_00, A_11                                                          */
+    double across;      /* D_01 (iso_periodic_shot)                                            */
+    double diagonal[2]; /* D_00, D_11                                                          */
     double trace;
     double tangent[2]; /* (du, dv), of length 1                                               */
 } iso_follow_point;
@@ -45,7 +46,7 @@ bool iso_follow_step(const iso_follow_family *f, const iso_follow_point *at, dou
 /* Sets the tangent, so that it goes on like `like` (NULL: v grows). */
 void iso_follow_turn(iso_follow_point *at, const double like[2]);
 
-iso_branch_point iso_follow_tell(const iso_follow_family *f, const iso_follow_point *at, double arc);
+iso_branch_point iso_follow_tell(const iso_follow_point *at, double arc);
 
 /* Adds the events between a and b, ds apart. */
 iso_status iso_follow_events(const iso_follow_family *f, iso_branch *b, const iso_follow_point *a,

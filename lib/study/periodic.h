@@ -11,11 +11,11 @@
  * are reversors: S f S = f^-1. The equations are odd in gamma: T (M, gamma) = (M, -gamma). Half a return, from n_a
  * growing to n_a falling, followed by T is a map g of the section with g g = f and S g S = g^-1.
  *
- * An orbit that S maps to itself is symmetric. If its period is p, it or its image by T has a point z on the line that
- * S leaves where it is (x = 0; l = 0 or pi; l = pi/2 or -pi/2), and g^p z is on this line again. The search looks for
- * these z along each line. So nothing but the distance of its samples can hide an orbit of S1, S2 or S3. Orbits that
- * only T S1, T S2 or T S3 maps to themselves have no point on these lines: only the grid (`all`) finds them, and it may
- * miss some. Near k = 1 and k = -1 a resonant torus of even period can leave one orbit of each sort.
+ * An orbit that S or T S maps to itself is symmetric. Then it passes, it or its image by T, the line that S or T S leaves
+ * where it is: for S1, S2, S3 the lines x = 0, l = 0, l = pi/2 of the section. For T S1, T S2, T S3 these lines lie half
+ * way between two crossings: gamma = -e_a, and the planes gamma_b = 0 and gamma_c = 0, met at right angles. Half an orbit
+ * later, p half returns for a period p, it is on this line again. The search looks for such orbits along each line. So
+ * nothing but the distance of its samples can hide a symmetric orbit.
  *
  * R: (l, x) -> (l + pi, x) and S1 S2: (l, x) -> (-l, -x) and T carry orbits to orbits of the same kind: copies. One of
  * them is listed.
@@ -58,9 +58,10 @@ typedef struct iso_multipliers {
 typedef struct iso_rotation {
     int axis; /* 0 to 2 */
     double half_turn_trace;
-    double error;             /* of it, or with `polish` of half_turn_trace + tail                                  */
-    double tail;              /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
-    double by_section;        /* the same by the derivative of g at the fixed point; NaN: of the section's own axis */
+    double error; /* of it, or with `polish` of half_turn_trace + tail                                  */
+    double tail;  /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
+    double
+        by_section; /* the same by the derivative of g at the fixed point, of the section's own axis by another section */
     double turn_trace;        /* half_turn_trace^2 - 2: of a whole turn                                             */
     iso_multipliers half;     /* of half a turn                                                                    */
     double clock[ISO_CLOCKS]; /* of a whole turn, in the scene's units                                            */
@@ -73,9 +74,10 @@ enum { ISO_PERIODIC_MOST = 64 }; /* the longest period that can be asked for */
 enum { ISO_S1 = 1, ISO_S2 = 2, ISO_S3 = 4, ISO_TS1 = 8, ISO_TS2 = 16, ISO_TS3 = 32 };
 
 typedef struct iso_periodic_orbit {
-    int line;                 /* the symmetry line of (l, x): 0: x = 0, 1: l = 0, 2: l = pi/2; -1: none           */
+    int line;                 /* a symmetry line that it passes, as in iso_line_name; -1: none                     */
+    double u;                 /* where: 0 to pi/2                                                                */
     int period;               /* returns to the section                                                          */
-    double l, x;              /* a point of it; of a symmetric orbit on a symmetry line, where there is one       */
+    double l, x;              /* a point of it: on the line, or the first one behind a line half way              */
     double l_tail, x_tail;    /* l + l_tail: more digits                                                         */
     double trace, trace_tail; /* of the derivative of f^period                                                   */
     double error;             /* of the trace                                                                    */
@@ -131,6 +133,9 @@ typedef struct iso_periodic {
 ISO_API iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_options *options,
                                     iso_periodic **found);
 ISO_API void iso_periodic_free(iso_periodic *found);
+
+/* The reversor of a symmetry line 0 to 5: "S1", "S2", "S3", "TS1", "TS2", "TS3"; NULL for other numbers. */
+ISO_API const char *iso_line_name(int line);
 
 /* head + tail with up to 31 digits, as text; the reversors of `symmetry`: "S1 S3", "none". */
 enum { ISO_DIGITS_SIZE = 48 };

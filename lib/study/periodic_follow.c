@@ -10,6 +10,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
+#include "orbit/pool_impl.h"
 #include "study/follow_impl.h"
 
 #define NEAR_END 4e-3 /* of the line, in u: here a collision is foretold */
@@ -43,14 +44,14 @@ static iso_status add_point(const iso_follow_family *f, iso_branch *b, const iso
         if (!larger) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
         b->point = larger;
     }
-    b->point[b->points++] = iso_follow_tell(f, at, arc);
+    b->point[b->points++] = iso_follow_tell(at, arc);
     return ISO_OK;
 }
 
 static iso_status fail_at(const iso_follow_family *f, iso_branch *b, const iso_follow_point *at, double arc,
                           const char *why)
 {
-    iso_branch_event e = {.kind = ISO_BRANCH_FAILURE, .at = iso_follow_tell(f, at, arc), .axis = -1};
+    iso_branch_event e = {.kind = ISO_BRANCH_FAILURE, .at = iso_follow_tell(at, arc), .axis = -1};
     snprintf(e.words, sizeof e.words, "%s at %s = %.12g, l = %.9g, x = %.9g", why,
              iso_vary_name((int)f->options.vary), at->value, e.at.l, e.at.x);
     return iso_follow_add_event(f, b, &e);
@@ -68,7 +69,7 @@ static iso_status end_at(const iso_follow_family *f, iso_branch *b, const iso_fo
         if (fabs(at.off / at.by_u) < 1e-12) break;
     }
     at.value = value;
-    iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_follow_tell(f, &at, arc), .axis = -1};
+    iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_follow_tell(&at, arc), .axis = -1};
     snprintf(e.words, sizeof e.words, "the end of the range");
     const iso_status status = add_point(f, b, &at, arc);
     return status == ISO_OK ? iso_follow_add_event(f, b, &e) : status;
@@ -242,17 +243,82 @@ static iso_status switch_branches(const iso_follow_family *f, iso_follow *out, s
 
 static iso_status follow_orbit(iso_follow_family *f, const iso_periodic_orbit *o, double own, iso_follow *out)
 {
-    if (o->line < 0)
-        return iso_context_fail(f->ctx, ISO_BAD_INPUT, "orbit",
-                                "an orbit without a point on a symmetry line cannot be followed");
     f->line = o->line;
     f->period = o->period;
     iso_branch *b = new_branch(f, out, -1);
     if (!b) return iso_context_fail(f->ctx, ISO_NO_MEMORY, "", "no memory for a branch");
-    const double u = o->line == LINE_X ? fabs(o->l) : asin(fabs(o->x));
     const size_t at = out->count - 1;
-    const iso_status status = follow_branch(f, u, own, b);
+    const iso_status status = follow_branch(f, o->u, own, b);
     return status == ISO_OK && f->options.branches ? switch_branches(f, out, at) : status;
+}
+
+/* --- all orbits ------------------------------------------------------------------------------------------------- */
+
+typedef struct crowd {
+    const iso_follow_family *family;
+    const iso_periodic_orbit *orbit;
+    double own;
+    iso_follow *of; /* of each orbit */
+} crowd;
+
+static bool follow_some(iso_pool_worker *w, void *data, size_t first, size_t count)
+{
+    const crowd *c = data;
+    for (size_t i = first; i < first + count; i++) {
+        iso_follow_family f = *c->family;
+        f.ctx = w->ctx;
+        const iso_status status = follow_orbit(&f, &c->orbit[i], c->own, &c->of[i]);
+        if (status == ISO_NO_MEMORY) return false;
+        if (status != ISO_OK) break; /* stopped */
+    }
+    return true;
+}
+
+/* Moves all branches to one list. */
+static iso_status gather(iso_context *ctx, iso_follow of[], size_t count, iso_follow *out)
+{
+    size_t branches = 0;
+    for (size_t i = 0; i < count; i++) branches += of[i].count;
+    out->branch = malloc((branches + 1) * sizeof *out->branch);
+    if (!out->branch) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for branches");
+    for (size_t i = 0; i < count; i++) {
+        const int before = (int)out->count;
+        for (size_t j = 0; j < of[i].count; j++) {
+            iso_branch *b = &out->branch[out->count++];
+            *b = of[i].branch[j];
+            if (b->parent >= 0) b->parent += before;
+        }
+        of[i].count = 0;
+    }
+    return ISO_OK;
+}
+
+static void free_branches(iso_follow *follow)
+{
+    for (size_t i = 0; i < follow->count; i++) free_branch(&follow->branch[i]);
+    free(follow->branch);
+}
+
+static iso_status follow_all(crowd *c, size_t count, iso_follow *out)
+{
+    iso_context *ctx = c->family->ctx;
+    c->of = calloc(count + 1, sizeof *c->of);
+    if (!c->of) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for branches");
+    iso_pool pool = {.count = count, .chunk = 1, .solve = follow_some, .data = c};
+    const size_t threads = iso_pool_threads(c->family->options.threads, count > 0 ? count - 1 : 0, 1);
+    const iso_status status = iso_pool_run(ctx, &pool, threads, NULL);
+    const iso_status gathered = gather(ctx, c->of, count, out);
+    for (size_t i = 0; i < count; i++) free_branches(&c->of[i]);
+    free(c->of);
+    return gathered == ISO_OK ? status : gathered;
+}
+
+static iso_status check_lines(iso_context *ctx, const iso_periodic_orbit orbits[], size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!iso_line_name(orbits[i].line))
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "an orbit without a symmetry cannot be followed");
+    return ISO_OK;
 }
 
 iso_status iso_follow_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[], size_t count,
@@ -266,10 +332,11 @@ iso_status iso_follow_run(iso_context *ctx, const iso_scene *scene, const iso_pe
     f.width = f.options.to - f.options.from;
     const double own = value_of(&scene->params, f.options.vary);
     if (status == ISO_OK) status = check(&f, own);
+    if (status == ISO_OK) status = check_lines(ctx, orbits, count);
     if (status != ISO_OK) return status;
     iso_follow *out = calloc(1, sizeof *out);
     if (!out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for branches");
-    for (size_t i = 0; i < count && status == ISO_OK; i++) status = follow_orbit(&f, &orbits[i], own, out);
+    status = follow_all(&(crowd){.family = &f, .orbit = orbits, .own = own}, count, out);
     if (status == ISO_OK || status == ISO_STOPPED)
         *follow = out;
     else
@@ -280,7 +347,6 @@ iso_status iso_follow_run(iso_context *ctx, const iso_scene *scene, const iso_pe
 void iso_follow_free(iso_follow *follow)
 {
     if (!follow) return;
-    for (size_t i = 0; i < follow->count; i++) free_branch(&follow->branch[i]);
-    free(follow->branch);
+    free_branches(follow);
     free(follow);
 }

@@ -1,11 +1,14 @@
 /* periodic_follow.h - follows a symmetric periodic orbit while k or a moment changes.
  *
- * On its symmetry line the orbit is a zero of F(u, value), the distance of g^p z(u) from the line (periodic.h). The
- * curve F = 0 is followed by its arc length, through folds, in steps that adapt. With A the derivative of g^p,
+ * The orbit passes its symmetry line at u (periodic.h), and again half an orbit later: there F(u, value), the distance
+ * from the line, is 0. The curve F = 0 is followed by its arc length, through folds, in steps that adapt. D is the
+ * derivative over half the orbit in coordinates of the line: u along it, and one across. The trace is
+ * 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. Slopes by u are carried along the orbit, those by the parameter are
+ * differences.
  *
- *     fold                A_ij = 0, the slope of F along the line: two orbits meet and vanish
- *     symmetry breaking   A_ji = 0: orbits with less symmetry branch off (trace 2)
- *     period doubling     A_00 A_11 = 0: orbits of twice the period branch off (trace -2)
+ *     fold                D_10 = 0, the slope of F along the line: two orbits meet and vanish
+ *     symmetry breaking   D_01 = 0: orbits with less symmetry branch off (trace 2)
+ *     period doubling     D_00 D_11 = 0: orbits of twice the period branch off (trace -2)
  *     collision           u reaches an end of the line, a rotation about a principal axis
  *     torus               k = 1 or -1: the orbit is one of a torus of them
  */
@@ -33,8 +36,8 @@ typedef enum iso_branch_kind {
 ISO_API const char *iso_branch_kind_name(iso_branch_kind kind);
 
 typedef struct iso_branch_point {
-    double value, l, x, trace;
-    double arc; /* along the branch, from the start: negative on one side */
+    double value, u, l, x, trace; /* u: of the line; (l, x): the first point on the section */
+    double arc;                   /* along the branch, from the start: negative on one side */
 } iso_branch_point;
 
 typedef struct iso_branch_event {
@@ -46,8 +49,8 @@ typedef struct iso_branch_event {
 } iso_branch_event;
 
 typedef struct iso_branch {
-    int line, period;
-    int parent; /* the branch that it was switched from; -1: none */
+    int line, period; /* line: as in iso_line_name */
+    int parent;       /* the branch that it was switched from; -1: none */
     size_t points, events;
     iso_branch_point *point; /* by arc */
     iso_branch_event *event; /* by arc */
@@ -60,6 +63,7 @@ typedef struct iso_follow_options {
     double longest;  /* step, in parts of the range and radians of the line */
     long most;       /* steps of a branch in each direction */
     bool branches;   /* follow what branches off as well    */
+    int threads;     /* that follow orbits side by side; 0: as many as there are processors to run on */
 } iso_follow_options;
 
 static inline iso_follow_options iso_follow_defaults(void)

@@ -4,9 +4,11 @@
  *     periodic.c             the call: what is refused, the order of the work, the list
  *     periodic_map.c         the map g (half a return and T) and f = g g: many points in lanes, one point in more digits
  *     periodic_rotations.c   the rotations
+ *     periodic_line.c        the six symmetry lines, and shots from one of them to itself
  *     periodic_search.c      symmetric orbits along the symmetry lines
  *     periodic_grid.c        other orbits from a grid
- *     periodic_orbit.c       an orbit from a point of it: digits, trace, symmetry, copies
+ *     periodic_solve.c       an orbit from a place near it: digits, trace, error, closure
+ *     periodic_orbit.c       the list: what is new, symmetry, copies
  *
  * All of them compute in own units with eps = 1.
  */
@@ -42,13 +44,23 @@ typedef struct iso_periodic_point {
 iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const double (*from)[2], int halves,
                              bool whole, double tolerance, iso_periodic_point *to);
 
-/* g^halves of a point in more digits, its derivative, and the clocks that pass. False: it failed. */
+/* to[i]: the first crossing of the start half way at u[i], see iso_return_start. NaN: it failed. */
+iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
+                                   const double u[], double (*to)[2]);
+
+/* A way in more digits: its end, the derivative, and the clocks that pass. */
 typedef struct iso_periodic_fine {
     iso_wide to[2], slope[2][2], clock[ISO_CLOCKS];
     iso_wide determinant; /* of slope: the product of those of the returns, which do not cancel */
 } iso_periodic_fine;
+
+/* g^halves of a point. path[n - 1] = g^n of it, n = 1 to halves; NULL: not asked. False: it failed. */
 bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
-                      iso_periodic_fine *found);
+                      double (*path)[2], iso_periodic_fine *found);
+
+/* From a start half way to its first crossing; the derivative by (u, c). False: it failed. */
+bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start, iso_wide u,
+                        iso_periodic_fine *found);
 
 /* The law of the derivative's determinant, from l to another l: G(l)/G(l'). */
 iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to);
@@ -56,10 +68,60 @@ iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_w
 /* The code of numbers of 64 bits, or of 128 (NULL: there is none). */
 const iso_return_code *iso_periodic_code(bool polish);
 
-/* --- orbits ----------------------------------------------------------------------------------------------------- */
+/* --- lines ------------------------------------------------------------------------------------------------------ */
 
-/* The symmetry lines: x = 0, l = 0, l = pi/2; each from parameter 0 to pi/2. On x = 0 it is l, else asin x. */
-enum { LINE_X, LINE_0, LINE_QUARTER, LINES };
+/* The symmetry lines: what S1, S2, S3, T S1, T S2, T S3 leave where it is. The first three are lines of the section:
+ * x = 0, l = 0, l = pi/2. The others lie half way between two crossings: gamma = -e_a; gamma_b = 0; gamma_c = 0
+ * (iso_return_start). Each has a coordinate u from 0 to pi/2; on x = 0 it is l, on l = 0 and pi/2 it is asin x. At both
+ * ends are rotations. */
+enum { LINE_X, LINE_0, LINE_QUARTER, LINE_POLE, LINE_PLANE_B, LINE_PLANE_C, LINES };
+
+static inline bool iso_line_is_half_way(int line)
+{
+    return line >= LINE_POLE;
+}
+
+/* The reversor S1, S2 or S3 (0, 1, 2) of the line. */
+static inline int iso_line_reversor(int line)
+{
+    return line % 3;
+}
+
+/* The axis of the rotation at u = 0, or at u = pi/2. */
+int iso_line_axis_at(int axis, int line, bool end);
+
+/* The reversor S1, S2, S3 (0, 1, 2). */
+void iso_periodic_reverse(int reversor, const double z[2], double to[2]);
+
+/* z[i]: where the orbits of the line at u[i] cross the section first, or stand on it; by_u: the slopes. */
+iso_status iso_periodic_place(const iso_periodic_map *map, int line, size_t count, const double u[], double (*z)[2],
+                              double (*by_u)[2]);
+
+/* F_n(u), a number that changes its sign where the orbit is on the line again after n half returns; before, at:
+ * g^(n-1) z and g^n z. *slope: by u. *there: its mirror image is itself, as an orbit of the line must be; F_n has other
+ * zeros too, of lines half way. */
+double iso_periodic_miss(int line, const iso_periodic_point *before, const iso_periodic_point *at,
+                         const double by_u[2], double *slope, bool *there);
+
+/* A shot: from u of a line half an orbit of `period` returns, to the same line. With R the reflection of (u, c) and D
+ * the derivative to coordinates of the line there, the derivative of the whole orbit is D^-1 R D R. Its trace is
+ * 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. */
+typedef struct iso_periodic_shot {
+    iso_wide u, z[2];      /* the start, and its first point on the section                                      */
+    iso_wide off;          /* F: 0 on the line. Half way: of the middle between the two crossings around it       */
+    iso_wide D[2][2], det; /* the derivative by (u, c): of what stays on the line, and of F                      */
+    iso_wide trace;        /* of an orbit with off = 0                                                           */
+    iso_wide clock[ISO_CLOCKS];
+    iso_periodic_fine way;             /* g^period of z */
+    double path[ISO_PERIODIC_MOST][2]; /* g z ... g^period z                                                        */
+} iso_periodic_shot;
+bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_code *code, int line, iso_wide u, int period,
+                        iso_periodic_shot *shot);
+
+/* angle into (-period/2, period/2]. */
+iso_wide iso_periodic_wrap(iso_wide angle, iso_wide period);
+
+/* --- orbits ----------------------------------------------------------------------------------------------------- */
 
 typedef struct iso_periodic_work {
     iso_context *ctx;
@@ -75,23 +137,28 @@ typedef struct iso_periodic_work {
     size_t folded_count, folded_room;
 } iso_periodic_work;
 
-/* A point that may lie on an orbit. */
+/* A place that may lie on an orbit. */
 typedef struct iso_periodic_candidate {
     int line; /* of a symmetric orbit; -1: none    */
     int period;
-    double l, x;
+    double u;    /* of the line                    */
+    double l, x; /* its point of the section       */
 } iso_periodic_candidate;
 
 /* f's l modulo a turn into (-pi, pi]. */
 double iso_periodic_angle(double l);
 
-/* How far a point is from the line, as a number that changes its sign there. slope: of this number by (l, x). */
-double iso_periodic_off(int line, const iso_periodic_point *at);
+/* Whether two points of the section are the same, up to what tells orbits apart. */
+bool iso_periodic_meet(const double a[2], const double b[2]);
 
-/* Finishes a candidate and adds it to the list, unless it is there already or has a smaller period. *added may be
- * NULL. Errors: ISO_NO_MEMORY. */
-iso_status iso_periodic_add(iso_periodic_work *w, const iso_periodic_candidate *c, bool *added);
-void iso_periodic_point_on(int line, double parameter, double z[2]);
+/* Finds the orbit at a candidate: line, period, u, (l, x), trace, error, determinant, closure, multipliers, torus,
+ * clocks in own units; and path[n - 1] = g^n z, n = 1 to 2 period. False: it was not found. */
+bool iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code, const iso_periodic_candidate *c,
+                        iso_periodic_orbit *o, double (*path)[2]);
+
+/* Solves candidates on all threads, and adds their orbits to the list, unless they are there already or have a smaller
+ * period. Errors: ISO_NO_MEMORY; ISO_STOPPED. */
+iso_status iso_periodic_add(iso_periodic_work *w, const iso_periodic_candidate c[], size_t count);
 
 iso_status iso_periodic_rotations(iso_periodic_work *w);
 iso_status iso_periodic_search(iso_periodic_work *w);

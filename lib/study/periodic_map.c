@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vec3_impl.h"
 #include "orbit/crossings_impl.h"
 #include "study/periodic_impl.h"
 
@@ -23,6 +24,7 @@ void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, int threa
 /* --- many points ------------------------------------------------------------------------------------------------ */
 
 typedef struct walk {
+    bool deviations;
     size_t orbits, each;
     iso_start *start;
     iso_batch_orbit *orbit;
@@ -42,6 +44,7 @@ static void free_walk(walk *w)
 
 static bool make_walk(size_t orbits, size_t each, walk *w)
 {
+    w->deviations = true;
     w->orbits = orbits;
     w->each = each;
     w->start = calloc(orbits, sizeof *w->start);
@@ -80,7 +83,7 @@ static iso_status go(const iso_periodic_map *map, const walk *w, double toleranc
     iso_crossings_options o = iso_crossings_defaults();
     iso_crossings *c;
     o.axis = map->axis;
-    o.deviations = true;
+    o.deviations = w->deviations;
     o.tolerance = tolerance;
     o.threads = map->threads;
     iso_status status = iso_crossings_create(map->ctx, w->orbit, w->orbits, &o, &c);
@@ -113,6 +116,44 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
     return status;
 }
 
+/* The start half way at u (iso_return_start): M = G gamma'/|gamma'| x gamma. */
+static void set_half_way(const iso_periodic_map *map, walk *w, size_t i, iso_return_start from, double u)
+{
+    const int a = map->axis, b = (a + 1) % 3, c = (a + 2) % 3;
+    double gamma[3] = {0}, along[3] = {0}, J_gamma[3], M[3];
+    if (from == ISO_FROM_POLE) {
+        gamma[a] = -1, along[b] = cos(u), along[c] = sin(u);
+    } else {
+        gamma[a] = -sin(u), gamma[from == ISO_FROM_PLANE_B ? c : b] = cos(u);
+        along[from == ISO_FROM_PLANE_B ? b : c] = 1;
+    }
+    diag(map->p.J, gamma, J_gamma);
+    cross(along, gamma, M);
+    scale(M, sqrt(2) * pow(dot(gamma, J_gamma), -1 / (2 * map->p.k)));
+    w->start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
+    memcpy(w->start[i].y, M, sizeof M);
+    memcpy(w->start[i].y + 3, gamma, sizeof gamma);
+    w->orbit[i] = (iso_batch_orbit){&map->p, &w->start[i], NULL};
+}
+
+iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
+                                   const double u[], double (*to)[2])
+{
+    walk w = {0};
+    if (count == 0) return ISO_OK;
+    const bool memory = make_walk(count, 1, &w);
+    iso_status status = memory ? ISO_OK : iso_context_fail(map->ctx, ISO_NO_MEMORY, "", "no memory for orbits");
+    for (size_t i = 0; i < count && memory; i++) set_half_way(map, &w, i, start, u[i]);
+    w.deviations = false;
+    if (status == ISO_OK) status = go(map, &w, 1e-13);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) {
+        to[i][0] = w.done[i] ? w.crossing[i].l : NAN;
+        to[i][1] = w.done[i] ? w.crossing[i].x : NAN;
+    }
+    free_walk(&w);
+    return status;
+}
+
 /* --- one point in more digits ----------------------------------------------------------------------------------- */
 
 const iso_return_code *iso_periodic_code(bool polish)
@@ -141,22 +182,41 @@ static iso_wide determinant_of(const iso_return *r)
            iso_wide_of(r->slope[0][1]) * iso_wide_of(r->slope[1][0]);
 }
 
-/* G(l)/G(l') */
-iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to)
+/* (gamma, J gamma) at a crossing. */
+static iso_wide q_at(const iso_periodic_map *map, iso_wide l)
 {
-    const iso_wide Jb = map->p.J[(map->axis + 1) % 3], Jc = map->p.J[(map->axis + 2) % 3];
-    const iso_wide C[2] = {WIDE_COS(l), WIDE_COS(to)}, S[2] = {WIDE_SIN(l), WIDE_SIN(to)};
-    const iso_wide q = Jb * C[0] * C[0] + Jc * S[0] * S[0], q_to = Jb * C[1] * C[1] + Jc * S[1] * S[1];
-    return WIDE_POW(q_to / q, 1 / (2 * (iso_wide)map->p.k));
+    const iso_wide C = WIDE_COS(l), S = WIDE_SIN(l);
+    return map->p.J[(map->axis + 1) % 3] * C * C + map->p.J[(map->axis + 2) % 3] * S * S;
 }
 
-/* How far the determinant is from the law, in units of the rounding errors that its terms explain. */
+/* The same where a return begins (iso_return_start). */
+static iso_wide q_of(const iso_periodic_map *map, const iso_return *r)
+{
+    const iso_wide u = iso_wide_of(r->from[0]), C = WIDE_COS(u), S = WIDE_SIN(u), Ja = map->p.J[map->axis];
+    const int beside = r->start == ISO_FROM_PLANE_B ? 2 : 1;
+    if (r->start <= ISO_FROM_BELOW) return q_at(map, u);
+    return r->start == ISO_FROM_POLE ? Ja : map->p.J[(map->axis + beside) % 3] * C * C + Ja * S * S;
+}
+
+/* G(l)/G(l'), by q and q': G = (2 eps)^(1/2) q^(-1/(2k)). */
+static iso_wide law(const iso_periodic_map *map, iso_wide q, iso_wide to)
+{
+    return WIDE_POW(to / q, 1 / (2 * (iso_wide)map->p.k));
+}
+
+iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to)
+{
+    return law(map, q_at(map, l), q_at(map, to));
+}
+
+/* How far the determinant is from the law, in units of the rounding errors that its terms explain. The area of (u, c)
+ * half way is G du dc. */
 static double doubt(const iso_periodic_map *map, const iso_return_code *code, const iso_return *r)
 {
-    const iso_wide law = iso_periodic_determinant(map, iso_wide_of(r->from[0]), iso_wide_of(r->to[0]));
+    const iso_wide wanted = law(map, q_of(map, r), q_at(map, iso_wide_of(r->to[0])));
     const double terms = fabs(r->slope[0][0].head * r->slope[1][1].head) +
-                         fabs(r->slope[0][1].head * r->slope[1][0].head) + (double)law;
-    return fabs((double)(determinant_of(r) - law)) / (terms * code->error);
+                         fabs(r->slope[0][1].head * r->slope[1][0].head) + (double)wanted;
+    return fabs((double)(WIDE_ABS(determinant_of(r)) - wanted)) / (terms * code->error);
 }
 
 /* One return. Steps are as long as the orbit allows; deviations that grow fast can need shorter ones. The determinant
@@ -177,21 +237,42 @@ static bool go_once(const iso_periodic_map *map, const iso_return_code *code, is
     return true;
 }
 
-bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
-                      iso_periodic_fine *found)
+/* Goes on by one return: of the whole way that is known, the end, the derivative and the clocks. */
+static bool go_on(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start,
+                  iso_periodic_fine *way)
 {
-    memset(found, 0, sizeof *found);
-    found->slope[0][0] = found->slope[1][1] = found->determinant = 1;
-    for (int i = 0; i < 2; i++) found->to[i] = from[i];
-    while (halves > 0) {
-        iso_return r = {.half = halves % 2 == 1};
-        for (int i = 0; i < 2; i++) r.from[i] = iso_fine_of(found->to[i]);
-        if (!go_once(map, code, &r)) return false;
-        for (int i = 0; i < 2; i++) found->to[i] = iso_wide_of(r.to[i]);
-        for (int c = 0; c < ISO_CLOCKS; c++) found->clock[c] += iso_wide_of(r.clock[c]);
-        chain(&r, found->slope);
-        found->determinant *= determinant_of(&r);
-        halves -= r.half ? 1 : 2;
+    iso_return r = {.start = start, .from = {iso_fine_of(way->to[0]), iso_fine_of(way->to[1])}};
+    if (!go_once(map, code, &r)) return false;
+    for (int i = 0; i < 2; i++) way->to[i] = iso_wide_of(r.to[i]);
+    for (int c = 0; c < ISO_CLOCKS; c++) way->clock[c] += iso_wide_of(r.clock[c]);
+    chain(&r, way->slope);
+    way->determinant *= determinant_of(&r);
+    return true;
+}
+
+static void stand_at(const iso_wide from[2], iso_periodic_fine *way)
+{
+    memset(way, 0, sizeof *way);
+    way->slope[0][0] = way->slope[1][1] = way->determinant = 1;
+    for (int i = 0; i < 2; i++) way->to[i] = from[i];
+}
+
+bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
+                      double (*path)[2], iso_periodic_fine *found)
+{
+    stand_at(from, found);
+    for (int n = 0; n < halves;) {
+        const bool half = path || (halves - n) % 2 == 1;
+        if (!go_on(map, code, half ? ISO_FROM_BELOW : ISO_FROM_CHART, found)) return false;
+        if (path) path[n][0] = (double)found->to[0], path[n][1] = (double)found->to[1];
+        n += half ? 1 : 2;
     }
     return true;
+}
+
+bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start, iso_wide u,
+                        iso_periodic_fine *found)
+{
+    stand_at((const iso_wide[2]){u, 0}, found);
+    return go_on(map, code, start, found);
 }

@@ -1,6 +1,6 @@
 /* periodic_search.c - symmetric periodic orbits: roots along the symmetry lines.
  *
- * z(u) runs along a line, and F_n(u) tells how far g^n z is from the same line. F_n is sampled with its derivative,
+ * u runs along a line, and F_n(u) tells how far the orbit is from the same line n half returns later. F_n is sampled with its derivative,
  * closer and closer until between two samples each F_n either has no zero or is monotone. A sign change then holds one
  * zero, a point of an orbit of period n or a divisor of it.
  */
@@ -13,26 +13,6 @@
 
 enum { FIRST = 192 /* intervals of a line at first */, DEEPEST = 14 /* halvings */, MOST_SAMPLES = 60000 };
 #define SKIPPED 1e-4 /* at the ends of the lines, where the rotations are */
-
-/* --- the lines -------------------------------------------------------------------------------------------------- */
-
-void iso_periodic_point_on(int line, double u, double z[2])
-{
-    z[0] = line == LINE_X ? u : line == LINE_0 ? 0 : ISO_PI / 2;
-    z[1] = line == LINE_X ? 0 : sin(u);
-}
-
-double iso_periodic_off(int line, const iso_periodic_point *at)
-{
-    return line == LINE_X ? at->x : line == LINE_0 ? sin(at->l) : cos(at->l);
-}
-
-/* The derivative of iso_periodic_off by the parameter u of the start. */
-static double off_slope(int line, double u, const iso_periodic_point *at)
-{
-    if (line == LINE_X) return at->slope[1][0];
-    return (line == LINE_0 ? cos(at->l) : -sin(at->l)) * at->slope[0][1] * cos(u);
-}
 
 /* --- samples ---------------------------------------------------------------------------------------------------- */
 
@@ -49,7 +29,9 @@ typedef struct interval {
 typedef struct bracket {
     int n;
     double low, high, off_low; /* F_n(low); F_n(high) has the other sign */
-    double u;
+    double u, z[2];            /* the best guess, and its point of the section */
+    double end[2];             /* g^n of this point */
+    bool there;                /* it is the orbit's own mirror image           */
     bool done;
 } bracket;
 
@@ -76,15 +58,55 @@ static iso_status grow(iso_context *ctx, void **list, size_t *room, size_t count
     return ISO_OK;
 }
 
-static iso_status evaluate(const search *s, size_t count, const double u[], int halves, double tolerance,
-                           iso_periodic_point *to)
+/* F_1 to F_halves of the line at u[i], and their slopes, are off[halves i], ... */
+typedef struct misses {
+    double (*z)[2];   /* the first point on the section */
+    double (*end)[2]; /* g^halves of it                 */
+    double *off, *slope;
+    bool *there;
+} misses;
+
+static void free_misses(misses *m)
 {
-    double(*from)[2] = malloc(count * sizeof *from);
-    if (!from) return iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
-    for (size_t i = 0; i < count; i++) iso_periodic_point_on(s->line, u[i], from[i]);
-    const iso_status status =
-        iso_periodic_walk(&s->w->map, count, (const double(*)[2])from, halves, false, tolerance, to);
-    free(from);
+    free(m->z);
+    free(m->end);
+    free(m->off);
+    free(m->slope);
+    free(m->there);
+}
+
+static iso_status make_misses(const search *s, size_t count, size_t halves, misses *m)
+{
+    m->z = malloc((count + 1) * sizeof *m->z);
+    m->end = malloc((count + 1) * sizeof *m->end);
+    m->off = malloc((count * halves + 1) * sizeof *m->off);
+    m->slope = malloc((count * halves + 1) * sizeof *m->slope);
+    m->there = malloc((count * halves + 1) * sizeof *m->there);
+    if (m->z && m->end && m->off && m->slope && m->there) return ISO_OK;
+    free_misses(m);
+    return iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
+}
+
+static iso_status evaluate(const search *s, size_t count, const double u[], int halves, double tolerance, misses *m)
+{
+    const size_t each = (size_t)halves;
+    double(*by_u)[2] = malloc((count + 1) * sizeof *by_u);
+    iso_periodic_point *at = malloc((count * each + 1) * sizeof *at);
+    iso_status status =
+        by_u && at ? ISO_OK : iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
+    if (status == ISO_OK) status = iso_periodic_place(&s->w->map, s->line, count, u, m->z, by_u);
+    if (status == ISO_OK)
+        status = iso_periodic_walk(&s->w->map, count, (const double(*)[2])m->z, halves, false, tolerance, at);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) {
+        iso_periodic_point before = {m->z[i][0], m->z[i][1], {{1, 0}, {0, 1}}};
+        for (size_t n = each * i; n < each * (i + 1); n++) {
+            m->off[n] = iso_periodic_miss(s->line, &before, &at[n], by_u[i], &m->slope[n], &m->there[n]);
+            before = at[n];
+        }
+        m->end[i][0] = before.l, m->end[i][1] = before.x;
+    }
+    free(by_u);
+    free(at);
     return status;
 }
 
@@ -92,19 +114,18 @@ static iso_status evaluate(const search *s, size_t count, const double u[], int 
 static iso_status take_samples(search *s, size_t count, const double u[])
 {
     const size_t P = (size_t)s->periods;
-    iso_periodic_point *at = malloc(count * P * sizeof *at);
-    iso_status status = at ? grow(s->w->ctx, (void **)&s->sample, &s->sample_room, s->samples, count, sizeof(sample))
-                           : iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
-    if (status == ISO_OK) status = evaluate(s, count, u, s->periods, 1e-10, at);
+    misses m;
+    iso_status status = grow(s->w->ctx, (void **)&s->sample, &s->sample_room, s->samples, count, sizeof(sample));
+    if (status == ISO_OK) status = make_misses(s, count, P, &m);
+    if (status != ISO_OK) return status;
+    status = evaluate(s, count, u, s->periods, 1e-10, &m);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
         sample *to = &s->sample[s->samples++];
         to->u = u[i];
-        for (size_t n = 0; n < P; n++) {
-            to->off[n] = iso_periodic_off(s->line, &at[P * i + n]);
-            to->slope[n] = off_slope(s->line, u[i], &at[P * i + n]);
-        }
+        memcpy(to->off, &m.off[P * i], P * sizeof *to->off);
+        memcpy(to->slope, &m.slope[P * i], P * sizeof *to->slope);
     }
-    free(at);
+    free_misses(&m);
     return status;
 }
 
@@ -211,36 +232,41 @@ static void next_guess(bracket *b, double off, double slope)
 }
 
 /* One step of all brackets of F_n. *left: how many go on. */
-static iso_status step_roots(search *s, int n, double u[], size_t of[], iso_periodic_point *at, size_t *left)
+static iso_status step_roots(search *s, int n, double u[], size_t of[], misses *m, size_t *left)
 {
     size_t count = 0;
     *left = 0;
     for (size_t i = 0; i < s->brackets; i++)
         if (s->bracket[i].n == n && !s->bracket[i].done) u[count] = s->bracket[i].u, of[count++] = i;
-    const iso_status status = evaluate(s, count, u, n, 1e-13, at);
+    const iso_status status = evaluate(s, count, u, n, 1e-13, m);
     for (size_t i = 0; i < count && status == ISO_OK; i++) {
-        const iso_periodic_point *end = &at[(size_t)n * i + (size_t)n - 1];
-        next_guess(&s->bracket[of[i]], iso_periodic_off(s->line, end), off_slope(s->line, u[i], end));
-        *left += !s->bracket[of[i]].done;
+        const size_t end = (size_t)n * (i + 1) - 1;
+        bracket *b = &s->bracket[of[i]];
+        memcpy(b->z, m->z[i], sizeof b->z);
+        memcpy(b->end, m->end[i], sizeof b->end);
+        b->there = m->there[end];
+        next_guess(b, m->off[end], m->slope[end]);
+        *left += !b->done;
     }
     return status;
 }
 
 static iso_status find_roots(search *s)
 {
+    misses m;
+    iso_status status = make_misses(s, s->brackets, (size_t)s->periods, &m);
+    if (status != ISO_OK) return status;
     double *u = malloc((s->brackets + 1) * sizeof *u);
     size_t *of = malloc((s->brackets + 1) * sizeof *of);
-    iso_periodic_point *at = malloc((s->brackets + 1) * (size_t)s->periods * sizeof *at);
-    iso_status status =
-        u && of && at ? ISO_OK : iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
+    if (!u || !of) status = iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
     for (int n = 1; n <= s->periods && status == ISO_OK; n++) {
         size_t left = 1;
         for (int steps = 0; steps < 40 && left > 0 && status == ISO_OK; steps++)
-            status = step_roots(s, n, u, of, at, &left);
+            status = step_roots(s, n, u, of, &m, &left);
     }
     free(u);
     free(of);
-    free(at);
+    free_misses(&m);
     return status;
 }
 
@@ -250,18 +276,32 @@ static int by_place(const void *a, const void *b)
     return (one->u > other->u) - (one->u < other->u);
 }
 
-/* Of an orbit's points on the line the one with the least u counts. */
+/* Whether b seems to be the other point on the line of an orbit that has one before b. Copies of both count. */
+static bool comes_again(const search *s, const bracket *b)
+{
+    for (const bracket *a = s->bracket; a < b; a++) {
+        const double l = fabs(remainder(a->end[0], ISO_PI)) - fabs(remainder(b->z[0], ISO_PI));
+        if (a->n == b->n && a->there && fabs(l) < 1e-4 && fabs(fabs(a->end[1]) - fabs(b->z[1])) < 1e-4) return true;
+    }
+    return false;
+}
+
+/* Of an orbit's points on the line the one with the least u counts. Those that seem to be others come last: by then
+ * their orbits are known, and most need not be solved. */
 static iso_status add_roots(search *s)
 {
-    iso_status status = ISO_OK;
+    iso_periodic_candidate *c = malloc((s->brackets + 1) * sizeof *c);
+    iso_status status = c ? ISO_OK : iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
     if (s->brackets > 0) qsort(s->bracket, s->brackets, sizeof *s->bracket, by_place);
-    for (int n = 1; n <= s->periods; n++)
-        for (size_t i = 0; i < s->brackets && status == ISO_OK; i++) {
-            if (s->bracket[i].n != n) continue;
-            double z[2];
-            iso_periodic_point_on(s->line, s->bracket[i].u, z);
-            status = iso_periodic_add(s->w, &(iso_periodic_candidate){s->line, n, z[0], z[1]}, NULL);
-        }
+    for (int turn = 0; turn < 2 * s->periods && status == ISO_OK; turn++) {
+        const int n = turn / 2 + 1;
+        size_t count = 0;
+        for (const bracket *b = s->bracket; b < s->bracket + s->brackets; b++)
+            if (b->n == n && b->there && comes_again(s, b) == turn % 2)
+                c[count++] = (iso_periodic_candidate){s->line, n, b->u, b->z[0], b->z[1]};
+        status = iso_periodic_add(s->w, c, count);
+    }
+    free(c);
     return status;
 }
 
@@ -279,10 +319,11 @@ static iso_status search_line(iso_periodic_work *w, int line)
 
 iso_status iso_periodic_search(iso_periodic_work *w)
 {
+    const int lines = fabs(w->map.p.k) == 1 ? LINE_POLE : LINES; /* each torus has orbits on the first lines */
     iso_status status = ISO_OK;
-    for (int line = 0; line < LINES && status == ISO_OK; line++) {
+    for (int line = 0; line < lines && status == ISO_OK; line++) {
         status = search_line(w, line);
-        if (w->options.progress) w->options.progress((line + 1.0) / LINES, w->options.data);
+        if (w->options.progress) w->options.progress((line + 1.0) / lines, w->options.data);
     }
     return status;
 }

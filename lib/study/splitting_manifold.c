@@ -34,7 +34,7 @@ static iso_status no_return(const iso_manifold *m)
 
 iso_status iso_manifold_map(const iso_manifold *m, const iso_wide z[2], iso_wide image[2], iso_wide A[2][2])
 {
-    iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])}, .half = true};
+    iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])}, .start = ISO_FROM_BELOW};
     if (!iso_context_goes_on(m->ctx)) return iso_context_fail(m->ctx, ISO_STOPPED, "", "stopped on request");
     if (!(WIDE_ABS(z[1]) < 1)) return no_return(m);
     if (!m->code->go(&m->model, m->axis, m->zeros, m->tolerance, &r)) return no_return(m);

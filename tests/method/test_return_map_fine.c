@@ -40,7 +40,7 @@ static void prepare(double k, const double J[3])
 
 static iso_return go(const iso_return_code *code, bool half, const iso_fine from[2])
 {
-    iso_return r = {.from = {from[0], from[1]}, .half = half};
+    iso_return r = {.from = {from[0], from[1]}, .start = half ? ISO_FROM_BELOW : ISO_FROM_CHART};
     if (!code->go(&model, axis, zeros, code == codes[0] ? 1e-15 : 1e-17, &r)) gsl_test(1, "no return");
     return r;
 }

@@ -36,6 +36,34 @@ static void start_on_section(form *T, int axis, NUMBER l, NUMBER x)
     for (int d = 1; d < CHANNELS; d++) restore_deviation(T, s, &T->deviation[d]);
 }
 
+/* The state and its derivatives by u and c half way between two crossings (iso_return_start). */
+static void start_half_way(form *T, int axis, iso_return_start start, NUMBER u)
+{
+    const bool pole = start == ISO_FROM_POLE;
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3, across = start == ISO_FROM_PLANE_C ? c : b;
+    const int first = pole ? b : across == b ? c : b, second = pole ? c : axis; /* the plane in which u turns */
+    const NUMBER cosine = COS(u), sine = SIN(u), sign = pole ? 1 : -1;
+    state *s = &T->now, *by_u = &T->deviation[1], *by_c = &T->deviation[2];
+    real terms;
+    memset(s, 0, sizeof *s);
+    memset(T->deviation, 0, sizeof T->deviation);
+    if (pole)
+        s->n[axis] = -1;
+    else
+        s->n[first] = cosine, s->n[second] = sign * sine;
+    const NUMBER v = ROOT(square_of_speed(T, s, &terms));
+    if (pole) {
+        s->w[first] = v * cosine, s->w[second] = v * sine;
+        by_u->w[first] = -v * sine, by_u->w[second] = v * cosine;
+        by_c->n[first] = -sine, by_c->n[second] = cosine;
+    } else {
+        s->w[across] = v;
+        by_u->n[first] = -sine, by_u->n[second] = sign * cosine;
+        by_c->w[first] = -v * sine, by_c->w[second] = sign * v * cosine;
+    }
+    for (int d = 1; d < CHANNELS; d++) restore_deviation(T, s, &T->deviation[d]);
+}
+
 /* -gamma and -gamma', for half a return. */
 static void turn_over(form *T)
 {
@@ -101,7 +129,7 @@ static bool cross_step(const form *T, int axis, NUMBER length, NUMBER zeros, NUM
     return false;
 }
 
-static bool go_round(form *T, int axis, NUMBER zeros, iso_return *r)
+static bool go_round(form *T, int axis, NUMBER zeros, bool on_section, iso_return *r)
 {
     enum { MOST_STEPS = 100000 };
     NUMBER passed = 0;
@@ -113,7 +141,7 @@ static bool go_round(form *T, int axis, NUMBER zeros, iso_return *r)
         const NUMBER length = choose_step(T, 1, gained);
         find_state(T, length, gained, &after);
         if (!(after.n[0] - after.n[0] == 0)) return false;
-        if (cross_step(T, axis, length, zeros, steps == 0 ? 0 : T->now.n[axis], after.n[axis], &x))
+        if (cross_step(T, axis, length, zeros, steps == 0 && on_section ? 0 : T->now.n[axis], after.n[axis], &x))
             return arrive(T, axis, x, passed, r), true;
         for (int c = 1; c < CHANNELS; c++) {
             state d;
@@ -134,11 +162,15 @@ static bool go(const iso_model *model, int axis, double zeros, double tolerance,
     y[3 + (axis + 1) % 3] = y[axis] = 1;
     set_shape(T, model, tolerance);
     start_orbit(T, 0, model, y);
-    start_on_section(T, axis, number_of(r->from[0]), number_of(r->from[1]));
-    if (r->half) turn_over(T);
+    const bool on_section = r->start <= ISO_FROM_BELOW;
+    if (on_section)
+        start_on_section(T, axis, number_of(r->from[0]), number_of(r->from[1]));
+    else
+        start_half_way(T, axis, r->start, number_of(r->from[0]));
+    if (r->start == ISO_FROM_BELOW) turn_over(T);
     T->scale[1] = T->scale[2] = 0;
     T->second_of = NONE; /* the start is exact: nothing to restore it to */
-    const bool there = go_round(T, axis, zeros, r);
+    const bool there = go_round(T, axis, zeros, on_section, r);
     free(T);
     return there;
 }

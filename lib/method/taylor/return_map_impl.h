@@ -9,14 +9,26 @@ typedef struct iso_fine {
     double head, tail;
 } iso_fine;
 
-/* One return: the start, and what is found.
+/* Where a return begins. from[0] and from[1] are its coordinates there.
  *
- * Half a return: the equations are odd in gamma, so that (-gamma, -gamma') of a crossing begins an orbit as well.
- * There gamma_a goes down, and passes 0 upwards after half a return. The square of this map is the return map, and
- * it keeps the fixed points (rotations) as they are: its derivative there has the half-turn trace, up to its sign. */
+ * The equations are odd in gamma, so that (-gamma, -gamma') of a crossing begins an orbit as well. There gamma_a goes
+ * down, and passes 0 upwards after half a return. The square of this map is the return map, and it keeps the fixed
+ * points (rotations) as they are: its derivative there has the half-turn trace, up to its sign.
+ *
+ * The others begin half way between two crossings, where a reversor leaves the state as it is: the motion before is the
+ * mirror image of the motion after. (b, c, a) are the axes in cyclic order, gamma' = v (...), v^2 = F(q). */
+typedef enum iso_return_start {
+    ISO_FROM_CHART,   /* (l, x) of a crossing upwards                                                       */
+    ISO_FROM_BELOW,   /* (l, x) of a crossing upwards: its -gamma, -gamma'. Half a return                    */
+    ISO_FROM_POLE,    /* gamma = -e_a, gamma' = v (cos u, sin u, 0); c moves gamma across gamma'             */
+    ISO_FROM_PLANE_B, /* gamma = (0, cos u, -sin u), gamma' = v e_b; c turns gamma' out of its direction      */
+    ISO_FROM_PLANE_C  /* gamma = (cos u, 0, -sin u), gamma' = v e_c; likewise. from = (u, c), c = 0            */
+} iso_return_start;
+
+/* One return: the start, and what is found. */
 typedef struct iso_return {
-    iso_fine from[2], to[2];    /* (l, x)                                      */
-    bool half;                  /* half a return: the start is the point with -gamma and -gamma' instead */
+    iso_return_start start;
+    iso_fine from[2], to[2];    /* (l, x), or (u, c) of a start half way       */
     iso_fine slope[2][2];       /* d to[i]/d from[j]                           */
     iso_fine clock[ISO_CLOCKS]; /* how long it took; of clocks that the model carries, and its own */
 } iso_return;

@@ -1,0 +1,179 @@
+/* periodic_line.c - the six symmetry lines of the return map, and shots from one of them to itself.
+ *
+ * Between the crossings g^(p-1) z and g^p z an orbit passes a line half way if g^p z = S g^(p-1) z. So what stands for
+ * the distance from the line is the middle of the two crossings, and its derivative (1 + D g)/2.
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/pi_impl.h"
+#include "study/periodic_impl.h"
+
+iso_wide iso_periodic_wrap(iso_wide angle, iso_wide period)
+{
+    return angle - WIDE_ROUND(angle / period) * period;
+}
+
+int iso_line_axis_at(int axis, int line, bool end)
+{
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    if (line == LINE_X) return end ? b : c;
+    if (line == LINE_POLE) return end ? b : c;
+    if (iso_line_is_half_way(line)) return !end ? axis : line == LINE_PLANE_B ? c : b;
+    return end ? axis : line == LINE_0 ? c : b;
+}
+
+void iso_periodic_reverse(int reversor, const double z[2], double to[2])
+{
+    to[0] = reversor == 0 ? z[0] : reversor == 1 ? -z[0] : ISO_PI - z[0];
+    to[1] = reversor == 0 ? -z[1] : z[1];
+}
+
+static iso_return_start start_of(int line)
+{
+    return line == LINE_POLE ? ISO_FROM_POLE : line == LINE_PLANE_B ? ISO_FROM_PLANE_B : ISO_FROM_PLANE_C;
+}
+
+/* --- in doubles ------------------------------------------------------------------------------------------------- */
+
+static void place_on_section(int line, double u, double z[2], double by_u[2])
+{
+    const bool flat = line == LINE_X;
+    z[0] = flat ? u : line == LINE_0 ? 0 : ISO_PI / 2;
+    z[1] = flat ? 0 : sin(u);
+    by_u[0] = flat ? 1 : 0;
+    by_u[1] = flat ? 0 : cos(u);
+}
+
+/* The slopes are differences: they need few digits, for they only guide the search. */
+static iso_status place_half_way(const iso_periodic_map *map, int line, size_t count, const double u[],
+                                 double (*z)[2], double (*by_u)[2])
+{
+    const double h = 1e-5;
+    double *near = calloc(3 * count + 1, sizeof *near), (*to)[2] = malloc((3 * count + 1) * sizeof *to);
+    iso_status status =
+        near && to ? ISO_OK : iso_context_fail(map->ctx, ISO_NO_MEMORY, "", "no memory for the search");
+    for (size_t i = 0; i < 3 * count && status == ISO_OK; i++) near[i] = u[i / 3] + h * ((double)(i % 3) - 1);
+    if (status == ISO_OK) status = iso_periodic_enter_many(map, start_of(line), 3 * count, near, to);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) {
+        double(*const at)[2] = &to[3 * i];
+        memcpy(z[i], at[1], sizeof z[i]);
+        by_u[i][0] = remainder(at[2][0] - at[0][0], 2 * ISO_PI) / (2 * h);
+        by_u[i][1] = (at[2][1] - at[0][1]) / (2 * h);
+    }
+    free(near);
+    free(to);
+    return status;
+}
+
+iso_status iso_periodic_place(const iso_periodic_map *map, int line, size_t count, const double u[], double (*z)[2],
+                              double (*by_u)[2])
+{
+    if (iso_line_is_half_way(line)) return place_half_way(map, line, count, u, z, by_u);
+    for (size_t i = 0; i < count; i++) place_on_section(line, u[i], z[i], by_u[i]);
+    return ISO_OK;
+}
+
+/* Whether S before = at, loosely. */
+static bool is_mirrored(int line, const iso_periodic_point *before, const iso_periodic_point *at)
+{
+    double image[2];
+    iso_periodic_reverse(iso_line_reversor(line), (const double[2]){before->l, before->x}, image);
+    return fabs(remainder(at->l - image[0], 2 * ISO_PI)) < 1e-3 && fabs(at->x - image[1]) < 1e-3;
+}
+
+double iso_periodic_miss(int line, const iso_periodic_point *before, const iso_periodic_point *at,
+                         const double by_u[2], double *slope, bool *there)
+{
+    const double part = iso_line_is_half_way(line) ? 1 : 0, l = at->l + part * before->l,
+                 x = at->x + part * before->x;
+    double change[2]; /* of l and x by u */
+    for (int i = 0; i < 2; i++)
+        change[i] = (at->slope[i][0] + part * before->slope[i][0]) * by_u[0] +
+                    (at->slope[i][1] + part * before->slope[i][1]) * by_u[1];
+    *there = !iso_line_is_half_way(line) || is_mirrored(line, before, at);
+    if (iso_line_reversor(line) == 0) return *slope = change[1], x;
+    if (line == LINE_QUARTER) return *slope = -sin(l) * change[0], cos(l);
+    return *slope = cos(l) * change[0], sin(l);
+}
+
+/* --- shots ------------------------------------------------------------------------------------------------------ */
+
+/* From A, the derivative of (l, x) at `end` by (u, c), with its determinant. */
+static void arrive(int line, const iso_wide end[2], const iso_wide A[2][2], iso_wide det, iso_periodic_shot *s)
+{
+    const int odd = iso_line_reversor(line) == 0 ? 1 : 0; /* which of l, x the reversor turns over */
+    for (int j = 0; j < 2; j++) s->D[0][j] = A[1 - odd][j], s->D[1][j] = A[odd][j];
+    s->det = odd == 1 ? det : -det;
+    s->off =
+        odd == 1 ? end[1] : iso_periodic_wrap(end[0] - (iso_line_reversor(line) == 1 ? 0 : WIDE_PI / 2), WIDE_PI);
+    const iso_wide across = s->D[0][1] * s->D[1][0] / s->det, along = s->D[0][0] * s->D[1][1] / s->det;
+    s->trace = WIDE_ABS(across) < WIDE_ABS(along) ? 2 + 4 * across : 4 * along - 2; /* the smaller has more digits */
+}
+
+static bool shoot_from_section(const iso_periodic_map *map, const iso_return_code *code, int line, int period,
+                               iso_periodic_shot *s)
+{
+    const bool flat = line == LINE_X;
+    s->z[0] = flat ? s->u : line == LINE_0 ? 0 : WIDE_PI / 2;
+    s->z[1] = flat ? 0 : WIDE_SIN(s->u);
+    if (!(WIDE_ABS(s->z[1]) < 1) || !iso_periodic_far(map, code, s->z, period, s->path, &s->way)) return false;
+    const iso_wide stretch = flat ? 1 : WIDE_COS(s->u), law = iso_periodic_determinant(map, s->z[0], s->way.to[0]);
+    iso_wide A[2][2];
+    for (int i = 0; i < 2; i++) {
+        A[i][0] = s->way.slope[i][flat ? 0 : 1] * stretch;
+        A[i][1] = s->way.slope[i][flat ? 1 : 0];
+    }
+    arrive(line, s->way.to, (const iso_wide(*)[2])A, flat ? law : -law * stretch, s);
+    memcpy(s->clock, s->way.clock, sizeof s->clock);
+    return true;
+}
+
+/* product = A B */
+static void multiply(const iso_wide A[2][2], const iso_wide B[2][2], iso_wide product[2][2])
+{
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) product[i][j] = A[i][0] * B[0][j] + A[i][1] * B[1][j];
+}
+
+/* before, last: the crossings around the line at the end, from z and from there. */
+static void join(int line, const iso_periodic_fine *in, const iso_periodic_fine *before,
+                 const iso_periodic_fine *last, iso_periodic_shot *s)
+{
+    iso_wide middle[2][2], from_z[2][2], A[2][2], end[2];
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) middle[i][j] = (last->slope[i][j] + (i == j)) / 2;
+    for (int i = 0; i < 2; i++) end[i] = (before->to[i] + last->to[i]) / 2;
+    multiply((const iso_wide(*)[2])middle, before->slope, from_z);
+    multiply((const iso_wide(*)[2])from_z, in->slope, A);
+    const iso_wide det = middle[0][0] * middle[1][1] - middle[0][1] * middle[1][0];
+    arrive(line, end, (const iso_wide(*)[2])A, det * before->determinant * in->determinant, s);
+    s->way = *last;
+    multiply(last->slope, before->slope, s->way.slope);
+    s->way.determinant = last->determinant * before->determinant;
+    for (int c = 0; c < ISO_CLOCKS; c++) {
+        s->way.clock[c] = before->clock[c] + last->clock[c];
+        s->clock[c] = in->clock[c] + before->clock[c] + last->clock[c] / 2;
+    }
+}
+
+static bool shoot_from_half_way(const iso_periodic_map *map, const iso_return_code *code, int line, int period,
+                                iso_periodic_shot *s)
+{
+    iso_periodic_fine in, before, last;
+    if (!iso_periodic_enter(map, code, start_of(line), s->u, &in)) return false;
+    memcpy(s->z, in.to, sizeof s->z);
+    if (!iso_periodic_far(map, code, s->z, period - 1, s->path, &before)) return false;
+    if (!iso_periodic_far(map, code, before.to, 1, s->path + period - 1, &last)) return false;
+    join(line, &in, &before, &last, s);
+    return true;
+}
+
+bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_code *code, int line, iso_wide u, int period,
+                        iso_periodic_shot *shot)
+{
+    shot->u = u;
+    if (iso_line_is_half_way(line)) return shoot_from_half_way(map, code, line, period, shot);
+    return shoot_from_section(map, code, line, period, shot);
+}
