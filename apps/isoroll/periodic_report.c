@@ -58,8 +58,8 @@ void periodic_print(const periodic_report *r)
     printf("k = %.15g, J = %.15g %.15g %.15g; section n_%d = 0, n_%d increasing\n\n", r->scene->params.k, J[0], J[1],
            J[2], f->axis + 1, f->axis + 1);
     print_rotations(r);
-    printf("\nperiodic orbits of %d returns at most%s, but the rotations: %zu\n", r->period,
-           r->all ? "" : " that S1, S2 or S3 maps to themselves", f->count);
+    printf("\n%s orbits of %d returns at most, but the rotations: %zu\n", r->all ? "periodic" : "symmetric periodic",
+           r->period, f->count);
     if (f->count > 0)
         printf(r->polish ? "  no  period  %25s  %34s  %34s  error  closure  stability   symmetry\n"
                          : "  no  period  %10s  %18s  %24s  error  stability   symmetry  copies  t\n",
@@ -135,6 +135,7 @@ static json_t *orbit_of(const periodic_report *r, size_t i)
                           json_number(p->l), "x", json_number(p->x), "trace", json_number(p->trace), "error",
                           json_number(p->error), "closure", json_number(p->closure), "determinant",
                           json_number(1 + p->determinant), "symmetry", words, "torus", (int)p->torus);
+    json_object_set_new(o, "line", p->line >= 0 ? json_string(iso_line_name(p->line)) : json_null());
     put_clocks(o, p->clock);
     put_multipliers(o, &p->multipliers);
     json_object_set_new(o, "copies", pairs((size_t)p->copies, p->copy));

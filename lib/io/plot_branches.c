@@ -40,9 +40,8 @@ iso_status iso_plot_branches(iso_context *ctx, const char *path, const char *tit
         "set arrow 2 from graph 0, first -2 to graph 1, first -2 nohead dt 2 lc rgb '#707070'\n",
         f);
     fprintf(f, "plot for [i=0:%d] $trace index i w l lw 1.5 lc i\n", (int)branches);
-    fputs("unset arrow; set yrange [0:1]\nset tmargin at screen 0.48; set bmargin at screen 0.09\nset ylabel '|x|, "
-          "or on x "
-          "= 0: 2 l/π' offset 1,0\nset xlabel ",
+    fputs("unset arrow; set yrange [0:1]\nset tmargin at screen 0.48; set bmargin at screen 0.09\nset ylabel 'place "
+          "on the line: 2 u/π' offset 1,0\nset xlabel ",
           f);
     iso_gnuplot_text(f, parameter, 8);
     fprintf(f, "\nplot for [i=0:%d] $place index i w l lw 1.5 lc i\nunset multiplot\n", (int)branches);

@@ -44,7 +44,7 @@ run 0 periodic b.yaml --period 3 -o two.csv -j 1
 check "threads change nothing" cmp b.csv two.csv
 run 0 periodic b.yaml --period 3 --all -o all.csv
 check "--all has more" test "$(rows all.csv | wc -l)" -gt "$count"
-check "and all of the others" test "$(rows all.csv | awk -F, '$8 ~ /(^| )S/' | wc -l)" -ge "$count"
+check "and all of the others" test "$(rows all.csv | awk -F, '$8 != "none"' | wc -l)" -ge "$count"
 run 0 periodic b.yaml --period 1 --polish
 check "--polish: 30 digits" grep -q "6\.27038962043661[0-9]\{14,\}" out
 run 0 periodic d.yaml --period 6
@@ -68,9 +68,16 @@ run 0 periodic b.yaml --period 1 --orbit 1 --follow k=0.3:0.8 -o f.csv
 check "a period doubling" grep -q "period doubling *k = 0.57775689376" out
 check "a collision" grep -q "it shrinks onto the rotation about axis 1 at k = 0.65388982" out
 check "symmetry breaking" grep -q "symmetry breaking *k = 0.415374" out
-check "columns of a branch" test "$(columns f.csv)" = "branch,period,k,l,x,trace,event"
+check "columns of a branch" test "$(columns f.csv)" = "branch,line,period,k,l,x,trace,event"
 run 0 periodic b.yaml --period 2 --orbit 2 --follow k=0.4:0.6 --json
 check "JSON of a branch" grep -q '"kind": "period doubling"' out
+run 0 periodic a.yaml --period 2
+check "a stable orbit that only T S1 and T S3 map to themselves" grep -q "stable *TS1 TS3  " out
+run 0 periodic a.yaml --period 2 --follow k=0.45:0.6 -o pair.csv -j 1
+ends=$(rows pair.csv | awk -F, '$8 == "collision" { printf "%s:%.9f ", $2, $4 }')
+check "it ends with its partner, of S1, on a rotation" test "$ends" = "TS1:0.569013706 S1:0.569013706 "
+run 0 periodic a.yaml --period 2 --follow k=0.45:0.6 -o two.csv
+check "threads change no branch" cmp pair.csv two.csv
 run 0 periodic a.yaml --period 4 --orbit 1 --follow J2=1.9:2.3
 check "by a moment" grep -q "J2 from 1.9 to 2.3" out
 run 0 periodic a.yaml --period 4 --orbit 1 --follow ratio=0.4:0.45
@@ -100,6 +107,8 @@ refuses 3 "expected NAME=A:B" periodic b.yaml --period 1 --follow h=1:2
 refuses 3 "expected J1, J2 or J3" periodic b.yaml --chart J4
 refuses 3 "is no range" periodic b.yaml --chart J2=3:1
 refuses 2 "give 1 to 64" periodic b.yaml --period 65
+refuses 5 "nowhere" periodic b.yaml --period 1 --follow k=0.4:0.6 -o nowhere/f.csv
+refuses 5 "nowhere" periodic b.yaml --chart J2 -o nowhere/f.csv
 refuses 2 "not both" periodic b.yaml --chart J2 --follow k=0.4:0.6
 refuses 2 "choose -o - or --json" periodic b.yaml --json -o -
 refuses 2 "expected" periodic b.yaml --period 0
