@@ -13,12 +13,6 @@ typedef struct options {
     bool json;
 } options;
 
-static void show(double part, void *unused)
-{
-    (void)unused;
-    progress_show(part);
-}
-
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
 static void print_head(const options *o, const iso_scene *scene, const iso_integral_search *r)
@@ -164,7 +158,7 @@ static iso_integral_search_options options_of(const options *o)
     how.within = o->within;
     if (!isnan(o->scene.tolerance)) how.tolerance = o->scene.tolerance;
     how.threads = o->threads < 4096 ? (int)o->threads : 4096;
-    how.progress = show;
+    how.progress = progress_told;
     return how;
 }
 

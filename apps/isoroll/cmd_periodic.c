@@ -30,11 +30,6 @@ static int how_many_threads(const options *o)
     return o->threads < 4096 ? (int)o->threads : 4096;
 }
 
-static int worse(int a, int b)
-{
-    return a > b ? a : b;
-}
-
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
 static int tell_gaps(const iso_periodic *f)

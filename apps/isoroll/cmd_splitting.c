@@ -296,11 +296,6 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scen
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static int worse(int a, int b)
-{
-    return a > b ? a : b;
-}
-
 static void show(double part, void *unused)
 {
     (void)unused;

@@ -48,7 +48,7 @@ typedef struct iso_crossings_task {
 } iso_crossings_task;
 
 /* Follows the wanted orbits that lanes can hold. For each of them taken[i] becomes true, and done[i], status[i], the
- * crossings and samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED, or that of the first orbit that failed. */
+ * crossings and samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED; failures of orbits are in status[i]. */
 iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *task, bool taken[]);
 void iso_crossings_free_lane(struct iso_crossings_lane *lane);
 
@@ -63,9 +63,6 @@ iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_c
 /* n_axis has at most one zero within 1/(this number) of `variable`: the clock t or s of an orbit with coupling eps. */
 double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock variable);
 
-/* The axis of the section of an orbit; -1: the section is none of ISO_SECTION_AXIS. */
-int iso_crossings_axis(const iso_crossings *c, size_t i);
-
 /* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section: n_a = 0 up to 1e-8 of a
  * radian of its oscillation. Such a start is no crossing, and an event there is not counted. Without this margin ball
  * and point, or lanes and single orbits, would disagree if n_a is 0 up to rounding. *upwards: n_a increases; else the
@@ -78,8 +75,11 @@ bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const d
  * counts. */
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance);
 
-/* The options with which orbit i is created: by `backend`, with the other clocks if `clocks`. */
-iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_backend backend, bool clocks);
+/* The first way to prepare orbit i. Without an isomorphism there are no other clocks. */
+iso_way iso_crossings_way(const iso_crossings *c, size_t i);
+
+/* The options with which orbit i is created. */
+iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_way way);
 
 /* The model that an orbit integrates. */
 iso_model_kind iso_crossings_model(const iso_orbit *orbit);
@@ -95,7 +95,8 @@ iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const is
                               double s);
 
 /* The directions of (M, gamma) at a state of the model; the lengths differ. point and y may be one array. */
-void iso_crossings_point(const iso_orbit *orbit, const double y[ISO_STATE], double point[ISO_STATE]);
+void iso_crossings_point(const iso_params *p, iso_model_kind model, const double y[ISO_STATE],
+                         double point[ISO_STATE]);
 
 /* The sample that the caller asks for. */
 void iso_crossings_give(const iso_crossings *c, const iso_sample *from, iso_sample *to);

@@ -51,35 +51,20 @@ static void set_search(struct iso_crossings_lane *lane, const iso_crossed *o)
         fmin(iso_clock_rate(p, ISO_CLOCK_S, min3(p->J), NULL), iso_clock_rate(p, ISO_CLOCK_S, max3(p->J), NULL));
 }
 
-static iso_status prepare_as(iso_pool_worker *w, const iso_crossings *c, size_t i, iso_backend backend, bool clocks,
-                             struct iso_crossings_lane *lane)
-{
-    const iso_batch_orbit *of = &c->orbits[i];
-    memset(&lane->orbit, 0, sizeof lane->orbit);
-    lane->orbit.ctx = w->ctx;
-    lane->orbit.options = iso_crossings_orbit_options(c, i, backend, clocks);
-    if (c->options.kind == ISO_SECTION_AXIS)
-        lane->orbit.options.clock = ISO_CLOCK_T; /* its series are the shortest */
-    lane->has_clocks = clocks;
-    return iso_orbit_prepare(&lane->orbit, of->params, of->start, lane->job.start);
-}
-
-/* With all clocks, if there is an isomorphism and they fit a double. */
-static iso_status prepare_with_clocks(iso_pool_worker *w, const iso_crossings *c, size_t i, iso_backend backend,
-                                      struct iso_crossings_lane *lane)
-{
-    const iso_effects *effects = c->orbits[i].effects;
-    const bool mapped = !effects || !iso_effects_breaking(effects);
-    const iso_status status = prepare_as(w, c, i, backend, mapped, lane);
-    return status == ISO_NUMERICAL && mapped ? prepare_as(w, c, i, backend, false, lane) : status;
-}
-
 static iso_status prepare(iso_pool_worker *w, const iso_crossings *c, size_t i, struct iso_crossings_lane *lane)
 {
-    const bool choose = c->options.backend == ISO_BACKEND_AUTO;
-    const bool try_point = choose && fabs(c->orbits[i].params->k) >= 0.125;
-    iso_status status = try_point ? prepare_with_clocks(w, c, i, ISO_BACKEND_POINT, lane) : ISO_NOT_MAPPED;
-    if (status != ISO_OK) status = prepare_with_clocks(w, c, i, choose ? ISO_BACKEND_BALL : c->options.backend, lane);
+    const iso_batch_orbit *of = &c->orbits[i];
+    iso_orbit *orbit = &lane->orbit;
+    iso_way way = iso_crossings_way(c, i);
+    iso_status status;
+    do {
+        memset(orbit, 0, sizeof *orbit);
+        orbit->ctx = w->ctx;
+        orbit->options = iso_crossings_orbit_options(c, i, way);
+        if (c->options.kind == ISO_SECTION_AXIS) orbit->options.clock = ISO_CLOCK_T; /* its series are the shortest */
+        lane->has_clocks = way.clocks;
+        status = iso_orbit_prepare(orbit, of->params, of->start, lane->job.start);
+    } while (iso_way_next(&way, status));
     return status;
 }
 
@@ -200,6 +185,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     iso_crossed *o = &c->orbit[i];
     struct iso_crossings_lane *lane = o->lane;
     const iso_orbit *orbit = &lane->orbit;
+    const iso_params *own = &orbit->units.own;
     double point[ISO_STATE];
     const double s = clock_of(orbit, ISO_CLOCK_S, y, time);
     iso_status status = iso_crossings_hold(w->ctx, c, o, orbit, s);
@@ -207,8 +193,8 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     iso_crossing_blank(to);
     for (iso_clock k = 0; k < ISO_CLOCKS; k++) to->clock[k] = clock_of(orbit, k, y, time) * orbit->unit_clock[k];
     if (o->axis >= 0) {
-        orbit->system == &iso_system_point_t ? iso_point_t_to_point(&orbit->units.own, y, point)
-                                             : iso_crossings_point(orbit, y, point);
+        orbit->system == &iso_system_point_t ? iso_point_t_to_point(own, y, point)
+                                             : iso_crossings_point(own, iso_crossings_model(orbit), y, point);
         iso_section_chart(o->axis, point, &to->l, &to->x);
     }
     if (e) tell_deviations(lane, o, e, to);
@@ -225,7 +211,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
 
 /* Room for what lanes store: for each orbit of a chunk, at most `rows` crossings at a time. */
 typedef struct room {
-    size_t rows, dim;
+    size_t rows;
     double *states, *times;
     iso_lane_event *events;
 } room;
@@ -242,9 +228,8 @@ static bool make_room(const follower *f, size_t orbits, room *r)
     const size_t bytes = f->c->options.deviations ? sizeof(iso_lane_event) : (ISO_MAX_STATE + 1) * sizeof(double);
     const size_t most = BYTES / (orbits * bytes);
     r->rows = f->task->each < most ? f->task->each : most;
-    r->dim = ISO_MAX_STATE;
     r->events = f->c->options.deviations ? malloc(orbits * r->rows * sizeof *r->events) : NULL;
-    r->states = f->c->options.deviations ? NULL : malloc(orbits * r->rows * r->dim * sizeof *r->states);
+    r->states = f->c->options.deviations ? NULL : malloc(orbits * r->rows * ISO_MAX_STATE * sizeof *r->states);
     r->times = malloc(orbits * r->rows * sizeof *r->times);
     if (r->times && (r->events || r->states)) return true;
     free_room(r);
@@ -262,8 +247,8 @@ static iso_lane_job *set_job(const follower *f, size_t i, size_t at, const room 
     job->done = 0;
     job->error = NULL;
     job->event = r->events ? r->events + at * r->rows : NULL;
-    job->states = r->states ? r->states + at * r->rows * r->dim : NULL;
-    job->stride = r->dim;
+    job->states = r->states ? r->states + at * r->rows * ISO_MAX_STATE : NULL;
+    job->stride = ISO_MAX_STATE;
     job->time = o->kind == ISO_SECTION_CLOCK ? times : NULL;
     job->passed = times;
     for (size_t j = 0; j < rows && job->time; j++) times[j] = (double)(orbit->count + j + 1) * o->value;
@@ -346,8 +331,7 @@ iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *ta
     const size_t threads = iso_pool_threads(c->options.threads, c->count, f.code->lanes);
     iso_pool pool = {.count = c->count, .chunk = CHUNK, .solve = solve_chunk, .data = &f};
     if (task->each == 0 || c->options.kind == ISO_SECTION_COLUMN) return ISO_OK;
-    if (c->count / threads < CHUNK) pool.chunk = c->count / threads + 1;
-    return iso_pool_run(c->ctx, &pool, threads, task->status);
+    return iso_pool_run(c->ctx, &pool, threads, NULL);
 }
 
 void iso_crossings_free_lane(struct iso_crossings_lane *lane)

@@ -95,10 +95,8 @@ static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_ef
 /* The axis about which a free orbit rotates in the plane n_axis = 0; -1: it does not. */
 static int find_plane(const double y[ISO_STATE])
 {
-    for (int a = 0; a < 3; a++) {
-        const double swing = fmax(fabs(y[(a + 1) % 3]), fabs(y[(a + 2) % 3])) / largest(y);
-        if (fmax(fabs(y[3 + a]), swing) <= 1e-14) return a;
-    }
+    for (int a = 0; a < 3; a++)
+        if (iso_section_is_rotation(y, a)) return a;
     return -1;
 }
 
