@@ -19,12 +19,6 @@ typedef struct options {
     bool all, polish, json, branches;
 } options;
 
-static void show(double part, void *unused)
-{
-    (void)unused;
-    progress_show(part);
-}
-
 static int how_many_threads(const options *o)
 {
     return o->threads < 4096 ? (int)o->threads : 4096;
@@ -82,7 +76,7 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     how.all = o->all;
     how.polish = o->polish;
     how.threads = how_many_threads(o);
-    how.progress = show;
+    how.progress = progress_told;
     stop_gently();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     const iso_status status = iso_periodic_run(ctx, scene, &how, &found);
@@ -158,13 +152,7 @@ static const option_row rows[] = {
     ROW("k", "A:B", "two numbers and a colon", "k of --chart (default -3:3)", set_text, options, k),
     ROW("steps", "N", "a whole number from 1 on", "steps of --chart in both directions (default 120)", set_count,
         options, steps),
-    {.name = "threads",
-     .argument = "N",
-     .expected = "a whole number from 1 on",
-     .doc = "threads that work (default: one for each processor)",
-     .set = set_count,
-     .offset = offsetof(options, threads),
-     .letter = 'j'},
+    ROW_THREADS(options, threads),
     ROW_OUTPUT(options, output),
     ROW_PLOT(options, plot),
     ROW_JSON(options, json),
