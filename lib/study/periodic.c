@@ -99,6 +99,7 @@ static iso_status work(iso_periodic_work *w)
     iso_periodic_map_prepare(w->ctx, &w->units.own, w->options.threads, &w->map);
     w->out->axis = w->map.axis;
     status = iso_periodic_rotations(w);
+    if (w->options.rotations_alone) return status;
     if (status == ISO_OK && !(w->options.all && w->options.no_lines)) status = iso_periodic_search(w);
     if (status == ISO_OK && w->options.all) status = iso_periodic_from_grid(w);
     if (w->out->count > 0) qsort(w->out->orbit, w->out->count, sizeof *w->out->orbit, by_period);
