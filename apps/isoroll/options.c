@@ -199,7 +199,8 @@ static void make_known(const command *c, struct option known[MOST_ROWS + 1], cha
 static options_result set_file(const command *c, int argc, char **argv, bool help, char *options)
 {
     const bool optional = c->argument[0] == '[';
-    if (argc > optind + 1) return wrong(c, "one argument too many: ", argv[optind + 1]);
+    if (c->files) *(file_list *)(void *)(options + c->files) = (file_list){argv + optind, argc - optind};
+    if (argc > optind + 1 && !c->files) return wrong(c, "one argument too many: ", argv[optind + 1]);
     if (argc == optind && !optional && !help) return wrong(c, "missing argument ", c->argument);
     *(const char **)(void *)(options + c->file) = argc > optind ? argv[optind] : "-";
     return help ? OPTIONS_HELP : OPTIONS_DONE;

@@ -32,6 +32,12 @@ typedef struct option_row {
 
 typedef enum options_result { OPTIONS_WRONG, OPTIONS_HELP, OPTIONS_DONE } options_result;
 
+/* All arguments of a command that takes more than one. */
+typedef struct file_list {
+    char **path;
+    int count;
+} file_list;
+
 /* Reads the arguments of a command into its struct, which already holds the defaults. OPTIONS_WRONG: a message has
  * been given. */
 options_result options_read(const struct command *c, int argc, char **argv, void *options);

@@ -28,6 +28,12 @@ int worse(int a, int b);
 /* From now on SIGINT, SIGTERM and SIGHUP only ask to stop. A signal that comes two seconds later ends the program. */
 void stop_gently(void);
 
+/* The same, and SIGUSR1 as well: schedulers send it before a time limit. */
+void stop_before_limit(void);
+
+/* True if the first signal that asked to stop was SIGTERM or SIGUSR1: a time limit, not the user. */
+bool limit_is_near(void);
+
 /* True once the user has asked to stop. */
 bool interrupted(void);
 

@@ -322,6 +322,26 @@ const iso_sweep_plan *iso_sweep_file_plan(const iso_sweep_file *f)
     return &f->plan;
 }
 
+bool iso_sweep_axis_words(const iso_sweep_file *f, int i, char words[ISO_SWEEP_WORDS])
+{
+    if (i >= f->axes) return false;
+    const iso_sweep_axis *a = &f->axis[i];
+    const char *steps = a->logarithmic ? ", logarithmic" : "";
+    char what[96] = "";
+    switch (a->values) {
+    case ISO_FROM_LIST: snprintf(what, sizeof what, "%zu value%s", a->count, a->count == 1 ? "" : "s"); break;
+    case ISO_FROM_RANGE: snprintf(what, sizeof what, "%zu values from %g to %g%s", a->count, a->from, a->to, steps); break;
+    case ISO_FROM_DRAWING:
+        snprintf(what, sizeof what, "%zu values drawn %s from %g to %g%s", f->samples, f->random ? "at random" : "evenly",
+                 a->from, a->to, steps);
+        break;
+    case ISO_FROM_TRIANGLE: snprintf(what, sizeof what, "%zu values of a triangle", a->count); break;
+    case ISO_FROM_SPREAD: snprintf(what, sizeof what, "%zu starts spread over the section", a->count); break;
+    }
+    snprintf(words, ISO_SWEEP_WORDS, "%s: %s", a->name, what);
+    return true;
+}
+
 /* Good enough to choose between a scene and a sweep: neither key occurs in the other kind of file. */
 bool iso_sweep_is_one(const char *text, size_t length)
 {

@@ -92,7 +92,8 @@ static iso_status chaos_find(iso_context *ctx, const iso_sweep_ask *ask, const i
     iso_status status = iso_chaos_run(ctx, scene, &o, &c);
     if (status == ISO_OK) {
         tell(ask, &c->own, c->with, &c->share, number);
-        if (c->failure != ISO_OK) status = iso_context_fail(ctx, c->failure, "", "%s", c->words);
+        const iso_status *own = c->own.status; /* of other starts, only the number is told */
+        if (own[0] != ISO_OK || own[1] != ISO_OK) status = iso_context_fail(ctx, c->failure, "", "%s", c->words);
     }
     iso_chaos_free(c);
     return status;

@@ -1,0 +1,257 @@
+/* isoroll sweep - measures many orbits or balls, on all cores, in pieces that can be interrupted and resumed. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "io/sweep_file.h"
+#include "io/sweep_store.h"
+#include "scene_options.h"
+#include "study/sweep.h"
+
+/* What sweep can be told. */
+typedef struct options {
+    const char *file;
+    file_list parts; /* of --merge */
+    const char *output, *shard;
+    double threads, point; /* point NAN: not given */
+    bool resume, merge;
+} options;
+
+/* --- the share -------------------------------------------------------------------------------------------------- */
+
+static bool read_whole(const char *text, size_t length, double *x)
+{
+    char copy[24] = "";
+    if (length == 0 || length >= sizeof copy) return false;
+    memcpy(copy, text, length);
+    return set_whole(x, copy);
+}
+
+static bool from_environment(const char *name, double usual, double *x)
+{
+    const char *text = getenv(name);
+    *x = usual;
+    return text ? read_whole(text, strlen(text), x) : !isnan(usual);
+}
+
+/* The number of a task of a Slurm array begins at any number, and can go in steps. */
+static iso_status share_of_slurm(iso_context *ctx, iso_sweep_share *share)
+{
+    double id, count, least, step;
+    if (!from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) ||
+        !from_environment("SLURM_ARRAY_TASK_COUNT", NAN, &count) ||
+        !from_environment("SLURM_ARRAY_TASK_MIN", 0, &least) || !from_environment("SLURM_ARRAY_TASK_STEP", 1, &step))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
+                                "--shard slurm: SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT say no numbers: this is "
+                                "no task of an array");
+    const double index = (id - least) / fmax(step, 1);
+    if (!(index >= 0 && index < count && index == floor(index)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
+                                "--shard slurm: task %g of %g from %g in steps of %g is none", id, count, least, step);
+    *share = (iso_sweep_share){(size_t)index, (size_t)count};
+    return ISO_OK;
+}
+
+static iso_status read_share(iso_context *ctx, const char *text, iso_sweep_share *share)
+{
+    double i, n;
+    *share = (iso_sweep_share){0, 1};
+    if (!text) return ISO_OK;
+    if (strcmp(text, "slurm") == 0) return share_of_slurm(ctx, share);
+    const char *slash = strchr(text, '/');
+    if (!slash || !read_whole(text, (size_t)(slash - text), &i) || !read_whole(slash + 1, strlen(slash + 1), &n) ||
+        i < 1 || i > n)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard", "--shard '%s': expected i/n with 1 <= i <= n, or slurm",
+                                text);
+    *share = (iso_sweep_share){(size_t)i - 1, (size_t)n};
+    return ISO_OK;
+}
+
+/* --- the work --------------------------------------------------------------------------------------------------- */
+
+typedef struct work {
+    iso_sweep_journal *journal;
+    size_t next, chunks; /* the chunk to look at next; all */
+    size_t before;       /* chunks that were there at the beginning */
+    double begun;
+} work;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void show(const work *w)
+{
+    const double done = (double)iso_sweep_journal_done(w->journal), all = (double)iso_sweep_journal_wanted(w->journal);
+    const double fresh = done - (double)w->before, left = (now() - w->begun) * (all - done) / fresh;
+    char words[32] = "";
+    if (fresh > 0 && left < 120)
+        snprintf(words, sizeof words, "%.0f s left", left);
+    else if (fresh > 0 && left < 7200)
+        snprintf(words, sizeof words, "%.0f min left", left / 60);
+    else if (fresh > 0)
+        snprintf(words, sizeof words, "%.1f h left", left / 3600);
+    progress_with(done / all, words);
+}
+
+static bool next_chunk(void *data, size_t *c)
+{
+    work *w = data;
+    while (w->next < w->chunks && iso_sweep_journal_has(w->journal, w->next)) w->next++;
+    if (interrupted() || w->next == w->chunks) return false;
+    *c = w->next++;
+    return true;
+}
+
+static iso_status take_chunk(void *data, iso_context *ctx, size_t c, const iso_sweep_rows *rows)
+{
+    const work *w = data;
+    const iso_status status = iso_sweep_journal_add(ctx, w->journal, c, rows);
+    show(w);
+    return status;
+}
+
+static int tell_interrupted(const options *o, const work *w)
+{
+    const size_t done = iso_sweep_journal_done(w->journal), all = iso_sweep_journal_wanted(w->journal);
+    if (!iso_sweep_journal_lasts(w->journal)) {
+        complain("interrupted: nothing was written");
+        return EXIT_SOME_FAILED;
+    }
+    complain("%s: %zu of %zu chunks are in '%s.part'; go on with: isoroll sweep %s -o %s%s%s --resume",
+             limit_is_near() ? "stopped before the time limit" : "interrupted", done, all, o->output, o->file, o->output,
+             o->shard ? " --shard " : "", o->shard ? o->shard : "");
+    return limit_is_near() ? EXIT_DONE : EXIT_SOME_FAILED;
+}
+
+static int tell_failures(const work *w, size_t points)
+{
+    size_t first;
+    const char *reason;
+    const size_t failed = iso_sweep_journal_failed(w->journal, &first, &reason);
+    if (failed == 0) return EXIT_DONE;
+    complain("%zu of %zu points failed; the first is point %zu: %s", failed, points, first, reason);
+    return EXIT_SOME_FAILED;
+}
+
+static int compute(iso_context *ctx, const options *o, const iso_sweep *sweep, iso_sweep_journal *journal)
+{
+    const iso_sweep_head *head = iso_sweep_head_of(sweep);
+    work w = {.journal = journal, .chunks = iso_sweep_chunks(head), .begun = now()};
+    const iso_sweep_source source = {next_chunk, take_chunk, &w};
+    w.before = iso_sweep_journal_done(journal);
+    stop_before_limit();
+    iso_status status = ISO_OK;
+    if (w.before < iso_sweep_journal_wanted(journal))
+        status = iso_sweep_run(ctx, sweep, o->threads < 1024 ? (int)o->threads : 1024, &source);
+    progress_end();
+    if (status != ISO_OK) return finish(ctx, status);
+    if (iso_sweep_journal_done(journal) < iso_sweep_journal_wanted(journal)) return tell_interrupted(o, &w);
+    status = iso_sweep_journal_finish(ctx, journal);
+    return status == ISO_OK ? tell_failures(&w, head->count) : finish(ctx, status);
+}
+
+/* A quantity that the scene does not have is refused where the file asks for it. */
+static int refused(iso_context *ctx, const options *o, const iso_sweep_plan *plan, iso_status status)
+{
+    const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
+    for (int i = 0; i < plan->wishes; i++) {
+        const iso_place *at = &plan->wish[i].place;
+        if (status == ISO_BAD_INPUT && strcmp(at->key, iso_context_about(ctx)) == 0)
+            iso_context_fail(ctx, status, "", "%s:%d:%d: %s", name, at->line, at->column, iso_context_message(ctx));
+    }
+    return finish(ctx, status);
+}
+
+static int run_file(iso_context *ctx, const options *o, const iso_sweep_file *file)
+{
+    const iso_sweep_plan *plan = iso_sweep_file_plan(file);
+    iso_sweep_share share;
+    iso_sweep *sweep = NULL;
+    iso_sweep_journal *journal = NULL;
+    iso_status status = read_share(ctx, o->shard, &share);
+    if (status == ISO_OK) status = iso_sweep_create(ctx, plan, &sweep);
+    if (status != ISO_OK) return refused(ctx, o, plan, status);
+    status = iso_sweep_journal_open(ctx, o->output, iso_sweep_head_of(sweep), share, o->resume, &journal);
+    const int result = status == ISO_OK ? compute(ctx, o, sweep, journal) : finish(ctx, status);
+    iso_sweep_journal_close(journal);
+    iso_sweep_free(sweep);
+    return result;
+}
+
+static int print_point(iso_context *ctx, const options *o, const iso_sweep_file *file)
+{
+    const size_t count = iso_sweep_file_plan(file)->family.count;
+    char *text;
+    if (!(o->point < (double)count))
+        return complain("sweep: --point %.0f: points are 0 to %zu", o->point, count - 1), EXIT_USAGE;
+    const iso_status status = iso_sweep_scene_text(ctx, file, (size_t)o->point, &text);
+    if (status == ISO_OK) fputs(text, stdout);
+    free(text);
+    return finish(ctx, status);
+}
+
+static int merge(iso_context *ctx, const options *o)
+{
+    return finish(ctx, iso_sweep_merge(ctx, (size_t)o->parts.count, (const char *const *)o->parts.path, o->output));
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    const options *o = options_given;
+    iso_sweep_file *file;
+    if (o->merge) return merge(ctx, o);
+    if (o->parts.count > 1) return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
+    const iso_status status = iso_sweep_read(ctx, o->file, iso_sweep_topics(), &file);
+    if (status != ISO_OK) return finish(ctx, status);
+    const int result = isnan(o->point) ? run_file(ctx, o, file) : print_point(ctx, o, file);
+    iso_sweep_file_free(file);
+    return result;
+}
+
+static const options defaults = {.file = "-", .output = "-", .point = NAN};
+
+static const option_row rows[] = {
+    ROW_OF_FILE("output", "FILE", "a file", "write to FILE: HDF5 if it ends in .h5, else CSV; - is standard output",
+                set_text, options, output, 'o', OPTION_WRITES),
+    ROW_THREADS(options, threads),
+    ROW("resume", NULL, NULL, "go on with what FILE.part has; begin if there is none", set_flag, options, resume),
+    ROW("shard", "I/N", "i/n, or slurm",
+        "compute every N-th chunk, from the I-th on; slurm: the task of a Slurm array says which", set_text, options,
+        shard),
+    ROW("merge", NULL, NULL, "put the files of all shards together: the arguments are these files", set_flag, options,
+        merge),
+    ROW("point", "I", "a whole number from 0 on", "print the scene of point I and do nothing else", set_whole, options,
+        point),
+    ROW_END,
+};
+
+const command command_sweep = {
+    .name = "sweep",
+    .argument = "SWEEP",
+    .doc = "measure many orbits or balls, on all cores, resumable",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, file),
+    .files = offsetof(options, parts),
+    .description =
+        "A sweep is a file in YAML: a scene, the numbers in it that vary, and what is measured at each point "
+        "(lib/doc/formats.md). 'isoroll explain SWEEP' tells how many points it has, and how long it takes here.\n\n"
+        "Finished chunks of points are kept in FILE.part until all are there; then FILE is written. Ctrl-C lets the "
+        "chunks that are being computed end. So do SIGTERM and SIGUSR1, after which the exit status is 0. Even "
+        "kill -9 loses only the chunks that are being computed. --resume goes on, with any number of threads. The bytes "
+        "of FILE do not depend on threads, shards or interruptions.\n\n"
+        "A point that fails is a row with its reason. A file that is there is not overwritten.",
+    .example = "isoroll sweep sweep.yaml -o out.h5\n"
+               "isoroll sweep sweep.yaml -o out.h5 --resume\n"
+               "isoroll sweep sweep.yaml -o out.2.h5 --shard 2/5\n"
+               "isoroll sweep --merge out.*.h5 -o out.h5",
+    .exits = "0: done, or stopped by SIGTERM or SIGUSR1\n"
+             "1: some points failed, or interrupted by Ctrl-C",
+    .run = run,
+};

@@ -1,0 +1,433 @@
+/* sweep_journal.c - the journal of a sweep: a head, and one record for each finished chunk. Numbers stand as they are
+ * in memory; the head tells other machines apart.
+ *
+ *     head     mark, hash, points, chunk, columns, share, checksum
+ *     record   chunk, length of what follows, checksum; then numbers, statuses, and for each status that is not 0 the
+ *              length of a reason and the reason
+ */
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "io/replacement_impl.h"
+#include "io/sweep_store_impl.h"
+
+typedef struct journal_head {
+    char mark[24];
+    double order; /* tells how this machine writes numbers */
+    uint64_t hash[2], points, chunk, columns, index, count, checksum;
+} journal_head;
+
+typedef struct record_head {
+    uint64_t chunk, length, checksum;
+} record_head;
+
+struct iso_sweep_journal {
+    char *path, *name; /* of the result, of the journal; name NULL: it has none */
+    const iso_sweep_head *head;
+    iso_sweep_share share;
+    int descriptor;
+    off_t end;
+    off_t *at; /* of the record of each chunk; 0: it is not there */
+    size_t done, failed, first_failed;
+    char reason[ISO_REASON_SIZE];
+    bool complete; /* the result is there already */
+    bool ours;     /* the journal's file was not refused */
+    unsigned char *buffer;
+    size_t room;
+    time_t synced;
+};
+
+/* --- small things ----------------------------------------------------------------------------------------------- */
+
+static iso_status trouble(iso_context *ctx, const iso_sweep_journal *j, const char *what)
+{
+    return iso_file_trouble(ctx, what, j->name ? j->name : "a temporary file");
+}
+
+static uint64_t checksum_of(const void *bytes, size_t length, uint64_t salt)
+{
+    uint64_t hash[2] = {salt, 0};
+    iso_sweep_hash(hash, bytes, length);
+    return hash[1];
+}
+
+static uint64_t salt_of(const record_head *r)
+{
+    return r->chunk * 0x9e3779b97f4a7c15 + r->length + 1;
+}
+
+static bool make_room(iso_sweep_journal *j, size_t length)
+{
+    if (length <= j->room) return true;
+    unsigned char *more = realloc(j->buffer, 2 * length);
+    if (!more) return false;
+    j->buffer = more;
+    j->room = 2 * length;
+    return true;
+}
+
+static journal_head head_of(const iso_sweep_journal *j)
+{
+    journal_head h;
+    memset(&h, 0, sizeof h); /* also what lies between its members */
+    snprintf(h.mark, sizeof h.mark, "isoroll sweep part\n");
+    h.order = -1234.5;
+    memcpy(h.hash, j->head->hash, sizeof h.hash);
+    h.points = j->head->count;
+    h.chunk = j->head->chunk;
+    h.columns = (uint64_t)j->head->columns;
+    h.index = j->share.index;
+    h.count = j->share.count;
+    h.checksum = checksum_of(&h, offsetof(journal_head, checksum), 1);
+    return h;
+}
+
+/* False: the file ends before, or cannot be read. */
+static bool read_at(const iso_sweep_journal *j, off_t at, void *bytes, size_t length)
+{
+    size_t done = 0;
+    while (done < length) {
+        const ssize_t got = pread(j->descriptor, (char *)bytes + done, length - done, at + (off_t)done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return false;
+        done += (size_t)got;
+    }
+    return true;
+}
+
+/* After a failure the file is cut to what it was. */
+static iso_status append(iso_context *ctx, iso_sweep_journal *j, const void *bytes, size_t length)
+{
+    size_t done = 0;
+    while (done < length) {
+        const ssize_t got = pwrite(j->descriptor, (const char *)bytes + done, length - done, j->end + (off_t)done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) {
+            if (got == 0) errno = EIO;
+            const iso_status status = trouble(ctx, j, "write");
+            (void)!ftruncate(j->descriptor, j->end);
+            return status;
+        }
+        done += (size_t)got;
+    }
+    j->end += (off_t)length;
+    return ISO_OK;
+}
+
+/* --- records ---------------------------------------------------------------------------------------------------- */
+
+static size_t pack(iso_sweep_journal *j, const iso_sweep_rows *rows)
+{
+    const size_t numbers = rows->count * (size_t)rows->columns * sizeof(double);
+    const size_t most = numbers + rows->count * (sizeof(int32_t) + 2 + ISO_REASON_SIZE);
+    if (!make_room(j, sizeof(record_head) + most)) return 0;
+    unsigned char *at = j->buffer + sizeof(record_head);
+    memcpy(at, rows->number, numbers);
+    at += numbers;
+    for (size_t i = 0; i < rows->count; i++, at += sizeof(int32_t))
+        memcpy(at, &(int32_t){(int32_t)rows->status[i]}, sizeof(int32_t));
+    for (size_t i = 0; i < rows->count; i++) {
+        if (rows->status[i] == ISO_OK) continue;
+        const size_t length = strnlen(rows->reason[i], ISO_REASON_SIZE - 1);
+        *at++ = (unsigned char)length;
+        memcpy(at, rows->reason[i], length);
+        at += length;
+    }
+    return (size_t)(at - j->buffer) - sizeof(record_head);
+}
+
+/* False: the record does not fit its rows. */
+static bool unpack(const iso_sweep_journal *j, size_t c, size_t length, iso_sweep_rows *rows)
+{
+    const unsigned char *at = j->buffer, *end = at + length;
+    rows->first = c * j->head->chunk;
+    rows->count = iso_sweep_chunk_points(j->head, c);
+    const size_t numbers = rows->count * (size_t)rows->columns * sizeof(double);
+    if (length < numbers + rows->count * sizeof(int32_t)) return false;
+    memcpy(rows->number, at, numbers);
+    at += numbers;
+    for (size_t i = 0; i < rows->count; i++, at += sizeof(int32_t)) {
+        int32_t status;
+        memcpy(&status, at, sizeof status);
+        rows->status[i] = (iso_status)status;
+    }
+    for (size_t i = 0; i < rows->count; i++) {
+        rows->reason[i][0] = '\0';
+        if (rows->status[i] == ISO_OK) continue;
+        const size_t size = at < end ? *at++ : ISO_REASON_SIZE;
+        if (size >= ISO_REASON_SIZE || (size_t)(end - at) < size) return false;
+        memcpy(rows->reason[i], at, size);
+        rows->reason[i][size] = '\0';
+        at += size;
+    }
+    return at == end;
+}
+
+/* The failures of the lowest number count as the first. */
+static void count_failures(iso_sweep_journal *j, const iso_sweep_rows *rows)
+{
+    for (size_t i = 0; i < rows->count; i++) {
+        if (rows->status[i] == ISO_OK) continue;
+        if (j->failed++ > 0 && j->first_failed < rows->first + i) continue;
+        j->first_failed = rows->first + i;
+        snprintf(j->reason, sizeof j->reason, "%s", rows->reason[i]);
+    }
+}
+
+/* Reads the record at `at` into rows. False: it is not whole. */
+static bool read_record(iso_sweep_journal *j, off_t at, record_head *r, iso_sweep_rows *rows)
+{
+    const size_t most = rows->most * ((size_t)rows->columns * sizeof(double) + sizeof(int32_t) + 1 + ISO_REASON_SIZE);
+    if (!read_at(j, at, r, sizeof *r) || r->length > most || r->chunk >= iso_sweep_chunks(j->head)) return false;
+    if (!make_room(j, r->length + 1) || !read_at(j, at + (off_t)sizeof *r, j->buffer, r->length)) return false;
+    return r->checksum == checksum_of(j->buffer, r->length, salt_of(r)) && unpack(j, r->chunk, r->length, rows);
+}
+
+/* --- opening ---------------------------------------------------------------------------------------------------- */
+
+static iso_status refuse(iso_context *ctx, const char *path, const char *why)
+{
+    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' %s", path, why);
+}
+
+/* Takes the records that are there. What is behind the last whole one is cut off if it can be a record that was cut
+ * short: if nothing whole stands behind it. */
+static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
+{
+    iso_sweep_rows rows;
+    record_head r;
+    iso_status status = iso_sweep_rows_create(ctx, j->head->columns, j->head->chunk, &rows);
+    if (status != ISO_OK) return status;
+    while (j->end < size && read_record(j, j->end, &r, &rows)) {
+        if (r.chunk % j->share.count == j->share.index && j->at[r.chunk] == 0) {
+            j->at[r.chunk] = j->end;
+            j->done++;
+            count_failures(j, &rows);
+        }
+        j->end += (off_t)(sizeof r + r.length);
+    }
+    iso_sweep_rows_free(&rows);
+    j->ours = j->end == size;
+    if (j->ours) return ISO_OK;
+    if (read_at(j, j->end, &r, sizeof r) && (off_t)(sizeof r + r.length) < size - j->end && r.length < (1u << 30))
+        return refuse(ctx, j->name, "is damaged: remove it to begin again");
+    j->ours = true;
+    return ftruncate(j->descriptor, j->end) == 0 ? ISO_OK : trouble(ctx, j, "write");
+}
+
+/* A journal that was there before. */
+static iso_status take_old(iso_context *ctx, iso_sweep_journal *j, off_t size, bool resume)
+{
+    const journal_head mine = head_of(j);
+    journal_head there;
+    j->ours = size == 0;
+    if (j->ours) return append(ctx, j, &mine, sizeof mine);
+    const bool read = size >= (off_t)sizeof there && read_at(j, 0, &there, sizeof there);
+    if (!read && resume && size < (off_t)sizeof there) { /* cut short before its first record */
+        char begin[sizeof there.mark];
+        const size_t length = (size_t)size < sizeof begin ? (size_t)size : sizeof begin;
+        if (read_at(j, 0, begin, length) && memcmp(begin, mine.mark, length) == 0)
+            return append(ctx, j, &mine, sizeof mine);
+    }
+    if (!read || memcmp(there.mark, mine.mark, sizeof mine.mark) != 0)
+        return refuse(ctx, j->name, "is no journal of a sweep: it would be overwritten");
+    if (memcmp(&there, &mine, sizeof mine) != 0)
+        return refuse(ctx, j->name, "is the journal of another sweep, another share, or another version: remove it, or "
+                                    "give another name");
+    if (!resume)
+        return refuse(ctx, j->name, "has chunks of this sweep: add --resume to go on with it, or remove it to begin "
+                                    "again");
+    j->end = (off_t)sizeof mine;
+    return scan(ctx, j, size);
+}
+
+static iso_status open_named(iso_context *ctx, iso_sweep_journal *j, bool resume)
+{
+    struct stat s;
+    if (asprintf(&j->name, "%s.part", j->path) < 0) {
+        j->name = NULL;
+        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
+    }
+    j->descriptor = open(j->name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (j->descriptor < 0) return trouble(ctx, j, "write");
+    if (flock(j->descriptor, LOCK_EX | LOCK_NB) != 0)
+        return refuse(ctx, j->name, "is in use: another isoroll works on this sweep");
+    if (fstat(j->descriptor, &s) != 0) return trouble(ctx, j, "read");
+    if (!S_ISREG(s.st_mode)) return refuse(ctx, j->name, "is no regular file");
+    return take_old(ctx, j, s.st_size, resume);
+}
+
+static iso_status open_unnamed(iso_context *ctx, iso_sweep_journal *j)
+{
+    const journal_head mine = head_of(j);
+    FILE *file = tmpfile();
+    j->descriptor = file ? fcntl(fileno(file), F_DUPFD_CLOEXEC, 0) : -1;
+    if (file) fclose(file);
+    return j->descriptor < 0 ? trouble(ctx, j, "write") : append(ctx, j, &mine, sizeof mine);
+}
+
+/* A result that is there is this sweep's, or it is refused. */
+static iso_status look_at_result(iso_context *ctx, iso_sweep_journal *j, bool resume)
+{
+    iso_sweep_reader *reader;
+    const iso_status status = iso_sweep_reader_open(ctx, j->path, &reader);
+    if (status == ISO_NO_MEMORY) return status;
+    if (status != ISO_OK) return refuse(ctx, j->path, "is there, and is no result of a sweep: it is not overwritten");
+    const iso_sweep_head *head = iso_sweep_reader_head(reader);
+    const iso_sweep_share share = iso_sweep_reader_share(reader);
+    const bool same = memcmp(head->hash, j->head->hash, sizeof head->hash) == 0 && share.index == j->share.index &&
+                      share.count == j->share.count;
+    iso_sweep_reader_close(reader);
+    if (!same) return refuse(ctx, j->path, "is the result of another sweep, share or version: it is not overwritten");
+    if (!resume) return refuse(ctx, j->path, "is there already, the result of this sweep: it is not overwritten");
+    j->complete = true;
+    j->done = iso_sweep_journal_wanted(j);
+    return ISO_OK;
+}
+
+static iso_status open_journal(iso_context *ctx, iso_sweep_journal *j, bool resume)
+{
+    struct stat s;
+    if (!iso_sweep_writing_of(j->path))
+        return refuse(ctx, j->path, "would be HDF5, which this build does not have: give a name that ends in .csv");
+    if (strcmp(j->path, "-") == 0) return open_unnamed(ctx, j);
+    if (stat(j->path, &s) != 0) return open_named(ctx, j, resume);
+    return S_ISREG(s.st_mode) ? look_at_result(ctx, j, resume) : open_unnamed(ctx, j);
+}
+
+iso_status iso_sweep_journal_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
+                                  iso_sweep_share share, bool resume, iso_sweep_journal **journal)
+{
+    *journal = NULL;
+    iso_sweep_journal *j = calloc(1, sizeof *j);
+    iso_status status = ISO_NO_MEMORY;
+    if (j) {
+        j->descriptor = -1;
+        j->path = strdup(path);
+        j->head = head;
+        j->share = share;
+        j->at = calloc(iso_sweep_chunks(head) + 1, sizeof *j->at);
+    }
+    if (j && j->path && j->at)
+        status = open_journal(ctx, j, resume);
+    else
+        iso_context_fail(ctx, status, "", "no memory for a sweep");
+    if (status == ISO_OK)
+        *journal = j;
+    else
+        iso_sweep_journal_close(j);
+    return status;
+}
+
+/* A journal that holds nothing but its head is removed; not one that was refused. */
+void iso_sweep_journal_close(iso_sweep_journal *j)
+{
+    if (!j) return;
+    if (j->descriptor >= 0) {
+        if (j->ours && j->end <= (off_t)sizeof(journal_head)) unlink(j->name);
+        close(j->descriptor);
+    }
+    free(j->path);
+    free(j->name);
+    free(j->at);
+    free(j->buffer);
+    free(j);
+}
+
+/* --- what is there ---------------------------------------------------------------------------------------------- */
+
+bool iso_sweep_journal_has(const iso_sweep_journal *j, size_t c)
+{
+    return j->complete || c % j->share.count != j->share.index || j->at[c] != 0;
+}
+
+size_t iso_sweep_journal_wanted(const iso_sweep_journal *j)
+{
+    const size_t chunks = iso_sweep_chunks(j->head), i = j->share.index, n = j->share.count;
+    return chunks > i ? (chunks - i - 1) / n + 1 : 0;
+}
+
+size_t iso_sweep_journal_done(const iso_sweep_journal *j)
+{
+    return j->done;
+}
+
+size_t iso_sweep_journal_failed(const iso_sweep_journal *j, size_t *first, const char **reason)
+{
+    *first = j->first_failed;
+    *reason = j->reason;
+    return j->failed;
+}
+
+bool iso_sweep_journal_lasts(const iso_sweep_journal *j)
+{
+    return j->name != NULL;
+}
+
+/* --- adding and finishing --------------------------------------------------------------------------------------- */
+
+/* Against a loss of power, at most every fifth second. */
+static void sync_now_and_then(iso_sweep_journal *j)
+{
+    const time_t now = time(NULL);
+    if (now - j->synced < 5) return;
+    if (j->synced > 0) (void)!fdatasync(j->descriptor);
+    j->synced = now;
+}
+
+iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c, const iso_sweep_rows *rows)
+{
+    if (iso_sweep_journal_has(j, c)) return ISO_OK;
+    const size_t length = pack(j, rows);
+    const off_t at = j->end;
+    if (length == 0) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a chunk");
+    record_head r = {.chunk = c, .length = length};
+    r.checksum = checksum_of(j->buffer + sizeof r, length, salt_of(&r));
+    memcpy(j->buffer, &r, sizeof r);
+    const iso_status status = append(ctx, j, j->buffer, sizeof r + length);
+    if (status != ISO_OK) return status;
+    j->at[c] = at;
+    j->done++;
+    count_failures(j, rows);
+    sync_now_and_then(j);
+    return ISO_OK;
+}
+
+static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, const iso_sweep_writing *kind, void *file)
+{
+    iso_sweep_rows rows;
+    iso_status status = iso_sweep_rows_create(ctx, j->head->columns, j->head->chunk, &rows);
+    if (status != ISO_OK) return status;
+    for (size_t c = j->share.index; c < iso_sweep_chunks(j->head) && status == ISO_OK; c += j->share.count) {
+        record_head r;
+        if (!read_record(j, j->at[c], &r, &rows)) {
+            errno = EIO;
+            status = trouble(ctx, j, "read");
+        } else {
+            status = kind->rows(ctx, file, &rows);
+        }
+    }
+    iso_sweep_rows_free(&rows);
+    return status;
+}
+
+iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j)
+{
+    const iso_sweep_writing *kind = iso_sweep_writing_of(j->path);
+    void *file;
+    if (j->complete) return ISO_OK;
+    iso_status status = kind->create(ctx, j->path, j->head, j->share, &file);
+    if (status != ISO_OK) return status;
+    status = write_chunks(ctx, j, kind, file);
+    const iso_status closed = kind->close(ctx, file, status == ISO_OK);
+    if (status == ISO_OK) status = closed;
+    if (status == ISO_OK && j->name) unlink(j->name);
+    return status;
+}

@@ -1,0 +1,90 @@
+/* sweep_store.h - where the rows of a sweep go: a journal while it runs, and its result when all is there.
+ *
+ *     iso_sweep_journal *j;
+ *     status = iso_sweep_journal_open(ctx, "out.h5", head, whole, true, &j);     whole: iso_sweep_whole_of(head)
+ *     for each chunk c with !iso_sweep_journal_has(j, c):
+ *         status = iso_sweep_journal_add(ctx, j, c, &rows);
+ *     status = iso_sweep_journal_finish(ctx, j);                               writes out.h5, removes out.h5.part
+ *     iso_sweep_journal_close(j);
+ *
+ * The journal is out.h5.part. It begins with what the sweep is. Each finished chunk is one record with a checksum,
+ * added at the end by one write. So a program that is killed loses only chunks that were being computed; a record that
+ * was cut short is taken away by the next program. A journal is for one program at a time.
+ *
+ * The result is written from the journal, chunk by chunk by growing number, into a temporary file that is renamed. So
+ * its bytes depend on nothing but the sweep. It is HDF5 if its name ends in .h5, else CSV (lib/doc/formats.md).
+ *
+ * A share of a sweep is chunk i, i + n, i + 2n, ... of it. Its result is a part; iso_sweep_merge puts parts together,
+ * to the bytes that one program gives.
+ */
+#ifndef ISO_IO_SWEEP_STORE_H
+#define ISO_IO_SWEEP_STORE_H
+
+#include "../base/api.h"
+#include "../orbit/family.h"
+
+ISO_C_BEGIN
+
+/* Chunks index, index + count, ...; {0, 1}: all. */
+typedef struct iso_sweep_share {
+    size_t index, count;
+} iso_sweep_share;
+
+/* --- the journal ------------------------------------------------------------------------------------------------ */
+
+typedef struct iso_sweep_journal iso_sweep_journal;
+
+/* Begins the journal of the result `path`, or goes on with one (resume). With resume it is no error if there is none.
+ * If `path` is no regular file, or is "-" (standard output, as CSV), the journal has no name, and cannot be resumed.
+ * The head must live as long as the journal.
+ * Errors: ISO_FILE_TROUBLE: a journal of another sweep, a damaged one, one that another program works on, one that is
+ * there without resume; a file `path` that is there, unless it is the result of this sweep and resume is given: then
+ * all chunks are done, and finishing writes nothing. Nothing is changed then. ISO_NO_MEMORY. */
+ISO_API iso_status iso_sweep_journal_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
+                                          iso_sweep_share share, bool resume, iso_sweep_journal **journal);
+
+/* Whether chunk c is there or belongs to another share. */
+ISO_API bool iso_sweep_journal_has(const iso_sweep_journal *j, size_t c);
+
+/* Chunks of the share, and how many of them are there. */
+ISO_API size_t iso_sweep_journal_wanted(const iso_sweep_journal *j);
+ISO_API size_t iso_sweep_journal_done(const iso_sweep_journal *j);
+
+/* Points of the share that have failed, and the first one's number and reason. */
+ISO_API size_t iso_sweep_journal_failed(const iso_sweep_journal *j, size_t *first, const char **reason);
+
+/* Adds a chunk. Errors: ISO_FILE_TROUBLE: the journal is then as it was before. */
+ISO_API iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c, const iso_sweep_rows *rows);
+
+/* Writes the result; all chunks of the share must be there. Errors: ISO_FILE_TROUBLE: the journal stays;
+ * ISO_NO_MEMORY. */
+ISO_API iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j);
+
+/* The journal's file stays, unless nothing is in it. */
+ISO_API void iso_sweep_journal_close(iso_sweep_journal *j);
+
+/* Whether the chunks can be gone on with later, by another program. */
+ISO_API bool iso_sweep_journal_lasts(const iso_sweep_journal *j);
+
+/* --- results ---------------------------------------------------------------------------------------------------- */
+
+typedef struct iso_sweep_reader iso_sweep_reader;
+
+/* Opens a result or a part. Errors: ISO_FILE_TROUBLE: no such file, or none of a sweep. */
+ISO_API iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_reader **reader);
+ISO_API void iso_sweep_reader_close(iso_sweep_reader *reader);
+ISO_API const iso_sweep_head *iso_sweep_reader_head(const iso_sweep_reader *reader);
+ISO_API iso_sweep_share iso_sweep_reader_share(const iso_sweep_reader *reader);
+
+/* Reads the next `count` rows, at most rows->most. rows->first is the number of the first one only in a whole result.
+ * Errors: ISO_FILE_TROUBLE. */
+ISO_API iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *reader, size_t count,
+                                         iso_sweep_rows *rows);
+
+/* Puts the parts of one sweep together. Errors: ISO_FILE_TROUBLE: a part is missing, is there twice, or belongs to
+ * another sweep; `path` is there. */
+ISO_API iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path);
+
+ISO_C_END
+
+#endif
