@@ -128,8 +128,9 @@ static int tell_interrupted(const options *o, const work *w)
     return limit_is_near() ? EXIT_DONE : EXIT_SOME_FAILED;
 }
 
-static int tell_failures(const work *w, size_t points)
+static int tell_failures(const work *w)
 {
+    const size_t points = iso_sweep_journal_points(w->journal);
     size_t first;
     const char *reason;
     const size_t failed = iso_sweep_journal_failed(w->journal, &first, &reason);
@@ -152,7 +153,7 @@ static int compute(iso_context *ctx, const options *o, const iso_sweep *sweep, i
     if (status != ISO_OK) return finish(ctx, status);
     if (iso_sweep_journal_done(journal) < iso_sweep_journal_wanted(journal)) return tell_interrupted(o, &w);
     status = iso_sweep_journal_finish(ctx, journal);
-    return status == ISO_OK ? tell_failures(&w, head->count) : finish(ctx, status);
+    return status == ISO_OK ? tell_failures(&w) : finish(ctx, status);
 }
 
 /* A quantity that the scene does not have is refused where the file asks for it. */

@@ -366,6 +366,11 @@ size_t iso_sweep_journal_failed(const iso_sweep_journal *j, size_t *first, const
     return j->failed;
 }
 
+size_t iso_sweep_journal_points(const iso_sweep_journal *j)
+{
+    return iso_sweep_share_points(j->head, j->share);
+}
+
 bool iso_sweep_journal_lasts(const iso_sweep_journal *j)
 {
     return j->name != NULL;

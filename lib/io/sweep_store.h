@@ -50,7 +50,8 @@ ISO_API bool iso_sweep_journal_has(const iso_sweep_journal *j, size_t c);
 ISO_API size_t iso_sweep_journal_wanted(const iso_sweep_journal *j);
 ISO_API size_t iso_sweep_journal_done(const iso_sweep_journal *j);
 
-/* Points of the share that have failed, and the first one's number and reason. */
+/* Points of the share, and those that have failed, with the first one's number and reason. */
+ISO_API size_t iso_sweep_journal_points(const iso_sweep_journal *j);
 ISO_API size_t iso_sweep_journal_failed(const iso_sweep_journal *j, size_t *first, const char **reason);
 
 /* Adds a chunk. Errors: ISO_FILE_TROUBLE: the journal is then as it was before. */

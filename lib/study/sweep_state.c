@@ -251,11 +251,8 @@ static iso_status contact_find(iso_context *ctx, const iso_sweep_ask *ask, const
 {
     const iso_scene s = until(ask, scene);
     const iso_run_sink sink = {.data = NULL};
-    iso_run_options o = iso_run_defaults();
     iso_run_result r;
-    o.times = &s.end;
-    o.count = 1;
-    const iso_status status = iso_run(ctx, &s, &o, &sink, &r);
+    const iso_status status = iso_run(ctx, &s, NULL, &sink, &r); /* row by row, as the command `run` */
     const int side = s.end < 0;
     if (status != ISO_OK) return status;
     number[0] = r.lost[side];
