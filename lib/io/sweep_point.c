@@ -90,19 +90,32 @@ iso_draft iso_sweep_draft(iso_context *ctx, const iso_sweep_file *f, size_t i, d
 
 /* --- starts on the section -------------------------------------------------------------------------------------- */
 
-/* A start that stays what it is, to the bit, when it is written and read again. */
+/* The start as it is when it is read. */
+static iso_status read_again(iso_context *ctx, iso_start *start)
+{
+    const iso_start before = *start;
+    if (start->model == ISO_BALL) return iso_start_ball(ctx, before.y, before.y + 3, ISO_SPIN_REMOVE, start);
+    return iso_start_point(ctx, before.y, before.y + 3, isnan(before.eps) ? NULL : &before.eps, true, start);
+}
+
+/* A start that stays what it is, to the bit, when it is written and read again. Reading makes a unit vector of n, and
+ * takes the part along n away from omega. Done again and again, this ends, or goes round between neighbouring numbers.
+ * Then a neighbour of one of them stays what it is. */
 static iso_status settle(iso_context *ctx, iso_start *start)
 {
-    enum { ROUNDS = 20 };
+    enum { ROUNDS = 4, NEIGHBOURS = 600 };
+    const iso_start given = *start;
     iso_status status = ISO_OK;
-    for (int i = 0; i < ROUNDS && status == ISO_OK; i++) {
-        const iso_start before = *start;
-        double eps = start->eps;
-        if (start->model == ISO_BALL)
-            status = iso_start_ball(ctx, before.y, before.y + 3, ISO_SPIN_REMOVE, start);
-        else
-            status = iso_start_point(ctx, before.y, before.y + 3, isnan(eps) ? NULL : &eps, true, start);
-        if (memcmp(start->y, before.y, sizeof before.y) == 0) break;
+    for (int n = 0; n < NEIGHBOURS && status == ISO_OK; n++) {
+        const int which = n % 6, ulps = (n / 6 + 1) / 2, side = n / 6 % 2;
+        if (n > 0 && given.y[which] == 0) continue;
+        *start = given;
+        for (int i = 0; i < ulps; i++) start->y[which] = nextafter(start->y[which], side ? INFINITY : -INFINITY);
+        for (int i = 0; i < ROUNDS && status == ISO_OK; i++) {
+            const iso_start before = *start;
+            status = read_again(ctx, start);
+            if (memcmp(start->y, before.y, sizeof before.y) == 0) return status;
+        }
     }
     return status;
 }

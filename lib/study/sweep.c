@@ -90,16 +90,26 @@ static void make_asks(iso_sweep *s)
     }
 }
 
+/* What the quantities suggest; of few points less, so that there are some chunks for every thread. Eights fill the
+ * lanes of vectors. */
+static size_t chunk_of(const iso_sweep *s)
+{
+    enum { CHUNKS = 64, LANES = 8 };
+    size_t chunk = s->head.count / CHUNKS + 1;
+    if (chunk > LANES / 2) chunk = (chunk + LANES - 1) / LANES * LANES;
+    for (int i = 0; i < s->asks; i++) {
+        const size_t fits = s->ask[i].quantity->chunk(&s->ask[i]);
+        if (fits < chunk) chunk = fits;
+    }
+    return chunk;
+}
+
 /* Everything that the rows depend on. */
 static void make_head(iso_sweep *s)
 {
     iso_sweep_head *h = &s->head;
     h->count = s->plan->family.count;
-    h->chunk = s->plan->chunk;
-    for (int i = 0; i < s->asks && s->plan->chunk == 0; i++) {
-        const size_t fits = s->ask[i].quantity->chunk(&s->ask[i]);
-        if (h->chunk == 0 || fits < h->chunk) h->chunk = fits;
-    }
+    h->chunk = s->plan->chunk > 0 ? s->plan->chunk : chunk_of(s);
     h->text = s->plan->text ? s->plan->text : "";
     memcpy(h->hash, s->plan->hash, sizeof h->hash);
     iso_sweep_hash(h->hash, &h->count, sizeof h->count);
@@ -206,7 +216,8 @@ static iso_status find_all(iso_context *ctx, const iso_sweep *s, iso_sweep_batch
     iso_status status = ISO_OK;
     for (int i = 0; i < s->asks && status == ISO_OK; i++) {
         const iso_sweep_ask *ask = &s->ask[i];
-        status = ask->quantity->find_all ? ask->quantity->find_all(ctx, ask, b) : find_each(ctx, ask, b);
+        const iso_sweep_quantity *q = ask->quantity;
+        status = q->find_all && q->together(ask) ? q->find_all(ctx, ask, b) : find_each(ctx, ask, b);
     }
     return status;
 }

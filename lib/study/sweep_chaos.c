@@ -1,7 +1,7 @@
 /* sweep_chaos.c - the quantity chaos: the verdict on an orbit, its exponents and indicators; with starts, the chaotic
  * share of the section. */
 #include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
 
 #include "study/chaos.h"
 #include "study/sweep_impl.h"
@@ -99,6 +99,47 @@ static iso_status chaos_find(iso_context *ctx, const iso_sweep_ask *ask, const i
     return status;
 }
 
+/* The points of a chunk, followed together. */
+static iso_status find_together(iso_context *ctx, const iso_sweep_ask *ask, iso_sweep_batch *b,
+                                const iso_scene *scene[], iso_chaos *chaos[], iso_status status[])
+{
+    const iso_chaos_options o = options_of(ask);
+    for (size_t i = 0; i < b->count; i++) scene[i] = b->made[i] ? &b->scene[i] : NULL;
+    const iso_status answer = iso_chaos_run_many(ctx, b->count, scene, &o, chaos, status);
+    for (size_t i = 0; i < b->count && answer == ISO_OK; i++) {
+        const iso_chaos *c = chaos[i];
+        const bool followed = status[i] == ISO_OK;
+        if (!b->made[i]) continue;
+        if (followed) tell(ask, &c->own, c->with, &c->share, iso_sweep_numbers(ask, b, i));
+        if (followed && c->own.status[0] == ISO_OK && c->own.status[1] == ISO_OK) continue;
+        const iso_status why = followed ? c->failure : status[i];
+        iso_sweep_note(ctx, ask, b, i, iso_context_fail(ctx, why, "", "%s", c ? c->words : "it failed"));
+    }
+    for (size_t i = 0; i < b->count; i++) iso_chaos_free(chaos[i]);
+    return answer;
+}
+
+static iso_status chaos_find_all(iso_context *ctx, const iso_sweep_ask *ask, iso_sweep_batch *b)
+{
+    const iso_scene **scene = calloc(b->count + 1, sizeof *scene);
+    iso_chaos **chaos = calloc(b->count + 1, sizeof *chaos);
+    iso_status *status = calloc(b->count + 1, sizeof *status);
+    const bool room = scene && chaos && status;
+    const iso_status answer =
+        room ? find_together(ctx, ask, b, scene, chaos, status)
+             : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the orbits of a chunk");
+    free(scene);
+    free(chaos);
+    free(status);
+    return answer;
+}
+
+/* Starts of one section already fill the lanes. */
+static bool chaos_together(const iso_sweep_ask *ask)
+{
+    return ask->setting[STARTS] == 0;
+}
+
 /* Orbits of some thousand turns: about a millisecond each. */
 static size_t chaos_chunk(const iso_sweep_ask *ask)
 {
@@ -121,4 +162,6 @@ const iso_sweep_quantity iso_sweep_chaos = {
     .columns = chaos_columns,
     .chunk = chaos_chunk,
     .find = chaos_find,
+    .find_all = chaos_find_all,
+    .together = chaos_together,
 };

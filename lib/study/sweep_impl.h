@@ -41,8 +41,9 @@ typedef struct iso_sweep_quantity {
     iso_status (*refuse)(iso_context *ctx, const iso_sweep_ask *ask);
     /* Its numbers for one scene. Numbers that are not set are NaN. Errors: those of the point. */
     iso_status (*find)(iso_context *ctx, const iso_sweep_ask *ask, const iso_scene *scene, double number[]);
-    /* Instead of find: for all points of a chunk together. Errors: ISO_STOPPED, ISO_NO_MEMORY. */
+    /* Instead of find, where `together` says so: for all points of a chunk. Errors: ISO_STOPPED, ISO_NO_MEMORY. */
     iso_status (*find_all)(iso_context *ctx, const iso_sweep_ask *ask, iso_sweep_batch *batch);
+    bool (*together)(const iso_sweep_ask *ask);
 } iso_sweep_quantity;
 
 #define ISO_SWEEP_LIST(X) X(state) X(chaos) X(frequencies) X(splitting) X(rotations) X(backends) X(error) X(contact)
