@@ -3,7 +3,7 @@
  *     scene: scene.yaml                                  # a file beside this one, or the scene itself
  *     vary:
  *       k: {from: -3, to: 3, count: 61}                  # equal steps; logarithmic: true - equal ratios
- *       J2: [1.5, 2, 2.5]                                # a list
+ *       J2: [1.5, 2, {from: 2.5, to: 4, count: 4}]       # a list of values and ranges
  *       J3/J1: {from: 2, to: 8}                          # no count: drawn by `samples`
  *       start: {spread: 100, seed: 1}                    # starts spread evenly over the section by its area
  *     samples: {count: 50, kind: random, seed: 7}        # or kind: even

@@ -12,8 +12,8 @@
 
 /* --- the numbers ------------------------------------------------------------------------------------------------ */
 
-/* Value j of `count` from `from` to `to`. Both ends are exact, and steps such as 1/10 are rounded once. */
-static double in_range(const iso_sweep_axis *a, size_t j)
+/* Both ends are exact, and steps such as 1/10 are rounded once. */
+double iso_sweep_in_range(const iso_sweep_axis *a, size_t j)
 {
     const double n = (double)a->count - 1, i = (double)j;
     if (n <= 0 || j == 0) return a->from;
@@ -54,7 +54,7 @@ static void value_of(const iso_sweep_file *f, const iso_sweep_axis *a, size_t j,
 {
     switch (a->values) {
     case ISO_FROM_LIST: memcpy(value, a->list + j * (size_t)a->width, (size_t)a->width * sizeof *value); break;
-    case ISO_FROM_RANGE: *value = in_range(a, j); break;
+    case ISO_FROM_RANGE: *value = iso_sweep_in_range(a, j); break;
     case ISO_FROM_DRAWING: *value = drawn(f, a, sample); break;
     case ISO_FROM_TRIANGLE: in_triangle(a, j, value); break;
     case ISO_FROM_SPREAD: value[0] = value[1] = NAN; break; /* needs k and J: see on_section */

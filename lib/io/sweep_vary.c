@@ -9,6 +9,7 @@
 #include "map/quarter_impl.h"
 
 static const double most_points = 1e12;
+enum { MOST_LISTED = 1000000 };
 
 /* --- where values go -------------------------------------------------------------------------------------------- */
 
@@ -108,17 +109,6 @@ static iso_status make_list(iso_sweep_file *f, iso_sweep_axis *a, size_t count)
     return a->list ? ISO_OK : iso_context_fail(f->yaml.ctx, ISO_NO_MEMORY, "", "no memory for '%s'", a->name);
 }
 
-static iso_status read_list(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
-{
-    const yaml_node_item_t *items = node->data.sequence.items.start;
-    const size_t count = (size_t)(node->data.sequence.items.top - items);
-    iso_status status = count > 0 ? make_list(f, a, count)
-                                  : iso_yaml_expected(&f->yaml, node, a->name, "a list of at least one value");
-    for (size_t i = 0; i < count && status == ISO_OK; i++)
-        status = read_item(f, iso_yaml_node(&f->yaml, items[i]), a, a->list + i * (size_t)a->width);
-    return status;
-}
-
 static iso_status read_flag(iso_sweep_file *f, const yaml_node_t *mapping, const char *name, bool *flag)
 {
     const yaml_node_t *value;
@@ -156,6 +146,47 @@ static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_swe
                              "a logarithmic range from %g to %g: both ends must be above 0, or both below", a->from,
                              a->to);
     return status;
+}
+
+/* A range with a count, as an item of a list. */
+static iso_status read_range_of_list(iso_sweep_file *f, const yaml_node_t *item, iso_sweep_axis *range)
+{
+    iso_status status = read_range(f, item, range);
+    if (status != ISO_OK || (range->values == ISO_FROM_RANGE && range->count <= MOST_LISTED)) return status;
+    return iso_yaml_fail(&f->yaml, item->start_mark, "a range in a list needs a 'count', at most %d", MOST_LISTED);
+}
+
+/* Values, and ranges of values. list NULL: only counts them. */
+static iso_status read_items(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a, size_t *count)
+{
+    iso_status status = ISO_OK;
+    *count = 0;
+    for (const yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++) {
+        const yaml_node_t *item = iso_yaml_node(&f->yaml, *i);
+        iso_sweep_axis range = {.width = a->width, .count = 1};
+        double value[9], *to = a->list ? a->list + *count * (size_t)a->width : value;
+        snprintf(range.name, sizeof range.name, "%s", a->name);
+        if (item->type == YAML_MAPPING_NODE && a->width == 1) {
+            status = read_range_of_list(f, item, &range);
+            for (size_t j = 0; a->list && j < range.count && status == ISO_OK; j++)
+                to[j] = iso_sweep_in_range(&range, j);
+        } else {
+            status = read_item(f, item, a, to);
+        }
+        if (status != ISO_OK) return status;
+        *count += range.count;
+    }
+    return ISO_OK;
+}
+
+static iso_status read_list(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
+{
+    size_t count;
+    if (node->data.sequence.items.start == node->data.sequence.items.top)
+        return iso_yaml_expected(&f->yaml, node, a->name, "a list of at least one value");
+    iso_status status = read_items(f, node, a, &count);
+    if (status == ISO_OK) status = make_list(f, a, count);
+    return status == ISO_OK ? read_items(f, node, a, &count) : status;
 }
 
 /* All a + b + c = sum from 1 on; ordered: a < b < c. */
