@@ -4,8 +4,8 @@
 #include <time.h>
 
 #include "scene_options.h"
-#include "sweep_explain.h"
 #include "study/section.h"
+#include "sweep_explain.h"
 
 /* What explain can be told. */
 typedef struct options {

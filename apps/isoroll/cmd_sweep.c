@@ -42,13 +42,15 @@ static iso_status share_of_slurm(iso_context *ctx, iso_sweep_share *share)
     if (!from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) ||
         !from_environment("SLURM_ARRAY_TASK_COUNT", NAN, &count) ||
         !from_environment("SLURM_ARRAY_TASK_MIN", 0, &least) || !from_environment("SLURM_ARRAY_TASK_STEP", 1, &step))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
-                                "--shard slurm: SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT say no numbers: this is "
-                                "no task of an array");
+        return iso_context_fail(
+            ctx, ISO_BAD_ARGUMENT, "shard",
+            "--shard slurm: SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT say no numbers: this is "
+            "no task of an array");
     const double index = (id - least) / fmax(step, 1);
     if (!(index >= 0 && index < count && index == floor(index)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
-                                "--shard slurm: task %g of %g from %g in steps of %g is none", id, count, least, step);
+                                "--shard slurm: task %g of %g from %g in steps of %g is none", id, count, least,
+                                step);
     *share = (iso_sweep_share){(size_t)index, (size_t)count};
     return ISO_OK;
 }
@@ -62,8 +64,8 @@ static iso_status read_share(iso_context *ctx, const char *text, iso_sweep_share
     const char *slash = strchr(text, '/');
     if (!slash || !read_whole(text, (size_t)(slash - text), &i) || !read_whole(slash + 1, strlen(slash + 1), &n) ||
         i < 1 || i > n)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard", "--shard '%s': expected i/n with 1 <= i <= n, or slurm",
-                                text);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
+                                "--shard '%s': expected i/n with 1 <= i <= n, or slurm", text);
     *share = (iso_sweep_share){(size_t)i - 1, (size_t)n};
     return ISO_OK;
 }
@@ -86,7 +88,8 @@ static double now(void)
 
 static void show(const work *w)
 {
-    const double done = (double)iso_sweep_journal_done(w->journal), all = (double)iso_sweep_journal_wanted(w->journal);
+    const double done = (double)iso_sweep_journal_done(w->journal),
+                 all = (double)iso_sweep_journal_wanted(w->journal);
     const double fresh = done - (double)w->before, left = (now() - w->begun) * (all - done) / fresh;
     char words[32] = "";
     if (fresh > 0 && left < 120)
@@ -123,8 +126,8 @@ static int tell_interrupted(const options *o, const work *w)
         return EXIT_SOME_FAILED;
     }
     complain("%s: %zu of %zu chunks are in '%s.part'; go on with: isoroll sweep %s -o %s%s%s --resume",
-             limit_is_near() ? "stopped before the time limit" : "interrupted", done, all, o->output, o->file, o->output,
-             o->shard ? " --shard " : "", o->shard ? o->shard : "");
+             limit_is_near() ? "stopped before the time limit" : "interrupted", done, all, o->output, o->file,
+             o->output, o->shard ? " --shard " : "", o->shard ? o->shard : "");
     return limit_is_near() ? EXIT_DONE : EXIT_SOME_FAILED;
 }
 
@@ -226,8 +229,8 @@ static const option_row rows[] = {
         shard),
     ROW("merge", NULL, NULL, "put the files of all shards together: the arguments are these files", set_flag, options,
         merge),
-    ROW("point", "I", "a whole number from 0 on", "print the scene of point I and do nothing else", set_whole, options,
-        point),
+    ROW("point", "I", "a whole number from 0 on", "print the scene of point I and do nothing else", set_whole,
+        options, point),
     ROW_END,
 };
 
@@ -245,7 +248,8 @@ const command command_sweep = {
         "(lib/doc/formats.md). 'isoroll explain SWEEP' tells how many points it has, and how long it takes here.\n\n"
         "Finished chunks of points are kept in FILE.part until all are there; then FILE is written. Ctrl-C lets the "
         "chunks that are being computed end. So do SIGTERM and SIGUSR1, after which the exit status is 0. Even "
-        "kill -9 loses only the chunks that are being computed. --resume goes on, with any number of threads. The bytes "
+        "kill -9 loses only the chunks that are being computed. --resume goes on, with any number of threads. The "
+        "bytes "
         "of FILE do not depend on threads, shards or interruptions.\n\n"
         "A point that fails is a row with its reason. A file that is there is not overwritten.",
     .example = "isoroll sweep sweep.yaml -o out.h5\n"

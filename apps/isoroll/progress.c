@@ -29,7 +29,8 @@ void progress_with(double part, const char *words)
     const bool coloured = !no_color || !*no_color;
     fprintf(stderr, "\r%s", coloured ? "\033[36m" : "");
     for (int i = 0; i < WIDTH; i++) fputc(i < (int)(part * WIDTH) ? '#' : '.', stderr);
-    fprintf(stderr, "%s %3.0f %% %-*.*s", coloured ? "\033[0m" : "", 100 * part, WORDS * (*words != '\0'), WORDS, words);
+    fprintf(stderr, "%s %3.0f %% %-*.*s", coloured ? "\033[0m" : "", 100 * part, WORDS * (*words != '\0'), WORDS,
+            words);
     fflush(stderr);
     drawn = true;
 }

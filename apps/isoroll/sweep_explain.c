@@ -86,7 +86,8 @@ static int processors(void)
 }
 
 /* One quantity by itself; *mean: seconds of a point. */
-static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan, int which, size_t chunk, double *mean)
+static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan, int which, size_t chunk,
+                                   double *mean)
 {
     iso_sweep_plan one = *plan;
     iso_sweep *sweep;

@@ -135,8 +135,8 @@ static bool create_sets(sweep_file *f, const iso_sweep_head *head)
 static bool write_head(const sweep_file *f, const iso_sweep_head *head, iso_sweep_share share)
 {
     char hash[ISO_HASH_SIZE], *columns = iso_sweep_columns_print(head);
-    const double part[2] = {(double)share.index + 1, (double)share.count}, sizes[] = {(double)head->count,
-                                                                                     (double)head->chunk};
+    const double part[2] = {(double)share.index + 1, (double)share.count},
+                 sizes[] = {(double)head->count, (double)head->chunk};
     iso_sweep_hash_print(hash, head->hash);
     bool good = columns && iso_hdf5_write_text(f->file, "format", f->part ? ISO_SWEEP_PART_FORMAT : ISO_SWEEP_FORMAT);
     good = good && iso_hdf5_write_text(f->file, "isoroll", ISO_VERSION);
@@ -184,7 +184,8 @@ static iso_status hdf5_create(iso_context *ctx, const char *path, const iso_swee
 {
     sweep_file *f = create_file(head->columns);
     if (!f) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path);
-    if (!has_room(f)) return abandon(ctx, f, iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path));
+    if (!has_room(f))
+        return abandon(ctx, f, iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path));
     f->points = iso_sweep_share_points(head, share);
     f->part = !iso_sweep_share_is_all(share);
     const iso_status status = open_target(ctx, f, path);
@@ -244,7 +245,8 @@ static bool flush_block(sweep_file *f)
 static bool write_row(sweep_file *f, const iso_sweep_rows *rows, size_t i)
 {
     const double *row = rows->number + i * (size_t)rows->columns;
-    for (int c = 0; c < f->columns; c++) f->block[(size_t)c * BLOCK + f->filled] = isnan(row[c]) ? (double)NAN : row[c];
+    for (int c = 0; c < f->columns; c++)
+        f->block[(size_t)c * BLOCK + f->filled] = isnan(row[c]) ? (double)NAN : row[c];
     f->block_status[f->filled] = (int)rows->status[i];
     f->block_point[f->filled] = (int64_t)(rows->first + i);
     bool good = ++f->filled < BLOCK || flush_block(f);
@@ -312,8 +314,7 @@ static bool read_numbers(hid_t file, const char *key, int count, double numbers[
     const hid_t at = H5Aopen(file, key, H5P_DEFAULT);
     if (at < 0) return false;
     const hid_t space = H5Aget_space(at);
-    const bool good =
-        H5Sget_simple_extent_npoints(space) == count && H5Aread(at, H5T_NATIVE_DOUBLE, numbers) >= 0;
+    const bool good = H5Sget_simple_extent_npoints(space) == count && H5Aread(at, H5T_NATIVE_DOUBLE, numbers) >= 0;
     H5Sclose(space);
     H5Aclose(at);
     return good;

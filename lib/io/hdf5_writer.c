@@ -48,7 +48,8 @@ static iso_status hdf5_line(iso_context *ctx, iso_trajectory_writer *w, const ch
     bool written;
     H5E_BEGIN_TRY
     {
-        written = count > 0 ? iso_hdf5_write_numbers(s->file, key, count, numbers) : iso_hdf5_write_text(s->file, key, value);
+        written = count > 0 ? iso_hdf5_write_numbers(s->file, key, count, numbers)
+                            : iso_hdf5_write_text(s->file, key, value);
     }
     H5E_END_TRY
     return written ? ISO_OK : iso_hdf5_trouble(ctx, "write", w->name);

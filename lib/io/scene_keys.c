@@ -379,7 +379,8 @@ static void list_one(listing *l, const char *prefix, const char *name, int count
     const yaml_node_t *value;
     if (l->count == l->most || !iso_yaml_find(&l->d->yaml, mapping, name, NULL, &value)) return;
     iso_draft_number *n = &l->list[l->count++];
-    *n = (iso_draft_number){.count = count, .offset = (size_t)((const char *)at - (const char *)l->d), .value = value};
+    *n =
+        (iso_draft_number){.count = count, .offset = (size_t)((const char *)at - (const char *)l->d), .value = value};
     snprintf(n->name, sizeof n->name, "%s%s%s", prefix, *prefix ? "." : "", name);
 }
 
@@ -409,6 +410,7 @@ int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[])
         if (e->section && iso_yaml_find(&d->yaml, d->root, e->name, NULL, &mapping)) list_section(&l, e, mapping);
     if (iso_yaml_find(&d->yaml, d->root, "effects", NULL, &effects))
         for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
-            if (iso_yaml_find(&d->yaml, effects, iso_effect_list[i]->name, NULL, &mapping)) list_effect(&l, i, mapping);
+            if (iso_yaml_find(&d->yaml, effects, iso_effect_list[i]->name, NULL, &mapping))
+                list_effect(&l, i, mapping);
     return l.count;
 }

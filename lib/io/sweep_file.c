@@ -68,8 +68,7 @@ static iso_status load_scene_file(iso_context *ctx, iso_sweep_file *f, const yam
     f->scene_name = beside(f->name, path);
     if (!f->scene_name) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
     iso_status status = iso_text_load(ctx, f->scene_name, LARGEST_FILE, &f->scene_text, &f->scene_length);
-    if (status == ISO_FILE_TROUBLE)
-        return iso_yaml_fail(&f->yaml, node->start_mark, "%s", iso_context_message(ctx));
+    if (status == ISO_FILE_TROUBLE) return iso_yaml_fail(&f->yaml, node->start_mark, "%s", iso_context_message(ctx));
     if (status != ISO_OK) return status;
     f->draft = iso_draft_empty(ctx, f->scene_name);
     status = iso_yaml_load(&f->draft.yaml, f->scene_text, f->scene_length);
@@ -250,7 +249,7 @@ static void finish_plan(iso_sweep_file *f)
     iso_sweep_hash(p->hash, f->text, f->length + 1);
     if (f->scene_text) iso_sweep_hash(p->hash, f->scene_text, f->scene_length);
     p->text = f->text;
-    p->family.name = (const char (*)[ISO_NAME_SIZE])f->column;
+    p->family.name = (const char(*)[ISO_NAME_SIZE])f->column;
     p->family.scene = iso_sweep_point;
     p->family.data = f;
     p->family.base = &f->base;
@@ -330,10 +329,12 @@ bool iso_sweep_axis_words(const iso_sweep_file *f, int i, char words[ISO_SWEEP_W
     char what[96] = "";
     switch (a->values) {
     case ISO_FROM_LIST: snprintf(what, sizeof what, "%zu value%s", a->count, a->count == 1 ? "" : "s"); break;
-    case ISO_FROM_RANGE: snprintf(what, sizeof what, "%zu values from %g to %g%s", a->count, a->from, a->to, steps); break;
+    case ISO_FROM_RANGE:
+        snprintf(what, sizeof what, "%zu values from %g to %g%s", a->count, a->from, a->to, steps);
+        break;
     case ISO_FROM_DRAWING:
-        snprintf(what, sizeof what, "%zu values drawn %s from %g to %g%s", f->samples, f->random ? "at random" : "evenly",
-                 a->from, a->to, steps);
+        snprintf(what, sizeof what, "%zu values drawn %s from %g to %g%s", f->samples,
+                 f->random ? "at random" : "evenly", a->from, a->to, steps);
         break;
     case ISO_FROM_TRIANGLE: snprintf(what, sizeof what, "%zu values of a triangle", a->count); break;
     case ISO_FROM_SPREAD: snprintf(what, sizeof what, "%zu starts spread over the section", a->count); break;

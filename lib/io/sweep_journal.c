@@ -239,11 +239,13 @@ static iso_status take_old(iso_context *ctx, iso_sweep_journal *j, off_t size, b
     if (!read || memcmp(there.mark, mine.mark, sizeof mine.mark) != 0)
         return refuse(ctx, j->name, "is no journal of a sweep: it would be overwritten");
     if (memcmp(&there, &mine, sizeof mine) != 0)
-        return refuse(ctx, j->name, "is the journal of another sweep, another share, or another version: remove it, or "
-                                    "give another name");
+        return refuse(ctx, j->name,
+                      "is the journal of another sweep, another share, or another version: remove it, or "
+                      "give another name");
     if (!resume)
-        return refuse(ctx, j->name, "has chunks of this sweep: add --resume to go on with it, or remove it to begin "
-                                    "again");
+        return refuse(ctx, j->name,
+                      "has chunks of this sweep: add --resume to go on with it, or remove it to begin "
+                      "again");
     j->end = (off_t)sizeof mine;
     return scan(ctx, j, size);
 }

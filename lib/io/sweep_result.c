@@ -137,8 +137,7 @@ iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_r
     if (status == ISO_OK) status = r->kind->open(ctx, path, &r->begin, &r->file);
     r->begin.head.column = r->begin.column;
     r->begin.head.text = r->begin.text ? r->begin.text : "";
-    if (status == ISO_OK && !makes_sense(&r->begin))
-        status = iso_sweep_damaged(ctx, path, "its head is damaged");
+    if (status == ISO_OK && !makes_sense(&r->begin)) status = iso_sweep_damaged(ctx, path, "its head is damaged");
     if (status == ISO_OK) {
         r->points = iso_sweep_share_points(&r->begin.head, r->begin.share);
         *reader = r;

@@ -55,7 +55,8 @@ ISO_API size_t iso_sweep_journal_points(const iso_sweep_journal *j);
 ISO_API size_t iso_sweep_journal_failed(const iso_sweep_journal *j, size_t *first, const char **reason);
 
 /* Adds a chunk. Errors: ISO_FILE_TROUBLE: the journal is then as it was before. */
-ISO_API iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c, const iso_sweep_rows *rows);
+ISO_API iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c,
+                                         const iso_sweep_rows *rows);
 
 /* Writes the result; all chunks of the share must be there. Errors: ISO_FILE_TROUBLE: the journal stays;
  * ISO_NO_MEMORY. */

@@ -129,8 +129,7 @@ static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_swe
     static const char *const names[] = {"from", "to", "count", "logarithmic"};
     const yaml_node_t *value;
     double count = 1;
-    if (a->width != 1)
-        return iso_yaml_expected(&f->yaml, node, a->name, "a list of vectors");
+    if (a->width != 1) return iso_yaml_expected(&f->yaml, node, a->name, "a list of vectors");
     iso_status status = iso_sweep_check_keys(&f->yaml, node, a->name, 4, names);
     if (status == ISO_OK) status = read_end(f, node, "from", &a->from);
     if (status == ISO_OK) status = read_end(f, node, "to", &a->to);
@@ -241,8 +240,8 @@ static iso_status read_values(iso_sweep_file *f, const yaml_node_t *node, iso_sw
         return a->width == 3 ? read_triangle(f, node, a) : read_range(f, node, a);
     }
     if (a->width > 1)
-        return iso_yaml_expected(&f->yaml, node, a->name, a->chart == 2 ? "a list of [l, x], or {spread: ...}"
-                                                                        : "a list of vectors");
+        return iso_yaml_expected(&f->yaml, node, a->name,
+                                 a->chart == 2 ? "a list of [l, x], or {spread: ...}" : "a list of vectors");
     const iso_status status = make_list(f, a, 1);
     return status == ISO_OK ? iso_yaml_number(&f->yaml, node, a->name, a->list) : status;
 }
@@ -285,8 +284,9 @@ static iso_status check_start(iso_sweep_file *f, const yaml_node_t *vary)
         for (int c = 0; c < 2; c++) have[c] += a->target == ISO_TO_CHART && (a->chart == c || a->chart == 2);
     }
     if (!f->on_section || (have[0] == 1 && have[1] == 1)) return ISO_OK;
-    return iso_yaml_fail(&f->yaml, vary->start_mark,
-                         "a start on the section is 'l' and 'x' (one of them may be a single number), or 'start' alone");
+    return iso_yaml_fail(
+        &f->yaml, vary->start_mark,
+        "a start on the section is 'l' and 'x' (one of them may be a single number), or 'start' alone");
 }
 
 /* The names of the columns of an axis. */
@@ -385,8 +385,7 @@ static iso_status count_points(iso_sweep_file *f, const yaml_node_t *vary)
     f->plan.family.count = f->drawn > 0 ? f->samples : 1;
     for (int i = 0; i < f->axes; i++) {
         count *= (double)f->axis[i].count;
-        if (count > most_points)
-            return iso_yaml_fail(&f->yaml, vary->start_mark, "more than %g points", most_points);
+        if (count > most_points) return iso_yaml_fail(&f->yaml, vary->start_mark, "more than %g points", most_points);
         f->plan.family.count *= f->axis[i].count;
     }
     return ISO_OK;

@@ -35,11 +35,11 @@ enum { ISO_SWEEP_SETTINGS = 6, ISO_SWEEP_WISHES = 16 };
 
 /* A number or a word that a quantity can be told in a sweep file. */
 typedef struct iso_sweep_setting {
-    const char *name;             /* NULL ends a list                                                     */
-    const char *(*word)(int i);   /* the words that it can be: the setting is then i; NULL: it is a number */
-    double usual;                 /* where the file does not say it; NaN: the scene's                      */
-    double least, most;           /* of a number                                                           */
-    bool whole;                   /* the number is whole                                                   */
+    const char *name;           /* NULL ends a list                                                     */
+    const char *(*word)(int i); /* the words that it can be: the setting is then i; NULL: it is a number */
+    double usual;               /* where the file does not say it; NaN: the scene's                      */
+    double least, most;         /* of a number                                                           */
+    bool whole;                 /* the number is whole                                                   */
 } iso_sweep_setting;
 
 /* What a sweep file must know of a quantity that can be measured. */

@@ -199,8 +199,7 @@ static iso_status run(iso_chaos_walk *w)
     return status;
 }
 
-static iso_status begin(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options,
-                        iso_chaos_walk *w)
+static iso_status begin(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options, iso_chaos_walk *w)
 {
     *w = (iso_chaos_walk){.ctx = ctx, .scene = scene, .options = iso_chaos_defaults()};
     const iso_status status = iso_options_take(ctx, "iso_chaos_options", &w->options, sizeof w->options, options);

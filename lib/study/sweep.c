@@ -36,8 +36,8 @@ void iso_sweep_note(iso_context *ctx, const iso_sweep_ask *ask, iso_sweep_batch 
     iso_sweep_rows *rows = batch->rows;
     if (rows->status[i] != ISO_OK) return;
     rows->status[i] = status;
-    snprintf(rows->reason[i], sizeof rows->reason[i], "%s%s%s", ask ? ask->quantity->topic.name : "",
-             ask ? ": " : "", iso_context_message(ctx));
+    snprintf(rows->reason[i], sizeof rows->reason[i], "%s%s%s", ask ? ask->quantity->topic.name : "", ask ? ": " : "",
+             iso_context_message(ctx));
     for (char *c = rows->reason[i]; *c; c++)
         if (*c == '"' || (unsigned char)*c < ' ') *c = '\'';
 }
@@ -203,8 +203,7 @@ static iso_status find_each(iso_context *ctx, const iso_sweep_ask *ask, iso_swee
 {
     for (size_t i = 0; i < b->count; i++) {
         if (!b->made[i]) continue;
-        const iso_status status =
-            ask->quantity->find(ctx, ask, &b->scene[i], iso_sweep_numbers(ask, b, i));
+        const iso_status status = ask->quantity->find(ctx, ask, &b->scene[i], iso_sweep_numbers(ask, b, i));
         if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
         if (status != ISO_OK) iso_sweep_note(ctx, ask, b, i, status);
     }

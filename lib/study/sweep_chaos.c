@@ -125,9 +125,8 @@ static iso_status chaos_find_all(iso_context *ctx, const iso_sweep_ask *ask, iso
     iso_chaos **chaos = calloc(b->count + 1, sizeof *chaos);
     iso_status *status = calloc(b->count + 1, sizeof *status);
     const bool room = scene && chaos && status;
-    const iso_status answer =
-        room ? find_together(ctx, ask, b, scene, chaos, status)
-             : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the orbits of a chunk");
+    const iso_status answer = room ? find_together(ctx, ask, b, scene, chaos, status)
+                                   : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the orbits of a chunk");
     free(scene);
     free(chaos);
     free(status);

@@ -11,9 +11,8 @@
 
 static int frequencies_columns(const iso_sweep_ask *ask, const char *name[])
 {
-    static const char *const names[] = {"rotation", "f1_t",  "f1_tau",   "f1_s",     "f2_t",      "f2_tau",
-                                        "f2_s",     "f1_error", "f2_error", "verdict", "estimated", "h",
-                                        "F"};
+    static const char *const names[] = {"rotation", "f1_t",     "f1_tau",  "f1_s",      "f2_t", "f2_tau", "f2_s",
+                                        "f1_error", "f2_error", "verdict", "estimated", "h",    "F"};
     (void)ask;
     return iso_sweep_names(name, (int)(sizeof names / sizeof *names), names);
 }
@@ -46,10 +45,7 @@ static size_t four(const iso_sweep_ask *ask)
 }
 
 const iso_sweep_quantity iso_sweep_frequencies = {
-    .topic = {.name = "frequencies",
-              .doc = "frequencies and rotation number",
-              .turns = true,
-              .time = true},
+    .topic = {.name = "frequencies", .doc = "frequencies and rotation number", .turns = true, .time = true},
     .columns = frequencies_columns,
     .chunk = four,
     .find = frequencies_find,
@@ -93,7 +89,7 @@ static iso_status splitting_find(iso_context *ctx, const iso_sweep_ask *ask, con
     if (status != ISO_OK) return status;
     const iso_splitting *s = found->row;
     if (s->status == ISO_OK) {
-        const double values[] = {s->x,      s->m,      s->error,           s->x_error,           s->x_tail,
+        const double values[] = {s->x,      s->m,      s->error,  s->x_error,   s->x_tail,
                                  s->m_tail, s->digits, s->lambda, s->from_zero, s->axis + 1};
         for (int i = 0; i < ask->count; i++) number[i] = values[i];
     } else {
@@ -109,7 +105,9 @@ static const iso_sweep_setting splitting_settings[] = {
 };
 
 const iso_sweep_quantity iso_sweep_splitting = {
-    .topic = {.name = "splitting", .doc = "x and m of the separatrix, and their errors", .settings = splitting_settings},
+    .topic = {.name = "splitting",
+              .doc = "x and m of the separatrix, and their errors",
+              .settings = splitting_settings},
     .columns = splitting_columns,
     .chunk = four,
     .refuse = free_refuse,

@@ -52,7 +52,8 @@ static bool give_away(worker *w, size_t c, iso_status status)
     if (status == ISO_OK && all->status == ISO_OK)
         all->status = all->source->take(all->source->data, all->ctx, c, &w->rows);
     else if (status != ISO_STOPPED && all->status == ISO_OK)
-        all->status = iso_context_fail(all->ctx, status, iso_context_about(w->ctx), "%s", iso_context_message(w->ctx));
+        all->status =
+            iso_context_fail(all->ctx, status, iso_context_about(w->ctx), "%s", iso_context_message(w->ctx));
     const bool good = all->status == ISO_OK;
     pthread_mutex_unlock(&all->lock);
     if (!good) atomic_store(&all->stopped, true);

@@ -144,8 +144,11 @@ const iso_sweep_quantity iso_sweep_state = {
 /* The names of iso_comparison.difference: those of the clocks depend on the scene's own. */
 static int backends_columns(const iso_sweep_ask *ask, const char *name[])
 {
-    static const char *const of_ball[] = {"omega", "n", "M", "gamma", "tau", "s", "largest"},
-                            *const of_point[] = {"omega", "n", "M", "gamma", "t", "tau", "largest"};
+    static const char *const of_ball[] = {"omega", "n", "M", "gamma", "tau", "s", "largest"}, *const of_point[] = {
+                                                                                                  "omega",  "n",
+                                                                                                  "M",      "gamma",
+                                                                                                  "t",      "tau",
+                                                                                                  "largest"};
     return iso_sweep_names(name, 7, ask->base->start.model == ISO_BALL ? of_ball : of_point);
 }
 

@@ -17,26 +17,25 @@
 #include "map/state.h"
 #include "study/sweep.h"
 
-static const char *const inside =
-    "scene:\n"
-    "  # a ball in a bowl, in lines of their own\n"
-    "  ball: {mass: 6.8, radius: 0.1, inertia: [0.027, 0.0274, 0.0283]}\n"
-    "  surface: {kind: inside, radius: 0.3}\n"
-    "  initial:\n"
-    "    normal:\n"
-    "    - 0.36\n"
-    "    - 0.48   # \xc3\xa4\n"
-    "    - 0.8\n"
-    "    angular_velocity: [0.9, -0.3, -0.225]\n"
-    "  time: {end: 10}\n"
-    "  effects: {gravity: {g: 9.81, up: [0, 0.6, 0.8]}}\n"
-    "vary:\n"
-    "  surface.radius: {from: 0.2, to: 0.4, count: 5}\n"
-    "  gravity.g: {from: 0.1, to: 10, count: 3, logarithmic: true}\n"
-    "  mass: {from: 1, to: 2}\n"
-    "  normal: [[0.36, 0.48, 0.8], [-0.36, -0.48, -0.8]]\n"
-    "samples: {count: 7, kind: random, seed: 3}\n"
-    "measure: {state: {}}\n";
+static const char *const inside = "scene:\n"
+                                  "  # a ball in a bowl, in lines of their own\n"
+                                  "  ball: {mass: 6.8, radius: 0.1, inertia: [0.027, 0.0274, 0.0283]}\n"
+                                  "  surface: {kind: inside, radius: 0.3}\n"
+                                  "  initial:\n"
+                                  "    normal:\n"
+                                  "    - 0.36\n"
+                                  "    - 0.48   # \xc3\xa4\n"
+                                  "    - 0.8\n"
+                                  "    angular_velocity: [0.9, -0.3, -0.225]\n"
+                                  "  time: {end: 10}\n"
+                                  "  effects: {gravity: {g: 9.81, up: [0, 0.6, 0.8]}}\n"
+                                  "vary:\n"
+                                  "  surface.radius: {from: 0.2, to: 0.4, count: 5}\n"
+                                  "  gravity.g: {from: 0.1, to: 10, count: 3, logarithmic: true}\n"
+                                  "  mass: {from: 1, to: 2}\n"
+                                  "  normal: [[0.36, 0.48, 0.8], [-0.36, -0.48, -0.8]]\n"
+                                  "samples: {count: 7, kind: random, seed: 3}\n"
+                                  "measure: {state: {}}\n";
 
 static const char *const chart =
     "scene: {reduced: {k: 0.5, J: [1, 2, 5]}, time: {end: 10},\n"
@@ -49,14 +48,13 @@ static const char *const chart =
     "samples: {count: 3}\n"
     "measure: {state: {}}\n";
 
-static const char *const point =
-    "scene: {point: {k: -0.75, J: [1, 2, 5]}, time: {end: 10},\n"
-    "        initial: {gamma: [0.36, 0.48, 0.8], M: [0.9, -0.3, -0.225]}}\n"
-    "vary:\n"
-    "  J: {triangle: 12, ordered: true}\n"
-    "  l: {from: -3, to: 3, count: 9}\n"
-    "  x: [-0.99, 0.25]\n"
-    "measure: {state: {}}\n";
+static const char *const point = "scene: {point: {k: -0.75, J: [1, 2, 5]}, time: {end: 10},\n"
+                                 "        initial: {gamma: [0.36, 0.48, 0.8], M: [0.9, -0.3, -0.225]}}\n"
+                                 "vary:\n"
+                                 "  J: {triangle: 12, ordered: true}\n"
+                                 "  l: {from: -3, to: 3, count: 9}\n"
+                                 "  x: [-0.99, 0.25]\n"
+                                 "measure: {state: {}}\n";
 
 static iso_sweep_file *read(iso_context *ctx, const char *text)
 {

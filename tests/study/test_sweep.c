@@ -140,7 +140,8 @@ static void check_ways(const char *name, double turns, double time)
         for (size_t i = 0; i < COUNT; i++) {
             const bool ball = a.rows.number[i * (size_t)a.rows.columns] != 0;
             gsl_test(ball != (a.rows.status[i] == ISO_OK), "%s, point %zu: %s", name, i, a.rows.reason[i]);
-            gsl_test(ball == isnan(a.rows.number[i * (size_t)a.rows.columns + 2]), "%s, point %zu: a number", name, i);
+            gsl_test(ball == isnan(a.rows.number[i * (size_t)a.rows.columns + 2]), "%s, point %zu: a number", name,
+                     i);
         }
         if (w > 0) iso_sweep_rows_free(&a.rows);
     }
