@@ -319,11 +319,10 @@ static iso_status search_line(iso_periodic_work *w, int line)
 
 iso_status iso_periodic_search(iso_periodic_work *w)
 {
-    const int lines = fabs(w->map.p.k) == 1 ? LINE_POLE : LINES; /* each torus has orbits on the first lines */
     iso_status status = ISO_OK;
-    for (int line = 0; line < lines && status == ISO_OK; line++) {
+    for (int line = 0; line < LINES && status == ISO_OK; line++) {
         status = search_line(w, line);
-        if (w->options.progress) w->options.progress((line + 1.0) / lines, w->options.data);
+        if (w->options.progress) w->options.progress((line + 1.0) / LINES, w->options.data);
     }
     return status;
 }

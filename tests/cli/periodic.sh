@@ -49,7 +49,7 @@ run 0 periodic b.yaml --period 1 --polish
 check "--polish: 30 digits" grep -q "6\.27038962043661[0-9]\{14,\}" out
 run 0 periodic d.yaml --period 6
 check "k = 1: tori" grep -q "lie on resonant tori" out
-check "k = 1: all are degenerate" test "$(grep -c degenerate out)" -eq 7
+check "k = 1: all are degenerate" test "$(grep -c degenerate out)" -eq 9
 
 # --- an orbit's start, followed by `run`, comes back
 l=$(rows b.csv | awk -F, '$2 == 1 { print $0; exit }')
