@@ -54,7 +54,8 @@ typedef struct iso_splitting {
 } iso_splitting;
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and
- * there is no middle axis); a middle axis whose rotation is not hyperbolic; parameters beyond what the numbers hold.
+ * there is no middle axis); a middle axis whose rotation is not hyperbolic, or lambda below 1.02 (moments that are
+ * nearly equal, large |k|), where m is below 1e-430 and not computed; parameters beyond what the numbers hold.
  * ISO_NUMERICAL: no crossing was found, or a return failed. ISO_BAD_ARGUMENT about "digits" where this build has no
  * 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The status and its words are in *s as well. */
 ISO_API iso_status iso_splitting_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits,

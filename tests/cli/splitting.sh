@@ -78,6 +78,11 @@ fi
 # --- refusals
 scene 0.5 "1, 2, 2" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >equal.yaml
 refuses 3 "two moments of inertia are equal" splitting equal.yaml
+# nearly equal moments: an answer in words, at once
+for moments in "1.4, 1.4000001, 3" "1.4, 2.9999999, 3"; do
+    scene 0.5 "$moments" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >near.yaml
+    refuses 3 "too near 1: m is about exp(-2 pi^2/ln of it) = 1e-" splitting near.yaml
+done
 refuses 3 "0.05 <= |k| <= 50" splitting half.yaml --k 1000
 refuses 3 "k = 0" splitting half.yaml --k 0
 refuses 3 "expected values and ranges" splitting half.yaml --k 1:2

@@ -48,23 +48,32 @@ static void test_integrable(void)
     gsl_test(!(size < 1e-14), "k = +-1: the largest error is %.1e", size);
 }
 
+static bool has_quad(void)
+{
+    iso_splitting s;
+    return iso_splitting_at(ctx, NAN, J_thin, ISO_SPLITTING_QUAD, &s) != ISO_BAD_ARGUMENT;
+}
+
+static void check_against_quad(double k, const double J[3], const iso_splitting *s)
+{
+    if (!has_quad()) return;
+    const iso_splitting q = at(k, J, ISO_SPLITTING_QUAD);
+    const double dm = fabs((s->m - q.m) + (s->m_tail - q.m_tail)), dx = fabs((s->x - q.x) + (s->x_tail - q.x_tail));
+    gsl_test(!(dm < s->error && dx < s->x_error), "k = %g: the errors cover the distance from 128 bits: %.2g, %.2g",
+             k, dm / s->error, dx / s->x_error);
+    gsl_test(!(q.error < 1e-26 && q.digits == 32), "k = %g: 128 bits have the error %.1e", k, q.error);
+    if (fabs(k) == 1) gsl_test(!(fabs(q.m) < q.error), "k = %g: m = %.1e in 128 bits", k, q.m);
+}
+
 /* 128 bits, where there are any: the errors of 64 bits cover the distance. */
 static void test_fine(void)
 {
     static const double cases[][4] = {{-1, 1.4, 2.1, 3}, {-0.4, 0.33, 0.9, 2.2}, {-1, 3, 1.1, 2},
                                       {2, 1, 2, 5},      {-1, 1.4, 2.1, 3},      {0.2, 1, 2, 3}};
-    iso_splitting probe;
-    if (iso_splitting_at(ctx, -1, J_thin, ISO_SPLITTING_QUAD, &probe) == ISO_BAD_ARGUMENT) return;
     const int count = tests_length(1, 6);
     for (int i = 0; i < count; i++) {
-        const double k = cases[i][0];
-        const iso_splitting s = at(k, &cases[i][1], ISO_SPLITTING_DOUBLE),
-                            q = i == 0 ? probe : at(k, &cases[i][1], ISO_SPLITTING_QUAD);
-        const double dm = fabs((s.m - q.m) + (s.m_tail - q.m_tail)), dx = fabs((s.x - q.x) + (s.x_tail - q.x_tail));
-        gsl_test(!(dm < s.error && dx < s.x_error), "k = %g: the errors cover the distance from 128 bits: %.2g, %.2g",
-                 k, dm / s.error, dx / s.x_error);
-        gsl_test(!(q.error < 1e-26 && q.digits == 32), "k = %g: 128 bits have the error %.1e", k, q.error);
-        if (fabs(k) == 1) gsl_test(!(fabs(q.m) < q.error), "k = %g: m = %.1e in 128 bits", k, q.m);
+        const iso_splitting s = at(cases[i][0], &cases[i][1], ISO_SPLITTING_DOUBLE);
+        check_against_quad(cases[i][0], &cases[i][1], &s);
     }
 }
 
@@ -143,6 +152,24 @@ static void check_refused(double k, const double J[3], const char *words)
              "k = %g, J = %g %g %g: %s", k, J[0], J[1], J[2], iso_context_message(ctx));
 }
 
+/* Nearly equal moments: answers at once, in words, or x and m with errors that cover the distance from 128 bits. */
+static void test_near_moments(void)
+{
+    static const double refused[][4] = {{0.5, 1.4, 1.4000001, 3},   {1, 1.4, 1.40000000000001, 3},
+                                        {-0.05, 1.4, 1.4000001, 3}, {0.05, 1.4, 2.9999999, 3},
+                                        {0.5, 1.4, 2.9999999, 3},   {-1, 2, 1.9999999999999998, 5},
+                                        {-50, 1.4, 1.401, 3},       {50, 1, 1.1, 5}};
+    static const double held[][4] = {
+        {0.5, 1.4, 1.401, 3}, {-0.05, 1.4, 1.401, 3}, {0.05, 1.4, 1.4000001, 3}, {-0.05, 1.4, 2.9999999, 3}};
+    for (int i = 0; i < 8; i++) check_refused(refused[i][0], &refused[i][1], "too near 1: m is about");
+    for (int i = 0; i < 4; i++) {
+        const iso_splitting s = at(held[i][0], &held[i][1], ISO_SPLITTING_DOUBLE);
+        gsl_test(!(s.error < 1e-16 && s.x_error < 1e-16), "J = %g %g %g, k = %g: errors %.1e, %.1e", held[i][1],
+                 held[i][2], held[i][3], held[i][0], s.error, s.x_error);
+        if (tests_length(0, 1)) check_against_quad(held[i][0], &held[i][1], &s);
+    }
+}
+
 static void test_refusals(void)
 {
     iso_splittings *s;
@@ -184,6 +211,7 @@ int main(void)
     test_symmetries();
     test_signs();
     test_zeros();
+    test_near_moments();
     test_refusals();
     test_curve();
     iso_context_free(ctx);
