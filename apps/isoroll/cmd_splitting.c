@@ -162,6 +162,7 @@ static void print_row(const iso_splitting *s)
     else /* 1.05: rounding of the bound to two digits must not make it smaller */
         printf("%24s %7.1e %7d   not distinguishable from 0: below %.1e\n", "0", s->error, s->digits,
                1.05 * (fabs(s->m) + s->error));
+    if (s->words[0]) printf("%11s %s\n", "", s->words);
 }
 
 static void print_zero(const iso_splitting *s)
@@ -200,6 +201,7 @@ static json_t *row_of(const iso_splitting *s)
         json_object_set_new(o, "global",
                             json_pack("{s:i, s:o, s:o}", "axis", s->section + 1, "x", json_number(s->section_x), "m",
                                       json_number(s->section_m)));
+    if (o && s->words[0]) json_object_set_new(o, "words", json_string(s->words));
     if (o && s->is_zero) {
         json_object_set_new(o, "k_error", json_number(s->k_error));
         json_object_set_new(o, "next",

@@ -150,6 +150,28 @@ iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], iso_
     return status == ISO_OK ? find_domain(m) : status;
 }
 
+/* With 128 bits, where they are asked for or needed. If they fail where only needed, what 64 bits tell stays. */
+static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_splitting_digits digits, iso_splitting *s)
+{
+    const bool unclear = !(fabs(s->m) >= 1000 * s->error);
+    const iso_manifold kept = *m;
+    const iso_manifold_crossing found = *c;
+    if (digits == ISO_SPLITTING_DOUBLE || (digits == ISO_SPLITTING_AUTO && !(unclear && has_quad()))) return ISO_OK;
+    const iso_status status = compute_finer(m, c, s);
+    if (status != ISO_NUMERICAL || digits == ISO_SPLITTING_QUAD) return status;
+    snprintf(s->words, sizeof s->words, "128 bits failed: %s", iso_context_message(m->ctx));
+    *m = kept;
+    *c = found;
+    return ISO_OK;
+}
+
+static void tell_next(const iso_manifold *m, const iso_manifold_crossing *n, iso_splitting *s)
+{
+    s->next_l = (double)iso_wide_turned(n->z[0] + m->corner);
+    s->next_x = (double)n->z[1];
+    s->next_m = (double)n->slope;
+}
+
 static iso_status find(iso_context *ctx, const double J[3], iso_splitting_digits digits, bool next, iso_splitting *s)
 {
     iso_manifold m;
@@ -162,16 +184,11 @@ static iso_status find(iso_context *ctx, const double J[3], iso_splitting_digits
     s->axis = (s->middle + 1) % 3;
     status = iso_manifold_first(&m, &c);
     if (status == ISO_OK) status = compute(&m, &with_64_bits, &c, s);
-    const bool unclear = !(fabs(s->m) >= 1000 * s->error);
-    if (status == ISO_OK && (digits == ISO_SPLITTING_QUAD || (digits == ISO_SPLITTING_AUTO && unclear && has_quad())))
-        status = compute_finer(&m, &c, s);
+    if (status == ISO_OK) status = find_finer(&m, &c, digits, s);
     if (status != ISO_OK || !next) return status;
     status = iso_manifold_next(&m, &c, &n);
-    if (status != ISO_OK) return status == ISO_NUMERICAL ? ISO_OK : status;
-    s->next_l = (double)iso_wide_turned(n.z[0] + m.corner);
-    s->next_x = (double)n.z[1];
-    s->next_m = (double)n.slope;
-    return status;
+    if (status == ISO_OK) tell_next(&m, &n, s);
+    return status == ISO_NUMERICAL ? ISO_OK : status;
 }
 
 static iso_status find_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits, bool next,

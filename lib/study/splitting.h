@@ -50,7 +50,7 @@ typedef struct iso_splitting {
     bool is_zero;                  /* k is a zero of m between two rows of a scan, to k_error; next_... are there   */
     double k_error;
     iso_status status; /* ISO_OK, or why there is nothing                                               */
-    char words[200];   /* of a failure                                                                  */
+    char words[200];   /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
 } iso_splitting;
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and
