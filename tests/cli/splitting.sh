@@ -21,7 +21,7 @@ silent
 check "one row" grep -q '^ *0.5 .* 6.14708829830.*e-03 ' out
 
 # --- a list, as CSV: values of two other programs
-run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 --csv split.csv -j 2
+run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -o split.csv -j 2
 silent
 near "x at k = 1/2" "$(column 1 x)" -0.5793681 5e-8
 near "m at k = 1/2" "$(column 1 m)" 0.006147 1e-6
@@ -32,13 +32,13 @@ near "m at k = 1" "$(column 3 m)" 0 "$(column 3 error)"
 near "x at k = -1/2" "$(column 4 x)" 0.8508579 5e-8
 near "m at k = -1/2" "$(column 4 m)" 0.001561 1e-6
 check "k = 1: words" grep -q ' 0 .*not distinguishable from 0: below ' out
-run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -j 1 --csv -
+run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -j 1 --output -
 check "one thread gives the same" cmp -s out split.csv
 
 # --- a range, and the scene's start does not matter
 scene 0.9 "1.4, 2.1, 3.0" "0, 0, 2" "0.6, 0.8, 0" 3 0.5 >other.yaml
-run 0 splitting half.yaml --k 0.5:0.7:0.1 --csv a.csv
-run 0 splitting other.yaml --k 0.7:0.5:0.1 --csv b.csv
+run 0 splitting half.yaml --k 0.5:0.7:0.1 -o a.csv
+run 0 splitting other.yaml --k 0.7:0.5:0.1 -o b.csv
 check "three values and a head" test "$(wc -l <a.csv)" -eq 5
 sort a.csv >a.sorted
 sort b.csv >b.sorted
@@ -70,7 +70,7 @@ fi
 
 # --- 128 bits tell more
 if isoroll_words=$("$isoroll" list methods) && echo "$isoroll_words" | grep -q -w taylor_quad; then
-    run 0 splitting half.yaml --k=-1 --csv split.csv
+    run 0 splitting half.yaml --k=-1 -o split.csv
     near "128 bits at k = -1" "$(column 1 m)" 0 1e-29
     check "its digits" test "$(column 1 digits)" = 32
 fi
@@ -89,7 +89,7 @@ refuses 3 "expected values and ranges" splitting half.yaml --k 1:2
 refuses 3 "expected values and ranges" splitting half.yaml --k 1:2:0
 refuses 3 "expected values and ranges" splitting half.yaml --k 1/0
 refuses 2 "double, quad or auto" splitting half.yaml --digits few
-refuses 2 "choose --csv - or --json" splitting half.yaml --csv - --json
+refuses 2 "choose -o - or --json" splitting half.yaml -o - --json
 refuses 2 ".svg, .png or .pdf" splitting half.yaml --plot picture.bmp
 refuses 3 "gravity" splitting "$source/examples/10_bowl/scene.yaml"
 run 1 splitting half.yaml --k 0,0.5
