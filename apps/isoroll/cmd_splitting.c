@@ -110,20 +110,6 @@ static iso_status read_k(iso_context *ctx, const options *o, const iso_scene *sc
     }
 }
 
-/* The isomorphism and its return map are those of the free ball. */
-static iso_status check_free(iso_context *ctx, const iso_scene *scene)
-{
-    const iso_effect *acting = iso_effects_beyond_level(&scene->effects);
-    if (acting)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, acting->name,
-                                "splitting is about the free ball: take '%s' out of the scene", acting->name);
-    if (iso_effects_have_level(&scene->effects))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "level",
-                                "splitting is about the free ball, on the level H = 0: take the level out of the "
-                                "scene");
-    return ISO_OK;
-}
-
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
 static int worse(int a, int b)
@@ -178,7 +164,6 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
                                 "splitting: standard output has room for one: choose -o - or --json");
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
-    if (status == ISO_OK) status = check_free(ctx, scene);
     if (status == ISO_OK) status = read_k(ctx, o, scene, k);
     return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
 }
@@ -189,6 +174,7 @@ static int work(iso_context *ctx, const options *o, const iso_scene *scene, cons
     iso_splitting_options how = iso_splitting_defaults();
     how.k = k->k, how.count = k->count;
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
+    how.effects = &scene->effects;
     how.digits = o->digits;
     how.threads = o->threads < 4096 ? (int)o->threads : 4096;
     how.progress = show;
@@ -197,7 +183,7 @@ static int work(iso_context *ctx, const options *o, const iso_scene *scene, cons
     const iso_status status = iso_splitting_run(ctx, &how, &s);
     iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
-    int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish(ctx, status);
+    int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish_scene(ctx, &o->scene, scene, status);
     if (status == ISO_STOPPED) complain("interrupted: only rows that are done are shown");
     if (s)
         result = worse(result, report(ctx, o, scene, s, csv));
@@ -266,8 +252,9 @@ const command command_splitting = {
         "each k. --plot draws |m| over k, and both curves at the k where they are seen best. After Ctrl-C the rows "
         "that are done are printed.",
     .example = "isoroll splitting scene.yaml --k 0.25:3:0.25 --plot splitting.png",
-    .exits = "1: interrupted, or some values of k failed\n"
-             "3: bad input: equal moments, or a middle axis that is stable\n"
-             "4: the computation failed, or no memory",
+    .exits =
+        "1: interrupted, or some values of k failed\n"
+        "3: bad input: gravity or another effect, equal or nearly equal moments, or a middle axis that is stable\n"
+        "4: the computation failed, or no memory",
     .run = run,
 };

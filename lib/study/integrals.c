@@ -7,6 +7,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
+#include "study/free_impl.h"
 #include "study/integrals_impl.h"
 
 enum { LEAST_ORBITS = 64, MOST_ORBITS = 10000, PROBES = 16 };
@@ -80,15 +81,8 @@ static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
     const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
     if (status != ISO_OK) return status;
     const iso_effects effects = iso_orbit_effects(orbit);
-    const iso_effect *effect = iso_effects_beyond_level(&effects);
-    const bool level = iso_effects_have_level(&effects);
     iso_orbit_free(orbit);
-    if (effect)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                                "'%s' acts on the ball: integrals are searched for free motions", effect->name);
-    if (!level) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, iso_level_name(),
-                            "the point is not on the level H = 0: integrals are searched for free motions");
+    return iso_study_check_free(ctx, &effects, "integrals are sought");
 }
 
 /* --- integrals that are known ----------------------------------------------------------------------------------- */

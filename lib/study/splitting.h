@@ -22,6 +22,7 @@
 
 #include "../base/api.h"
 #include "../base/record.h"
+#include "../model/effect.h"
 
 ISO_C_BEGIN
 
@@ -70,6 +71,7 @@ typedef struct iso_splitting_options {
     const double *k; /* the values, in any order                                              */
     size_t count;
     double J[3];
+    const iso_effects *effects; /* of the ball: none may act; NULL: none        */
     iso_splitting_digits digits;
     bool zeros;  /* look for zeros of m between neighbours of this list                    */
     int threads; /* 0: as many as there are processors to run on                           */
@@ -98,7 +100,7 @@ typedef struct iso_splittings {
  * signs differ and +-1 is not between them, or if they agree and it is. A zero of m is a tangency of the manifolds
  * at this one point: it is no integrability, as long as they cross elsewhere (next_m != 0).
  * A failure at one k is told in its row, and is no failure of the call.
- * Errors: ISO_BAD_ARGUMENT (no k; "digits"), ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has the rows
+ * Errors: ISO_BAD_ARGUMENT (no k; "digits"), ISO_BAD_INPUT about an effect that acts on the ball, ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has the rows
  * that are done. */
 ISO_API iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *options, iso_splittings **s);
 ISO_API void iso_splitting_free(iso_splittings *s);

@@ -3,7 +3,9 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
 #include "orbit/pool_impl.h"
+#include "study/free_impl.h"
 #include "study/splitting.h"
 
 /* Two neighbours with a zero of m between them. */
@@ -200,11 +202,15 @@ iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *opti
 {
     ISO_DEFAULT_ARITHMETIC;
     *s = NULL;
-    if (!options || options->count == 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
+    iso_splitting_options o = iso_splitting_defaults();
+    iso_status status = iso_options_take(ctx, "iso_splitting_options", &o, sizeof o, options);
+    if (status == ISO_OK && o.count == 0)
+        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
+    if (status == ISO_OK) status = iso_study_check_free(ctx, o.effects, "the splitting is that");
+    if (status != ISO_OK) return status;
     iso_splittings *found = calloc(1, sizeof *found);
     if (!found) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the splitting");
-    const iso_status status = run(ctx, options, found);
+    status = run(ctx, &o, found);
     if (status == ISO_OK || status == ISO_STOPPED)
         *s = found;
     else

@@ -72,7 +72,7 @@ check "a scene from standard input" test $? -eq 0
 
 # --- refusals
 { cat other.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >gravity.yaml
-refuses 3 "'gravity' acts on the ball" integrals gravity.yaml
+refuses 3 "integrals are sought of the free ball, and of the point on H = 0: without 'gravity'" integrals gravity.yaml
 refuses 2 "--degree '0'" integrals other.yaml --degree 0
 refuses 2 "--within '-1'" integrals other.yaml --within -1
 refuses 2 "--coefficients '1.5'" integrals other.yaml --coefficients 1.5

@@ -172,6 +172,7 @@ static void test_near_moments(void)
 
 static void test_refusals(void)
 {
+    const double half = 0.5;
     iso_splittings *s;
     iso_splitting one;
     iso_splitting_options o = iso_splitting_defaults();
@@ -181,7 +182,13 @@ static void test_refusals(void)
     check_refused(1e6, J_thin, "hold");
     check_refused(0.001, J_thin, "hold");
     check_refused(1, (double[3]){1, -2, 3}, "");
+    iso_effects effects = iso_effects_default();
     gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_ARGUMENT || s, "no k");
+    iso_effects_set(ctx, &effects, "gravity", "mgb", 1, (double[]){0.7});
+    o.k = &half, o.count = 1, o.effects = &effects;
+    memcpy(o.J, J_thin, sizeof o.J);
+    gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_INPUT || s || strcmp(iso_context_about(ctx), "gravity") != 0,
+             "a ball with gravity: %s", iso_context_message(ctx));
     iso_context_set_monitor(ctx, never, NULL);
     gsl_test(iso_splitting_at(ctx, 0.5, J_thin, ISO_SPLITTING_AUTO, &one) != ISO_STOPPED, "stopped on request");
     iso_context_set_monitor(ctx, NULL, NULL);
