@@ -91,17 +91,17 @@ static inline iso_splitting_options iso_splitting_defaults(void)
 
 typedef struct iso_splittings {
     size_t rows, zeros;
-    size_t lost;         /* zeros that lie between two rows and were not found: a failure, or too close to +-1   */
+    size_t lost;         /* zeros that lie between two rows and were not found: a failure, or +-1 too close  */
     iso_splitting *row;  /* one for each k of the options, in their order; status ISO_STOPPED: not done    */
     iso_splitting *zero; /* zeros of m other than k = +-1, by growing k                                    */
 } iso_splittings;
 
-/* m changes its sign at k = 1 and k = -1. So there is a zero between two neighbours that are told from 0 if their
- * signs differ and +-1 is not between them, or if they agree and it is. A zero of m is a tangency of the manifolds
- * at this one point: it is no integrability, as long as they cross elsewhere (next_m != 0).
+/* Other zeros of m than k = 1 and k = -1 are those of r = m/(k^2 - 1): there is one between two neighbours that are
+ * told from 0 if their r have opposite signs. It is a tangency of the manifolds at this one point: no integrability,
+ * as long as they cross elsewhere (next_m != 0).
  * A failure at one k is told in its row, and is no failure of the call.
- * Errors: ISO_BAD_ARGUMENT (no k; "digits"), ISO_BAD_INPUT about an effect that acts on the ball, ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has the rows
- * that are done. */
+ * Errors: ISO_BAD_ARGUMENT (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball; ISO_NO_MEMORY;
+ * ISO_STOPPED by the context's monitor: *s has the rows that are done. */
 ISO_API iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *options, iso_splittings **s);
 ISO_API void iso_splitting_free(iso_splittings *s);
 

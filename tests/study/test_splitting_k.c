@@ -136,6 +136,25 @@ static void test_zeros(void)
     iso_splitting_free(n);
 }
 
+/* +-1 between the same neighbours hides no zero and makes none. */
+static void test_zeros_beside_one(void)
+{
+    static const struct {
+        double k[2], zero; /* NaN: none */
+    } cases[] = {{{-0.9, -2}, -1.602408110834},
+                 {{-0.5, -1.603}, -1.602408110834},
+                 {{0.5, 3}, 2.2693235571},
+                 {{-0.5, -1.602}, NAN},
+                 {{0.5, 1.0001}, NAN}};
+    for (int i = 0; i < 5; i++) {
+        iso_splittings *s = scan(cases[i].k, 2, J_wide, 1);
+        const bool some = !isnan(cases[i].zero);
+        gsl_test(s->zeros != some || s->lost > 0 || !(s->zeros == 0 || fabs(s->zero->k - cases[i].zero) < 1e-8),
+                 "between k = %g and %g: %zu zeros, %zu lost", cases[i].k[0], cases[i].k[1], s->zeros, s->lost);
+        iso_splitting_free(s);
+    }
+}
+
 /* --- refusals --------------------------------------------------------------------------------------------------- */
 
 static bool never(void *unused)
@@ -218,6 +237,7 @@ int main(void)
     test_symmetries();
     test_signs();
     test_zeros();
+    test_zeros_beside_one();
     test_near_moments();
     test_refusals();
     test_curve();
