@@ -1,4 +1,4 @@
-/* splitting.h - the splitting of the separatrix: why only k = 1 and k = -1 are integrable.
+/* splitting.h - the splitting of the separatrix, which is 0 at k = 1 and k = -1, where the ball is integrable.
  *
  * The rotation about the middle axis is a hyperbolic fixed point O of the return map (map/section.h), with its mirror
  * O', half a turn of l away. At k = +-1 the unstable manifold of O is the stable manifold of O'. At other k they
