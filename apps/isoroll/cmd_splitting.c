@@ -247,7 +247,11 @@ const command command_splitting = {
         "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not tell it "
         "from 0, 128 bits are taken, which need some seconds for each k. Other zeros of m between two values of k "
         "are "
-        "located. There the curves touch at one point and cross at others: it is no integrability.\n\n"
+        "located. There the curves touch at one point, and the slopes at the next one are told: it is no "
+        "integrability."
+        " Where the multiplier of the rotation is below 1.02, as between nearly equal moments, m is too small for "
+        "any "
+        "digits and not computed.\n\n"
         "Only k and J of the scene are read. Its start does not matter, nor do its times. -o FILE writes one row for "
         "each k. --plot draws |m| over k, and both curves at the k where they are seen best. After Ctrl-C the rows "
         "that are done are printed.",
