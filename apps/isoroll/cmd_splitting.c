@@ -212,9 +212,10 @@ static const option_row rows[] = {
     ROW("k", "LIST", "values and ranges A:B:STEP",
         "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
         set_text, options, k),
-    ROW_OF_WORDS("digits", "D", "double, quad or auto",
-                 "numbers of 64 bits, of 128 bits, or the first, and the second where m is not told from 0 (default)",
-                 set_splitting_digits, options, digits, digits_word),
+    ROW_OF_WORDS(
+        "digits", "D", "double, quad or auto",
+        "double: numbers of 64 bits; quad: of 128 bits; auto: of 128 where 64 tell less than 3 digits of m (default)",
+        set_splitting_digits, options, digits, digits_word),
     {.name = "threads",
      .argument = "N",
      .expected = "a whole number from 1 on",
@@ -238,7 +239,8 @@ const command command_splitting = {
     .file = offsetof(options, scene.file),
     .description =
         "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, it "
-        "is a point. One curve leaves it: the orbits that come from this rotation. Another one enters its mirror: "
+        "is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come from "
+        "this rotation. Another one enters its mirror: "
         "the "
         "orbits that end in the opposite rotation. In an integrable system both are one curve; elsewhere they cross. "
         "This command finds the first point of the curve that leaves with l = pi/2, its x = M_a/|M|, and its slope "
