@@ -51,7 +51,7 @@ static void print_known(const iso_integral_search *r)
         if (known->degree > 0)
             printf("found in degree %d, to %.1e\n", known->degree, known->residual);
         else
-            printf("not in this space\n");
+            printf(known->constant ? "a constant on the level\n" : "not in this space\n");
     }
 }
 
@@ -122,10 +122,11 @@ static json_t *known_of(const iso_integral_search *r)
     json_t *list = json_array();
     for (int i = 0; i < r->known_count; i++) {
         const iso_integral_known *known = &r->known[i];
-        json_array_append_new(list, json_pack("{s:s, s:s, s:b, s:o, s:o}", "name", known->name, "doc", known->doc,
-                                              "found", known->degree > 0, "degree",
-                                              known->degree > 0 ? json_integer(known->degree) : json_null(),
-                                              "residual", json_number(known->residual)));
+        json_array_append_new(list,
+                              json_pack("{s:s, s:s, s:b, s:b, s:o, s:o}", "name", known->name, "doc", known->doc,
+                                        "found", known->degree > 0, "constant", (int)known->constant, "degree",
+                                        known->degree > 0 ? json_integer(known->degree) : json_null(), "residual",
+                                        json_number(known->residual)));
     }
     return list;
 }
@@ -237,6 +238,7 @@ const command command_integrals = {
         "between its own error and --within.",
     .example = "isoroll integrals scene.yaml --degree 4",
     .exits = "1: interrupted\n"
+             "3: bad input: gravity or another effect, or k too near 0\n"
              "4: the computation failed, or no memory",
     .run = run,
 };

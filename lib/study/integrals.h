@@ -111,6 +111,7 @@ typedef struct iso_integral_degree {
 /* An integral that the library knows for this k and J (iso_system_point.integrals). */
 typedef struct iso_integral_known {
     const char *name, *doc;
+    bool constant;   /* on H = 0, as the energy: it tells nothing further (three equal moments) */
     int degree;      /* d of the first V_d in which it was found; 0: it was not */
     double residual; /* its distance from what was found there, by its own size */
 } iso_integral_known;
@@ -133,9 +134,8 @@ typedef struct iso_integral_search {
 
 /* Only k, J and the effects of the scene are read, and whether its start lies on H = 0.
  * Errors: ISO_BAD_ARGUMENT about "degree", "coefficients", "orbits" (too few for the functions, or more than 10000),
- * "turns", "within", "tolerance", "threads"; ISO_BAD_INPUT about an effect that acts on the ball (observers do not
- * matter), or the level of a point off H = 0; those of iso_batch_run; ISO_NUMERICAL where powers of q do not fit a
- * double; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: the degrees done are valid. */
+ * "turns", "within", "tolerance", "threads"; ISO_BAD_INPUT about "k" where powers of q do not fit a double, about an effect that acts on the ball (observers do not
+ * matter), or the level of a point off H = 0; those of iso_batch_run; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: the degrees done are valid. */
 ISO_API iso_status iso_integral_search_run(iso_context *ctx, const iso_scene *scene,
                                            const iso_integral_search_options *options, iso_integral_search *result);
 

@@ -42,7 +42,8 @@ typedef struct iso_manifold_point {
 typedef struct iso_manifold_crossing {
     int halves;
     iso_wide theta, z[2];
-    iso_wide slope; /* half the difference of the slopes dx/du of both manifolds */
+    iso_wide slope;    /* half the difference of the slopes dx/du of both manifolds */
+    double scatter[2]; /* how far rounding moves x and the slope                     */
 } iso_manifold_crossing;
 
 /* Checks k and J, and finds lambda and v. Errors: as iso_splitting_at. */

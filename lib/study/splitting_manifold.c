@@ -45,6 +45,25 @@ iso_status iso_manifold_map(const iso_manifold *m, const iso_wide z[2], iso_wide
     return image[0] - image[0] == 0 && image[1] - image[1] == 0 ? ISO_OK : no_return(m);
 }
 
+/* lambda must be 1.01 or more, that of a whole return 1.02: with smaller ones the crossing is very many half returns
+ * away, and m, about exp(-2 pi^2/ln lambda^2), is below 1e-430. No bound is computed then, so none is told. */
+static iso_status check_trace(const iso_manifold *m, double trace)
+{
+    const double apart = trace - 2; /* (lambda - 1)^2/lambda */
+    if (apart > 1e-4) return ISO_OK;
+    if (apart < -1e-9)
+        return iso_context_fail(m->ctx, ISO_BAD_INPUT, "k",
+                                "splitting: at k = %.15g the rotation about the middle axis is not hyperbolic "
+                                "(half-turn trace %.12g): it has no separatrix",
+                                m->problem.p.k, trace);
+    const double exponent = 2 * sqrt(fmax(apart, 1e-15)); /* ln lambda^2 */
+    return iso_context_fail(
+        m->ctx, ISO_BAD_INPUT, "J",
+        "splitting at k = %.15g: the middle axis has the multiplier 1 + %.1e, too near 1: m is about "
+        "exp(-2 pi^2/ln of it) = 1e-%.0f or less, which 128 bits do not tell from 0",
+        m->problem.p.k, expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
+}
+
 /* lambda and v from the derivative at the fixed point, whose determinant is 1. */
 static iso_status find_direction(iso_manifold *m)
 {
@@ -55,11 +74,8 @@ static iso_status find_direction(iso_manifold *m)
     if (status != ISO_OK) return status;
     iso_wide trace = A[0][0] + A[1][1];
     if (trace < 0) m->sign = -1, trace = -trace;
-    if (!(trace > 2 + 1e-10))
-        return iso_context_fail(m->ctx, ISO_BAD_INPUT, "k",
-                                "splitting: at k = %.15g the rotation about the middle axis is not hyperbolic "
-                                "(half-turn trace %.12g): it has no separatrix",
-                                m->problem.p.k, (double)trace);
+    status = check_trace(m, (double)trace);
+    if (status != ISO_OK) return status;
     m->lambda = (trace + WIDE_ROOT((trace - 2) * (trace + 2))) / 2;
     m->v[0] = m->sign * A[0][1];
     m->v[1] = m->lambda - m->sign * A[0][0];
