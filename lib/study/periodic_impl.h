@@ -122,9 +122,6 @@ typedef struct iso_periodic_shot {
 bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_code *code, int line, iso_wide u, int period,
                         iso_periodic_shot *shot);
 
-/* angle into (-period/2, period/2]. */
-iso_wide iso_periodic_wrap(iso_wide angle, iso_wide period);
-
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
 
 typedef struct iso_periodic_work {

@@ -10,11 +10,6 @@
 #include "base/pi_impl.h"
 #include "study/periodic_impl.h"
 
-iso_wide iso_periodic_wrap(iso_wide angle, iso_wide period)
-{
-    return angle - WIDE_ROUND(angle / period) * period;
-}
-
 int iso_line_axis_at(int axis, int line, bool end)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
@@ -132,13 +127,13 @@ static void arrive(int line, const arrival *a, iso_periodic_shot *s)
         s->miss[i] = a->behind[i] - S[i] * a->before[i];
         s->miss_by_u[i] = a->B[i][0] - S[i] * a->A[i][0];
     }
-    s->miss[0] = iso_periodic_wrap(s->miss[0] - (reversor == 2 ? WIDE_PI : 0), 2 * WIDE_PI);
+    s->miss[0] = iso_wide_wrap(s->miss[0] - (reversor == 2 ? WIDE_PI : 0), 2 * WIDE_PI);
     for (int j = 0; j < 2; j++) {
         s->D[0][j] = (a->A[1 - odd][j] + a->B[1 - odd][j]) / 2;
         s->D[1][j] = (a->A[odd][j] + a->B[odd][j]) / 2;
     }
     const iso_wide middle = (a->before[odd] + a->behind[odd]) / 2;
-    s->off = odd == 1 ? middle : iso_periodic_wrap(middle - (reversor == 1 ? 0 : WIDE_PI / 2), WIDE_PI);
+    s->off = odd == 1 ? middle : iso_wide_wrap(middle - (reversor == 1 ? 0 : WIDE_PI / 2), WIDE_PI);
     find_trace(a, S, s);
 }
 

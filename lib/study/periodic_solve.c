@@ -52,7 +52,7 @@ static void find_step_in_plane(solver *s, iso_wide step[2])
 {
     const iso_wide(*A)[2] = (const iso_wide(*)[2])s->whole.slope;
     const iso_wide a = A[0][0] - 1, b = A[0][1], c = A[1][0], d = A[1][1] - 1, det = a * d - b * c;
-    const iso_wide r0 = iso_periodic_wrap(s->z[0] - s->whole.to[0], 2 * WIDE_PI), r1 = s->z[1] - s->whole.to[1];
+    const iso_wide r0 = iso_wide_wrap(s->z[0] - s->whole.to[0], 2 * WIDE_PI), r1 = s->z[1] - s->whole.to[1];
     step[0] = (d * r0 - b * r1) / det;
     step[1] = (a * r1 - c * r0) / det;
     s->step = WIDE_ABS(step[0]) + WIDE_ABS(step[1]);
@@ -163,7 +163,7 @@ static bool judge(const solver *s, iso_periodic_orbit *o)
     o->trace = t.head;
     o->trace_tail = t.tail;
     o->determinant = (double)(all.determinant - 1);
-    o->closure = hypot((double)iso_periodic_wrap(all.to[0] - s->z[0], 2 * WIDE_PI), (double)(all.to[1] - s->z[1])) /
+    o->closure = hypot((double)iso_wide_wrap(all.to[0] - s->z[0], 2 * WIDE_PI), (double)(all.to[1] - s->z[1])) /
                  fmax(1, largest4((const iso_wide(*)[2])all.slope));
     const double moved = s->slope_of_trace * (fabs((double)s->step) + digits + 4 * o->closure);
     o->error = error + 256 * digits * s->period * doubt + 4 * moved + fabs(o->determinant) * (1 + fabs(o->trace));
@@ -203,7 +203,7 @@ iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_re
     if (!solve(&s) || !(WIDE_ABS(s.z[1]) < 1)) return ISO_PERIODIC_LOST;
     if (!is_orbit(&s)) return ISO_PERIODIC_NONE;
     if (!judge(&s, o)) return ISO_PERIODIC_LOST;
-    const iso_fine z[2] = {iso_fine_of(iso_periodic_wrap(s.z[0], 2 * WIDE_PI)), iso_fine_of(s.z[1])};
+    const iso_fine z[2] = {iso_fine_of(iso_wide_wrap(s.z[0], 2 * WIDE_PI)), iso_fine_of(s.z[1])};
     o->line = s.line;
     o->period = s.period;
     o->u = (double)s.u;

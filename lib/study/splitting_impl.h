@@ -77,6 +77,11 @@ iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c);
 /* The next point where the manifolds meet, between that and its image. */
 iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing *from, iso_manifold_crossing *c);
 
-iso_wide iso_wide_turned(iso_wide angle); /* into (-pi, pi] */
+
+/* angle, less whole turns. */
+static inline iso_wide iso_wide_turned(iso_wide angle)
+{
+    return iso_wide_wrap(angle, 2 * WIDE_PI);
+}
 
 #endif

@@ -16,14 +16,6 @@
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
-iso_wide iso_wide_turned(iso_wide angle)
-{
-    const iso_wide pi = WIDE_PI;
-    while (angle > pi) angle -= 2 * pi;
-    while (angle <= -pi) angle += 2 * pi;
-    return angle;
-}
-
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 
 static iso_status no_return(const iso_manifold *m)
