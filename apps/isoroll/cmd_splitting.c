@@ -156,7 +156,7 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
 {
     if (o->output && strcmp(o->output, "-") == 0 && o->json)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output",
-                                "splitting: standard output has room for one: choose -o - or --json");
+                                "splitting: -o - and --json both write to standard output: choose one");
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     if (status == ISO_OK) status = read_k(ctx, o, scene, k);
@@ -207,17 +207,12 @@ static const option_row rows[] = {
     ROW("k", "LIST", "values and ranges A:B:STEP",
         "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
         set_text, options, k),
-    ROW_OF_WORDS(
-        "digits", "D", "double, quad or auto",
-        "double: numbers of 64 bits; quad: of 128 bits; auto: of 128 where 64 tell less than 3 digits of m (default)",
-        set_splitting_digits, options, digits, digits_word),
-    {.name = "threads",
-     .argument = "N",
-     .expected = "a whole number from 1 on",
-     .doc = "threads that work (default: one for each processor)",
-     .set = set_count,
-     .offset = offsetof(options, threads),
-     .letter = 'j'},
+    ROW_OF_WORDS("digits", "D", "double, quad or auto",
+                 "double: 64 bits of mantissa (19 digits); quad: 128 bits (32 digits); auto: 128 bits where 64 give "
+                 "less than 3 "
+                 "digits of m (default)",
+                 set_splitting_digits, options, digits, digits_word),
+    ROW_THREADS(options, threads),
     ROW_OUTPUT(options, output),
     ROW_PLOT(options, plot),
     ROW_JSON(options, json),
@@ -237,18 +232,19 @@ const command command_splitting = {
         "is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come from "
         "this rotation. Another one enters its mirror: "
         "the "
-        "orbits that end in the opposite rotation. In an integrable system both are one curve; elsewhere they cross. "
+        "orbits that end in the opposite rotation. If there is a further analytic integral, both are one curve. If "
+        "they cross, there is none. "
         "This command finds the first point of the curve that leaves with l = pi/2, its x = M_a/|M|, and its slope "
         "m = dx/dl there; the other curve has the slope -m. So m = 0 at k = 1 and k = -1, and m not 0 says that "
         "there is no further analytic integral.\n\n"
-        "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not tell it "
-        "from 0, 128 bits are taken, which need some seconds for each k. Other zeros of m between two values of k "
+        "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not "
+        "distinguish it from 0, 128 bits are taken, which need from seconds to a minute for each k. Other zeros of m "
+        "between two values of k "
         "are "
-        "located. There the curves touch at one point, and the slopes at the next one are told: it is no "
-        "integrability."
-        " Where the multiplier of the rotation is below 1.02, as between nearly equal moments, m is too small for "
-        "any "
-        "digits and not computed.\n\n"
+        "located. There the curves touch at one point. The slope at the next common point is printed: if they cross "
+        "there, there is no further integral. Where the multiplier of the rotation is below 1.02, as between nearly "
+        "equal moments, m is too small "
+        "for 128 bits and not computed.\n\n"
         "Only k and J of the scene are read. Its start does not matter, nor do its times. -o FILE writes one row for "
         "each k. --plot draws |m| over k, and both curves at the k where they are seen best. After Ctrl-C the rows "
         "that are done are printed.",

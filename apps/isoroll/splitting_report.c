@@ -55,12 +55,12 @@ static void print_row(const iso_splitting *s)
 static void print_zero(const iso_splitting *s)
 {
     printf("\nm = 0 at k = %.16g +- %.1e, where the manifolds touch at x = %.15g.\n", s->k, s->k_error, s->x);
-    printf("A tangency of one point is no integrability.");
     if (isfinite(s->next_m))
-        printf(" On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
+        printf("On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
                "and there with slopes %.6e above and below their mean: %s.",
                s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
-               fabs(s->next_m) > 100 * fmax(s->error, fabs(s->m)) ? "they cross" : "too little for these digits");
+               fabs(s->next_m) > 100 * fmax(s->error, fabs(s->m)) ? "they cross there"
+                                                                  : "too small for these digits, undecided");
     printf("\n");
 }
 

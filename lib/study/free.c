@@ -13,5 +13,5 @@ iso_status iso_study_check_free(iso_context *ctx, const iso_effects *effects, co
     const iso_effect *effect = effects ? iso_study_not_free(effects) : NULL;
     if (!effect) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                            "%s of the free ball, and of the point on H = 0: without '%s'", what, effect->name);
+                            "%s only of the free ball and of the point on H = 0: remove '%s'", what, effect->name);
 }

@@ -9,7 +9,7 @@
 const iso_effect *iso_study_not_free(const iso_effects *effects);
 
 /* ISO_OK for a free motion, else ISO_BAD_INPUT about the effect. effects NULL: a free motion. what: as in "periodic
- * orbits are sought"; the message goes on: " of the free ball, and of the point on H = 0: without 'gravity'". */
+ * orbits are sought"; the message goes on: " only of the free ball and of the point on H = 0: remove 'gravity'". */
 iso_status iso_study_check_free(iso_context *ctx, const iso_effects *effects, const char *what);
 
 #endif

@@ -32,8 +32,8 @@
  * doubtful: so small a variation can be that of an integral of a neighbouring problem.
  *
  * Where moments are nearly equal, functions of growing degree come ever closer to an integral: with moments 1 %
- * apart (k = 0.5) the smallest values of V_2, V_4, V_6 are 4e-6, 2e-10, 5e-14. An integral that is not known is
- * therefore believed only if it comes all at once.
+ * apart (k = 0.5) the smallest values of V_2, V_4, V_6 are 4e-6, 2e-10, 5e-14. A new integral is
+ * believed only if its value is at rounding level in one degree, and the values of all lower degrees are not small.
  *
  * A search is evidence, no proof: it tells that no function of this space is constant on these orbits.
  */

@@ -70,7 +70,7 @@ const iso_return_code *iso_periodic_code(bool polish);
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
 
-/* The symmetry lines: what S1, S2, S3, T S1, T S2, T S3 leave where it is. The first three are lines of the section:
+/* The symmetry lines: the fixed states of S1, S2, S3, T S1, T S2, T S3. The first three are lines of the section:
  * x = 0, l = 0, l = pi/2. The others lie half way between two crossings: gamma = -e_a; gamma_b = 0; gamma_c = 0
  * (iso_return_start). Each has a coordinate u from 0 to pi/2; on x = 0 it is l, on l = 0 and pi/2 it is asin x. At both
  * ends are rotations. */
@@ -103,9 +103,9 @@ iso_status iso_periodic_place(const iso_periodic_map *map, int line, size_t coun
 double iso_periodic_miss(int line, const iso_periodic_point *before, const iso_periodic_point *at,
                          const double by_u[2], double *slope, bool *there);
 
-/* A shot: from u of a line half an orbit of `period` returns, to the same line. With R = diag(1, -1) the reflection
+/* A shot: from u of a line half an orbit of `period` returns, to the same line. With E = diag(1, -1) the reflection
  * of (u, c), and D the derivative to coordinates along and across the line there, the derivative of the whole orbit is
- * R D^-1 R D. Its trace is 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. */
+ * E D^-1 E D. Its trace is 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. */
 typedef struct iso_periodic_shot {
     iso_wide u, z[2]; /* the start, and its first point on the section */
     /* On the line at the end, the crossing behind it is S of the crossing before it (on the section they are one).

@@ -102,7 +102,7 @@ typedef struct arrival {
     iso_wide det; /* of A */
 } arrival;
 
-/* S behind = before on the line, so that K = A^-1 S B = D^-1 R D. The trace is 2 K_00. Of K_00 - 1 and K_00 + 1 the
+/* S behind = before on the line, so that K = A^-1 S B = D^-1 E D. The trace is 2 K_00. Of K_00 - 1 and K_00 + 1 the
  * smaller one has more digits. */
 static void find_trace(const arrival *a, const double S[2], iso_periodic_shot *s)
 {

@@ -36,9 +36,9 @@ static iso_status find_domain(iso_manifold *m)
         if (status == ISO_OK && change > 0.85 && change < 1.3) return ISO_OK;
         size *= (iso_wide)fmax(change, 0.1);
     }
-    return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
-                            "splitting at k = %.15g: no domain was found on which the manifold is a series",
-                            m->problem.p.k);
+    return iso_context_fail(
+        m->ctx, ISO_NUMERICAL, "",
+        "splitting at k = %.15g: no domain was found on which the series of the manifold converges", m->problem.p.k);
 }
 
 /* --- one computation -------------------------------------------------------------------------------------------- */

@@ -26,7 +26,8 @@ static iso_status no_return(const iso_manifold *m)
 
 iso_status iso_manifold_map(const iso_manifold *m, const iso_wide z[2], iso_wide image[2], iso_wide A[2][2])
 {
-    iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])}, .start = ISO_FROM_BELOW};
+    iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])},
+                    .start = ISO_FROM_BELOW};
     if (!iso_context_goes_on(m->ctx)) return iso_context_fail(m->ctx, ISO_STOPPED, "", "stopped on request");
     if (!(WIDE_ABS(z[1]) < 1)) return no_return(m);
     if (!m->code->go(&m->model, m->axis, m->zeros, m->tolerance, &r)) return no_return(m);
@@ -108,8 +109,7 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], iso_
     if (status != ISO_OK) return status;
     const iso_params *p = &m->problem.p;
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "splitting: k = %.15g: the numbers hold 0.05 <= |k| <= 50",
-                                k);
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "splitting: k = %.15g: give 0.05 <= |k| <= 50", k);
     m->problem.eps = 1;
     m->axis = iso_section_axis(p);
     const int b = (m->axis + 1) % 3, c = (m->axis + 2) % 3;

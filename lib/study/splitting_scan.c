@@ -55,13 +55,13 @@ static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, 
     return status;
 }
 
-/* Next to +-1 r is not known: m is not told from 0 there, zero of r or not. */
+/* Next to +-1 r is not known: m is not distinguished from 0 there, zero of r or not. */
 static bool is_blind(const bracket *b, double error)
 {
     return !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100);
 }
 
-/* Regula falsi in Illinois' form, until r is not told from 0, or k stands still. slope: dr/dk there. */
+/* Regula falsi in Illinois' form, until r is not distinguished from 0, or k stands still. slope: dr/dk there. */
 static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *k, double *slope)
 {
     enum { MOST = 40 };
@@ -85,7 +85,7 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
 }
 
 /* The zero of the search, and steps of the secant method farther, with the digits that were asked for, until m is not
- * told from 0, or as small as the next double of k allows: the next crossing's slope must be seen beside it. */
+ * distinguished from 0, or as small as the next double of k allows: the next crossing's slope must be seen beside it. */
 static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_splitting *zero)
 {
     enum { MOST = 8 };
@@ -126,7 +126,7 @@ static bool is_bracket(const iso_splitting *a, const iso_splitting *b, bracket *
     return a->k * b->k > 0 && found->r[0] * found->r[1] < 0;
 }
 
-/* Rows that are told from 0, by growing k; their number. */
+/* Rows that are distinguished from 0, by growing k; their number. */
 static size_t sort(const iso_splittings *s, const iso_splitting *list[])
 {
     size_t count = 0;
@@ -203,7 +203,7 @@ iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *opti
     iso_status status = iso_options_take(ctx, "iso_splitting_options", &o, sizeof o, options);
     if (status == ISO_OK && o.count == 0)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
-    if (status == ISO_OK) status = iso_study_check_free(ctx, o.effects, "the splitting is that");
+    if (status == ISO_OK) status = iso_study_check_free(ctx, o.effects, "the splitting is measured");
     if (status != ISO_OK) return status;
     iso_splittings *found = calloc(1, sizeof *found);
     if (!found) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the splitting");

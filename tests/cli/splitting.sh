@@ -152,7 +152,7 @@ refuses 3 "0.05 <= |k| <= 50" splitting half.yaml --k 1e-3
 refuses 2 "double, quad or auto" splitting half.yaml --digits few
 refuses 2 "choose -o - or --json" splitting half.yaml -o - --json
 refuses 2 ".svg, .png or .pdf" splitting half.yaml --plot picture.bmp
-refuses 3 "without 'gravity'" splitting "$source/examples/10_bowl/scene.yaml"
+refuses 3 "remove 'gravity'" splitting "$source/examples/10_bowl/scene.yaml"
 run 1 splitting half.yaml --k 0,0.5
 says "1 of 2 values of k failed"
 check "the other is there" grep -q '^ *0.5 ' out
