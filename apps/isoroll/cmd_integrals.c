@@ -51,7 +51,7 @@ static void print_known(const iso_integral_search *r)
         if (known->degree > 0)
             printf("found in degree %d, to %.1e\n", known->degree, known->residual);
         else
-            printf("not in this space\n");
+            printf(known->constant ? "a constant on the level\n" : "not in this space\n");
     }
 }
 
@@ -122,10 +122,11 @@ static json_t *known_of(const iso_integral_search *r)
     json_t *list = json_array();
     for (int i = 0; i < r->known_count; i++) {
         const iso_integral_known *known = &r->known[i];
-        json_array_append_new(list, json_pack("{s:s, s:s, s:b, s:o, s:o}", "name", known->name, "doc", known->doc,
-                                              "found", known->degree > 0, "degree",
-                                              known->degree > 0 ? json_integer(known->degree) : json_null(),
-                                              "residual", json_number(known->residual)));
+        json_array_append_new(list,
+                              json_pack("{s:s, s:s, s:b, s:b, s:o, s:o}", "name", known->name, "doc", known->doc,
+                                        "found", known->degree > 0, "constant", (int)known->constant, "degree",
+                                        known->degree > 0 ? json_integer(known->degree) : json_null(), "residual",
+                                        json_number(known->residual)));
     }
     return list;
 }
@@ -227,16 +228,18 @@ const command command_integrals = {
         "Looks for functions of the point's state that are constant along orbits: polynomials in M of degree D or "
         "less, with coefficients that are polynomials in gamma of degree E or less. Of the scene it reads k, J and "
         "the effects. Orbits start spread evenly over a section and are sampled at many times. The singular values "
-        "of the samples tell how little a function of this space can vary along orbits, by its own size.\n\n"
+        "of the samples tell how little a function of this space can vary along orbits, relative to its own size.\n\n"
         "The table has a line for each degree: how many independent functions there are, how many of them are "
-        "integrals, how many of these are further (they are not the energy, and not there two degrees before; "
-        "products of integrals count), and the smallest value of the others. On the level H = 0 the energy is a "
+        "integrals, how many are new (not the energy, and not found two degrees lower; products of integrals "
+        "are counted as new), and the smallest value of the others. On the level H = 0 the energy is a "
         "constant; it is the one integral of "
         "degree 2 that every ball has.\n\n"
         "Integrals that are known for this k and J are named where they are found. 'undecided': a value lies "
-        "between its own error and --within.",
+        "between its own error and --within, or k and J are almost those of an integrable ball, or the search was "
+        "stopped.",
     .example = "isoroll integrals scene.yaml --degree 4",
     .exits = "1: interrupted\n"
+             "3: bad input: gravity or another effect, or k too near 0\n"
              "4: the computation failed, or no memory",
     .run = run,
 };

@@ -29,9 +29,9 @@ static int how_many_threads(const options *o)
 static int tell_gaps(const iso_periodic *f)
 {
     if (f->unresolved > 0)
-        complain("%zu places of the symmetry lines have more structure than the samples show: orbits may be missing",
+        complain("on %zu intervals of the symmetry lines the samples are too far apart: orbits may be missing",
                  f->unresolved);
-    if (f->lost > 0) complain("%zu sign changes did not lead to an orbit: orbits may be missing", f->lost);
+    if (f->lost > 0) complain("%zu zeros were seen where no orbit was found: orbits may be missing", f->lost);
     return EXIT_DONE;
 }
 
@@ -101,7 +101,7 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
 {
     if (o->output && strcmp(o->output, "-") == 0 && o->json)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output",
-                                "periodic: standard output has room for one: choose -o - or --json");
+                                "periodic: -o - and --json both write to standard output: choose one");
     if (o->chart && o->follow)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "chart", "periodic: --chart or --follow, not both");
     if ((o->orbit > 0 || o->branches) && !o->follow)
@@ -169,10 +169,12 @@ const command command_periodic = {
     .file = offsetof(options, scene.file),
     .description =
         "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found in "
-        "two ways, stable between -2 and 2. Then all symmetric periodic orbits of at most P returns to the section "
-        "n_a = 0, found as roots along the six symmetry lines: x = 0, l = 0 and l = pi/2 of the section, for the "
-        "reversors S1, S2, S3; and three lines half way between two crossings, for T S1, T S2, T S3. Orbits without "
-        "a symmetry need --all.\n\n"
+        "two ways, stable between -2 and 2. Then it searches for all symmetric periodic orbits of at most P returns "
+        "to "
+        "the section n_a = 0, as roots along the six symmetry lines: x = 0, l = 0 and l = pi/2 of the section, for "
+        "the "
+        "reversors S1, S2, S3; and three lines half way between two crossings, for T S1, T S2, T S3. A "
+        "message says where some may be missing. Orbits without a symmetry need --all.\n\n"
         "For each orbit: a point (l, x) of the section, the trace of the return map's derivative over the period "
         "with "
         "its error, stability, which reversors map the orbit to itself, how many copies R, S1 S2 and T make of it "
@@ -180,7 +182,8 @@ const command command_periodic = {
         "and s, and how well the orbit closes. lib/doc/theory.md explains R, S1, S2, S3 and T.\n\n"
         "Only k, J and the energy of the scene are read. Orbits do not depend on the energy, only their clocks "
         "do.\n\n"
-        "For k = 1 and k = -1 orbits fill tori: those on the symmetry lines are shown, and called degenerate.\n\n"
+        "For k = 1 and k = -1 most periodic orbits fill tori. Those on the symmetry lines are listed as degenerate "
+        "(trace 2).\n\n"
         "--follow k=A:B follows symmetric orbits from the scene's k to A and to B, or until they end: folds, period "
         "doublings, symmetry breaking and collisions with rotations are located. Where a branch cannot be followed, "
         "a line says where and why, and the part so far is kept.\n\n"
@@ -191,6 +194,8 @@ const command command_periodic = {
         "ones "
         "in grey.",
     .example = "isoroll periodic scene.yaml --period 8 --plot orbits.svg",
-    .exits = "1: interrupted, or a branch could not be followed to its end",
+    .exits = "1: interrupted, or a branch could not be followed to its end\n"
+             "3: bad input: gravity or another effect, two equal moments, a ball at rest, a range without the "
+             "scene's value",
     .run = run,
 };

@@ -6,14 +6,13 @@
 #include "base/number.h"
 #include "io/output.h"
 #include "io/plot.h"
-#include "json.h"
 #include "scene_options.h"
-#include "study/splitting.h"
+#include "splitting_report.h"
 
 /* What splitting can be told. */
 typedef struct options {
-    scene_options scene;        /* only its file is used */
-    const char *k, *csv, *plot; /* NULL: not given       */
+    scene_options scene;           /* only its file is used */
+    const char *k, *output, *plot; /* NULL: not given       */
     iso_splitting_digits digits;
     double threads;
     bool json;
@@ -111,189 +110,6 @@ static iso_status read_k(iso_context *ctx, const options *o, const iso_scene *sc
     }
 }
 
-/* The isomorphism and its return map are those of the free ball. */
-static iso_status check_free(iso_context *ctx, const iso_scene *scene)
-{
-    const iso_effect *acting = iso_effects_beyond_level(&scene->effects);
-    if (acting)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, acting->name,
-                                "splitting is about the free ball: take '%s' out of the scene", acting->name);
-    if (iso_effects_have_level(&scene->effects))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "level",
-                                "splitting is about the free ball, on the level H = 0: take the level out of the "
-                                "scene");
-    return ISO_OK;
-}
-
-/* --- the table -------------------------------------------------------------------------------------------------- */
-
-/* The axes are those of each row that did not fail; NULL: all did. */
-static const iso_splitting *first_good(const iso_splittings *s)
-{
-    for (size_t i = 0; i < s->rows; i++)
-        if (s->row[i].status == ISO_OK) return &s->row[i];
-    return NULL;
-}
-
-static void print_head(const iso_scene *scene, const iso_splittings *s)
-{
-    const double *J = scene->params.J;
-    const iso_splitting *row = first_good(s);
-    printf("J = %.15g %.15g %.15g\n", J[0], J[1], J[2]);
-    if (!row) return;
-    printf("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x,\n"
-           "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
-           row->middle + 1, row->axis + 1);
-    printf("%11s %11s %19s %24s %7s %7s\n", "k", "multiplier", "x", "m", "error", "digits");
-}
-
-static void print_row(const iso_splitting *s)
-{
-    if (s->status == ISO_STOPPED) return;
-    if (s->status != ISO_OK) {
-        printf("%11.9g %s\n", s->k, s->words);
-        return;
-    }
-    printf("%11.9g %11.8g %19.16g ", s->k, s->lambda, s->x);
-    if (s->from_zero)
-        printf("%24.16e %7.1e %7d\n", s->m, s->error, s->digits);
-    else if (fabs(s->m) > s->error)
-        printf("%24.16e %7.1e %7d   undecided: less than 100 errors from 0\n", s->m, s->error, s->digits);
-    else /* 1.05: rounding of the bound to two digits must not make it smaller */
-        printf("%24s %7.1e %7d   not distinguishable from 0: below %.1e\n", "0", s->error, s->digits,
-               1.05 * (fabs(s->m) + s->error));
-}
-
-static void print_zero(const iso_splitting *s)
-{
-    printf("\nm = 0 at k = %.16g +- %.1e, where the manifolds touch at x = %.15g.\n", s->k, s->k_error, s->x);
-    printf("A tangency of one point is no integrability.");
-    if (isfinite(s->next_m))
-        printf(" On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
-               "and there with slopes %.6e above and below their mean: %s.",
-               s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
-               fabs(s->next_m) > 100 * fmax(s->error, fabs(s->m)) ? "they cross" : "too little for these digits");
-    printf("\n");
-}
-
-static void print_table(const iso_scene *scene, const iso_splittings *s)
-{
-    print_head(scene, s);
-    for (size_t i = 0; i < s->rows; i++) print_row(&s->row[i]);
-    for (size_t i = 0; i < s->zeros; i++) print_zero(&s->zero[i]);
-}
-
-/* --- JSON and CSV ----------------------------------------------------------------------------------------------- */
-
-static json_t *row_of(const iso_splitting *s)
-{
-    const bool there = s->status == ISO_OK;
-    if (!there)
-        return json_pack("{s:o, s:n, s:n, s:n, s:n, s:s}", "k", json_number(s->k), "x", "m", "error", "digits",
-                         "failed", s->words);
-    json_t *o =
-        json_pack("{s:o, s:o, s:o, s:o, s:i, s:o, s:o, s:o, s:o, s:b}", "k", json_number(s->k), "x",
-                  json_number(s->x), "m", json_number(s->m), "error", json_number(s->error), "digits", s->digits,
-                  "x_error", json_number(s->x_error), "x_tail", json_number(s->x_tail), "m_tail",
-                  json_number(s->m_tail), "multiplier", json_number(s->lambda), "from_zero", (int)s->from_zero);
-    if (o)
-        json_object_set_new(o, "global",
-                            json_pack("{s:i, s:o, s:o}", "axis", s->section + 1, "x", json_number(s->section_x), "m",
-                                      json_number(s->section_m)));
-    if (o && s->is_zero) {
-        json_object_set_new(o, "k_error", json_number(s->k_error));
-        json_object_set_new(o, "next",
-                            json_pack("{s:i, s:o, s:o, s:o}", "axis", s->section + 1, "l", json_number(s->next_l),
-                                      "x", json_number(s->next_x), "m", json_number(s->next_m)));
-    }
-    return o;
-}
-
-static json_t *list_of(const iso_splitting *rows, size_t count)
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < count; i++)
-        if (rows[i].status != ISO_STOPPED) json_array_append_new(list, row_of(&rows[i]));
-    return list;
-}
-
-static bool print_json(const iso_scene *scene, const iso_splittings *s)
-{
-    const double *J = scene->params.J;
-    const iso_splitting *r = first_good(s);
-    return json_print(json_pack("{s:s, s:[o,o,o], s:i, s:i, s:o, s:o, s:I}", "isoroll", iso_version(), "J",
-                                json_number(J[0]), json_number(J[1]), json_number(J[2]), "axis", r->axis + 1,
-                                "middle", r->middle + 1, "rows", list_of(s->row, s->rows), "zeros",
-                                list_of(s->zero, s->zeros), "lost", (json_int_t)s->lost));
-}
-
-static void write_rows(FILE *to, const iso_splitting *rows, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        const iso_splitting *s = &rows[i];
-        if (s->status == ISO_OK)
-            fprintf(to, "%.17g,%.17g,%.17g,%.3g,%.3g,%.17g,%d,%d\n", s->k, s->x, s->m, s->error, s->x_error,
-                    s->lambda, s->digits, (int)s->is_zero);
-    }
-}
-
-static void write_csv(FILE *to, const iso_splittings *s)
-{
-    fputs("# isoroll splitting 1\nk,x,m,error,x_error,multiplier,digits,zero\n", to);
-    write_rows(to, s->row, s->rows);
-    write_rows(to, s->zero, s->zeros);
-}
-
-/* --- the picture ------------------------------------------------------------------------------------------------ */
-
-/* The row whose curves are best seen: |m| is about 1/30. */
-static const iso_splitting *clearest(const iso_splittings *s)
-{
-    const iso_splitting *best = NULL;
-    double least = INFINITY;
-    for (size_t i = 0; i < s->rows; i++) {
-        const double apart = fabs(log(fmax(fabs(s->row[i].m), 1e-40) * 30));
-        if (s->row[i].status == ISO_OK && apart < least) best = &s->row[i], least = apart;
-    }
-    return best;
-}
-
-static iso_status collect(iso_context *ctx, const iso_splittings *s, iso_record **rows)
-{
-    static const char *const names[] = {"k", "m", "error"};
-    iso_status status = iso_record_create(ctx, 3, names, rows);
-    for (size_t i = 0; i < s->rows && status == ISO_OK; i++) {
-        double *row;
-        if (s->row[i].status != ISO_OK) continue;
-        status = iso_record_append(ctx, *rows, &row);
-        if (status == ISO_OK) row[0] = s->row[i].k, row[1] = s->row[i].m, row[2] = s->row[i].error;
-    }
-    return status;
-}
-
-/* As many half returns beyond the crossing as the lobes need to be seen: they grow like lambda^(1/2) each. */
-static int halves_of(const iso_splitting *s)
-{
-    const double needed = log(0.3 / fmax(fabs(s->section_m), 1e-4)) / (log(s->lambda) / 2);
-    return (int)fmin(fmax(needed, 2) + 2, 60);
-}
-
-static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_splittings *s)
-{
-    const double *J = scene->params.J;
-    const iso_splitting *at = clearest(s);
-    iso_record *rows = NULL, *curve = NULL;
-    char title[160];
-    if (!at) return ISO_OK;
-    snprintf(title, sizeof title, "splitting of the separatrix, J = %.6g %.6g %.6g", J[0], J[1], J[2]);
-    iso_status status = iso_splitting_curve(ctx, at->k, J, halves_of(at), &curve);
-    if (status == ISO_OK && s->rows > 1) status = collect(ctx, s, &rows);
-    if (status == ISO_OK) status = iso_plot_splitting(ctx, o->plot, title, rows, curve, at->k, at->section);
-    iso_record_free(rows);
-    iso_record_free(curve);
-    return status;
-}
-
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
 static void show(double part, void *unused)
@@ -321,30 +137,30 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
                   iso_output *csv)
 {
     int result = judge(ctx, s);
-    const bool some = clearest(s) != NULL;
+    const splitting_report r = {scene->params.J, s};
+    const bool some = splitting_has_rows(&r);
     if (some && o->json)
-        result = print_json(scene, s) ? result : EXIT_NUMERICAL;
-    else if (some && (!o->csv || strcmp(o->csv, "-") != 0))
-        print_table(scene, s);
+        result = splitting_print_json(&r) ? result : EXIT_NUMERICAL;
+    else if (some && (!o->output || strcmp(o->output, "-") != 0))
+        splitting_print(&r);
     if (s->lost > 0) complain("%zu zeros of m lie between these values of k, but were not found", s->lost);
     if (csv) {
-        if (some) write_csv(iso_output_stream(csv), s);
+        if (some) splitting_write_csv(&r, iso_output_stream(csv));
         result = worse(result, finish(ctx, iso_output_close(ctx, csv, some)));
     }
-    if (some && o->plot && !interrupted()) result = worse(result, finish(ctx, draw(ctx, o, scene, s)));
+    if (some && o->plot && !interrupted()) result = worse(result, finish(ctx, splitting_draw(ctx, &r, o->plot)));
     return result;
 }
 
 static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, numbers *k, iso_output **csv)
 {
-    if (o->csv && strcmp(o->csv, "-") == 0 && o->json)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "csv",
-                                "splitting: standard output has room for one: choose --csv - or --json");
+    if (o->output && strcmp(o->output, "-") == 0 && o->json)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output",
+                                "splitting: -o - and --json both write to standard output: choose one");
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
-    if (status == ISO_OK) status = check_free(ctx, scene);
     if (status == ISO_OK) status = read_k(ctx, o, scene, k);
-    return status == ISO_OK && o->csv ? iso_output_open(ctx, o->csv, csv) : status;
+    return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
 }
 
 static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, iso_output *csv)
@@ -353,6 +169,7 @@ static int work(iso_context *ctx, const options *o, const iso_scene *scene, cons
     iso_splitting_options how = iso_splitting_defaults();
     how.k = k->k, how.count = k->count;
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
+    how.effects = &scene->effects;
     how.digits = o->digits;
     how.threads = o->threads < 4096 ? (int)o->threads : 4096;
     how.progress = show;
@@ -361,7 +178,7 @@ static int work(iso_context *ctx, const options *o, const iso_scene *scene, cons
     const iso_status status = iso_splitting_run(ctx, &how, &s);
     iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
-    int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish(ctx, status);
+    int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish_scene(ctx, &o->scene, scene, status);
     if (status == ISO_STOPPED) complain("interrupted: only rows that are done are shown");
     if (s)
         result = worse(result, report(ctx, o, scene, s, csv));
@@ -391,18 +208,13 @@ static const option_row rows[] = {
         "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
         set_text, options, k),
     ROW_OF_WORDS("digits", "D", "double, quad or auto",
-                 "numbers of 64 bits, of 128 bits, or the first, and the second where m is not told from 0 (default)",
+                 "double: 64 bits of mantissa (19 digits); quad: 128 bits (32 digits); auto: 128 bits where 64 give "
+                 "less than 3 "
+                 "digits of m (default)",
                  set_splitting_digits, options, digits, digits_word),
-    {.name = "threads",
-     .argument = "N",
-     .expected = "a whole number from 1 on",
-     .doc = "threads that work (default: one for each processor)",
-     .set = set_count,
-     .offset = offsetof(options, threads),
-     .letter = 'j'},
+    ROW_THREADS(options, threads),
+    ROW_OUTPUT(options, output),
     ROW_PLOT(options, plot),
-    ROW_OF_FILE("csv", "FILE", "a file", "write one row for each k to FILE; - is standard output", set_text, options,
-                csv, 'o', OPTION_WRITES),
     ROW_JSON(options, json),
     ROW_END,
 };
@@ -416,23 +228,30 @@ const command command_splitting = {
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
     .description =
-        "The rotation about the middle axis is unstable. In an integrable system the orbits that leave it are those "
-        "that come back to its mirror: one curve on the section n_a = 0, a the axis after the middle one. Elsewhere "
-        "the curves "
-        "cross. This command finds the first point of the unstable curve with l = pi/2, its x = M_a/|M|, and the "
-        "slope "
-        "m = dx/dl there; the stable curve has the slope -m. So m = 0 at k = 1 and k = -1, and m not 0 says that "
+        "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, it "
+        "is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come from "
+        "this rotation. Another one enters its mirror: "
+        "the "
+        "orbits that end in the opposite rotation. If there is a further analytic integral, both are one curve. If "
+        "they cross, there is none. "
+        "This command finds the first point of the curve that leaves with l = pi/2, its x = M_a/|M|, and its slope "
+        "m = dx/dl there; the other curve has the slope -m. So m = 0 at k = 1 and k = -1, and m not 0 says that "
         "there is no further analytic integral.\n\n"
-        "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not tell it "
-        "from 0, 128 bits are taken, which need some seconds for each k. Other zeros of m between two values of k "
+        "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not "
+        "distinguish it from 0, 128 bits are taken, which need from seconds to a minute for each k. Other zeros of m "
+        "between two values of k "
         "are "
-        "located. There the curves touch at one point and cross at others: it is no integrability.\n\n"
-        "Only k and J of the scene are read. Its start does not matter, nor do its times. --plot draws |m| over k, "
-        "and "
-        "both curves where |m| is largest. After Ctrl-C the rows that are done are printed.",
+        "located. There the curves touch at one point. The slope at the next common point is printed: if they cross "
+        "there, there is no further integral. Where the multiplier of the rotation is below 1.02, as between nearly "
+        "equal moments, m is too small "
+        "for 128 bits and not computed.\n\n"
+        "Only k and J of the scene are read. Its start does not matter, nor do its times. -o FILE writes one row for "
+        "each k. --plot draws |m| over k, and both curves at the k where they are seen best. After Ctrl-C the rows "
+        "that are done are printed.",
     .example = "isoroll splitting scene.yaml --k 0.25:3:0.25 --plot splitting.png",
-    .exits = "1: interrupted, or some values of k failed\n"
-             "3: bad input: equal moments, or a middle axis that is stable\n"
-             "4: the computation failed, or no memory",
+    .exits =
+        "1: interrupted, or some values of k failed\n"
+        "3: bad input: gravity or another effect, equal or nearly equal moments, or a middle axis that is stable\n"
+        "4: the computation failed, or no memory",
     .run = run,
 };

@@ -89,8 +89,8 @@ static void print_table(const iso_stability_options *o, const iso_record *grid, 
             const double T = iso_record_const_row(grid, i)[2 + which];
             if (!isnan(T)) count[which][T < -2 ? 0 : T > 2 ? 2 : 1]++;
         }
-    printf("k from %g to %g, J%d from %g to %g; parts of the grid\n%20s  T < -2    stable    T > 2\n", o->from[0],
-           o->to[0], o->moment + 1, o->from[1], o->to[1], "");
+    printf("k from %g to %g, J%d from %g to %g; share of the grid points\n%20s  T < -2    stable    T > 2\n",
+           o->from[0], o->to[0], o->moment + 1, o->from[1], o->to[1], "");
     for (int which = 0; which < 2; which++) {
         const double all = (double)(count[which][0] + count[which][1] + count[which][2]);
         printf("  %-8s moment    %6.4f    %6.4f    %6.4f\n", axes[which], (double)count[which][0] / all,

@@ -148,7 +148,7 @@ static iso_status choose(iso_context *ctx, const iso_periodic *found, const peri
 {
     *count = 0;
     if (how->orbit > (double)found->count)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--orbit %g: there are %zu orbits", how->orbit, found->count);
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--orbit %g: the list ends at %zu", how->orbit, found->count);
     *list = malloc((found->count + 1) * sizeof **list);
     if (!*list) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the orbits");
     for (size_t i = 0; i < found->count; i++)

@@ -11,6 +11,7 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "study/chaos_impl.h"
+#include "study/free_impl.h"
 #include "study/frequencies_impl.h"
 #include "study/section_impl.h"
 
@@ -177,7 +178,7 @@ static iso_status prepare(iso_chaos_walk *w)
     status = open_orbit(w, &start);
     if (status != ISO_OK) return status;
     const iso_effects effects = iso_orbit_effects(w->orbit);
-    const iso_effect *effect = iso_section_not_free(&effects);
+    const iso_effect *effect = iso_study_not_free(&effects);
     status = check_motion(w, &start);
     if (status == ISO_OK) status = check_starts(w, effect);
     if (status != ISO_OK) return status;

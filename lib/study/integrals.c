@@ -7,6 +7,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
+#include "study/free_impl.h"
 #include "study/integrals_impl.h"
 
 enum { LEAST_ORBITS = 64, MOST_ORBITS = 10000, PROBES = 16 };
@@ -80,15 +81,8 @@ static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
     const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
     if (status != ISO_OK) return status;
     const iso_effects effects = iso_orbit_effects(orbit);
-    const iso_effect *effect = iso_effects_beyond_level(&effects);
-    const bool level = iso_effects_have_level(&effects);
     iso_orbit_free(orbit);
-    if (effect)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                                "'%s' acts on the ball: integrals are searched for free motions", effect->name);
-    if (!level) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, iso_level_name(),
-                            "the point is not on the level H = 0: integrals are searched for free motions");
+    return iso_study_check_free(ctx, &effects, "integrals are sought");
 }
 
 /* --- integrals that are known ----------------------------------------------------------------------------------- */
@@ -99,19 +93,31 @@ static void list_known(search *s)
     for (const iso_integral *i = iso_system_point.integrals; i->name; i++) {
         if (!i->holds || !i->holds(&s->samples.problem) || out->known_count == ISO_INTEGRAL_KNOWN) continue;
         s->known[out->known_count] = i;
-        out->known[out->known_count++] = (iso_integral_known){i->name, i->doc, 0, INFINITY};
+        out->known[out->known_count++] = (iso_integral_known){i->name, i->doc, false, 0, INFINITY};
     }
 }
 
-/* The distance of a known integral from the functions found in this part, by the size of what it varies. */
+/* Its values on the samples, less their mean. Gives the sum of their squares; 0: it is a constant, to rounding. */
+static double values_of(const search *s, const iso_integral *known, double *work)
+{
+    const size_t rows = s->samples.rows;
+    double mean = 0, varies = 0, largest = 0, size;
+    for (size_t i = 0; i < rows; i++)
+        mean += work[i] = known->value(&s->samples.problem, s->samples.state[i], &size),
+                largest = fmax(largest, size);
+    mean /= (double)rows;
+    for (size_t i = 0; i < rows; i++) varies += (work[i] - mean) * (work[i] - mean);
+    return sqrt(varies / (double)rows) < 10 * s->out->delta * largest ? 0 : varies;
+}
+
+/* The distance of a known integral from the functions found in this part, by the size of what it varies. NaN: it is a
+ * constant. */
 static double residual_of(const search *s, const iso_integral *known, const integral_part *part, double *work)
 {
     const size_t rows = s->samples.rows;
-    double mean = 0, varies = 0, rest = 0, unused;
-    for (size_t i = 0; i < rows; i++)
-        mean += work[i] = known->value(&s->samples.problem, s->samples.state[i], &unused);
-    mean /= (double)rows;
-    for (size_t i = 0; i < rows; i++) varies += (work[i] - mean) * (work[i] - mean);
+    const double varies = values_of(s, known, work);
+    double rest = 0;
+    if (varies == 0) return NAN;
     for (size_t f = 0; f < part->found; f++) {
         const double *basis = part->basis + f * rows;
         double along = 0;
@@ -129,6 +135,7 @@ static iso_status compare_with_known(search *s, int degree, const integral_part 
     for (int i = 0; i < s->out->known_count; i++) {
         iso_integral_known *known = &s->out->known[i];
         const double residual = known->degree == 0 ? residual_of(s, s->known[i], part, work) : INFINITY;
+        known->constant = known->constant || isnan(residual);
         if (!(residual < known->residual)) continue;
         known->residual = residual;
         if (residual < 1e-6) known->degree = degree;

@@ -32,8 +32,8 @@
  * doubtful: so small a variation can be that of an integral of a neighbouring problem.
  *
  * Where moments are nearly equal, functions of growing degree come ever closer to an integral: with moments 1 %
- * apart (k = 0.5) the smallest values of V_2, V_4, V_6 are 4e-6, 2e-10, 5e-14. An integral that is not known is
- * therefore believed only if it comes all at once.
+ * apart (k = 0.5) the smallest values of V_2, V_4, V_6 are 4e-6, 2e-10, 5e-14. A new integral is
+ * believed only if its value is at rounding level in one degree, and the values of all lower degrees are not small.
  *
  * A search is evidence, no proof: it tells that no function of this space is constant on these orbits.
  */
@@ -111,6 +111,7 @@ typedef struct iso_integral_degree {
 /* An integral that the library knows for this k and J (iso_system_point.integrals). */
 typedef struct iso_integral_known {
     const char *name, *doc;
+    bool constant;   /* on H = 0, as the energy: it tells nothing further (three equal moments) */
     int degree;      /* d of the first V_d in which it was found; 0: it was not */
     double residual; /* its distance from what was found there, by its own size */
 } iso_integral_known;
@@ -133,9 +134,8 @@ typedef struct iso_integral_search {
 
 /* Only k, J and the effects of the scene are read, and whether its start lies on H = 0.
  * Errors: ISO_BAD_ARGUMENT about "degree", "coefficients", "orbits" (too few for the functions, or more than 10000),
- * "turns", "within", "tolerance", "threads"; ISO_BAD_INPUT about an effect that acts on the ball (observers do not
- * matter), or the level of a point off H = 0; those of iso_batch_run; ISO_NUMERICAL where powers of q do not fit a
- * double; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: the degrees done are valid. */
+ * "turns", "within", "tolerance", "threads"; ISO_BAD_INPUT about "k" where powers of q do not fit a double, about an effect that acts on the ball (observers do not
+ * matter), or the level of a point off H = 0; those of iso_batch_run; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: the degrees done are valid. */
 ISO_API iso_status iso_integral_search_run(iso_context *ctx, const iso_scene *scene,
                                            const iso_integral_search_options *options, iso_integral_search *result);
 

@@ -14,6 +14,10 @@ iso_status iso_integral_prepare(iso_context *ctx, const iso_params *p, uint64_t 
 {
     const double low = fmin(p->J[0], fmin(p->J[1], p->J[2])), high = fmax(p->J[0], fmax(p->J[1], p->J[2]));
     const double unit = p->k > 0 ? low : high, J[3] = {p->J[0] / unit, p->J[1] / unit, p->J[2] / unit};
+    if (!(log(high / low) / fabs(p->k) < 650))
+        return iso_context_fail(
+            ctx, ISO_BAD_INPUT, "k",
+            "k = %.15g is too near 0 for these moments: (max J/min J)^(1/|k|) does not fit a double", p->k);
     *s = (integral_samples){.orbits = orbits, .rows = orbits * ISO_INTEGRAL_ROWS, .problem = {.eps = 0.5}};
     const iso_status status = iso_params_reduced(ctx, p->k, J, &s->problem.p);
     if (status != ISO_OK) return status;

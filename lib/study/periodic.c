@@ -10,6 +10,7 @@
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/orbit.h"
+#include "study/free_impl.h"
 #include "study/periodic_impl.h"
 
 const char *iso_stability_name(iso_stability stability)
@@ -33,17 +34,6 @@ static iso_status check_options(const iso_periodic_work *w)
     return ISO_OK;
 }
 
-/* Errors: ISO_BAD_INPUT about the effect that acts. */
-static iso_status check_free(iso_context *ctx, const iso_effects *effects)
-{
-    const iso_effect *effect = iso_effects_beyond_level(effects);
-    if (!effect && iso_effects_have_level(effects)) effect = iso_effect_list[iso_effect_find(iso_level_name())];
-    if (!effect) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                            "periodic orbits are sought of the free ball, and of the point on H = 0: without '%s'",
-                            effect->name);
-}
-
 static iso_status check_moments(const iso_periodic_work *w)
 {
     for (int i = 0; i < 3; i++)
@@ -62,7 +52,7 @@ static iso_status check_scene(iso_periodic_work *w)
     const iso_effects effects = iso_effects_acting(&w->scene->effects);
     iso_orbit_options o = iso_orbit_defaults(start);
     iso_orbit *orbit;
-    iso_status status = check_free(w->ctx, &effects);
+    iso_status status = iso_study_check_free(w->ctx, &effects, "periodic orbits are sought");
     if (status == ISO_OK) status = check_moments(w);
     if (status == ISO_OK && !(largest(start->y) > 0))
         status = iso_context_fail(w->ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
@@ -73,7 +63,7 @@ static iso_status check_scene(iso_periodic_work *w)
     status = iso_orbit_create(w->ctx, &w->scene->params, start, &o, &orbit);
     if (status != ISO_OK) return status;
     const iso_effects acting = iso_orbit_effects(orbit);
-    status = check_free(w->ctx, &acting);
+    status = iso_study_check_free(w->ctx, &acting, "periodic orbits are sought");
     w->units = *iso_orbit_units(orbit);
     w->h = iso_orbit_energy(orbit) / iso_unit(&w->units, iso_dimension_h);
     iso_orbit_free(orbit);

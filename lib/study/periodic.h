@@ -11,11 +11,11 @@
  * are reversors: S f S = f^-1. The equations are odd in gamma: T (M, gamma) = (M, -gamma). Half a return, from n_a
  * growing to n_a falling, followed by T is a map g of the section with g g = f and S g S = g^-1.
  *
- * An orbit that S or T S maps to itself is symmetric. Then it passes, it or its image by T, the line that S or T S leaves
- * where it is: for S1, S2, S3 the lines x = 0, l = 0, l = pi/2 of the section. For T S1, T S2, T S3 these lines lie half
+ * An orbit that S or T S maps to itself is symmetric. Each of the six reversors has a line of fixed states, which the
+ * orbit, or its image by T, passes: for S1, S2, S3 the lines x = 0, l = 0, l = pi/2 of the section. For T S1, T S2, T S3 these lines lie half
  * way between two crossings: gamma = -e_a, and the planes gamma_b = 0 and gamma_c = 0, met at right angles. Half an orbit
- * later, p half returns for a period p, it is on this line again. The search looks for such orbits along each line. So
- * nothing but the distance of its samples can hide a symmetric orbit.
+ * later, p half returns for a period p, it is on this line again. The search looks for such orbits along each line. A
+ * symmetric orbit can be missed only between samples that are too far apart: `unresolved` and `lost` count such places.
  *
  * R: (l, x) -> (l + pi, x) and S1 S2: (l, x) -> (-l, -x) and T carry orbits to orbits of the same kind: copies. One of
  * them is listed.

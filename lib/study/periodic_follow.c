@@ -93,8 +93,7 @@ static iso_status accept(const iso_follow_family *f, iso_branch *b, const iso_fo
         e.at.arc = arc + ds;
         return iso_follow_add_event(f, b, &e);
     }
-    if (next->u < 0 || next->u > ISO_PI / 2)
-        return fail_at(f, b, at, arc, "it comes as close to a rotation as can be followed");
+    if (next->u < 0 || next->u > ISO_PI / 2) return fail_at(f, b, at, arc, "too near a rotation to go on");
     *over = false;
     const iso_status status = iso_follow_events(f, b, at, next, ds, arc);
     return status == ISO_OK ? add_point(f, b, next, arc + ds) : status;
@@ -117,9 +116,11 @@ static iso_status go(const iso_follow_family *f, iso_branch *b, iso_follow_point
             if (taken < 1e-7) {
                 iso_params p;
                 const double ahead = (at.v + 1e-3 * at.tangent[1]) * f->width;
-                return fail_at(f, b, &at, arc,
-                               iso_follow_params(f, ahead, &p) ? "steps became too small"
-                                                               : "the section changes its axis, or moments end,");
+                return fail_at(
+                    f, b, &at, arc,
+                    iso_follow_params(f, ahead, &p)
+                        ? "steps became too small"
+                        : "another axis gets the largest (k > 0) or least (k < 0) moment, or a moment becomes 0,");
             }
         }
         const iso_status status = accept(f, b, &at, &next, taken, arc, &over);
@@ -128,7 +129,7 @@ static iso_status go(const iso_follow_family *f, iso_branch *b, iso_follow_point
         arc += taken;
         ds = steps <= 5 ? fmin(1.4 * taken, f->options.longest) : taken;
     }
-    return fail_at(f, b, &at, arc, "the most steps were taken");
+    return fail_at(f, b, &at, arc, "the limit of steps was reached");
 }
 
 /* --- a branch --------------------------------------------------------------------------------------------------- */
@@ -164,7 +165,8 @@ static iso_status follow_branch(const iso_follow_family *f, double u, double val
     iso_branch side[2] = {{0}, {0}};
     iso_follow_point at = {.tangent = {0, 1}};
     iso_status status = ISO_OK;
-    if (!iso_follow_evaluate(f, u, value / f->width, true, &at)) return fail_at(f, b, &at, 0, "no start");
+    if (!iso_follow_evaluate(f, u, value / f->width, true, &at))
+        return fail_at(f, b, &at, 0, "the orbit could not be computed");
     iso_follow_turn(&at, NULL);
     for (int i = 0; i < 2 && (status == ISO_OK || status == ISO_STOPPED); i++) {
         if (i == 1) status = add_point(f, &side[1], &at, 0);
@@ -191,10 +193,11 @@ static iso_status check(const iso_follow_family *f, double own)
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "%g to %g is no range", o->from, o->to);
     if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
-                                "k = 0 lies between %g and %g: there is no such ball", o->from, o->to);
+                                "the range %g to %g contains k = 0, where there is no ball", o->from, o->to);
     if (!(own >= o->from && own <= o->to))
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "the scene has %s = %.12g, outside %g to %g", name,
-                                own, o->from, o->to);
+        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
+                                "the scene has %s = %.12g: the range %g to %g must contain it", name, own, o->from,
+                                o->to);
     if (o->vary != ISO_VARY_K && (!iso_follow_params(f, o->from, &p) || !iso_follow_params(f, o->to, &p)))
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
                                 "%s from %g to %g leaves the range in which J%d is the %s moment", name, o->from,

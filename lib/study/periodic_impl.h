@@ -70,7 +70,7 @@ const iso_return_code *iso_periodic_code(bool polish);
 
 /* --- lines ------------------------------------------------------------------------------------------------------ */
 
-/* The symmetry lines: what S1, S2, S3, T S1, T S2, T S3 leave where it is. The first three are lines of the section:
+/* The symmetry lines: the fixed states of S1, S2, S3, T S1, T S2, T S3. The first three are lines of the section:
  * x = 0, l = 0, l = pi/2. The others lie half way between two crossings: gamma = -e_a; gamma_b = 0; gamma_c = 0
  * (iso_return_start). Each has a coordinate u from 0 to pi/2; on x = 0 it is l, on l = 0 and pi/2 it is asin x. At both
  * ends are rotations. */
@@ -103,23 +103,24 @@ iso_status iso_periodic_place(const iso_periodic_map *map, int line, size_t coun
 double iso_periodic_miss(int line, const iso_periodic_point *before, const iso_periodic_point *at,
                          const double by_u[2], double *slope, bool *there);
 
-/* A shot: from u of a line half an orbit of `period` returns, to the same line. With R the reflection of (u, c) and D
- * the derivative to coordinates of the line there, the derivative of the whole orbit is D^-1 R D R. Its trace is
- * 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. */
+/* A shot: from u of a line half an orbit of `period` returns, to the same line. With E = diag(1, -1) the reflection
+ * of (u, c), and D the derivative to coordinates along and across the line there, the derivative of the whole orbit is
+ * E D^-1 E D. Its trace is 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. */
 typedef struct iso_periodic_shot {
-    iso_wide u, z[2];      /* the start, and its first point on the section                                      */
-    iso_wide off;          /* F: 0 on the line. Half way: of the middle between the two crossings around it       */
-    iso_wide D[2][2], det; /* the derivative by (u, c): of what stays on the line, and of F                      */
-    iso_wide trace;        /* of an orbit with off = 0                                                           */
+    iso_wide u, z[2]; /* the start, and its first point on the section */
+    /* On the line at the end, the crossing behind it is S of the crossing before it (on the section they are one).
+     * miss: how far that is from true, and its derivative by u. */
+    iso_wide miss[2], miss_by_u[2];
+    iso_wide off;     /* F: what the reversor turns over, of the middle of the two crossings: 0 on the line */
+    iso_wide D[2][2]; /* row 0: of the other coordinate of this middle; row 1: of F */
+    iso_wide trace;   /* of the whole orbit, if miss is 0 */
+    double terms;     /* the trace is a sum of terms of this size: so large are its rounding errors */
     iso_wide clock[ISO_CLOCKS];
     iso_periodic_fine way;             /* g^period of z */
-    double path[ISO_PERIODIC_MOST][2]; /* g z ... g^period z                                                        */
+    double path[ISO_PERIODIC_MOST][2]; /* g z ... g^period z */
 } iso_periodic_shot;
 bool iso_periodic_shoot(const iso_periodic_map *map, const iso_return_code *code, int line, iso_wide u, int period,
                         iso_periodic_shot *shot);
-
-/* angle into (-period/2, period/2]. */
-iso_wide iso_periodic_wrap(iso_wide angle, iso_wide period);
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
 
@@ -152,9 +153,14 @@ double iso_periodic_angle(double l);
 bool iso_periodic_meet(const double a[2], const double b[2]);
 
 /* Finds the orbit at a candidate: line, period, u, (l, x), trace, error, determinant, closure, multipliers, torus,
- * clocks in own units; and path[n - 1] = g^n z, n = 1 to 2 period. False: it was not found. */
-bool iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code, const iso_periodic_candidate *c,
-                        iso_periodic_orbit *o, double (*path)[2]);
+ * clocks in own units; and path[n - 1] = g^n z, n = 1 to 2 period. */
+typedef enum iso_periodic_answer {
+    ISO_PERIODIC_FOUND,
+    ISO_PERIODIC_LOST, /* Newton's method did not end, or the orbit could not be followed */
+    ISO_PERIODIC_NONE  /* a zero of F that is no orbit                                    */
+} iso_periodic_answer;
+iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code,
+                                       const iso_periodic_candidate *c, iso_periodic_orbit *o, double (*path)[2]);
 
 /* Solves candidates on all threads, and adds their orbits to the list, unless they are there already or have a smaller
  * period. Errors: ISO_NO_MEMORY; ISO_STOPPED. */

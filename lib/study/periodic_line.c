@@ -10,11 +10,6 @@
 #include "base/pi_impl.h"
 #include "study/periodic_impl.h"
 
-iso_wide iso_periodic_wrap(iso_wide angle, iso_wide period)
-{
-    return angle - WIDE_ROUND(angle / period) * period;
-}
-
 int iso_line_axis_at(int axis, int line, bool end)
 {
     const int b = (axis + 1) % 3, c = (axis + 2) % 3;
@@ -100,16 +95,46 @@ double iso_periodic_miss(int line, const iso_periodic_point *before, const iso_p
 
 /* --- shots ------------------------------------------------------------------------------------------------------ */
 
-/* From A, the derivative of (l, x) at `end` by (u, c), with its determinant. */
-static void arrive(int line, const iso_wide end[2], const iso_wide A[2][2], iso_wide det, iso_periodic_shot *s)
+/* The crossings around the line: before and behind, with their derivatives by (u, c). On the section they are one. */
+typedef struct arrival {
+    const iso_wide *before, *behind;
+    iso_wide (*A)[2], (*B)[2];
+    iso_wide det; /* of A */
+} arrival;
+
+/* S behind = before on the line, so that K = A^-1 S B = D^-1 E D. The trace is 2 K_00. Of K_00 - 1 and K_00 + 1 the
+ * smaller one has more digits. */
+static void find_trace(const arrival *a, const double S[2], iso_periodic_shot *s)
 {
-    const int odd = iso_line_reversor(line) == 0 ? 1 : 0; /* which of l, x the reversor turns over */
-    for (int j = 0; j < 2; j++) s->D[0][j] = A[1 - odd][j], s->D[1][j] = A[odd][j];
-    s->det = odd == 1 ? det : -det;
-    s->off =
-        odd == 1 ? end[1] : iso_periodic_wrap(end[0] - (iso_line_reversor(line) == 1 ? 0 : WIDE_PI / 2), WIDE_PI);
-    const iso_wide across = s->D[0][1] * s->D[1][0] / s->det, along = s->D[0][0] * s->D[1][1] / s->det;
-    s->trace = WIDE_ABS(across) < WIDE_ABS(along) ? 2 + 4 * across : 4 * along - 2; /* the smaller has more digits */
+    iso_wide part[2]; /* of (S B - A, S B + A) */
+    double terms[2];
+    for (int i = 0; i < 2; i++) {
+        const int sign = i == 0 ? -1 : 1;
+        const iso_wide l = S[0] * a->B[0][0] + sign * a->A[0][0], x = S[1] * a->B[1][0] + sign * a->A[1][0];
+        part[i] = 2 * (a->A[1][1] * l - a->A[0][1] * x) / a->det;
+        terms[i] = 2 * (double)((WIDE_ABS(a->A[1][1] * l) + WIDE_ABS(a->A[0][1] * x)) / WIDE_ABS(a->det));
+    }
+    const int smaller = WIDE_ABS(part[0]) < WIDE_ABS(part[1]) ? 0 : 1;
+    s->trace = smaller == 0 ? 2 + part[0] : part[1] - 2;
+    s->terms = 2 + terms[smaller];
+}
+
+static void arrive(int line, const arrival *a, iso_periodic_shot *s)
+{
+    const int reversor = iso_line_reversor(line), odd = reversor == 0 ? 1 : 0; /* which of l, x it turns over */
+    const double S[2] = {odd == 0 ? -1 : 1, odd == 1 ? -1 : 1};
+    for (int i = 0; i < 2; i++) {
+        s->miss[i] = a->behind[i] - S[i] * a->before[i];
+        s->miss_by_u[i] = a->B[i][0] - S[i] * a->A[i][0];
+    }
+    s->miss[0] = iso_wide_wrap(s->miss[0] - (reversor == 2 ? WIDE_PI : 0), 2 * WIDE_PI);
+    for (int j = 0; j < 2; j++) {
+        s->D[0][j] = (a->A[1 - odd][j] + a->B[1 - odd][j]) / 2;
+        s->D[1][j] = (a->A[odd][j] + a->B[odd][j]) / 2;
+    }
+    const iso_wide middle = (a->before[odd] + a->behind[odd]) / 2;
+    s->off = odd == 1 ? middle : iso_wide_wrap(middle - (reversor == 1 ? 0 : WIDE_PI / 2), WIDE_PI);
+    find_trace(a, S, s);
 }
 
 static bool shoot_from_section(const iso_periodic_map *map, const iso_return_code *code, int line, int period,
@@ -125,7 +150,7 @@ static bool shoot_from_section(const iso_periodic_map *map, const iso_return_cod
         A[i][0] = s->way.slope[i][flat ? 0 : 1] * stretch;
         A[i][1] = s->way.slope[i][flat ? 1 : 0];
     }
-    arrive(line, s->way.to, (const iso_wide(*)[2])A, flat ? law : -law * stretch, s);
+    arrive(line, &(arrival){s->way.to, s->way.to, A, A, flat ? law : -law * stretch}, s);
     memcpy(s->clock, s->way.clock, sizeof s->clock);
     return true;
 }
@@ -137,18 +162,14 @@ static void multiply(const iso_wide A[2][2], const iso_wide B[2][2], iso_wide pr
         for (int j = 0; j < 2; j++) product[i][j] = A[i][0] * B[0][j] + A[i][1] * B[1][j];
 }
 
-/* before, last: the crossings around the line at the end, from z and from there. */
+/* in: from the line to z; before: from z to the last crossing before the line at the end; last: from there on. */
 static void join(int line, const iso_periodic_fine *in, const iso_periodic_fine *before,
                  const iso_periodic_fine *last, iso_periodic_shot *s)
 {
-    iso_wide middle[2][2], from_z[2][2], A[2][2], end[2];
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++) middle[i][j] = (last->slope[i][j] + (i == j)) / 2;
-    for (int i = 0; i < 2; i++) end[i] = (before->to[i] + last->to[i]) / 2;
-    multiply((const iso_wide(*)[2])middle, before->slope, from_z);
-    multiply((const iso_wide(*)[2])from_z, in->slope, A);
-    const iso_wide det = middle[0][0] * middle[1][1] - middle[0][1] * middle[1][0];
-    arrive(line, end, (const iso_wide(*)[2])A, det * before->determinant * in->determinant, s);
+    iso_wide A[2][2], B[2][2];
+    multiply(before->slope, in->slope, A);
+    multiply(last->slope, (const iso_wide(*)[2])A, B);
+    arrive(line, &(arrival){before->to, last->to, A, B, before->determinant * in->determinant}, s);
     s->way = *last;
     multiply(last->slope, before->slope, s->way.slope);
     s->way.determinant = last->determinant * before->determinant;

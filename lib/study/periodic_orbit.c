@@ -180,7 +180,7 @@ typedef struct wave {
     const iso_periodic_candidate *candidate[WAVE];
     size_t count;
     struct {
-        bool found;
+        iso_periodic_answer answer;
         iso_periodic_orbit orbit;
         double path[2 * ISO_PERIODIC_MOST][2];
     } of[WAVE];
@@ -192,8 +192,8 @@ static bool solve_some(iso_pool_worker *worker, void *data, size_t first, size_t
     iso_periodic_map map = a->w->map;
     map.ctx = worker->ctx;
     for (size_t i = first; i < first + count; i++)
-        a->of[i].found = iso_periodic_solve(&map, iso_periodic_code(a->w->options.polish), a->candidate[i],
-                                            &a->of[i].orbit, a->of[i].path);
+        a->of[i].answer = iso_periodic_solve(&map, iso_periodic_code(a->w->options.polish), a->candidate[i],
+                                             &a->of[i].orbit, a->of[i].path);
     return true;
 }
 
@@ -202,10 +202,10 @@ static iso_status finish_wave(iso_periodic_work *w, wave *a)
     iso_pool pool = {.count = a->count, .chunk = 1, .solve = solve_some, .data = a};
     iso_status status = iso_pool_run(w->ctx, &pool, iso_pool_threads(w->options.threads, a->count - 1, 1), NULL);
     for (size_t i = 0; i < a->count && status == ISO_OK; i++)
-        if (a->of[i].found)
+        if (a->of[i].answer == ISO_PERIODIC_FOUND)
             status = add_orbit(w, &a->of[i].orbit, (const double(*)[2])a->of[i].path);
         else
-            w->out->lost += a->candidate[i]->line >= 0;
+            w->out->lost += a->of[i].answer == ISO_PERIODIC_LOST && a->candidate[i]->line >= 0;
     a->count = 0;
     return status;
 }
@@ -246,7 +246,7 @@ int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE])
     text[0] = 0;
     for (int i = 0; i < 6; i++)
         if (symmetry & 1 << i)
-            length +=
-                snprintf(text + length, (size_t)(ISO_DIGITS_SIZE - length), "%s%s", length ? " " : "", iso_line_name(i));
+            length += snprintf(text + length, (size_t)(ISO_DIGITS_SIZE - length), "%s%s", length ? " " : "",
+                               iso_line_name(i));
     return length > 0 ? length : snprintf(text, ISO_DIGITS_SIZE, "none");
 }

@@ -290,6 +290,7 @@ static bool comes_again(const search *s, const bracket *b)
  * their orbits are known, and most need not be solved. */
 static iso_status add_roots(search *s)
 {
+    const iso_periodic_options *o = &s->w->options;
     iso_periodic_candidate *c = malloc((s->brackets + 1) * sizeof *c);
     iso_status status = c ? ISO_OK : iso_context_fail(s->w->ctx, ISO_NO_MEMORY, "", "no memory for the search");
     if (s->brackets > 0) qsort(s->bracket, s->brackets, sizeof *s->bracket, by_place);
@@ -300,6 +301,7 @@ static iso_status add_roots(search *s)
             if (b->n == n && b->there && comes_again(s, b) == turn % 2)
                 c[count++] = (iso_periodic_candidate){s->line, n, b->u, b->z[0], b->z[1]};
         status = iso_periodic_add(s->w, c, count);
+        if (o->progress) o->progress((s->line + (turn + 1.0) / (2 * s->periods)) / LINES, o->data);
     }
     free(c);
     return status;
@@ -319,11 +321,7 @@ static iso_status search_line(iso_periodic_work *w, int line)
 
 iso_status iso_periodic_search(iso_periodic_work *w)
 {
-    const int lines = fabs(w->map.p.k) == 1 ? LINE_POLE : LINES; /* each torus has orbits on the first lines */
     iso_status status = ISO_OK;
-    for (int line = 0; line < lines && status == ISO_OK; line++) {
-        status = search_line(w, line);
-        if (w->options.progress) w->options.progress((line + 1.0) / lines, w->options.data);
-    }
+    for (int line = 0; line < LINES && status == ISO_OK; line++) status = search_line(w, line);
     return status;
 }

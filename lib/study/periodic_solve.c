@@ -38,7 +38,8 @@ static bool evaluate(solver *s)
         if (!iso_periodic_shoot(&s->map, s->code, s->line, s->u, s->period, &s->shot)) return false;
         memcpy(s->z, s->shot.z, sizeof s->z);
         s->trace = s->shot.trace;
-        s->step = -s->shot.off / s->shot.D[1][0];
+        const iso_wide *m = s->shot.miss, *d = s->shot.miss_by_u;
+        s->step = -(m[0] * d[0] + m[1] * d[1]) / (d[0] * d[0] + d[1] * d[1]);
         return true;
     }
     if (!iso_periodic_far(&s->map, s->code, s->z, 2 * s->period, s->path, &s->whole)) return false;
@@ -51,7 +52,7 @@ static void find_step_in_plane(solver *s, iso_wide step[2])
 {
     const iso_wide(*A)[2] = (const iso_wide(*)[2])s->whole.slope;
     const iso_wide a = A[0][0] - 1, b = A[0][1], c = A[1][0], d = A[1][1] - 1, det = a * d - b * c;
-    const iso_wide r0 = iso_periodic_wrap(s->z[0] - s->whole.to[0], 2 * WIDE_PI), r1 = s->z[1] - s->whole.to[1];
+    const iso_wide r0 = iso_wide_wrap(s->z[0] - s->whole.to[0], 2 * WIDE_PI), r1 = s->z[1] - s->whole.to[1];
     step[0] = (d * r0 - b * r1) / det;
     step[1] = (a * r1 - c * r0) / det;
     s->step = WIDE_ABS(step[0]) + WIDE_ABS(step[1]);
@@ -60,8 +61,10 @@ static void find_step_in_plane(solver *s, iso_wide step[2])
 /* How many times larger than its own rounding errors a step comes out. */
 static double growth(const solver *s)
 {
-    const iso_wide(*D)[2] = (const iso_wide(*)[2])s->shot.D;
-    return s->line >= 0 ? 1 + largest4(D) / fabs((double)D[1][0]) : 1 + fabs((double)s->whole.slope[0][0]);
+    const iso_periodic_shot *shot = &s->shot;
+    if (s->line < 0) return 1 + fabs((double)s->whole.slope[0][0]);
+    return 1 + largest4((const iso_wide(*)[2])shot->way.slope) /
+                   hypot((double)shot->miss_by_u[0], (double)shot->miss_by_u[1]);
 }
 
 /* Until the steps are as small as rounding errors; the last of them is not taken. */
@@ -106,13 +109,13 @@ iso_multipliers iso_multipliers_of(double trace, double error, double sense)
     return m;
 }
 
-/* What other steps and the last digit of k change: in the trace, and by the root that they have. Where an orbit
- * passes near a saddle, rounding errors grow more on the way than the derivative of the whole tells. */
+/* What other steps, the last digit of k, and the step of Newton's method that was not taken change in the trace. Where
+ * an orbit passes near a saddle, rounding errors grow more on the way than the derivative of the whole tells. */
 static double by_other_steps(const solver *s)
 {
     solver other = *s;
     double path[2 * ISO_PERIODIC_MOST][2];
-    iso_wide step[2];
+    iso_wide step[2] = {0, 0};
     iso_params p;
     other.path = path;
     if (s->code->error > 1e-25) { /* the constants of the equations are rounded like k */
@@ -120,6 +123,9 @@ static double by_other_steps(const solver *s)
         iso_periodic_map_prepare(s->map.ctx, &p, 1, &other.map);
     }
     other.map.finer = 0.03;
+    if (s->line < 0) find_step_in_plane(&other, step);
+    for (int i = 0; i < 2; i++) other.z[i] += step[i];
+    other.u += s->step;
     if (!evaluate(&other)) return NAN;
     if (s->line < 0) find_step_in_plane(&other, step);
     return fabs((double)(other.trace - s->trace)) + s->slope_of_trace * fabs((double)other.step);
@@ -133,10 +139,7 @@ static bool close_up(const solver *s, iso_periodic_fine *all, double *error, dou
     *error = 0;
     *doubt = largest4((const iso_wide(*)[2])all->slope);
     if (s->line < 0) return true;
-    const iso_wide(*D)[2] = (const iso_wide(*)[2])s->shot.D;
-    const double across = fabs((double)D[0][1]) + fabs((double)D[1][0]),
-                 along = fabs((double)D[0][0]) + fabs((double)D[1][1]);
-    *doubt *= fmin(across, along) / fabs((double)s->shot.det);
+    *doubt = s->shot.terms;
     const iso_periodic_fine half = *all;
     iso_periodic_fine rest;
     if (!iso_periodic_far(&s->map, s->code, half.to, s->period, NULL, &rest)) return false;
@@ -160,7 +163,7 @@ static bool judge(const solver *s, iso_periodic_orbit *o)
     o->trace = t.head;
     o->trace_tail = t.tail;
     o->determinant = (double)(all.determinant - 1);
-    o->closure = hypot((double)iso_periodic_wrap(all.to[0] - s->z[0], 2 * WIDE_PI), (double)(all.to[1] - s->z[1])) /
+    o->closure = hypot((double)iso_wide_wrap(all.to[0] - s->z[0], 2 * WIDE_PI), (double)(all.to[1] - s->z[1])) /
                  fmax(1, largest4((const iso_wide(*)[2])all.slope));
     const double moved = s->slope_of_trace * (fabs((double)s->step) + digits + 4 * o->closure);
     o->error = error + 256 * digits * s->period * doubt + 4 * moved + fabs(o->determinant) * (1 + fabs(o->trace));
@@ -185,14 +188,22 @@ static void complete_path(const solver *s)
     }
 }
 
-bool iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code, const iso_periodic_candidate *c,
-                        iso_periodic_orbit *o, double (*path)[2])
+/* Of a zero of F that is no orbit the two crossings around the line are no mirror images. */
+static bool is_orbit(const solver *s)
+{
+    return s->line < 0 || hypot((double)s->shot.miss[0], (double)s->shot.miss[1]) < 1e-8;
+}
+
+iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code,
+                                       const iso_periodic_candidate *c, iso_periodic_orbit *o, double (*path)[2])
 {
     solver s = {.map = *map, .code = code, .line = c->line, .period = c->period, .u = c->u, .path = path};
     s.z[0] = c->l, s.z[1] = c->x;
     memset(o, 0, sizeof *o);
-    if (!solve(&s) || !(WIDE_ABS(s.z[1]) < 1) || !judge(&s, o)) return false;
-    const iso_fine z[2] = {iso_fine_of(iso_periodic_wrap(s.z[0], 2 * WIDE_PI)), iso_fine_of(s.z[1])};
+    if (!solve(&s) || !(WIDE_ABS(s.z[1]) < 1)) return ISO_PERIODIC_LOST;
+    if (!is_orbit(&s)) return ISO_PERIODIC_NONE;
+    if (!judge(&s, o)) return ISO_PERIODIC_LOST;
+    const iso_fine z[2] = {iso_fine_of(iso_wide_wrap(s.z[0], 2 * WIDE_PI)), iso_fine_of(s.z[1])};
     o->line = s.line;
     o->period = s.period;
     o->u = (double)s.u;
@@ -203,5 +214,5 @@ bool iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code
     if (s.line >= 0) complete_path(&s);
     path[2 * s.period - 1][0] = o->l;
     path[2 * s.period - 1][1] = o->x;
-    return true;
+    return ISO_PERIODIC_FOUND;
 }

@@ -36,9 +36,9 @@ static iso_status find_domain(iso_manifold *m)
         if (status == ISO_OK && change > 0.85 && change < 1.3) return ISO_OK;
         size *= (iso_wide)fmax(change, 0.1);
     }
-    return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
-                            "splitting at k = %.15g: no domain was found on which the manifold is a series",
-                            m->problem.p.k);
+    return iso_context_fail(
+        m->ctx, ISO_NUMERICAL, "",
+        "splitting at k = %.15g: no domain was found on which the series of the manifold converges", m->problem.p.k);
 }
 
 /* --- one computation -------------------------------------------------------------------------------------------- */
@@ -57,10 +57,12 @@ static iso_status compute_again(const iso_manifold *m, int terms, const iso_mani
 }
 
 /* What rounding does: each half return makes an error of some units in the last place, which is carried on by the
- * derivative. Errors across the manifold die out like 1/lambda, so that only the last ones count. */
+ * derivative. Across the manifold it dies out like lambda^-i, i half returns later; such errors add up to sqrt(sum
+ * lambda^(-2 i)) of one. */
 static double rounding(const iso_manifold *m, const iso_manifold_crossing *c)
 {
-    return 10 * m->code->error * (1 + fabs((double)c->slope)) * (2 + fabs(log((double)m->lambda)));
+    const double lambda = (double)m->lambda, sum = sqrt(1 / (1 - 1 / (lambda * lambda)));
+    return 10 * m->code->error * (1 + fabs((double)c->slope)) * (1 + sum + log(lambda));
 }
 
 /* From the section n_g = 0 on which the manifold was computed to n_a = 0, on which O has l = 0. At the crossing
@@ -73,8 +75,11 @@ static double rounding(const iso_manifold *m, const iso_manifold_crossing *c)
 static void tell(const iso_manifold *m, const iso_manifold_crossing *c, const iso_manifold_crossing *again,
                  int digits, iso_splitting *s)
 {
-    const double floor = rounding(m, c), of_m = 3 * (double)WIDE_ABS(c->slope - again->slope) + floor,
-                 of_x = 3 * (double)WIDE_ABS(c->z[1] - again->z[1]) + floor;
+    const double floor = rounding(m, c),
+                 apart[2] = {fabs((double)(c->z[1] - again->z[1])), fabs((double)(c->slope - again->slope))};
+    double of[2];
+    for (int i = 0; i < 2; i++) of[i] = 3 * fmax(apart[i], fmax(c->scatter[i], again->scatter[i])) + floor;
+    const double of_x = of[0], of_m = of[1];
     const iso_wide x = c->z[1], root = WIDE_ROOT((1 - x) * (1 + x)), ratio = x / root;
     const bool same = s->axis == m->axis;
     const iso_fine fine_x = iso_fine_of(same    ? x
@@ -101,6 +106,21 @@ static iso_status compute(iso_manifold *m, const level *l, iso_manifold_crossing
     return status;
 }
 
+static bool has_quad(void)
+{
+#ifdef ISO_TAYLOR_HAS_QUAD
+    return true;
+#else
+    return false;
+#endif
+}
+
+static iso_status check_digits(iso_context *ctx, iso_splitting_digits digits)
+{
+    if (digits != ISO_SPLITTING_QUAD || has_quad()) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "digits", "splitting: this build has no numbers of 128 bits");
+}
+
 static iso_status compute_finer(iso_manifold *m, iso_manifold_crossing *c, iso_splitting *s)
 {
 #ifdef ISO_TAYLOR_HAS_QUAD
@@ -110,16 +130,7 @@ static iso_status compute_finer(iso_manifold *m, iso_manifold_crossing *c, iso_s
     return status == ISO_OK ? compute(m, &with_106_bits, c, s) : status;
 #else
     (void)c, (void)s;
-    return iso_context_fail(m->ctx, ISO_BAD_ARGUMENT, "digits", "splitting: this build has no numbers of 128 bits");
-#endif
-}
-
-static bool has_quad(void)
-{
-#ifdef ISO_TAYLOR_HAS_QUAD
-    return true;
-#else
-    return false;
+    return check_digits(m->ctx, ISO_SPLITTING_QUAD);
 #endif
 }
 
@@ -139,27 +150,45 @@ iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], iso_
     return status == ISO_OK ? find_domain(m) : status;
 }
 
+/* With 128 bits, where they are asked for or needed. If they fail where only needed, what 64 bits tell stays. */
+static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_splitting_digits digits, iso_splitting *s)
+{
+    const bool unclear = !(fabs(s->m) >= 1000 * s->error);
+    const iso_manifold kept = *m;
+    const iso_manifold_crossing found = *c;
+    if (digits == ISO_SPLITTING_DOUBLE || (digits == ISO_SPLITTING_AUTO && !(unclear && has_quad()))) return ISO_OK;
+    const iso_status status = compute_finer(m, c, s);
+    if (status != ISO_NUMERICAL || digits == ISO_SPLITTING_QUAD) return status;
+    snprintf(s->words, sizeof s->words, "128 bits failed: %s", iso_context_message(m->ctx));
+    *m = kept;
+    *c = found;
+    return ISO_OK;
+}
+
+static void tell_next(const iso_manifold *m, const iso_manifold_crossing *n, iso_splitting *s)
+{
+    s->next_l = (double)iso_wide_turned(n->z[0] + m->corner);
+    s->next_x = (double)n->z[1];
+    s->next_m = (double)n->slope;
+}
+
 static iso_status find(iso_context *ctx, const double J[3], iso_splitting_digits digits, bool next, iso_splitting *s)
 {
     iso_manifold m;
     iso_manifold_crossing c, n;
-    iso_status status = iso_manifold_find(ctx, s->k, J, &m);
+    iso_status status = check_digits(ctx, digits);
+    if (status == ISO_OK) status = iso_manifold_find(ctx, s->k, J, &m);
     if (status != ISO_OK) return status;
     s->section = m.axis;
     s->middle = m.corner == 0 ? (m.axis + 2) % 3 : (m.axis + 1) % 3;
     s->axis = (s->middle + 1) % 3;
     status = iso_manifold_first(&m, &c);
     if (status == ISO_OK) status = compute(&m, &with_64_bits, &c, s);
-    const bool unclear = !(fabs(s->m) >= 1000 * s->error);
-    if (status == ISO_OK && (digits == ISO_SPLITTING_QUAD || (digits == ISO_SPLITTING_AUTO && unclear && has_quad())))
-        status = compute_finer(&m, &c, s);
+    if (status == ISO_OK) status = find_finer(&m, &c, digits, s);
     if (status != ISO_OK || !next) return status;
     status = iso_manifold_next(&m, &c, &n);
-    if (status != ISO_OK) return status == ISO_NUMERICAL ? ISO_OK : status;
-    s->next_l = (double)iso_wide_turned(n.z[0] + m.corner);
-    s->next_x = (double)n.z[1];
-    s->next_m = (double)n.slope;
-    return status;
+    if (status == ISO_OK) tell_next(&m, &n, s);
+    return status == ISO_NUMERICAL ? ISO_OK : status;
 }
 
 static iso_status find_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits, bool next,

@@ -1,4 +1,4 @@
-/* splitting.h - the splitting of the separatrix: why only k = 1 and k = -1 are integrable.
+/* splitting.h - the splitting of the separatrix, which is 0 at k = 1 and k = -1, where the ball is integrable.
  *
  * The rotation about the middle axis is a hyperbolic fixed point O of the return map (map/section.h), with its mirror
  * O', half a turn of l away. At k = +-1 the unstable manifold of O is the stable manifold of O'. At other k they
@@ -10,9 +10,9 @@
  *     iso_splitting s;
  *     status = iso_splitting_at(ctx, 0.5, (double[3]){1.4, 2.1, 3}, ISO_SPLITTING_AUTO, &s);     s.x, s.m, s.error
  *
- * The manifold near O is a polynomial W with f^(1/2)(W(theta)) = W(lambda^(1/2) theta), found by Newton's method;
- * farther out it is followed by half returns with their derivatives. Numbers have 64 bits, and 106 where those do not
- * tell m from 0. Errors come from a second computation, with another polynomial on another domain, and from what
+ * The manifold near O is a polynomial W with g(W(theta)) = W(lambda^(1/2) theta), g half a return, found by Newton's method;
+ * farther out it is followed by half returns with their derivatives. Numbers have 64 bits of mantissa, and 113 where
+ * those do not distinguish m from 0; 106 of the 113 are kept. Errors come from a second computation, with another polynomial on another domain, and from what
  * rounding does.
  */
 #ifndef ISO_STUDY_SPLITTING_H
@@ -22,10 +22,11 @@
 
 #include "../base/api.h"
 #include "../base/record.h"
+#include "../model/effect.h"
 
 ISO_C_BEGIN
 
-/* Numbers of 64 bits, of 106 bits, or the first and where |m| < 1000 errors the second. */
+/* Numbers of 64 bits of mantissa, of 128 bits (113 of mantissa), or the first and where |m| < 1000 errors the second. */
 typedef enum iso_splitting_digits {
     ISO_SPLITTING_DOUBLE,
     ISO_SPLITTING_QUAD,
@@ -35,14 +36,14 @@ typedef enum iso_splitting_digits {
 /* What is found at one k. */
 typedef struct iso_splitting {
     double k;
-    int middle;                    /* the middle axis, 0 to 2: O is the rotation about it                           */
-    int axis;                      /* a = middle + 1, cyclically: x and m belong to n_a = 0, where O is (l, x) = 0  */
-    double lambda;                 /* O's multiplier > 1 of a whole return                                          */
-    double x, x_tail;              /* where W^u(O) first meets l = pi/2: x + x_tail                                 */
-    double m, m_tail;              /* its slope dx/dl there, m + m_tail                                             */
-    double error, x_error;         /* of m, and of x                                                               */
-    int section;                   /* g: the global section n_g = 0, on which all is computed: a, or the other one  */
-    double section_x, section_m;   /* x and m there                                                        */
+    int middle;                  /* the middle axis, 0 to 2: O is the rotation about it                           */
+    int axis;                    /* a = middle + 1, cyclically: x and m belong to n_a = 0, where O is (l, x) = 0  */
+    double lambda;               /* O's multiplier > 1 of a whole return                                          */
+    double x, x_tail;            /* where W^u(O) first meets l = pi/2: x + x_tail                                 */
+    double m, m_tail;            /* its slope dx/dl there, m + m_tail                                             */
+    double error, x_error;       /* of m, and of x                                                               */
+    int section;                 /* axis of the global section, on which all is computed: a, or another one        */
+    double section_x, section_m; /* x and m there                                                        */
     double next_l, next_x, next_m; /* there: the next point at which the manifolds meet, and half the difference
                                       of their slopes; NaN: not asked for, or not found                    */
     int digits;                    /* decimal digits of the numbers: 19 or 32                                       */
@@ -50,11 +51,12 @@ typedef struct iso_splitting {
     bool is_zero;                  /* k is a zero of m between two rows of a scan, to k_error; next_... are there   */
     double k_error;
     iso_status status; /* ISO_OK, or why there is nothing                                               */
-    char words[200];   /* of a failure                                                                  */
+    char words[200];   /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
 } iso_splitting;
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and
- * there is no middle axis); a middle axis whose rotation is not hyperbolic; parameters beyond what the numbers hold.
+ * there is no middle axis); a middle axis whose rotation is not hyperbolic, or lambda below 1.02 (moments that are
+ * nearly equal, large |k|), where m is estimated at 1e-427 or less and not computed; parameters beyond what the numbers hold.
  * ISO_NUMERICAL: no crossing was found, or a return failed. ISO_BAD_ARGUMENT about "digits" where this build has no
  * 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The status and its words are in *s as well. */
 ISO_API iso_status iso_splitting_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits,
@@ -69,6 +71,7 @@ typedef struct iso_splitting_options {
     const double *k; /* the values, in any order                                              */
     size_t count;
     double J[3];
+    const iso_effects *effects; /* of the ball: none may act; NULL: none        */
     iso_splitting_digits digits;
     bool zeros;  /* look for zeros of m between neighbours of this list                    */
     int threads; /* 0: as many as there are processors to run on                           */
@@ -88,17 +91,17 @@ static inline iso_splitting_options iso_splitting_defaults(void)
 
 typedef struct iso_splittings {
     size_t rows, zeros;
-    size_t lost;         /* zeros that lie between two rows and were not found: a failure, or too close to +-1   */
+    size_t lost;         /* zeros that lie between two rows and were not found: a failure, or +-1 too close  */
     iso_splitting *row;  /* one for each k of the options, in their order; status ISO_STOPPED: not done    */
     iso_splitting *zero; /* zeros of m other than k = +-1, by growing k                                    */
 } iso_splittings;
 
-/* m changes its sign at k = 1 and k = -1. So there is a zero between two neighbours that are told from 0 if their
- * signs differ and +-1 is not between them, or if they agree and it is. A zero of m is a tangency of the manifolds
- * at this one point: it is no integrability, as long as they cross elsewhere (next_m != 0).
- * A failure at one k is told in its row, and is no failure of the call.
- * Errors: ISO_BAD_ARGUMENT (no k; "digits"), ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has the rows
- * that are done. */
+/* Other zeros of m than k = 1 and k = -1 are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1): there is one between two neighbours that are
+ * distinguished from 0 if their r have opposite signs. There the manifolds touch at one point. If they cross at
+ * the next one (next_m != 0), there is no further integral.
+ * A failure at one k stands in its row, and is no failure of the call.
+ * Errors: ISO_BAD_ARGUMENT (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball; ISO_NO_MEMORY;
+ * ISO_STOPPED by the context's monitor: *s has the rows that are done. */
 ISO_API iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *options, iso_splittings **s);
 ISO_API void iso_splitting_free(iso_splittings *s);
 

@@ -8,7 +8,7 @@
 #include "base/arithmetic_impl.h"
 #include "study/splitting_impl.h"
 
-enum { MOST_SAMPLES = 4096, MOST_HALVES = 4000 };
+enum { MOST_SAMPLES = 4096, MOST_HALVES = 2000 };
 #define CLOSE 0.35       /* samples that are farther apart have another one between them ... */
 #define CLOSE_DRAWN 0.06 /* ... of a line that is drawn */
 
@@ -115,25 +115,66 @@ static iso_wide guess(const piece *p, int i)
     return p->at[i - 1].theta * (iso_wide)exp(part * log((double)(p->at[i].theta / p->at[i - 1].theta)));
 }
 
-/* Newton's method. Rounding leaves u some units away from pi/2; x and the slope are carried to pi/2 in first order,
- * with the change of the slope that the last step has shown. */
+/* The last step of Newton's method: u - pi/2, the slope of the manifold, d slope/du, and du/dtheta. */
+typedef struct approach {
+    int steps;
+    bool bent; /* bend is known well */
+    iso_wide over, slope, bend, speed;
+} approach;
+
+/* Rounding leaves u some units away from pi/2; x and the slope are carried to pi/2 in first order. */
+static iso_status approach_at(const iso_manifold *m, iso_wide theta, approach *a, iso_manifold_crossing *c)
+{
+    iso_manifold_point p;
+    const iso_status status = iso_manifold_at(m, theta, c->halves, &p);
+    if (status != ISO_OK) return status;
+    const iso_wide over = iso_wide_turned(p.z[0] - WIDE_PI / 2), slope = p.t[1] / p.t[0], moved = over - a->over;
+    if (a->steps++ > 0 && WIDE_ABS(moved) > 10 * WIDE_ABS(over)) {
+        a->bend = (slope - a->slope) / moved;
+        a->bent = a->bent || fabs((double)moved) > 1e5 * m->code->error;
+    }
+    a->over = over, a->slope = slope, a->speed = p.t[0];
+    c->theta = theta;
+    c->z[0] = p.z[0] - over;
+    c->z[1] = p.z[1] - over * slope;
+    c->slope = slope - over * a->bend;
+    return ISO_OK;
+}
+
+/* A step no longer helps: this is all that rounding leaves. */
+static bool is_there(const iso_manifold *m, iso_wide now, iso_wide last)
+{
+    const double error = m->code->error, off = fabs((double)now);
+    return off < error * (2000 + 100 * (double)m->lambda) || (off < sqrt(error) && off > fabs((double)last) / 2);
+}
+
+/* How far rounding moves the crossing: seen by starting close by. A first guess may be so good that the steps did not
+ * show how the manifold bends: then one farther off does. */
+static iso_status measure_scatter(const iso_manifold *m, approach *a, iso_manifold_crossing *c)
+{
+    const iso_wide theta = c->theta, unit = (iso_wide)m->code->error;
+    iso_manifold_crossing beside = *c;
+    iso_status status = ISO_OK;
+    if (!a->bent) {
+        status = approach_at(m, theta * (1 - 10000000 * unit), a, &beside);
+        if (status == ISO_OK) status = approach_at(m, theta, a, c);
+    }
+    if (status == ISO_OK) status = approach_at(m, theta * (1 - 1000 * unit), a, &beside);
+    c->scatter[0] = fabs((double)(beside.z[1] - c->z[1]));
+    c->scatter[1] = fabs((double)(beside.slope - c->slope));
+    return status;
+}
+
+/* Newton's method. */
 iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c)
 {
-    const iso_wide pi = WIDE_PI, near = (iso_wide)m->code->error * (2000 + 100 * m->lambda);
-    iso_wide last_over = 0, last_slope = 0;
+    approach a = {0};
     for (int i = 0; i < 30; i++) {
-        iso_manifold_point p;
-        const iso_status status = iso_manifold_at(m, c->theta, c->halves, &p);
+        const iso_wide last = a.over, theta = i == 0 ? c->theta : c->theta - a.over / a.speed;
+        const iso_status status = approach_at(m, theta, &a, c);
         if (status != ISO_OK) return status;
-        const iso_wide over = iso_wide_turned(p.z[0] - pi / 2), slope = p.t[1] / p.t[0], moved = over - last_over;
-        const bool known = i > 0 && WIDE_ABS(moved) > 10 * WIDE_ABS(over);
-        c->z[0] = p.z[0] - over;
-        c->z[1] = p.z[1] - over * slope;
-        c->slope = known ? slope - over * (slope - last_slope) / moved : slope;
-        if (i > 0 && WIDE_ABS(over) < near) return ISO_OK;
-        if (!(WIDE_ABS(over / p.t[0]) < c->theta / 2)) break;
-        c->theta -= over / p.t[0];
-        last_over = over, last_slope = slope;
+        if (i > 0 && is_there(m, a.over, last)) return measure_scatter(m, &a, c);
+        if (!(WIDE_ABS(a.over / a.speed) < c->theta / 2)) break;
     }
     return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
                             "splitting at k = %.15g: the crossing with the line of symmetry was not found",
@@ -187,6 +228,7 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
     *c = *from;
     c->theta *= WIDE_ROOT(m->lambda);
     if (c->theta > 1) c->theta /= m->lambda, c->halves++;
+    iso_wide last = 1;
     for (int i = 0; i < 30; i++) {
         mirror r;
         const iso_status status = look(m, c->theta, c->halves, &r);
@@ -194,9 +236,10 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
         const iso_wide apart = iso_wide_turned(r.z[0] - r.p.z[0]), step = apart / (r.t[0] - r.p.t[0]);
         for (int j = 0; j < 2; j++) c->z[j] = r.p.z[j];
         c->slope = (r.p.t[1] / r.p.t[0] - r.t[1] / r.t[0]) / 2;
-        if (WIDE_ABS(apart) < (iso_wide)m->code->error * (2000 + 100 * m->lambda)) return ISO_OK;
+        if (is_there(m, apart, last)) return ISO_OK;
         if (!(WIDE_ABS(step) < c->theta / 2)) break;
         c->theta -= step;
+        last = apart;
     }
     return iso_context_fail(m->ctx, ISO_NUMERICAL, "",
                             "splitting at k = %.15g: the next point of both manifolds was not found", m->problem.p.k);

@@ -6,7 +6,8 @@
  *     splitting_scan.c       many k, and the zeros between them
  *
  * Coordinates are z = (u, x): u = l - l0, so that the fixed point is 0. The map is g = sign h, h half a return
- * (return_map_impl.h), sign so that the multiplier lambda is positive. (The maps commute with z -> -z.)
+ * (return_map_impl.h), sign so that its multiplier is positive: here lambda is that of
+ * half a return, the square root of iso_splitting.lambda. (The maps commute with z -> -z.)
  */
 #ifndef ISO_STUDY_SPLITTING_IMPL_H
 #define ISO_STUDY_SPLITTING_IMPL_H
@@ -42,7 +43,8 @@ typedef struct iso_manifold_point {
 typedef struct iso_manifold_crossing {
     int halves;
     iso_wide theta, z[2];
-    iso_wide slope; /* half the difference of the slopes dx/du of both manifolds */
+    iso_wide slope;    /* half the difference of the slopes dx/du of both manifolds */
+    double scatter[2]; /* how far rounding moves x and the slope                     */
 } iso_manifold_crossing;
 
 /* Checks k and J, and finds lambda and v. Errors: as iso_splitting_at. */
@@ -76,6 +78,10 @@ iso_status iso_manifold_refine(const iso_manifold *m, iso_manifold_crossing *c);
 /* The next point where the manifolds meet, between that and its image. */
 iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing *from, iso_manifold_crossing *c);
 
-iso_wide iso_wide_turned(iso_wide angle); /* into (-pi, pi] */
+/* angle, less whole turns. */
+static inline iso_wide iso_wide_turned(iso_wide angle)
+{
+    return iso_wide_wrap(angle, 2 * WIDE_PI);
+}
 
 #endif

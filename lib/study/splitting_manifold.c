@@ -16,14 +16,6 @@
 
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
-iso_wide iso_wide_turned(iso_wide angle)
-{
-    const iso_wide pi = WIDE_PI;
-    while (angle > pi) angle -= 2 * pi;
-    while (angle <= -pi) angle += 2 * pi;
-    return angle;
-}
-
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 
 static iso_status no_return(const iso_manifold *m)
@@ -34,7 +26,8 @@ static iso_status no_return(const iso_manifold *m)
 
 iso_status iso_manifold_map(const iso_manifold *m, const iso_wide z[2], iso_wide image[2], iso_wide A[2][2])
 {
-    iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])}, .start = ISO_FROM_BELOW};
+    iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])},
+                    .start = ISO_FROM_BELOW};
     if (!iso_context_goes_on(m->ctx)) return iso_context_fail(m->ctx, ISO_STOPPED, "", "stopped on request");
     if (!(WIDE_ABS(z[1]) < 1)) return no_return(m);
     if (!m->code->go(&m->model, m->axis, m->zeros, m->tolerance, &r)) return no_return(m);
@@ -43,6 +36,25 @@ iso_status iso_manifold_map(const iso_manifold *m, const iso_wide z[2], iso_wide
     image[0] = m->sign * iso_wide_turned(iso_wide_of(r.to[0]) - m->corner);
     image[1] = m->sign * iso_wide_of(r.to[1]);
     return image[0] - image[0] == 0 && image[1] - image[1] == 0 ? ISO_OK : no_return(m);
+}
+
+/* lambda must be 1.01 or more, that of a whole return 1.02: with smaller ones the crossing is very many half returns
+ * away, and m, about exp(-2 pi^2/ln lambda^2), is below 1e-430. No bound is computed then, so none is told. */
+static iso_status check_trace(const iso_manifold *m, double trace)
+{
+    const double apart = trace - 2; /* (lambda - 1)^2/lambda */
+    if (apart > 1e-4) return ISO_OK;
+    if (apart < -1e-9)
+        return iso_context_fail(m->ctx, ISO_BAD_INPUT, "k",
+                                "splitting: at k = %.15g the rotation about the middle axis is not hyperbolic "
+                                "(half-turn trace %.12g): it has no separatrix",
+                                m->problem.p.k, trace);
+    const double exponent = 2 * sqrt(fmax(apart, 1e-15)); /* ln lambda^2 */
+    return iso_context_fail(
+        m->ctx, ISO_BAD_INPUT, "J",
+        "splitting at k = %.15g: the middle axis has the multiplier 1 + %.1e, too near 1: m is about "
+        "exp(-2 pi^2/ln of it) = 1e-%.0f or less, which 128 bits do not tell from 0",
+        m->problem.p.k, expm1(exponent), 2 * ISO_PI * ISO_PI / exponent / log(10));
 }
 
 /* lambda and v from the derivative at the fixed point, whose determinant is 1. */
@@ -55,11 +67,8 @@ static iso_status find_direction(iso_manifold *m)
     if (status != ISO_OK) return status;
     iso_wide trace = A[0][0] + A[1][1];
     if (trace < 0) m->sign = -1, trace = -trace;
-    if (!(trace > 2 + 1e-10))
-        return iso_context_fail(m->ctx, ISO_BAD_INPUT, "k",
-                                "splitting: at k = %.15g the rotation about the middle axis is not hyperbolic "
-                                "(half-turn trace %.12g): it has no separatrix",
-                                m->problem.p.k, (double)trace);
+    status = check_trace(m, (double)trace);
+    if (status != ISO_OK) return status;
     m->lambda = (trace + WIDE_ROOT((trace - 2) * (trace + 2))) / 2;
     m->v[0] = m->sign * A[0][1];
     m->v[1] = m->lambda - m->sign * A[0][0];
@@ -100,8 +109,7 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], iso_
     if (status != ISO_OK) return status;
     const iso_params *p = &m->problem.p;
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "splitting: k = %.15g: the numbers hold 0.05 <= |k| <= 50",
-                                k);
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "splitting: k = %.15g: give 0.05 <= |k| <= 50", k);
     m->problem.eps = 1;
     m->axis = iso_section_axis(p);
     const int b = (m->axis + 1) % 3, c = (m->axis + 2) % 3;

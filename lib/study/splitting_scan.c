@@ -3,14 +3,17 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
+#include "base/pi_impl.h"
 #include "orbit/pool_impl.h"
+#include "study/free_impl.h"
 #include "study/splitting.h"
 
-/* Two neighbours with a zero of m between them. */
+/* m has the zeros k = 1 and k = -1 anyway. Others are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1), which is of the
+ * same size everywhere. Two neighbours with one between. */
 typedef struct bracket {
-    double k[2], m[2];
-    bool around; /* +-1 is between them as well, where m changes its sign anyway */
-    bool fine;   /* 64 bits do not tell these m from 0                          */
+    double k[2], r[2];
+    bool fine; /* 64 bits do not tell these m from 0 */
 } bracket;
 
 typedef struct scan {
@@ -20,6 +23,12 @@ typedef struct scan {
     atomic_size_t done;
     size_t all;
 } scan;
+
+/* r from m, or its error from that of m. */
+static double reduced(const iso_splitting *s, double m)
+{
+    return m * exp(fmin(2 * ISO_PI * ISO_PI / log(s->lambda), 600)) / ((s->k - 1) * (s->k + 1));
+}
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
@@ -36,70 +45,62 @@ static bool solve_rows(iso_pool_worker *w, void *data, size_t first, size_t coun
 
 /* --- zeros ------------------------------------------------------------------------------------------------------ */
 
-/* m as the search sees it. */
-static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, double k, double *m, double *error)
+/* r as the search sees it. */
+static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, double k, double *r, double *error)
 {
     iso_splitting s;
     const iso_splitting_digits digits = b->fine ? c->o->digits : ISO_SPLITTING_DOUBLE;
     const iso_status status = iso_splitting_at(w->ctx, k, c->o->J, digits, &s);
-    *m = s.m, *error = s.error;
+    *r = reduced(&s, s.m), *error = fabs(reduced(&s, s.error));
     return status;
 }
 
-/* Takes the side of +-1 that has the zero, by a value of m close to it. */
-static iso_status choose_side(iso_pool_worker *w, const scan *c, bracket *b)
+/* Next to +-1 r is not known: m is not distinguished from 0 there, zero of r or not. */
+static bool is_blind(const bracket *b, double error)
 {
-    const double one = b->k[0] < 0 ? -1 : 1;
-    for (int side = 0; side < 2; side++) {
-        double m, error;
-        const double k = one + 0.05 * (b->k[side] - one);
-        const iso_status status = value_at(w, c, b, k, &m, &error);
-        if (status != ISO_OK) return status;
-        if (!(m * b->m[side] < 0) || fabs(m) < error) continue;
-        b->k[1 - side] = k, b->m[1 - side] = m;
-        return ISO_OK;
-    }
-    return ISO_NUMERICAL;
+    return !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100);
 }
 
-/* Regula falsi in Illinois' form, until m is not told from 0, or k stands still. slope: dm/dk there. */
+/* Regula falsi in Illinois' form, until r is not distinguished from 0, or k stands still. slope: dr/dk there. */
 static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *k, double *slope)
 {
     enum { MOST = 40 };
     int kept = -1;
-    double m = NAN, error = NAN, aside = NAN;
-    iso_status status = b->around ? choose_side(w, c, b) : ISO_OK;
+    double r = NAN, error = NAN, aside = NAN, end[2] = {b->r[0], b->r[1]};
+    iso_status status = ISO_OK;
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
         const double last = *k;
-        *k = (b->k[0] * b->m[1] - b->k[1] * b->m[0]) / (b->m[1] - b->m[0]);
-        status = value_at(w, c, b, *k, &m, &error);
-        if (status != ISO_OK || fabs(m) < 10 * error || fabs(*k - last) < 1e-12 * fabs(*k)) break;
-        const int side = m * b->m[0] > 0 ? 0 : 1;
-        b->k[side] = *k, b->m[side] = m;
-        if (kept == 1 - side) b->m[1 - side] /= 2;
+        *k = (b->k[0] * end[1] - b->k[1] * end[0]) / (end[1] - end[0]);
+        status = value_at(w, c, b, *k, &r, &error);
+        if (status == ISO_OK && is_blind(b, error)) return ISO_NUMERICAL;
+        if (status != ISO_OK || fabs(r) < 10 * error || fabs(*k - last) < 1e-12 * fabs(*k)) break;
+        const int side = r * end[0] > 0 ? 0 : 1;
+        b->k[side] = *k, end[side] = r;
+        if (kept == 1 - side) end[1 - side] /= 2;
         kept = 1 - side;
     }
     if (status == ISO_OK) status = value_at(w, c, b, *k * (1 + 1e-4), &aside, &error);
-    *slope = (aside - m) / (*k * 1e-4);
+    *slope = (aside - r) / (*k * 1e-4);
     return status;
 }
 
 /* The zero of the search, and steps of the secant method farther, with the digits that were asked for, until m is not
- * told from 0, or as small as the next double of k allows: the next crossing's slope must be seen beside it. */
+ * distinguished from 0, or as small as the next double of k allows: the next crossing's slope must be seen beside it. */
 static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_splitting *zero)
 {
     enum { MOST = 8 };
-    double k = NAN, slope = NAN, last_k = NAN, last_m = NAN, least = 0;
+    double k = NAN, slope = NAN, last_k = NAN, last_r = NAN, least = 0, r = NAN, error = NAN;
     iso_status status = search(w, c, &b, &k, &slope);
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
         status = iso_splitting_next_at(w->ctx, k, c->o->J, c->o->digits, zero);
-        if (i > 0 && fabs(k - last_k) > 1e-12 * fabs(k)) slope = (zero->m - last_m) / (k - last_k);
+        r = reduced(zero, zero->m), error = fabs(reduced(zero, zero->error));
+        if (i > 0 && fabs(k - last_k) > 1e-12 * fabs(k)) slope = (r - last_r) / (k - last_k);
         least = 4e-16 * fabs(slope * k);
-        if (fabs(zero->m) < fmax(10 * zero->error, least)) break;
-        last_k = k, last_m = zero->m;
-        k -= zero->m / slope;
+        if (fabs(r) < fmax(10 * error, least)) break;
+        last_k = k, last_r = r;
+        k -= r / slope;
     }
-    zero->k_error = fmax(fabs(zero->m) + zero->error, least) / fabs(slope);
+    zero->k_error = fmax(fabs(r) + error, least) / fabs(slope);
     zero->is_zero = status == ISO_OK;
     return status;
 }
@@ -120,14 +121,12 @@ static int by_k(const void *a, const void *b)
 
 static bool is_bracket(const iso_splitting *a, const iso_splitting *b, bracket *found)
 {
-    const double one = a->k < 0 ? -1 : 1;
     const bool fine = a->digits > 19 || b->digits > 19;
-    const bool around = a->k < one && b->k > one;
-    *found = (bracket){{a->k, b->k}, {a->m, b->m}, around, fine};
-    return a->k * b->k > 0 && a->m * b->m < 0 ? !around : around && a->k * b->k > 0;
+    *found = (bracket){{a->k, b->k}, {reduced(a, a->m), reduced(b, b->m)}, fine};
+    return a->k * b->k > 0 && found->r[0] * found->r[1] < 0;
 }
 
-/* Rows that are told from 0, by growing k; their number. */
+/* Rows that are distinguished from 0, by growing k; their number. */
 static size_t sort(const iso_splittings *s, const iso_splitting *list[])
 {
     size_t count = 0;
@@ -200,11 +199,15 @@ iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *opti
 {
     ISO_DEFAULT_ARITHMETIC;
     *s = NULL;
-    if (!options || options->count == 0)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
+    iso_splitting_options o = iso_splitting_defaults();
+    iso_status status = iso_options_take(ctx, "iso_splitting_options", &o, sizeof o, options);
+    if (status == ISO_OK && o.count == 0)
+        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
+    if (status == ISO_OK) status = iso_study_check_free(ctx, o.effects, "the splitting is measured");
+    if (status != ISO_OK) return status;
     iso_splittings *found = calloc(1, sizeof *found);
     if (!found) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the splitting");
-    const iso_status status = run(ctx, options, found);
+    status = run(ctx, &o, found);
     if (status == ISO_OK || status == ISO_STOPPED)
         *s = found;
     else

@@ -97,8 +97,8 @@ static iso_status check(const chart *c)
     if (!(o->from[0] < o->to[0]) || !isfinite(o->to[0] - o->from[0]))
         return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "k", "k from %g to %g is no range", o->from[0], o->to[0]);
     if (o->moment < 0 || o->moment > 2 || !(o->from[1] > 0) || !(o->from[1] < o->to[1]) || !isfinite(o->to[1]))
-        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "J",
-                                "a moment from %g to %g is no range of positive numbers", o->from[1], o->to[1]);
+        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "J", "J%d from %g to %g: give A:B with 0 < A < B",
+                                o->moment + 1, o->from[1], o->to[1]);
     for (int i = 0; i < 3; i++)
         if (i != o->moment && !(o->J[i] > 0 && isfinite(o->J[i])))
             return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "J", "J%d = %g is not positive", i + 1, o->J[i]);

@@ -41,4 +41,10 @@ static inline iso_wide iso_wide_of(iso_fine x)
     return (iso_wide)x.head + (iso_wide)x.tail;
 }
 
+/* angle, less a multiple of period, into [-period/2, period/2]. */
+static inline iso_wide iso_wide_wrap(iso_wide angle, iso_wide period)
+{
+    return angle - WIDE_ROUND(angle / period) * period;
+}
+
 #endif

@@ -70,10 +70,26 @@ check "so many orbits" test "$(value orbits)" = 100
 "$isoroll" integrals - <other.yaml >out
 check "a scene from standard input" test $? -eq 0
 
+# --- three equal moments: F of k = 1 is a constant, as the energy is
+scene 1 "2, 2, 2" "$spin" "$normal" 10 0.5 >sphere.yaml
+run 0 integrals sphere.yaml
+check "a sphere: F" grep -q '^  F_plane = .*: a constant on the level$' out
+check "a sphere: M" grep -q '^found: 2 independent integrals beside the energy$' out
+
+# --- extreme k
+for k in 1000 -1000 0.01 -0.01; do
+    scene $k "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >extreme.yaml
+    run 0 integrals extreme.yaml --degree 3
+    check "k = $k: none" grep -q '^none beside the energy up to degree 3 within 1e-10' out
+done
+scene 0.001 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >extreme.yaml
+
 # --- refusals
+refuses 3 "k = 0.001 is too near 0 for these moments" integrals extreme.yaml
 { cat other.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >gravity.yaml
-refuses 3 "'gravity' acts on the ball" integrals gravity.yaml
+refuses 3 "integrals are sought only of the free ball and of the point on H = 0: remove 'gravity'" integrals gravity.yaml
 refuses 2 "--degree '0'" integrals other.yaml --degree 0
+refuses 2 "--degree '-1'" integrals other.yaml --degree=-1
 refuses 2 "--within '-1'" integrals other.yaml --within -1
 refuses 2 "--coefficients '1.5'" integrals other.yaml --coefficients 1.5
 refuses 2 "degree 9 is not in 1 to 8" integrals other.yaml --degree 9

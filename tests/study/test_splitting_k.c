@@ -1,4 +1,4 @@
-/* The splitting of the separatrix, lib/study/splitting.h: known values, k = +-1, symmetries, errors, zeros,
+/* The splitting of the separatrix, lib/study/splitting.h: known values, symmetries, errors, zeros,
  * refusals. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -32,20 +32,21 @@ static void test_table(void)
     }
 }
 
-/* The problem is integrable: m is 0. */
-static void test_integrable(void)
+static bool has_quad(void)
 {
-    static const double Js[][3] = {{1.4, 2.1, 3}, {1, 2, 5}, {3, 1.1, 2}, {0.2, 1, 0.7}, {7, 2, 1}, {1, 1.01, 1.02}};
-    double worst = 0, size = 0;
-    const int count = tests_length(3, 6);
-    for (int i = 0; i < count; i++)
-        for (int k = -1; k <= 1; k += 2) {
-            const iso_splitting s = at(k, Js[i], ISO_SPLITTING_DOUBLE);
-            worst = fmax(worst, fabs(s.m) / s.error);
-            size = fmax(size, s.error);
-        }
-    gsl_test(!(worst < 1), "k = +-1: |m| is at most %.2g of its error", worst);
-    gsl_test(!(size < 1e-14), "k = +-1: the largest error is %.1e", size);
+    iso_splitting s;
+    return iso_splitting_at(ctx, NAN, J_thin, ISO_SPLITTING_QUAD, &s) != ISO_BAD_ARGUMENT;
+}
+
+static void check_against_quad(double k, const double J[3], const iso_splitting *s)
+{
+    if (!has_quad()) return;
+    const iso_splitting q = at(k, J, ISO_SPLITTING_QUAD);
+    const double dm = fabs((s->m - q.m) + (s->m_tail - q.m_tail)), dx = fabs((s->x - q.x) + (s->x_tail - q.x_tail));
+    gsl_test(!(dm < s->error && dx < s->x_error), "k = %g: the errors cover the distance from 128 bits: %.2g, %.2g",
+             k, dm / s->error, dx / s->x_error);
+    gsl_test(!(q.error < 1e-26 && q.digits == 32), "k = %g: 128 bits have the error %.1e", k, q.error);
+    if (fabs(k) == 1) gsl_test(!(fabs(q.m) < q.error), "k = %g: m = %.1e in 128 bits", k, q.m);
 }
 
 /* 128 bits, where there are any: the errors of 64 bits cover the distance. */
@@ -53,18 +54,10 @@ static void test_fine(void)
 {
     static const double cases[][4] = {{-1, 1.4, 2.1, 3}, {-0.4, 0.33, 0.9, 2.2}, {-1, 3, 1.1, 2},
                                       {2, 1, 2, 5},      {-1, 1.4, 2.1, 3},      {0.2, 1, 2, 3}};
-    iso_splitting probe;
-    if (iso_splitting_at(ctx, -1, J_thin, ISO_SPLITTING_QUAD, &probe) == ISO_BAD_ARGUMENT) return;
-    const int count = tests_length(1, 6);
+    const int count = tests_length(0, 6);
     for (int i = 0; i < count; i++) {
-        const double k = cases[i][0];
-        const iso_splitting s = at(k, &cases[i][1], ISO_SPLITTING_DOUBLE),
-                            q = i == 0 ? probe : at(k, &cases[i][1], ISO_SPLITTING_QUAD);
-        const double dm = fabs((s.m - q.m) + (s.m_tail - q.m_tail)), dx = fabs((s.x - q.x) + (s.x_tail - q.x_tail));
-        gsl_test(!(dm < s.error && dx < s.x_error), "k = %g: the errors cover the distance from 128 bits: %.2g, %.2g",
-                 k, dm / s.error, dx / s.x_error);
-        gsl_test(!(q.error < 1e-26 && q.digits == 32), "k = %g: 128 bits have the error %.1e", k, q.error);
-        if (fabs(k) == 1) gsl_test(!(fabs(q.m) < q.error), "k = %g: m = %.1e in 128 bits", k, q.m);
+        const iso_splitting s = at(cases[i][0], &cases[i][1], ISO_SPLITTING_DOUBLE);
+        check_against_quad(cases[i][0], &cases[i][1], &s);
     }
 }
 
@@ -72,8 +65,8 @@ static void test_fine(void)
 static void test_symmetries(void)
 {
     double worst = 0;
-    for (int i = 0; i < 2; i++) {
-        const double k = i == 0 ? 0.6 : -0.6;
+    for (int i = 0; i < tests_length(1, 2); i++) {
+        const double k = i == 0 ? -0.6 : 0.6;
         const iso_splitting s = at(k, J_wide, ISO_SPLITTING_DOUBLE);
         const double scaled[3] = {1e-8, 2e-8, 5e-8}, cyclic[3] = {5, 1, 2}, mirror[3] = {5, 2, 1};
         const iso_splitting t = at(k, scaled, ISO_SPLITTING_DOUBLE), c = at(k, cyclic, ISO_SPLITTING_DOUBLE),
@@ -111,20 +104,40 @@ static iso_splittings *scan(const double k[], size_t count, const double J[3], i
 
 static void test_zeros(void)
 {
-    static const double k[] = {-1.5, -2, -0.9, -1.1}, none[] = {0.9, 1.1, 1.5};
-    iso_splittings *s = scan(k, 4, J_wide, 2), *n = scan(none, 3, J_wide, 1);
-    gsl_test(s->zeros != 1 || n->zeros != 0, "J = (1, 2, 5): a zero of m between k = -2 and -1.5, none at +-1");
+    static const double k[] = {-1.5, -1.7, -0.9, -1.1}, none[] = {0.9, 1.1, 1.5};
+    const int rows = tests_length(2, 4);
+    iso_splittings *s = scan(k, (size_t)rows, J_wide, 2), *n = scan(none, (size_t)tests_length(2, 3), J_wide, 1);
+    gsl_test(s->zeros != 1 || n->zeros != 0, "J = (1, 2, 5): a zero of m between k = -1.7 and -1.5, none at +-1");
     if (s->zeros == 1) {
         const iso_splitting *z = s->zero;
         gsl_test(!(fabs(z->k + 1.602408110834) < 1e-9 && fabs(z->m) < 1e-15), "it is at k = %.13g", z->k);
         gsl_test(!(fabs(z->next_m) > 1e-13), "the manifolds cross at the next point, with %.2e", z->next_m);
     }
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < rows; i++) {
         const iso_splitting one = at(k[i], J_wide, ISO_SPLITTING_DOUBLE);
         gsl_test(s->row[i].m != one.m || s->row[i].k != k[i], "row %d of a scan is that of its k", i);
     }
     iso_splitting_free(s);
     iso_splitting_free(n);
+}
+
+/* +-1 between the same neighbours hides no zero and makes none. */
+static void test_zeros_beside_one(void)
+{
+    static const struct {
+        double k[2], zero; /* NaN: none */
+    } cases[] = {{{-0.9, -2}, -1.602408110834},
+                 {{-0.5, -1.603}, -1.602408110834},
+                 {{0.5, 3}, 2.2693235571},
+                 {{-0.5, -1.602}, NAN},
+                 {{0.5, 1.0001}, NAN}};
+    for (int i = tests_length(5, 0); i < 5; i++) {
+        iso_splittings *s = scan(cases[i].k, 2, J_wide, 1);
+        const bool some = !isnan(cases[i].zero);
+        gsl_test(s->zeros != some || s->lost > 0 || !(s->zeros == 0 || fabs(s->zero->k - cases[i].zero) < 1e-8),
+                 "between k = %g and %g: %zu zeros, %zu lost", cases[i].k[0], cases[i].k[1], s->zeros, s->lost);
+        iso_splitting_free(s);
+    }
 }
 
 /* --- refusals --------------------------------------------------------------------------------------------------- */
@@ -143,8 +156,27 @@ static void check_refused(double k, const double J[3], const char *words)
              "k = %g, J = %g %g %g: %s", k, J[0], J[1], J[2], iso_context_message(ctx));
 }
 
+/* Nearly equal moments: answers at once, in words, or x and m with errors that cover the distance from 128 bits. */
+static void test_near_moments(void)
+{
+    static const double refused[][4] = {{0.5, 1.4, 1.4000001, 3},   {1, 1.4, 1.40000000000001, 3},
+                                        {-0.05, 1.4, 1.4000001, 3}, {0.05, 1.4, 2.9999999, 3},
+                                        {0.5, 1.4, 2.9999999, 3},   {-1, 2, 1.9999999999999998, 5},
+                                        {-50, 1.4, 1.401, 3},       {50, 1, 1.1, 5}};
+    static const double held[][4] = {
+        {-0.05, 1.4, 1.401, 3}, {0.05, 1.4, 1.4000001, 3}, {0.5, 1.4, 1.401, 3}, {-0.05, 1.4, 2.9999999, 3}};
+    for (int i = 0; i < 8; i++) check_refused(refused[i][0], &refused[i][1], "too near 1: m is about");
+    for (int i = 0; i < tests_length(2, 4); i++) {
+        const iso_splitting s = at(held[i][0], &held[i][1], ISO_SPLITTING_DOUBLE);
+        gsl_test(!(s.error < 1e-16 && s.x_error < 1e-16), "J = %g %g %g, k = %g: errors %.1e, %.1e", held[i][1],
+                 held[i][2], held[i][3], held[i][0], s.error, s.x_error);
+        if (tests_length(0, 1)) check_against_quad(held[i][0], &held[i][1], &s);
+    }
+}
+
 static void test_refusals(void)
 {
+    const double half = 0.5;
     iso_splittings *s;
     iso_splitting one;
     iso_splitting_options o = iso_splitting_defaults();
@@ -154,7 +186,13 @@ static void test_refusals(void)
     check_refused(1e6, J_thin, "hold");
     check_refused(0.001, J_thin, "hold");
     check_refused(1, (double[3]){1, -2, 3}, "");
+    iso_effects effects = iso_effects_default();
     gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_ARGUMENT || s, "no k");
+    iso_effects_set(ctx, &effects, "gravity", "mgb", 1, (double[]){0.7});
+    o.k = &half, o.count = 1, o.effects = &effects;
+    memcpy(o.J, J_thin, sizeof o.J);
+    gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_INPUT || s || strcmp(iso_context_about(ctx), "gravity") != 0,
+             "a ball with gravity: %s", iso_context_message(ctx));
     iso_context_set_monitor(ctx, never, NULL);
     gsl_test(iso_splitting_at(ctx, 0.5, J_thin, ISO_SPLITTING_AUTO, &one) != ISO_STOPPED, "stopped on request");
     iso_context_set_monitor(ctx, NULL, NULL);
@@ -179,11 +217,12 @@ int main(void)
 {
     ctx = iso_context_create();
     test_table();
-    test_integrable();
     test_fine();
     test_symmetries();
     test_signs();
     test_zeros();
+    test_zeros_beside_one();
+    test_near_moments();
     test_refusals();
     test_curve();
     iso_context_free(ctx);

@@ -36,7 +36,8 @@ typedef struct iso_return {
 typedef struct iso_return_code {
     const char *name;
     double error; /* of one operation, relative */
-    /* model: the free point on H = 0. zeros: see iso_lane_job. tolerance: of terms, in units of `error` times 1e16.
+    /* model: the free point on H = 0. zeros: see iso_lane_job. tolerance: as of other Taylor methods where their numbers are doubles; it is
+     * multiplied by error/1e-16.
      * False: no memory, or no crossing. */
     bool (*go)(const iso_model *model, int axis, double zeros, double tolerance, iso_return *r);
 } iso_return_code;
