@@ -3,7 +3,7 @@
 
 #include "study/frequencies.h"
 #include "study/periodic.h"
-#include "study/section_impl.h"
+#include "study/free_impl.h"
 #include "study/splitting.h"
 #include "study/sweep_impl.h"
 
@@ -69,7 +69,7 @@ static int splitting_columns(const iso_sweep_ask *ask, const char *name[])
 
 static iso_status free_refuse(iso_context *ctx, const iso_sweep_ask *ask)
 {
-    const iso_effect *effect = iso_section_not_free(&ask->base->effects);
+    const iso_effect *effect = iso_study_not_free(&ask->base->effects);
     if (!effect) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name, "it is about the free ball: take '%s' out of the scene",
                             effect->name);
