@@ -131,6 +131,23 @@ typedef struct iso_plot_section {
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis or orbit), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 
+/* A value over one number: a curve, and the band of its error. rows: columns x, value, low, high, by growing x; low and
+ * high may be NaN. name, value: of the axes. k: x is k, and +-1 is marked. If values of both signs or of very
+ * different sizes are there, |value| has a logarithmic axis. Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_curve(iso_context *ctx, const char *path, const char *title, const char *name,
+                                  const char *value, bool k, const iso_record *rows);
+
+/* A value over two numbers: maps side by side, with one scale of colours. A NaN is grey. */
+enum { ISO_PLOT_MAPS = 6 };
+typedef struct iso_plot_panels {
+    const char *title, *x, *y, *value; /* of the picture, of the axes, of the scale */
+    bool k;                            /* x is k, and +-1 is marked                 */
+    int count;                         /* of panels, at most ISO_PLOT_MAPS          */
+    const char *const *name;           /* of each; "": none                         */
+    const iso_record *const *rows;     /* of each: columns x, y, value              */
+} iso_plot_panels;
+ISO_API iso_status iso_plot_values(iso_context *ctx, const char *path, const iso_plot_panels *panels);
+
 /* Where the rotations about the axes of least and greatest moment are stable: the records of study/stability_chart.h.
  * moment: the name of the one that varies. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const char *moment,
