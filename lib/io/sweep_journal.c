@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "io/replacement_impl.h"
+#include "io/sweep_record_impl.h"
 #include "io/sweep_store_impl.h"
 
 typedef struct journal_head {
@@ -51,13 +52,6 @@ static iso_status trouble(iso_context *ctx, const iso_sweep_journal *j, const ch
     return iso_file_trouble(ctx, what, j->name ? j->name : "a temporary file");
 }
 
-static uint64_t checksum_of(const void *bytes, size_t length, uint64_t salt)
-{
-    uint64_t hash[2] = {salt, 0};
-    iso_sweep_hash(hash, bytes, length);
-    return hash[1];
-}
-
 static uint64_t salt_of(const record_head *r)
 {
     return r->chunk * 0x9e3779b97f4a7c15 + r->length + 1;
@@ -85,7 +79,7 @@ static journal_head head_of(const iso_sweep_journal *j)
     h.columns = (uint64_t)j->head->columns;
     h.index = j->share.index;
     h.count = j->share.count;
-    h.checksum = checksum_of(&h, offsetof(journal_head, checksum), 1);
+    h.checksum = iso_sweep_checksum(&h, offsetof(journal_head, checksum), 1);
     return h;
 }
 
@@ -123,53 +117,6 @@ static iso_status append(iso_context *ctx, iso_sweep_journal *j, const void *byt
 
 /* --- records ---------------------------------------------------------------------------------------------------- */
 
-static size_t pack(iso_sweep_journal *j, const iso_sweep_rows *rows)
-{
-    const size_t numbers = rows->count * (size_t)rows->columns * sizeof(double);
-    const size_t most = numbers + rows->count * (sizeof(int32_t) + 2 + ISO_REASON_SIZE);
-    if (!make_room(j, sizeof(record_head) + most)) return 0;
-    unsigned char *at = j->buffer + sizeof(record_head);
-    memcpy(at, rows->number, numbers);
-    at += numbers;
-    for (size_t i = 0; i < rows->count; i++, at += sizeof(int32_t))
-        memcpy(at, &(int32_t){(int32_t)rows->status[i]}, sizeof(int32_t));
-    for (size_t i = 0; i < rows->count; i++) {
-        if (rows->status[i] == ISO_OK) continue;
-        const size_t length = strnlen(rows->reason[i], ISO_REASON_SIZE - 1);
-        *at++ = (unsigned char)length;
-        memcpy(at, rows->reason[i], length);
-        at += length;
-    }
-    return (size_t)(at - j->buffer) - sizeof(record_head);
-}
-
-/* False: the record does not fit its rows. */
-static bool unpack(const iso_sweep_journal *j, size_t c, size_t length, iso_sweep_rows *rows)
-{
-    const unsigned char *at = j->buffer, *end = at + length;
-    rows->first = c * j->head->chunk;
-    rows->count = iso_sweep_chunk_points(j->head, c);
-    const size_t numbers = rows->count * (size_t)rows->columns * sizeof(double);
-    if (length < numbers + rows->count * sizeof(int32_t)) return false;
-    memcpy(rows->number, at, numbers);
-    at += numbers;
-    for (size_t i = 0; i < rows->count; i++, at += sizeof(int32_t)) {
-        int32_t status;
-        memcpy(&status, at, sizeof status);
-        rows->status[i] = (iso_status)status;
-    }
-    for (size_t i = 0; i < rows->count; i++) {
-        rows->reason[i][0] = '\0';
-        if (rows->status[i] == ISO_OK) continue;
-        const size_t size = at < end ? *at++ : ISO_REASON_SIZE;
-        if (size >= ISO_REASON_SIZE || (size_t)(end - at) < size) return false;
-        memcpy(rows->reason[i], at, size);
-        rows->reason[i][size] = '\0';
-        at += size;
-    }
-    return at == end;
-}
-
 /* The failures of the lowest number count as the first. */
 static void count_failures(iso_sweep_journal *j, const iso_sweep_rows *rows)
 {
@@ -184,10 +131,13 @@ static void count_failures(iso_sweep_journal *j, const iso_sweep_rows *rows)
 /* Reads the record at `at` into rows. False: it is not whole. */
 static bool read_record(iso_sweep_journal *j, off_t at, record_head *r, iso_sweep_rows *rows)
 {
-    const size_t most = rows->most * ((size_t)rows->columns * sizeof(double) + sizeof(int32_t) + 1 + ISO_REASON_SIZE);
+    const size_t most = iso_sweep_record_most(rows, rows->most);
     if (!read_at(j, at, r, sizeof *r) || r->length > most || r->chunk >= iso_sweep_chunks(j->head)) return false;
     if (!make_room(j, r->length + 1) || !read_at(j, at + (off_t)sizeof *r, j->buffer, r->length)) return false;
-    return r->checksum == checksum_of(j->buffer, r->length, salt_of(r)) && unpack(j, r->chunk, r->length, rows);
+    rows->first = r->chunk * j->head->chunk;
+    rows->count = iso_sweep_chunk_points(j->head, r->chunk);
+    return r->checksum == iso_sweep_checksum(j->buffer, r->length, salt_of(r)) &&
+           iso_sweep_record_unpack(j->buffer, r->length, rows);
 }
 
 /* --- opening ---------------------------------------------------------------------------------------------------- */
@@ -239,9 +189,10 @@ static iso_status take_old(iso_context *ctx, iso_sweep_journal *j, off_t size, b
     if (!read || memcmp(there.mark, mine.mark, sizeof mine.mark) != 0)
         return refuse(ctx, j->name, "is no journal of a sweep: it would be overwritten");
     if (memcmp(&there, &mine, sizeof mine) != 0)
-        return refuse(ctx, j->name,
-                      "is the journal of another sweep, another share, or another version: remove it, or "
-                      "give another name");
+        return refuse(
+            ctx, j->name,
+            "is the journal of another sweep, share, version or kind of vectors: remove it, or give another "
+            "name");
     if (!resume)
         return refuse(ctx, j->name,
                       "has chunks of this sweep: add --resume to go on with it, or remove it to begin "
@@ -275,6 +226,21 @@ static iso_status open_unnamed(iso_context *ctx, iso_sweep_journal *j)
     return j->descriptor < 0 ? trouble(ctx, j, "write") : append(ctx, j, &mine, sizeof mine);
 }
 
+/* A program that was killed just before its end leaves the journal of a result that is whole. */
+static void remove_old(const iso_sweep_journal *j)
+{
+    const journal_head mine = head_of(j);
+    journal_head there;
+    char *name;
+    if (asprintf(&name, "%s.part", j->path) < 0) return;
+    const int fd = open(name, O_RDONLY | O_CLOEXEC);
+    const bool ours = fd >= 0 && flock(fd, LOCK_EX | LOCK_NB) == 0 &&
+                      read(fd, &there, sizeof there) == sizeof there && memcmp(&there, &mine, sizeof mine) == 0;
+    if (ours) unlink(name);
+    if (fd >= 0) close(fd);
+    free(name);
+}
+
 /* A result that is there is this sweep's, or it is refused. */
 static iso_status look_at_result(iso_context *ctx, iso_sweep_journal *j, bool resume)
 {
@@ -289,6 +255,7 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_journal *j, bool re
     iso_sweep_reader_close(reader);
     if (!same) return refuse(ctx, j->path, "is the result of another sweep, share or version: it is not overwritten");
     if (!resume) return refuse(ctx, j->path, "is there already, the result of this sweep: it is not overwritten");
+    remove_old(j);
     j->complete = true;
     j->done = iso_sweep_journal_wanted(j);
     return ISO_OK;
@@ -392,11 +359,12 @@ static void sync_now_and_then(iso_sweep_journal *j)
 iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c, const iso_sweep_rows *rows)
 {
     if (iso_sweep_journal_has(j, c)) return ISO_OK;
-    const size_t length = pack(j, rows);
+    record_head r = {.chunk = c};
     const off_t at = j->end;
-    if (length == 0) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a chunk");
-    record_head r = {.chunk = c, .length = length};
-    r.checksum = checksum_of(j->buffer + sizeof r, length, salt_of(&r));
+    if (!make_room(j, sizeof r + iso_sweep_record_most(rows, rows->count)))
+        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a chunk");
+    const size_t length = r.length = iso_sweep_record_pack(rows, j->buffer + sizeof r);
+    r.checksum = iso_sweep_checksum(j->buffer + sizeof r, length, salt_of(&r));
     memcpy(j->buffer, &r, sizeof r);
     const iso_status status = append(ctx, j, j->buffer, sizeof r + length);
     if (status != ISO_OK) return status;

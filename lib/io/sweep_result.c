@@ -189,7 +189,9 @@ static iso_status same_sweep(const merger *m, const iso_sweep_reader *one, const
 {
     const iso_sweep_reader *first = NULL;
     for (size_t i = 0; i < m->count && !first; i++) first = m->part[i];
-    if (!first || memcmp(first->begin.head.hash, one->begin.head.hash, sizeof one->begin.head.hash) == 0)
+    const iso_sweep_head *a = first ? &first->begin.head : &one->begin.head, *b = &one->begin.head;
+    if (memcmp(a->hash, b->hash, sizeof a->hash) == 0 && a->count == b->count && a->chunk == b->chunk &&
+        a->columns == b->columns)
         return ISO_OK;
     return iso_context_fail(m->ctx, ISO_FILE_TROUBLE, "", "'%s' is a part of another sweep than '%s'", path,
                             first->path);

@@ -253,6 +253,8 @@ cp all.h5 before.h5
 run 0 sweep grid.yaml -o all.h5 --resume
 silent
 check "a result that is there stays" cmp all.h5 before.h5
+"$isoroll" sweep grid.yaml --point 1 -o all.h5 >point.yaml 2>err
+check "a point prints its scene" cmp -s all.h5 before.h5
 cp thesis.csv new.csv.part
 refuses 5 "is no journal of a sweep" sweep grid.yaml -o new.csv --resume
 check "the thesis" cmp thesis.csv thesis.copy
@@ -294,6 +296,10 @@ cp damaged.h5.part damaged.copy
 refuses 5 "is damaged" sweep long.yaml -o damaged.h5 --resume
 check "a damaged journal stays" cmp damaged.h5.part damaged.copy
 
+cp damaged.copy long.h5.part
+run 0 sweep long.yaml -o long.h5 --resume
+check_not "a journal that outlived its result is removed" test -e long.h5.part
+
 # --- kill -9 at any moment, then another number of threads; SIGTERM and SIGINT
 tries=0 kills=$(length 6 60)
 while [ $tries -lt "$kills" ]; do
@@ -331,4 +337,22 @@ refuses 5 "another isoroll works on this sweep" sweep long.yaml -o twice.h5 --re
 kill -CONT $pid
 wait $pid
 check "the first one goes on" cmp twice.h5 long.h5
+
+# --- explain, and pictures
+run 0 explain each.yaml
+check "explain: points" grep -q '^  2 points in 2 chunks of 1; [0-9]* columns' out
+check "explain: what varies" grep -q '^  start: 1 value' out
+check "explain: each quantity" test "$(grep -c ' a point, up to ' out)" -eq 6
+check "explain: time" grep -q 'of processor time; here, with [0-9]* threads, about ' out
+if has gnuplot "pictures"; then
+    run 0 plot each.csv -o curve.svg
+    check "a curve" grep -q '</svg>' curve.svg
+    run 0 plot each.csv -o curve.svg --value rotations_trace2
+    check "its name" grep -q 'rotations_trace2' curve.svg
+    refuses 3 "there is no such column" plot each.csv -o curve.svg --value nothing
+    run 0 plot long.h5 -o curve.svg
+    refuses 3 "4 numbers vary" plot all.h5 -o curve.svg --value state_s
+    refuses 3 "merge the parts first" plot part.1.h5 -o curve.svg
+    refuses 2 "--value is for results of sweeps" plot run.csv -o curve.svg --value s
+fi
 finish

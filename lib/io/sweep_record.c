@@ -1,0 +1,69 @@
+/* sweep_record.c - the rows of a chunk as bytes, with a checksum; for journals, and for sending them elsewhere. */
+#include "io/sweep_record_impl.h"
+
+#include <string.h>
+
+size_t iso_sweep_record_most(const iso_sweep_rows *rows, size_t count)
+{
+    return count * ((size_t)rows->columns * sizeof(double) + sizeof(int32_t) + 1 + ISO_REASON_SIZE);
+}
+
+size_t iso_sweep_record_pack(const iso_sweep_rows *rows, unsigned char bytes[])
+{
+    const size_t numbers = rows->count * (size_t)rows->columns * sizeof(double);
+    unsigned char *at = bytes;
+    memcpy(at, rows->number, numbers);
+    at += numbers;
+    for (size_t i = 0; i < rows->count; i++, at += sizeof(int32_t))
+        memcpy(at, &(int32_t){(int32_t)rows->status[i]}, sizeof(int32_t));
+    for (size_t i = 0; i < rows->count; i++) {
+        if (rows->status[i] == ISO_OK) continue;
+        const size_t length = strnlen(rows->reason[i], ISO_REASON_SIZE - 1);
+        *at++ = (unsigned char)length;
+        memcpy(at, rows->reason[i], length);
+        at += length;
+    }
+    return (size_t)(at - bytes);
+}
+
+bool iso_sweep_record_unpack(const unsigned char bytes[], size_t length, iso_sweep_rows *rows)
+{
+    const unsigned char *at = bytes, *end = bytes + length;
+    const size_t numbers = rows->count * (size_t)rows->columns * sizeof(double);
+    if (length < numbers + rows->count * sizeof(int32_t)) return false;
+    memcpy(rows->number, at, numbers);
+    at += numbers;
+    for (size_t i = 0; i < rows->count; i++, at += sizeof(int32_t)) {
+        int32_t status;
+        memcpy(&status, at, sizeof status);
+        rows->status[i] = (iso_status)status;
+    }
+    for (size_t i = 0; i < rows->count; i++) {
+        rows->reason[i][0] = '\0';
+        if (rows->status[i] == ISO_OK) continue;
+        const size_t size = at < end ? *at++ : ISO_REASON_SIZE;
+        if (size >= ISO_REASON_SIZE || (size_t)(end - at) < size) return false;
+        memcpy(rows->reason[i], at, size);
+        rows->reason[i][size] = '\0';
+        at += size;
+    }
+    return at == end;
+}
+
+/* Four sums side by side, of eight bytes at a time: each x becomes (x xor word) times an odd number, turned round. */
+uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt)
+{
+    enum { LANES = 4, BYTES = 8 * LANES };
+    uint64_t x[LANES] = {salt, ~salt, salt + length, 1}, word[LANES];
+    for (size_t at = 0; at < length; at += BYTES) {
+        if (length - at < BYTES) memset(word, 0, sizeof word);
+        memcpy(word, (const char *)bytes + at, length - at < BYTES ? length - at : BYTES);
+        for (int i = 0; i < LANES; i++) {
+            const uint64_t y = (x[i] ^ word[i]) * 0x9e3779b97f4a7c15;
+            x[i] = y << 29 | y >> 35;
+        }
+    }
+    uint64_t hash[2] = {0, 0};
+    iso_sweep_hash(hash, x, sizeof x);
+    return hash[1];
+}
