@@ -16,7 +16,6 @@
 #include <unistd.h>
 
 #include "io/replacement_impl.h"
-#include "io/sweep_record_impl.h"
 #include "io/sweep_store_impl.h"
 
 typedef struct journal_head {
@@ -131,13 +130,13 @@ static void count_failures(iso_sweep_journal *j, const iso_sweep_rows *rows)
 /* Reads the record at `at` into rows. False: it is not whole. */
 static bool read_record(iso_sweep_journal *j, off_t at, record_head *r, iso_sweep_rows *rows)
 {
-    const size_t most = iso_sweep_record_most(rows, rows->most);
+    const size_t most = iso_sweep_rows_bytes(rows, rows->most);
     if (!read_at(j, at, r, sizeof *r) || r->length > most || r->chunk >= iso_sweep_chunks(j->head)) return false;
     if (!make_room(j, r->length + 1) || !read_at(j, at + (off_t)sizeof *r, j->buffer, r->length)) return false;
     rows->first = r->chunk * j->head->chunk;
     rows->count = iso_sweep_chunk_points(j->head, r->chunk);
     return r->checksum == iso_sweep_checksum(j->buffer, r->length, salt_of(r)) &&
-           iso_sweep_record_unpack(j->buffer, r->length, rows);
+           iso_sweep_rows_unpack(j->buffer, r->length, rows);
 }
 
 /* --- opening ---------------------------------------------------------------------------------------------------- */
@@ -361,9 +360,9 @@ iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t 
     if (iso_sweep_journal_has(j, c)) return ISO_OK;
     record_head r = {.chunk = c};
     const off_t at = j->end;
-    if (!make_room(j, sizeof r + iso_sweep_record_most(rows, rows->count)))
+    if (!make_room(j, sizeof r + iso_sweep_rows_bytes(rows, rows->count)))
         return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a chunk");
-    const size_t length = r.length = iso_sweep_record_pack(rows, j->buffer + sizeof r);
+    const size_t length = r.length = iso_sweep_rows_pack(rows, j->buffer + sizeof r);
     r.checksum = iso_sweep_checksum(j->buffer + sizeof r, length, salt_of(&r));
     memcpy(j->buffer, &r, sizeof r);
     const iso_status status = append(ctx, j, j->buffer, sizeof r + length);

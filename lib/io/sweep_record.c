@@ -1,14 +1,14 @@
 /* sweep_record.c - the rows of a chunk as bytes, with a checksum; for journals, and for sending them elsewhere. */
-#include "io/sweep_record_impl.h"
-
 #include <string.h>
 
-size_t iso_sweep_record_most(const iso_sweep_rows *rows, size_t count)
+#include "io/sweep_store_impl.h"
+
+size_t iso_sweep_rows_bytes(const iso_sweep_rows *rows, size_t count)
 {
     return count * ((size_t)rows->columns * sizeof(double) + sizeof(int32_t) + 1 + ISO_REASON_SIZE);
 }
 
-size_t iso_sweep_record_pack(const iso_sweep_rows *rows, unsigned char bytes[])
+size_t iso_sweep_rows_pack(const iso_sweep_rows *rows, unsigned char bytes[])
 {
     const size_t numbers = rows->count * (size_t)rows->columns * sizeof(double);
     unsigned char *at = bytes;
@@ -26,7 +26,7 @@ size_t iso_sweep_record_pack(const iso_sweep_rows *rows, unsigned char bytes[])
     return (size_t)(at - bytes);
 }
 
-bool iso_sweep_record_unpack(const unsigned char bytes[], size_t length, iso_sweep_rows *rows)
+bool iso_sweep_rows_unpack(const unsigned char bytes[], size_t length, iso_sweep_rows *rows)
 {
     const unsigned char *at = bytes, *end = bytes + length;
     const size_t numbers = rows->count * (size_t)rows->columns * sizeof(double);

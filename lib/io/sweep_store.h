@@ -68,6 +68,14 @@ ISO_API void iso_sweep_journal_close(iso_sweep_journal *j);
 /* Whether the chunks can be gone on with later, by another program. */
 ISO_API bool iso_sweep_journal_lasts(const iso_sweep_journal *j);
 
+/* Rows as bytes, as a record of the journal has them, for programs that compute chunks elsewhere and send them to the
+ * one that has the journal. Numbers stand as they are in memory. iso_sweep_rows_bytes: the most bytes that `count`
+ * points need. pack gives the number of bytes. Before unpack set rows->first and rows->count; false: the bytes are not
+ * those of so many rows. */
+ISO_API size_t iso_sweep_rows_bytes(const iso_sweep_rows *rows, size_t count);
+ISO_API size_t iso_sweep_rows_pack(const iso_sweep_rows *rows, unsigned char bytes[]);
+ISO_API bool iso_sweep_rows_unpack(const unsigned char bytes[], size_t length, iso_sweep_rows *rows);
+
 /* --- results ---------------------------------------------------------------------------------------------------- */
 
 typedef struct iso_sweep_reader iso_sweep_reader;

@@ -1,6 +1,6 @@
 /* sweep_store_impl.h - results of sweeps as files of several kinds: what a kind must be able to do.
  *
- *     sweep_journal.c   the journal
+ *     sweep_journal.c   the journal; sweep_record.c: its records
  *     sweep_result.c    results of any kind: opening, reading, merging
  *     sweep_csv.c, hdf5_sweep.c   the kinds
  */
@@ -37,6 +37,9 @@ typedef struct iso_sweep_reading {
 
 extern const iso_sweep_writing iso_sweep_csv_writing, iso_sweep_hdf5_writing;
 extern const iso_sweep_reading iso_sweep_csv_reading, iso_sweep_hdf5_reading;
+
+/* Of bytes; another salt gives another number. */
+uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt);
 
 /* By the ending of the name; for reading also by the first bytes. NULL: this build has no HDF5. */
 const iso_sweep_writing *iso_sweep_writing_of(const char *path);
