@@ -38,7 +38,7 @@ static const char *const inside = "scene:\n"
                                   "measure: {state: {}}\n";
 
 static const char *const chart =
-    "scene: {reduced: {k: 0.5, J: [1, 2, 5]}, time: {end: 10},\n"
+    "scene: {reduced: {k: 0.5, J: [1.5, 2, 5]}, time: {end: 10},\n"
     "        initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}}\n"
     "vary:\n"
     "  k: [0.5, -0.75, 2, 0.06]\n"
