@@ -78,7 +78,7 @@ iso_status iso_sweep_check_keys(iso_yaml *y, const yaml_node_t *mapping, const c
 iso_status iso_sweep_whole(iso_yaml *y, const yaml_node_t *node, const char *what, double least, double most,
                            double *value);
 
-/* Value j of a range of a->count values. */
+/* Value j of a range of a->count values; with equal steps 0.1, 0.2, ... are what one writes. */
 double iso_sweep_in_range(const iso_sweep_axis *a, size_t j);
 
 /* sweep_point.c: a draft with the numbers of point i in it, and these numbers. l and x are not in it. */
