@@ -12,11 +12,12 @@
 #include "orbit/orbit.h"
 #include "study/free_impl.h"
 #include "study/periodic_impl.h"
+#include "study/stability_chart.h"
 
 const char *iso_stability_name(iso_stability stability)
 {
-    static const char *const names[] = {"stable", "unstable", "inverse", "degenerate"};
-    return names[stability];
+    static const char *const names[] = {"stable", "unstable", "inverse", "degenerate", "undecided"};
+    return (int)stability >= 0 && stability <= ISO_UNDECIDED ? names[stability] : NULL;
 }
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
@@ -32,6 +33,14 @@ static iso_status check_options(const iso_periodic_work *w)
     if (!iso_periodic_code(o->polish))
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "polish", "this build has no numbers of 128 bits");
     return ISO_OK;
+}
+
+/* Nearer to 0 orbits pass so near to unstable rotations that no digits are left. */
+static iso_status check_k(const iso_periodic_work *w)
+{
+    const double k = w->scene->params.k;
+    if (fabs(k) >= ISO_LEAST_K) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "k", "periodic orbits: k = %.12g: give |k| >= %g", k, ISO_LEAST_K);
 }
 
 static iso_status check_moments(const iso_periodic_work *w)
@@ -53,6 +62,7 @@ static iso_status check_scene(iso_periodic_work *w)
     iso_orbit_options o = iso_orbit_defaults(start);
     iso_orbit *orbit;
     iso_status status = iso_study_check_free(w->ctx, &effects, "periodic orbits are sought");
+    if (status == ISO_OK) status = check_k(w);
     if (status == ISO_OK) status = check_moments(w);
     if (status == ISO_OK && !(largest(start->y) > 0))
         status = iso_context_fail(w->ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
