@@ -21,7 +21,7 @@ typedef struct options {
 
 static int how_many_threads(const options *o)
 {
-    return o->threads < 4096 ? (int)o->threads : 4096;
+    return o->threads < 1e9 ? (int)o->threads : 1000000000;
 }
 
 /* --- the list --------------------------------------------------------------------------------------------------- */
@@ -72,7 +72,7 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     iso_periodic_options how = iso_periodic_defaults();
     iso_periodic *found = NULL;
     how.period = o->period < 1e9 ? (int)o->period : 1000000000;
-    how.grid = o->grid < 1e8 ? (long)o->grid : 100000000;
+    how.grid = o->grid < 1e18 ? (long)o->grid : 1000000000000000000;
     how.all = o->all;
     how.polish = o->polish;
     how.threads = how_many_threads(o);
