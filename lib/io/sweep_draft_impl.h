@@ -67,7 +67,8 @@ struct iso_sweep_file {
     iso_sweep_plan plan;
 };
 
-/* sweep_vary.c: reads `vary` and `samples` (NULL: not there) after the scene. Errors: ISO_BAD_INPUT, ISO_NO_MEMORY. */
+/* sweep_vary.c: reads `vary` and `samples` (NULL: not there), after the scene. Errors: ISO_BAD_INPUT,
+ * ISO_NO_MEMORY. */
 iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples);
 
 /* The keys of a mapping must be among `names`, each once. Errors: ISO_BAD_INPUT. */

@@ -108,8 +108,8 @@ static iso_status read_again(iso_context *ctx, iso_start *start)
 }
 
 /* A start that stays what it is, to the bit, when it is written and read again. Reading makes a unit vector of n, and
- * takes the part along n away from omega. Done again and again, this ends, or goes round between neighbouring numbers.
- * Then a neighbour of one of them stays what it is. */
+ * takes the part along n away from omega. Done again and again, this ends, or goes round between neighbouring
+ * numbers. Then a neighbour of one of them stays what it is. */
 static iso_status settle(iso_context *ctx, iso_start *start)
 {
     enum { ROUNDS = 4, NEIGHBOURS = 600 };

@@ -1,9 +1,9 @@
 /* sweep_motion.c - quantities of the free ball: frequencies, the splitting of the separatrix, the rotations. */
 #include <math.h>
 
+#include "study/free_impl.h"
 #include "study/frequencies.h"
 #include "study/periodic.h"
-#include "study/free_impl.h"
 #include "study/splitting.h"
 #include "study/sweep_impl.h"
 

@@ -150,8 +150,8 @@ static void check_ways(const char *name, double turns, double time)
 
 /* --- what the library gives ------------------------------------------------------------------------------------- */
 
-/* near: the orbit begins next to the rotation about the middle axis, whose neighbours leave it exponentially also where
- * k = 1 or -1. */
+/* near: the orbit begins next to the rotation about the middle axis, whose neighbours leave it exponentially also
+ * where k = 1 or -1. */
 static void check_chaos(bool near, long turns)
 {
     iso_sweep_plan plan = plan_of((double)turns, NAN, 64);
@@ -169,7 +169,7 @@ static void check_chaos(bool near, long turns)
         iso_chaos *c;
         if (scene_of(ctx, NULL, i, &scene, numbers) != ISO_OK) continue;
         must(iso_chaos_run(ctx, &scene, &o, &c), "chaos");
-        gsl_test(row[2] != c->own.verdict, "verdict of point %zu", i);
+        gsl_test((int)row[2] != (int)c->own.verdict, "verdict of point %zu", i);
         for (int m = 0; m < 2; m++) {
             gsl_test(row[5 + 11 * m] != c->own.told[m].megno, "MEGNO of point %zu: %.17g, %.17g", i, row[5 + 11 * m],
                      c->own.told[m].megno);
