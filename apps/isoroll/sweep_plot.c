@@ -59,7 +59,7 @@ static iso_status read_rows(iso_context *ctx, iso_sweep_reader *reader, table *t
     iso_sweep_rows rows;
     const size_t width = (size_t)t->head->columns;
     iso_status status = iso_sweep_rows_create(ctx, t->head->columns, t->head->chunk, &rows);
-    t->number = malloc((t->head->count + 1) * width * sizeof *t->number);
+    t->number = calloc(t->head->count + 1, width * sizeof *t->number); /* which looks at the product */
     if (status == ISO_OK && !t->number) status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the rows");
     for (size_t c = 0; c < iso_sweep_chunks(t->head) && status == ISO_OK; c++) {
         status = iso_sweep_reader_rows(ctx, reader, iso_sweep_chunk_points(t->head, c), &rows);

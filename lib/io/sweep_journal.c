@@ -263,6 +263,9 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_journal *j, bool re
 static iso_status open_journal(iso_context *ctx, iso_sweep_journal *j, bool resume)
 {
     struct stat s;
+    if (j->share.count > ISO_SWEEP_MOST_SHARES)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%zu shares: at most %d", j->share.count,
+                                ISO_SWEEP_MOST_SHARES);
     if (!iso_sweep_writing_of(j->path))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': this build has no HDF5: give a name that ends in .csv",
                                 j->path);

@@ -11,6 +11,8 @@
 #include "io/replacement_impl.h"
 #include "io/sweep_store_impl.h"
 
+enum { MOST_COLUMNS = 4096, MOST_CHUNK = 1 << 16 }; /* of files; a sweep has about 1000 and 4096 at most */
+
 /* --- kinds ------------------------------------------------------------------------------------------------------ */
 
 static bool ends_in(const char *path, const char *ending)
@@ -88,7 +90,8 @@ char *iso_sweep_columns_print(const iso_sweep_head *head)
 iso_sweep_column *iso_sweep_columns_scan(const char *text, int *count)
 {
     *count = 1;
-    for (const char *c = text; *c; c++) *count += *c == ' ';
+    for (const char *c = text; *c && *count <= MOST_COLUMNS; c++) *count += *c == ' ';
+    if (*count > MOST_COLUMNS) return NULL;
     iso_sweep_column *columns = calloc((size_t)*count, sizeof *columns);
     for (int i = 0; columns && i < *count; i++) {
         int used = 0;
@@ -111,11 +114,13 @@ struct iso_sweep_reader {
     char *path;
 };
 
-/* Numbers that cannot be: the file is damaged. */
+/* Numbers that cannot be: the file is damaged. They come from outside: no sum or product of them may overflow, and
+ * no memory is asked for that a sweep does not need. */
 static bool makes_sense(const iso_sweep_begin *b)
 {
     const iso_sweep_head *h = &b->head;
-    return h->count > 0 && h->chunk > 0 && h->columns > 0 && b->column && b->share.count > 0 &&
+    return h->count > 0 && h->count <= (size_t)1 << 53 && h->chunk > 0 && h->chunk <= MOST_CHUNK && h->columns > 0 &&
+           b->column && b->share.count > 0 && b->share.count <= ISO_SWEEP_MOST_SHARES &&
            b->share.index < b->share.count;
 }
 

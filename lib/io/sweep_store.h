@@ -25,7 +25,8 @@
 
 ISO_C_BEGIN
 
-/* Chunks index, index + count, ...; {0, 1}: all. */
+/* Chunks index, index + count, ...; {0, 1}: all. count is at most ISO_SWEEP_MOST_SHARES. */
+enum { ISO_SWEEP_MOST_SHARES = 1000000 };
 typedef struct iso_sweep_share {
     size_t index, count;
 } iso_sweep_share;
@@ -40,7 +41,7 @@ typedef struct iso_sweep_journal iso_sweep_journal;
  * Errors: ISO_FILE_TROUBLE: a journal of another sweep, a damaged one, one that another program works on, one that is
  * there without resume; a file `path` that is there, unless it is the result of this sweep and resume is given: then
  * all chunks are done, and finishing writes nothing. Nothing is changed then. ISO_BAD_ARGUMENT: this build has no
- * HDF5. ISO_NO_MEMORY. */
+ * HDF5; too many shares. ISO_NO_MEMORY. */
 ISO_API iso_status iso_sweep_journal_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
                                           iso_sweep_share share, bool resume, iso_sweep_journal **journal);
 

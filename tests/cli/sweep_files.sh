@@ -1,0 +1,38 @@
+#!/bin/sh
+# sweep_files.sh ISOROLL - files of sweeps that are damaged, cut short, changed by hand, or in the way: words and
+# status 5, never a crash, a wrong row, or a file that is overwritten.
+. "$(dirname "$0")/lib.sh"
+
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
+cat >sweep.yaml <<'END'
+scene: scene.yaml
+vary: {k: {from: 0.3, to: 0.9, count: 12}}
+measure: {state: {}}
+until: {time: 10}
+chunk: 2
+END
+run 0 sweep sweep.yaml -o all.csv
+run 0 sweep sweep.yaml -o one.csv --shard 1/2
+run 0 sweep sweep.yaml -o two.csv --shard 2/2
+run 0 sweep --merge one.csv two.csv -o merged.csv
+check "two shards" cmp merged.csv all.csv
+
+# --- heads that say what cannot be
+# head LINE: the line of one.csv that has this key becomes LINE
+head_of() {
+    sed "s/^# ${1%%:*}: .*/# $1/" one.csv >bad.csv
+    refuses 5 "its head is damaged" sweep --merge bad.csv two.csv -o new.csv
+}
+for size in 0 18446744073709551615 9223372036854775807 -1; do
+    head_of "points: $size"
+    head_of "chunk: $size"
+done
+head_of "chunk: 9007199254740992"
+head_of "part: 3 of 2"
+head_of "part: 1 of 2305843009213693952"
+head_of "part: 1 of 18446744073709551615"
+{ sed '/^# columns/,$d' one.csv; printf '# columns:'; awk 'BEGIN { for (i = 0; i < 5000; i++) printf " a/b" }'
+    echo; sed '1,/^# columns/d' one.csv; } >bad.csv
+refuses 5 "is no result of a sweep" sweep --merge bad.csv two.csv -o new.csv
+refuses 2 "at most 1000000" sweep sweep.yaml -o new.csv --shard 1/1000001
+finish
