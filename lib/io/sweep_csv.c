@@ -100,8 +100,9 @@ const iso_sweep_writing iso_sweep_csv_writing = {csv_create, csv_rows, csv_close
 
 typedef struct csv_reader {
     FILE *from;
+    const iso_sweep_begin *begin;
     char *line, *path;
-    size_t room;
+    size_t room, done; /* done: rows that were read */
 } csv_reader;
 
 /* The value of a line "# key: value"; NULL: it is another line. */
@@ -180,6 +181,7 @@ static iso_status csv_open(iso_context *ctx, const char *path, iso_sweep_begin *
         return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for '%s'", path);
     }
     r->from = fopen(path, "re");
+    r->begin = begin;
     if (r->from && read_head(r, begin)) return *file = r, ISO_OK;
     csv_end(r);
     return iso_sweep_damaged(ctx, path, "it is no result of a sweep");
@@ -198,11 +200,13 @@ static bool read_cell(const char **at, double *x)
     return iso_number_read(cell, length, x);
 }
 
-static bool read_row(const char *line, iso_sweep_rows *rows, size_t i)
+/* A row that says another number than that of its place has been moved. */
+static bool read_row(const csv_reader *r, iso_sweep_rows *rows, size_t i)
 {
     double point, status;
-    const char *at = line;
-    if (!read_cell(&at, &point)) return false;
+    const char *at = r->line;
+    if (!read_cell(&at, &point) || point != (double)iso_sweep_share_point(&r->begin->head, r->begin->share, r->done))
+        return false;
     for (int c = 0; c < rows->columns; c++)
         if (!read_cell(&at, &rows->number[i * (size_t)rows->columns + (size_t)c])) return false;
     if (!read_cell(&at, &status)) return false;
@@ -219,10 +223,11 @@ static bool read_row(const char *line, iso_sweep_rows *rows, size_t i)
 static iso_status csv_next(iso_context *ctx, void *file, size_t count, iso_sweep_rows *rows)
 {
     csv_reader *r = file;
-    for (size_t i = 0; i < count; i++)
-        if (!next_line(r) || !read_row(r->line, rows, i))
-            return iso_sweep_damaged(ctx, r->path, "a row is missing or damaged");
-    return ISO_OK;
+    for (size_t i = 0; i < count; i++, r->done++)
+        if (!next_line(r) || !read_row(r, rows, i))
+            return iso_sweep_damaged(ctx, r->path, "a row is missing, moved or damaged");
+    if (r->done < iso_sweep_share_points(&r->begin->head, r->begin->share) || fgetc(r->from) == EOF) return ISO_OK;
+    return iso_sweep_damaged(ctx, r->path, "there are lines behind its last row");
 }
 
 const iso_sweep_reading iso_sweep_csv_reading = {csv_open, csv_next, csv_end};

@@ -67,6 +67,12 @@ size_t iso_sweep_share_points(const iso_sweep_head *head, iso_sweep_share share)
     return (mine - 1) * head->chunk + iso_sweep_chunk_points(head, last);
 }
 
+/* All its chunks are full, but perhaps the last one. */
+size_t iso_sweep_share_point(const iso_sweep_head *head, iso_sweep_share share, size_t i)
+{
+    return (share.index + i / head->chunk * share.count) * head->chunk + i % head->chunk;
+}
+
 void iso_sweep_hash_print(char text[ISO_HASH_SIZE], const uint64_t hash[2])
 {
     snprintf(text, ISO_HASH_SIZE, "%016" PRIx64 "%016" PRIx64, hash[0], hash[1]);
@@ -145,6 +151,9 @@ iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_r
     if (status == ISO_OK && !makes_sense(&r->begin)) status = iso_sweep_damaged(ctx, path, "its head is damaged");
     if (status == ISO_OK) {
         r->points = iso_sweep_share_points(&r->begin.head, r->begin.share);
+        if (r->points == 0) status = r->kind->rows(ctx, r->file, 0, NULL);
+    }
+    if (status == ISO_OK) {
         *reader = r;
     } else {
         iso_sweep_reader_close(r);

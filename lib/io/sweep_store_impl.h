@@ -29,7 +29,8 @@ typedef struct iso_sweep_begin {
 } iso_sweep_begin;
 
 typedef struct iso_sweep_reading {
-    /* Errors: ISO_FILE_TROUBLE. *begin is released by the caller in any case. */
+    /* Errors: ISO_FILE_TROUBLE. *begin is released by the caller in any case, after close. The caller looks whether
+     * its numbers make sense before it reads rows; of a file without rows it reads 0. */
     iso_status (*open)(iso_context *ctx, const char *path, iso_sweep_begin *begin, void **file);
     iso_status (*rows)(iso_context *ctx, void *file, size_t count, iso_sweep_rows *rows);
     void (*close)(void *file);
@@ -44,8 +45,9 @@ uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt);
 /* By the ending of the name; for reading also by the first bytes. NULL: this build has no HDF5. */
 const iso_sweep_writing *iso_sweep_writing_of(const char *path);
 
-/* Points of a share, and whether it is all. */
+/* Points of a share, the number in the sweep of its i-th point, and whether it is all. */
 size_t iso_sweep_share_points(const iso_sweep_head *head, iso_sweep_share share);
+size_t iso_sweep_share_point(const iso_sweep_head *head, iso_sweep_share share, size_t i);
 bool iso_sweep_share_is_all(iso_sweep_share share);
 
 /* The hash as 32 hexadecimal digits, and back. */

@@ -35,4 +35,24 @@ head_of "part: 1 of 18446744073709551615"
     echo; sed '1,/^# columns/d' one.csv; } >bad.csv
 refuses 5 "is no result of a sweep" sweep --merge bad.csv two.csv -o new.csv
 refuses 2 "at most 1000000" sweep sweep.yaml -o new.csv --shard 1/1000001
+# --- rows that were moved, taken away, written twice, or added
+# rows_of SCRIPT WORDS: one.csv changed by this script of awk, whose rows have number n
+rows_of() {
+    awk "/^[#p]/ { print; next } { n++ } $1" one.csv >bad.csv
+    refuses 5 "$2" sweep --merge bad.csv two.csv -o new.csv
+}
+rows_of 'n == 2 { kept = $0; next } { print } n == 3 { print kept }' "moved or damaged"
+rows_of 'n != 6' "moved or damaged"
+rows_of '{ print } n == 6 { print }' "lines behind its last row"
+rows_of '{ print } n == 2 { print }' "moved or damaged"
+sed '$a\# more' all.csv >bad.csv
+has gnuplot "a curve of a file with too many lines" &&
+    refuses 5 "lines behind its last row" plot bad.csv -o bad.svg
+run 0 sweep sweep.yaml -o empty.csv --shard 7/7
+for i in 1 2 3 4 5 6; do run 0 sweep sweep.yaml -o seventh.$i.csv --shard $i/7; done
+run 0 sweep --merge seventh.?.csv empty.csv -o sevenths.csv
+check "a share without chunks" cmp sevenths.csv all.csv
+echo "0,0.3,1,2,3,0," >>empty.csv
+refuses 5 "lines behind its last row" sweep --merge seventh.?.csv empty.csv -o new.csv
+check_not "nothing was written" test -e new.csv
 finish
