@@ -225,6 +225,22 @@ static iso_status read_rest(iso_sweep_file *f, const yaml_node_t *root)
     return status;
 }
 
+/* The reason of a point that fails is part of the result, whose bytes do not depend on the folder or on the path that
+ * was typed. From here on words about the scene name it as the sweep's text does. */
+static void finish_plan(iso_sweep_file *f, const yaml_node_t *scene)
+{
+    iso_sweep_plan *p = &f->plan;
+    f->draft.yaml.name = f->inside ? "<sweep>" : (const char *)scene->data.scalar.value;
+    iso_sweep_hash(p->hash, ISO_VERSION, sizeof ISO_VERSION);
+    iso_sweep_hash(p->hash, f->text, f->length + 1);
+    if (f->scene_text) iso_sweep_hash(p->hash, f->scene_text, f->scene_length);
+    p->text = f->text;
+    p->family.name = (const char(*)[ISO_NAME_SIZE])f->column;
+    p->family.scene = iso_sweep_point;
+    p->family.data = f;
+    p->family.base = &f->base;
+}
+
 static iso_status read_root(iso_context *ctx, iso_sweep_file *f, const iso_sweep_topic *const topics[])
 {
     static const char *const names[] = {"scene", "vary", "measure", "until", "samples", "chunk", "vectors"};
@@ -239,20 +255,9 @@ static iso_status read_root(iso_context *ctx, iso_sweep_file *f, const iso_sweep
     if (status == ISO_OK) status = iso_sweep_read_vary(f, node[1], node[4]);
     if (status == ISO_OK) status = read_measure(f, node[2], topics);
     if (status == ISO_OK && node[3]) status = read_until(f, node[3], topics);
-    return status == ISO_OK ? read_rest(f, root) : status;
-}
-
-static void finish_plan(iso_sweep_file *f)
-{
-    iso_sweep_plan *p = &f->plan;
-    iso_sweep_hash(p->hash, ISO_VERSION, sizeof ISO_VERSION);
-    iso_sweep_hash(p->hash, f->text, f->length + 1);
-    if (f->scene_text) iso_sweep_hash(p->hash, f->scene_text, f->scene_length);
-    p->text = f->text;
-    p->family.name = (const char(*)[ISO_NAME_SIZE])f->column;
-    p->family.scene = iso_sweep_point;
-    p->family.data = f;
-    p->family.base = &f->base;
+    if (status == ISO_OK) status = read_rest(f, root);
+    if (status == ISO_OK) finish_plan(f, node[0]);
+    return status;
 }
 
 static iso_status parse(iso_context *ctx, iso_sweep_file *f, const iso_sweep_topic *const topics[])
@@ -261,9 +266,7 @@ static iso_status parse(iso_context *ctx, iso_sweep_file *f, const iso_sweep_top
     f->plan.turns = f->plan.time = NAN;
     iso_status status = iso_yaml_load(&f->yaml, f->text, f->length);
     f->loaded = status == ISO_OK;
-    if (status == ISO_OK) status = read_root(ctx, f, topics);
-    if (status == ISO_OK) finish_plan(f);
-    return status;
+    return status == ISO_OK ? read_root(ctx, f, topics) : status;
 }
 
 iso_status iso_sweep_parse(iso_context *ctx, const char *name, const char *text, size_t length,

@@ -55,4 +55,20 @@ check "a share without chunks" cmp sevenths.csv all.csv
 echo "0,0.3,1,2,3,0," >>empty.csv
 refuses 5 "lines behind its last row" sweep --merge seventh.?.csv empty.csv -o new.csv
 check_not "nothing was written" test -e new.csv
+# --- the same bytes from another folder, where a point fails
+printf 'scene: scene.yaml\nvary: {k: [0, 0.5]}\nmeasure: {state: {}}\n' >fails.yaml
+{ printf 'scene:\n' && sed 's/^/  /' scene.yaml && printf 'vary: {k: [0, 0.5]}\nmeasure: {state: {}}\n'; } >inside.yaml
+mkdir below
+for kind in fails inside; do
+    run 1 sweep $kind.yaml -o $kind.csv
+    run 1 sweep "$PWD/$kind.yaml" -o absolute.csv
+    check "$kind: an absolute path" cmp absolute.csv $kind.csv
+    run 1 sweep below/../$kind.yaml -o detour.csv
+    check "$kind: a detour" cmp detour.csv $kind.csv
+    (cd below && "$isoroll" sweep ../$kind.yaml -o below.csv 2>/dev/null)
+    check "$kind: another folder" cmp below/below.csv $kind.csv
+    rm absolute.csv detour.csv below/below.csv
+done
+check "the reason names the scene" grep -q '"scene.yaml:1:14: k = 0' fails.csv
+check "the reason names the sweep" grep -q '"<sweep>:2:16: k = 0' inside.csv
 finish
