@@ -134,6 +134,7 @@ static iso_status open_target(iso_context *ctx, iso_sweep_hdf5 *f, const char *p
 {
     const iso_status status = iso_replacement_open(ctx, path, &f->replacement, &f->descriptor);
     if (status != ISO_OK) return status;
+    f->replacement.fresh = true;
     f->name = strdup(f->replacement.target);
     H5E_BEGIN_TRY
     {

@@ -57,6 +57,7 @@ static iso_status csv_create(iso_context *ctx, const char *path, const iso_sweep
     csv_writer *w = *file = calloc(1, sizeof *w);
     if (!w) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
     iso_status status = iso_output_open(ctx, path, &w->out);
+    if (status == ISO_OK) iso_output_keep_others(w->out);
     if (status == ISO_OK) status = write_head(ctx, iso_output_stream(w->out), head, share);
     if (status == ISO_OK) return ISO_OK;
     iso_output_close(ctx, w->out, false);

@@ -60,7 +60,8 @@ ISO_API size_t iso_sweep_journal_failed(const iso_sweep_journal *j, size_t *firs
 ISO_API iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c,
                                          const iso_sweep_rows *rows);
 
-/* Writes the result; all chunks of the share must be there. Errors: ISO_FILE_TROUBLE: the journal stays;
+/* Writes the result; all chunks of the share must be there. Errors: ISO_FILE_TROUBLE, also if a file of its name has
+ * appeared, which stays: the journal stays;
  * ISO_NO_MEMORY. */
 ISO_API iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j);
 

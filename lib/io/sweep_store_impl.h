@@ -12,7 +12,7 @@
 #define ISO_SWEEP_FORMAT "isoroll sweep 1"
 #define ISO_SWEEP_PART_FORMAT "isoroll sweep part 1"
 
-/* A result being written. Rows come by growing number. */
+/* A result being written. Rows come by growing number. A file that has the name when it is closed stays. */
 typedef struct iso_sweep_writing {
     iso_status (*create)(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_share share,
                          void **file);

@@ -71,4 +71,23 @@ for kind in fails inside; do
 done
 check "the reason names the scene" grep -q '"scene.yaml:1:14: k = 0' fails.csv
 check "the reason names the sweep" grep -q '"<sweep>:2:16: k = 0' inside.csv
+# --- a file that appears while the sweep runs stays, and so does the journal
+h5=h5
+"$isoroll" sweep sweep.yaml -o all.h5 2>err || { h5=csv && skip "HDF5" "this build has none"; }
+sed 's/time: 10/time: 20000/' sweep.yaml >long.yaml
+for kind in csv $h5; do
+    rm -f late.$kind
+    "$isoroll" sweep long.yaml -o late.$kind -j 1 2>err &
+    pid=$!
+    while [ ! -s late.$kind.part ]; do sleep 0.01; done
+    echo "my thesis" >late.$kind
+    wait $pid
+    check "$kind: a file has appeared: status $?" test $? -eq 5
+    check "$kind: words" grep -q "late.$kind' has appeared: it is not overwritten" err
+    check "$kind: it stays" grep -q "my thesis" late.$kind
+    check "$kind: the journal stays" test -s late.$kind.part
+    rm late.$kind
+    run 0 sweep long.yaml -o late.$kind --resume
+    check "$kind: nothing is left over" test "$(find . -name '.isoroll*' -o -name '*.part' | wc -l)" -eq 0
+done
 finish
