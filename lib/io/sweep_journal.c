@@ -24,10 +24,6 @@ typedef struct journal_head {
     uint64_t hash[2], points, chunk, columns, index, count, checksum;
 } journal_head;
 
-typedef struct record_head {
-    uint64_t chunk, length, checksum;
-} record_head;
-
 struct iso_sweep_journal {
     char *path, *name; /* of the result, of the journal; name NULL: it has none */
     const iso_sweep_head *head;
@@ -49,11 +45,6 @@ struct iso_sweep_journal {
 static iso_status trouble(iso_context *ctx, const iso_sweep_journal *j, const char *what)
 {
     return iso_file_trouble(ctx, what, j->name ? j->name : "a temporary file");
-}
-
-static uint64_t salt_of(const record_head *r)
-{
-    return r->chunk * 0x9e3779b97f4a7c15 + r->length + 1;
 }
 
 static bool make_room(iso_sweep_journal *j, size_t length)
@@ -82,13 +73,14 @@ static journal_head head_of(const iso_sweep_journal *j)
     return h;
 }
 
-/* False: the file ends before, or cannot be read. */
+/* False: the file ends before (errno is 0), or cannot be read. */
 static bool read_at(const iso_sweep_journal *j, off_t at, void *bytes, size_t length)
 {
     size_t done = 0;
     while (done < length) {
         const ssize_t got = pread(j->descriptor, (char *)bytes + done, length - done, at + (off_t)done);
         if (got < 0 && errno == EINTR) continue;
+        if (got == 0) errno = 0;
         if (got <= 0) return false;
         done += (size_t)got;
     }
@@ -127,16 +119,18 @@ static void count_failures(iso_sweep_journal *j, const iso_sweep_rows *rows)
     }
 }
 
-/* Reads the record at `at` into rows. False: it is not whole. */
-static bool read_record(iso_sweep_journal *j, off_t at, record_head *r, iso_sweep_rows *rows)
+/* Reads the record at `at` into rows. False: it is not whole (errno is 0), or it cannot be read. */
+static bool read_record(iso_sweep_journal *j, off_t at, iso_sweep_record *r, iso_sweep_rows *rows)
 {
     const size_t most = iso_sweep_rows_bytes(rows, rows->most);
-    if (!read_at(j, at, r, sizeof *r) || r->length > most || r->chunk >= iso_sweep_chunks(j->head)) return false;
-    if (!make_room(j, r->length + 1) || !read_at(j, at + (off_t)sizeof *r, j->buffer, r->length)) return false;
+    if (!read_at(j, at, r, sizeof *r)) return false;
+    errno = 0;
+    if (r->length > most || r->chunk >= iso_sweep_chunks(j->head)) return false;
+    if (!make_room(j, r->length + 1)) return errno = ENOMEM, false;
+    if (!read_at(j, at + (off_t)sizeof *r, j->buffer, r->length)) return false;
     rows->first = r->chunk * j->head->chunk;
     rows->count = iso_sweep_chunk_points(j->head, r->chunk);
-    return r->checksum == iso_sweep_checksum(j->buffer, r->length, salt_of(r)) &&
-           iso_sweep_rows_unpack(j->buffer, r->length, rows);
+    return r->checksum == iso_sweep_record_sum(r, j->buffer) && iso_sweep_rows_unpack(j->buffer, r->length, rows);
 }
 
 /* --- opening ---------------------------------------------------------------------------------------------------- */
@@ -146,14 +140,48 @@ static iso_status refuse(iso_context *ctx, const char *path, const char *why)
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' %s", path, why);
 }
 
-/* Takes the records that are there. What is behind the last whole one is cut off if it can be a record that was cut
- * short: if nothing whole stands behind it. */
+/* Whether there is nothing but zeros: what a loss of power can leave of what was not on the disk yet. */
+static bool is_empty(iso_sweep_journal *j, off_t at, off_t size)
+{
+    for (; at < size; at += (off_t)j->room) {
+        const size_t length = size - at < (off_t)j->room ? (size_t)(size - at) : j->room;
+        if (!read_at(j, at, j->buffer, length)) return false;
+        for (size_t i = 0; i < length; i++)
+            if (j->buffer[i] != 0) return errno = 0, false;
+    }
+    return true;
+}
+
+/* Whether what follows j->end can be a record that was cut short: it is not longer than one, and no whole record
+ * stands in it. False with errno 0: it cannot. */
+static bool is_torn(iso_sweep_journal *j, off_t size, const iso_sweep_rows *rows)
+{
+    const size_t most = sizeof(iso_sweep_record) + iso_sweep_rows_bytes(rows, rows->most);
+    if (!make_room(j, most)) return errno = ENOMEM, false;
+    if (is_empty(j, j->end, size)) return true;
+    if (errno != 0 || size - j->end > (off_t)most) return false;
+    const size_t length = (size_t)(size - j->end);
+    return read_at(j, j->end, j->buffer, length) && !iso_sweep_record_inside(j->head, j->buffer, length);
+}
+
+/* What is behind the last whole record is cut off if it is a record that was cut short. Else chunks would be lost. */
+static iso_status cut_tail(iso_context *ctx, iso_sweep_journal *j, off_t size, const iso_sweep_rows *rows)
+{
+    if (j->end >= size) return ISO_OK;
+    j->ours = errno == 0 && is_torn(j, size, rows);
+    if (j->ours) return ftruncate(j->descriptor, j->end) == 0 ? ISO_OK : trouble(ctx, j, "write");
+    if (errno == ENOMEM) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", j->name);
+    return errno != 0 ? trouble(ctx, j, "read") : refuse(ctx, j->name, "is damaged: remove it to begin again");
+}
+
+/* Takes the records that are there. */
 static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
 {
     iso_sweep_rows rows;
-    record_head r;
+    iso_sweep_record r;
     iso_status status = iso_sweep_rows_create(ctx, j->head->columns, j->head->chunk, &rows);
     if (status != ISO_OK) return status;
+    j->ours = true;
     while (j->end < size && read_record(j, j->end, &r, &rows)) {
         if (r.chunk % j->share.count == j->share.index && j->at[r.chunk] == 0) {
             j->at[r.chunk] = j->end;
@@ -162,13 +190,9 @@ static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
         }
         j->end += (off_t)(sizeof r + r.length);
     }
+    status = cut_tail(ctx, j, size, &rows);
     iso_sweep_rows_free(&rows);
-    j->ours = j->end == size;
-    if (j->ours) return ISO_OK;
-    if (read_at(j, j->end, &r, sizeof r) && (off_t)(sizeof r + r.length) < size - j->end && r.length < (1u << 30))
-        return refuse(ctx, j->name, "is damaged: remove it to begin again");
-    j->ours = true;
-    return ftruncate(j->descriptor, j->end) == 0 ? ISO_OK : trouble(ctx, j, "write");
+    return status;
 }
 
 /* A journal that was there before. */
@@ -362,12 +386,12 @@ static void sync_now_and_then(iso_sweep_journal *j)
 iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c, const iso_sweep_rows *rows)
 {
     if (iso_sweep_journal_has(j, c)) return ISO_OK;
-    record_head r = {.chunk = c};
+    iso_sweep_record r = {.chunk = c};
     const off_t at = j->end;
     if (!make_room(j, sizeof r + iso_sweep_rows_bytes(rows, rows->count)))
         return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a chunk");
     const size_t length = r.length = iso_sweep_rows_pack(rows, j->buffer + sizeof r);
-    r.checksum = iso_sweep_checksum(j->buffer + sizeof r, length, salt_of(&r));
+    r.checksum = iso_sweep_record_sum(&r, j->buffer + sizeof r);
     memcpy(j->buffer, &r, sizeof r);
     const iso_status status = append(ctx, j, j->buffer, sizeof r + length);
     if (status != ISO_OK) return status;
@@ -384,9 +408,9 @@ static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, const iso
     iso_status status = iso_sweep_rows_create(ctx, j->head->columns, j->head->chunk, &rows);
     if (status != ISO_OK) return status;
     for (size_t c = j->share.index; c < iso_sweep_chunks(j->head) && status == ISO_OK; c += j->share.count) {
-        record_head r;
+        iso_sweep_record r;
         if (!read_record(j, j->at[c], &r, &rows)) {
-            errno = EIO;
+            if (errno == 0) errno = EIO;
             status = trouble(ctx, j, "read");
         } else {
             status = kind->rows(ctx, file, &rows);

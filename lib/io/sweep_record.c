@@ -67,3 +67,24 @@ uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt)
     iso_sweep_hash(hash, x, sizeof x);
     return hash[1];
 }
+
+/* --- records ---------------------------------------------------------------------------------------------------- */
+
+uint64_t iso_sweep_record_sum(const iso_sweep_record *r, const unsigned char bytes[])
+{
+    return iso_sweep_checksum(bytes, r->length, r->chunk * 0x9e3779b97f4a7c15 + r->length + 1);
+}
+
+/* Of all places only few say a chunk and a length that can be, so few sums are made. */
+bool iso_sweep_record_inside(const iso_sweep_head *head, const unsigned char bytes[], size_t length)
+{
+    const size_t chunks = iso_sweep_chunks(head), least = (size_t)head->columns * sizeof(double) + sizeof(int32_t);
+    iso_sweep_record r;
+    for (size_t at = 0; at + sizeof r < length; at++) {
+        memcpy(&r, bytes + at, sizeof r);
+        const size_t left = length - at - sizeof r;
+        if (r.chunk >= chunks || r.length > left || r.length < least * iso_sweep_chunk_points(head, r.chunk)) continue;
+        if (r.checksum == iso_sweep_record_sum(&r, bytes + at + sizeof r)) return true;
+    }
+    return false;
+}

@@ -42,6 +42,16 @@ extern const iso_sweep_reading iso_sweep_csv_reading, iso_sweep_hdf5_reading;
 /* Of bytes; another salt gives another number. */
 uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt);
 
+/* What stands before the bytes of a chunk in a journal; `bytes` are those behind it. */
+typedef struct iso_sweep_record {
+    uint64_t chunk, length, checksum;
+} iso_sweep_record;
+
+uint64_t iso_sweep_record_sum(const iso_sweep_record *r, const unsigned char bytes[]);
+
+/* Whether a whole record begins somewhere in these bytes. */
+bool iso_sweep_record_inside(const iso_sweep_head *head, const unsigned char bytes[], size_t length);
+
 /* By the ending of the name; for reading also by the first bytes. NULL: this build has no HDF5. */
 const iso_sweep_writing *iso_sweep_writing_of(const char *path);
 
