@@ -12,13 +12,21 @@
 
 /* --- the numbers ------------------------------------------------------------------------------------------------ */
 
-/* The number of 12 digits that x misses by rounding alone, such as 0.3 for 0.1 + 2 0.1; else x. k = 1 must be 1. */
-static double tidy(double x, double size)
+/* The number of 12 digits that x misses by rounding alone, by less than `most`, such as 0.3 for 0.1 + 2 0.1; else x.
+ * k = 1 must be 1. */
+static double tidy(double x, double most)
 {
     char digits[ISO_NUMBER_SIZE];
     double number;
     iso_number_print_as(digits, x, 12);
-    return iso_number_read(digits, strlen(digits), &number) && fabs(number - x) < 1e-15 * size ? number : x;
+    return iso_number_read(digits, strlen(digits), &number) && fabs(number - x) < most ? number : x;
+}
+
+/* from (to/from)^part. Its rounding error is that of the power, which the logarithm of the ratio enlarges. */
+static double in_ratio(const iso_sweep_axis *a, double part)
+{
+    const double ratio = a->to / a->from, x = a->from * pow(ratio, part);
+    return tidy(x, 1e-15 * fabs(x) * (1 + fabs(log(ratio))));
 }
 
 /* Both ends are exact. */
@@ -27,8 +35,8 @@ double iso_sweep_in_range(const iso_sweep_axis *a, size_t j)
     const double n = (double)a->count - 1, i = (double)j;
     if (n <= 0 || j == 0) return a->from;
     if (i == n) return a->to;
-    if (a->logarithmic) return a->from * pow(a->to / a->from, i / n);
-    return tidy((a->from * (n - i) + a->to * i) / n, fmax(fabs(a->from), fabs(a->to)));
+    if (a->logarithmic) return in_ratio(a, i / n);
+    return tidy((a->from * (n - i) + a->to * i) / n, 1e-15 * fmax(fabs(a->from), fabs(a->to)));
 }
 
 /* Sample s of what is drawn. */

@@ -124,6 +124,18 @@ static iso_status read_end(iso_sweep_file *f, const yaml_node_t *node, const cha
     return iso_yaml_number(&f->yaml, end, name, value);
 }
 
+/* No value between the ends may overflow on its way. */
+static iso_status check_range(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
+{
+    const double ratio = a->to / a->from, most = fmax(fabs(a->from), fabs(a->to)) * fmax((double)a->count, 2);
+    if (a->logarithmic && !(copysign(1, a->from) * a->to > 0 && a->from != 0))
+        return iso_yaml_fail(&f->yaml, node->start_mark,
+                             "a logarithmic range from %g to %g: both ends must be above 0, or both below", a->from,
+                             a->to);
+    if (a->logarithmic ? isfinite(ratio) && ratio > 0 : isfinite(most)) return ISO_OK;
+    return iso_yaml_fail(&f->yaml, node->start_mark, "a range from %g to %g is too wide", a->from, a->to);
+}
+
 static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
 {
     static const char *const names[] = {"from", "to", "count", "logarithmic"};
@@ -140,11 +152,7 @@ static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_swe
         a->values = ISO_FROM_RANGE;
     }
     a->count = (size_t)count;
-    if (status == ISO_OK && a->logarithmic && !(a->from * a->to > 0))
-        return iso_yaml_fail(&f->yaml, node->start_mark,
-                             "a logarithmic range from %g to %g: both ends must be above 0, or both below", a->from,
-                             a->to);
-    return status;
+    return status == ISO_OK ? check_range(f, node, a) : status;
 }
 
 /* A range with a count, as an item of a list. */

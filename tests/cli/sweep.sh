@@ -201,6 +201,16 @@ scene: scene.yaml
 vary: {kk: 1}
 measure: {state: {}}
 END
+bad 2:11 "a range from -1e+308 to 1e+308 is too wide" <<'END'
+scene: scene.yaml
+vary: {k: {from: -1.0e+308, to: 1.0e+308, count: 3}}
+measure: {state: {}}
+END
+bad 2:11 "a range from 1e-200 to 1e+200 is too wide" <<'END'
+scene: scene.yaml
+vary: {k: {from: 1.0e-200, to: 1.0e+200, count: 3, logarithmic: true}}
+measure: {state: {}}
+END
 bad 2:11 "missing 'to' in a range" <<'END'
 scene: scene.yaml
 vary: {k: {from: 1}}

@@ -148,6 +148,30 @@ static void check_range(iso_context *ctx)
     iso_sweep_file_free(f);
 }
 
+/* Decades, and halves of them, are met by a logarithmic range: k = 1 must be 1. */
+static void check_decades(iso_context *ctx, int decades, int parts)
+{
+    char text[400];
+    const int count = 2 * decades * parts + 1;
+    snprintf(text, sizeof text,
+             "scene: {reduced: {k: 0.5, J: [1, 2, 5]}, time: {end: 10}, initial:\n"
+             " {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}}\n"
+             "vary: {k: {from: 1e-%d, to: 1e%d, count: %d, logarithmic: true}}\nmeasure: {state: {}}\n",
+             decades, decades, count);
+    iso_sweep_file *f = read(ctx, text);
+    if (!f) return;
+    const iso_family *family = &iso_sweep_file_plan(f)->family;
+    for (int i = 0; i <= 2 * decades; i++) {
+        double k = NAN;
+        iso_scene s;
+        char wanted[16];
+        family->scene(ctx, family->data, (size_t)(i * parts), &s, &k);
+        snprintf(wanted, sizeof wanted, "1e%d", i - decades);
+        gsl_test(k != strtod(wanted, NULL), "%d decades in %d: %.17g is %s", decades, parts, k, wanted);
+    }
+    iso_sweep_file_free(f);
+}
+
 /* What is drawn fills its range: the largest part without a sample. */
 static void check_samples(iso_context *ctx, const char *kind, double most)
 {
@@ -183,6 +207,8 @@ int main(void)
     check_points(ctx, "point", point, 12 * 9 * 2 - 5 * 9 * 2);
     check_section(ctx);
     check_range(ctx);
+    for (int parts = 1; parts < 8; parts++)
+        for (int decades = 1; decades < 7; decades++) check_decades(ctx, decades, parts);
     check_samples(ctx, "even", 0);
     check_samples(ctx, "random", 8); /* 100 exp(-4) = 2 */
     iso_context_free(ctx);
