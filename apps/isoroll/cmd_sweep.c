@@ -35,10 +35,24 @@ static bool from_environment(const char *name, double usual, double *x)
     return text ? read_whole(text, strlen(text), x) : !isnan(usual);
 }
 
-/* The number of a task of a Slurm array begins at any number, and can go in steps. */
+/* "slurm/N": task I of Slurm computes share I of N, from 1 on, whichever tasks are submitted again. */
+static iso_status share_of_task(iso_context *ctx, const char *shares, iso_sweep_share *share)
+{
+    double id, count;
+    if (read_whole(shares, strlen(shares), &count) && from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) && id >= 1 &&
+        id <= count) {
+        *share = (iso_sweep_share){(size_t)id - 1, (size_t)count};
+        return ISO_OK;
+    }
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
+                            "--shard slurm/%s: SLURM_ARRAY_TASK_ID must be a number from 1 to %s", shares, shares);
+}
+
+/* The number of a task of a Slurm array begins at any number, and can go in steps. Some tasks that are submitted again
+ * are an array of their own: its numbers do not say which shares they were. */
 static iso_status share_of_slurm(iso_context *ctx, iso_sweep_share *share)
 {
-    double id, count, least, step;
+    double id, count, least, step, most;
     if (!from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) ||
         !from_environment("SLURM_ARRAY_TASK_COUNT", NAN, &count) ||
         !from_environment("SLURM_ARRAY_TASK_MIN", 0, &least) || !from_environment("SLURM_ARRAY_TASK_STEP", 1, &step))
@@ -51,6 +65,11 @@ static iso_status share_of_slurm(iso_context *ctx, iso_sweep_share *share)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
                                 "--shard slurm: task %g of %g from %g in steps of %g is none", id, count, least,
                                 step);
+    if (count < 2 || (from_environment("SLURM_ARRAY_TASK_MAX", NAN, &most) &&
+                      most != least + (count - 1) * fmax(step, 1)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
+                                "--shard slurm: this array is one task, or has gaps, as if tasks were submitted "
+                                "again: give their number as --shard slurm/N with --array=1-N");
     *share = (iso_sweep_share){(size_t)index, (size_t)count};
     return ISO_OK;
 }
@@ -61,11 +80,12 @@ static iso_status read_share(iso_context *ctx, const char *text, iso_sweep_share
     *share = (iso_sweep_share){0, 1};
     if (!text) return ISO_OK;
     if (strcmp(text, "slurm") == 0) return share_of_slurm(ctx, share);
+    if (strncmp(text, "slurm/", 6) == 0) return share_of_task(ctx, text + 6, share);
     const char *slash = strchr(text, '/');
     if (!slash || !read_whole(text, (size_t)(slash - text), &i) || !read_whole(slash + 1, strlen(slash + 1), &n) ||
         i < 1 || i > n)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
-                                "--shard '%s': expected i/n with 1 <= i <= n, or slurm", text);
+                                "--shard '%s': expected i/n with 1 <= i <= n, slurm or slurm/n", text);
     *share = (iso_sweep_share){(size_t)i - 1, (size_t)n};
     return ISO_OK;
 }
@@ -224,9 +244,10 @@ static const option_row rows[] = {
                 set_text, options, output, 'o', OPTION_WRITES),
     ROW_THREADS(options, threads),
     ROW("resume", NULL, NULL, "go on with what FILE.part has; begin if there is none", set_flag, options, resume),
-    ROW("shard", "I/N", "i/n, or slurm",
-        "compute every N-th chunk, from the I-th on; slurm: the task of a Slurm array says which", set_text, options,
-        shard),
+    ROW("shard", "I/N", "i/n, slurm or slurm/n",
+        "compute every N-th chunk, from the I-th on; slurm/N: I is the number of the task of a Slurm array; slurm: "
+        "the whole array says I and N",
+        set_text, options, shard),
     ROW("merge", NULL, NULL, "put the files of all shards together: the arguments are these files", set_flag, options,
         merge),
     ROW("point", "I", "a whole number from 0 on", "print the scene of point I and do nothing else", set_whole,

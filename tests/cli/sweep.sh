@@ -72,6 +72,17 @@ check "task 0 of 0-4" cmp task.csv part.1.csv
 slurm 17 11 3 task2.csv
 check "task 17 of 11-23:3" cmp task2.csv part.3.csv
 refuses 2 "this is no task of an array" sweep grid.yaml -o new.csv --shard slurm
+# task 3 alone, submitted again; then tasks 2 and 4
+SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=1 SLURM_ARRAY_TASK_MIN=3 SLURM_ARRAY_TASK_MAX=3
+export SLURM_ARRAY_TASK_ID SLURM_ARRAY_TASK_COUNT SLURM_ARRAY_TASK_MIN SLURM_ARRAY_TASK_MAX
+refuses 2 "submitted again: give their number as --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
+run 0 sweep grid.yaml -o task3.csv --shard slurm/5
+check "task 3, submitted again" cmp task3.csv part.3.csv
+refuses 2 "a number from 1 to 2" sweep grid.yaml -o new.csv --shard slurm/2
+refuses 2 "a number from 1 to x" sweep grid.yaml -o new.csv --shard slurm/x
+SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_MIN=2 SLURM_ARRAY_TASK_MAX=4
+refuses 2 "submitted again: give their number as --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
+unset SLURM_ARRAY_TASK_ID SLURM_ARRAY_TASK_COUNT SLURM_ARRAY_TASK_MIN SLURM_ARRAY_TASK_MAX
 refuses 2 "expected i/n" sweep grid.yaml -o new.csv --shard 6/5
 
 # --- every quantity is what its own command gives for the scene of the point
