@@ -195,60 +195,6 @@ static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
     return status;
 }
 
-/* A journal that was there before. */
-static iso_status take_old(iso_context *ctx, iso_sweep_journal *j, off_t size, bool resume)
-{
-    const journal_head mine = head_of(j);
-    journal_head there;
-    j->ours = size == 0;
-    if (j->ours) return append(ctx, j, &mine, sizeof mine);
-    const bool read = size >= (off_t)sizeof there && read_at(j, 0, &there, sizeof there);
-    if (!read && resume && size < (off_t)sizeof there) { /* cut short before its first record */
-        char begin[sizeof there.mark];
-        const size_t length = (size_t)size < sizeof begin ? (size_t)size : sizeof begin;
-        if (read_at(j, 0, begin, length) && memcmp(begin, mine.mark, length) == 0)
-            return append(ctx, j, &mine, sizeof mine);
-    }
-    if (!read || memcmp(there.mark, mine.mark, sizeof mine.mark) != 0)
-        return refuse(ctx, j->name, "is no journal of a sweep: it would be overwritten");
-    if (memcmp(&there, &mine, sizeof mine) != 0)
-        return refuse(
-            ctx, j->name,
-            "is the journal of another sweep, share, version or kind of vectors: remove it, or give another "
-            "name");
-    if (!resume)
-        return refuse(ctx, j->name,
-                      "has chunks of this sweep: add --resume to go on with it, or remove it to begin "
-                      "again");
-    j->end = (off_t)sizeof mine;
-    return scan(ctx, j, size);
-}
-
-static iso_status open_named(iso_context *ctx, iso_sweep_journal *j, bool resume)
-{
-    struct stat s;
-    if (asprintf(&j->name, "%s.part", j->path) < 0) {
-        j->name = NULL;
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
-    }
-    j->descriptor = open(j->name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (j->descriptor < 0) return trouble(ctx, j, "write");
-    if (flock(j->descriptor, LOCK_EX | LOCK_NB) != 0)
-        return refuse(ctx, j->name, "is in use: another isoroll works on this sweep");
-    if (fstat(j->descriptor, &s) != 0) return trouble(ctx, j, "read");
-    if (!S_ISREG(s.st_mode)) return refuse(ctx, j->name, "is no regular file");
-    return take_old(ctx, j, s.st_size, resume);
-}
-
-static iso_status open_unnamed(iso_context *ctx, iso_sweep_journal *j)
-{
-    const journal_head mine = head_of(j);
-    FILE *file = tmpfile();
-    j->descriptor = file ? fcntl(fileno(file), F_DUPFD_CLOEXEC, 0) : -1;
-    if (file) fclose(file);
-    return j->descriptor < 0 ? trouble(ctx, j, "write") : append(ctx, j, &mine, sizeof mine);
-}
-
 /* A program that was killed just before its end leaves the journal of a result that is whole. */
 static void remove_old(const iso_sweep_journal *j)
 {
@@ -282,6 +228,75 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_journal *j, bool re
     j->complete = true;
     j->done = iso_sweep_journal_wanted(j);
     return ISO_OK;
+}
+
+/* A journal that was there before. */
+static iso_status take_old(iso_context *ctx, iso_sweep_journal *j, off_t size, bool resume)
+{
+    const journal_head mine = head_of(j);
+    journal_head there;
+    j->ours = size == 0;
+    if (j->ours && access(j->path, F_OK) == 0) return look_at_result(ctx, j, resume); /* it has come meanwhile */
+    if (j->ours) return append(ctx, j, &mine, sizeof mine);
+    const bool read = size >= (off_t)sizeof there && read_at(j, 0, &there, sizeof there);
+    if (!read && resume && size < (off_t)sizeof there) { /* cut short before its first record */
+        char begin[sizeof there.mark];
+        const size_t length = (size_t)size < sizeof begin ? (size_t)size : sizeof begin;
+        if (read_at(j, 0, begin, length) && memcmp(begin, mine.mark, length) == 0)
+            return append(ctx, j, &mine, sizeof mine);
+    }
+    if (!read || memcmp(there.mark, mine.mark, sizeof mine.mark) != 0)
+        return refuse(ctx, j->name, "is no journal of a sweep: it would be overwritten");
+    if (memcmp(&there, &mine, sizeof mine) != 0)
+        return refuse(
+            ctx, j->name,
+            "is the journal of another sweep, share, version or kind of vectors: remove it, or give another "
+            "name");
+    if (!resume)
+        return refuse(ctx, j->name,
+                      "has chunks of this sweep: add --resume to go on with it, or remove it to begin "
+                      "again");
+    j->end = (off_t)sizeof mine;
+    return scan(ctx, j, size);
+}
+
+/* Opens and locks the journal's file. The program that had it may have finished and removed it in between: then the
+ * file that is locked has no name any more, and the name is opened again. Where files cannot be locked, it goes on
+ * without. */
+static iso_status open_locked(iso_context *ctx, iso_sweep_journal *j, struct stat *s)
+{
+    for (;;) {
+        struct stat named;
+        j->descriptor = open(j->name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (j->descriptor < 0) return trouble(ctx, j, "write");
+        if (flock(j->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+            return refuse(ctx, j->name, "is in use: another isoroll works on this sweep");
+        if (fstat(j->descriptor, s) != 0) return trouble(ctx, j, "read");
+        if (stat(j->name, &named) == 0 && named.st_dev == s->st_dev && named.st_ino == s->st_ino) return ISO_OK;
+        close(j->descriptor);
+    }
+}
+
+static iso_status open_named(iso_context *ctx, iso_sweep_journal *j, bool resume)
+{
+    struct stat s;
+    if (asprintf(&j->name, "%s.part", j->path) < 0) {
+        j->name = NULL;
+        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
+    }
+    const iso_status status = open_locked(ctx, j, &s);
+    if (status != ISO_OK) return status;
+    if (!S_ISREG(s.st_mode)) return refuse(ctx, j->name, "is no regular file");
+    return take_old(ctx, j, s.st_size, resume);
+}
+
+static iso_status open_unnamed(iso_context *ctx, iso_sweep_journal *j)
+{
+    const journal_head mine = head_of(j);
+    FILE *file = tmpfile();
+    j->descriptor = file ? fcntl(fileno(file), F_DUPFD_CLOEXEC, 0) : -1;
+    if (file) fclose(file);
+    return j->descriptor < 0 ? trouble(ctx, j, "write") : append(ctx, j, &mine, sizeof mine);
 }
 
 static iso_status open_journal(iso_context *ctx, iso_sweep_journal *j, bool resume)

@@ -110,4 +110,20 @@ for zeros in 1 30 10000; do
     check "$zeros zeros behind the last record" cmp zeros.csv long.csv
     rm zeros.csv
 done
+# --- journals where files cannot be locked, and one that is removed between opening and locking it
+cc=${CC:-cc}
+if [ -z "${ISO_NO_MEMORY-none}" ]; then
+    skip "locks" "sanitizers do not let flock be replaced"
+elif has "$cc" "locks"; then
+    "$cc" -D_GNU_SOURCE -shared -fPIC "$here/no_lock.c" -o no_lock.so -ldl 2>err || fail "no_lock.c"
+    checks=$((checks + 1))
+    ISO_LOCK=none LD_PRELOAD=$PWD/no_lock.so "$isoroll" sweep long.yaml -o unlocked.csv 2>err || fail "without locks"
+    check "a file system without locks" cmp unlocked.csv long.csv
+    cp stopped.csv.part gone.csv.part
+    (ulimit -f 3 && ISO_LOCK=gone.csv.part LD_PRELOAD=$PWD/no_lock.so "$isoroll" sweep long.yaml -o gone.csv -j 1 \
+        --resume 2>err)
+    check "removed before it was locked: a journal is there" test -s gone.csv.part
+    run 0 sweep long.yaml -o gone.csv --resume
+    check "it can be resumed" cmp gone.csv long.csv
+fi
 finish
