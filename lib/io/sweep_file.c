@@ -203,6 +203,26 @@ static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until, const 
     return status == ISO_OK ? check_until(f, until, topics) : status;
 }
 
+/* A number that varies and that nothing looks at: `until` stands in the place of the scene's end, and a quantity's own
+ * setting in that of the scene's. */
+static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary, const iso_sweep_topic *const topics[])
+{
+    const iso_sweep_plan *p = &f->plan;
+    for (int i = 0; i < f->axes; i++) {
+        const char *name = f->axis[i].name;
+        if (strcmp(name, "end") == 0 && !(isnan(p->turns) && isnan(p->time)))
+            return iso_yaml_fail(&f->yaml, vary->start_mark, "'end' varies, and 'until' stands in its place");
+        for (int w = 0; w < p->wishes; w++) {
+            const iso_sweep_topic *t = topics[p->wish[w].topic];
+            for (int s = 0; t->settings && t->settings[s].name; s++)
+                if (strcmp(name, t->settings[s].name) == 0 && !isnan(p->wish[w].setting[s]))
+                    return iso_yaml_fail(&f->yaml, vary->start_mark, "'%s' varies, and '%s' has its own", name,
+                                         t->name);
+        }
+    }
+    return ISO_OK;
+}
+
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
 static iso_status read_rest(iso_sweep_file *f, const yaml_node_t *root)
@@ -255,6 +275,7 @@ static iso_status read_root(iso_context *ctx, iso_sweep_file *f, const iso_sweep
     if (status == ISO_OK) status = iso_sweep_read_vary(f, node[1], node[4]);
     if (status == ISO_OK) status = read_measure(f, node[2], topics);
     if (status == ISO_OK && node[3]) status = read_until(f, node[3], topics);
+    if (status == ISO_OK) status = check_used(f, node[1], topics);
     if (status == ISO_OK) status = read_rest(f, root);
     if (status == ISO_OK) finish_plan(f, node[0]);
     return status;

@@ -297,6 +297,26 @@ static iso_status check_start(iso_sweep_file *f, const yaml_node_t *vary)
         "a start on the section is 'l' and 'x' (one of them may be a single number), or 'start' alone");
 }
 
+/* The moments that an axis sets, as bits. */
+static int moments_of(const iso_sweep_axis *a)
+{
+    if (a->target == ISO_TO_RATIO) return 1 << a->part;
+    if (a->target != ISO_TO_NUMBER) return 0;
+    return strcmp(a->name, "J") == 0 ? 7 : component(a->name, "J") >= 0 ? 1 << a->part : 0;
+}
+
+/* J2 and J2/J1 both set J2; and J1 behind J2/J1 changes the ratio that the row tells. */
+static iso_status check_moments(iso_sweep_file *f, const yaml_node_t *key, const iso_sweep_axis *a)
+{
+    for (const iso_sweep_axis *b = f->axis; b < a; b++) {
+        if (moments_of(a) & moments_of(b))
+            return iso_yaml_fail(&f->yaml, key->start_mark, "'%s' and '%s' set the same moment", b->name, a->name);
+        if (b->target == ISO_TO_RATIO && moments_of(a) & 1 << b->of)
+            return iso_yaml_fail(&f->yaml, key->start_mark, "'%s' changes '%s': write it first", a->name, b->name);
+    }
+    return ISO_OK;
+}
+
 /* The names of the columns of an axis. */
 static iso_status name_columns(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
 {
@@ -327,6 +347,7 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
     if (status == ISO_OK) status = check_tolerance(f, value, a);
     if (status == ISO_OK) status = check_chart(f, value, a);
     if (status == ISO_OK) status = name_columns(f, key, a);
+    if (status == ISO_OK) status = check_moments(f, key, a);
     if (status != ISO_OK || a->values != ISO_FROM_DRAWING) return status;
     if (f->drawn == ISO_SWEEP_DRAWN)
         return iso_yaml_fail(&f->yaml, key->start_mark, "more than %d numbers are drawn", ISO_SWEEP_DRAWN);

@@ -265,6 +265,33 @@ scene: scene.yaml
 vary: {J: [[1,2,3]], J2: 5}
 measure: {state: {}}
 END
+bad 2:15 "'J2' and 'J2/J1' set the same moment" <<'END'
+scene: scene.yaml
+vary: {J2: 5, J2/J1: 2}
+measure: {state: {}}
+END
+bad 2:24 "'J' and 'J3/J1' set the same moment" <<'END'
+scene: scene.yaml
+vary: {J: [[1, 2, 3]], J3/J1: 2}
+measure: {state: {}}
+END
+bad 2:18 "'J1' changes 'J2/J1': write it first" <<'END'
+scene: scene.yaml
+vary: {J2/J1: 2, J1: 2}
+measure: {state: {}}
+END
+bad 2:7 "'end' varies, and 'until' stands in its place" <<'END'
+scene: scene.yaml
+vary: {end: [1, 2]}
+measure: {state: {}}
+until: {time: 5}
+END
+{ cat scene.yaml && echo 'solver: {tolerance: 1.0e-9}'; } >solver.yaml
+bad 2:7 "'tolerance' varies, and 'error' has its own" <<'END'
+scene: solver.yaml
+vary: {tolerance: [1.0e-9, 1.0e-10]}
+measure: {error: {tolerance: 1.0e-8}}
+END
 bad 2:12 "'k' should be a finite number" <<'END'
 scene: scene.yaml
 vary: {k: [one]}
