@@ -151,20 +151,17 @@ static int tell_interrupted(const options *o, const work *w)
     return limit_is_near() ? EXIT_DONE : EXIT_SOME_FAILED;
 }
 
-static int tell_failures(const work *w)
+static int tell_failures(const iso_sweep_failures *f, const char *of)
 {
-    const size_t points = iso_sweep_journal_points(w->journal);
-    size_t first;
-    const char *reason;
-    const size_t failed = iso_sweep_journal_failed(w->journal, &first, &reason);
-    if (failed == 0) return EXIT_DONE;
-    complain("%zu of %zu points failed; the first is point %zu: %s", failed, points, first, reason);
+    if (f->count == 0) return EXIT_DONE;
+    complain("%zu %spoints failed; the first is point %zu: %s", f->count, of, f->first, f->reason);
     return EXIT_SOME_FAILED;
 }
 
 static int compute(iso_context *ctx, const options *o, const iso_sweep *sweep, iso_sweep_journal *journal)
 {
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
+    char of[32];
     work w = {.journal = journal, .chunks = iso_sweep_chunks(head), .begun = now()};
     const iso_sweep_source source = {next_chunk, take_chunk, &w};
     w.before = iso_sweep_journal_done(journal);
@@ -176,7 +173,8 @@ static int compute(iso_context *ctx, const options *o, const iso_sweep *sweep, i
     if (status != ISO_OK) return finish(ctx, status);
     if (iso_sweep_journal_done(journal) < iso_sweep_journal_wanted(journal)) return tell_interrupted(o, &w);
     status = iso_sweep_journal_finish(ctx, journal);
-    return status == ISO_OK ? tell_failures(&w) : finish(ctx, status);
+    snprintf(of, sizeof of, "of %zu ", iso_sweep_journal_points(journal));
+    return status == ISO_OK ? tell_failures(iso_sweep_journal_failures(journal), of) : finish(ctx, status);
 }
 
 /* A quantity that the scene does not have is refused where the file asks for it. */
@@ -221,7 +219,10 @@ static int print_point(iso_context *ctx, const options *o, const iso_sweep_file 
 
 static int merge(iso_context *ctx, const options *o)
 {
-    return finish(ctx, iso_sweep_merge(ctx, (size_t)o->parts.count, (const char *const *)o->parts.path, o->output));
+    iso_sweep_failures failures;
+    const char *const *parts = (const char *const *)o->parts.path;
+    const iso_status status = iso_sweep_merge(ctx, (size_t)o->parts.count, parts, o->output, &failures);
+    return status == ISO_OK ? tell_failures(&failures, "") : finish(ctx, status);
 }
 
 static int run(iso_context *ctx, const void *options_given)

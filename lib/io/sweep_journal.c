@@ -31,8 +31,8 @@ struct iso_sweep_journal {
     int descriptor;
     off_t end;
     off_t *at; /* of the record of each chunk; 0: it is not there */
-    size_t done, failed, first_failed;
-    char reason[ISO_REASON_SIZE];
+    size_t done;
+    iso_sweep_failures failures;
     bool complete; /* the result is there already */
     bool ours;     /* the journal's file was not refused */
     unsigned char *buffer;
@@ -108,17 +108,6 @@ static iso_status append(iso_context *ctx, iso_sweep_journal *j, const void *byt
 
 /* --- records ---------------------------------------------------------------------------------------------------- */
 
-/* The failures of the lowest number count as the first. */
-static void count_failures(iso_sweep_journal *j, const iso_sweep_rows *rows)
-{
-    for (size_t i = 0; i < rows->count; i++) {
-        if (rows->status[i] == ISO_OK) continue;
-        if (j->failed++ > 0 && j->first_failed < rows->first + i) continue;
-        j->first_failed = rows->first + i;
-        snprintf(j->reason, sizeof j->reason, "%s", rows->reason[i]);
-    }
-}
-
 /* Reads the record at `at` into rows. False: it is not whole (errno is 0), or it cannot be read. */
 static bool read_record(iso_sweep_journal *j, off_t at, iso_sweep_record *r, iso_sweep_rows *rows)
 {
@@ -186,7 +175,7 @@ static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
         if (r.chunk % j->share.count == j->share.index && j->at[r.chunk] == 0) {
             j->at[r.chunk] = j->end;
             j->done++;
-            count_failures(j, &rows);
+            iso_sweep_failures_add(&j->failures, &rows);
         }
         j->end += (off_t)(sizeof r + r.length);
     }
@@ -214,14 +203,16 @@ static void remove_old(const iso_sweep_journal *j)
 static iso_status look_at_result(iso_context *ctx, iso_sweep_journal *j, bool resume)
 {
     iso_sweep_reader *reader;
-    const iso_status status = iso_sweep_reader_open(ctx, j->path, &reader);
+    iso_status status = iso_sweep_reader_open(ctx, j->path, &reader);
     if (status == ISO_NO_MEMORY) return status;
     if (status != ISO_OK) return refuse(ctx, j->path, "is there, and is no result of a sweep: it is not overwritten");
     const iso_sweep_head *head = iso_sweep_reader_head(reader);
     const iso_sweep_share share = iso_sweep_reader_share(reader);
     const bool same = memcmp(head->hash, j->head->hash, sizeof head->hash) == 0 && share.index == j->share.index &&
                       share.count == j->share.count;
+    if (same && resume) status = iso_sweep_reader_failures(ctx, reader, &j->failures);
     iso_sweep_reader_close(reader);
+    if (status != ISO_OK) return status;
     if (!same) return refuse(ctx, j->path, "is the result of another sweep, share or version: it is not overwritten");
     if (!resume) return refuse(ctx, j->path, "is there already, the result of this sweep: it is not overwritten");
     remove_old(j);
@@ -370,11 +361,9 @@ size_t iso_sweep_journal_done(const iso_sweep_journal *j)
     return j->done;
 }
 
-size_t iso_sweep_journal_failed(const iso_sweep_journal *j, size_t *first, const char **reason)
+const iso_sweep_failures *iso_sweep_journal_failures(const iso_sweep_journal *j)
 {
-    *first = j->first_failed;
-    *reason = j->reason;
-    return j->failed;
+    return &j->failures;
 }
 
 size_t iso_sweep_journal_points(const iso_sweep_journal *j)
@@ -412,7 +401,7 @@ iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t 
     if (status != ISO_OK) return status;
     j->at[c] = at;
     j->done++;
-    count_failures(j, rows);
+    iso_sweep_failures_add(&j->failures, rows);
     sync_now_and_then(j);
     return ISO_OK;
 }

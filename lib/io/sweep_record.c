@@ -1,4 +1,5 @@
 /* sweep_record.c - the rows of a chunk as bytes, with a checksum; for journals, and for sending them elsewhere. */
+#include <stdio.h>
 #include <string.h>
 
 #include "io/sweep_store_impl.h"
@@ -87,4 +88,15 @@ bool iso_sweep_record_inside(const iso_sweep_head *head, const unsigned char byt
         if (r.checksum == iso_sweep_record_sum(&r, bytes + at + sizeof r)) return true;
     }
     return false;
+}
+
+/* The failure of the lowest number counts as the first. */
+void iso_sweep_failures_add(iso_sweep_failures *f, const iso_sweep_rows *rows)
+{
+    for (size_t i = 0; i < rows->count; i++) {
+        if (rows->status[i] == ISO_OK) continue;
+        if (f->count++ > 0 && f->first < rows->first + i) continue;
+        f->first = rows->first + i;
+        snprintf(f->reason, sizeof f->reason, "%s", rows->reason[i]);
+    }
 }

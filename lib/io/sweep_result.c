@@ -184,10 +184,25 @@ iso_sweep_share iso_sweep_reader_share(const iso_sweep_reader *r)
 iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *r, size_t count, iso_sweep_rows *rows)
 {
     if (r->points - r->next < count) return iso_sweep_damaged(ctx, r->path, "it has no more rows");
-    rows->first = r->next;
+    rows->first = iso_sweep_share_point(&r->begin.head, r->begin.share, r->next);
     rows->count = count;
     r->next += count;
     return r->kind->rows(ctx, r->file, count, rows);
+}
+
+iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *r, iso_sweep_failures *failures)
+{
+    const size_t chunk = r->begin.head.chunk;
+    iso_sweep_rows rows;
+    *failures = (iso_sweep_failures){.count = 0};
+    iso_status status = iso_sweep_rows_create(ctx, r->begin.head.columns, chunk, &rows);
+    if (status != ISO_OK) return status;
+    while (r->next < r->points && status == ISO_OK) {
+        status = iso_sweep_reader_rows(ctx, r, r->points - r->next < chunk ? r->points - r->next : chunk, &rows);
+        if (status == ISO_OK) iso_sweep_failures_add(failures, &rows);
+    }
+    iso_sweep_rows_free(&rows);
+    return status;
 }
 
 /* --- merging ---------------------------------------------------------------------------------------------------- */
@@ -255,7 +270,7 @@ static iso_status check_parts(const merger *m)
     return ISO_OK;
 }
 
-static iso_status write_parts(const merger *m, const char *path)
+static iso_status write_parts(const merger *m, const char *path, iso_sweep_failures *failures)
 {
     const iso_sweep_head *head = &m->part[0]->begin.head;
     const iso_sweep_writing *kind = iso_sweep_writing_of(path);
@@ -268,7 +283,7 @@ static iso_status write_parts(const merger *m, const char *path)
     const bool created = status == ISO_OK;
     for (size_t c = 0; c < iso_sweep_chunks(head) && status == ISO_OK; c++) {
         status = iso_sweep_reader_rows(m->ctx, m->part[c % m->count], iso_sweep_chunk_points(head, c), &rows);
-        rows.first = c * head->chunk;
+        if (status == ISO_OK) iso_sweep_failures_add(failures, &rows);
         if (status == ISO_OK) status = kind->rows(m->ctx, file, &rows);
     }
     iso_sweep_rows_free(&rows);
@@ -277,18 +292,20 @@ static iso_status write_parts(const merger *m, const char *path)
     return status == ISO_OK ? closed : status;
 }
 
-iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path)
+iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,
+                           iso_sweep_failures *failures)
 {
     struct stat s;
     merger m = {.ctx = ctx, .count = count, .path = parts};
     if (strcmp(path, "-") != 0 && stat(path, &s) == 0 && S_ISREG(s.st_mode))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' is there: it is not overwritten", path);
+    *failures = (iso_sweep_failures){.count = 0};
     m.part = calloc(count + 1, sizeof *m.part);
     if (!m.part) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the parts");
     iso_status status = ISO_OK;
     for (size_t i = 0; i < count && status == ISO_OK; i++) status = add_part(&m, parts[i]);
     if (status == ISO_OK) status = check_parts(&m);
-    if (status == ISO_OK) status = write_parts(&m, path);
+    if (status == ISO_OK) status = write_parts(&m, path, failures);
     for (size_t i = 0; i < m.count; i++) iso_sweep_reader_close(m.part[i]);
     free(m.part);
     return status;

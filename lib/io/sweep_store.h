@@ -31,6 +31,12 @@ typedef struct iso_sweep_share {
     size_t index, count;
 } iso_sweep_share;
 
+/* Points that have failed: how many, and the number and the reason of the first. */
+typedef struct iso_sweep_failures {
+    size_t count, first;
+    char reason[ISO_REASON_SIZE];
+} iso_sweep_failures;
+
 /* --- the journal ------------------------------------------------------------------------------------------------ */
 
 typedef struct iso_sweep_journal iso_sweep_journal;
@@ -52,9 +58,9 @@ ISO_API bool iso_sweep_journal_has(const iso_sweep_journal *j, size_t c);
 ISO_API size_t iso_sweep_journal_wanted(const iso_sweep_journal *j);
 ISO_API size_t iso_sweep_journal_done(const iso_sweep_journal *j);
 
-/* Points of the share, and those that have failed, with the first one's number and reason. */
+/* Points of the share, and those of the chunks that are there which have failed. */
 ISO_API size_t iso_sweep_journal_points(const iso_sweep_journal *j);
-ISO_API size_t iso_sweep_journal_failed(const iso_sweep_journal *j, size_t *first, const char **reason);
+ISO_API const iso_sweep_failures *iso_sweep_journal_failures(const iso_sweep_journal *j);
 
 /* Adds a chunk. Errors: ISO_FILE_TROUBLE: the journal is then as it was before. */
 ISO_API iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c,
@@ -89,14 +95,17 @@ ISO_API void iso_sweep_reader_close(iso_sweep_reader *reader);
 ISO_API const iso_sweep_head *iso_sweep_reader_head(const iso_sweep_reader *reader);
 ISO_API iso_sweep_share iso_sweep_reader_share(const iso_sweep_reader *reader);
 
-/* Reads the next `count` rows, at most rows->most. rows->first is the number of the first one only in a whole result.
- * Errors: ISO_FILE_TROUBLE. */
+/* Reads the next `count` rows of one chunk, at most rows->most. Errors: ISO_FILE_TROUBLE. */
 ISO_API iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *reader, size_t count,
                                          iso_sweep_rows *rows);
 
-/* Puts the parts of one sweep together. Errors: ISO_FILE_TROUBLE: a part is missing, is there twice, or belongs to
+/* Reads all rows, from the first on, for those that have failed. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+ISO_API iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *reader, iso_sweep_failures *failures);
+
+/* Puts the parts of one sweep together. *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a part is missing, is there twice, or belongs to
  * another sweep; `path` is there. */
-ISO_API iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path);
+ISO_API iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,
+                                   iso_sweep_failures *failures);
 
 ISO_C_END
 

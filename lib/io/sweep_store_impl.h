@@ -42,6 +42,9 @@ extern const iso_sweep_reading iso_sweep_csv_reading, iso_sweep_hdf5_reading;
 /* Of bytes; another salt gives another number. */
 uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt);
 
+/* Adds the failures of these rows. */
+void iso_sweep_failures_add(iso_sweep_failures *failures, const iso_sweep_rows *rows);
+
 /* What stands before the bytes of a chunk in a journal; `bytes` are those behind it. */
 typedef struct iso_sweep_record {
     uint64_t chunk, length, checksum;
