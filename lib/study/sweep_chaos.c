@@ -105,7 +105,7 @@ static iso_status find_together(iso_context *ctx, const iso_sweep_ask *ask, iso_
 {
     const iso_chaos_options o = options_of(ask);
     for (size_t i = 0; i < b->count; i++) scene[i] = b->made[i] ? &b->scene[i] : NULL;
-    const iso_status answer = iso_chaos_run_many(ctx, b->count, scene, &o, chaos, status);
+    iso_status answer = iso_chaos_run_many(ctx, b->count, scene, &o, chaos, status);
     for (size_t i = 0; i < b->count && answer == ISO_OK; i++) {
         const iso_chaos *c = chaos[i];
         const bool followed = status[i] == ISO_OK;
@@ -113,7 +113,11 @@ static iso_status find_together(iso_context *ctx, const iso_sweep_ask *ask, iso_
         if (followed) tell(ask, &c->own, c->with, &c->share, iso_sweep_numbers(ask, b, i));
         if (followed && c->own.status[0] == ISO_OK && c->own.status[1] == ISO_OK) continue;
         const iso_status why = followed ? c->failure : status[i];
-        iso_sweep_note(ctx, ask, b, i, iso_context_fail(ctx, why, "", "%s", c ? c->words : "it failed"));
+        iso_context_fail(ctx, why, "", "%s", c ? c->words : "it failed");
+        if (why == ISO_NO_MEMORY || why == ISO_STOPPED)
+            answer = why; /* of this computer, now; not of the point */
+        else
+            iso_sweep_note(ctx, ask, b, i, why);
     }
     for (size_t i = 0; i < b->count; i++) iso_chaos_free(chaos[i]);
     return answer;
