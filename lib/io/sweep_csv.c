@@ -114,12 +114,15 @@ static const char *value_of(const char *line, const char *key)
     return line + length + 4;
 }
 
-/* The next line without its end; false: there is none. */
+/* The next line without its end, as editors and programs of all kinds leave it; false: there is none. A last row that
+ * was cut short has no status, or its reason no end. */
 static bool next_line(csv_reader *r)
 {
-    const ssize_t length = getline(&r->line, &r->room, r->from);
-    if (length <= 0 || r->line[length - 1] != '\n') return false; /* the last line is whole, too */
-    r->line[length - 1] = '\0';
+    ssize_t length = getline(&r->line, &r->room, r->from);
+    if (length <= 0) return false;
+    if (r->line[length - 1] == '\n') length--;
+    if (length > 0 && r->line[length - 1] == '\r') length--;
+    r->line[length] = '\0';
     return true;
 }
 

@@ -48,6 +48,19 @@ rows_of '{ print } n == 2 { print }' "moved or damaged"
 sed '$a\# more' all.csv >bad.csv
 has gnuplot "a curve of a file with too many lines" &&
     refuses 5 "lines behind its last row" plot bad.csv -o bad.svg
+# --- ends of lines of other systems, and a last line without one; but no row that was cut short
+sed 's/$/\r/' one.csv >other.csv
+run 0 sweep --merge other.csv two.csv -o crlf.csv
+check "lines with CR LF" cmp crlf.csv all.csv
+bytes=$(wc -c <two.csv)
+head -c $((bytes - 1)) two.csv >other.csv
+run 0 sweep --merge one.csv other.csv -o unended.csv
+check "a last line without end" cmp unended.csv all.csv
+for less in 2 3 4 9; do
+    head -c $((bytes - less)) two.csv >other.csv
+    refuses 5 "missing, moved or damaged" sweep --merge one.csv other.csv -o new.csv
+done
+
 run 0 sweep sweep.yaml -o empty.csv --shard 7/7
 for i in 1 2 3 4 5 6; do run 0 sweep sweep.yaml -o seventh.$i.csv --shard $i/7; done
 run 0 sweep --merge seventh.?.csv empty.csv -o sevenths.csv
