@@ -217,6 +217,17 @@ static int print_point(iso_context *ctx, const options *o, const iso_sweep_file 
     return finish(ctx, status);
 }
 
+/* Options that would do nothing. False: one is there. */
+static bool fits(const options *o)
+{
+    const char *alone = o->merge ? "--merge" : isnan(o->point) ? NULL : "--point";
+    const char *other = o->resume ? "--resume" : o->shard ? "--shard" : NULL;
+    if (!o->merge && !isnan(o->point) && strcmp(o->output, "-") != 0) other = "--output";
+    if (o->merge && !isnan(o->point)) other = "--point";
+    if (alone && other) complain("sweep: %s does nothing with %s", other, alone);
+    return !alone || !other;
+}
+
 static int merge(iso_context *ctx, const options *o)
 {
     iso_sweep_failures failures;
@@ -229,6 +240,7 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_sweep_file *file;
+    if (!fits(o)) return EXIT_USAGE;
     if (o->merge) return merge(ctx, o);
     if (o->parts.count > 1) return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
     const iso_status status = iso_sweep_read(ctx, o->file, iso_sweep_topics(), &file);

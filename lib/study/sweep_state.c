@@ -59,6 +59,8 @@ static int state_columns(const iso_sweep_ask *ask, const char *name[])
 static iso_status state_refuse(iso_context *ctx, const iso_sweep_ask *ask)
 {
     const iso_scene s = shown_scene(ask, ask->base);
+    if (!isnan(ask->setting[1]) && isnan(ask->turns))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "model", "'model' is for 'until: {turns: ...}'");
     return iso_scene_check_columns(ctx, &s);
 }
 

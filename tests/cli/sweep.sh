@@ -292,6 +292,11 @@ scene: solver.yaml
 vary: {tolerance: [1.0e-9, 1.0e-10]}
 measure: {error: {tolerance: 1.0e-8}}
 END
+bad 3:11 "state: 'model' is for 'until: {turns: ...}'" <<'END'
+scene: scene.yaml
+vary: {k: [1, 2]}
+measure: {state: {model: point}}
+END
 bad 2:12 "'k' should be a finite number" <<'END'
 scene: scene.yaml
 vary: {k: [one]}
@@ -314,8 +319,12 @@ cp all.$h5 before.$h5
 run 1 sweep grid.yaml -o all.$h5 --resume
 says "6 of 30 points failed; the first is point 12: scene.yaml:1:14: k = 0"
 check "a result that is there stays" cmp all.$h5 before.$h5
-"$isoroll" sweep grid.yaml --point 1 -o all.$h5 >point.yaml 2>err
-check "a point prints its scene" cmp -s all.$h5 before.$h5
+for option in "-o new.csv" --resume "--shard 1/2"; do
+    refuses 2 "does nothing with --point" sweep grid.yaml --point 1 $option
+done
+for option in "--point 1" --resume "--shard 1/2"; do
+    refuses 2 "does nothing with --merge" sweep --merge part.1.csv part.2.csv -o new.csv $option
+done
 cp thesis.csv new.csv.part
 refuses 5 "is no journal of a sweep" sweep grid.yaml -o new.csv --resume
 check "the thesis" cmp thesis.csv thesis.copy
