@@ -144,14 +144,15 @@ static bool chaos_together(const iso_sweep_ask *ask)
 }
 
 /* A turn takes about 15 microseconds by each model, and most orbits have a verdict after 1000. Orbits are followed in
- * the lanes of vectors, so points come in eights. */
+ * the lanes of vectors, so points come in eights. With effects a turn takes 300, and each orbit goes alone. */
 static size_t chaos_chunk(const iso_sweep_ask *ask)
 {
     enum { MOST = 512, LANES = 8 };
     const double asked = isnan(ask->turns) ? 1000 : fmin(ask->turns, 1000),
                  models = with_model(ask, 0) + with_model(ask, 1);
-    const double point = 15e-6 * asked * models * (ask->setting[STARTS] + 1), fits = fmin(1 / point, MOST);
-    if (ask->setting[STARTS] > 0) return fits > 1 ? (size_t)fits : 1;
+    const bool effects = ask->base && iso_effects_beyond_level(&ask->base->effects);
+    const double point = (effects ? 300e-6 : 15e-6) * asked * models * (ask->setting[STARTS] + 1), fits = fmin(1 / point, MOST);
+    if (ask->setting[STARTS] > 0 || effects) return fits > 1 ? (size_t)fits : 1;
     return fits > LANES ? (size_t)(fits / LANES) * LANES : LANES;
 }
 

@@ -232,6 +232,19 @@ static void check_refusals(void)
     gsl_test(iso_sweep_create(ctx, &plan, &sweep) != ISO_BAD_ARGUMENT, "unknown vectors are refused");
 }
 
+/* A chunk takes about a second, so that little is lost when a program is killed: points that take long come alone. */
+static void check_chunk(double turns, double time, size_t least, size_t most)
+{
+    iso_sweep_plan plan = plan_of(turns, time, 0);
+    iso_sweep *sweep;
+    plan.family.count = 1000000;
+    ask(&plan, "state");
+    must(iso_sweep_create(ctx, &plan, &sweep), "a sweep");
+    const size_t chunk = iso_sweep_head_of(sweep)->chunk;
+    gsl_test(chunk < least || chunk > most, "state, %g turns or to %g: %zu points in a chunk", turns, time, chunk);
+    iso_sweep_free(sweep);
+}
+
 int main(void)
 {
     ctx = iso_context_create();
@@ -245,6 +258,12 @@ int main(void)
         check_ways("splitting", NAN, NAN);
         check_ways("frequencies", NAN, NAN);
     }
+    check_chunk(NAN, 10, 64, 64);
+    check_chunk(NAN, 1e5, 2, 20); /* 0.2 s a point */
+    check_chunk(NAN, -1e7, 1, 1);
+    check_chunk(10, NAN, 64, 64);
+    check_chunk(1000, NAN, 2, 20);
+    check_chunk(1e6, NAN, 1, 1);
     check_chaos(false, 300);
     check_chaos(true, 240);
     check_backends();
