@@ -422,7 +422,9 @@ static iso_status count_points(iso_sweep_file *f, const yaml_node_t *vary)
 
 iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples)
 {
-    if (vary->type != YAML_MAPPING_NODE || vary->data.mapping.pairs.start == vary->data.mapping.pairs.top)
+    if (vary->type == YAML_MAPPING_NODE && vary->data.mapping.pairs.start == vary->data.mapping.pairs.top)
+        return iso_yaml_fail(&f->yaml, vary->start_mark, "'vary' names no number: write k: [0.5, 1], for example");
+    if (vary->type != YAML_MAPPING_NODE)
         return iso_yaml_expected(&f->yaml, vary, "vary", "a mapping with the numbers that vary");
     f->column = calloc(9 * ISO_SWEEP_AXES, sizeof *f->column);
     if (!f->column) return iso_context_fail(f->yaml.ctx, ISO_NO_MEMORY, "", "no memory for a sweep");

@@ -94,7 +94,9 @@ cell() { grep -v '^#' "$1" | awk -F, -v row="$2" -v name="$3" 'NR == 1 { for (i 
 # equal NAME CELL VALUE: the same number (null is nan)
 equal() {
     checks=$((checks + 1))
-    awk -v a="$2" -v b="$3" 'BEGIN { if (b == "null") b = "nan"; exit !(a != "" && b != "" && (a == b || a + 0 == b + 0)) }' ||
+    awk -v a="$2" -v b="$3" 'BEGIN { if (b == "null") b = "nan"; 
+        number = "^[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?$"
+        exit !(a == "nan" ? b == "nan" || b == "null" : a ~ number && b ~ number && a + 0 == b + 0) }' ||
         fail "$1: $2 is not $3"
 }
 cat >each.yaml <<'END'
@@ -296,6 +298,11 @@ bad 3:11 "state: 'model' is for 'until: {turns: ...}'" <<'END'
 scene: scene.yaml
 vary: {k: [1, 2]}
 measure: {state: {model: point}}
+END
+bad 2:7 "'vary' names no number: write k: [0.5, 1], for example" <<'END'
+scene: scene.yaml
+vary: {}
+measure: {state: {}}
 END
 bad 2:12 "'k' should be a finite number" <<'END'
 scene: scene.yaml
