@@ -46,14 +46,15 @@ static bool wants_sizes(const iso_record *rows)
     return most > (signs[0] && signs[1] ? 1e3 : 1e4) * least;
 }
 
-/* A gap of the curve where there is no value. With sizes the band may not reach 0. */
-static bool put_curve(FILE *f, const iso_record *rows, bool sizes)
+/* A gap of the curve where there is no value, and at k = 0, where there is no ball. With sizes the band may not reach 0. */
+static bool put_curve(FILE *f, const iso_record *rows, bool sizes, bool k)
 {
     bool band = false;
     fputs("$curve << EOD\n", f);
     for (size_t i = 0; i < iso_record_rows(rows); i++) {
         const double *row = iso_record_const_row(rows, i);
         double value = row[VALUE], low = row[LOW], high = row[HIGH];
+        if (k && i > 0 && iso_record_const_row(rows, i - 1)[X] < 0 && row[X] > 0) fputs("\n", f);
         if (!isfinite(value)) {
             fputs("\n", f);
             continue;
@@ -83,7 +84,7 @@ iso_status iso_plot_curve(iso_context *ctx, const char *path, const char *title,
     const iso_status status = iso_gnuplot_open(ctx, path, WIDTH, CURVE_HEIGHT, &g);
     if (status != ISO_OK) return status;
     FILE *f = iso_gnuplot_script(g);
-    const bool sizes = wants_sizes(rows), band = put_curve(f, rows, sizes);
+    const bool sizes = wants_sizes(rows), band = put_curve(f, rows, sizes, k);
     fputs("set title ", f);
     iso_gnuplot_text(f, title, LONGEST);
     fputs(" noenhanced\n" AXES "unset key\n", f);

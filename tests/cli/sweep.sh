@@ -429,6 +429,13 @@ if has gnuplot "pictures"; then
     run 0 plot each.csv -o curve.svg --value rotations_trace2
     check "its name" grep -q 'rotations_trace2' curve.svg
     refuses 3 "there is no such column" plot each.csv -o curve.svg --value nothing
+    printf 'scene: scene.yaml\nvary: {k: [-1, -0.5, 0.5, 1]}\nmeasure: {state: {}}\n' >signs.yaml
+    run 0 sweep signs.yaml -o signs.csv
+    mkdir -p script
+    printf '#!/bin/sh\ntee script.gp | %s "$@"\n' "$(command -v gnuplot)" >script/gnuplot
+    chmod +x script/gnuplot
+    PATH=$PWD/script:$PATH run 0 plot signs.csv -o curve.svg --value state_n1
+    check "no curve across k = 0" test "$(sed -n '/^\$curve <</,/^EOD/p' script.gp | grep -c '^$')" -eq 1
     run 0 plot long.$h5 -o curve.svg
     refuses 3 "4 numbers vary" plot all.$h5 -o curve.svg --value state_s
     refuses 3 "merge the parts first" plot part.1.$h5 -o curve.svg
