@@ -1,6 +1,6 @@
 /* hdf5_sweep.c - results of sweeps as HDF5: the layout, and writing.
  *
- *     /              attributes: format, isoroll, hash, points, chunk, vectors, columns, sweep; of a part: part
+ *     /              attributes: format, isoroll, hash, points, chunk, vectors, columns, sweep, scene; of a part: part
  *     /vary/NAME     the numbers that vary                       points
  *     /QUANTITY/NAME what was measured                           points
  *     /point         of a part only: the numbers of its points   points of the part
@@ -125,6 +125,7 @@ static bool write_head(const iso_sweep_hdf5 *f, const iso_sweep_head *head, iso_
     good = good && iso_hdf5_write_text(f->file, "vectors", head->vectors);
     good = good && iso_hdf5_write_text(f->file, "columns", columns);
     good = good && iso_hdf5_write_text(f->file, "sweep", head->text);
+    good = good && (!head->scene || iso_hdf5_write_text(f->file, "scene", head->scene));
     good = good && (!f->part || iso_hdf5_write_numbers(f->file, "part", 2, part));
     free(columns);
     return good;

@@ -56,6 +56,7 @@ static bool read_head(hid_t file, iso_sweep_begin *b)
         snprintf(b->head.vectors, sizeof b->head.vectors, "%s", vectors);
         b->column = iso_sweep_columns_scan(columns, &b->head.columns);
         b->text = read_text(file, "sweep");
+        b->scene = read_text(file, "scene"); /* not there if it is in the sweep's text */
         good = b->column && b->text;
     }
     free(format);

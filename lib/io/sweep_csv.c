@@ -16,12 +16,12 @@ typedef struct csv_writer {
     iso_output *out;
 } csv_writer;
 
-/* The sweep's text, each line as a comment. */
-static void write_text(FILE *to, const char *text)
+/* A text, each line as a comment. */
+static void write_text(FILE *to, const char *mark, const char *text)
 {
     while (*text) {
         const size_t length = strcspn(text, "\r\n");
-        fprintf(to, "# | %.*s\n", (int)length, text);
+        fprintf(to, "# %s| %.*s\n", mark, (int)length, text);
         text += length;
         if (*text == '\r') text++;
         if (*text == '\n') text++;
@@ -39,7 +39,8 @@ static iso_status write_head(iso_context *ctx, FILE *to, const iso_sweep_head *h
     fprintf(to, "# points: %zu\n# chunk: %zu\n# vectors: %s\n", head->count, head->chunk, head->vectors);
     if (!all) fprintf(to, "# part: %zu of %zu\n", share.index + 1, share.count);
     fprintf(to, "# columns: %s\n", columns);
-    write_text(to, head->text);
+    write_text(to, "", head->text);
+    if (head->scene) write_text(to, "scene ", head->scene);
     fputs("point", to);
     for (int i = 0; i < head->columns; i++) {
         const iso_sweep_column *c = &head->column[i];
@@ -126,13 +127,13 @@ static bool next_line(csv_reader *r)
     return true;
 }
 
-/* Adds a line of the sweep's text. */
-static bool add_text(iso_sweep_begin *b, const char *line)
+/* Adds a line to a text. */
+static bool add_text(char **text, const char *line)
 {
-    const size_t before = b->text ? strlen(b->text) : 0;
-    char *more = realloc(b->text, before + strlen(line) + 2);
+    const size_t before = *text ? strlen(*text) : 0;
+    char *more = realloc(*text, before + strlen(line) + 2);
     if (!more) return false;
-    b->text = more;
+    *text = more;
     sprintf(more + before, "%s\n", line);
     return true;
 }
@@ -141,7 +142,8 @@ static bool add_text(iso_sweep_begin *b, const char *line)
 static bool take_line(iso_sweep_begin *b, const char *line)
 {
     const char *value;
-    if (strncmp(line, "# | ", 4) == 0) return add_text(b, line + 4);
+    if (strncmp(line, "# | ", 4) == 0) return add_text(&b->text, line + 4);
+    if (strncmp(line, "# scene | ", 10) == 0) return add_text(&b->scene, line + 10);
     if ((value = value_of(line, "hash"))) return iso_sweep_hash_scan(value, b->head.hash);
     if ((value = value_of(line, "points"))) return sscanf(value, "%zu", &b->head.count) == 1;
     if ((value = value_of(line, "chunk"))) return sscanf(value, "%zu", &b->head.chunk) == 1;

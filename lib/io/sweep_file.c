@@ -255,6 +255,7 @@ static void finish_plan(iso_sweep_file *f, const yaml_node_t *scene)
     iso_sweep_hash(p->hash, f->text, f->length + 1);
     if (f->scene_text) iso_sweep_hash(p->hash, f->scene_text, f->scene_length);
     p->text = f->text;
+    p->scene = f->scene_text;
     p->family.name = (const char(*)[ISO_NAME_SIZE])f->column;
     p->family.scene = iso_sweep_point;
     p->family.data = f;

@@ -147,6 +147,7 @@ iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_r
         status = iso_sweep_damaged(ctx, path, "this build has no HDF5");
     if (status == ISO_OK) status = r->kind->open(ctx, path, &r->begin, &r->file);
     r->begin.head.column = r->begin.column;
+    r->begin.head.scene = r->begin.scene;
     r->begin.head.text = r->begin.text ? r->begin.text : "";
     if (status == ISO_OK && !makes_sense(&r->begin)) status = iso_sweep_damaged(ctx, path, "its head is damaged");
     if (status == ISO_OK) {
@@ -167,6 +168,7 @@ void iso_sweep_reader_close(iso_sweep_reader *r)
     if (r->file) r->kind->close(r->file);
     free(r->begin.column);
     free(r->begin.text);
+    free(r->begin.scene);
     free(r->path);
     free(r);
 }

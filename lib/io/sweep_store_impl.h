@@ -25,7 +25,7 @@ typedef struct iso_sweep_begin {
     iso_sweep_head head;
     iso_sweep_share share;
     iso_sweep_column *column;
-    char *text;
+    char *text, *scene;
 } iso_sweep_begin;
 
 typedef struct iso_sweep_reading {

@@ -64,7 +64,7 @@ typedef struct iso_sweep_plan {
     size_t chunk;                /* points of a chunk; 0: as the quantities suggest      */
     char vectors[ISO_NAME_SIZE]; /* see batch.h; empty: the widest of this processor     */
     uint64_t hash[2];            /* of the texts of the sweep and its scene; 0 by hand   */
-    const char *text;            /* of the sweep file, for the result's file; may be NULL */
+    const char *text, *scene;    /* of the sweep file and its scene's file, for the result; may be NULL */
 } iso_sweep_plan;
 
 /* --- what comes out --------------------------------------------------------------------------------------------- */
@@ -82,7 +82,7 @@ typedef struct iso_sweep_head {
     const iso_sweep_column *column;
     char vectors[ISO_NAME_SIZE];
     uint64_t hash[2]; /* of everything that the rows depend on */
-    const char *text; /* of the sweep file */
+    const char *text, *scene; /* of the sweep file, and of the scene's own; scene NULL: it is in the sweep's */
 } iso_sweep_head;
 
 /* The rows of one chunk. A point that fails has a status and a reason; the numbers that it has not are NaN. */

@@ -111,6 +111,7 @@ static void make_head(iso_sweep *s)
     h->count = s->plan->family.count;
     h->chunk = s->plan->chunk > 0 ? s->plan->chunk : chunk_of(s);
     h->text = s->plan->text ? s->plan->text : "";
+    h->scene = s->plan->scene;
     memcpy(h->hash, s->plan->hash, sizeof h->hash);
     iso_sweep_hash(h->hash, &h->count, sizeof h->count);
     iso_sweep_hash(h->hash, &h->chunk, sizeof h->chunk);

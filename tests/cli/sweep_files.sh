@@ -17,6 +17,11 @@ run 0 sweep sweep.yaml -o two.csv --shard 2/2
 run 0 sweep --merge one.csv two.csv -o merged.csv
 check "two shards" cmp merged.csv all.csv
 
+sed -n 's/^# scene | //p' all.csv >kept.yaml
+check "the result has the scene's text" cmp kept.yaml scene.yaml
+sed -n 's/^# | //p' all.csv >kept.yaml
+check "the result has the sweep's text" cmp kept.yaml sweep.yaml
+
 # --- heads that say what cannot be
 # head LINE: the line of one.csv that has this key becomes LINE
 head_of() {
