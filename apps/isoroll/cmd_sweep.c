@@ -65,8 +65,8 @@ static iso_status share_of_slurm(iso_context *ctx, iso_sweep_share *share)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
                                 "--shard slurm: task %g of %g from %g in steps of %g is none", id, count, least,
                                 step);
-    if (count < 2 || (from_environment("SLURM_ARRAY_TASK_MAX", NAN, &most) &&
-                      most != least + (count - 1) * fmax(step, 1)))
+    if (count < 2 ||
+        (from_environment("SLURM_ARRAY_TASK_MAX", NAN, &most) && most != least + (count - 1) * fmax(step, 1)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
                                 "--shard slurm: this array is one task, or has gaps, as if tasks were submitted "
                                 "again: give their number as --shard slurm/N with --array=1-N");

@@ -84,7 +84,8 @@ bool iso_sweep_record_inside(const iso_sweep_head *head, const unsigned char byt
     for (size_t at = 0; at + sizeof r < length; at++) {
         memcpy(&r, bytes + at, sizeof r);
         const size_t left = length - at - sizeof r;
-        if (r.chunk >= chunks || r.length > left || r.length < least * iso_sweep_chunk_points(head, r.chunk)) continue;
+        if (r.chunk >= chunks || r.length > left || r.length < least * iso_sweep_chunk_points(head, r.chunk))
+            continue;
         if (r.checksum == iso_sweep_record_sum(&r, bytes + at + sizeof r)) return true;
     }
     return false;

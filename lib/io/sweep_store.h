@@ -100,7 +100,8 @@ ISO_API iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *rea
                                          iso_sweep_rows *rows);
 
 /* Reads all rows, from the first on, for those that have failed. Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-ISO_API iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *reader, iso_sweep_failures *failures);
+ISO_API iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *reader,
+                                             iso_sweep_failures *failures);
 
 /* Puts the parts of one sweep together. *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a part is missing, is there twice, or belongs to
  * another sweep; `path` is there. */

@@ -124,8 +124,8 @@ static size_t state_chunk(const iso_sweep_ask *ask)
     static const iso_scene none;
     const iso_scene *base = ask->base ? ask->base : &none;
     const double *y = base->start.y, end = isnan(ask->time) ? base->end : ask->time;
-    const double point = isnan(ask->turns) ? 2e-6 * fabs(end) * sqrt(y[0] * y[0] + y[1] * y[1] + y[2] * y[2])
-                                           : 2e-4 * ask->turns;
+    const double point =
+        isnan(ask->turns) ? 2e-6 * fabs(end) * sqrt(y[0] * y[0] + y[1] * y[1] + y[2] * y[2]) : 2e-4 * ask->turns;
     return point < 1.0 / MOST ? MOST : point < 1 ? (size_t)(1 / point) : 1;
 }
 
