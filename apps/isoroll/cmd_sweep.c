@@ -205,18 +205,6 @@ static int run_file(iso_context *ctx, const options *o, const iso_sweep_file *fi
     return result;
 }
 
-static int print_point(iso_context *ctx, const options *o, const iso_sweep_file *file)
-{
-    const size_t count = iso_sweep_file_plan(file)->family.count;
-    char *text;
-    if (!(o->point < (double)count))
-        return complain("sweep: --point %.0f: points are 0 to %zu", o->point, count - 1), EXIT_USAGE;
-    const iso_status status = iso_sweep_scene_text(ctx, file, (size_t)o->point, &text);
-    if (status == ISO_OK) fputs(text, stdout);
-    free(text);
-    return finish(ctx, status);
-}
-
 /* Options that would do nothing. False: one is there. */
 static bool fits(const options *o)
 {
@@ -228,9 +216,23 @@ static bool fits(const options *o)
     return !alone || !other;
 }
 
+static int print_point(iso_context *ctx, const options *o, const iso_sweep_file *file)
+{
+    const size_t count = iso_sweep_file_plan(file)->family.count;
+    char *text;
+    if (!(o->point < (double)count))
+        return complain("sweep: --point %.0f: points are 0 to %zu", o->point, count - 1), EXIT_USAGE;
+    if (!fits(o)) return EXIT_USAGE;
+    const iso_status status = iso_sweep_scene_text(ctx, file, (size_t)o->point, &text);
+    if (status == ISO_OK) fputs(text, stdout);
+    free(text);
+    return finish(ctx, status);
+}
+
 static int merge(iso_context *ctx, const options *o)
 {
     iso_sweep_failures failures;
+    if (!fits(o)) return EXIT_USAGE;
     const char *const *parts = (const char *const *)o->parts.path;
     const iso_status status = iso_sweep_merge(ctx, (size_t)o->parts.count, parts, o->output, &failures);
     return status == ISO_OK ? tell_failures(&failures, "") : finish(ctx, status);
@@ -240,7 +242,6 @@ static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_sweep_file *file;
-    if (!fits(o)) return EXIT_USAGE;
     if (o->merge) return merge(ctx, o);
     if (o->parts.count > 1) return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
     const iso_status status = iso_sweep_read(ctx, o->file, iso_sweep_topics(), &file);
