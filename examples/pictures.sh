@@ -82,6 +82,10 @@ section=16_sections
 "$isoroll" section $section/integrable.yaml --starts 40 --crossings 300 -o "$work/tame.csv" \
     --plot $section/integrable.png 2>"$work/out"
 
+# takes minutes: many values of k need 128 bits
+scene=17_why_only_one
+"$isoroll" splitting $scene/scene.yaml --k=-3:-1/8:1/8,1/8:3:1/8 --plot $scene/picture.svg >"$work/out"
+
 "$build/tests/example_13_chaos" >"$work/chaos.txt"
 chart 13_chaos/picture.svg <<EOF
 set xlabel 'k'; set ylabel 'chaotic orbits, of 200'; unset key; set yrange [-3:]

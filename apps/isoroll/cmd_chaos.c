@@ -18,12 +18,6 @@ typedef struct options {
     bool json;
 } options;
 
-static void show(double part, void *unused)
-{
-    (void)unused;
-    progress_show(part);
-}
-
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
 static void print_head(const iso_scene *scene, const iso_chaos *c)
@@ -222,11 +216,6 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scen
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static int worse(int a, int b)
-{
-    return a > b ? a : b;
-}
-
 static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c, iso_output *csv)
 {
     int result = c->failure == ISO_OK ? EXIT_DONE : EXIT_SOME_FAILED;
@@ -259,10 +248,10 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     how->turns = (long)o->turns;
     how->starts = (size_t)o->starts;
     how->seed = (uint64_t)o->seed;
-    how->threads = o->threads < 4096 ? (int)o->threads : 4096;
+    how->threads = o->threads < 1e9 ? (int)o->threads : 1000000000;
     how->models = o->models;
     how->tolerance = o->scene.tolerance;
-    how->progress = show;
+    how->progress = progress_told;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     return status == ISO_OK && o->csv ? iso_output_open(ctx, o->csv, csv) : status;
 }
@@ -300,22 +289,13 @@ static const option_row rows[] = {
     ROW("starts", "M", "a whole number from 0 on",
         "M more orbits of the same energy, spread evenly over the section: tells which part of it is chaotic",
         set_whole, options, starts),
-    ROW("seed", "N", "a whole number from 0 on", "another number spreads --starts in another way (default 0)",
-        set_whole, options, seed),
-    ROW_OF_WORDS("model", "M", "ball, point or both",
-                 "which model is integrated (default: both, where the ball has a twin)", set_as, options, models,
-                 as_word),
+    ROW_SEED(options, seed),
+    ROW_MODELS(options, models),
     ROW("axis", "A", "auto, 1, 2 or 3",
         "a turn is a return to n_A = 0, n_A increasing, which must be global; auto (default): one that is", set_text,
         options, axis),
     ROW_TOLERANCE(options, scene),
-    {.name = "threads",
-     .argument = "N",
-     .expected = "a whole number from 1 on",
-     .doc = "threads that work (default: one for each processor)",
-     .set = set_count,
-     .offset = offsetof(options, threads),
-     .letter = 'j'},
+    ROW_THREADS(options, threads),
     ROW_PLOT(options, plot),
     ROW_OF_FILE("csv", "FILE", "a file", "write one row for each orbit to FILE; - is standard output", set_text,
                 options, csv, 0, OPTION_WRITES),

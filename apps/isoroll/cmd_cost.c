@@ -154,11 +154,6 @@ static int print_report(const options *o, const iso_cost_line *const line[], con
     return failed ? EXIT_SOME_FAILED : EXIT_DONE;
 }
 
-static int worse(int a, int b)
-{
-    return a > b ? a : b;
-}
-
 /* Prints and draws what was asked for. */
 static int report(iso_context *ctx, const options *o, cost_report *r, iso_output *csv)
 {

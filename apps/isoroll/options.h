@@ -95,6 +95,19 @@ const char *target_word(int i);
 #define ROW_PLOT(type, field)                                                                                        \
     ROW_OF_FILE("plot", "FILE", "a file", "draw a picture: .svg, .png or .pdf", set_text, type, field, 0,            \
                 OPTION_WRITES)
+#define ROW_THREADS(type, field)                                                                                     \
+    {                                                                                                                \
+        .name = "threads", .argument = "N", .expected = "a whole number from 1 on",                                  \
+        .doc = "threads that work (default: one for each processor)", .set = set_count,                              \
+        .offset = offsetof(type, field), .letter = 'j'                                                               \
+    }
+#define ROW_MODELS(type, field)                                                                                      \
+    ROW_OF_WORDS("model", "M", "ball, point or both",                                                                \
+                 "which model is integrated (default: both, where the ball has a twin)", set_as, type, field,        \
+                 as_word)
+#define ROW_SEED(type, field)                                                                                        \
+    ROW("seed", "N", "a whole number from 0 on", "another number spreads --starts in another way (default 0)",       \
+        set_whole, type, field)
 #define ROW_JSON(type, field) ROW("json", NULL, NULL, "print everything as JSON", set_flag, type, field)
 
 #endif

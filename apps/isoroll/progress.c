@@ -34,6 +34,12 @@ void progress_show(double part)
     drawn = true;
 }
 
+void progress_told(double part, void *unused)
+{
+    (void)unused;
+    progress_show(part);
+}
+
 void progress_end(void)
 {
     if (drawn) fprintf(stderr, "\r%*s\r", WIDTH + 8, "");

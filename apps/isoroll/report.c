@@ -49,6 +49,11 @@ void complain(const char *format, ...)
     fprintf(stderr, "isoroll: %s\n", text);
 }
 
+int worse(int a, int b)
+{
+    return a > b ? a : b;
+}
+
 int finish(iso_context *ctx, iso_status status)
 {
     static const int exits[] = {

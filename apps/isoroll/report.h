@@ -22,6 +22,9 @@ void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
  * after a stop on request, and when the reader of a pipe has gone. */
 int finish(iso_context *ctx, iso_status status);
 
+/* The worse of two exit statuses. */
+int worse(int a, int b);
+
 /* From now on SIGINT, SIGTERM and SIGHUP only ask to stop. A signal that comes two seconds later ends the program. */
 void stop_gently(void);
 

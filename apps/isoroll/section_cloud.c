@@ -7,12 +7,6 @@
 
 #include "study/measure.h"
 
-static void show(double part, void *unused)
-{
-    (void)unused;
-    progress_show(part);
-}
-
 static iso_measure_options options_of(const iso_section_options *how, double count)
 {
     iso_measure_options m = iso_measure_defaults();
@@ -21,7 +15,7 @@ static iso_measure_options options_of(const iso_section_options *how, double cou
     m.axis = how->axis;
     m.threads = how->threads;
     if (!isnan(how->tolerance)) m.tolerance = how->tolerance;
-    m.progress = show;
+    m.progress = progress_told;
     return m;
 }
 

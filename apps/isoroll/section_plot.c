@@ -1,7 +1,6 @@
 /* section_plot.c - collects crossings for the picture of `isoroll section` (see section_plot.h). */
 #include "section_plot.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -118,9 +117,8 @@ bool section_picture_row(section_picture *p, const double row[])
 
 void section_picture_pair(section_picture *p, const iso_crossing *ball, const iso_crossing *point)
 {
-    const double apart = fmax(fabs(remainder(ball->l - point->l, 2 * acos(-1.0))), fabs(ball->x - point->x));
     if (p->axis < 0) return;
-    if (apart > ISO_SECTION_PARTED) p->grey[p->orbits - 1] = true;
+    if (iso_section_distance(ball, point) > ISO_SECTION_PARTED) p->grey[p->orbits - 1] = true;
     if (!p->last_kept) return;
     p->point[p->count - 1][0] = point->l;
     p->point[p->count - 1][1] = point->x;

@@ -54,11 +54,11 @@ ISO_API iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const
 /* A map of kinds of motion over the energy h and a second integral F. */
 enum { ISO_PLOT_PARTS = 4, ISO_PLOT_LINES = 4 };
 typedef struct iso_plot_map {
-    const char *title, *F;             /* F: as gnuplot writes it, "F_{shell}"                                    */
-    int parts, lines;                  /* at most ISO_PLOT_PARTS, ISO_PLOT_LINES                                  */
+    const char *title, *F; /* F: as gnuplot writes it, "F_{shell}"                                    */
+    int parts, lines;      /* at most ISO_PLOT_PARTS, ISO_PLOT_LINES                                  */
     const char *part[ISO_PLOT_PARTS], *line[ISO_PLOT_LINES]; /* their names                                       */
-    const iso_record *bounds;          /* columns h > 0, low and high F of each part, F of each line; NaN: none */
-    double at[2];                      /* (h, F) of an orbit, h > 0                                               */
+    const iso_record *bounds; /* columns h > 0, low and high F of each part, F of each line; NaN: none */
+    double at[2];             /* (h, F) of an orbit, h > 0                                               */
 } iso_plot_map;
 
 /* On the left F over h, on the right F/h over h, where thin parts can be told apart.
@@ -83,6 +83,14 @@ ISO_API iso_status iso_plot_indicators(iso_context *ctx, const char *path, const
 ISO_API iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis,
                                       const iso_record *spots);
 
+/* The splitting of the separatrix. On the left |m| over k, as spots with errors, blue for m > 0, vermillion for m < 0,
+ * triangles where m is not distinguished from 0: they are upper bounds. On the right, if there is a curve, W^u(O) and its mirror
+ * W^s(O') on the section. rows: columns k, m, error; NULL or empty: only the right one. curve: columns u and x, as
+ * iso_splitting_curve has them; NULL: none. at: the k of the curve. axis: of its section, 0 to 2.
+ * Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
+                                      const iso_record *curve, double at, int axis);
+
 /* One method's line of a work-precision diagram. */
 typedef struct iso_plot_series {
     const char *panel, *name; /* a name looks the same in every panel; NULL: a thin grey line, one of the others */
@@ -105,7 +113,7 @@ ISO_API iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_p
 
 /* Crossings of one section n_a = 0 by both models, as points (l, x) of the chart (map/section.h). */
 typedef struct iso_plot_section {
-    const char *title;        /* one line, any characters; NULL: none                                          */
+    const char *title; /* one line, any characters; NULL: none                                          */
     const iso_params *params;
     double eps;               /* the coupling, > 0, if the orbits are free; 0: x is drawn in place of L        */
     int axis;                 /* a, 0 to 2                                                                     */
@@ -114,14 +122,24 @@ typedef struct iso_plot_section {
     const double (*ball)[2];  /* (l, x) of each by the ball ...                                                */
     const double (*point)[2]; /* ... and by the point; the same array where there is only one                  */
     size_t orbits;
-    const bool *grey;         /* of each orbit: it is drawn in grey, behind the others; NULL: none             */
-    const char *grey_means;   /* what the key says of grey, such as "chaotic"; NULL: there is no key           */
+    const bool *grey;       /* of each orbit: it is drawn in grey, behind the others; NULL: none             */
+    const char *grey_means; /* what the key says of grey, such as "chaotic"; NULL: there is no key           */
 } iso_plot_section;
 
 /* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that
  * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l). Each orbit has one colour.
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis or orbit), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
+
+/* Where the rotations about the axes of least and greatest moment are stable: the records of study/stability_chart.h.
+ * moment: the name of the one that varies. Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const char *moment,
+                                      const iso_record *grid, const iso_record *borders);
+
+/* Followed orbits: columns branch (0, 1, ...), value, x, trace, by branch and along it; x is |x|, or on x = 0 the part
+ * 2 l/pi. parameter: the name of what varies. Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_branches(iso_context *ctx, const char *path, const char *title, const char *parameter,
+                                     const iso_record *points);
 
 ISO_C_END
 

@@ -19,6 +19,12 @@ bool iso_section_is_global(const iso_params *p, int axis)
     return p->J[axis] == p->J[iso_section_axis(p)];
 }
 
+bool iso_section_is_rotation(const double y[ISO_STATE], int axis)
+{
+    const double swing = fmax(fabs(y[(axis + 1) % 3]), fabs(y[(axis + 2) % 3])) / largest(y);
+    return fmax(fabs(y[3 + axis]), swing) <= 1e-14;
+}
+
 /* The components b and c, which take the places of 1 and 2 in the equations for a = 3. */
 static void sides(int axis, int *b, int *c)
 {

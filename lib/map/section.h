@@ -38,6 +38,10 @@ ISO_API int iso_section_axis(const iso_params *p);
  * global as well: exactly where iso_section_bounds gives W[0] > 0. */
 ISO_API bool iso_section_is_global(const iso_params *p, int axis);
 
+/* Whether a free orbit is the rotation about this axis, in the plane n_axis = 0 itself: at y, which is (omega, n) or
+ * (M, gamma), n_axis is 0 up to rounding, and so is its rate. */
+bool iso_section_is_rotation(const double y[ISO_STATE], int axis);
+
 /* The crossing at (l, x), as a point (M, gamma) on H = 0. |x| <= 1. */
 ISO_API void iso_section_point(const iso_params *p, double eps, int axis, double l, double x,
                                double point[ISO_STATE]);

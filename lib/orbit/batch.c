@@ -11,7 +11,7 @@
 #include "orbit/orbit_impl.h"
 #include "orbit/pool_impl.h"
 
-/* Orbits that a thread takes at a time, if there are so many: enough to keep its lanes busy to the end. */
+/* Orbits that a thread takes at a time: enough to keep its lanes busy to the end. */
 enum { CHUNK = 256 };
 
 /* What all threads share. */
@@ -63,21 +63,18 @@ static iso_orbit_options options_of(const batch *b, size_t i, iso_backend backen
                                .with_clock = {o->with_clock[0], o->with_clock[1], o->with_clock[2]}};
 }
 
-static iso_status prepare_as(iso_pool_worker *w, const batch *b, size_t i, member *m, iso_backend backend)
-{
-    const iso_batch_orbit *orbit = &b->orbits[i];
-    memset(&m->orbit, 0, sizeof m->orbit);
-    m->orbit.ctx = w->ctx;
-    m->orbit.options = options_of(b, i, backend);
-    return iso_orbit_prepare(&m->orbit, orbit->params, orbit->start, m->job.start);
-}
-
-/* The point needs fewer products than the ball; small |k| makes the map between them steep. */
 static iso_status prepare(iso_pool_worker *w, const batch *b, size_t i, member *m)
 {
-    const bool try_point = b->options->backend == ISO_BACKEND_AUTO && fabs(b->orbits[i].params->k) >= 0.125;
-    iso_status status = try_point ? prepare_as(w, b, i, m, ISO_BACKEND_POINT) : ISO_NOT_MAPPED;
-    if (status != ISO_OK) status = prepare_as(w, b, i, m, b->options->backend);
+    const iso_batch_orbit *orbit = &b->orbits[i];
+    const iso_backend asked = b->options->backend;
+    iso_way way = iso_way_first(orbit->params, asked, asked, false);
+    iso_status status;
+    do {
+        memset(&m->orbit, 0, sizeof m->orbit);
+        m->orbit.ctx = w->ctx;
+        m->orbit.options = options_of(b, i, way.backend);
+        status = iso_orbit_prepare(&m->orbit, orbit->params, orbit->start, m->job.start);
+    } while (iso_way_next(&way, status));
     return status == ISO_OK && b->rows > 0 ? iso_orbit_check_time(&m->orbit, b->times[b->rows - 1]) : status;
 }
 
@@ -198,7 +195,6 @@ iso_status iso_batch_run(iso_context *ctx, const iso_batch_orbit orbits[], size_
     const size_t threads = iso_pool_threads(own.threads, count, code->lanes);
     batch b = {.orbits = orbits, .rows = rows, .options = &own, .times = times, .samples = samples, .code = code};
     iso_pool pool = {.count = count, .chunk = CHUNK, .solve = solve_chunk, .data = &b};
-    if (count / threads < CHUNK) pool.chunk = count / threads + 1;
     b.status = status ? status : malloc((count + 1) * sizeof *b.status);
     if (!b.status) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a batch");
     for (size_t i = 0; i < count; i++) b.status[i] = ISO_STOPPED;

@@ -9,49 +9,11 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
-#include "base/vec3_impl.h"
 #include "map/section.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings_impl.h"
 #include "orbit/pool_impl.h"
-
-/* --- shared by both ways of following --------------------------------------------------------------------------- */
-
-int iso_crossings_axis(const iso_crossings *c, size_t i)
-{
-    if (c->options.kind != ISO_SECTION_AXIS) return -1;
-    return c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(c->orbits[i].params) : c->options.axis;
-}
-
-/* By the directions of M and gamma, also of a ball (18): so both models agree about a start. gamma_a oscillates at the
- * rate of about |M|. So gamma_a'/|M| has the size of gamma_a. */
-bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis)
-{
-    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
-    double M[3], gamma[3];
-    for (int i = 0; i < 3; i++) {
-        M[i] = model == ISO_BALL ? copysign(p->root_J[i], p->k) * (y[i] / largest(y)) : y[i] / largest(y);
-        gamma[i] = model == ISO_BALL ? y[3 + i] / p->root_J[i] : y[3 + i];
-    }
-    const double pace = norm(M), rise = gamma[b] * M[c] - gamma[c] * M[b];
-    const double swing = hypot(pace * gamma[axis], rise);
-    return rise >= 0 && fabs(pace * gamma[axis]) <= ISO_ON_SECTION * swing;
-}
-
-bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)
-{
-    const double part = 1e-9 + 100 * tolerance, rounding = 1e-14 * fabs(s);
-    if (isnan(bound[0]) || isnan(bound[1]) || isnan(apart)) return true;
-    if (apart > bound[1] * (1 + part) + rounding) return false;
-    return !least || apart >= bound[0] * (1 - part) - rounding;
-}
-
-void iso_crossing_blank(iso_crossing *crossing)
-{
-    double *number = (double *)crossing;
-    for (size_t i = 0; i < sizeof *crossing / sizeof *number; i++) number[i] = NAN;
-}
 
 /* --- making ----------------------------------------------------------------------------------------------------- */
 
@@ -96,6 +58,13 @@ static iso_status check(iso_context *ctx, const iso_crossings_options *o)
     return check_section(ctx, o);
 }
 
+/* The axis of the section of orbit i; -1: the section is none of ISO_SECTION_AXIS. */
+static int axis_of(const iso_crossings *c, size_t i)
+{
+    if (c->options.kind != ISO_SECTION_AXIS) return -1;
+    return c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(c->orbits[i].params) : c->options.axis;
+}
+
 iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
                                 const iso_crossings_options *options, iso_crossings **crossings)
 {
@@ -113,7 +82,7 @@ iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[]
         return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the crossings of %zu orbits", count);
     }
     *c = (iso_crossings){.ctx = ctx, .orbits = orbits, .count = count, .options = own, .orbit = each};
-    for (size_t i = 0; i < count; i++) each[i].axis = iso_crossings_axis(c, i);
+    for (size_t i = 0; i < count; i++) each[i].axis = axis_of(c, i);
     *crossings = c;
     return ISO_OK;
 }
@@ -198,7 +167,13 @@ static iso_status one_by_one(iso_crossings *c, const iso_crossings_task *t, cons
     size_t alone = 0;
     for (size_t i = 0; i < c->count; i++) alone += !taken[i];
     if (alone == 0) return ISO_OK;
-    return iso_pool_run(c->ctx, &pool, iso_pool_threads(c->options.threads, alone, 1), t->status);
+    return iso_pool_run(c->ctx, &pool, iso_pool_threads(c->options.threads, alone, 1), NULL);
+}
+
+const char *iso_crossings_why(const iso_crossings *c, size_t i)
+{
+    const iso_crossed *o = &c->orbit[i];
+    return o->why ? o->why : iso_status_text(o->status);
 }
 
 /* Fails with the status and the message of the first wanted orbit that has failed. */
@@ -207,8 +182,7 @@ static iso_status tell_first(const iso_crossings *c, const iso_crossings_task *t
     for (size_t i = 0; i < c->count; i++) {
         const iso_crossed *o = &c->orbit[i];
         if (o->status == ISO_OK || (t->wanted && !t->wanted[i])) continue;
-        return iso_context_fail(c->ctx, o->status, o->about, "orbit %zu: %s", i,
-                                o->why ? o->why : iso_status_text(o->status));
+        return iso_context_fail(c->ctx, o->status, o->about, "orbit %zu: %s", i, iso_crossings_why(c, i));
     }
     return ISO_OK;
 }
@@ -222,9 +196,9 @@ iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, 
     blank(c, &task);
     if (!taken) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for crossings");
     iso_status answer = iso_crossings_in_lanes(c, &task, taken);
-    if (answer != ISO_NO_MEMORY && answer != ISO_STOPPED) answer = one_by_one(c, &task, taken);
+    if (answer == ISO_OK) answer = one_by_one(c, &task, taken);
     free(taken);
     for (size_t i = 0; answer == ISO_STOPPED && i < c->count; i++) /* those that nobody has taken up */
         if (status[i] == ISO_OK && done[i] < each && (!wanted || wanted[i])) status[i] = ISO_STOPPED;
-    return answer == ISO_NO_MEMORY || answer == ISO_STOPPED ? answer : tell_first(c, &task);
+    return answer == ISO_OK ? tell_first(c, &task) : answer;
 }

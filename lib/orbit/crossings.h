@@ -103,6 +103,9 @@ enum { ISO_MOST_BETWEEN = 10000 };
 ISO_API iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
                                     iso_sample sample[], size_t done[], iso_status status[]);
 
+/* Why orbit i has failed, in words without its number. */
+const char *iso_crossings_why(const iso_crossings *c, size_t i);
+
 ISO_C_END
 
 #endif

@@ -13,30 +13,16 @@
 
 /* --- the orbit -------------------------------------------------------------------------------------------------- */
 
-static iso_status create_as(const iso_crossings *c, size_t i, iso_backend backend, bool clocks, iso_orbit **orbit)
-{
-    const iso_orbit_options how = iso_crossings_orbit_options(c, i, backend, clocks);
-    return iso_orbit_create(c->orbit[i].ctx, c->orbits[i].params, c->orbits[i].start, &how, orbit);
-}
-
-/* Without an isomorphism there are no other clocks. If they do not fit a double, the orbit goes on without them. */
-static iso_status create_with_clocks(const iso_crossings *c, size_t i, iso_backend backend, iso_orbit **orbit)
-{
-    const iso_effects *effects = c->orbits[i].effects;
-    const bool mapped = !effects || !iso_effects_breaking(effects);
-    iso_status status = create_as(c, i, backend, mapped, orbit);
-    if (status == ISO_NUMERICAL && mapped) status = create_as(c, i, backend, false, orbit);
-    return status;
-}
-
-/* As in batches: the point needs fewer products than the ball, and small |k| makes the map between them steep. */
 static iso_status create(const iso_crossings *c, size_t i, iso_orbit **orbit)
 {
-    const bool choose = c->options.backend == ISO_BACKEND_AUTO;
-    const bool try_point = choose && fabs(c->orbits[i].params->k) >= 0.125;
-    iso_status status = try_point ? create_with_clocks(c, i, ISO_BACKEND_POINT, orbit) : ISO_NOT_MAPPED;
-    if (status == ISO_OK || status == ISO_NO_MEMORY) return status;
-    return create_with_clocks(c, i, choose ? ISO_BACKEND_BALL : c->options.backend, orbit);
+    const iso_batch_orbit *of = &c->orbits[i];
+    iso_way way = iso_crossings_way(c, i);
+    iso_status status;
+    do {
+        const iso_orbit_options how = iso_crossings_orbit_options(c, i, way);
+        status = iso_orbit_create(c->orbit[i].ctx, of->params, of->start, &how, orbit);
+    } while (iso_way_next(&way, status));
+    return status;
 }
 
 /* --- the start -------------------------------------------------------------------------------------------------- */
@@ -62,7 +48,8 @@ static iso_status begin(iso_crossings *c, size_t i)
     iso_crossings_bounds(o->alone, o);
     if (o->axis < 0) return ISO_OK;
     const double *y = state_of(o->alone, &start);
-    o->begins_on_it = iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(o->alone), y, o->axis);
+    o->begins_on_it =
+        iso_crossings_on_section(c->orbits[i].params, iso_crossings_model(o->alone), y, o->axis, &o->upwards);
     return iso_crossings_check_plane(o->ctx, o->alone, y, o->axis);
 }
 
@@ -124,7 +111,7 @@ static void fill(const iso_crossed *o, const iso_sample *sample, iso_crossing *t
     if (!iso_orbit_has_twin(o->alone)) to->clock[ISO_CLOCK_TAU] = to->clock[ISO_CLOCK_S] = NAN;
     if (o->axis < 0) return;
     double point[ISO_STATE];
-    iso_crossings_point(o->alone, state_of(o->alone, sample), point);
+    iso_crossings_point(&o->alone->units.own, iso_crossings_model(o->alone), state_of(o->alone, sample), point);
     iso_section_chart(o->axis, point, &to->l, &to->x);
 }
 

@@ -19,20 +19,27 @@ static bool needs(const iso_crossings_options *o, iso_backend backend, iso_shown
     return o->kind == ISO_SECTION_COLUMN && of_point == point;
 }
 
-iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_backend backend, bool clocks)
+iso_way iso_crossings_way(const iso_crossings *c, size_t i)
+{
+    const iso_backend asked = c->options.backend, last = asked == ISO_BACKEND_AUTO ? ISO_BACKEND_BALL : asked;
+    const iso_effects *effects = c->orbits[i].effects;
+    return iso_way_first(c->orbits[i].params, asked, last, !effects || !iso_effects_breaking(effects));
+}
+
+iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_way way)
 {
     const iso_crossings_options *o = &c->options;
     const iso_batch_orbit *of = &c->orbits[i];
     iso_orbit_options how = iso_orbit_defaults(of->start);
     how.effects = of->effects;
-    how.backend = backend;
+    how.backend = way.backend;
     how.tolerance = o->tolerance;
-    how.clock = backend == ISO_BACKEND_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
+    how.clock = way.backend == ISO_BACKEND_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
     if (o->kind == ISO_SECTION_CLOCK) how.clock = o->clock;
-    for (iso_clock k = 0; k < ISO_CLOCKS; k++) how.with_clock[k] = clocks;
-    how.shown = !needs(o, backend, ISO_SHOW_POINT)  ? ISO_SHOW_BALL
-                : !needs(o, backend, ISO_SHOW_BALL) ? ISO_SHOW_POINT
-                                                    : ISO_SHOW_BOTH;
+    for (iso_clock k = 0; k < ISO_CLOCKS; k++) how.with_clock[k] = way.clocks;
+    how.shown = !needs(o, way.backend, ISO_SHOW_POINT)  ? ISO_SHOW_BALL
+                : !needs(o, way.backend, ISO_SHOW_BALL) ? ISO_SHOW_POINT
+                                                        : ISO_SHOW_BOTH;
     return how;
 }
 
@@ -43,12 +50,10 @@ iso_model_kind iso_crossings_model(const iso_orbit *orbit)
 
 /* --- bounds ----------------------------------------------------------------------------------------------------- */
 
-/* Without a potential, an orbit in the plane n_a = 0 stays in it. There n_a is 0, and so is its rate (relative to the
- * largest), up to rounding. */
+/* Without a potential, an orbit in the plane n_a = 0 stays in it. */
 iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis)
 {
-    const double swing = fmax(fabs(y[(axis + 1) % 3]), fabs(y[(axis + 2) % 3])) / largest(y);
-    if (fmax(fabs(y[3 + axis]), swing) > 1e-14 || iso_effects_pull(&orbit->effects)) return ISO_OK;
+    if (!iso_section_is_rotation(y, axis) || iso_effects_pull(&orbit->effects)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "axis",
                             "this orbit is the rotation about axis %d, in the plane n_%d = 0 itself: it is the "
                             "boundary of the section, and never crosses it",
@@ -67,12 +72,49 @@ void iso_crossings_bounds(const iso_orbit *orbit, iso_crossed *o)
     o->bound[1] = 2 * ISO_PI / W[0];
 }
 
+/* The largest Omega^2 = (2 eps k^3/det J^2) q (J_a - (1-k) q) for q between min J and max J. */
+static double fastest(const iso_params *p, double eps, int axis)
+{
+    const double k = p->k, least = min3(p->J), most = max3(p->J), top = p->J[axis] / (2 * (1 - k));
+    const double q[3] = {least, most, top > least && top < most ? top : most};
+    double square = 0;
+    for (int i = 0; i < 3; i++)
+        square = fmax(square, 2 * eps / p->det_J * (k * k * k / p->det_J) * q[i] * (p->J[axis] - (1 - k) * q[i]));
+    return sqrt(square);
+}
+
+/* The number of parts in a unit of the variable of the series, so that gamma_a has at most one zero in each. A zero
+ * shows by the signs of n_a at the ends of a part. In s, a part of length x is short enough if W x <= pi, by Sturm. In
+ * t, let r = ds/dt ~ q^(1+1/(2k)) and Omega = W r. Lyapunov's inequality 4 < (s2 - s1) int W^2 ds between two zeros
+ * gives
+ *
+ *     4 < int r dt int (Omega^2/r) dt <= Omega_max^2 x^2 (rho + 1)^2/(4 rho),    rho = r_max/r_min in the part
+ *
+ * q changes at a rate of |q_t/q| <= B = (J_max - J_min) (2 h k^2/det J)^(1/2). So rho <= e if x B |1 + 1/(2k)| <= 1.
+ * Then two zeros are more than 1.77/Omega_max apart. */
+double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock variable)
+{
+    double W[2];
+    iso_section_bounds(p, eps, axis, W);
+    if (variable == ISO_CLOCK_S) return W[1] / ISO_PI;
+    const double h = iso_energy(p, eps), turn = sqrt(2 * h * p->k * p->k / p->det_J) * (max3(p->J) - min3(p->J));
+    return fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(p, eps, axis) / 1.77);
+}
+
+bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)
+{
+    const double part = 1e-9 + 100 * tolerance, rounding = 1e-14 * fabs(s);
+    if (isnan(bound[0]) || isnan(bound[1]) || isnan(apart)) return true;
+    if (apart > bound[1] * (1 + part) + rounding) return false;
+    return !least || apart >= bound[0] * (1 - part) - rounding;
+}
+
 /* By Sturm's comparison. A larger distance means a skipped crossing, a smaller one a crossing found twice. A start on
  * the section is on it up to ISO_ON_SECTION. */
 iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,
                               double s)
 {
-    const bool least = o->count > 0 || o->begins_on_it;
+    const bool least = o->count > 0 || (o->begins_on_it && o->upwards);
     const double loose = o->count == 0 ? ISO_ON_SECTION : 0;
     const double bound[2] = {(1 - loose) * o->bound[0], (1 + loose) * o->bound[1]};
     if (iso_crossings_apart(bound, least, s - o->s, s, c->options.tolerance)) return ISO_OK;
@@ -87,14 +129,36 @@ iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const is
 
 /* The chart needs only the directions of M and gamma. M has the direction of J^(1/2) omega (for k < 0 the opposite
  * one), and gamma that of J^(-1/2) n (18). So a ball without a twin has a chart as well. */
-void iso_crossings_point(const iso_orbit *orbit, const double y[ISO_STATE], double point[ISO_STATE])
+void iso_crossings_point(const iso_params *p, iso_model_kind model, const double y[ISO_STATE],
+                         double point[ISO_STATE])
 {
-    const iso_params *own = &orbit->units.own;
     copy(y, point, ISO_STATE);
-    for (int i = 0; i < 3 && iso_crossings_model(orbit) == ISO_BALL; i++) {
-        point[i] *= copysign(own->root_J[i], own->k);
-        point[3 + i] /= own->root_J[i];
+    for (int i = 0; i < 3 && model == ISO_BALL; i++) {
+        point[i] *= copysign(p->root_J[i], p->k);
+        point[3 + i] /= p->root_J[i];
     }
+}
+
+/* By the directions of M and gamma, also of a ball: so both models agree about a start. gamma_a oscillates at the rate
+ * of about |M|. So gamma_a'/|M| has the size of gamma_a. */
+bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis,
+                              bool *upwards)
+{
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    double point[ISO_STATE];
+    for (int i = 0; i < 3; i++) point[i] = y[i] / largest(y), point[3 + i] = y[3 + i];
+    iso_crossings_point(p, model, point, point);
+    const double *M = point, *gamma = point + 3;
+    const double pace = norm(M), rise = gamma[b] * M[c] - gamma[c] * M[b];
+    const double swing = hypot(pace * gamma[axis], rise);
+    *upwards = rise >= 0;
+    return fabs(pace * gamma[axis]) <= ISO_ON_SECTION * swing;
+}
+
+void iso_crossing_blank(iso_crossing *crossing)
+{
+    double *number = (double *)crossing;
+    for (size_t i = 0; i < sizeof *crossing / sizeof *number; i++) number[i] = NAN;
 }
 
 /* What the caller does not ask for is NaN. */

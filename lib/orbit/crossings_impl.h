@@ -21,6 +21,7 @@ typedef struct iso_crossed {
     size_t count;      /* crossings so far                                                                        */
     double time, s;    /* of the last crossing, or 0; time: of the orbit's own clock, in the caller's units       */
     bool begins_on_it; /* the start lies on the section: it is no crossing                                        */
+    bool upwards;      /* ... and n_a increases there: a whole return to the first crossing                  */
     double bound[2];   /* least and largest s between two crossings; NaN: no bounds are known                     */
     int axis;          /* of ISO_SECTION_AXIS                                                                     */
     iso_status status; /* the failure that ended the orbit, or ISO_OK                                              */
@@ -47,7 +48,7 @@ typedef struct iso_crossings_task {
 } iso_crossings_task;
 
 /* Follows the wanted orbits that lanes can hold. For each of them taken[i] becomes true, and done[i], status[i], the
- * crossings and samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED, or that of the first orbit that failed. */
+ * crossings and samples are filled in. Errors: ISO_NO_MEMORY, ISO_STOPPED; failures of orbits are in status[i]. */
 iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *task, bool taken[]);
 void iso_crossings_free_lane(struct iso_crossings_lane *lane);
 
@@ -59,22 +60,26 @@ void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_
 iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_crossing crossing[],
                                   iso_sample sample[], size_t *done);
 
-/* The axis of the section of an orbit; -1: the section is none of ISO_SECTION_AXIS. */
-int iso_crossings_axis(const iso_crossings *c, size_t i);
+/* n_axis has at most one zero within 1/(this number) of `variable`: the clock t or s of an orbit with coupling eps. */
+double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock variable);
 
 /* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section: n_a = 0 up to 1e-8 of a
- * radian of its oscillation, and not falling. Such a start is no crossing, and an event there is not counted. Without
- * this margin ball and point, or lanes and single orbits, would disagree if n_a is 0 up to rounding. A start at which
- * n_a falls through 0 lies half an oscillation before the section. */
-bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis);
+ * radian of its oscillation. Such a start is no crossing, and an event there is not counted. Without this margin ball
+ * and point, or lanes and single orbits, would disagree if n_a is 0 up to rounding. *upwards: n_a increases; else the
+ * first crossing comes after half an oscillation. */
+bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis,
+                              bool *upwards);
 
 /* Whether the distance `apart` in s of two crossings of a free orbit is within the bounds, up to rounding. s: of the
  * second crossing. NaN bounds allow everything. `least` false: the first is no crossing, so only the upper bound
  * counts. */
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance);
 
-/* The options with which orbit i is created: by `backend`, with the other clocks if `clocks`. */
-iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_backend backend, bool clocks);
+/* The first way to prepare orbit i. Without an isomorphism there are no other clocks. */
+iso_way iso_crossings_way(const iso_crossings *c, size_t i);
+
+/* The options with which orbit i is created. */
+iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_way way);
 
 /* The model that an orbit integrates. */
 iso_model_kind iso_crossings_model(const iso_orbit *orbit);
@@ -90,7 +95,8 @@ iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const is
                               double s);
 
 /* The directions of (M, gamma) at a state of the model; the lengths differ. point and y may be one array. */
-void iso_crossings_point(const iso_orbit *orbit, const double y[ISO_STATE], double point[ISO_STATE]);
+void iso_crossings_point(const iso_params *p, iso_model_kind model, const double y[ISO_STATE],
+                         double point[ISO_STATE]);
 
 /* The sample that the caller asks for. */
 void iso_crossings_give(const iso_crossings *c, const iso_sample *from, iso_sample *to);

@@ -1,14 +1,5 @@
 /* crossings_lanes.c - many orbits from crossing to crossing in the lanes of vectors, on all threads, with deviations
  * beside them if they are asked for.
- *
- * Lanes divide each step into parts so short that n_a has at most one zero in each. A zero shows by the signs of n_a
- * at the ends of a part. In s, a part of length x is short enough if W x <= pi, by Sturm. In t, let r = ds/dt ~
- * q^(1+1/(2k)) and Omega = W r. Lyapunov's inequality 4 < (s2 - s1) int W^2 ds between two zeros gives
- *
- *     4 < int r dt int (Omega^2/r) dt <= Omega_max^2 x^2 (rho + 1)^2/(4 rho),    rho = r_max/r_min in the part
- *
- * q changes at a rate of |q_t/q| <= B = (J_max - J_min) (2 h k^2/det J)^(1/2). So rho <= e if x B |1 + 1/(2k)| <= 1.
- * Then two zeros are more than 1.77/Omega_max apart.
  */
 #include <math.h>
 #include <stddef.h>
@@ -45,17 +36,6 @@ typedef struct follower {
 
 /* --- preparing -------------------------------------------------------------------------------------------------- */
 
-/* The largest Omega^2 = (2 eps k^3/det J^2) q (J_a - (1-k) q) for q between min J and max J. */
-static double fastest(const iso_params *p, double eps, int axis)
-{
-    const double k = p->k, least = min3(p->J), most = max3(p->J), top = p->J[axis] / (2 * (1 - k));
-    const double q[3] = {least, most, top > least && top < most ? top : most};
-    double square = 0;
-    for (int i = 0; i < 3; i++)
-        square = fmax(square, 2 * eps / p->det_J * (k * k * k / p->det_J) * q[i] * (p->J[axis] - (1 - k) * q[i]));
-    return sqrt(square);
-}
-
 /* The bounds of the search for crossings, in the variable of the series. */
 static void set_search(struct iso_crossings_lane *lane, const iso_crossed *o)
 {
@@ -63,45 +43,28 @@ static void set_search(struct iso_crossings_lane *lane, const iso_crossed *o)
     const iso_params *p = &orbit->units.own;
     iso_lane_job *job = &lane->job;
     job->axis = o->axis;
+    const iso_clock variable = iso_lane_clock(&orbit->model);
+    job->zeros = iso_crossings_zeros(p, orbit->eps, o->axis, variable);
     job->longest = o->bound[1];
-    job->zeros = 2 / o->bound[0];
-    if (iso_lane_clock(&orbit->model) == ISO_CLOCK_S) return;
-    const double h = orbit->h, turn = sqrt(2 * h * p->k * p->k / p->det_J) * (max3(p->J) - min3(p->J));
-    const double slowest =
+    if (variable == ISO_CLOCK_S) return;
+    job->longest /=
         fmin(iso_clock_rate(p, ISO_CLOCK_S, min3(p->J), NULL), iso_clock_rate(p, ISO_CLOCK_S, max3(p->J), NULL));
-    job->zeros = fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(p, orbit->eps, o->axis) / 1.77);
-    job->longest = o->bound[1] / slowest;
-}
-
-static iso_status prepare_as(iso_pool_worker *w, const iso_crossings *c, size_t i, iso_backend backend, bool clocks,
-                             struct iso_crossings_lane *lane)
-{
-    const iso_batch_orbit *of = &c->orbits[i];
-    memset(&lane->orbit, 0, sizeof lane->orbit);
-    lane->orbit.ctx = w->ctx;
-    lane->orbit.options = iso_crossings_orbit_options(c, i, backend, clocks);
-    if (c->options.kind == ISO_SECTION_AXIS)
-        lane->orbit.options.clock = ISO_CLOCK_T; /* its series are the shortest */
-    lane->has_clocks = clocks;
-    return iso_orbit_prepare(&lane->orbit, of->params, of->start, lane->job.start);
-}
-
-/* With all clocks, if there is an isomorphism and they fit a double. */
-static iso_status prepare_with_clocks(iso_pool_worker *w, const iso_crossings *c, size_t i, iso_backend backend,
-                                      struct iso_crossings_lane *lane)
-{
-    const iso_effects *effects = c->orbits[i].effects;
-    const bool mapped = !effects || !iso_effects_breaking(effects);
-    const iso_status status = prepare_as(w, c, i, backend, mapped, lane);
-    return status == ISO_NUMERICAL && mapped ? prepare_as(w, c, i, backend, false, lane) : status;
 }
 
 static iso_status prepare(iso_pool_worker *w, const iso_crossings *c, size_t i, struct iso_crossings_lane *lane)
 {
-    const bool choose = c->options.backend == ISO_BACKEND_AUTO;
-    const bool try_point = choose && fabs(c->orbits[i].params->k) >= 0.125;
-    iso_status status = try_point ? prepare_with_clocks(w, c, i, ISO_BACKEND_POINT, lane) : ISO_NOT_MAPPED;
-    if (status != ISO_OK) status = prepare_with_clocks(w, c, i, choose ? ISO_BACKEND_BALL : c->options.backend, lane);
+    const iso_batch_orbit *of = &c->orbits[i];
+    iso_orbit *orbit = &lane->orbit;
+    iso_way way = iso_crossings_way(c, i);
+    iso_status status;
+    do {
+        memset(orbit, 0, sizeof *orbit);
+        orbit->ctx = w->ctx;
+        orbit->options = iso_crossings_orbit_options(c, i, way);
+        if (c->options.kind == ISO_SECTION_AXIS) orbit->options.clock = ISO_CLOCK_T; /* its series are the shortest */
+        lane->has_clocks = way.clocks;
+        status = iso_orbit_prepare(orbit, of->params, of->start, lane->job.start);
+    } while (iso_way_next(&way, status));
     return status;
 }
 
@@ -113,14 +76,14 @@ static bool suits(const iso_crossings *c, const struct iso_crossings_lane *lane,
     return lane->has_clocks && isfinite(o->bound[0]) && isfinite(o->bound[1]);
 }
 
-static bool starts_on_section(const iso_orbit *orbit, const double y[], int axis)
+static bool starts_on_section(const iso_orbit *orbit, const double y[], int axis, bool *upwards)
 {
     const iso_params *own = &orbit->units.own;
     double point[ISO_STATE];
     if (orbit->system != &iso_system_point_t)
-        return iso_crossings_on_section(own, iso_crossings_model(orbit), y, axis);
+        return iso_crossings_on_section(own, iso_crossings_model(orbit), y, axis, upwards);
     iso_point_t_to_point(own, y, point); /* for k < 0 the signs of M and y differ */
-    return iso_crossings_on_section(own, ISO_POINT, point, axis);
+    return iso_crossings_on_section(own, ISO_POINT, point, axis, upwards);
 }
 
 /* Prepares orbit i if lanes can follow it; else o->lane stays NULL. */
@@ -137,7 +100,7 @@ static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
         return status;
     }
     if (c->options.kind == ISO_SECTION_AXIS) {
-        o->begins_on_it = starts_on_section(&lane->orbit, lane->job.start, o->axis);
+        o->begins_on_it = starts_on_section(&lane->orbit, lane->job.start, o->axis, &o->upwards);
         status = iso_crossings_check_plane(w->ctx, &lane->orbit, lane->job.start, o->axis);
         set_search(lane, o);
     }
@@ -222,6 +185,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     iso_crossed *o = &c->orbit[i];
     struct iso_crossings_lane *lane = o->lane;
     const iso_orbit *orbit = &lane->orbit;
+    const iso_params *own = &orbit->units.own;
     double point[ISO_STATE];
     const double s = clock_of(orbit, ISO_CLOCK_S, y, time);
     iso_status status = iso_crossings_hold(w->ctx, c, o, orbit, s);
@@ -229,8 +193,8 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
     iso_crossing_blank(to);
     for (iso_clock k = 0; k < ISO_CLOCKS; k++) to->clock[k] = clock_of(orbit, k, y, time) * orbit->unit_clock[k];
     if (o->axis >= 0) {
-        orbit->system == &iso_system_point_t ? iso_point_t_to_point(&orbit->units.own, y, point)
-                                             : iso_crossings_point(orbit, y, point);
+        orbit->system == &iso_system_point_t ? iso_point_t_to_point(own, y, point)
+                                             : iso_crossings_point(own, iso_crossings_model(orbit), y, point);
         iso_section_chart(o->axis, point, &to->l, &to->x);
     }
     if (e) tell_deviations(lane, o, e, to);
@@ -247,7 +211,7 @@ static iso_status tell(iso_pool_worker *w, const iso_crossings *c, size_t i, con
 
 /* Room for what lanes store: for each orbit of a chunk, at most `rows` crossings at a time. */
 typedef struct room {
-    size_t rows, dim;
+    size_t rows;
     double *states, *times;
     iso_lane_event *events;
 } room;
@@ -264,9 +228,8 @@ static bool make_room(const follower *f, size_t orbits, room *r)
     const size_t bytes = f->c->options.deviations ? sizeof(iso_lane_event) : (ISO_MAX_STATE + 1) * sizeof(double);
     const size_t most = BYTES / (orbits * bytes);
     r->rows = f->task->each < most ? f->task->each : most;
-    r->dim = ISO_MAX_STATE;
     r->events = f->c->options.deviations ? malloc(orbits * r->rows * sizeof *r->events) : NULL;
-    r->states = f->c->options.deviations ? NULL : malloc(orbits * r->rows * r->dim * sizeof *r->states);
+    r->states = f->c->options.deviations ? NULL : malloc(orbits * r->rows * ISO_MAX_STATE * sizeof *r->states);
     r->times = malloc(orbits * r->rows * sizeof *r->times);
     if (r->times && (r->events || r->states)) return true;
     free_room(r);
@@ -284,8 +247,8 @@ static iso_lane_job *set_job(const follower *f, size_t i, size_t at, const room 
     job->done = 0;
     job->error = NULL;
     job->event = r->events ? r->events + at * r->rows : NULL;
-    job->states = r->states ? r->states + at * r->rows * r->dim : NULL;
-    job->stride = r->dim;
+    job->states = r->states ? r->states + at * r->rows * ISO_MAX_STATE : NULL;
+    job->stride = ISO_MAX_STATE;
     job->time = o->kind == ISO_SECTION_CLOCK ? times : NULL;
     job->passed = times;
     for (size_t j = 0; j < rows && job->time; j++) times[j] = (double)(orbit->count + j + 1) * o->value;
@@ -368,8 +331,7 @@ iso_status iso_crossings_in_lanes(iso_crossings *c, const iso_crossings_task *ta
     const size_t threads = iso_pool_threads(c->options.threads, c->count, f.code->lanes);
     iso_pool pool = {.count = c->count, .chunk = CHUNK, .solve = solve_chunk, .data = &f};
     if (task->each == 0 || c->options.kind == ISO_SECTION_COLUMN) return ISO_OK;
-    if (c->count / threads < CHUNK) pool.chunk = c->count / threads + 1;
-    return iso_pool_run(c->ctx, &pool, threads, task->status);
+    return iso_pool_run(c->ctx, &pool, threads, NULL);
 }
 
 void iso_crossings_free_lane(struct iso_crossings_lane *lane)

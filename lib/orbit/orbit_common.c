@@ -76,6 +76,29 @@ double iso_orbit_coupling(const iso_orbit *o)
     return o->eps == 0 ? 0 : o->eps * iso_unit(&o->units, iso_dimension_eps);
 }
 
+/* --- how it is prepared ----------------------------------------------------------------------------------------- */
+
+bool iso_point_is_better(const iso_params *p)
+{
+    return fabs(p->k) >= 0.125;
+}
+
+iso_way iso_way_first(const iso_params *p, iso_backend asked, iso_backend last, bool all_clocks)
+{
+    const bool point = asked == ISO_BACKEND_AUTO && iso_point_is_better(p);
+    return (iso_way){point ? ISO_BACKEND_POINT : last, last, all_clocks, all_clocks};
+}
+
+bool iso_way_next(iso_way *way, iso_status status)
+{
+    if (status == ISO_OK || status == ISO_NO_MEMORY) return false;
+    if (status == ISO_NUMERICAL && way->clocks) return way->clocks = false, true;
+    if (way->backend == way->last) return false;
+    way->backend = way->last;
+    way->clocks = way->all_clocks;
+    return true;
+}
+
 /* --- a message -------------------------------------------------------------------------------------------------- */
 
 iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out)

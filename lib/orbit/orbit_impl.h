@@ -35,6 +35,30 @@ iso_status iso_orbit_make_sample(const iso_orbit *o, double time, const double y
 /* Fails with ISO_NUMERICAL: what leaves the range of doubles for this k, and what to do about it. */
 iso_status iso_orbit_too_extreme(const iso_orbit *o, const char *what, const char *way_out);
 
+/* Whether it is better to integrate the point, which needs fewer products than the ball. For |k| < 1/8 it is not:
+ * powers q^(1/k) grow large, and the map between the models is steep. */
+bool iso_point_is_better(const iso_params *p);
+
+/* How an orbit of a batch, or of crossings, is prepared. One way after the other is tried:
+ *
+ *     iso_way way = iso_way_first(...);
+ *     do
+ *         status = ...;   prepares the orbit by way.backend, with all clocks if way.clocks
+ *     while (iso_way_next(&way, status));
+ */
+typedef struct iso_way {
+    iso_backend backend, last; /* now; of the last way                        */
+    bool clocks, all_clocks;   /* now; of the first way with each backend     */
+} iso_way;
+
+/* If `asked` is ISO_BACKEND_AUTO and the point is better, the point comes first. `last` comes last. Each is tried
+ * with all clocks if all_clocks. */
+iso_way iso_way_first(const iso_params *p, iso_backend asked, iso_backend last, bool all_clocks);
+
+/* Goes to the next way, if one is left after this status: without the other clocks if their numbers do not fit a
+ * double (ISO_NUMERICAL), else by the last backend. */
+bool iso_way_next(iso_way *way, iso_status status);
+
 /* From now on the orbit may take this many steps, counted from its start; 0: any number. */
 void iso_orbit_allow_steps(iso_orbit *o, long max_steps);
 

@@ -140,6 +140,7 @@ size_t iso_pool_threads(int threads, size_t count, int lanes)
 
 iso_status iso_pool_run(iso_context *ctx, iso_pool *all, size_t threads, const iso_status status[])
 {
+    if (all->count / threads < all->chunk) all->chunk = all->count / threads + 1;
     iso_pool_worker *workers = calloc(threads, sizeof *workers);
     if (!workers) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", all->count);
     const iso_status answer = run(ctx, all, workers, threads, status);

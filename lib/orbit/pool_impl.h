@@ -23,7 +23,7 @@ typedef struct iso_pool_worker {
 
 /* What all threads share. */
 struct iso_pool {
-    size_t count, chunk; /* orbits, and how many a thread takes at a time */
+    size_t count, chunk; /* orbits, and how many a thread takes at a time: fewer, if there are not so many */
     bool (*solve)(iso_pool_worker *w, void *data, size_t first, size_t count); /* false: no memory */
     void *data;
     atomic_size_t next; /* the first orbit that nobody has taken */
@@ -34,7 +34,8 @@ struct iso_pool {
 size_t iso_pool_threads(int threads, size_t count, int lanes);
 
 /* Solves all orbits on `threads` threads. Only the calling thread asks the monitor of ctx. Errors: ISO_NO_MEMORY;
- * ISO_STOPPED by the monitor; else the status of the first orbit that failed (status[i]), with its number. */
+ * ISO_STOPPED by the monitor; else the status of the first orbit that failed (status[i]), with its number. status is
+ * NULL if `solve` notes no failures (iso_pool_note). */
 iso_status iso_pool_run(iso_context *ctx, iso_pool *pool, size_t threads, const iso_status status[]);
 
 /* Keeps the first failure of a worker. The message is in w->ctx. */

@@ -10,6 +10,7 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "study/chaos_impl.h"
+#include "study/free_impl.h"
 #include "study/frequencies_impl.h"
 #include "study/section_impl.h"
 
@@ -95,10 +96,8 @@ static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_ef
 /* The axis about which a free orbit rotates in the plane n_axis = 0; -1: it does not. */
 static int find_plane(const double y[ISO_STATE])
 {
-    for (int a = 0; a < 3; a++) {
-        const double swing = fmax(fabs(y[(a + 1) % 3]), fabs(y[(a + 2) % 3])) / largest(y);
-        if (fmax(fabs(y[3 + a]), swing) <= 1e-14) return a;
-    }
+    for (int a = 0; a < 3; a++)
+        if (iso_section_is_rotation(y, a)) return a;
     return -1;
 }
 
@@ -177,7 +176,7 @@ static iso_status run(iso_chaos_walk *w)
     status = open_orbit(w, &start);
     if (status != ISO_OK) return status;
     const iso_effects effects = iso_orbit_effects(w->orbit);
-    const iso_effect *effect = iso_section_not_free(&effects);
+    const iso_effect *effect = iso_study_not_free(&effects);
     status = check_motion(w, &start);
     if (status == ISO_OK) status = check_starts(w, effect);
     if (status != ISO_OK) return status;

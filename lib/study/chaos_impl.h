@@ -17,7 +17,6 @@ typedef struct iso_chaos_walk {
     iso_orbit *orbit;    /* the scene's            */
     iso_section_spread spread;
     iso_chaos *out;
-    double done, all; /* turns, for the progress bar */
 } iso_chaos_walk;
 
 /* Follows all orbits. Errors: ISO_NO_MEMORY, ISO_STOPPED, those of iso_crossings_create, and the failure of the

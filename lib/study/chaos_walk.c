@@ -39,27 +39,16 @@ static iso_chaos_orbit *orbit_of(const group *g, size_t i)
     return g->first + i == 0 ? &c->own : &c->start[g->first + i - 1];
 }
 
-/* The chart of start i, which is spread or given. */
-static void chart_of(const iso_chaos_walk *w, size_t i, double *l, double *x)
-{
-    const iso_chaos_options *o = &w->options;
-    if (i < o->starts) {
-        iso_section_spread_point(&w->spread, i, l, x);
-        return;
-    }
-    *l = o->at[i - o->starts][0];
-    *x = o->at[i - o->starts][1];
-}
-
 static void make_starts(group *g)
 {
     const iso_chaos_walk *w = g->w;
+    const iso_chaos_options *how = &w->options;
     for (size_t i = 0; i < g->count; i++) {
         iso_chaos_orbit *o = orbit_of(g, i);
         *o = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_UNDECIDED};
         g->start[i] = w->scene->start;
         if (g->first + i > 0) {
-            chart_of(w, g->first + i - 1, &o->l, &o->x);
+            iso_section_chart_of_start(&w->spread, how->starts, how->at, g->first + i - 1, &o->l, &o->x);
             g->start[i] = iso_section_start(w->orbit, w->scene->start.model, w->out->axis, o->l, o->x);
         }
         g->orbit[i] = (iso_batch_orbit){&w->scene->params, &g->start[i], &w->effects};
@@ -102,20 +91,23 @@ static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators
     return ISO_OK;
 }
 
-/* The message of iso_crossings_go is about the first failure of the group, and begins with its number there. */
-static void note_failures(group *g, int model)
+/* Keeps the words of the first failure. */
+static void note_failure(const group *g, int model, size_t i, const char *words)
 {
     iso_chaos *c = g->w->out;
-    const char *words = strstr(iso_context_message(g->w->ctx), ": ");
-    for (size_t i = 0; i < g->count; i++) {
-        const iso_status status = g->model[model].status[i];
-        if (status == ISO_OK || status == ISO_STOPPED) continue;
-        orbit_of(g, i)->status[model] = status;
-        if (c->failure != ISO_OK) continue;
-        c->failure = status;
-        snprintf(c->words, sizeof c->words, "orbit %zu: %s", g->first + i,
-                 words ? words + 2 : iso_status_text(status));
-    }
+    const iso_status status = g->model[model].status[i];
+    orbit_of(g, i)->status[model] = status;
+    if (c->failure != ISO_OK) return;
+    c->failure = status;
+    snprintf(c->words, sizeof c->words, "orbit %zu: %s", g->first + i, words);
+}
+
+static void note_failures(const group *g, int model)
+{
+    const runner *r = &g->model[model];
+    for (size_t i = 0; i < g->count; i++)
+        if (r->status[i] != ISO_OK && r->status[i] != ISO_STOPPED)
+            note_failure(g, model, i, iso_crossings_why(r->crossings, i));
 }
 
 /* Adds the new crossings of an orbit until it has a verdict. */
@@ -131,10 +123,9 @@ static iso_status take(group *g, int model, size_t i)
         iso_beat beat;
         make_beat(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &beat);
         if (isnan(beat.growth[0] + beat.growth[1])) {
-            r->status[i] = ISO_NUMERICAL;
-            iso_context_fail(w->ctx, ISO_NUMERICAL, "", "orbit %zu: it stands still: its deviations have no length",
-                             i);
-            note_failures(g, model);
+            static const char *const words = "it stands still: its deviations have no length";
+            r->status[i] = iso_context_fail(w->ctx, ISO_NUMERICAL, "", "%s", words);
+            note_failure(g, model, i, words);
             break;
         }
         iso_indicators_add(shown, &beat);

@@ -6,6 +6,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
+#include "orbit/orbit_impl.h"
 #include "study/basis_impl.h"
 #include "study/chaos.h"
 #include "study/frequencies_impl.h"
@@ -138,7 +139,7 @@ static iso_verdict judge(const iso_estimate *e, const basis *b, bool integrable)
  * not, or cannot be computed (effects without deviations). */
 static iso_status ask_indicators(estimator *e)
 {
-    const bool point = e->twin && fabs(e->scene->params.k) >= 0.125; /* below, powers q^(1/k) grow large */
+    const bool point = e->twin && iso_point_is_better(&e->scene->params);
     iso_chaos_options o = iso_chaos_defaults();
     iso_chaos *c;
     e->indicated = ISO_UNDECIDED;

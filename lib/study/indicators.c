@@ -119,6 +119,36 @@ static double limit_of_square(const iso_look *look, double digits)
     return fabs(c[1]) < FLAT * size && fabs(c[2]) < FLAT * size ? 0 : (double)NAN;
 }
 
+/* --- the exponent ----------------------------------------------------------------------------------------------- */
+
+/* The parts after the first eighth of the turns: their number, and the gain of each sum over them. */
+static int late_parts(const iso_indicators *it, int *first, double gained[1 + ISO_CLOCKS])
+{
+    *first = it->parts / 8;
+    for (int i = 0; i <= ISO_CLOCKS; i++) gained[i] = it->sum[it->parts][i] - it->sum[*first][i];
+    return it->parts - *first;
+}
+
+/* The gain of ln D per unit of clock c (-1: per turn). Its error has two parts: the scatter over the parts, and 1 for
+ * the change of ln D with the place. */
+static double rate(const iso_indicators *it, int c, double *error)
+{
+    int first;
+    double gained[1 + ISO_CLOCKS], square = 0;
+    const int parts = late_parts(it, &first, gained);
+    const double length = c < 0 ? (double)(parts * it->part) : gained[1 + c], lam = gained[0] / length;
+    *error = NAN;
+    if (parts < 4) return NAN;
+    for (int i = first + 1; i <= it->parts; i++) {
+        const double *now = it->sum[i], *before = it->sum[i - 1];
+        const double unit = c < 0 ? (double)it->part : now[1 + c] - before[1 + c];
+        const double rest = now[0] - before[0] - lam * unit;
+        square += rest * rest;
+    }
+    *error = sqrt(1 + square * parts / (parts - 1)) / fabs(length);
+    return lam;
+}
+
 /* --- the verdict ------------------------------------------------------------------------------------------------ */
 
 /* Limits for the verdict. Two successive looks must agree. `gain` is the growth of ln D between the middles of the
@@ -156,8 +186,6 @@ static bool looks_regular(iso_indicators *it, const iso_look *look, double withi
     it->limit = limit_of_square(look, it->digits);
     return !isnan(it->limit);
 }
-
-static double rate(const iso_indicators *it, int c, double *error);
 
 static bool looks_chaotic(const iso_indicators *it)
 {
@@ -245,34 +273,6 @@ iso_verdict iso_indicators_verdict(const iso_indicators *it)
 }
 
 /* --- the indication --------------------------------------------------------------------------------------------- */
-
-/* The parts after the first eighth of the turns: their number, and the gain of each sum over them. */
-static int late_parts(const iso_indicators *it, int *first, double gained[1 + ISO_CLOCKS])
-{
-    *first = it->parts / 8;
-    for (int i = 0; i <= ISO_CLOCKS; i++) gained[i] = it->sum[it->parts][i] - it->sum[*first][i];
-    return it->parts - *first;
-}
-
-/* The gain of ln D per unit of clock c (-1: per turn). Its error has two parts: the scatter over the parts, and 1 for
- * the change of ln D with the place. */
-static double rate(const iso_indicators *it, int c, double *error)
-{
-    int first;
-    double gained[1 + ISO_CLOCKS], square = 0;
-    const int parts = late_parts(it, &first, gained);
-    const double length = c < 0 ? (double)(parts * it->part) : gained[1 + c], lam = gained[0] / length;
-    *error = NAN;
-    if (parts < 4) return NAN;
-    for (int i = first + 1; i <= it->parts; i++) {
-        const double *now = it->sum[i], *before = it->sum[i - 1];
-        const double unit = c < 0 ? (double)it->part : now[1 + c] - before[1 + c];
-        const double rest = now[0] - before[0] - lam * unit;
-        square += rest * rest;
-    }
-    *error = sqrt(1 + square * parts / (parts - 1)) / fabs(length);
-    return lam;
-}
 
 void iso_indicators_tell(const iso_indicators *it, iso_indication *told)
 {

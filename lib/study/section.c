@@ -14,16 +14,10 @@
 #include "base/vec3_impl.h"
 #include "base/version.h"
 #include "orbit/description.h"
+#include "study/free_impl.h"
 #include "study/section_impl.h"
 
 /* --- which section is global ------------------------------------------------------------------------------------ */
-
-const iso_effect *iso_section_not_free(const iso_effects *effects)
-{
-    const iso_effect *effect = iso_effects_beyond_level(effects);
-    if (effect || !iso_effects_have_level(effects)) return effect;
-    return iso_effect_list[iso_effect_find(iso_level_name())];
-}
 
 static void name_not_free(const iso_effect *effect, iso_section_nature *n)
 {
@@ -41,7 +35,7 @@ iso_section_nature iso_section_of(const iso_orbit *orbit, int axis)
 {
     const iso_units *units = iso_orbit_units(orbit);
     const iso_effects effects = iso_orbit_effects(orbit);
-    const iso_effect *effect = iso_section_not_free(&effects);
+    const iso_effect *effect = iso_study_not_free(&effects);
     const int good = iso_section_axis(&units->own);
     iso_section_nature n = {.axis = axis == ISO_AXIS_AUTO ? good : axis};
     double W[2];
@@ -94,7 +88,7 @@ static iso_status check_losses(const iso_section_walk *w)
 static iso_status check_starts(const iso_section_walk *w)
 {
     const iso_section_options *o = &w->options;
-    const iso_effect *effect = iso_section_not_free(&w->effects);
+    const iso_effect *effect = iso_study_not_free(&w->effects);
     const char *why = !w->chart ? "an event has no chart"
                       : effect  ? "the section has a chart only for free motions on H = 0"
                                 : NULL;

@@ -88,6 +88,9 @@ typedef struct iso_section_sink {
  * grow until they part. */
 #define ISO_SECTION_PARTED 1e-3
 
+/* The distance of two crossings in the chart: the larger one of |dl|, modulo 2 pi, and |dx|. */
+ISO_API double iso_section_distance(const iso_crossing *a, const iso_crossing *b);
+
 typedef struct iso_section_result {
     iso_section_nature nature;
     iso_shown models;    /* that were integrated: ball, point or both                                            */

@@ -59,8 +59,9 @@ void iso_section_close_group(iso_section_walk *w);
  * ISO_NO_MEMORY. */
 iso_status iso_section_walk_group(iso_section_walk *w);
 
-/* The effect that makes the motion other than that of a free point on H = 0; NULL: none. */
-const iso_effect *iso_section_not_free(const iso_effects *effects);
+/* The chart of start i, counted from 0: the first `starts` are spread, then come the given ones. */
+void iso_section_chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
+                                double *l, double *x);
 
 /* A start of this model on the section n_axis = 0, at (l, x), with the energy of `orbit`. */
 iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x);

@@ -63,15 +63,14 @@ void iso_section_free_room(iso_section_walk *w)
 
 /* --- starts ----------------------------------------------------------------------------------------------------- */
 
-/* The chart's point of this orbit: spread, or given. */
-static void chart_of(const iso_section_walk *w, size_t orbit, double *l, double *x)
+void iso_section_chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
+                                double *l, double *x)
 {
-    const iso_section_options *o = &w->options;
-    if (orbit <= o->starts) {
-        iso_section_spread_point(&w->spread, orbit - 1, l, x);
+    if (i < starts) {
+        iso_section_spread_point(spread, i, l, x);
     } else {
-        *l = o->at[orbit - 1 - o->starts][0];
-        *x = o->at[orbit - 1 - o->starts][1];
+        *l = at[i - starts][0];
+        *x = at[i - starts][1];
     }
 }
 
@@ -94,10 +93,11 @@ iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int ax
 
 static iso_start start_of(const iso_section_walk *w, size_t orbit)
 {
+    const iso_section_options *o = &w->options;
     double l, x;
     if (orbit == 0) return w->scene->start;
-    chart_of(w, orbit, &l, &x);
-    return iso_section_start(w->orbit, w->scene->start.model, w->options.axis, l, x);
+    iso_section_chart_of_start(&w->spread, o->starts, o->at, orbit - 1, &l, &x);
+    return iso_section_start(w->orbit, w->scene->start.model, o->axis, l, x);
 }
 
 static iso_crossings_options options_of(const iso_section_walk *w, int model)
@@ -154,22 +154,25 @@ static void note_failure(iso_section_walk *w, size_t i, iso_status status, const
     snprintf(r->words, sizeof r->words, "orbit %zu: %s", w->first + i, words);
 }
 
-/* The message of iso_crossings_go is about the first failure of the group. It begins with the number of the orbit in
- * the group, which is left out. */
-static void note_failures(iso_section_walk *w, const iso_status status[])
+static void note_failures(iso_section_walk *w, int model)
 {
-    const char *words = strstr(iso_context_message(w->ctx), ": ");
+    const iso_status *status = w->status[model];
     for (size_t i = 0; i < w->members; i++)
-        if (status[i] != ISO_OK) note_failure(w, i, status[i], words ? words + 2 : iso_status_text(status[i]));
+        if (status[i] != ISO_OK) note_failure(w, i, status[i], iso_crossings_why(w->crossings[model], i));
 }
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
+
+double iso_section_distance(const iso_crossing *a, const iso_crossing *b)
+{
+    return fmax(fabs(remainder(a->l - b->l, 2 * ISO_PI)), fabs(a->x - b->x));
+}
 
 /* The distance of the two models. An event has no chart: there it is |dt|, divided by the mean time between
  * crossings. */
 static double distance_of(const iso_section_walk *w, const iso_crossing *a, const iso_crossing *b, size_t crossing)
 {
-    if (w->chart) return fmax(fabs(remainder(a->l - b->l, 2 * ISO_PI)), fabs(a->x - b->x));
+    if (w->chart) return iso_section_distance(a, b);
     const double t = a->clock[ISO_CLOCK_T];
     return fabs(t - b->clock[ISO_CLOCK_T]) / (fabs(t) / (double)crossing);
 }
@@ -274,7 +277,7 @@ static iso_status find_slice(iso_section_walk *w, size_t kept, size_t each)
             if (sample) memmove(sample + i * w->slice, sample + i * each, each * sizeof *sample);
         }
         if (status == ISO_STOPPED || status == ISO_NO_MEMORY) break;
-        if (status != ISO_OK) note_failures(w, w->status[m]);
+        if (status != ISO_OK) note_failures(w, m);
         status = ISO_OK;
     }
     return status;

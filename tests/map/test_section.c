@@ -316,6 +316,23 @@ static void seam(void)
     }
 }
 
+/* The rotation about axis a has n_a = 0 and omega along a, of any size. A tilt that is larger than rounding is another
+ * orbit. */
+static void rotation(void)
+{
+    for (int a = 0; a < 3; a++)
+        for (int tilt = 0; tilt < 3; tilt++) {
+            double y[ISO_STATE] = {0};
+            y[a] = -1e200;
+            y[3 + (a + 1) % 3] = 0.6, y[3 + (a + 2) % 3] = 0.8;
+            if (tilt == 1) y[(a + 1) % 3] = 1e187;
+            if (tilt == 2) y[3 + a] = 1e-13;
+            for (int b = 0; b < 3; b++)
+                gsl_test_int(iso_section_is_rotation(y, b), b == a && tilt == 0,
+                             "rotation about %d: axis %d, tilt %d", a, b, tilt);
+        }
+}
+
 /* --- crossings in quadruple precision ------------------------------------------------------------------------ */
 
 /* The orbit at the time of a crossing has n_a = 0, and the crossing's (l, x). The bound grows with the crossing's
@@ -374,6 +391,7 @@ int main(void)
     seeds();
     extremes();
     seam();
+    rotation();
     reference();
     exit(gsl_test_summary());
 }

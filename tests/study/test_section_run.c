@@ -131,6 +131,15 @@ static void check_rows(void)
     release(all);
 }
 
+/* l is an angle: the seam at pi does not make neighbours distant. */
+static void check_distance(void)
+{
+    const iso_crossing a = {.l = 3.1, .x = 0.25}, b = {.l = -3.1, .x = 0.25}, c = {.l = 3, .x = -0.25};
+    gsl_test_rel(iso_section_distance(&a, &b), 2 * (M_PI - 3.1), 1e-13, "the distance across the seam");
+    gsl_test_abs(iso_section_distance(&a, &c), 0.5, 1e-15, "the distance in x");
+    gsl_test_abs(iso_section_distance(&c, &a), 0.5, 1e-15, "the other way");
+}
+
 /* All orbits have the scene's energy: h of each row's state. */
 static void check_energy(void)
 {
@@ -301,6 +310,7 @@ static void check_failure(void)
     gsl_test_int((int)k->status, ISO_OK, "the others go on: %s", iso_context_message(ctx));
     gsl_test(k->rows != 12 || k->result.failed != 1 || k->result.failure != ISO_BAD_INPUT || k->row[0][0] != 1,
              "one orbit of four fails: %s", k->result.words);
+    gsl_test(strncmp(k->result.words, "orbit 0: this orbit is the rotation about axis 3", 48) != 0, "the reason");
     release(k);
 }
 
@@ -340,6 +350,7 @@ int main(void)
     ctx = iso_context_create();
     check_rows();
     check_energy();
+    check_distance();
     check_both();
     check_groups();
     check_effects();

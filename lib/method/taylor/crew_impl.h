@@ -1,7 +1,7 @@
 /* crew_impl.h - solves the jobs of lanes_impl.h, LANES side by side. A lane whose job ends takes the next one. */
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
-#include "method/taylor/deviations_impl.h"
+#include "method/taylor/crossing_impl.h"
 #include "method/taylor/lanes_impl.h"
 
 enum { MOST_PARTS = 4096 }; /* of a step, in the search for crossings */
@@ -190,51 +190,6 @@ static void find_rows(crew *c, real length, real dt)
 
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
-static inline real component(const form *T, int axis, real x)
-{
-    const vector *n = T->S.n;
-    real p = zero;
-    for (int i = T->S.order + T->is_point; i >= 0; i--) p = p * x + AT(n[i], axis);
-    return p;
-}
-
-/* The same with its derivative. */
-static inline real component_and_slope(const form *T, int axis, real x, real *slope)
-{
-    const vector *n = T->S.n;
-    real p = zero, dp = zero;
-    for (int i = T->S.order + T->is_point; i >= 0; i--) {
-        dp = dp * x + p;
-        p = p * x + AT(n[i], axis);
-    }
-    *slope = dp;
-    return p;
-}
-
-/* The zero of n_axis between a (n_axis < 0) and b (n_axis >= 0), by Newton's method, with halving where it leaves the
- * bracket. The error is about the second power of the last change; in s the third, since there n_axis'' = 0 where
- * n_axis = 0. */
-static real find_crossing(const crew *c, real a, real at_a, real b, real at_b, mask crosses)
-{
-    const form *T = &c->T;
-    real x = a + (b - a) * (-at_a / (at_b - at_a));
-    const real step = magnitude(b - a);
-    const NUMBER near = ROOT(EPSILON) / 64;
-    mask far = crosses;
-    for (int i = 0; i < 60 && any(far); i++) {
-        real slope;
-        const real g = component_and_slope(T, c->axis, x, &slope), next = x - g / slope;
-        a = choose(g < zero, x, a);
-        b = choose(g < zero, b, x);
-        const mask inside = both((next - a) * (next - b) <= zero, next == next);
-        const real better = choose(inside, next, (a + b) / 2);
-        const real change = magnitude(better - x);
-        x = choose(far, better, x);
-        far = both(far, change > (NUMBER)near * larger(magnitude(x), step));
-    }
-    return x;
-}
-
 /* The number of parts of each lane's step, so that n_axis has at most one zero in each part. Gives the largest
  * one. */
 static int find_parts(const crew *c, real length, real *parts)
@@ -280,7 +235,7 @@ static void find_crossings(crew *c, real length)
         const mask passes = both(at_a < zero, at_b >= zero);
         if (any(passes)) {
             bool crosses[LANES];
-            const real x = find_crossing(c, a, at_a, b, at_b, passes);
+            const real x = find_crossing(T, c->axis, a, at_a, b, at_b, passes);
             for (int i = 0; i < LANES; i++) crosses[i] = c->job[i] && LANE(passes, i);
             cross_part(c, x, crosses);
             for (int i = 0; i < LANES; i++)

@@ -50,6 +50,9 @@
 #define ROOT sqrtl
 #define POW powl
 #define FMA fmal
+#define SIN sinl
+#define COS cosl
+#define ATAN2 atan2l
 #define EPSILON LDBL_EPSILON
 #define FINER 1e-4 /* the tolerance is that of doubles: terms are kept to what is beyond them */
 #define FINEST_ORDER 34
@@ -60,6 +63,9 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define ROOT sqrtf128
 #define POW powf128
 #define FMA fmaf128
+#define SIN sinf128
+#define COS cosf128
+#define ATAN2 atan2f128
 #define EPSILON 0x1p-112
 #define FINER 1e-15
 #define FINEST_ORDER 52
@@ -99,6 +105,9 @@ __extension__ typedef _Float128 number_of_128_bits;
 #include "method/taylor/single_impl.h"
 #else
 #include "method/taylor/crew_impl.h"
+#if IS(TANGENT_EXTENDED) || IS(TANGENT_QUAD)
+#include "method/taylor/return_impl.h"
+#endif
 
 static bool runs_here(void)
 {
@@ -143,8 +152,10 @@ const iso_lane_code iso_tangent_avx2 = LANE_CODE("avx2");
 #elif IS(TANGENT_AVX512)
 const iso_lane_code iso_tangent_avx512 = LANE_CODE("avx512");
 #elif IS(TANGENT_EXTENDED)
+const iso_return_code iso_return_extended = {"extended", LDBL_EPSILON, go};
 const iso_lane_code iso_tangent_extended = LANE_CODE("extended");
 #else
+const iso_return_code iso_return_quad = {"quad", 0x1p-106, go};
 const iso_lane_code iso_tangent_quad = LANE_CODE("quad");
 #endif
 

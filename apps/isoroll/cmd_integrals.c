@@ -1,0 +1,245 @@
+/* isoroll integrals - searches for further first integrals: polynomials in M that are constant on many orbits. */
+#include <math.h>
+
+#include "json.h"
+#include "progress.h"
+#include "scene_options.h"
+#include "study/integrals.h"
+
+/* What integrals can be told. */
+typedef struct options {
+    scene_options scene; /* only its file and tolerance are used */
+    double degree, coefficients, orbits, turns, seed, within, threads;
+    bool json;
+} options;
+
+/* --- the table -------------------------------------------------------------------------------------------------- */
+
+static void print_head(const options *o, const iso_scene *scene, const iso_integral_search *r)
+{
+    const double *J = scene->params.J;
+    printf("k = %.15g, J = %.15g %.15g %.15g\n"
+           "%zu orbits of %g turns, %d samples of each; relative error of a sample about %.0e\n"
+           "functions h^j M^a gamma^b, |a| + 2 j = degree, |b| <= %d; a value is the variation of a function along\n"
+           "orbits by its size: 0 for an integral\n\n"
+           "  degree  functions  integrals  further  doubtful   their values up to  smallest other value\n",
+           scene->params.k, J[0], J[1], J[2], r->orbits, o->turns, ISO_INTEGRAL_ROWS, r->delta, r->coefficients);
+}
+
+static void print_value(int width, double x)
+{
+    if (isnan(x))
+        printf("  %*s", width, "-");
+    else
+        printf("  %*.1e", width, x);
+}
+
+static void print_degree(const iso_integral_degree *at)
+{
+    printf("  %6d  %9zu  %9zu  %7zu  %8zu", at->degree, at->functions, at->found, at->further, at->doubtful);
+    print_value(19, at->largest);
+    print_value(20, at->smallest);
+    printf("\n");
+}
+
+static void print_known(const iso_integral_search *r)
+{
+    if (r->degrees >= 2) printf("  the energy, a constant on the level: found in degree 2\n");
+    for (int i = 0; i < r->known_count; i++) {
+        const iso_integral_known *known = &r->known[i];
+        printf("  %s = %s: ", known->name, known->doc);
+        if (known->degree > 0)
+            printf("found in degree %d, to %.1e\n", known->degree, known->residual);
+        else
+            printf(known->constant ? "a constant on the level\n" : "not in this space\n");
+    }
+}
+
+/* The smallest value that is no integral's, over all degrees. */
+static double smallest_of(const iso_integral_search *r)
+{
+    double smallest = NAN;
+    for (int d = 1; d <= r->degrees; d++) smallest = fmin(smallest, r->at[d].smallest);
+    return smallest;
+}
+
+static void print_verdict(const options *o, const iso_integral_search *r)
+{
+    if (r->verdict == ISO_INTEGRALS_FOUND)
+        printf("found: %d independent integral%s beside the energy\n", r->independent, r->independent > 1 ? "s" : "");
+    else if (r->verdict == ISO_INTEGRALS_NONE)
+        printf("none beside the energy up to degree %d within %g: the smallest value is %.1e\n", r->degrees,
+               o->within, smallest_of(r));
+    else if (r->degrees < (int)o->degree)
+        printf("undecided: stopped after degree %d\n", r->degrees);
+    else if (r->independent > 0)
+        printf("undecided: k and J are so near those of an integrable ball that its integral is constant here\n");
+    else
+        printf("undecided: there are values between their error and %g\n", o->within);
+}
+
+static void print_table(const options *o, const iso_scene *scene, const iso_integral_search *r)
+{
+    print_head(o, scene, r);
+    for (int d = 1; d <= r->degrees; d++) print_degree(&r->at[d]);
+    printf("\n");
+    print_known(r);
+    print_verdict(o, r);
+}
+
+/* --- JSON ------------------------------------------------------------------------------------------------------- */
+
+static json_t *values_of(const iso_integral_degree *at)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < at->values; i++) {
+        const iso_integral_value *v = &at->value[i];
+        json_array_append_new(list, json_pack("{s:o, s:o, s:[i,i,i]}", "value", json_number(v->value), "error",
+                                              json_number(v->error), "parity", (int)(v->parity & 1),
+                                              (int)(v->parity >> 1 & 1), (int)(v->parity >> 2 & 1)));
+    }
+    return list;
+}
+
+static json_t *degrees_of(const iso_integral_search *r)
+{
+    json_t *list = json_array();
+    for (int d = 1; d <= r->degrees; d++) {
+        const iso_integral_degree *at = &r->at[d];
+        json_array_append_new(list,
+                              json_pack("{s:i, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:o, s:o}", "degree", d, "terms",
+                                        (json_int_t)at->terms, "functions", (json_int_t)at->functions, "integrals",
+                                        (json_int_t)at->found, "further", (json_int_t)at->further, "doubtful",
+                                        (json_int_t)at->doubtful, "largest_of_integrals", json_number(at->largest),
+                                        "smallest_of_others", json_number(at->smallest), "gap",
+                                        json_number(at->smallest / at->largest), "values", values_of(at)));
+    }
+    return list;
+}
+
+static json_t *known_of(const iso_integral_search *r)
+{
+    json_t *list = json_array();
+    for (int i = 0; i < r->known_count; i++) {
+        const iso_integral_known *known = &r->known[i];
+        json_array_append_new(list,
+                              json_pack("{s:s, s:s, s:b, s:b, s:o, s:o}", "name", known->name, "doc", known->doc,
+                                        "found", known->degree > 0, "constant", (int)known->constant, "degree",
+                                        known->degree > 0 ? json_integer(known->degree) : json_null(), "residual",
+                                        json_number(known->residual)));
+    }
+    return list;
+}
+
+/* False: there is no memory. */
+static bool print_json(const options *o, const iso_scene *scene, const iso_integral_search *r)
+{
+    const iso_params *p = &scene->params;
+    return json_print(
+        json_pack("{s:s, s:o, s:[o,o,o], s:i, s:i, s:I, s:o, s:i, s:o, s:o, s:s, s:i, s:b, s:b, s:o, s:o, s:o, s:o}",
+                  "isoroll", iso_version(), "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]),
+                  json_number(p->J[2]), "degree", (int)o->degree, "coefficients", r->coefficients, "orbits",
+                  (json_int_t)r->orbits, "turns", json_number(o->turns), "samples", ISO_INTEGRAL_ROWS, "within",
+                  json_number(o->within), "delta", json_number(r->delta), "verdict",
+                  iso_integral_verdict_name(r->verdict), "independent", r->independent, "near", (int)r->near,
+                  "energy", r->degrees >= 2 && r->at[2].found > 0, "energy_spread", json_number(r->energy),
+                  "smallest", json_number(smallest_of(r)), "known", known_of(r), "degrees", degrees_of(r)));
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
+static iso_integral_search_options options_of(const options *o)
+{
+    iso_integral_search_options how = iso_integral_search_defaults();
+    how.degree = o->degree < 1000 ? (int)o->degree : 1000;
+    if (!isnan(o->coefficients)) how.coefficients = o->coefficients < 1000 ? (int)o->coefficients : 1000;
+    how.orbits = isnan(o->orbits) ? 0 : (size_t)o->orbits;
+    how.turns = o->turns;
+    how.seed = (uint64_t)o->seed;
+    how.within = o->within;
+    if (!isnan(o->scene.tolerance)) how.tolerance = o->scene.tolerance;
+    how.threads = o->threads < 1e9 ? (int)o->threads : 1000000000;
+    how.progress = progress_told;
+    return how;
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    const options *o = options_given;
+    iso_scene scene = {.places = 0};
+    iso_integral_search r = {.degrees = 0};
+    iso_status status = iso_scene_read(ctx, o->scene.file, &scene);
+    if (status != ISO_OK) return finish(ctx, status);
+    const iso_integral_search_options how = options_of(o);
+    stop_gently();
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    status = iso_integral_search_run(ctx, &scene, &how, &r);
+    iso_context_set_monitor(ctx, NULL, NULL);
+    progress_end();
+    const int result = finish_scene(ctx, &o->scene, &scene, status);
+    if (status != ISO_OK && status != ISO_STOPPED) return result;
+    if (status == ISO_STOPPED) complain("interrupted: what is known by now is printed");
+    if (!o->json) return print_table(o, &scene, &r), result;
+    return print_json(o, &scene, &r) ? result : EXIT_NUMERICAL;
+}
+
+static const options defaults = {
+    .scene = SCENE_OPTIONS_UNSET, .degree = 2, .coefficients = NAN, .orbits = NAN, .turns = 50, .within = 1e-10};
+
+static const option_row rows[] = {
+    ROW("degree", "D", "a whole number from 1 on", "largest degree in M, to 8 (default 2)", set_count, options,
+        degree),
+    ROW("coefficients", "E", "a whole number from 0 on",
+        "largest degree in gamma of the coefficients, to 8 (default D, at least 2)", set_whole, options,
+        coefficients),
+    ROW("orbits", "N", "a whole number from 1 on", "orbits that are sampled (default 64, more for high degrees)",
+        set_count, options, orbits),
+    ROW("turns", "T", "a positive number", "turns of each orbit, about, 1 to 1e5 (default 50)", set_positive, options,
+        turns),
+    ROW("seed", "N", "a whole number from 0 on", "other starts and times (default 0)", set_whole, options, seed),
+    ROW("within", "X", "a positive number", "a function that varies by more than X is no integral (default 1e-10)",
+        set_positive, options, within),
+    {.name = "tol",
+     .argument = "X",
+     .expected = "a number in [1e-15, 0.1]",
+     .doc = "largest relative error of one step (default 1e-14)",
+     .set = set_tolerance,
+     .offset = offsetof(options, scene.tolerance)},
+    {.name = "threads",
+     .argument = "N",
+     .expected = "a whole number from 1 on",
+     .doc = "threads that follow orbits (default: one for each processor)",
+     .set = set_count,
+     .offset = offsetof(options, threads),
+     .letter = 'j'},
+    ROW_JSON(options, json),
+    ROW_END,
+};
+
+const command command_integrals = {
+    .name = "integrals",
+    .argument = "SCENE",
+    .doc = "search for further first integrals",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "Looks for functions of the point's state that are constant along orbits: polynomials in M of degree D or "
+        "less, with coefficients that are polynomials in gamma of degree E or less. Of the scene it reads k, J and "
+        "the effects. Orbits start spread evenly over a section and are sampled at many times. The singular values "
+        "of the samples tell how little a function of this space can vary along orbits, relative to its own size.\n\n"
+        "The table has a line for each degree: how many independent functions there are, how many of them are "
+        "integrals, how many are new (not the energy, and not found two degrees lower; products of integrals "
+        "are counted as new), and the smallest value of the others. On the level H = 0 the energy is a "
+        "constant; it is the one integral of "
+        "degree 2 that every ball has.\n\n"
+        "Integrals that are known for this k and J are named where they are found. 'undecided': a value lies "
+        "between its own error and --within, or k and J are almost those of an integrable ball, or the search was "
+        "stopped.",
+    .example = "isoroll integrals scene.yaml --degree 4",
+    .exits = "1: interrupted\n"
+             "3: bad input: gravity or another effect, or k too near 0\n"
+             "4: the computation failed, or no memory",
+    .run = run,
+};

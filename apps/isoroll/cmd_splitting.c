@@ -1,0 +1,274 @@
+/* isoroll splitting - how far the separatrix of the middle axis' rotation splits: why only k = 1 and k = -1. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "io/output.h"
+#include "io/plot.h"
+#include "scene_options.h"
+#include "splitting_report.h"
+
+/* What splitting can be told. */
+typedef struct options {
+    scene_options scene;           /* only its file is used */
+    const char *k, *output, *plot; /* NULL: not given       */
+    iso_splitting_digits digits;
+    double threads;
+    bool json;
+} options;
+
+enum { MOST_K = 100000 };
+
+/* --- what is typed ---------------------------------------------------------------------------------------------- */
+
+static const char *digits_word(int i)
+{
+    static const char *const words[] = {"double", "quad", "auto"};
+    return i < 3 ? words[i] : NULL;
+}
+
+static bool set_splitting_digits(void *at, const char *text)
+{
+    for (int i = 0; digits_word(i); i++)
+        if (strcmp(text, digits_word(i)) == 0) return *(iso_splitting_digits *)at = (iso_splitting_digits)i, true;
+    return false;
+}
+
+/* A number, or a fraction p/q. */
+static bool read_number(const char *text, size_t length, double *x)
+{
+    const char *slash = memchr(text, '/', length);
+    double below;
+    if (!slash) return iso_number_read(text, length, x);
+    const size_t first = (size_t)(slash - text);
+    if (!iso_number_read(text, first, x) || !iso_number_read(slash + 1, length - first - 1, &below)) return false;
+    *x /= below;
+    return isfinite(*x);
+}
+
+typedef struct numbers {
+    double *k;
+    size_t count;
+} numbers;
+
+static iso_status bad_k(iso_context *ctx, const char *text)
+{
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                            "--k '%s': expected values and ranges A:B:STEP, STEP not 0, with commas between, at most "
+                            "%d values: 0.25:3:0.25, or 1/3,1/2,-0.5",
+                            text, MOST_K);
+}
+
+static iso_status append(iso_context *ctx, numbers *list, double k)
+{
+    double *more = realloc(list->k, (list->count + 1) * sizeof *more);
+    if (!more) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of k", list->count + 1);
+    list->k = more;
+    list->k[list->count++] = k;
+    return ISO_OK;
+}
+
+/* 0.1 + 2 0.1 shall be 0.3, and 1/3 stay as it is. */
+static double rounded(double k)
+{
+    char digits[ISO_NUMBER_SIZE];
+    double tidy;
+    iso_number_print_as(digits, k, 12);
+    return iso_number_read(digits, strlen(digits), &tidy) && fabs(tidy - k) < 1e-15 * fmax(1, fabs(k)) ? tidy : k;
+}
+
+/* A, or A, A + STEP, ... up to B, which a rounding error does not cut off. STEP goes towards B, whatever its sign. */
+static iso_status read_item(iso_context *ctx, const char *text, const char *item, size_t length, numbers *list)
+{
+    double number[3];
+    int parts = 0;
+    for (const char *c = item; c <= item + length; parts++) {
+        const size_t left = (size_t)(item + length - c), part = strcspn(c, ":") < left ? strcspn(c, ":") : left;
+        if (parts == 3 || !read_number(c, part, &number[parts])) return bad_k(ctx, text);
+        c += part + 1;
+    }
+    if (parts == 1) return append(ctx, list, number[0]);
+    const double way = number[1] - number[0], step = copysign(number[2], way), steps = floor(way / step + 1e-9);
+    if (parts != 3 || number[2] == 0 || !(steps < MOST_K)) return bad_k(ctx, text);
+    iso_status status = ISO_OK;
+    for (double i = 0; i <= steps && status == ISO_OK; i++) status = append(ctx, list, rounded(number[0] + i * step));
+    return status;
+}
+
+/* The values of k, which are the caller's to free: --k, or the scene's. */
+static iso_status read_k(iso_context *ctx, const options *o, const iso_scene *scene, numbers *list)
+{
+    if (!o->k) return append(ctx, list, scene->params.k);
+    for (const char *c = o->k;; c++) {
+        const size_t length = strcspn(c, ",");
+        const iso_status status = read_item(ctx, o->k, c, length, list);
+        if (status != ISO_OK) return status;
+        if (list->count > MOST_K) return bad_k(ctx, o->k);
+        c += length;
+        if (!*c) return ISO_OK;
+    }
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
+static void show(double part, void *unused)
+{
+    (void)unused;
+    progress_show(part);
+}
+
+/* All rows failed: the first one's reason is that of the command. Some: they are told. */
+static int judge(iso_context *ctx, const iso_splittings *s)
+{
+    size_t failed = 0, first = s->rows;
+    for (size_t i = 0; i < s->rows; i++) {
+        if (s->row[i].status == ISO_OK || s->row[i].status == ISO_STOPPED) continue;
+        if (failed++ == 0) first = i;
+    }
+    if (failed == 0) return EXIT_DONE;
+    if (failed == s->rows)
+        return finish(ctx, iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].words));
+    complain("%zu of %zu values of k failed: %s", failed, s->rows, s->row[first].words);
+    return EXIT_SOME_FAILED;
+}
+
+static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_splittings *s,
+                  iso_output *csv)
+{
+    int result = judge(ctx, s);
+    const splitting_report r = {scene->params.J, s};
+    const bool some = splitting_has_rows(&r);
+    if (some && o->json)
+        result = splitting_print_json(&r) ? result : EXIT_NUMERICAL;
+    else if (some && (!o->output || strcmp(o->output, "-") != 0))
+        splitting_print(&r);
+    if (s->lost > 0) complain("%zu zeros of m lie between these values of k, but were not found", s->lost);
+    if (csv) {
+        if (some) splitting_write_csv(&r, iso_output_stream(csv));
+        result = worse(result, finish(ctx, iso_output_close(ctx, csv, some)));
+    }
+    if (some && o->plot && !interrupted()) result = worse(result, finish(ctx, splitting_draw(ctx, &r, o->plot)));
+    return result;
+}
+
+static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, numbers *k, iso_output **csv)
+{
+    if (o->output && strcmp(o->output, "-") == 0 && o->json)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output",
+                                "splitting: -o - and --json both write to standard output: choose one");
+    iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
+    if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
+    if (status == ISO_OK) status = read_k(ctx, o, scene, k);
+    return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
+}
+
+/* What acts: the scene's effects, and the level of a point that is not on H = 0. */
+static iso_status find_effects(iso_context *ctx, const iso_scene *scene, iso_effects *effects)
+{
+    iso_orbit_options how = iso_orbit_defaults(&scene->start);
+    iso_orbit *orbit;
+    *effects = scene->effects;
+    if (scene->start.model != ISO_POINT) return ISO_OK;
+    how.effects = &scene->effects;
+    const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &how, &orbit);
+    if (status != ISO_OK) return status;
+    *effects = iso_orbit_effects(orbit);
+    iso_orbit_free(orbit);
+    return ISO_OK;
+}
+
+static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, iso_output *csv)
+{
+    iso_splittings *s = NULL;
+    iso_splitting_options how = iso_splitting_defaults();
+    how.k = k->k, how.count = k->count;
+    for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
+    iso_effects effects;
+    iso_status status = find_effects(ctx, scene, &effects);
+    how.effects = &effects;
+    how.digits = o->digits;
+    how.threads = o->threads < 1e9 ? (int)o->threads : 1000000000;
+    how.progress = show;
+    stop_gently();
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    if (status == ISO_OK) status = iso_splitting_run(ctx, &how, &s);
+    iso_context_set_monitor(ctx, NULL, NULL);
+    progress_end();
+    int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish_scene(ctx, &o->scene, scene, status);
+    if (status == ISO_STOPPED) complain("interrupted: only rows that are done are shown");
+    if (s)
+        result = worse(result, report(ctx, o, scene, s, csv));
+    else
+        iso_output_close(ctx, csv, false);
+    iso_splitting_free(s);
+    return result;
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    const options *o = options_given;
+    iso_scene scene = {.places = 0};
+    iso_output *csv = NULL;
+    numbers k = {NULL, 0};
+    const iso_status status = prepare(ctx, o, &scene, &k, &csv);
+    const int result =
+        status == ISO_OK ? work(ctx, o, &scene, &k, csv) : finish_scene(ctx, &o->scene, &scene, status);
+    free(k.k);
+    return result;
+}
+
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .digits = ISO_SPLITTING_AUTO};
+
+static const option_row rows[] = {
+    ROW("k", "LIST", "values and ranges A:B:STEP",
+        "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
+        set_text, options, k),
+    ROW_OF_WORDS("digits", "D", "double, quad or auto",
+                 "double: 64 bits of mantissa (19 digits); quad: 128 bits (32 digits); auto: 128 bits where 64 give "
+                 "less than 3 "
+                 "digits of m (default)",
+                 set_splitting_digits, options, digits, digits_word),
+    ROW_THREADS(options, threads),
+    ROW_OUTPUT(options, output),
+    ROW_PLOT(options, plot),
+    ROW_JSON(options, json),
+    ROW_END,
+};
+
+const command command_splitting = {
+    .name = "splitting",
+    .argument = "SCENE",
+    .doc = "measure how far the separatrix splits: why only k = 1 and k = -1",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, scene.file),
+    .description =
+        "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, it "
+        "is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come from "
+        "this rotation. Another one enters its mirror: "
+        "the "
+        "orbits that end in the opposite rotation. If there is a further analytic integral, both are one curve. If "
+        "they cross, there is none. "
+        "This command finds the first point of the curve that leaves with l = pi/2, its x = M_a/|M|, and its slope "
+        "m = dx/dl there; the other curve has the slope -m. So m = 0 at k = 1 and k = -1, and m not 0 says that "
+        "there is no further analytic integral.\n\n"
+        "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not "
+        "distinguish it from 0, 128 bits are taken, which need from seconds to a minute for each k. Other zeros of m "
+        "between two values of k "
+        "are "
+        "located. There the curves touch at one point. The slope at the next common point is printed: if they cross "
+        "there, there is no further integral. Where the multiplier of the rotation is below 1.02, as between nearly "
+        "equal moments, m is too small "
+        "for 128 bits and not computed.\n\n"
+        "Only k and J of the scene are read. Its start does not matter, nor do its times. -o FILE writes one row for "
+        "each k. --plot draws |m| over k, and both curves at the k where they are seen best. After Ctrl-C the rows "
+        "that are done are printed.",
+    .example = "isoroll splitting scene.yaml --k 0.25:3:0.25 --plot splitting.png",
+    .exits =
+        "1: interrupted, or some values of k failed\n"
+        "3: bad input: gravity or another effect, equal or nearly equal moments, or a middle axis that is stable\n"
+        "4: the computation failed, or no memory",
+    .run = run,
+};

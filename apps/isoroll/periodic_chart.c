@@ -1,0 +1,143 @@
+/* periodic_chart.c - the chart of stable rotations, as rows, as JSON and as a picture (see periodic_chart.h). */
+#include "periodic_chart.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "io/output.h"
+#include "io/plot.h"
+#include "json.h"
+#include "progress.h"
+#include "report.h"
+#include "scene_options.h"
+#include "study/stability_chart.h"
+
+bool read_range(const char *text, double range[2])
+{
+    const char *colon = strchr(text, ':');
+    return colon && iso_number_read(text, (size_t)(colon - text), &range[0]) &&
+           iso_number_read(colon + 1, strlen(colon + 1), &range[1]);
+}
+
+static iso_status read_words(iso_context *ctx, const iso_scene *scene, const periodic_chart *c,
+                             iso_stability_options *o)
+{
+    double k[2] = {-3, 3}, moment[2];
+    *o = iso_stability_defaults();
+    const char *name = c->moment, *equals = strchr(name, '=');
+    o->moment = name[0] == 'J' ? name[1] - '1' : -1;
+    if (o->moment < 0 || o->moment > 2 || (name[2] && name[2] != '='))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--chart '%s': expected J1, J2 or J3, or J2=A:B", name);
+    memcpy(o->J, scene->params.J, sizeof o->J);
+    const double one = o->J[(o->moment + 1) % 3], other = o->J[(o->moment + 2) % 3];
+    moment[0] = fmin(one, other);
+    moment[1] = one + other;
+    if (equals && !read_range(equals + 1, moment))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--chart '%s': expected J%d=A:B, A < B", name, o->moment + 1);
+    if (c->k && !read_range(c->k, k))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--k '%s': expected A:B, A < B", c->k);
+    o->from[0] = k[0], o->to[0] = k[1];
+    o->from[1] = moment[0], o->to[1] = moment[1];
+    o->steps = c->steps < 1e9 ? (int)c->steps : 1000000000;
+    o->threads = c->threads;
+    o->progress = progress_told;
+    return ISO_OK;
+}
+
+static void write_rows(const iso_stability_options *o, const iso_record *grid, const iso_record *borders, FILE *to)
+{
+    fprintf(to, "# isoroll periodic chart 1\nkind,k,J%d,least,greatest\n", o->moment + 1);
+    for (size_t i = 0; i < iso_record_rows(grid); i++) {
+        const double *row = iso_record_const_row(grid, i);
+        fprintf(to, "grid,%.17g,%.17g,%.17g,%.17g\n", row[0], row[1], row[2], row[3]);
+    }
+    for (size_t i = 0; i < iso_record_rows(borders); i++) {
+        const double *row = iso_record_const_row(borders, i);
+        fprintf(to, "border,%.17g,%.17g,", row[2], row[3]);
+        fprintf(to, row[0] > 0 ? "nan,%g\n" : "%g,nan\n", row[1]);
+    }
+}
+
+static json_t *column_of(const iso_record *r, int column)
+{
+    json_t *a = json_array();
+    for (size_t i = 0; i < iso_record_rows(r); i++)
+        json_array_append_new(a, json_number(iso_record_const_row(r, i)[column]));
+    return a;
+}
+
+static bool print_json(const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
+{
+    static const char *const axes[] = {"least", "greatest"};
+    char moment[3] = {'J', (char)('1' + o->moment), 0};
+    json_t *list = json_array();
+    for (size_t i = 0; i < iso_record_rows(borders); i++) {
+        const double *row = iso_record_const_row(borders, i);
+        json_array_append_new(list,
+                              json_pack("{s:s, s:o, s:o, s:o}", "axis", axes[row[0] > 0], "trace",
+                                        json_number(row[1]), "k", json_number(row[2]), moment, json_number(row[3])));
+    }
+    return json_print(json_pack("{s:s, s:s, s:{s:o, s:o, s:o, s:o}, s:o}", "isoroll", iso_version(), "moment", moment,
+                                "grid", "k", column_of(grid, 0), moment, column_of(grid, 1), "least",
+                                column_of(grid, 2), "greatest", column_of(grid, 3), "borders", list));
+}
+
+#define EDGE 1e-9 /* with equal moments a trace is 2 or -2 up to rounding */
+
+static void print_table(const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
+{
+    size_t count[2][3] = {{0}};
+    static const char *const axes[] = {"least", "greatest"};
+    for (size_t i = 0; i < iso_record_rows(grid); i++)
+        for (int which = 0; which < 2; which++) {
+            const double T = iso_record_const_row(grid, i)[2 + which];
+            if (!isnan(T)) count[which][T < -2 - EDGE ? 0 : T > 2 + EDGE ? 2 : 1]++;
+        }
+    printf("k from %g to %g, J%d from %g to %g; share of the grid points\n%20s  T < -2    stable    T > 2\n",
+           o->from[0], o->to[0], o->moment + 1, o->from[1], o->to[1], "");
+    for (int which = 0; which < 2; which++) {
+        const double all = (double)(count[which][0] + count[which][1] + count[which][2]);
+        printf("  %-8s moment    %6.4f    %6.4f    %6.4f\n", axes[which], (double)count[which][0] / all,
+               (double)count[which][1] / all, (double)count[which][2] / all);
+    }
+    printf("%zu points of the borders T = 2 and T = -2: see -o, --json and --plot\n", iso_record_rows(borders));
+}
+
+static iso_status write_all(iso_context *ctx, const periodic_chart *c, const iso_stability_options *o,
+                            const iso_record *grid, const iso_record *borders)
+{
+    char title[160], moment[3] = {'J', (char)('1' + o->moment), 0};
+    iso_status status = ISO_OK;
+    if (c->rows) {
+        write_rows(o, grid, borders, iso_output_stream(c->rows));
+        status = iso_output_close(ctx, c->rows, true);
+    }
+    const int a = (o->moment + 1) % 3, b = (o->moment + 2) % 3;
+    snprintf(title, sizeof title, "J%d = %.6g, J%d = %.6g", a + 1, o->J[a], b + 1, o->J[b]);
+    return status == ISO_OK && c->plot ? iso_plot_stability(ctx, c->plot, title, moment, grid, borders) : status;
+}
+
+int draw_chart(iso_context *ctx, const iso_scene *scene, const periodic_chart *c)
+{
+    iso_stability_options o;
+    iso_record *grid = NULL, *borders = NULL;
+    iso_status status = read_words(ctx, scene, c, &o);
+    stop_gently();
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    if (status == ISO_OK) status = iso_stability_chart(ctx, &o, &grid, &borders);
+    progress_end();
+    if (status == ISO_STOPPED) complain("interrupted: no chart");
+    iso_context_set_monitor(ctx, NULL, NULL);
+    if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT;
+    if (status == ISO_OK && c->json && !print_json(&o, grid, borders)) status = ISO_NO_MEMORY;
+    if (status == ISO_OK && !c->json && !c->alone) print_table(&o, grid, borders);
+    if (status == ISO_OK)
+        status = write_all(ctx, c, &o, grid, borders);
+    else if (c->rows)
+        iso_output_close(ctx, c->rows, false);
+    iso_record_free(grid);
+    iso_record_free(borders);
+    return finish(ctx, status);
+}

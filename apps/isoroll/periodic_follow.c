@@ -1,0 +1,195 @@
+/* periodic_follow.c - followed orbits as a list of events, as rows, as JSON and as a picture (see periodic_follow.h). */
+#include "periodic_follow.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/output.h"
+#include "io/plot.h"
+#include "json.h"
+#include "periodic_chart.h"
+#include "progress.h"
+#include "report.h"
+#include "study/periodic_follow.h"
+
+static iso_status read_words(iso_context *ctx, const char *given, iso_follow_options *o)
+{
+    double range[2];
+    const char *equals = strchr(given, '=');
+    *o = iso_follow_defaults();
+    int vary = 0;
+    while (iso_vary_name(vary) && equals &&
+           (strlen(iso_vary_name(vary)) != (size_t)(equals - given) ||
+            strncmp(iso_vary_name(vary), given, (size_t)(equals - given)) != 0))
+        vary++;
+    if (!equals || !iso_vary_name(vary) || !read_range(equals + 1, range))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                "--follow '%s': expected NAME=A:B, NAME one of k, J1, J2, J3, ratio", given);
+    o->vary = (iso_vary)vary;
+    o->from = range[0];
+    o->to = range[1];
+    return ISO_OK;
+}
+
+iso_status follow_check(iso_context *ctx, const iso_scene *scene, const char *range)
+{
+    iso_follow_options o;
+    iso_status status = read_words(ctx, range, &o);
+    if (status == ISO_OK) status = iso_follow_check(ctx, scene, &o);
+    return status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status;
+}
+
+/* --- what is shown ---------------------------------------------------------------------------------------------- */
+
+static void print_branch(const iso_follow *f, size_t i, const char *name)
+{
+    const iso_branch *b = &f->branch[i];
+    double low = INFINITY, high = -INFINITY;
+    for (size_t j = 0; j < b->points; j++) low = fmin(low, b->point[j].value), high = fmax(high, b->point[j].value);
+    printf("branch %zu: period %d, on the line of %s, %s from %.12g to %.12g, %zu points", i + 1, b->period,
+           iso_line_name(b->line), name, low, high, b->points);
+    if (b->parent >= 0) printf(", from branch %d", b->parent + 1);
+    putchar('\n');
+    for (size_t j = 0; j < b->events; j++)
+        printf("  %-17s  %s = %-18.13g  l = %-14.9g  x = %-14.9g  trace %-12.8g  %s\n",
+               iso_branch_kind_name(b->event[j].kind), name, b->event[j].at.value, b->event[j].at.l, b->event[j].at.x,
+               b->event[j].at.trace, b->event[j].words);
+}
+
+static void write_rows(const iso_follow *f, const char *name, FILE *to)
+{
+    fprintf(to, "# isoroll periodic follow 1\nbranch,line,period,%s,l,x,trace,event\n", name);
+    for (size_t i = 0; i < f->count; i++) {
+        const iso_branch *b = &f->branch[i];
+        for (size_t j = 0; j < b->points; j++)
+            fprintf(to, "%zu,%s,%d,%.17g,%.17g,%.17g,%.17g,\n", i + 1, iso_line_name(b->line), b->period,
+                    b->point[j].value, b->point[j].l, b->point[j].x, b->point[j].trace);
+        for (size_t j = 0; j < b->events; j++)
+            fprintf(to, "%zu,%s,%d,%.17g,%.17g,%.17g,%.17g,%s\n", i + 1, iso_line_name(b->line), b->period,
+                    b->event[j].at.value, b->event[j].at.l, b->event[j].at.x, b->event[j].at.trace,
+                    iso_branch_kind_name(b->event[j].kind));
+    }
+}
+
+static json_t *point_of(const iso_branch_point *p, const char *name)
+{
+    return json_pack("{s:o, s:o, s:o, s:o}", name, json_number(p->value), "l", json_number(p->l), "x",
+                     json_number(p->x), "trace", json_number(p->trace));
+}
+
+static json_t *branch_of(const iso_branch *b, const char *name)
+{
+    json_t *points = json_array(), *events = json_array();
+    for (size_t j = 0; j < b->points; j++) json_array_append_new(points, point_of(&b->point[j], name));
+    for (size_t j = 0; j < b->events; j++) {
+        json_t *e = point_of(&b->event[j].at, name);
+        json_object_set_new(e, "kind", json_string(iso_branch_kind_name(b->event[j].kind)));
+        json_object_set_new(e, "joins", json_boolean(b->event[j].joins));
+        json_object_set_new(e, "words", json_string(b->event[j].words));
+        if (b->event[j].axis >= 0) json_object_set_new(e, "axis", json_integer(b->event[j].axis + 1));
+        json_array_append_new(events, e);
+    }
+    return json_pack("{s:i, s:s, s:o, s:o, s:o}", "period", b->period, "line", iso_line_name(b->line), "parent",
+                     b->parent < 0 ? json_null() : json_integer(b->parent + 1), "points", points, "events", events);
+}
+
+static bool print_json(const iso_follow *f, const char *name)
+{
+    json_t *branches = json_array();
+    for (size_t i = 0; i < f->count; i++) json_array_append_new(branches, branch_of(&f->branch[i], name));
+    return json_print(
+        json_pack("{s:s, s:s, s:o}", "isoroll", iso_version(), "parameter", name, "branches", branches));
+}
+
+static iso_status draw(iso_context *ctx, const iso_scene *scene, const iso_follow *f, const char *name,
+                       const char *path)
+{
+    static const char *const names[] = {"branch", "value", "x", "trace"};
+    iso_record *r;
+    char title[160];
+    const double *J = scene->params.J;
+    iso_status status = iso_record_create(ctx, 4, names, &r);
+    for (size_t i = 0; i < f->count; i++)
+        for (size_t j = 0; j < f->branch[i].points && status == ISO_OK; j++) {
+            const iso_branch_point *p = &f->branch[i].point[j];
+            double *row;
+            status = iso_record_append(ctx, r, &row);
+            if (status != ISO_OK) break;
+            row[0] = (double)i, row[1] = p->value, row[3] = p->trace;
+            row[2] = 2 * p->u / acos(-1);
+        }
+    snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g, along %s", scene->params.k, J[0], J[1], J[2], name);
+    if (status == ISO_OK) status = iso_plot_branches(ctx, path, title, name, r);
+    iso_record_free(r);
+    return status;
+}
+
+/* --- the whole -------------------------------------------------------------------------------------------------- */
+
+static int show(iso_context *ctx, const iso_scene *scene, const iso_follow *f, const iso_follow_options *o,
+                const periodic_follow *how)
+{
+    const char *name = iso_vary_name((int)o->vary);
+    iso_status status = ISO_OK;
+    size_t failed = 0;
+    for (size_t i = 0; i < f->count; i++)
+        for (size_t j = 0; j < f->branch[i].events; j++) failed += f->branch[i].event[j].kind == ISO_BRANCH_FAILURE;
+    bool printed = true;
+    if (how->json) printed = print_json(f, name);
+    if (!how->json && !how->alone)
+        for (size_t i = 0; i < f->count; i++) print_branch(f, i, name);
+    if (how->rows) {
+        write_rows(f, name, iso_output_stream(how->rows));
+        status = iso_output_close(ctx, how->rows, true);
+    }
+    if (status == ISO_OK && how->plot && f->count > 0) status = draw(ctx, scene, f, name, how->plot);
+    const int result = printed ? finish(ctx, status) : EXIT_NUMERICAL;
+    if (failed > 0) complain("%zu branches could not be followed to their ends: see their failures", failed);
+    return result == EXIT_DONE && failed > 0 ? EXIT_SOME_FAILED : result;
+}
+
+/* The orbits to follow: the one that is asked for, or all that have a symmetry line. */
+static iso_status choose(iso_context *ctx, const iso_periodic *found, const periodic_follow *how,
+                         iso_periodic_orbit **list, size_t *count)
+{
+    *count = 0;
+    if (how->orbit > (double)found->count)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--orbit %g: the list ends at %zu", how->orbit, found->count);
+    *list = malloc((found->count + 1) * sizeof **list);
+    if (!*list) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the orbits");
+    for (size_t i = 0; i < found->count; i++)
+        if (how->orbit > 0 ? (double)(i + 1) == how->orbit : found->orbit[i].line >= 0)
+            (*list)[(*count)++] = found->orbit[i];
+    return ISO_OK;
+}
+
+int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *found, const periodic_follow *how)
+{
+    iso_follow_options o;
+    iso_follow *f = NULL;
+    iso_periodic_orbit *list = NULL;
+    size_t count = 0;
+    iso_status status = read_words(ctx, how->range, &o);
+    o.branches = how->branches;
+    o.threads = how->threads;
+    o.progress = progress_told;
+    if (status == ISO_OK) status = choose(ctx, found, how, &list, &count);
+    if (status == ISO_OK && how->orbit == 0 && count < found->count)
+        complain("%zu orbits without a symmetry are not followed", found->count - count);
+    if (status == ISO_OK) status = iso_follow_run(ctx, scene, list, count, &o, &f);
+    progress_end();
+    if (status == ISO_STOPPED) complain("interrupted: branches are missing or cut");
+    if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT;
+    int result = finish(ctx, status);
+    if (f) {
+        const int shown = show(ctx, scene, f, &o, how);
+        if (shown > result) result = shown;
+    } else if (how->rows) {
+        iso_output_close(ctx, how->rows, false);
+    }
+    free(list);
+    iso_follow_free(f);
+    return result;
+}

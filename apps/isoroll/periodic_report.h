@@ -1,0 +1,30 @@
+/* periodic_report.h - how `isoroll periodic` shows what it has found. */
+#ifndef ISOROLL_PERIODIC_REPORT_H
+#define ISOROLL_PERIODIC_REPORT_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "isoroll.h"
+#include "study/periodic.h"
+
+/* What the table and JSON are made of; polish: all digits. */
+typedef struct periodic_report {
+    const iso_scene *scene;
+    const iso_periodic *found;
+    int period;       /* the longest that was sought */
+    bool polish, all; /* all: orbits without a symmetry as well */
+} periodic_report;
+
+void periodic_print(const periodic_report *r);
+
+/* False: there is no memory. */
+bool periodic_print_json(const periodic_report *r);
+
+/* One row for each orbit. */
+void periodic_write_csv(const periodic_report *r, FILE *to);
+
+/* All orbits and their copies on the section. */
+iso_status periodic_draw(iso_context *ctx, const periodic_report *r, const char *path);
+
+#endif

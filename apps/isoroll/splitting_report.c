@@ -1,0 +1,188 @@
+/* splitting_report.c - the splitting as a table, as JSON, as rows and as a picture (see splitting_report.h). */
+#include "splitting_report.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "io/plot.h"
+#include "json.h"
+
+/* --- the table -------------------------------------------------------------------------------------------------- */
+
+/* The axes are those of each row that did not fail; NULL: all did. */
+static const iso_splitting *first_good(const iso_splittings *s)
+{
+    for (size_t i = 0; i < s->rows; i++)
+        if (s->row[i].status == ISO_OK) return &s->row[i];
+    return NULL;
+}
+
+bool splitting_has_rows(const splitting_report *r)
+{
+    return first_good(r->found) != NULL;
+}
+
+static void print_head(const splitting_report *r)
+{
+    const double *J = r->J;
+    const iso_splitting *row = first_good(r->found);
+    printf("J = %.15g %.15g %.15g\n", J[0], J[1], J[2]);
+    if (!row) return;
+    printf("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x,\n"
+           "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
+           row->middle + 1, row->axis + 1);
+    printf("%16s %11s %19s %24s %7s %7s\n", "k", "multiplier", "x", "m", "error", "digits");
+}
+
+static void print_row(const iso_splitting *s)
+{
+    if (s->status == ISO_STOPPED) return;
+    if (s->status != ISO_OK) {
+        printf("%16.15g %s\n", s->k, s->words);
+        return;
+    }
+    printf("%16.15g %11.8g %19.16g ", s->k, s->lambda, s->x);
+    if (s->from_zero)
+        printf("%24.16e %7.1e %7d\n", s->m, s->error, s->digits);
+    else if (fabs(s->m) > s->error)
+        printf("%24.16e %7.1e %7d   undecided: less than 100 errors from 0\n", s->m, s->error, s->digits);
+    else /* 1.05: rounding of the bound to two digits must not make it smaller */
+        printf("%24s %7.1e %7d   not distinguishable from 0: below %.1e\n", "0", s->error, s->digits,
+               1.05 * (fabs(s->m) + s->error));
+    if (s->words[0]) printf("%16s %s\n", "", s->words);
+}
+
+static void print_zero(const iso_splitting *s)
+{
+    printf("\nm = 0 at k = %.16g +- %.1e, where the manifolds touch at x = %.15g.\n", s->k, s->k_error, s->x);
+    if (isfinite(s->next_m))
+        printf("On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
+               "and there with slopes %.6e above and below their mean: %s.",
+               s->section + 1, s->next_l, s->next_x, fabs(s->next_m),
+               fabs(s->next_m) > 100 * fmax(s->error, fabs(s->m)) ? "they cross there"
+                                                                  : "too small for these digits, undecided");
+    printf("\n");
+}
+
+void splitting_print(const splitting_report *r)
+{
+    const iso_splittings *s = r->found;
+    print_head(r);
+    for (size_t i = 0; i < s->rows; i++) print_row(&s->row[i]);
+    for (size_t i = 0; i < s->zeros; i++) print_zero(&s->zero[i]);
+}
+
+/* --- JSON and CSV ----------------------------------------------------------------------------------------------- */
+
+static json_t *row_of(const iso_splitting *s)
+{
+    const bool there = s->status == ISO_OK;
+    if (!there)
+        return json_pack("{s:o, s:n, s:n, s:n, s:n, s:s}", "k", json_number(s->k), "x", "m", "error", "digits",
+                         "failed", s->words);
+    json_t *o =
+        json_pack("{s:o, s:o, s:o, s:o, s:i, s:o, s:o, s:o, s:o, s:b}", "k", json_number(s->k), "x",
+                  json_number(s->x), "m", json_number(s->m), "error", json_number(s->error), "digits", s->digits,
+                  "x_error", json_number(s->x_error), "x_tail", json_number(s->x_tail), "m_tail",
+                  json_number(s->m_tail), "multiplier", json_number(s->lambda), "from_zero", (int)s->from_zero);
+    if (o)
+        json_object_set_new(o, "global",
+                            json_pack("{s:i, s:o, s:o}", "axis", s->section + 1, "x", json_number(s->section_x), "m",
+                                      json_number(s->section_m)));
+    if (o && s->words[0]) json_object_set_new(o, "words", json_string(s->words));
+    if (o && s->is_zero) {
+        json_object_set_new(o, "k_error", json_number(s->k_error));
+        json_object_set_new(o, "next",
+                            json_pack("{s:i, s:o, s:o, s:o}", "axis", s->section + 1, "l", json_number(s->next_l),
+                                      "x", json_number(s->next_x), "m", json_number(s->next_m)));
+    }
+    return o;
+}
+
+static json_t *list_of(const iso_splitting *rows, size_t count)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++)
+        if (rows[i].status != ISO_STOPPED) json_array_append_new(list, row_of(&rows[i]));
+    return list;
+}
+
+bool splitting_print_json(const splitting_report *report)
+{
+    const double *J = report->J;
+    const iso_splittings *s = report->found;
+    const iso_splitting *r = first_good(s);
+    return json_print(json_pack("{s:s, s:[o,o,o], s:i, s:i, s:o, s:o, s:I}", "isoroll", iso_version(), "J",
+                                json_number(J[0]), json_number(J[1]), json_number(J[2]), "axis", r->axis + 1,
+                                "middle", r->middle + 1, "rows", list_of(s->row, s->rows), "zeros",
+                                list_of(s->zero, s->zeros), "lost", (json_int_t)s->lost));
+}
+
+static void write_rows(FILE *to, const iso_splitting *rows, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const iso_splitting *s = &rows[i];
+        if (s->status == ISO_OK)
+            fprintf(to, "%.17g,%.17g,%.17g,%.3g,%.3g,%.17g,%d,%d\n", s->k, s->x, s->m, s->error, s->x_error,
+                    s->lambda, s->digits, (int)s->is_zero);
+    }
+}
+
+void splitting_write_csv(const splitting_report *r, FILE *to)
+{
+    const iso_splittings *s = r->found;
+    fputs("# isoroll splitting 1\nk,x,m,error,x_error,multiplier,digits,zero\n", to);
+    write_rows(to, s->row, s->rows);
+    write_rows(to, s->zero, s->zeros);
+}
+
+/* --- the picture ------------------------------------------------------------------------------------------------ */
+
+/* The row whose curves are best seen: |m| is about 1/30. */
+static const iso_splitting *clearest(const iso_splittings *s)
+{
+    const iso_splitting *best = NULL;
+    double least = INFINITY;
+    for (size_t i = 0; i < s->rows; i++) {
+        const double apart = fabs(log(fmax(fabs(s->row[i].m), 1e-40) * 30));
+        if (s->row[i].status == ISO_OK && apart < least) best = &s->row[i], least = apart;
+    }
+    return best;
+}
+
+static iso_status collect(iso_context *ctx, const iso_splittings *s, iso_record **rows)
+{
+    static const char *const names[] = {"k", "m", "error"};
+    iso_status status = iso_record_create(ctx, 3, names, rows);
+    for (size_t i = 0; i < s->rows && status == ISO_OK; i++) {
+        double *row;
+        if (s->row[i].status != ISO_OK) continue;
+        status = iso_record_append(ctx, *rows, &row);
+        if (status == ISO_OK) row[0] = s->row[i].k, row[1] = s->row[i].m, row[2] = s->row[i].error;
+    }
+    return status;
+}
+
+/* As many half returns beyond the crossing as the lobes need to be seen: they grow like lambda^(1/2) each. */
+static int halves_of(const iso_splitting *s)
+{
+    const double needed = log(0.3 / fmax(fabs(s->section_m), 1e-4)) / (log(s->lambda) / 2);
+    return (int)fmin(fmax(needed, 2) + 2, 60);
+}
+
+iso_status splitting_draw(iso_context *ctx, const splitting_report *r, const char *path)
+{
+    const double *J = r->J;
+    const iso_splittings *s = r->found;
+    const iso_splitting *at = clearest(s);
+    iso_record *rows = NULL, *curve = NULL;
+    char title[160];
+    if (!at) return ISO_OK;
+    snprintf(title, sizeof title, "splitting of the separatrix, J = %.6g %.6g %.6g", J[0], J[1], J[2]);
+    iso_status status = iso_splitting_curve(ctx, at->k, J, halves_of(at), &curve);
+    if (status == ISO_OK && s->rows > 1) status = collect(ctx, s, &rows);
+    if (status == ISO_OK) status = iso_plot_splitting(ctx, path, title, rows, curve, at->k, at->section);
+    iso_record_free(rows);
+    iso_record_free(curve);
+    return status;
+}

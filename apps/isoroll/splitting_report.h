@@ -1,0 +1,31 @@
+/* splitting_report.h - how `isoroll splitting` shows what it has found. */
+#ifndef ISOROLL_SPLITTING_REPORT_H
+#define ISOROLL_SPLITTING_REPORT_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "isoroll.h"
+#include "study/splitting.h"
+
+/* What is shown. */
+typedef struct splitting_report {
+    const double *J;
+    const iso_splittings *found;
+} splitting_report;
+
+/* False: every row failed, and there is nothing to show. */
+bool splitting_has_rows(const splitting_report *r);
+
+void splitting_print(const splitting_report *r);
+
+/* False: there is no memory. */
+bool splitting_print_json(const splitting_report *r);
+
+/* One row for each k that did not fail, then one for each zero. */
+void splitting_write_csv(const splitting_report *r, FILE *to);
+
+/* |m| over k, where there are several, and both curves at one k. */
+iso_status splitting_draw(iso_context *ctx, const splitting_report *r, const char *path);
+
+#endif

@@ -1,0 +1,176 @@
+/* return_impl.h - the return map of the global section, with its derivative, in the numbers of this compilation.
+ *
+ * A point starts at (l, x) of the chart (map/section.h) and is followed until gamma_a passes 0 upwards again. Two
+ * deviations begin as its derivatives by l and by x. Numbers come and go as sums of two doubles, which hold about 106
+ * bits. Included behind crossing_impl.h.
+ */
+#include "method/taylor/return_map_impl.h"
+
+static inline NUMBER number_of(iso_fine x)
+{
+    return (NUMBER)x.head + (NUMBER)x.tail;
+}
+
+static inline iso_fine fine_of(NUMBER x)
+{
+    const double head = (double)x;
+    return (iso_fine){head, (double)(x - (NUMBER)head)};
+}
+
+/* The state and its derivatives by l and x at a point of the chart, in the form's variables. Components stand in the
+ * order (b, c, a): gamma = (cos l, -sin l, 0), and gamma' = v (-x sin l, -x cos l, (1-x^2)^(1/2)), v^2 = F(q). */
+static void start_on_section(form *T, int axis, NUMBER l, NUMBER x)
+{
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    const NUMBER cosine = COS(l), sine = SIN(l), flat = ROOT(1 - x * x);
+    state *s = &T->now, *by_l = &T->deviation[1], *by_x = &T->deviation[2];
+    real terms;
+    memset(s, 0, sizeof *s);
+    memset(T->deviation, 0, sizeof T->deviation);
+    s->n[b] = cosine, s->n[c] = -sine;
+    const NUMBER v = ROOT(square_of_speed(T, s, &terms));
+    s->w[b] = -v * x * sine, s->w[c] = -v * x * cosine, s->w[axis] = v * flat;
+    by_l->n[b] = -sine, by_l->n[c] = -cosine;
+    by_l->w[b] = -v * x * cosine, by_l->w[c] = v * x * sine;
+    by_x->w[b] = -v * sine, by_x->w[c] = -v * cosine, by_x->w[axis] = -v * x / flat;
+    for (int d = 1; d < CHANNELS; d++) restore_deviation(T, s, &T->deviation[d]);
+}
+
+/* The state and its derivatives by u and c half way between two crossings (iso_return_start). */
+static void start_half_way(form *T, int axis, iso_return_start start, NUMBER u)
+{
+    const bool pole = start == ISO_FROM_POLE;
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3, across = start == ISO_FROM_PLANE_C ? c : b;
+    const int first = pole ? b : across == b ? c : b, second = pole ? c : axis; /* the plane in which u turns */
+    const NUMBER cosine = COS(u), sine = SIN(u), sign = pole ? 1 : -1;
+    state *s = &T->now, *by_u = &T->deviation[1], *by_c = &T->deviation[2];
+    real terms;
+    memset(s, 0, sizeof *s);
+    memset(T->deviation, 0, sizeof T->deviation);
+    if (pole)
+        s->n[axis] = -1;
+    else
+        s->n[first] = cosine, s->n[second] = sign * sine;
+    const NUMBER v = ROOT(square_of_speed(T, s, &terms));
+    if (pole) {
+        s->w[first] = v * cosine, s->w[second] = v * sine;
+        by_u->w[first] = -v * sine, by_u->w[second] = v * cosine;
+        by_c->n[first] = -sine, by_c->n[second] = cosine;
+    } else {
+        s->w[across] = v;
+        by_u->n[first] = -sine, by_u->n[second] = sign * cosine;
+        by_c->w[first] = -v * sine, by_c->w[second] = sign * v * cosine;
+    }
+    for (int d = 1; d < CHANNELS; d++) restore_deviation(T, s, &T->deviation[d]);
+}
+
+/* -gamma and -gamma', for half a return. */
+static void turn_over(form *T)
+{
+    state *of[] = {&T->now, &T->deviation[1], &T->deviation[2]};
+    for (int d = 0; d < CHANNELS; d++)
+        for (int i = 0; i < 3; i++) of[d]->n[i] = -of[d]->n[i], of[d]->w[i] = -of[d]->w[i];
+}
+
+/* The chart at a crossing: l = atan2(-gamma_c, gamma_b), x = (gamma' x gamma)_a/|gamma'|; and its change with a
+ * deviation, whose part along the flow f is taken away so that gamma_a stays 0. */
+static void chart_at(int axis, const state *s, iso_fine to[2])
+{
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    const NUMBER turn = s->w[b] * s->n[c] - s->w[c] * s->n[b];
+    to[0] = fine_of(ATAN2(-s->n[c], s->n[b]));
+    to[1] = fine_of(turn / ROOT(inner3(s->w, s->w)));
+}
+
+static void slope_at(int axis, const state *s, const state *f, const state *given, NUMBER *dl, NUMBER *dx)
+{
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    state d = *given;
+    const NUMBER along = -d.n[axis] / f->n[axis], square = inner3(s->w, s->w);
+    add_times(d.n, along, f->n);
+    add_times(d.w, along, f->w);
+    const NUMBER turn = s->w[b] * s->n[c] - s->w[c] * s->n[b];
+    const NUMBER change = d.w[b] * s->n[c] + s->w[b] * d.n[c] - d.w[c] * s->n[b] - s->w[c] * d.n[b];
+    *dl = (s->n[c] * d.n[b] - s->n[b] * d.n[c]) / (s->n[b] * s->n[b] + s->n[c] * s->n[c]);
+    *dx = (change - turn * inner3(s->w, d.w) / square) / ROOT(square);
+}
+
+/* What is known at the crossing, at x of the series. */
+static void arrive(const form *T, int axis, NUMBER x, NUMBER passed, iso_return *r)
+{
+    state s, f, d;
+    NUMBER gained[ISO_CLOCKS];
+    integrate_clocks(T, x, gained);
+    find_state(T, x, gained, &s);
+    flow_at(T, x, &f);
+    chart_at(axis, &s, r->to);
+    for (int i = 0; i < 2; i++) {
+        NUMBER dl, dx;
+        deviation_at(T, i + 1, x, &s, &d);
+        slope_at(axis, &s, &f, &d, &dl, &dx);
+        r->slope[0][i] = fine_of(dl), r->slope[1][i] = fine_of(dx);
+    }
+    const iso_clock own = T->shape.clock;
+    for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] = fine_of(s.clock[c]);
+    r->clock[own] = fine_of(passed + gained[own]);
+}
+
+/* Whether the step crosses: at which x. */
+static bool cross_step(const form *T, int axis, NUMBER length, NUMBER zeros, NUMBER start, NUMBER end, NUMBER *x)
+{
+    const int parts = 1 + (int)(length * zeros);
+    NUMBER a = 0, at_a = start;
+    for (int part = 1; part <= parts; part++) {
+        const NUMBER b = part == parts ? length : length * part / parts;
+        const NUMBER at_b = part == parts ? end : component(T, axis, b);
+        if (at_a < 0 && at_b >= 0) return *x = find_crossing(T, axis, a, at_a, b, at_b, true), true;
+        a = b, at_a = at_b;
+    }
+    return false;
+}
+
+static bool go_round(form *T, int axis, NUMBER zeros, bool on_section, iso_return *r)
+{
+    enum { MOST_STEPS = 100000 };
+    NUMBER passed = 0;
+    for (int steps = 0; steps < MOST_STEPS; steps++) {
+        state after;
+        NUMBER gained[ISO_CLOCKS], x;
+        begin(T);
+        expand(&T->S);
+        const NUMBER length = choose_step(T, 1, gained);
+        find_state(T, length, gained, &after);
+        if (!(after.n[0] - after.n[0] == 0)) return false;
+        if (cross_step(T, axis, length, zeros, steps == 0 && on_section ? 0 : T->now.n[axis], after.n[axis], &x))
+            return arrive(T, axis, x, passed, r), true;
+        for (int c = 1; c < CHANNELS; c++) {
+            state d;
+            deviation_at(T, c, length, &after, &d);
+            T->deviation[c] = d;
+        }
+        T->now = after;
+        passed += gained[T->shape.clock];
+    }
+    return false;
+}
+
+static bool go(const iso_model *model, int axis, double zeros, double tolerance, iso_return *r)
+{
+    form *T = aligned_alloc(64, (sizeof *T + 63) / 64 * 64);
+    double y[ISO_MAX_STATE] = {0};
+    if (!T) return false;
+    y[3 + (axis + 1) % 3] = y[axis] = 1;
+    set_shape(T, model, tolerance);
+    start_orbit(T, 0, model, y);
+    const bool on_section = r->start <= ISO_FROM_BELOW;
+    if (on_section)
+        start_on_section(T, axis, number_of(r->from[0]), number_of(r->from[1]));
+    else
+        start_half_way(T, axis, r->start, number_of(r->from[0]));
+    if (r->start == ISO_FROM_BELOW) turn_over(T);
+    T->scale[1] = T->scale[2] = 0;
+    T->second_of = NONE; /* the start is exact: nothing to restore it to */
+    const bool there = go_round(T, axis, zeros, on_section, r);
+    free(T);
+    return there;
+}

@@ -1,0 +1,65 @@
+/* follow_impl.h - what the files of followed orbits share.
+ *
+ *     periodic_follow.c   the call, the two directions, the branches that are switched to
+ *     follow_curve.c      the curve F(u, value) = 0: one evaluation, the corrector, one step
+ *     follow_events.c     what happens between two points of the curve, and exactly where
+ *     follow_switch.c     the orbits that branch off
+ */
+#ifndef ISO_STUDY_FOLLOW_IMPL_H
+#define ISO_STUDY_FOLLOW_IMPL_H
+
+#include "study/periodic_follow.h"
+#include "study/periodic_impl.h"
+
+/* A family of orbits: one line, one period, one parameter. */
+typedef struct iso_follow_family {
+    iso_context *ctx;
+    iso_follow_options options;
+    iso_params base;
+    int axis; /* of the section, which must stay */
+    int line, period;
+    double width; /* of the range */
+} iso_follow_family;
+
+/* A point of the curve. Coordinates are u and v = value/width. */
+typedef struct iso_follow_point {
+    double u, v, value;
+    double z[2];        /* the first point on the section: l, x                                */
+    double off;         /* F                                                                   */
+    double by_u, by_v;  /* its slopes                                                          */
+    double across;      /* D_01 (iso_periodic_shot)                                            */
+    double diagonal[2]; /* D_00, D_11                                                          */
+    double trace;
+    double tangent[2]; /* (du, dv), of length 1                                               */
+} iso_follow_point;
+
+/* The parameters at a value. False: there are none, or their section has another axis. */
+bool iso_follow_params(const iso_follow_family *f, double value, iso_params *p);
+
+/* F and all slopes; by_v only if asked. False: it failed. */
+bool iso_follow_evaluate(const iso_follow_family *f, double u, double v, bool slopes, iso_follow_point *at);
+
+/* From `at` by `ds` along its tangent: predictor and corrector. *steps: of the corrector. */
+bool iso_follow_step(const iso_follow_family *f, const iso_follow_point *at, double ds, iso_follow_point *to,
+                     int *steps);
+
+/* Sets the tangent, so that it goes on like `like` (NULL: v grows). */
+void iso_follow_turn(iso_follow_point *at, const double like[2]);
+
+iso_branch_point iso_follow_tell(const iso_follow_point *at, double arc);
+
+/* Adds the events between a and b, ds apart. */
+iso_status iso_follow_events(const iso_follow_family *f, iso_branch *b, const iso_follow_point *a,
+                             const iso_follow_point *to, double ds, double arc);
+iso_status iso_follow_add_event(const iso_follow_family *f, iso_branch *b, const iso_branch_event *e);
+
+/* The collision beyond a point near the end of the line; false: there is none near. */
+bool iso_follow_collision(const iso_follow_family *f, const iso_follow_point *a, const iso_follow_point *b,
+                          iso_branch_event *e);
+
+/* Looks for an orbit that branches off at an event, and gives its parameter and value to `found`. */
+iso_status iso_follow_switch(const iso_follow_family *f, const iso_branch *b, const iso_branch_event *e,
+                             iso_status (*found)(void *data, const iso_follow_family *f, double u, double value),
+                             void *data);
+
+#endif

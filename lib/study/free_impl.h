@@ -1,0 +1,15 @@
+/* free_impl.h - what is asked of a free motion alone: the ball on which nothing acts, and the point on H = 0. */
+#ifndef ISO_STUDY_FREE_IMPL_H
+#define ISO_STUDY_FREE_IMPL_H
+
+#include "orbit/orbit.h"
+
+/* The effect that makes the motion another one: one that acts on the ball, or the level. NULL: there is none.
+ * Observers, which act on nothing, do not matter. */
+const iso_effect *iso_study_not_free(const iso_effects *effects);
+
+/* ISO_OK for a free motion, else ISO_BAD_INPUT about the effect. effects NULL: a free motion. what: as in "periodic
+ * orbits are sought"; the message goes on: " only of the free ball and of the point on H = 0: remove 'gravity'". */
+iso_status iso_study_check_free(iso_context *ctx, const iso_effects *effects, const char *what);
+
+#endif

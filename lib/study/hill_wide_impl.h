@@ -1,0 +1,12 @@
+/* hill_wide_impl.h - Hill's equation of the rotations in numbers of 128 bits. */
+#ifndef ISO_STUDY_HILL_WIDE_IMPL_H
+#define ISO_STUDY_HILL_WIDE_IMPL_H
+
+#include "study/wide_impl.h"
+
+/* The matrix of (gamma_i, dgamma_i/dphi) over half a turn about `axis`; where the compiler has no numbers of 128 bits,
+ * of 64. */
+void iso_hill_matrix_wide(double k, const double J[3], int axis, iso_wide y[2][2]);
+void iso_hill_matrix(double k, const double J[3], int axis, long double y[2][2]);
+
+#endif

@@ -1,0 +1,278 @@
+/* periodic_map.c - the return map f of the section and half of it, g: many points at once in the lanes of vectors, one
+ * point in numbers of more digits.
+ *
+ * g z: from the crossing z half a return, to the next crossing downwards, then T: gamma -> -gamma. A start at -gamma,
+ * M is a crossing downwards; its next crossings upwards are g z, g^3 z, ...
+ */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "orbit/crossings_impl.h"
+#include "study/periodic_impl.h"
+
+void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, int threads, iso_periodic_map *map)
+{
+    const iso_problem problem = {.p = *own, .eps = 1, .energy = 0};
+    const bool with[ISO_CLOCKS] = {true, true, true};
+    *map = (iso_periodic_map){.ctx = ctx, .p = *own, .axis = iso_section_axis(own), .threads = threads, .finer = 1};
+    map->model = iso_model_assemble(&iso_system_point, &problem, ISO_CLOCK_T, with);
+    map->zeros = iso_crossings_zeros(own, 1, map->axis, ISO_CLOCK_T);
+}
+
+/* --- many points ------------------------------------------------------------------------------------------------ */
+
+typedef struct walk {
+    bool deviations;
+    size_t orbits, each;
+    iso_start *start;
+    iso_batch_orbit *orbit;
+    iso_crossing *crossing;
+    size_t *done;
+    iso_status *status;
+} walk;
+
+static void free_walk(walk *w)
+{
+    free(w->start);
+    free(w->orbit);
+    free(w->crossing);
+    free(w->done);
+    free(w->status);
+}
+
+static bool make_walk(size_t orbits, size_t each, walk *w)
+{
+    w->deviations = true;
+    w->orbits = orbits;
+    w->each = each;
+    w->start = calloc(orbits, sizeof *w->start);
+    w->orbit = calloc(orbits, sizeof *w->orbit);
+    w->crossing = malloc(orbits * each * sizeof *w->crossing);
+    w->done = calloc(orbits, sizeof *w->done);
+    w->status = calloc(orbits, sizeof *w->status);
+    return w->start && w->orbit && w->crossing && w->done && w->status;
+}
+
+/* The crossing at z, of a half turned over by T. */
+static void set_start(const iso_periodic_map *map, walk *w, size_t i, const double z[2], bool over)
+{
+    double y[ISO_STATE];
+    iso_section_point(&map->p, 1, map->axis, z[0], z[1], y);
+    for (int j = 3; j < ISO_STATE && over; j++) y[j] = -y[j];
+    w->start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
+    memcpy(w->start[i].y, y, sizeof y);
+    w->orbit[i] = (iso_batch_orbit){&map->p, &w->start[i], NULL};
+}
+
+static void set_point(const walk *w, size_t orbit, size_t crossing, iso_periodic_point *to)
+{
+    const iso_crossing *c = &w->crossing[w->each * orbit + crossing];
+    if (crossing >= w->done[orbit]) {
+        *to = (iso_periodic_point){NAN, NAN, {{NAN, NAN}, {NAN, NAN}}};
+        return;
+    }
+    to->l = c->l;
+    to->x = c->x;
+    memcpy(to->slope, c->slope, sizeof to->slope);
+}
+
+static iso_status go(const iso_periodic_map *map, const walk *w, double tolerance)
+{
+    iso_crossings_options o = iso_crossings_defaults();
+    iso_crossings *c;
+    o.axis = map->axis;
+    o.deviations = w->deviations;
+    o.tolerance = tolerance;
+    o.threads = map->threads;
+    iso_status status = iso_crossings_create(map->ctx, w->orbit, w->orbits, &o, &c);
+    if (status != ISO_OK) return status;
+    status = iso_crossings_go(c, NULL, w->each, w->crossing, NULL, w->done, w->status);
+    iso_crossings_free(c);
+    return status == ISO_NO_MEMORY || status == ISO_STOPPED ? status : ISO_OK; /* some starts may fail */
+}
+
+iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const double (*from)[2], int halves,
+                             bool whole, double tolerance, iso_periodic_point *to)
+{
+    walk w = {0};
+    const size_t kinds = whole ? 1 : 2, each = whole ? (size_t)halves : (size_t)(halves + 1) / 2;
+    if (count == 0) return ISO_OK;
+    const bool memory = make_walk(kinds * count, each, &w);
+    iso_status status = memory ? ISO_OK : iso_context_fail(map->ctx, ISO_NO_MEMORY, "", "no memory for orbits");
+    for (size_t i = 0; i < w.orbits && status == ISO_OK; i++)
+        set_start(map, &w, i, from[i % count], !whole && i < count);
+    if (status == ISO_OK) status = go(map, &w, tolerance);
+    for (size_t i = 0; i < count && status == ISO_OK; i++)
+        for (int n = 0; n < halves; n++) {
+            iso_periodic_point *at = &to[(size_t)halves * i + (size_t)n];
+            if (whole)
+                set_point(&w, i, (size_t)n, at);
+            else
+                set_point(&w, n % 2 == 0 ? i : count + i, (size_t)n / 2, at);
+        }
+    free_walk(&w);
+    return status;
+}
+
+/* The start half way at u (iso_return_start): M = G gamma'/|gamma'| x gamma. */
+static void set_half_way(const iso_periodic_map *map, walk *w, size_t i, iso_return_start from, double u)
+{
+    const int a = map->axis, b = (a + 1) % 3, c = (a + 2) % 3;
+    double gamma[3] = {0}, along[3] = {0}, J_gamma[3], M[3];
+    if (from == ISO_FROM_POLE) {
+        gamma[a] = -1, along[b] = cos(u), along[c] = sin(u);
+    } else {
+        gamma[a] = -sin(u), gamma[from == ISO_FROM_PLANE_B ? c : b] = cos(u);
+        along[from == ISO_FROM_PLANE_B ? b : c] = 1;
+    }
+    diag(map->p.J, gamma, J_gamma);
+    cross(along, gamma, M);
+    scale(M, sqrt(2) * pow(dot(gamma, J_gamma), -1 / (2 * map->p.k)));
+    w->start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
+    memcpy(w->start[i].y, M, sizeof M);
+    memcpy(w->start[i].y + 3, gamma, sizeof gamma);
+    w->orbit[i] = (iso_batch_orbit){&map->p, &w->start[i], NULL};
+}
+
+iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
+                                   const double u[], double (*to)[2])
+{
+    walk w = {0};
+    if (count == 0) return ISO_OK;
+    const bool memory = make_walk(count, 1, &w);
+    iso_status status = memory ? ISO_OK : iso_context_fail(map->ctx, ISO_NO_MEMORY, "", "no memory for orbits");
+    for (size_t i = 0; i < count && memory; i++) set_half_way(map, &w, i, start, u[i]);
+    w.deviations = false;
+    if (status == ISO_OK) status = go(map, &w, 1e-13);
+    for (size_t i = 0; i < count && status == ISO_OK; i++) {
+        to[i][0] = w.done[i] ? w.crossing[i].l : NAN;
+        to[i][1] = w.done[i] ? w.crossing[i].x : NAN;
+    }
+    free_walk(&w);
+    return status;
+}
+
+/* --- one point in more digits ----------------------------------------------------------------------------------- */
+
+const iso_return_code *iso_periodic_code(bool polish)
+{
+    if (!polish) return &iso_return_extended;
+#ifdef ISO_TAYLOR_HAS_QUAD
+    return &iso_return_quad;
+#else
+    return NULL;
+#endif
+}
+
+/* slope = next slope */
+static void chain(const iso_return *r, iso_wide slope[2][2])
+{
+    iso_wide product[2][2];
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++)
+            product[i][j] = iso_wide_of(r->slope[i][0]) * slope[0][j] + iso_wide_of(r->slope[i][1]) * slope[1][j];
+    memcpy(slope, product, sizeof product);
+}
+
+static iso_wide determinant_of(const iso_return *r)
+{
+    return iso_wide_of(r->slope[0][0]) * iso_wide_of(r->slope[1][1]) -
+           iso_wide_of(r->slope[0][1]) * iso_wide_of(r->slope[1][0]);
+}
+
+/* (gamma, J gamma) at a crossing. */
+static iso_wide q_at(const iso_periodic_map *map, iso_wide l)
+{
+    const iso_wide C = WIDE_COS(l), S = WIDE_SIN(l);
+    return map->p.J[(map->axis + 1) % 3] * C * C + map->p.J[(map->axis + 2) % 3] * S * S;
+}
+
+/* The same where a return begins (iso_return_start). */
+static iso_wide q_of(const iso_periodic_map *map, const iso_return *r)
+{
+    const iso_wide u = iso_wide_of(r->from[0]), C = WIDE_COS(u), S = WIDE_SIN(u), Ja = map->p.J[map->axis];
+    const int beside = r->start == ISO_FROM_PLANE_B ? 2 : 1;
+    if (r->start <= ISO_FROM_BELOW) return q_at(map, u);
+    return r->start == ISO_FROM_POLE ? Ja : map->p.J[(map->axis + beside) % 3] * C * C + Ja * S * S;
+}
+
+/* G(l)/G(l'), by q and q': G = (2 eps)^(1/2) q^(-1/(2k)). */
+static iso_wide law(const iso_periodic_map *map, iso_wide q, iso_wide to)
+{
+    return WIDE_POW(to / q, 1 / (2 * (iso_wide)map->p.k));
+}
+
+iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to)
+{
+    return law(map, q_at(map, l), q_at(map, to));
+}
+
+/* How far the determinant is from the law, in units of the rounding errors that its terms explain. The area of (u, c)
+ * half way is G du dc. */
+static double doubt(const iso_periodic_map *map, const iso_return_code *code, const iso_return *r)
+{
+    const iso_wide wanted = law(map, q_of(map, r), q_at(map, iso_wide_of(r->to[0])));
+    const double terms = fabs(r->slope[0][0].head * r->slope[1][1].head) +
+                         fabs(r->slope[0][1].head * r->slope[1][0].head) + (double)wanted;
+    return fabs((double)(WIDE_ABS(determinant_of(r)) - wanted)) / (terms * code->error);
+}
+
+/* One return. Steps are as long as the orbit allows; deviations that grow fast can need shorter ones. The determinant
+ * shows it: then the tolerance is made smaller. */
+static bool go_once(const iso_periodic_map *map, const iso_return_code *code, iso_return *r)
+{
+    enum { TRIES = 4, ALLOWED = 200 };
+    double tolerance = map->finer * (code->error < 1e-20 ? 1e-16 : 1e-15), least = INFINITY;
+    iso_return best = *r;
+    for (int i = 0; i < TRIES && !(least <= ALLOWED); i++, tolerance *= 1e-3) {
+        iso_return next = *r;
+        if (!iso_context_goes_on(map->ctx) || !code->go(&map->model, map->axis, map->zeros, tolerance, &next))
+            return false;
+        const double off = doubt(map, code, &next);
+        if (off < least || i == 0) best = next, least = off;
+    }
+    *r = best;
+    return true;
+}
+
+/* Goes on by one return: of the whole way that is known, the end, the derivative and the clocks. */
+static bool go_on(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start,
+                  iso_periodic_fine *way)
+{
+    iso_return r = {.start = start, .from = {iso_fine_of(way->to[0]), iso_fine_of(way->to[1])}};
+    if (!go_once(map, code, &r)) return false;
+    for (int i = 0; i < 2; i++) way->to[i] = iso_wide_of(r.to[i]);
+    for (int c = 0; c < ISO_CLOCKS; c++) way->clock[c] += iso_wide_of(r.clock[c]);
+    chain(&r, way->slope);
+    way->determinant *= determinant_of(&r);
+    return true;
+}
+
+static void stand_at(const iso_wide from[2], iso_periodic_fine *way)
+{
+    memset(way, 0, sizeof *way);
+    way->slope[0][0] = way->slope[1][1] = way->determinant = 1;
+    for (int i = 0; i < 2; i++) way->to[i] = from[i];
+}
+
+bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
+                      double (*path)[2], iso_periodic_fine *found)
+{
+    stand_at(from, found);
+    for (int n = 0; n < halves;) {
+        const bool half = path || (halves - n) % 2 == 1;
+        if (!go_on(map, code, half ? ISO_FROM_BELOW : ISO_FROM_CHART, found)) return false;
+        if (path) path[n][0] = (double)found->to[0], path[n][1] = (double)found->to[1];
+        n += half ? 1 : 2;
+    }
+    return true;
+}
+
+bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start, iso_wide u,
+                        iso_periodic_fine *found)
+{
+    stand_at((const iso_wide[2]){u, 0}, found);
+    return go_on(map, code, start, found);
+}

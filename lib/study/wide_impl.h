@@ -1,0 +1,50 @@
+/* wide_impl.h - numbers of 113 bits where the compiler has them, else of 64 bits; and head + tail (return_map_impl.h).
+ */
+#ifndef ISO_STUDY_WIDE_IMPL_H
+#define ISO_STUDY_WIDE_IMPL_H
+
+#include <float.h>
+#include <math.h>
+
+#include "base/pi_impl.h"
+#include "method/methods_impl.h"
+#include "method/taylor/return_map_impl.h"
+
+#ifdef ISO_TAYLOR_HAS_QUAD
+__extension__ typedef _Float128 iso_wide;
+#define WIDE_ROOT sqrtf128
+#define WIDE_COS cosf128
+#define WIDE_SIN sinf128
+#define WIDE_POW powf128
+#define WIDE_ABS fabsf128
+#define WIDE_ROUND roundf128
+#define WIDE_PI __extension__ 3.14159265358979323846264338327950288419716939937510582097494459Q
+#else
+typedef long double iso_wide;
+#define WIDE_ROOT sqrtl
+#define WIDE_COS cosl
+#define WIDE_SIN sinl
+#define WIDE_POW powl
+#define WIDE_ABS fabsl
+#define WIDE_ROUND roundl
+#define WIDE_PI ISO_PI_LONG
+#endif
+
+static inline iso_fine iso_fine_of(iso_wide x)
+{
+    const double head = (double)x;
+    return (iso_fine){head, (double)(x - (iso_wide)head)};
+}
+
+static inline iso_wide iso_wide_of(iso_fine x)
+{
+    return (iso_wide)x.head + (iso_wide)x.tail;
+}
+
+/* angle, less a multiple of period, into [-period/2, period/2]. */
+static inline iso_wide iso_wide_wrap(iso_wide angle, iso_wide period)
+{
+    return angle - WIDE_ROUND(angle / period) * period;
+}
+
+#endif

@@ -1,0 +1,112 @@
+#!/bin/sh
+# integrals.sh ISOROLL - `isoroll integrals`: what is found, what is not, JSON, refusals, interruption.
+. "$(dirname "$0")/lib.sh"
+
+# value KEY N: the N-th number or word of that name in the JSON in `out`
+value() {
+    sed -n "s/^ *\"$1\": \"*\([-0-9a-zA-Z_.+]*\)\"*,*$/\1/p" out | sed -n "${2-1}p"
+}
+
+# above NAME VALUE BOUND
+above() {
+    checks=$((checks + 1))
+    awk -v x="$2" -v bound="$3" 'BEGIN { exit !(x ~ /^[-+0-9.eE]+$/ && x + 0 > bound + 0) }' || fail "$1: $2"
+}
+
+spin="0.8, 0.3, -0.6" normal="0.6, 0, 0.8"
+scene 1 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >plane.yaml
+scene -1 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >shell.yaml
+scene 0.6 "2, 2, 3" "$spin" "$normal" 10 0.5 >symmetric.yaml
+
+# --- what is known is found, and told by name
+for case in plane:F_plane shell:F_shell; do
+    run 0 integrals "${case%:*}.yaml"
+    silent
+    check "$case" grep -q "^  ${case#*:} = .*: found in degree 2, to " out
+    check "$case: one" grep -q '^found: 1 independent integral beside the energy$' out
+    check "$case: the energy" grep -q 'the energy, .*: found in degree 2' out
+    check "$case: both in degree 2" grep -q '^  *2  *50  *2  *1  *0 ' out
+    run 0 integrals "${case%:*}.yaml" --degree 4 --json
+    check "$case: verdict" test "$(value verdict)" = found
+    check "$case: independent" test "$(value independent)" = 1
+    check "$case: its name" test "$(value name)" = "${case#*:}"
+    check "$case: energy" test "$(value energy)" = true
+    at_most "$case: it is that F" "$(value residual)" 1e-10
+    at_most "$case: its value" "$(value largest_of_integrals 2)" 1e-12
+    above "$case: the gap" "$(value gap 2)" 1e8
+done
+run 0 integrals symmetric.yaml --degree 1
+check "a symmetric body" grep -q '^  F_axis3 = .*: found in degree 1, to ' out
+
+# --- and nothing else
+for k in 0.5 0.75 -0.5; do
+    scene $k "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >other.yaml
+    run 0 integrals other.yaml --degree 4
+    silent
+    check "k = $k: none" grep -q '^none beside the energy up to degree 4 within 1e-10: the smallest value is ' out
+    run 0 integrals other.yaml --degree 4 --json
+    check "k = $k: verdict" test "$(value verdict)" = none
+    above "k = $k: the smallest value" "$(value smallest)" 1e-5
+done
+run 0 integrals plane.yaml --coefficients 1
+check "a space without F" grep -q '^  F_plane = .*: not in this space$' out
+run 0 integrals plane.yaml --tol 1e-6
+check "rough steps" grep -q '^undecided: there are values between their error and 1e-10$' out
+run 0 integrals plane.yaml --tol 1e-6 --within 1e-6
+check "and a rough bound" grep -q '^found: ' out
+scene 0.5 "1, 1.0000001, 1.0000002" "$spin" "$normal" 10 0.5 >near.yaml
+run 0 integrals near.yaml
+check "nearly equal moments" grep -q '^undecided: k and J are so near' out
+
+# --- orbits, seeds, threads
+run 0 integrals other.yaml --json -j 1
+cp out first
+run 0 integrals other.yaml --json
+check "threads change nothing" cmp -s first out
+run 0 integrals other.yaml --json --seed 1
+check_not "other orbits" cmp -s first out
+run 0 integrals other.yaml --orbits 100 --turns 20 --json
+check "so many orbits" test "$(value orbits)" = 100
+"$isoroll" integrals - <other.yaml >out
+check "a scene from standard input" test $? -eq 0
+
+# --- three equal moments: F of k = 1 is a constant, as the energy is
+scene 1 "2, 2, 2" "$spin" "$normal" 10 0.5 >sphere.yaml
+run 0 integrals sphere.yaml
+check "a sphere: F" grep -q '^  F_plane = .*: a constant on the level$' out
+check "a sphere: M" grep -q '^found: 2 independent integrals beside the energy$' out
+
+# --- extreme k
+for k in 1000 -1000 0.01 -0.01; do
+    scene $k "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >extreme.yaml
+    run 0 integrals extreme.yaml --degree 3
+    check "k = $k: none" grep -q '^none beside the energy up to degree 3 within 1e-10' out
+done
+scene 0.001 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >extreme.yaml
+
+# --- refusals
+refuses 3 "k = 0.001 is too near 0 for these moments" integrals extreme.yaml
+{ cat other.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >gravity.yaml
+refuses 3 "integrals are sought only of the free ball and of the point on H = 0: remove 'gravity'" integrals gravity.yaml
+refuses 2 "--degree '0'" integrals other.yaml --degree 0
+refuses 2 "--degree '-1'" integrals other.yaml --degree=-1
+refuses 2 "--within '-1'" integrals other.yaml --within -1
+refuses 2 "--coefficients '1.5'" integrals other.yaml --coefficients 1.5
+refuses 2 "degree 9 of the polynomials in M: give 1 to 8" integrals other.yaml --degree 9
+refuses 2 "degree 9 of the coefficients in gamma: give 0 to 8" integrals other.yaml --coefficients 9
+refuses 2 "2 orbits: these degrees need" integrals other.yaml --orbits 2
+refuses 2 "20000 orbits: these degrees need 4 to 10000" integrals other.yaml --orbits 20000
+refuses 2 "turns are not in" integrals other.yaml --turns 0.1
+refuses 5 "none.yaml" integrals none.yaml
+
+# --- Ctrl-C keeps the degrees that are done
+if interruptible "integrals after SIGINT"; then
+    checks=$((checks + 1))
+    last="integrals <- INT"
+    timeout --preserve-status -k 30 -s INT 3 "$isoroll" integrals other.yaml --degree 8 >out 2>err
+    check "interrupted: exit status 1" test $? -eq 1
+    says "interrupted: "
+    check "what is done" grep -q '^  *1  *179 ' out
+    check "undecided" grep -q '^undecided: stopped after degree' out
+fi
+finish

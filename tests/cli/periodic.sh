@@ -1,0 +1,156 @@
+#!/bin/sh
+# periodic.sh ISOROLL - `isoroll periodic`: traces, orbits, following, charts, files, pictures, what is refused.
+. "$(dirname "$0")/lib.sh"
+
+# number KEY N: the N-th number with this key in `out`, which is JSON
+number() {
+    grep "\"$1\": " out | sed -n "$2s/.*: \([-0-9.e+]*\).*/\1/p"
+}
+
+apart() {
+    awk -v a="$1" -v b="$2" 'BEGIN { d = a - b; printf "%.3g\n", d < 0 ? -d : d }'
+}
+
+scene 0.5 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >a.yaml
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >b.yaml
+scene -1 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >c.yaml
+scene 1 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >d.yaml
+
+# --- traces of Hill's equation, by SciPy
+while read -r file T1 T2 T3; do
+    run 0 periodic "$file" --period 1 --json
+    for axis in 1 2 3; do
+        eval "wanted=\$T$axis"
+        # shellcheck disable=SC2154 # set by eval
+        at_most "$file, axis $axis" "$(apart "$(number half_turn_trace $axis)" "$wanted")" 1.01e-8
+    done
+done <<END
+a.yaml 0.73482572 -3.56858865 0.25320105
+b.yaml 6.27038962 -11.14417488 0.61065405
+c.yaml -1.35831099 -3.08144739 42.73314819
+d.yaml -1.45392350 -2.36990950 -1.17309135
+END
+
+# --- orbits
+run 0 periodic b.yaml --period 3 -o b.csv
+silent
+check "rotations first" grep -q "^rotations about the principal axes" out
+check "columns" test "$(columns b.csv | cut -d, -f 1-12)" = \
+    "orbit,period,l,x,trace,error,stability,symmetry,copies,t,tau,s"
+check "a stable fixed point of the return map" test "$(rows b.csv | awk -F, '$2 == 1 && $7 == "stable"' | wc -l)" -eq 1
+check "all close" awk -F, '/^[0-9]/ && !($13 <= 1e-14) { exit 1 }' b.csv
+count=$(rows b.csv | wc -l)
+run 0 periodic b.yaml --period 3 -o two.csv -j 3
+check "threads change nothing" cmp b.csv two.csv
+run 0 periodic b.yaml --period 3 --all -o all.csv
+check "--all has more" test "$(rows all.csv | wc -l)" -gt "$count"
+check "and all of the others" test "$(rows all.csv | awk -F, '$8 != "none"' | wc -l)" -ge "$count"
+run 0 periodic b.yaml --period 1 --polish
+check "--polish: 30 digits" grep -q "6\.27038962043661[0-9]\{14,\}" out
+run 0 periodic d.yaml --period 6
+check "k = 1: tori" grep -q "lie on resonant tori" out
+check "k = 1: all are degenerate" test "$(grep -c degenerate out)" -eq 9
+
+# --- an orbit's start, followed by `run`, comes back
+l=$(rows b.csv | awk -F, '$2 == 1 { print $0; exit }')
+field() { printf '%s\n' "$l" | cut -d, -f "$1"; }
+cat >orbit.yaml <<END
+reduced: {k: 0.5, J: [1, 2, 5]}
+initial: {normal: [$(field 17), $(field 18), $(field 19)],
+    angular_velocity: [$(field 14), $(field 15), $(field 16)], project: true}
+time: {end: $(field 10), step: $(field 10)}
+END
+run 0 run orbit.yaml --tol 1e-14
+check "the state comes back" awk -F, '/^[0-9]/ { for (i = 2; i <= 7; i++) { if (n && ($i - a[i])^2 > 1e-22) exit 1; a[i] = $i } n++ } END { exit n != 2 }' out
+
+# --- following
+run 0 periodic b.yaml --period 1 --orbit 1 --follow k=0.3:0.8 -o f.csv
+check "a period doubling" grep -q "period doubling *k = 0.57775689376" out
+check "a collision" grep -q "it shrinks onto the rotation about axis 1 at k = 0.65388982" out
+check "symmetry breaking" grep -q "symmetry breaking *k = 0.415374" out
+check "columns of a branch" test "$(columns f.csv)" = "branch,line,period,k,l,x,trace,event"
+run 0 periodic b.yaml --period 2 --orbit 2 --follow k=0.4:0.6 --json
+check "JSON of a branch" grep -q '"kind": "period doubling"' out
+run 0 periodic a.yaml --period 2
+check "a stable orbit that only T S1 and T S3 map to themselves" grep -q "stable *TS1 TS3  " out
+run 0 periodic a.yaml --period 2 --follow k=0.45:0.6 -o pair.csv -j 1
+ends=$(rows pair.csv | awk -F, '$8 == "collision" { printf "%s:%.9f ", $2, $4 }')
+check "it ends with its partner, of S1, on a rotation" test "$ends" = "TS1:0.569013706 S1:0.569013706 "
+run 0 periodic a.yaml --period 2 --follow k=0.45:0.6 -o two.csv
+check "threads change no branch" cmp pair.csv two.csv
+run 0 periodic a.yaml --period 4 --orbit 1 --follow J2=1.9:2.3
+check "by a moment" grep -q "J2 from 1.9 to 2.3" out
+run 0 periodic a.yaml --period 4 --orbit 1 --follow ratio=0.4:0.45
+
+# --- the chart
+run 0 periodic b.yaml --chart J2=1.5:4.5 --k -1:1 --steps 12 -o chart.csv
+check "rows of a chart" test "$(grep -c '^grid,' chart.csv)" -eq 169
+check "borders" grep -q '^border,' chart.csv
+run 0 periodic b.yaml --chart J3 --steps 4 --json
+check "JSON of a chart" grep -q '"borders": \[' out
+
+run 0 periodic a.yaml --period 3 --orbit 4 --follow J2=1.3:2.3
+check "equal moments: no special kind" grep -q "torus *J2 = 1.4 .*J1 = J2" out
+check "no other event there" test "$(grep -c "1\.4000\|1\.3999" out)" -eq 0
+run 0 periodic b.yaml --period 1 --follow k=0.5:0.7 --branches
+check "what branches off" grep -q "branch 2: period 2, .*from branch 1" out
+
+# --- interrupted
+if interruptible "periodic after SIGINT"; then
+    timeout --preserve-status -k 60 -s INT 2 "$isoroll" periodic b.yaml --period 2 --follow k=0.3:0.9 -j 1 \
+        -o cut.csv >out 2>err
+    check "Ctrl-C while following: exit 1" test $? -eq 1
+    check "words" grep -q "interrupted: branches are missing or cut" err
+    check "and the branches so far" grep -q ",failure$" cut.csv
+    timeout --preserve-status -k 60 -s INT 1 "$isoroll" periodic b.yaml --chart J2 --steps 1500 -o cut_chart.csv \
+        >out 2>err
+    check "Ctrl-C in a chart: exit 1" test $? -eq 1
+    check "words" grep -q "interrupted: no chart" err
+    check "and no file" test ! -e cut_chart.csv
+fi
+
+# --- refusals
+scene 0.5 "2, 2, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >round.yaml
+refuses 3 "J1 and J2 are equal" periodic round.yaml
+scene 0.5 "1, 2, 3" "0, 0, 0" "0.36, 0.48, 0.8" 10 0.5 >rest.yaml
+refuses 3 "at rest" periodic rest.yaml
+{
+    cat a.yaml
+    echo "effects: {field: {linear: [0.1, 0.1, 0.05]}}"
+} >field.yaml
+refuses 3 "remove 'field'" periodic field.yaml
+refuses 3 "the list ends at 1" periodic b.yaml --period 1 --orbit 2 --follow k=0.4:0.6
+refuses 3 "must contain it" periodic b.yaml --period 1 --follow k=0.6:0.8
+refuses 3 "contains k = 0" periodic b.yaml --period 1 --follow k=-1:1
+refuses 3 "largest moment" periodic b.yaml --period 1 --follow J2=1.5:6
+refuses 3 "expected NAME=A:B" periodic b.yaml --period 1 --follow h=1:2
+refuses 3 "expected J1, J2 or J3" periodic b.yaml --chart J4
+refuses 3 "give A:B with" periodic b.yaml --chart J2=3:1
+refuses 2 "give 1 to 64" periodic b.yaml --period 65
+refuses 5 "nowhere" periodic b.yaml --period 1 --follow k=0.4:0.6 -o nowhere/f.csv
+refuses 5 "nowhere" periodic b.yaml --chart J2 -o nowhere/f.csv
+scene 2 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >calm.yaml
+refuses 3 "no symmetric orbit to follow" periodic calm.yaml --period 2 --follow k=1.9:2.1
+scene 0.01 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >flat.yaml
+refuses 3 "give |k| >= 0.02" periodic flat.yaml
+refuses 3 "nothing is computed for |k| < 0.02" periodic b.yaml --chart J2 --k=-0.01:0.01
+refuses 2 "goes with --all" periodic b.yaml --grid 100
+refuses 2 "goes with --chart" periodic b.yaml --steps 100
+refuses 2 "do not go with --chart" periodic b.yaml --chart J2 --all
+refuses 2 "not --polish" periodic b.yaml --polish --follow k=0.4:0.6
+refuses 2 "not both" periodic b.yaml --chart J2 --follow k=0.4:0.6
+refuses 2 "choose one" periodic b.yaml --json -o -
+refuses 2 "expected" periodic b.yaml --period 0
+
+# --- pictures
+if has gnuplot "--plot"; then
+    run 0 periodic b.yaml --period 3 --plot a.svg
+    check "a picture of orbits" grep -q ">unstable<" a.svg
+    run 0 periodic b.yaml --period 1 --follow k=0.4:0.6 --plot f.svg
+    check "a picture of a branch" grep -q ">trace<" f.svg
+    run 0 periodic b.yaml --chart J2 --steps 10 --plot c.svg
+    check "a picture of the chart" grep -q "greatest moment" c.svg
+else
+    echo "gnuplot is not installed: no pictures"
+fi
+finish

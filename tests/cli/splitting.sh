@@ -1,0 +1,159 @@
+#!/bin/sh
+# splitting.sh ISOROLL - `isoroll splitting`: known values, k = 1, scans, zeros, JSON, CSV, pictures, refusals.
+. "$(dirname "$0")/lib.sh"
+
+# near NAME VALUE WANTED BOUND
+near() {
+    checks=$((checks + 1))
+    awk -v a="$2" -v b="$3" -v bound="$4" 'BEGIN { d = a - b; if (d < 0) d = -d; exit !(a != "" && d <= bound) }' ||
+        fail "$1: $2 is not $3"
+}
+
+# column ROW NAME: a number of a CSV
+column() {
+    grep -v '^#' split.csv | awk -F, -v row="$1" -v name="$2" \
+        'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i } NR == row + 1 { print $at }'
+}
+
+scene 0.5 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >half.yaml
+run 0 splitting half.yaml
+silent
+check "one row" grep -q '^ *0.5 .* 6.14708829830.*e-03 ' out
+
+# --- a list, as CSV: values of two other programs
+run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -o split.csv -j 2
+silent
+near "x at k = 1/2" "$(column 1 x)" -0.5793681 5e-8
+near "m at k = 1/2" "$(column 1 m)" 0.006147 1e-6
+near "x at k = 3/4" "$(column 2 x)" -0.6363709 5e-8
+near "m at k = 3/4" "$(column 2 m)" 0.0001087 1e-7
+near "x at k = 1" "$(column 3 x)" -0.6614378 5e-8
+near "m at k = 1" "$(column 3 m)" 0 "$(column 3 error)"
+near "x at k = -1/2" "$(column 4 x)" 0.8508579 5e-8
+near "m at k = -1/2" "$(column 4 m)" 0.001561 1e-6
+check "k = 1: words" grep -q ' 0 .*not distinguishable from 0: below ' out
+run 0 splitting half.yaml --digits double --k=0.5,3/4,1,-1/2 -j 1 --output -
+check "one thread gives the same" cmp -s out split.csv
+
+# --- a range, and the scene's start does not matter
+scene 0.9 "1.4, 2.1, 3.0" "0, 0, 2" "0.6, 0.8, 0" 3 0.5 >other.yaml
+run 0 splitting half.yaml --k 0.5:0.7:0.1 -o a.csv
+run 0 splitting other.yaml --k 0.7:0.5:0.1 -o b.csv
+check "three values and a head" test "$(wc -l <a.csv)" -eq 5
+sort a.csv >a.sorted
+sort b.csv >b.sorted
+check "other starts, another order" cmp -s a.sorted b.sorted
+
+# --- a zero
+scene 1 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >wide.yaml
+run 0 splitting wide.yaml --k=-1.7,-1.5 --digits double --json
+silent
+check "JSON: a zero" grep -q '"k": -1.6024081' out
+check "JSON: the next crossing" grep -q '"next": {' out
+run 0 splitting wide.yaml --k=-1.7,-1.5 --digits double
+check "words: a tangency" grep -q 'where the manifolds touch' out
+run 0 splitting wide.yaml --k 0.9,1.1 --digits double
+check_not "none at k = 1" grep -q 'm = 0 at' out
+
+# --- the table of lib/doc/why_only_one.md: "K M", where 64 bits are enough; or those with a star
+table() {
+    awk -F'|' -v star="$1" '
+        $2 !~ /^ [0-9]+(\/[0-9]+)? $/ || $2 == " 1 " { next }
+        { for (i = 3; i <= 4; i++) if (($i ~ /\*/) == star) { m = $i; gsub(/[ *]/, "", m); k = $2; gsub(/ /, "", k)
+                                                            print (i == 3 ? "" : "-") k, m } }
+    ' "$source/lib/doc/why_only_one.md"
+}
+
+# holds_table DIGITS K: m is that of the page, and above 100 errors, for K, which are in the file `wanted`
+holds_table() {
+    run 0 splitting half.yaml --digits "$1" --k="$2" -o split.csv
+    checks=$((checks + 1))
+    awk -F '[, ]' 'NR == FNR { k[NR] = $1; m[NR] = $2; rows = NR; next }
+        /^[-0-9]/ && $8 == 0 { d = $3 - m[++n]; size = $3 < 0 ? -$3 : $3; if (d < 0) d = -d
+                               if (!(d <= 6e-7 * size && size > 100 * $4)) { print k[n], $3, $4; bad = 1 } }
+        END { exit bad || n != rows || n == 0 }' wanted split.csv >wrong || fail "the table: $(head -n 3 wrong)"
+}
+table 0 | awk -v step="$(length 24 1)" 'NR % step == 0' >wanted
+check "rows of the table" test -s wanted
+holds_table double "$(cut -d ' ' -f 1 wanted | paste -s -d , -)"
+if [ "$(length 0 1)" = 1 ] && "$isoroll" list methods | grep -q -w taylor_quad; then # one by one: zeros are slow
+    for row in $(table 1 | awk 'NR % 8 == 0 { print $1 "=" $2 }'); do
+        echo "${row%=*} ${row#*=}" >wanted
+        holds_table auto "${row%=*}"
+    done
+fi
+
+# --- ranges through 0 and through 1
+run 1 splitting half.yaml --digits double --k=-0.1:0.1:0.1 -o split.csv
+says "1 of 3 values of k failed: k = 0"
+near "k = -0.1, x" "$(column 1 k)" -0.1 0
+near "k = 0.1" "$(column 2 k)" 0.1 0
+check "0 is told" grep -q '^ *0 k = 0' out
+run 0 splitting half.yaml --digits double --k=0.95:1.05:0.05 -o split.csv
+silent
+check "the sign changes" awk -v a="$(column 1 m)" -v b="$(column 3 m)" 'BEGIN { exit !(a > 0 && b < 0) }'
+near "0 between them" "$(column 2 m)" 0 "$(column 2 error)"
+check_not "k = 1 is no further zero" grep -q 'm = 0 at' out
+run 0 splitting half.yaml --digits double --k=-1.05:-0.95:0.1
+check_not "nor is -1, between two values" grep -q 'm = 0 at' out
+
+# --- JSON: the contract
+run 0 splitting half.yaml --json
+for key in rows k x m error digits; do check "JSON: $key" grep -q "\"$key\":" out; done
+check "JSON: digits" grep -q '"digits": 19' out
+
+# --- pictures
+if has gnuplot "pictures"; then
+    run 0 splitting half.yaml --digits double --k 0.4:0.8:0.2 --plot scan.svg
+    check "a picture of a scan" grep -q '</svg>' scan.svg
+    run 0 splitting half.yaml --plot one.svg
+    check "a picture of one k" grep -q '</svg>' one.svg
+fi
+
+# --- 128 bits tell more
+if isoroll_words=$("$isoroll" list methods) && echo "$isoroll_words" | grep -q -w taylor_quad; then
+    run 0 splitting half.yaml --k=-1 -o split.csv
+    near "128 bits at k = -1" "$(column 1 m)" 0 1e-29
+    check "its digits" test "$(column 1 digits)" = 32
+fi
+
+# --- a full disk, a closed one, and Ctrl-C
+if [ -c /dev/full ]; then
+    run 5 splitting half.yaml --digits double -o /dev/full
+    says "/dev/full"
+    "$isoroll" splitting half.yaml --digits double >/dev/full 2>err
+    check "a table on a full disk" test $? -eq 5
+fi
+refuses 5 "nowhere" splitting half.yaml -o nowhere/split.csv
+if interruptible "splitting after SIGINT"; then
+    last="splitting <- INT"
+    timeout --preserve-status -k 30 -s INT 1 "$isoroll" splitting half.yaml --digits double -j 1 --k 0.3:3:0.01 >out 2>err
+    check "interrupted: exit status 1" test $? -eq 1
+    says "interrupted: "
+    check "what is done" grep -q '^ *0.3 ' out
+fi
+
+# --- refusals
+scene 0.5 "1, 2, 2" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >equal.yaml
+refuses 3 "two moments of inertia are equal" splitting equal.yaml
+# nearly equal moments: an answer in words, at once
+for moments in "1.4, 1.4000001, 3" "1.4, 2.9999999, 3"; do
+    scene 0.5 "$moments" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >near.yaml
+    refuses 3 "too near 1: m is about exp(-2 pi^2/ln of it) = 1e-" splitting near.yaml
+done
+refuses 3 "0.05 <= |k| <= 50" splitting half.yaml --k 1000
+refuses 3 "k = 0" splitting half.yaml --k 0
+refuses 3 "expected values and ranges" splitting half.yaml --k 1:2
+refuses 3 "expected values and ranges" splitting half.yaml --k 1:2:0
+for k in 1/0 1:2:3:4 '1,,2' x nan 1:2:1e-9 1e999; do
+    refuses 3 "expected values and ranges" splitting half.yaml --k "$k"
+done
+refuses 3 "0.05 <= |k| <= 50" splitting half.yaml --k 1e-3
+refuses 2 "double, quad or auto" splitting half.yaml --digits few
+refuses 2 "choose one" splitting half.yaml -o - --json
+refuses 2 ".svg, .png or .pdf" splitting half.yaml --plot picture.bmp
+refuses 3 "remove 'gravity'" splitting "$source/examples/10_bowl/scene.yaml"
+run 1 splitting half.yaml --k 0,0.5
+says "1 of 2 values of k failed"
+check "the other is there" grep -q '^ *0.5 ' out
+finish

@@ -1,0 +1,162 @@
+/* Following periodic orbits (lib/study/periodic_follow.h): points of a branch are periodic orbits, events are where
+ * their law says, branches that meet agree; refusals. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "laws.h"
+#include "study/periodic_follow.h"
+#include "study/stability_chart.h"
+
+static iso_context *ctx;
+
+static iso_scene scene_of(double k, const double J[3])
+{
+    static const double omega[3] = {0.9, -0.3, -0.225}, normal[3] = {0.36, 0.48, 0.8};
+    iso_scene scene = iso_scene_default();
+    scene.params = laws_params(k, J);
+    if (iso_start_ball(ctx, omega, normal, ISO_SPIN_REMOVE, &scene.start) != ISO_OK) exit(1);
+    return scene;
+}
+
+static iso_periodic *orbits_of(const iso_scene *scene, int period)
+{
+    iso_periodic_options o = iso_periodic_defaults();
+    iso_periodic *found = NULL;
+    o.period = period;
+    gsl_test(iso_periodic_run(ctx, scene, &o, &found) != ISO_OK, "%s", iso_context_message(ctx));
+    if (!found) exit(gsl_test_summary());
+    return found;
+}
+
+static const iso_branch_event *event_of(const iso_branch *b, iso_branch_kind kind)
+{
+    for (size_t i = 0; i < b->events; i++)
+        if (b->event[i].kind == kind) return &b->event[i];
+    gsl_test(1, "there is an event '%s'", iso_branch_kind_name(kind));
+    exit(gsl_test_summary());
+}
+
+/* A point of a branch is found again by the search along lines, at its value of k. */
+static void check_point(const iso_branch *b, const iso_branch_point *p, const double J[3])
+{
+    const iso_scene scene = scene_of(p->value, J);
+    iso_periodic *f = orbits_of(&scene, b->period);
+    double best = INFINITY;
+    for (size_t i = 0; i < f->count; i++)
+        if (f->orbit[i].period == b->period) best = fmin(best, fabs(f->orbit[i].trace - p->trace));
+    gsl_test_abs(best, 0, 1e-8 * (1 + fabs(p->trace)), "k = %g: the search finds the orbit of the branch", p->value);
+    iso_periodic_free(f);
+}
+
+/* J = (1, 2, 5), the fixed point of period 1: its doubling, its collision with the rotation about axis 1, whose trace is
+ * there 2, and the branch of period 2 that begins at the doubling. */
+static void check_branch(void)
+{
+    static const double J[3] = {1, 2, 5};
+    const iso_scene scene = scene_of(0.5, J);
+    iso_periodic *f = orbits_of(&scene, 1);
+    iso_follow_options o = iso_follow_defaults();
+    iso_follow *follow;
+    o.from = 0.3, o.to = 0.8, o.branches = true, o.longest = 0.08;
+    gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
+    const iso_branch *b = &follow->branch[0];
+    const iso_branch_event *doubling = event_of(b, ISO_BRANCH_DOUBLING), *end = event_of(b, ISO_BRANCH_END);
+    const iso_branch_event *collision = event_of(b, ISO_BRANCH_COLLISION);
+    gsl_test_abs(doubling->at.trace, -2, 1e-9, "trace at a period doubling");
+    gsl_test_abs(event_of(b, ISO_BRANCH_BREAKING)->at.trace, 2, 1e-6, "trace where a symmetry breaks");
+    gsl_test_abs(end->at.value, 0.3, 0, "the end of the range");
+    gsl_test_int(collision->axis, 0, "the rotation that it meets");
+    gsl_test_abs(iso_hill_trace(collision->at.value, J, 0, NULL), 2, 1e-9, "its trace at the collision");
+    check_point(b, &b->point[b->points / 2], J);
+    check_point(b, &b->point[0], J);
+    gsl_test(follow->count < 2, "branches are switched to: %zu", follow->count);
+    bool meets = false;
+    for (size_t i = 1; i < follow->count; i++) {
+        const iso_branch *other = &follow->branch[i];
+        gsl_test_int(other->parent, 0, "its parent");
+        for (size_t j = 0; j < other->events && other->period == 2; j++)
+            meets = meets || (other->event[j].joins && fabs(other->event[j].at.value - doubling->at.value) < 1e-9);
+    }
+    gsl_test(!meets, "a branch of period 2 begins at the doubling");
+    iso_follow_free(follow);
+    iso_periodic_free(f);
+}
+
+/* Through k = 1, where the orbit is one of a torus. */
+static void check_torus(void)
+{
+    static const double J[3] = {1.4, 2.1, 3};
+    const iso_scene scene = scene_of(0.97, J);
+    iso_periodic *f = orbits_of(&scene, 5);
+    iso_follow_options o = iso_follow_defaults();
+    iso_follow *follow;
+    o.from = 0.96, o.to = 1.02, o.longest = 0.1;
+    gsl_test(f->count < 2, "there are orbits");
+    gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, 2, &o, &follow), ISO_OK, "followed");
+    int tori = 0;
+    for (size_t i = 0; i < follow->count; i++)
+        for (size_t j = 0; j < follow->branch[i].events; j++) {
+            const iso_branch_event *e = &follow->branch[i].event[j];
+            if (e->kind != ISO_BRANCH_TORUS) continue;
+            gsl_test_abs(e->at.value, 1, 1e-7, "k of a torus");
+            tori++;
+        }
+    gsl_test(tori == 0, "branches pass tori");
+    iso_follow_free(follow);
+    iso_periodic_free(f);
+}
+
+static void check_refusals(void)
+{
+    static const double J[3] = {1.4, 2.1, 3};
+    static const struct {
+        iso_vary vary;
+        double from, to;
+    } wrong[] = {{ISO_VARY_K, 0.6, 0.4}, {ISO_VARY_K, -1, 1},  {ISO_VARY_K, 0.6, 0.8},
+                 {ISO_VARY_J2, 2, 4},    {ISO_VARY_J2, -1, 3}, {ISO_VARY_K, NAN, 1}};
+    const iso_scene scene = scene_of(0.5, J);
+    iso_periodic *f = orbits_of(&scene, 4);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        iso_follow_options o = iso_follow_defaults();
+        iso_follow *follow;
+        o.vary = wrong[i].vary, o.from = wrong[i].from, o.to = wrong[i].to;
+        gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_BAD_ARGUMENT, "range %zu",
+                     i);
+        gsl_test(strcmp(iso_context_about(ctx), "range") != 0, "about the range");
+        gsl_test(follow != NULL, "nothing is given");
+    }
+    iso_periodic_free(f);
+}
+
+/* Borders of the chart: the trace is 2 or -2 there. */
+static void check_chart(void)
+{
+    iso_stability_options o = iso_stability_defaults();
+    iso_record *grid, *borders;
+    o.J[0] = 1, o.J[2] = 5, o.from[1] = 1.5, o.to[1] = 4.5, o.steps = 24;
+    gsl_test_int((int)iso_stability_chart(ctx, &o, &grid, &borders), ISO_OK, "a chart");
+    gsl_test_int((int)iso_record_rows(grid), 25 * 25, "its grid");
+    gsl_test(iso_record_rows(borders) < 20, "its borders");
+    for (size_t i = 0; i < iso_record_rows(borders); i++) {
+        const double *row = iso_record_const_row(borders, i), J[3] = {1, row[3], 5};
+        gsl_test_abs(iso_hill_trace(row[2], J, row[0] > 0 ? 2 : 0, NULL), row[1], 1e-8, "border at k = %g, J2 = %g",
+                     row[2], row[3]);
+    }
+    iso_record_free(grid);
+    iso_record_free(borders);
+    o.steps = 1;
+    gsl_test_int((int)iso_stability_chart(ctx, &o, &grid, &borders), ISO_BAD_ARGUMENT, "steps");
+}
+
+int main(void)
+{
+    ctx = iso_context_create();
+    check_branch();
+    check_torus();
+    check_refusals();
+    check_chart();
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}

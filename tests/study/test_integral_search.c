@@ -1,0 +1,321 @@
+/* The search for first integrals (study/integrals.h): it finds those that are known, and no others; what is doubtful
+ * is called undecided; values depend on k and the ratio of the moments alone; what is refused. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "io/scene_file.h"
+#include "laws.h"
+#include "length.h"
+#include "study/integrals.h"
+
+static iso_context *ctx;
+static const double ours[3] = {1.4, 2.1, 3};
+
+static iso_scene scene_of(double k, const double J[3])
+{
+    iso_scene scene = iso_scene_default();
+    scene.params = laws_params(k, J);
+    scene.start = (iso_start){.model = ISO_BALL, .y = {0.8, 0.3, -0.6, 0.6, 0, 0.8}, .eps = NAN};
+    return scene;
+}
+
+static iso_integral_search_options options(int degree)
+{
+    iso_integral_search_options o = iso_integral_search_defaults();
+    o.degree = degree;
+    return o;
+}
+
+static iso_integral_search search(const iso_scene *scene, const iso_integral_search_options *o)
+{
+    iso_integral_search r;
+    if (iso_integral_search_run(ctx, scene, o, &r) == ISO_OK) return r;
+    gsl_test(1, "a search is refused: %s", iso_context_message(ctx));
+    exit(gsl_test_summary());
+}
+
+static iso_integral_search look(double k, const double J[3], int degree)
+{
+    const iso_scene scene = scene_of(k, J);
+    const iso_integral_search_options o = options(degree);
+    return search(&scene, &o);
+}
+
+/* Three moments that differ by a tenth or more, in any order. */
+static void draw(iso_random *random, double J[3])
+{
+    for (bool close = true; close;) {
+        for (int i = 0; i < 3; i++) J[i] = exp(iso_random_uniform(random, -1.2, 1.2));
+        close = false;
+        for (int i = 0; i < 3; i++) close = close || fabs(J[i] / J[(i + 1) % 3] - 1) < 0.1;
+    }
+}
+
+/* The energy in every even degree and in no odd one, to rounding. */
+static void energy(const iso_integral_search *r, const char *what)
+{
+    bool even = true, odd = true;
+    for (int d = 1; d <= r->degrees; d++) {
+        if (d % 2 == 0) even = even && r->at[d].found == 1 && r->at[d].largest < 1e-13;
+        if (d % 2 == 1) odd = odd && r->at[d].found == 0;
+    }
+    gsl_test(!even, "%s: the energy is the one integral of even degree", what);
+    gsl_test(!odd, "%s: no integral of odd degree", what);
+    gsl_test(!(r->energy < 1e-13), "%s: the samples keep the energy (%.1e)", what, r->energy);
+}
+
+/* --- what is known is found ------------------------------------------------------------------------------------- */
+
+/* Quadratic integrals at k = 1 and -1: with 1, F in V_2; with 1, F, F^2 in V_4; the gap is clear. */
+static void quadratic(double k)
+{
+    iso_random *random = iso_random_create(4);
+    const int count = tests_length(6, 60);
+    int right = 0;
+    double worst = 0, largest = 0, smallest = INFINITY;
+    for (int i = 0; i < count; i++) {
+        double J[3];
+        draw(random, J);
+        const iso_integral_search r = look(k, J, 4);
+        right += r.verdict == ISO_INTEGRALS_FOUND && r.independent == 1 && r.known_count == 1 &&
+                 r.known[0].degree == 2 && r.at[1].found == 0 && r.at[2].found == 2 && r.at[2].further == 1 &&
+                 r.at[3].found == 0 && r.at[4].found == 3 && r.at[4].further == 1;
+        worst = fmax(worst, r.known[0].residual);
+        largest = fmax(largest, fmax(r.at[2].largest, r.at[4].largest));
+        smallest = fmin(smallest, fmin(r.at[2].smallest, r.at[4].smallest));
+    }
+    gsl_test_int(right, count, "k = %g: F and no more, for random moments", k);
+    gsl_test(!(worst < 1e-10), "k = %g: what is found is the F that is known (%.1e)", k, worst);
+    gsl_test(!(largest < 1e-12 && smallest > 1e-4), "k = %g: the gap, from %.1e to %.1e", k, largest, smallest);
+    iso_random_free(random);
+}
+
+/* Linear ones of bodies with two equal moments, at any k. */
+static void linear(void)
+{
+    static const double k[] = {0.6, -0.35, 2.5};
+    for (int axis = 0; axis < 3; axis++) {
+        double J[3] = {1.7, 1.7, 1.7};
+        char name[16];
+        J[axis] = axis == 1 ? 0.8 : 2.6;
+        snprintf(name, sizeof name, "F_axis%d", axis + 1);
+        const iso_integral_search r = look(k[axis], J, 3);
+        gsl_test_int((int)r.verdict, ISO_INTEGRALS_FOUND, "%s: found", name);
+        gsl_test_int(r.independent, 1, "%s: one", name);
+        gsl_test_int((int)r.at[1].found, 1, "%s: it is linear", name);
+        gsl_test_int((int)r.at[2].found, 2, "%s: its square and the energy", name);
+        gsl_test_int((int)r.at[3].found, 2, "%s: its cube, and it times the energy", name);
+        gsl_test(r.known_count != 1 || strcmp(r.known[0].name, name) || !(r.known[0].residual < 1e-10),
+                 "%s: by its name", name);
+        gsl_test_int((int)r.at[1].value[0].parity, 1 << axis, "%s: its parity", name);
+    }
+    const iso_integral_search r = look(0.6, (double[]){2, 2, 2}, 2);
+    gsl_test_int((int)r.at[1].found, 3, "three equal moments: M");
+    gsl_test_int((int)r.at[2].found, 6, "three equal moments: products of M, M^2 is the energy");
+    gsl_test_int(r.independent, 2, "three equal moments: two are independent of the energy");
+}
+
+/* --- and nothing else ------------------------------------------------------------------------------------------- */
+
+static void none(double k, int degree)
+{
+    const iso_integral_search r = look(k, ours, degree);
+    double smallest = INFINITY;
+    char what[32];
+    snprintf(what, sizeof what, "k = %g", k);
+    for (int d = 1; d <= degree; d++) smallest = fmin(smallest, r.at[d].smallest);
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_NONE, "%s: none up to degree %d", what, degree);
+    gsl_test(!(smallest > 1e-5), "%s: far from it (%.1e)", what, smallest);
+    gsl_test_int(r.independent, 0, "%s: no number of integrals", what);
+    energy(&r, what);
+}
+
+static void none_at_random(void)
+{
+    iso_random *random = iso_random_create(5);
+    const int count = tests_length(6, 60);
+    int right = 0;
+    for (int i = 0; i < count; i++) {
+        double J[3];
+        draw(random, J);
+        const double size = i % 2 ? iso_random_uniform(random, 0.15, 0.85) : iso_random_uniform(random, 1.2, 3);
+        const iso_integral_search r = look(i % 3 ? size : -size, J, 3);
+        right += r.verdict == ISO_INTEGRALS_NONE && r.at[2].found == 1;
+    }
+    gsl_test_int(right, count, "none for random k and J");
+}
+
+/* F needs coefficients of degree 2 in gamma. */
+static void too_small_a_space(void)
+{
+    const iso_scene scene = scene_of(1, ours);
+    iso_integral_search_options o = options(2);
+    o.coefficients = 1;
+    const iso_integral_search r = search(&scene, &o);
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_NONE, "F is not in a space without its coefficients");
+    gsl_test_int(r.known[0].degree, 0, "and is told not to be");
+}
+
+/* M c(gamma), c polynomials of degree E, are the tangent fields of the sphere made of gradients of harmonics of degree
+ * E + 1 or less and their rotations by a right angle of degree E or less: 2 E^2 + 6 E + 3. */
+static void dimension(void)
+{
+    const iso_scene scene = scene_of(0.5, ours);
+    iso_integral_search_options o = options(1);
+    for (int E = 0; E <= ISO_INTEGRAL_DEGREE; E++) {
+        o.coefficients = E;
+        const iso_integral_search r = search(&scene, &o);
+        gsl_test_int((int)r.at[1].functions, 2 * E * E + 6 * E + 3, "E = %d: dimension of V_1", E);
+    }
+}
+
+/* --- what is doubtful ------------------------------------------------------------------------------------------- */
+
+static void doubtful(void)
+{
+    iso_integral_search r = look(1 + 1e-8, ours, 2);
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_UNDECIDED, "k = 1 + 1e-8: constant within 1e-10 is not constant");
+    gsl_test_int((int)r.at[2].doubtful, 1, "one value is doubtful");
+    r = look(1 + 1e-13, ours, 2);
+    gsl_test(r.verdict != ISO_INTEGRALS_UNDECIDED || !r.near, "k = 1 + 1e-13: the neighbour's F");
+    r = look(0.5, (double[]){1, 1.0000001, 1.0000002}, 2);
+    gsl_test(r.verdict != ISO_INTEGRALS_UNDECIDED || !r.near, "moments 1e-7 apart");
+    r = look(0.5, (double[]){1, 1.001, 1.002}, 4);
+    gsl_test(r.verdict != ISO_INTEGRALS_UNDECIDED || !r.near || r.at[2].found != 1,
+             "moments 1e-3 apart: values of growing degree fall to rounding");
+    r = look(1, (double[]){1, 1.001, 1.002}, 4);
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_FOUND, "moments 1e-3 apart, k = 1: F is there");
+    r = look(1, (double[]){1, 1.0000001, 1.0000002}, 2);
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_FOUND, "moments 1e-7 apart, k = 1: F is there");
+    const iso_scene scene = scene_of(1, ours);
+    iso_integral_search_options o = options(2);
+    o.tolerance = 1e-6;
+    r = search(&scene, &o);
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_UNDECIDED, "rough integration decides nothing at k = 1");
+    o.within = 1e-6;
+    r = search(&scene, &o);
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_FOUND, "but finds F within 1e-6");
+}
+
+/* The error that is told covers the value of an integral, for every tolerance. */
+static void errors(void)
+{
+    static const double tolerances[] = {1e-15, 1e-13, 1e-11, 1e-9, 1e-7};
+    double worst = 0;
+    for (int i = 0; i < 10; i++) {
+        const iso_scene scene = scene_of(i % 2 ? 1 : -1, (double[]){1, 2, 5});
+        iso_integral_search_options o = options(2);
+        o.tolerance = tolerances[i / 2];
+        o.turns = i % 4 < 2 ? 50 : 500;
+        o.seed = (uint64_t)i;
+        const iso_integral_search r = search(&scene, &o);
+        for (int v = 0; v < 2; v++) worst = fmax(worst, r.at[2].value[v].value / r.at[2].value[v].error);
+    }
+    gsl_test(!(worst < 1), "errors cover values (%.2g of them)", worst);
+}
+
+/* --- what it depends on ----------------------------------------------------------------------------------------- */
+
+static double apart(const iso_integral_search *a, const iso_integral_search *b)
+{
+    double most = 0;
+    for (int d = 1; d <= a->degrees; d++)
+        for (size_t i = 0; i < a->at[d].values; i++)
+            most = fmax(most, fabs(a->at[d].value[i].value - b->at[d].value[i].value));
+    return most;
+}
+
+static void dependence(void)
+{
+    const iso_scene scene = scene_of(-0.5, ours);
+    iso_integral_search_options o = options(3);
+    const iso_integral_search first = search(&scene, &o);
+    iso_scene other = scene_of(-0.5, ours);
+    other.start.y[0] *= 3;
+    other.start.y[1] = -2;
+    other.start.y[2] *= 3;
+    iso_integral_search r = search(&other, &o);
+    gsl_test(!(apart(&first, &r) == 0), "the start does not matter");
+    o.threads = 1;
+    r = search(&scene, &o);
+    gsl_test(!(apart(&first, &r) == 0), "threads do not matter");
+    other = scene_of(-0.5, (double[]){1.4 * 7, 2.1 * 7, 3 * 7.0});
+    r = search(&other, &o);
+    gsl_test(!(apart(&first, &r) < 1e-3), "the unit of moments does not matter (%.1e)", apart(&first, &r));
+    o.seed = 3;
+    r = search(&scene, &o);
+    gsl_test(!(apart(&first, &r) > 1e-6), "another seed, other orbits");
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_NONE, "and the same verdict");
+}
+
+/* --- what is refused -------------------------------------------------------------------------------------------- */
+
+static void refuse(const iso_scene *scene, const iso_integral_search_options *o, iso_status status, const char *about)
+{
+    iso_integral_search r;
+    gsl_test_int((int)iso_integral_search_run(ctx, scene, o, &r), (int)status, "refused: %s", about);
+    gsl_test_str(iso_context_about(ctx), about, "about it");
+}
+
+static bool never(void *unused)
+{
+    (void)unused;
+    return false;
+}
+
+static void refusals(void)
+{
+    iso_scene scene = scene_of(0.5, ours);
+    for (int i = 0; i < 7; i++) {
+        static const char *const about[] = {"degree", "degree", "coefficients", "orbits",
+                                            "turns",  "within", "tolerance"};
+        iso_integral_search_options o = options(2);
+        if (i < 2) o.degree = i == 0 ? 0 : ISO_INTEGRAL_DEGREE + 1;
+        if (i == 2) o.coefficients = ISO_INTEGRAL_DEGREE + 1;
+        if (i == 3) o.orbits = 2;
+        if (i == 4) o.turns = NAN;
+        if (i == 5) o.within = 0;
+        if (i == 6) o.tolerance = -1;
+        refuse(&scene, &o, ISO_BAD_ARGUMENT, about[i]);
+    }
+    const iso_integral_search_options o = options(1);
+    iso_effects_set(ctx, &scene.effects, "rolling_resistance", "coefficient", 1, (double[]){0.1});
+    refuse(&scene, &o, ISO_BAD_INPUT, "rolling_resistance");
+    scene = scene_of(0.5, ours);
+    scene.start = (iso_start){.model = ISO_POINT, .y = {0, 0, 1, 1, 0, 0}, .eps = 2};
+    refuse(&scene, &o, ISO_BAD_INPUT, iso_level_name());
+    iso_context_set_monitor(ctx, never, NULL);
+    scene = scene_of(0.5, ours);
+    iso_integral_search r;
+    gsl_test_int((int)iso_integral_search_run(ctx, &scene, &o, &r), ISO_STOPPED, "stopped");
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_UNDECIDED, "stopped: undecided");
+    iso_context_set_monitor(ctx, NULL, NULL);
+    scene.start.y[0] = scene.start.y[1] = scene.start.y[2] = 0;
+    r = search(&scene, &o);
+    gsl_test_int((int)r.verdict, ISO_INTEGRALS_NONE, "a ball at rest: the energy does not matter");
+}
+
+int main(void)
+{
+    gsl_test_verbose(1);
+    ctx = iso_context_create();
+    quadratic(1);
+    quadratic(-1);
+    linear();
+    none(0.5, 4);
+    none(0.75, 4);
+    none(-0.5, 4);
+    none_at_random();
+    too_small_a_space();
+    dimension();
+    doubtful();
+    errors();
+    dependence();
+    refusals();
+    iso_context_free(ctx);
+    exit(gsl_test_summary());
+}

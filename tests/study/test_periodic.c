@@ -1,0 +1,386 @@
+/* Periodic orbits (lib/study/periodic.h): the rotations' traces against a table and the section, orbits against their
+ * laws, the search along lines against Newton's method from a grid, k = 1 and -1. */
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "laws.h"
+#include "length.h"
+#include "map/section.h"
+#include "method/methods_impl.h"
+#include "orbit/crossings.h"
+#include "study/periodic.h"
+
+static iso_context *ctx;
+
+static iso_scene scene_of(double k, const double J[3])
+{
+    static const double omega[3] = {0.9, -0.3, -0.225}, normal[3] = {0.36, 0.48, 0.8};
+    iso_scene scene = iso_scene_default();
+    scene.params = laws_params(k, J);
+    if (iso_start_ball(ctx, omega, normal, ISO_SPIN_REMOVE, &scene.start) != ISO_OK) exit(1);
+    return scene;
+}
+
+static iso_periodic *orbits_of(double k, const double J[3], const iso_periodic_options *o)
+{
+    const iso_scene scene = scene_of(k, J);
+    iso_periodic *found = NULL;
+    const iso_status status = iso_periodic_run(ctx, &scene, o, &found);
+    gsl_test(status != ISO_OK, "k = %g, J = %g %g %g: %s", k, J[0], J[1], J[2], iso_context_message(ctx));
+    if (!found) exit(gsl_test_summary());
+    return found;
+}
+
+/* --- rotations -------------------------------------------------------------------------------------------------- */
+
+/* SciPy's DOP853 with a tolerance of 1e-13. */
+static const struct row {
+    double k, J[3], trace[3];
+} table[] = {
+    {-2, {1.4, 2.1, 3}, {-1.90296522, -2.08844277, -1.64204496}},
+    {-1, {1.4, 2.1, 3}, {-1.65403520, -2.35263343, -0.29106773}},
+    {-0.5, {1.4, 2.1, 3}, {-0.90274035, -3.42625824, 7.66156228}},
+    {0.5, {1.4, 2.1, 3}, {0.73482572, -3.56858865, 0.25320105}},
+    {1, {1.4, 2.1, 3}, {-1.45392350, -2.36990950, -1.17309135}},
+    {2, {1.4, 2.1, 3}, {-1.87809342, -2.09058642, -1.75094206}},
+    {-2, {1, 2, 5}, {-1.80648488, -2.28865596, 4.46092545}},
+    {-1, {1, 2, 5}, {-1.35831099, -3.08144739, 42.73314819}},
+    {-0.5, {1, 2, 5}, {-0.21511903, -6.10571740, 489.475321}},
+    {0.5, {1, 2, 5}, {6.27038962, -11.14417488, 0.61065405}},
+    {1, {1, 2, 5}, {-0.61506031, -3.62894679, 1.76285884}},
+    {2, {1, 2, 5}, {-1.71561231, -2.35469722, -0.09928153}},
+};
+
+static void check_rotation(const struct row *t, const iso_rotation *r)
+{
+    const int a = r->axis;
+    const double trace = r->half_turn_trace;
+    gsl_test_abs(trace, t->trace[a], 1.01e-8 * fmax(1, fabs(trace) / 10), "k = %g, J3 = %g, axis %d", t->k, t->J[2],
+                 a + 1);
+    gsl_test(!(r->error < 1e-12 * fmax(1, fabs(trace))), "error %g", r->error);
+    gsl_test_rel(r->by_section, trace, 1e-12, "axis %d by the section", a + 1);
+    gsl_test((r->half.stability == ISO_STABLE) != (fabs(trace) < 2), "stability");
+    gsl_test((r->half.krein != 0) != (fabs(trace) < 2), "Krein's sign");
+    const double(*m)[2] = r->half.value;
+    gsl_test_abs(m[0][0] + m[1][0], trace, 1e-13 * fmax(1, fabs(trace)), "sum of the multipliers");
+    gsl_test_abs(m[0][0] * m[1][0] - m[0][1] * m[1][1], 1, 1e-13 * fmax(1, fabs(trace)), "their product");
+}
+
+static void check_rotations(void)
+{
+    iso_periodic_options o = iso_periodic_defaults();
+    o.period = 1;
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        iso_periodic *f = orbits_of(table[i].k, table[i].J, &o);
+        for (int a = 0; a < 3; a++) check_rotation(&table[i], &f->rotation[a]);
+        iso_periodic_free(f);
+    }
+}
+
+/* Hill's equation once more, in the time s and by GSL: y'' = (2 eps/k) q^(-1-1/k) ((1-k) q - J_i) y. */
+typedef struct hill {
+    double k, Ji, Ja, Jb;
+} hill;
+
+static int hill_slope(double phi, const double y[], double dy[], void *data)
+{
+    const hill *p = data;
+    const double C = cos(phi), S = sin(phi), q = p->Ja * C * C + p->Jb * S * S;
+    const double pace = sqrt(2) * pow(q, -1 / (2 * p->k)); /* dphi/ds */
+    for (int i = 0; i < 2; i++) {
+        dy[2 * i] = y[2 * i + 1] / pace;
+        dy[2 * i + 1] = 2 / p->k * pow(q, -1 - 1 / p->k) * ((1 - p->k) * q - p->Ji) * y[2 * i] / pace;
+    }
+    return GSL_SUCCESS;
+}
+
+static void check_by_gsl(void)
+{
+    iso_random *random = iso_random_create(17);
+    for (int i = 0; i < tests_length(20, 200); i++) {
+        const double k = (i % 2 ? 1 : -1) * iso_random_uniform(random, 0.3, 3);
+        const double J[3] = {iso_random_uniform(random, 1, 2), iso_random_uniform(random, 1, 3),
+                             iso_random_uniform(random, 1, 4)};
+        const int a = i % 3;
+        hill p = {k, J[a], J[(a + 1) % 3], J[(a + 2) % 3]};
+        gsl_odeiv2_system system = {hill_slope, NULL, 4, &p};
+        gsl_odeiv2_driver *d = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-14, 1e-14);
+        double y[4] = {1, 0, 0, 1}, phi = 0, error;
+        gsl_odeiv2_driver_apply(d, &phi, acos(-1), y);
+        const double trace = iso_hill_trace(k, J, a, &error), size = fabs(y[0]) + fabs(y[3]) + 1;
+        gsl_test_abs(trace, y[0] + y[3], 1e-11 * size, "k = %g, axis %d: trace by GSL", k, a + 1);
+        gsl_test(!(error < 1e-12 * size), "its error %g", error);
+        gsl_odeiv2_driver_free(d);
+    }
+    iso_random_free(random);
+}
+
+/* --- orbits ----------------------------------------------------------------------------------------------------- */
+
+/* Follows the orbit in doubles, from its point's start, and compares clocks, closure and trace. */
+static void check_by_crossings(const iso_scene *scene, int axis, const iso_periodic_orbit *o)
+{
+    iso_crossings_options how = iso_crossings_defaults();
+    iso_crossing at[ISO_PERIODIC_MOST];
+    iso_crossings *c;
+    size_t done;
+    iso_status status;
+    iso_start start = {.model = ISO_BALL, .eps = NAN};
+    for (int i = 0; i < ISO_STATE; i++) start.y[i] = o->ball[i];
+    const iso_batch_orbit orbit = {&scene->params, &start, NULL};
+    how.deviations = true;
+    how.axis = axis;
+    how.backend = ISO_BACKEND_BALL;
+    how.tolerance = 1e-14;
+    if (iso_crossings_create(ctx, &orbit, 1, &how, &c) != ISO_OK) exit(1);
+    iso_crossings_go(c, NULL, (size_t)o->period, at, NULL, &done, &status);
+    const iso_crossing *end = &at[o->period - 1];
+    const double(*M)[2] = end->slope, size = fabs(M[0][0]) + fabs(M[0][1]) + fabs(M[1][0]) + fabs(M[1][1]) + 1;
+    gsl_test_abs(remainder(end->l - o->l, 2 * acos(-1)), 0, 1e-12 * size, "period %d: l comes back", o->period);
+    gsl_test_abs(end->x, o->x, 1e-12 * size, "period %d: x comes back", o->period);
+    gsl_test_abs(M[0][0] + M[1][1], o->trace, 1e-10 * size * size, "period %d: trace", o->period);
+    for (iso_clock k = 0; k < ISO_CLOCKS; k++)
+        gsl_test_rel(end->clock[k], o->clock[k], 1e-11 * size, "period %d in %s", o->period, iso_clock_name(k));
+    iso_crossings_free(c);
+}
+
+static void check_orbit(const iso_scene *scene, int axis, const iso_periodic_orbit *o)
+{
+    gsl_test(!(o->closure <= 1e-14), "closure %g", o->closure);
+    gsl_test(!(fabs(o->determinant) <= 1e-12), "determinant 1 %+g", o->determinant);
+    gsl_test(!(o->error >= 0 && o->error <= 1e-9 * (1 + fabs(o->trace))), "trace %g +- %g", o->trace, o->error);
+    gsl_test(o->copies < 1 || o->copies > 16 || 16 % o->copies != 0, "%d copies", o->copies);
+    gsl_test((o->multipliers.stability == ISO_STABLE) != (o->multipliers.krein != 0), "Krein's sign");
+    if (fabs(o->trace) < 1e4) check_by_crossings(scene, axis, o);
+}
+
+static void check_orbits(void)
+{
+    static const double J[2][3] = {{1.4, 2.1, 3}, {1, 2, 5}}, k[] = {0.5, -0.6, 0.75, 2};
+    iso_periodic_options o = iso_periodic_defaults();
+    for (int i = 0; i < 4; i++) {
+        o.period = tests_length(3, 5) - (i == 0);
+        const double *moments = J[i == 0];
+        const iso_scene scene = scene_of(k[i], moments);
+        iso_periodic *f = orbits_of(k[i], moments, &o);
+        gsl_test(i < 3 && f->count == 0, "k = %g: there are orbits", k[i]);
+        gsl_test(f->lost > 0 || f->unresolved > 0, "k = %g: none is lost", k[i]);
+        for (size_t j = 0; j < f->count; j++) check_orbit(&scene, f->axis, &f->orbit[j]);
+        iso_periodic_free(f);
+    }
+}
+
+/* Each orbit of one list that the other should have: symmetric, and found only once. */
+static bool has(const iso_periodic *f, const iso_periodic_orbit *o)
+{
+    for (size_t i = 0; i < f->count; i++) {
+        const iso_periodic_orbit *p = &f->orbit[i];
+        if (p->period == o->period && fabs(p->trace - o->trace) < 1e-7 * (1 + fabs(o->trace)) &&
+            fabs(p->clock[0] / o->clock[0] - 1) < 1e-9)
+            return true;
+    }
+    return false;
+}
+
+/* Newton's method from a grid can find it: very unstable orbits attract few points of the grid, and with a trace near 2
+ * there are many next to each other. */
+static bool is_easy(const iso_periodic_orbit *o)
+{
+    return fabs(o->trace) < 30 && fabs(o->trace - 2) > 0.05;
+}
+
+/* How many orbits of a list are not in the other one. */
+static int missing(const iso_periodic *of, const iso_periodic *in, bool easy, const char *where, double k,
+                   const double J[3])
+{
+    int count = 0;
+    for (size_t j = 0; j < of->count; j++) {
+        const iso_periodic_orbit *o = &of->orbit[j];
+        if ((easy && !is_easy(o)) || o->symmetry == 0 || has(in, o)) continue;
+        count++;
+        printf("k = %.17g, J = %.17g %.17g %.17g: %s not period %d, l = %g, x = %g, trace %g, symmetry %d\n", k, J[0],
+               J[1], J[2], where, o->period, o->l, o->x, o->trace, o->symmetry);
+    }
+    return count;
+}
+
+/* The list of the search from a grid alone. */
+static iso_periodic *grid_of(double k, const double J[3], int period, long grid)
+{
+    iso_periodic_options o = iso_periodic_defaults();
+    o.period = period;
+    o.all = true;
+    o.no_lines = true;
+    o.grid = grid;
+    return orbits_of(k, J, &o);
+}
+
+/* The search from a grid, without lines, against the search along lines: every symmetric orbit that the grid finds,
+ * however unstable, lies on a line, and the easy ones of the lines are found from the grid, or a finer one. */
+static void check_both_searches(void)
+{
+    iso_random *random = iso_random_create(4);
+    size_t seen = 0;
+    int lost[2] = {0, 0};
+    for (int i = 0; i < tests_length(3, 10); i++) {
+        const double k = (i % 2 ? 1 : -1) * exp(iso_random_uniform(random, log(0.35), log(tests_length(1, 2))));
+        const double J[3] = {iso_random_uniform(random, 1, 1.3), iso_random_uniform(random, 1.5, 2),
+                             iso_random_uniform(random, 2.2, 3)};
+        const int period = tests_length(3, 5);
+        iso_periodic_options o = iso_periodic_defaults();
+        o.period = period;
+        iso_periodic *lines = orbits_of(k, J, &o), *grid = grid_of(k, J, period, 1000);
+        lost[0] += missing(grid, lines, false, "lines have", k, J);
+        if (missing(lines, grid, true, "a grid of 1000 points has", k, J) > 0) {
+            iso_periodic_free(grid);
+            grid = grid_of(k, J, period, 30000);
+            lost[1] += missing(lines, grid, true, "a grid of 30000 points has", k, J);
+        }
+        seen += lines->count;
+        iso_periodic_free(lines);
+        iso_periodic_free(grid);
+    }
+    iso_random_free(random);
+    gsl_test_int(lost[0], 0, "lines have the orbits from the grid that are symmetric");
+    gsl_test_int(lost[1], 0, "the grid finds those of the %zu orbits of the lines that are easy to find", seen);
+}
+
+/* k = 1, -1: orbits lie on resonant tori. (For k = -1 and J3 > J1 + J2 there is an isolated one as well.) */
+static void check_tori(void)
+{
+    iso_random *random = iso_random_create(1);
+    iso_periodic_options o = iso_periodic_defaults();
+    size_t tori = 0;
+    for (int i = 0; i < tests_length(6, 40); i++) {
+        const double k = i % 2 ? 1 : -1,
+                     J[3] = {iso_random_uniform(random, 1, 1.5), iso_random_uniform(random, 1.6, 2),
+                             iso_random_uniform(random, 2.2, 3)};
+        iso_periodic *f = orbits_of(k, J, &o);
+        for (size_t j = 0; j < f->count; j++) {
+            const iso_periodic_orbit *p = &f->orbit[j];
+            gsl_test(!p->torus || p->multipliers.stability != ISO_DEGENERATE, "period %d is on a torus", p->period);
+            gsl_test_abs(p->trace, 2, 1e-12, "k = %g, J = %.17g %.17g %.17g: its trace", k, J[0], J[1], J[2]);
+        }
+        tori += f->count;
+        iso_periodic_free(f);
+    }
+    gsl_test(tori == 0, "k = +-1: there are orbits");
+    iso_random_free(random);
+}
+
+static void refuse(const iso_scene *scene, const iso_periodic_options *o, iso_status wanted, const char *about)
+{
+    iso_periodic *found = NULL;
+    gsl_test_int((int)iso_periodic_run(ctx, scene, o, &found), (int)wanted, "refused: %s", about);
+    gsl_test(strcmp(iso_context_about(ctx), about) != 0, "about %s, not %s", iso_context_about(ctx), about);
+    gsl_test(found != NULL, "nothing is given");
+}
+
+#ifdef ISO_TAYLOR_HAS_QUAD
+/* The orbit of a list that is the same as o; NULL: none. */
+static const iso_periodic_orbit *twin_of(const iso_periodic_orbit *o, const iso_periodic *in)
+{
+    for (size_t i = 0; i < in->count; i++) {
+        const iso_periodic_orbit *p = &in->orbit[i];
+        if (p->period == o->period && p->line == o->line && fabs(p->u - o->u) < 1e-9) return p;
+    }
+    return NULL;
+}
+
+/* The orbits of one random ball, in 64 and in 128 bits. Adds to *seen, *beaten (errors that do not cover the distance)
+ * and *open (closures above their bounds). */
+static void compare_digits(iso_random *random, int period, size_t *seen, size_t *beaten, size_t *open)
+{
+    const double k =
+        (iso_random_uniform(random, 0, 1) < 0.5 ? 1 : -1) * exp(iso_random_uniform(random, log(0.35), log(2.5)));
+    const double J[3] = {iso_random_uniform(random, 1, 1.5), iso_random_uniform(random, 1.6, 2.5),
+                         iso_random_uniform(random, 2.6, 4)};
+    const iso_scene scene = scene_of(k, J);
+    iso_periodic_options o = iso_periodic_defaults();
+    o.period = period;
+    iso_periodic *rough = orbits_of(k, J, &o), *fine = NULL;
+    o.polish = true;
+    gsl_test(iso_periodic_run(ctx, &scene, &o, &fine) != ISO_OK, "%s", iso_context_message(ctx));
+    gsl_test(fine->count != rough->count, "k = %.17g: 64 and 128 bits have the same orbits", k);
+    for (size_t i = 0; i < rough->count; i++) {
+        const iso_periodic_orbit *a = &rough->orbit[i], *b = twin_of(a, fine);
+        gsl_test(!b, "k = %.17g, period %d, l = %g: found in 128 bits", k, a->period, a->l);
+        if (!b) continue;
+        const double apart = fabs((a->trace - b->trace) + (a->trace_tail - b->trace_tail));
+        if (!(apart <= a->error))
+            printf("k = %.17g, J = %.17g %.17g %.17g: trace %.17g of period %d: %g from 128 bits, error %g\n", k,
+                   J[0], J[1], J[2], a->trace, a->period, apart, a->error),
+                ++*beaten;
+        if (!(a->closure <= 1e-14) || !(b->closure <= 1e-28) ||
+            !(fabs(b->determinant) <= 1e-24 * (1 + fabs(b->trace))))
+            printf("k = %.17g, J = %.17g %.17g %.17g: period %d, trace %g, closures %g and %g, determinant 1 %+g\n",
+                   k, J[0], J[1], J[2], a->period, a->trace, a->closure, b->closure, b->determinant),
+                ++*open;
+        ++*seen;
+    }
+    iso_periodic_free(rough);
+    iso_periodic_free(fine);
+}
+
+/* The trace's error covers its distance from 128 bits, and orbits close to 1e-28 there. */
+static void check_polish(void)
+{
+    const size_t wanted = (size_t)tests_length(6, 60);
+    size_t seen = 0, beaten = 0, open = 0;
+    iso_random *random = iso_random_create(128);
+    for (int i = 0; i < 1000 && seen < wanted; i++) compare_digits(random, tests_length(2, 3), &seen, &beaten, &open);
+    iso_random_free(random);
+    gsl_test(seen < wanted, "%zu orbits", seen);
+    gsl_test(beaten > 0, "%zu of %zu errors of traces do not cover the distance from 128 bits", beaten, seen);
+    gsl_test(open > 0, "%zu of %zu orbits do not close to 1e-14, and to 1e-28 with 128 bits", open, seen);
+}
+#else
+/* There are no numbers of 128 bits here. */
+static void check_polish(void)
+{
+    iso_periodic_options o = iso_periodic_defaults();
+    const iso_scene scene = scene_of(0.45, (const double[3]){1.2, 2, 3.1});
+    o.polish = true;
+    refuse(&scene, &o, ISO_BAD_ARGUMENT, "polish");
+}
+#endif
+
+/* --- refusals --------------------------------------------------------------------------------------------------- */
+
+static void check_refusals(void)
+{
+    static const double J[3] = {1.4, 2.1, 3}, round[3] = {1.4, 1.4, 3};
+    iso_scene scene = scene_of(0.5, J);
+    iso_periodic_options o = iso_periodic_defaults();
+    o.period = 0;
+    refuse(&scene, &o, ISO_BAD_ARGUMENT, "period");
+    o.period = ISO_PERIODIC_MOST + 1;
+    refuse(&scene, &o, ISO_BAD_ARGUMENT, "period");
+    o = iso_periodic_defaults();
+    o.grid = 0;
+    refuse(&scene, &o, ISO_BAD_ARGUMENT, "grid");
+    scene = scene_of(0.5, round);
+    refuse(&scene, NULL, ISO_BAD_INPUT, "J");
+    scene = scene_of(0.5, J);
+    for (int i = 0; i < 3; i++) scene.start.y[i] = 0;
+    refuse(&scene, NULL, ISO_BAD_INPUT, "angular_velocity");
+}
+
+int main(void)
+{
+    ctx = iso_context_create();
+    check_rotations();
+    check_by_gsl();
+    check_orbits();
+    check_both_searches();
+    check_tori();
+    check_polish();
+    check_refusals();
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}

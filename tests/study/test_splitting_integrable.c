@@ -1,0 +1,63 @@
+/* The splitting (lib/study/splitting.h) where the problem is integrable, k = 1 and k = -1: m is 0 there for all J, so
+ * it is below its error, with 64 bits and with 128. */
+#include <gsl/gsl_test.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/random.h"
+#include "length.h"
+#include "study/splitting.h"
+
+enum { MOST = 20 };
+
+typedef struct worst {
+    double of_error, size; /* |m| by its error; the error */
+} worst;
+
+/* Three moments that differ by a twentieth or more, in any order. */
+static void draw(iso_random *random, double J[3])
+{
+    for (bool close = true; close;) {
+        close = false;
+        for (int i = 0; i < 3; i++) J[i] = exp(iso_random_uniform(random, -1.2, 1.2));
+        for (int i = 0; i < 3; i++) close = close || fabs(J[i] / J[(i + 1) % 3] - 1) < 0.05;
+    }
+}
+
+static void look(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits, worst *w)
+{
+    iso_splitting s;
+    if (iso_splitting_at(ctx, k, J, digits, &s) != ISO_OK)
+        gsl_test(1, "k = %g, J = %.15g %.15g %.15g: %s", k, J[0], J[1], J[2], iso_context_message(ctx));
+    w->of_error = fmax(w->of_error, isnan(s.error) ? INFINITY : fabs(s.m) / s.error);
+    w->size = fmax(w->size, s.error);
+}
+
+/* The first `count` of these J; both signs of k, or the sign that its place in the row gives. */
+static void check(iso_context *ctx, iso_splitting_digits digits, int count, bool both, double bound, const char *name)
+{
+    iso_random *random = iso_random_create(17);
+    worst w = {0, 0};
+    for (int i = 0; i < count; i++) {
+        double J[3];
+        draw(random, J);
+        for (int k = -1; k <= 1; k += 2)
+            if (both || k == (i % 2 ? 1 : -1)) look(ctx, k, J, digits, &w);
+    }
+    gsl_test(!(w.of_error < 1), "%s, %d J: |m| is at most %.2g of its error", name, count, w.of_error);
+    gsl_test(!(w.size < bound), "%s, %d J: the largest error is %.1e", name, count, w.size);
+    iso_random_free(random);
+}
+
+int main(void)
+{
+    iso_context *ctx = iso_context_create();
+    const bool full = tests_length(0, 1);
+    iso_splitting s;
+    check(ctx, ISO_SPLITTING_DOUBLE, tests_length(10, MOST), full, 1e-14, "64 bits");
+    if (iso_splitting_at(ctx, NAN, (double[3]){1, 2, 3}, ISO_SPLITTING_QUAD, &s) != ISO_BAD_ARGUMENT)
+        check(ctx, ISO_SPLITTING_QUAD, tests_length(1, MOST), false, 1e-26, "128 bits");
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}
