@@ -183,8 +183,8 @@ static void test_refusals(void)
     check_refused(0.5, (double[3]){1, 2, 2}, "equal");
     check_refused(0.5, (double[3]){1, 1, 1}, "equal");
     check_refused(0, J_thin, "k = 0");
-    check_refused(1e6, J_thin, "hold");
-    check_refused(0.001, J_thin, "hold");
+    check_refused(1e6, J_thin, "give 0.05 <= |k|");
+    check_refused(0.001, J_thin, "give 0.05 <= |k|");
     check_refused(1, (double[3]){1, -2, 3}, "");
     iso_effects effects = iso_effects_default();
     gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_ARGUMENT || s, "no k");
