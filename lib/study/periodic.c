@@ -17,7 +17,7 @@
 const char *iso_stability_name(iso_stability stability)
 {
     static const char *const names[] = {"stable", "unstable", "inverse", "degenerate", "undecided"};
-    return (int)stability >= 0 && stability <= ISO_UNDECIDED ? names[stability] : NULL;
+    return (int)stability >= 0 && stability <= ISO_STABILITY_UNDECIDED ? names[stability] : NULL;
 }
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */

@@ -35,11 +35,11 @@ ISO_C_BEGIN
 
 /* The multipliers of a map of the plane that keeps an area: lambda and 1/lambda, lambda + 1/lambda = trace. */
 typedef enum iso_stability {
-    ISO_STABLE,     /* |trace| < 2: exp(+-i angle), of first order stable                                        */
-    ISO_UNSTABLE,   /* trace > 2: a saddle                                                                       */
-    ISO_INVERSE,    /* trace < -2: a saddle with two negative multipliers                                        */
-    ISO_DEGENERATE, /* |trace| is 2 within 4 errors                                                              */
-    ISO_UNDECIDED   /* the same, and the error is above 2.5e-4: too large to tell                                */
+    ISO_STABLE,             /* |trace| < 2: exp(+-i angle), of first order stable                             */
+    ISO_UNSTABLE,           /* trace > 2: a saddle                                                            */
+    ISO_INVERSE,            /* trace < -2: a saddle with two negative multipliers                             */
+    ISO_DEGENERATE,         /* |trace| is 2 within 4 errors                                                   */
+    ISO_STABILITY_UNDECIDED /* the same, and the error is above 2.5e-4: too large to tell                     */
 } iso_stability;
 /* "stable", "unstable", "inverse", "degenerate", "undecided". */
 ISO_API const char *iso_stability_name(iso_stability stability);

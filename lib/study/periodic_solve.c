@@ -97,7 +97,7 @@ iso_multipliers iso_multipliers_of(double trace, double error, double sense)
     iso_multipliers m = {.stability = trace > 2 ? ISO_UNSTABLE : trace < -2 ? ISO_INVERSE : ISO_STABLE};
     const double beyond = fabs(trace) - 2,
                  size = sqrt(fabs(beyond)) * sqrt(fabs(trace) + 2); /* |trace^2 - 4|^(1/2) */
-    if (!(fabs(beyond) > error)) m.stability = error < 1e-3 ? ISO_DEGENERATE : ISO_UNDECIDED;
+    if (!(fabs(beyond) > error)) m.stability = error < 1e-3 ? ISO_DEGENERATE : ISO_STABILITY_UNDECIDED;
     if (m.stability == ISO_STABLE) {
         m.krein = sense > 0 ? 1 : -1;
         m.value[0][0] = m.value[1][0] = trace / 2;
