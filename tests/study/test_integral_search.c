@@ -147,6 +147,7 @@ static void none_at_random(void)
         right += r.verdict == ISO_INTEGRALS_NONE && r.at[2].found == 1;
     }
     gsl_test_int(right, count, "none for random k and J");
+    iso_random_free(random);
 }
 
 /* F needs coefficients of degree 2 in gamma. */
