@@ -83,19 +83,22 @@ slurmctld -D -c -f "$SLURM_CONF" >slurmctld.log 2>&1 &
 daemons="$daemons $!"
 slurmd -D -f "$SLURM_CONF" -N "$host" >slurmd.log 2>&1 &
 daemons="$! $daemons"
-tries=0
-until sinfo -h -o %t 2>/dev/null | grep -q idle; do
-    tries=$((tries + 1))
-    [ $tries -lt 60 ] || { tail -n 3 munged.out slurmctld.log slurmd.log; impossible "Slurm does not start here"; }
-    sleep 0.5
-done
 
-# ended SECONDS: no job is left; it waits at most so long
-ended() {
-    tries=0
-    while [ -n "$(squeue -h 2>/dev/null)" ] && [ $tries -lt $((2 * $1)) ]; do sleep 0.5 && tries=$((tries + 1)); done
-    check "all jobs end within $1 s" test -z "$(squeue -h)"
+# within SECONDS COMMAND...: waits until the command succeeds
+within() {
+    tries=$((2 * $1))
+    shift
+    until "$@"; do
+        [ $tries -gt 0 ] || return 1
+        tries=$((tries - 1))
+        sleep 0.5
+    done
 }
+no_jobs() { list=$(squeue -h 2>/dev/null) && [ -z "$list" ]; }
+waits() { list=$(squeue -h -t PENDING 2>/dev/null) && [ -n "$list" ]; }
+
+ready() { sinfo -h -o %t 2>/dev/null | grep -q idle; }
+within 30 ready || { tail -n 3 munged.out slurmctld.log slurmd.log; impossible "Slurm does not start here"; }
 
 # --- the scripts as they are, with their own sweep at full length
 mkdir jobs && cd jobs && cp "$ISO_SOURCE"/examples/18_chaotic_share/*.yaml "$ISO_SOURCE"/examples/18_chaotic_share/*.sbatch .
@@ -106,26 +109,24 @@ array=$(sbatch --parsable array.sbatch "$sweep")
 check "the array is taken" test -n "$array"
 sbatch --dependency="afterany:$array" merge.sbatch >out 2>err || fail "the merge is not taken"
 sbatch mpi.sbatch "$sweep" >out 2>err || fail "the job of MPI is not taken"
-ended 600
+check "all jobs end" within 600 no_jobs
 cat share.*.log merge.log mpi.log >err 2>/dev/null
 check "array: five parts, merged: the bytes of a plain run" cmp share.h5 plain.h5
 check "MPI: the bytes of a plain run" cmp share.mpi.h5 plain.h5
 
 # --- a time limit: the signal comes a minute before, the job goes back to the queue and ends at its second try
 rm -f share.mpi.h5 mpi.log
-sed 's/turns: 1000/turns: 4000/; s/starts: 100/starts: 20/' sweep.yaml >limit.yaml
+sed 's/turns: 1000/turns: 2000/; s/starts: 100/starts: 20/' sweep.yaml >limit.yaml
 printf 'chunk: 1\n' >>limit.yaml
 run 0 sweep limit.yaml -o limit.h5
 job=$(sbatch --parsable mpi.sbatch limit.yaml)
-while [ ! -s share.mpi.h5.part ] && [ -n "$(squeue -h)" ]; do sleep 0.1; done
+check "a limit: the job begins" within 60 test -s share.mpi.h5.part
 sleep 1
 scancel --batch --signal=USR1 "$job"
-tries=0
-while ! grep -q "stopped before the time limit" mpi.log && [ $tries -lt 100 ]; do sleep 0.1 && tries=$((tries + 1)); done
-check "a limit: the journal is kept" grep -q "chunks are in 'share.mpi.h5.part'" mpi.log
-check "a limit: the job is in the queue again" test -n "$(squeue -h)"
-scontrol update JobId="$job" StartTime=now 2>/dev/null # Slurm would let it wait for two minutes
-ended 300
+check "a limit: the job is in the queue again" within 60 waits
+check "a limit: the journal is kept" grep -q "stopped before the time limit: .* are in 'share.mpi.h5.part'" mpi.log
+scontrol update JobId="$job" StartTime=now # Slurm would let it wait for two minutes
+check "a limit: the job ends" within 300 no_jobs
 cp mpi.log err
 check "a limit: the bytes of a plain run" cmp share.mpi.h5 limit.h5
 finish
