@@ -158,7 +158,7 @@ static iso_integral_search_options options_of(const options *o)
     how.seed = (uint64_t)o->seed;
     how.within = o->within;
     if (!isnan(o->scene.tolerance)) how.tolerance = o->scene.tolerance;
-    how.threads = o->threads < 4096 ? (int)o->threads : 4096;
+    how.threads = o->threads < 1e9 ? (int)o->threads : 1000000000;
     how.progress = progress_told;
     return how;
 }

@@ -21,7 +21,7 @@ typedef struct options {
 
 static int how_many_threads(const options *o)
 {
-    return o->threads < 4096 ? (int)o->threads : 4096;
+    return o->threads < 1e9 ? (int)o->threads : 1000000000;
 }
 
 /* --- the list --------------------------------------------------------------------------------------------------- */
@@ -61,7 +61,7 @@ static int report(iso_context *ctx, const options *o, const periodic_report *r, 
         result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
     }
     if (o->plot && r->found->count == 0)
-        complain("no picture: there is no orbit");
+        complain("no picture: there is no orbit"), result = worse(result, EXIT_SOME_FAILED);
     else if (o->plot)
         result = worse(result, finish(ctx, periodic_draw(ctx, r, o->plot)));
     return worse(result, tell_gaps(r->found));
@@ -72,7 +72,7 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     iso_periodic_options how = iso_periodic_defaults();
     iso_periodic *found = NULL;
     how.period = o->period < 1e9 ? (int)o->period : 1000000000;
-    how.grid = o->grid < 1e8 ? (long)o->grid : 100000000;
+    how.grid = o->grid < 1e18 ? (long)o->grid : 1000000000000000000;
     how.all = o->all;
     how.polish = o->polish;
     how.threads = how_many_threads(o);
@@ -96,6 +96,8 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .period = 6, .grid = 2000, .steps = 120};
+
 /* Refuses wrong options before the work begins. */
 static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_output **csv)
 {
@@ -106,10 +108,21 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "chart", "periodic: --chart or --follow, not both");
     if ((o->orbit > 0 || o->branches) && !o->follow)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "follow", "periodic: --orbit and --branches go with --follow");
+    if (o->follow && o->polish)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "polish",
+                                "periodic: --follow computes with 64 bits, not --polish");
+    if (o->chart && (o->all || o->polish || o->period != defaults.period))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "chart",
+                                "periodic: --all, --polish and --period do not go with --chart");
+    if (o->grid != defaults.grid && !o->all)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "grid", "periodic: --grid goes with --all");
+    if (o->steps != defaults.steps && !o->chart)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "steps", "periodic: --steps goes with --chart");
     if (o->k && !o->chart)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "periodic: --k is the range of --chart");
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
+    if (status == ISO_OK && o->follow) status = follow_check(ctx, scene, o->follow);
     return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
 }
 
@@ -125,14 +138,13 @@ static int run(iso_context *ctx, const void *options_given)
                           &(periodic_chart){.moment = o->chart,
                                             .k = o->k,
                                             .steps = o->steps,
+                                            .threads = how_many_threads(o),
                                             .rows = csv,
                                             .alone = o->output && strcmp(o->output, "-") == 0,
                                             .plot = o->plot,
                                             .json = o->json});
     return list(ctx, o, &scene, csv);
 }
-
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .period = 6, .grid = 2000, .steps = 120};
 
 static const option_row rows[] = {
     ROW("period", "P", "a whole number from 1 on", "orbits of at most P returns to the section (default 6)",
@@ -186,11 +198,14 @@ const command command_periodic = {
         "(trace 2).\n\n"
         "--follow k=A:B follows symmetric orbits from the scene's k to A and to B, or until they end: folds, period "
         "doublings, symmetry breaking and collisions with rotations are located. Where a branch cannot be followed, "
-        "a line says where and why, and the part so far is kept.\n\n"
+        "a line says where and why, and the part so far is kept. --branches follows what branches off as well, but "
+        "not "
+        "what branches off from that.\n\n"
         "--chart J2 shows in which part of the plane of k and J2 the rotations about the axes of the least and of "
         "the "
         "greatest moment are stable, and the borders on which a trace is 2 or -2.\n\n"
-        "-o FILE writes one row for each orbit. --plot draws all orbits and their copies on the section, unstable "
+        "-o FILE writes one row for each orbit, in doubles. --plot draws all orbits and their copies on the section, "
+        "unstable "
         "ones "
         "in grey.",
     .example = "isoroll periodic scene.yaml --period 8 --plot orbits.svg",

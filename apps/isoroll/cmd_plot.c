@@ -104,7 +104,8 @@ static const options defaults = {.from = FILE_OPTIONS_UNSET, .output = "-"};
 static const option_row rows[] = {
     ROW_OF_FILE("output", "FILE", "a file", "the picture: .svg, .png or .pdf", set_text, options, output, 'o',
                 OPTION_WRITES),
-    ROW("value", "NAME", "a name", "of a sweep: which column is drawn, such as splitting_m", set_text, options, value),
+    ROW("value", "NAME", "a name", "of a sweep: which column is drawn, such as splitting_m", set_text, options,
+        value),
     ROWS_OF_FILE(options, from),
     ROW_END,
 };

@@ -9,7 +9,9 @@
 #include "io/output.h"
 #include "io/plot.h"
 #include "json.h"
+#include "progress.h"
 #include "report.h"
+#include "scene_options.h"
 #include "study/stability_chart.h"
 
 bool read_range(const char *text, double range[2])
@@ -39,6 +41,8 @@ static iso_status read_words(iso_context *ctx, const iso_scene *scene, const per
     o->from[0] = k[0], o->to[0] = k[1];
     o->from[1] = moment[0], o->to[1] = moment[1];
     o->steps = c->steps < 1e9 ? (int)c->steps : 1000000000;
+    o->threads = c->threads;
+    o->progress = progress_told;
     return ISO_OK;
 }
 
@@ -80,6 +84,8 @@ static bool print_json(const iso_stability_options *o, const iso_record *grid, c
                                 column_of(grid, 2), "greatest", column_of(grid, 3), "borders", list));
 }
 
+#define EDGE 1e-9 /* with equal moments a trace is 2 or -2 up to rounding */
+
 static void print_table(const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
 {
     size_t count[2][3] = {{0}};
@@ -87,7 +93,7 @@ static void print_table(const iso_stability_options *o, const iso_record *grid, 
     for (size_t i = 0; i < iso_record_rows(grid); i++)
         for (int which = 0; which < 2; which++) {
             const double T = iso_record_const_row(grid, i)[2 + which];
-            if (!isnan(T)) count[which][T < -2 ? 0 : T > 2 ? 2 : 1]++;
+            if (!isnan(T)) count[which][T < -2 - EDGE ? 0 : T > 2 + EDGE ? 2 : 1]++;
         }
     printf("k from %g to %g, J%d from %g to %g; share of the grid points\n%20s  T < -2    stable    T > 2\n",
            o->from[0], o->to[0], o->moment + 1, o->from[1], o->to[1], "");
@@ -118,7 +124,12 @@ int draw_chart(iso_context *ctx, const iso_scene *scene, const periodic_chart *c
     iso_stability_options o;
     iso_record *grid = NULL, *borders = NULL;
     iso_status status = read_words(ctx, scene, c, &o);
+    stop_gently();
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_stability_chart(ctx, &o, &grid, &borders);
+    progress_end();
+    if (status == ISO_STOPPED) complain("interrupted: no chart");
+    iso_context_set_monitor(ctx, NULL, NULL);
     if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT;
     if (status == ISO_OK && c->json && !print_json(&o, grid, borders)) status = ISO_NO_MEMORY;
     if (status == ISO_OK && !c->json && !c->alone) print_table(&o, grid, borders);

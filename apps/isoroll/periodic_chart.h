@@ -11,6 +11,7 @@ typedef struct periodic_chart {
     const char *moment; /* "J2", "J3=1:4": which one varies, and where */
     const char *k;      /* "A:B"; NULL: -3:3                           */
     double steps;
+    int threads;      /* 0: one for each processor */
     iso_output *rows; /* is closed there; NULL: none                   */
     bool alone;       /* rows go to standard output: no table there  */
     const char *plot; /* NULL: none                                  */

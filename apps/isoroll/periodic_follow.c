@@ -10,28 +10,35 @@
 #include "io/plot.h"
 #include "json.h"
 #include "periodic_chart.h"
+#include "progress.h"
 #include "report.h"
 #include "study/periodic_follow.h"
 
-static iso_status read_words(iso_context *ctx, const periodic_follow *how, iso_follow_options *o)
+static iso_status read_words(iso_context *ctx, const char *given, iso_follow_options *o)
 {
     double range[2];
-    const char *equals = strchr(how->range, '=');
+    const char *equals = strchr(given, '=');
     *o = iso_follow_defaults();
     int vary = 0;
     while (iso_vary_name(vary) && equals &&
-           (strlen(iso_vary_name(vary)) != (size_t)(equals - how->range) ||
-            strncmp(iso_vary_name(vary), how->range, (size_t)(equals - how->range)) != 0))
+           (strlen(iso_vary_name(vary)) != (size_t)(equals - given) ||
+            strncmp(iso_vary_name(vary), given, (size_t)(equals - given)) != 0))
         vary++;
     if (!equals || !iso_vary_name(vary) || !read_range(equals + 1, range))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                "--follow '%s': expected NAME=A:B, NAME one of k, J1, J2, J3, ratio", how->range);
+                                "--follow '%s': expected NAME=A:B, NAME one of k, J1, J2, J3, ratio", given);
     o->vary = (iso_vary)vary;
     o->from = range[0];
     o->to = range[1];
-    o->branches = how->branches;
-    o->threads = how->threads;
     return ISO_OK;
+}
+
+iso_status follow_check(iso_context *ctx, const iso_scene *scene, const char *range)
+{
+    iso_follow_options o;
+    iso_status status = read_words(ctx, range, &o);
+    if (status == ISO_OK) status = iso_follow_check(ctx, scene, &o);
+    return status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status;
 }
 
 /* --- what is shown ---------------------------------------------------------------------------------------------- */
@@ -79,6 +86,7 @@ static json_t *branch_of(const iso_branch *b, const char *name)
     for (size_t j = 0; j < b->events; j++) {
         json_t *e = point_of(&b->event[j].at, name);
         json_object_set_new(e, "kind", json_string(iso_branch_kind_name(b->event[j].kind)));
+        json_object_set_new(e, "joins", json_boolean(b->event[j].joins));
         json_object_set_new(e, "words", json_string(b->event[j].words));
         if (b->event[j].axis >= 0) json_object_set_new(e, "axis", json_integer(b->event[j].axis + 1));
         json_array_append_new(events, e);
@@ -136,7 +144,7 @@ static int show(iso_context *ctx, const iso_scene *scene, const iso_follow *f, c
         write_rows(f, name, iso_output_stream(how->rows));
         status = iso_output_close(ctx, how->rows, true);
     }
-    if (status == ISO_OK && how->plot) status = draw(ctx, scene, f, name, how->plot);
+    if (status == ISO_OK && how->plot && f->count > 0) status = draw(ctx, scene, f, name, how->plot);
     const int result = printed ? finish(ctx, status) : EXIT_NUMERICAL;
     if (failed > 0) complain("%zu branches could not be followed to their ends: see their failures", failed);
     return result == EXIT_DONE && failed > 0 ? EXIT_SOME_FAILED : result;
@@ -163,9 +171,16 @@ int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *
     iso_follow *f = NULL;
     iso_periodic_orbit *list = NULL;
     size_t count = 0;
-    iso_status status = read_words(ctx, how, &o);
+    iso_status status = read_words(ctx, how->range, &o);
+    o.branches = how->branches;
+    o.threads = how->threads;
+    o.progress = progress_told;
     if (status == ISO_OK) status = choose(ctx, found, how, &list, &count);
+    if (status == ISO_OK && how->orbit == 0 && count < found->count)
+        complain("%zu orbits without a symmetry are not followed", found->count - count);
     if (status == ISO_OK) status = iso_follow_run(ctx, scene, list, count, &o, &f);
+    progress_end();
+    if (status == ISO_STOPPED) complain("interrupted: branches are missing or cut");
     if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT;
     int result = finish(ctx, status);
     if (f) {

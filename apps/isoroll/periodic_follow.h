@@ -18,6 +18,9 @@ typedef struct periodic_follow {
     const char *plot; /* NULL: none                                  */
 } periodic_follow;
 
+/* Whether "k=0.4:0.6" can be followed from this scene. */
+iso_status follow_check(iso_context *ctx, const iso_scene *scene, const char *range);
+
 /* Gives the exit status. */
 int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *found, const periodic_follow *how);
 

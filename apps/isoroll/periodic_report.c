@@ -69,7 +69,7 @@ void periodic_print(const periodic_report *r)
         copies += (size_t)f->orbit[i].copies;
         tori += f->orbit[i].torus;
     }
-    if (f->count > 0) printf("with their copies by R, S1 S2 and T: %zu\n", copies);
+    if (f->count > 0) printf("with their copies by R, S1 S2 and T%s: %zu\n", r->all ? " (and S1)" : "", copies);
     if (tori > 0)
         printf(
             "k = %g: %zu of them lie on resonant tori, which are full of such orbits: the trace is 2, and they are "
@@ -201,11 +201,11 @@ typedef struct picture {
 static void put_orbit(picture *p, const iso_periodic_orbit *o, size_t i)
 {
     p->grey[i] = o->multipliers.stability == ISO_UNSTABLE || o->multipliers.stability == ISO_INVERSE;
-    for (int n = 0; n < 8 * o->period; n++) {
-        const double *z = o->half[n / 4], sign = n & 1 ? -1 : 1;
+    for (int n = 0; n < 16 * o->period; n++) { /* by S1 S2, R, T and S1 */
+        const double *z = o->half[n / 8], sign = n & 1 ? -1 : 1;
         p->orbit[p->count] = (uint32_t)i;
         p->at[p->count][0] = remainder(sign * z[0] + (n & 2 ? acos(-1) : 0), 2 * acos(-1));
-        p->at[p->count++][1] = sign * z[1];
+        p->at[p->count++][1] = (n & 4 ? -sign : sign) * z[1];
     }
 }
 
@@ -214,7 +214,7 @@ iso_status periodic_draw(iso_context *ctx, const periodic_report *r, const char 
     const iso_periodic *f = r->found;
     const double *J = r->scene->params.J;
     size_t count = 0;
-    for (size_t i = 0; i < f->count; i++) count += 8 * (size_t)f->orbit[i].period;
+    for (size_t i = 0; i < f->count; i++) count += 16 * (size_t)f->orbit[i].period;
     picture p = {malloc(count * sizeof *p.at), malloc(count * sizeof *p.orbit), malloc(f->count * sizeof *p.grey), 0};
     char title[160];
     snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g: periodic orbits of %d returns at most",

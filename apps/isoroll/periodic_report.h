@@ -13,7 +13,7 @@ typedef struct periodic_report {
     const iso_scene *scene;
     const iso_periodic *found;
     int period;       /* the longest that was sought */
-    bool polish, all; /* all: not only those of S1, S2, S3 */
+    bool polish, all; /* all: orbits without a symmetry as well */
 } periodic_report;
 
 void periodic_print(const periodic_report *r);

@@ -31,17 +31,17 @@ static void print_head(const splitting_report *r)
     printf("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x,\n"
            "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
            row->middle + 1, row->axis + 1);
-    printf("%11s %11s %19s %24s %7s %7s\n", "k", "multiplier", "x", "m", "error", "digits");
+    printf("%16s %11s %19s %24s %7s %7s\n", "k", "multiplier", "x", "m", "error", "digits");
 }
 
 static void print_row(const iso_splitting *s)
 {
     if (s->status == ISO_STOPPED) return;
     if (s->status != ISO_OK) {
-        printf("%11.9g %s\n", s->k, s->words);
+        printf("%16.15g %s\n", s->k, s->words);
         return;
     }
-    printf("%11.9g %11.8g %19.16g ", s->k, s->lambda, s->x);
+    printf("%16.15g %11.8g %19.16g ", s->k, s->lambda, s->x);
     if (s->from_zero)
         printf("%24.16e %7.1e %7d\n", s->m, s->error, s->digits);
     else if (fabs(s->m) > s->error)
@@ -49,7 +49,7 @@ static void print_row(const iso_splitting *s)
     else /* 1.05: rounding of the bound to two digits must not make it smaller */
         printf("%24s %7.1e %7d   not distinguishable from 0: below %.1e\n", "0", s->error, s->digits,
                1.05 * (fabs(s->m) + s->error));
-    if (s->words[0]) printf("%11s %s\n", "", s->words);
+    if (s->words[0]) printf("%16s %s\n", "", s->words);
 }
 
 static void print_zero(const iso_splitting *s)

@@ -96,12 +96,24 @@ static const struct {
              {"backends_largest", NULL, NULL},
              {"contact_time", NULL, NULL}};
 
+static iso_status no_such_column(iso_context *ctx, const char *wanted, const table *t)
+{
+    char names[600] = "";
+    size_t used = 0;
+    for (int c = 0; c < t->head->columns && used + NAME + 8 < sizeof names; c++) {
+        char name[NAME];
+        name_of(&t->head->column[c], name);
+        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", c > 0 ? ", " : "", name);
+    }
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "--value %s: there is no such column; there are %s", wanted,
+                            names);
+}
+
 static iso_status choose_value(iso_context *ctx, const char *wanted, table *t)
 {
     const size_t count = sizeof known / sizeof *known;
     t->value = wanted ? find(t, wanted) : -1;
-    if (wanted && t->value < 0)
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "--value %s: there is no such column", wanted);
+    if (wanted && t->value < 0) return no_such_column(ctx, wanted, t);
     for (size_t i = 0; !wanted && i < count && t->value < 0; i++) t->value = find(t, known[i].value);
     for (int c = 0; c < t->head->columns && t->value < 0; c++)
         if (strcmp(t->head->column[c].group, "vary") != 0) t->value = c;

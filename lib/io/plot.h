@@ -131,8 +131,8 @@ typedef struct iso_plot_section {
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis or orbit), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 
-/* A value over one number: a curve, and the band of its error. rows: columns x, value, low, high, by growing x; low and
- * high may be NaN. name, value: of the axes. k: x is k, and +-1 is marked. If values of both signs or of very
+/* A value over one number: a curve, and the band of its error. rows: columns x, value, low, high, by growing x; low
+ * and high may be NaN. name, value: of the axes. k: x is k, and +-1 is marked. If values of both signs or of very
  * different sizes are there, |value| has a logarithmic axis. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_curve(iso_context *ctx, const char *path, const char *title, const char *name,
                                   const char *value, bool k, const iso_record *rows);

@@ -67,7 +67,8 @@ struct iso_sweep_file {
     iso_sweep_plan plan;
 };
 
-/* sweep_vary.c: reads `vary` and `samples` (NULL: not there) after the scene. Errors: ISO_BAD_INPUT, ISO_NO_MEMORY. */
+/* sweep_vary.c: reads `vary` and `samples` (NULL: not there), after the scene. Errors: ISO_BAD_INPUT,
+ * ISO_NO_MEMORY. */
 iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples);
 
 /* The keys of a mapping must be among `names`, each once. Errors: ISO_BAD_INPUT. */
@@ -78,7 +79,7 @@ iso_status iso_sweep_check_keys(iso_yaml *y, const yaml_node_t *mapping, const c
 iso_status iso_sweep_whole(iso_yaml *y, const yaml_node_t *node, const char *what, double least, double most,
                            double *value);
 
-/* Value j of a range of a->count values. */
+/* Value j of a range of a->count values; with equal steps 0.1, 0.2, ... are what one writes. */
 double iso_sweep_in_range(const iso_sweep_axis *a, size_t j);
 
 /* sweep_point.c: a draft with the numbers of point i in it, and these numbers. l and x are not in it. */

@@ -264,7 +264,8 @@ static iso_status open_journal(iso_context *ctx, iso_sweep_journal *j, bool resu
 {
     struct stat s;
     if (!iso_sweep_writing_of(j->path))
-        return refuse(ctx, j->path, "would be HDF5, which this build does not have: give a name that ends in .csv");
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': this build has no HDF5: give a name that ends in .csv",
+                                j->path);
     if (strcmp(j->path, "-") == 0) return open_unnamed(ctx, j);
     if (stat(j->path, &s) != 0) return open_named(ctx, j, resume);
     return S_ISREG(s.st_mode) ? look_at_result(ctx, j, resume) : open_unnamed(ctx, j);

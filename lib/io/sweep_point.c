@@ -12,14 +12,23 @@
 
 /* --- the numbers ------------------------------------------------------------------------------------------------ */
 
-/* Both ends are exact, and steps such as 1/10 are rounded once. */
+/* The number of 12 digits that x misses by rounding alone, such as 0.3 for 0.1 + 2 0.1; else x. k = 1 must be 1. */
+static double tidy(double x, double size)
+{
+    char digits[ISO_NUMBER_SIZE];
+    double number;
+    iso_number_print_as(digits, x, 12);
+    return iso_number_read(digits, strlen(digits), &number) && fabs(number - x) < 1e-15 * size ? number : x;
+}
+
+/* Both ends are exact. */
 double iso_sweep_in_range(const iso_sweep_axis *a, size_t j)
 {
     const double n = (double)a->count - 1, i = (double)j;
     if (n <= 0 || j == 0) return a->from;
     if (i == n) return a->to;
     if (a->logarithmic) return a->from * pow(a->to / a->from, i / n);
-    return (a->from * (n - i) + a->to * i) / n;
+    return tidy((a->from * (n - i) + a->to * i) / n, fmax(fabs(a->from), fabs(a->to)));
 }
 
 /* Sample s of what is drawn. */
@@ -99,8 +108,8 @@ static iso_status read_again(iso_context *ctx, iso_start *start)
 }
 
 /* A start that stays what it is, to the bit, when it is written and read again. Reading makes a unit vector of n, and
- * takes the part along n away from omega. Done again and again, this ends, or goes round between neighbouring numbers.
- * Then a neighbour of one of them stays what it is. */
+ * takes the part along n away from omega. Done again and again, this ends, or goes round between neighbouring
+ * numbers. Then a neighbour of one of them stays what it is. */
 static iso_status settle(iso_context *ctx, iso_start *start)
 {
     enum { ROUNDS = 4, NEIGHBOURS = 600 };

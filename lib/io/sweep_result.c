@@ -247,7 +247,7 @@ static iso_status write_parts(const merger *m, const char *path)
     const iso_sweep_writing *kind = iso_sweep_writing_of(path);
     iso_sweep_rows rows;
     void *file;
-    if (!kind) return iso_sweep_damaged(m->ctx, path, "this build has no HDF5");
+    if (!kind) return iso_context_fail(m->ctx, ISO_BAD_ARGUMENT, "", "'%s': this build has no HDF5", path);
     iso_status status = iso_sweep_rows_create(m->ctx, head->columns, head->chunk, &rows);
     if (status != ISO_OK) return status;
     status = kind->create(m->ctx, path, head, (iso_sweep_share){0, 1}, &file);

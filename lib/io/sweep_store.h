@@ -8,8 +8,8 @@
  *     iso_sweep_journal_close(j);
  *
  * The journal is out.h5.part. It begins with what the sweep is. Each finished chunk is one record with a checksum,
- * added at the end by one write. So a program that is killed loses only chunks that were being computed; a record that
- * was cut short is taken away by the next program. A journal is for one program at a time.
+ * added at the end by one write. So a program that is killed loses only chunks that were being computed; a record
+ * that was cut short is taken away by the next program. A journal is for one program at a time.
  *
  * The result is written from the journal, chunk by chunk by growing number, into a temporary file that is renamed. So
  * its bytes depend on nothing but the sweep. It is HDF5 if its name ends in .h5, else CSV (lib/doc/formats.md).
@@ -39,7 +39,8 @@ typedef struct iso_sweep_journal iso_sweep_journal;
  * The head must live as long as the journal.
  * Errors: ISO_FILE_TROUBLE: a journal of another sweep, a damaged one, one that another program works on, one that is
  * there without resume; a file `path` that is there, unless it is the result of this sweep and resume is given: then
- * all chunks are done, and finishing writes nothing. Nothing is changed then. ISO_NO_MEMORY. */
+ * all chunks are done, and finishing writes nothing. Nothing is changed then. ISO_BAD_ARGUMENT: this build has no
+ * HDF5. ISO_NO_MEMORY. */
 ISO_API iso_status iso_sweep_journal_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
                                           iso_sweep_share share, bool resume, iso_sweep_journal **journal);
 
@@ -70,8 +71,8 @@ ISO_API bool iso_sweep_journal_lasts(const iso_sweep_journal *j);
 
 /* Rows as bytes, as a record of the journal has them, for programs that compute chunks elsewhere and send them to the
  * one that has the journal. Numbers stand as they are in memory. iso_sweep_rows_bytes: the most bytes that `count`
- * points need. pack gives the number of bytes. Before unpack set rows->first and rows->count; false: the bytes are not
- * those of so many rows. */
+ * points need. pack gives the number of bytes. Before unpack set rows->first and rows->count; false: the bytes are
+ * not those of so many rows. */
 ISO_API size_t iso_sweep_rows_bytes(const iso_sweep_rows *rows, size_t count);
 ISO_API size_t iso_sweep_rows_pack(const iso_sweep_rows *rows, unsigned char bytes[]);
 ISO_API bool iso_sweep_rows_unpack(const unsigned char bytes[], size_t length, iso_sweep_rows *rows);

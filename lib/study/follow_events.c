@@ -63,14 +63,39 @@ static void locate(const iso_follow_family *f, const iso_follow_point *a, const 
     *part = from + share * (to - from);
 }
 
+/* Two moments that are equal at a value very near: it is set in *value, and their names. */
+static bool are_equal(const iso_follow_family *f, double *value, char names[2])
+{
+    const iso_vary vary = f->options.vary;
+    const double *J = f->base.J;
+    if (vary == ISO_VARY_K) return false;
+    for (int i = 0; i < 3; i++) {
+        const int moved = vary == ISO_VARY_RATIO ? 1 : (int)vary - (int)ISO_VARY_J1;
+        const double at = vary == ISO_VARY_RATIO ? (i == 2 ? 1 : 0) : J[i];
+        if (i == moved || fabs(*value - at) > 1e-4 * fmax(fabs(at), f->width)) continue;
+        *value = at;
+        names[0] = (char)('1' + (i < moved ? i : moved));
+        names[1] = (char)('1' + (i < moved ? moved : i));
+        return true;
+    }
+    return false;
+}
+
 /* turns: the parameter turns back there. */
-static void name(const iso_follow_family *f, const iso_follow_point *at, int test, bool turns, iso_branch_event *e)
+static void name(const iso_follow_family *f, iso_follow_point *at, int test, bool turns, iso_branch_event *e)
 {
     iso_params p;
+    char names[2];
     const bool torus = iso_follow_params(f, at->value, &p) && fabs(fabs(p.k) - 1) < 1e-7;
     const char *vary = iso_vary_name((int)f->options.vary);
     e->kind = turns ? ISO_BRANCH_FOLD : test <= TEST_BREAKING ? ISO_BRANCH_BREAKING : ISO_BRANCH_DOUBLING;
     if (torus && e->kind == ISO_BRANCH_BREAKING) e->kind = ISO_BRANCH_TORUS;
+    if (are_equal(f, &at->value, names)) {
+        e->kind = ISO_BRANCH_TORUS;
+        snprintf(e->words, sizeof e->words, "J%c = J%c: orbits fill tori, and this one is of no special kind",
+                 names[0], names[1]);
+        return;
+    }
     static const char *const what[] = {"two orbits meet and vanish", "", "orbits with less symmetry branch off", "",
                                        "the orbit lies on a resonant torus"};
     if (e->kind == ISO_BRANCH_DOUBLING)
@@ -99,7 +124,10 @@ static void name_turn(const iso_follow_family *f, const iso_follow_point *at, is
 static bool is_there(const iso_branch *b, const iso_branch_event *e)
 {
     for (size_t i = 0; i < b->events; i++)
-        if (b->event[i].kind == e->kind && fabs(b->event[i].at.arc - e->at.arc) < 1e-7) return true;
+        if (b->event[i].kind == e->kind &&
+            (fabs(b->event[i].at.arc - e->at.arc) < 1e-7 ||
+             (e->kind == ISO_BRANCH_TORUS && fabs(b->event[i].at.arc - e->at.arc) < 1e-3)))
+            return true;
     return false;
 }
 

@@ -44,13 +44,6 @@ static double first_of_three(const iso_follow_family *f, double v, double middle
     return zeros >= 3 ? refine(f, v, first - h, h, off) : NAN;
 }
 
-/* How far two points of the section are from being copies. */
-static double distance(const double a[2], const double b[2])
-{
-    const double l = fabs(remainder(a[0], ISO_PI)) - fabs(remainder(b[0], ISO_PI)), x = fabs(a[1]) - fabs(b[1]);
-    return hypot(l, x);
-}
-
 /* The u of a line half way whose orbit crosses at z, as near as samples tell; NaN: none. */
 static double look_up(const iso_periodic_map *map, int line, const double z[2])
 {
@@ -59,7 +52,7 @@ static double look_up(const iso_periodic_map *map, int line, const double z[2])
     for (int i = 0; i < PLACES; i++) u[i] = ISO_PI / 2 * (i + 0.5) / PLACES;
     if (iso_periodic_place(map, line, PLACES, u, place, by_u) != ISO_OK) return NAN;
     for (int i = 0; i < PLACES; i++)
-        if (distance(place[i], z) < least) best = u[i], least = distance(place[i], z);
+        if (iso_periodic_apart(place[i], z) < least) best = u[i], least = iso_periodic_apart(place[i], z);
     return best;
 }
 

@@ -1,6 +1,8 @@
 /* free.c - refuses motions that are not free (see free_impl.h). */
 #include "study/free_impl.h"
 
+#include <string.h>
+
 const iso_effect *iso_study_not_free(const iso_effects *effects)
 {
     const iso_effect *effect = iso_effects_beyond_level(effects);
@@ -12,6 +14,10 @@ iso_status iso_study_check_free(iso_context *ctx, const iso_effects *effects, co
 {
     const iso_effect *effect = effects ? iso_study_not_free(effects) : NULL;
     if (!effect) return ISO_OK;
+    if (strcmp(effect->name, iso_level_name()) == 0)
+        return iso_context_fail(
+            ctx, ISO_BAD_INPUT, effect->name,
+            "%s only of the free ball and of the point on H = 0; this start has another H (another level)", what);
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
                             "%s only of the free ball and of the point on H = 0: remove '%s'", what, effect->name);
 }

@@ -45,6 +45,8 @@ void iso_hill_matrix_wide(double k, const double J[3], int axis, iso_wide y[2][2
 double iso_hill_trace(double k, const double J[3], int axis, double *error)
 {
     long double y[2][2];
+    if (error) *error = NAN;
+    if (!(fabs(k) >= 1e-4) || !(fmin(fmin(J[0], J[1]), J[2]) > 0) || !isfinite(k * J[0] * J[1] * J[2])) return NAN;
     iso_hill_matrix(k, J, axis, y);
     const long double size = fabsl(y[0][0] * y[1][1]) + fabsl(y[0][1] * y[1][0]);
     const long double trace = y[0][0] + y[1][1];

@@ -12,11 +12,12 @@
 #include "orbit/orbit.h"
 #include "study/free_impl.h"
 #include "study/periodic_impl.h"
+#include "study/stability_chart.h"
 
 const char *iso_stability_name(iso_stability stability)
 {
-    static const char *const names[] = {"stable", "unstable", "inverse", "degenerate"};
-    return names[stability];
+    static const char *const names[] = {"stable", "unstable", "inverse", "degenerate", "undecided"};
+    return (int)stability >= 0 && stability <= ISO_STABILITY_UNDECIDED ? names[stability] : NULL;
 }
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
@@ -32,6 +33,19 @@ static iso_status check_options(const iso_periodic_work *w)
     if (!iso_periodic_code(o->polish))
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "polish", "this build has no numbers of 128 bits");
     return ISO_OK;
+}
+
+/* Beyond these bounds orbits pass so near to unstable rotations that no digits are left. */
+static iso_status check_numbers(const iso_periodic_work *w)
+{
+    const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
+    if (fabs(k) < ISO_LEAST_K)
+        return iso_context_fail(w->ctx, ISO_BAD_INPUT, "k", "periodic orbits: k = %.12g: give |k| >= %g", k,
+                                ISO_LEAST_K);
+    if (ratio <= 1e5) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "J",
+                            "periodic orbits: max J/(min J |k|) is %.3g: give moments for which it is 1e5 at most",
+                            ratio);
 }
 
 static iso_status check_moments(const iso_periodic_work *w)
@@ -53,6 +67,7 @@ static iso_status check_scene(iso_periodic_work *w)
     iso_orbit_options o = iso_orbit_defaults(start);
     iso_orbit *orbit;
     iso_status status = iso_study_check_free(w->ctx, &effects, "periodic orbits are sought");
+    if (status == ISO_OK) status = check_numbers(w);
     if (status == ISO_OK) status = check_moments(w);
     if (status == ISO_OK && !(largest(start->y) > 0))
         status = iso_context_fail(w->ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
@@ -67,6 +82,11 @@ static iso_status check_scene(iso_periodic_work *w)
     w->units = *iso_orbit_units(orbit);
     w->h = iso_orbit_energy(orbit) / iso_unit(&w->units, iso_dimension_h);
     iso_orbit_free(orbit);
+    const double slow = 1 / sqrt(iso_coupling(&w->units.own, w->h));
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++) w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
+    if (status == ISO_OK && !isfinite(w->unit_clock[ISO_CLOCK_T]))
+        status = iso_context_fail(w->ctx, ISO_BAD_INPUT, "angular_velocity",
+                                  "the energy of this start is too large or too small for doubles");
     return status;
 }
 
@@ -84,8 +104,6 @@ static iso_status work(iso_periodic_work *w)
     iso_status status = check_options(w);
     if (status == ISO_OK) status = check_scene(w);
     if (status != ISO_OK) return status;
-    const double slow = 1 / sqrt(iso_coupling(&w->units.own, w->h));
-    for (iso_clock c = 0; c < ISO_CLOCKS; c++) w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
     iso_periodic_map_prepare(w->ctx, &w->units.own, w->options.threads, &w->map);
     w->out->axis = w->map.axis;
     status = iso_periodic_rotations(w);

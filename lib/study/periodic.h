@@ -15,7 +15,7 @@
  * orbit, or its image by T, passes: for S1, S2, S3 the lines x = 0, l = 0, l = pi/2 of the section. For T S1, T S2, T S3 these lines lie half
  * way between two crossings: gamma = -e_a, and the planes gamma_b = 0 and gamma_c = 0, met at right angles. Half an orbit
  * later, p half returns for a period p, it is on this line again. The search looks for such orbits along each line. A
- * symmetric orbit can be missed only between samples that are too far apart: `unresolved` and `lost` count such places.
+ * symmetric orbit can be missed only within 1e-4 of a rotation, or between samples that are too far apart: `unresolved` and `lost` count such places.
  *
  * R: (l, x) -> (l + pi, x) and S1 S2: (l, x) -> (-l, -x) and T carry orbits to orbits of the same kind: copies. One of
  * them is listed.
@@ -35,12 +35,13 @@ ISO_C_BEGIN
 
 /* The multipliers of a map of the plane that keeps an area: lambda and 1/lambda, lambda + 1/lambda = trace. */
 typedef enum iso_stability {
-    ISO_STABLE,    /* |trace| < 2: exp(+-i angle), of first order stable                                        */
-    ISO_UNSTABLE,  /* trace > 2: a saddle                                                                       */
-    ISO_INVERSE,   /* trace < -2: a saddle with two negative multipliers                                        */
-    ISO_DEGENERATE /* |trace| is 2 within 4 errors                                                               */
+    ISO_STABLE,             /* |trace| < 2: exp(+-i angle), of first order stable                             */
+    ISO_UNSTABLE,           /* trace > 2: a saddle                                                            */
+    ISO_INVERSE,            /* trace < -2: a saddle with two negative multipliers                             */
+    ISO_DEGENERATE,         /* |trace| is 2 within 4 errors                                                   */
+    ISO_STABILITY_UNDECIDED /* the same, and the error is above 2.5e-4: too large to tell                     */
 } iso_stability;
-/* "stable", "unstable", "inverse", "degenerate". */
+/* "stable", "unstable", "inverse", "degenerate", "undecided". */
 ISO_API const char *iso_stability_name(iso_stability stability);
 
 typedef struct iso_multipliers {
@@ -129,7 +130,7 @@ typedef struct iso_periodic {
 
 /* options NULL: iso_periodic_defaults(). Errors: ISO_BAD_ARGUMENT about "period" or "grid", or about "polish" where
  * there are no numbers of 128 bits; ISO_BAD_INPUT: an effect acts on the ball or the point is not on H = 0 (about the
- * effect); a ball at rest; two equal moments (about "J"): then a rotation carries every orbit along, and none is
+ * effect); a ball at rest; |k| < 0.02 (about "k"); max J/(min J |k|) > 1e5, or two equal moments (about "J"): then a rotation carries every orbit along, and none is
  * isolated; ISO_NUMERICAL; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *found has what is known by then. */
 ISO_API iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_options *options,
                                     iso_periodic **found);
@@ -143,8 +144,8 @@ enum { ISO_DIGITS_SIZE = 48 };
 ISO_API void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE]);
 ISO_API int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE]);
 
-/* The half-turn trace of Hill's equation about `axis` (0 to 2), by numbers of 64 bits of mantissa, and in *error how
- * far it may be off. */
+/* The half-turn trace of Hill's equation about `axis` (0 to 2), by numbers of 64 bits of mantissa, and in *error (NULL:
+ * not asked) how far it may be off. NaN for |k| < 1e-4 or a moment <= 0. */
 ISO_API double iso_hill_trace(double k, const double J[3], int axis, double *error);
 
 ISO_C_END

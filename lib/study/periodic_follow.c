@@ -25,7 +25,7 @@ const char *iso_branch_kind_name(iso_branch_kind kind)
 {
     static const char *const names[] = {"fold", "period doubling", "symmetry breaking", "collision", "torus",
                                         "end",  "failure"};
-    return names[kind];
+    return (int)kind >= 0 && kind <= ISO_BRANCH_FAILURE ? names[kind] : NULL;
 }
 
 static double value_of(const iso_params *p, iso_vary vary)
@@ -63,11 +63,13 @@ static iso_status end_at(const iso_follow_family *f, iso_branch *b, const iso_fo
 {
     iso_follow_point at = *last;
     double u = last->u + (value / f->width - last->v) * last->tangent[0] / last->tangent[1];
-    for (int i = 0; i < 8; i++) {
+    bool there = false;
+    for (int i = 0; i < 8 && !there; i++) {
         if (!iso_follow_evaluate(f, u, value / f->width, false, &at)) break;
         u -= at.off / at.by_u;
-        if (fabs(at.off / at.by_u) < 1e-12) break;
+        there = fabs(at.off / at.by_u) < 1e-11;
     }
+    if (!there) return fail_at(f, b, last, arc, "the last step to the end of the range failed");
     at.value = value;
     iso_branch_event e = {.kind = ISO_BRANCH_END, .at = iso_follow_tell(&at, arc), .axis = -1};
     snprintf(e.words, sizeof e.words, "the end of the range");
@@ -99,6 +101,12 @@ static iso_status accept(const iso_follow_family *f, iso_branch *b, const iso_fo
     return status == ISO_OK ? add_point(f, b, next, arc + ds) : status;
 }
 
+static iso_status stop_at(const iso_follow_family *f, iso_branch *b, const iso_follow_point *at, double arc)
+{
+    const iso_status status = fail_at(f, b, at, arc, "stopped on request");
+    return status == ISO_OK ? iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request") : status;
+}
+
 /* From `at` along its tangent. */
 static iso_status go(const iso_follow_family *f, iso_branch *b, iso_follow_point at)
 {
@@ -111,7 +119,7 @@ static iso_status go(const iso_follow_family *f, iso_branch *b, iso_follow_point
         const double room = fmin(at.u, ISO_PI / 2 - at.u);
         double taken = fmin(ds, fmax(room / 2, NEAR_END / 4) / (fabs(at.tangent[0]) + 1e-9));
         while (!iso_follow_step(f, &at, taken, &next, &steps)) {
-            if (!iso_context_goes_on(f->ctx)) return iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request");
+            if (!iso_context_goes_on(f->ctx)) return stop_at(f, b, &at, arc);
             taken /= 2;
             if (taken < 1e-7) {
                 iso_params p;
@@ -165,8 +173,11 @@ static iso_status follow_branch(const iso_follow_family *f, double u, double val
     iso_branch side[2] = {{0}, {0}};
     iso_follow_point at = {.tangent = {0, 1}};
     iso_status status = ISO_OK;
-    if (!iso_follow_evaluate(f, u, value / f->width, true, &at))
-        return fail_at(f, b, &at, 0, "the orbit could not be computed");
+    if (!iso_follow_evaluate(f, u, value / f->width, true, &at)) {
+        at.u = u, at.value = value;
+        return iso_context_goes_on(f->ctx) ? fail_at(f, b, &at, 0, "the orbit could not be computed")
+                                           : stop_at(f, b, &at, 0);
+    }
     iso_follow_turn(&at, NULL);
     for (int i = 0; i < 2 && (status == ISO_OK || status == ISO_STOPPED); i++) {
         if (i == 1) status = add_point(f, &side[1], &at, 0);
@@ -190,7 +201,7 @@ static iso_status check(const iso_follow_family *f, double own)
     const char *name = iso_vary_name((int)o->vary);
     iso_params p;
     if (!name || !(o->from < o->to) || !isfinite(o->to - o->from))
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "%g to %g is no range", o->from, o->to);
+        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "%s from %g to %g: give A:B with A < B", name ? name : "?", o->from, o->to);
     if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
                                 "the range %g to %g contains k = 0, where there is no ball", o->from, o->to);
@@ -239,7 +250,13 @@ static iso_status switch_branches(const iso_follow_family *f, iso_follow *out, s
         const iso_branch b = out->branch[i]; /* the list may move */
         const iso_branch_event e = b.event[j];
         const bool off = !e.joins && (e.kind == ISO_BRANCH_DOUBLING || e.kind == ISO_BRANCH_BREAKING);
-        if (off) status = iso_follow_switch(f, &b, &e, follow_found, &s);
+        const size_t before = out->count;
+        if (!off) continue;
+        status = iso_follow_switch(f, &b, &e, follow_found, &s);
+        char *words = out->branch[i].event[j].words;
+        const size_t used = strlen(words);
+        if (out->count == before && status == ISO_OK)
+            snprintf(words + used, sizeof e.words - used, "; the branch was not found");
     }
     return status;
 }
@@ -268,6 +285,8 @@ static bool follow_some(iso_pool_worker *w, void *data, size_t first, size_t cou
 {
     const crowd *c = data;
     for (size_t i = first; i < first + count; i++) {
+        const iso_follow_options *o = &c->family->options;
+        if (w->asks && o->progress) o->progress((double)i / (double)w->all->count, o->data);
         iso_follow_family f = *c->family;
         f.ctx = w->ctx;
         const iso_status status = follow_orbit(&f, &c->orbit[i], c->own, &c->of[i]);
@@ -324,18 +343,36 @@ static iso_status check_lines(iso_context *ctx, const iso_periodic_orbit orbits[
     return ISO_OK;
 }
 
+/* What is followed; *own: the scene's value. */
+static iso_status prepare(iso_context *ctx, const iso_scene *scene, const iso_follow_options *options,
+                          iso_follow_family *f, double *own)
+{
+    *f = (iso_follow_family){.ctx = ctx, .options = iso_follow_defaults(), .base = scene->params};
+    const iso_status status = iso_options_take(ctx, "iso_follow_options", &f->options, sizeof f->options, options);
+    f->axis = iso_section_axis(&scene->params);
+    f->width = f->options.to - f->options.from;
+    *own = value_of(&scene->params, f->options.vary);
+    return status == ISO_OK ? check(f, *own) : status;
+}
+
+iso_status iso_follow_check(iso_context *ctx, const iso_scene *scene, const iso_follow_options *options)
+{
+    iso_follow_family f;
+    double own;
+    return prepare(ctx, scene, options, &f, &own);
+}
+
 iso_status iso_follow_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[], size_t count,
                           const iso_follow_options *options, iso_follow **follow)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_follow_family f = {.ctx = ctx, .options = iso_follow_defaults(), .base = scene->params};
+    iso_follow_family f;
+    double own;
     *follow = NULL;
-    iso_status status = iso_options_take(ctx, "iso_follow_options", &f.options, sizeof f.options, options);
-    f.axis = iso_section_axis(&scene->params);
-    f.width = f.options.to - f.options.from;
-    const double own = value_of(&scene->params, f.options.vary);
-    if (status == ISO_OK) status = check(&f, own);
+    iso_status status = prepare(ctx, scene, options, &f, &own);
     if (status == ISO_OK) status = check_lines(ctx, orbits, count);
+    if (status == ISO_OK && count == 0)
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "there is no symmetric orbit to follow");
     if (status != ISO_OK) return status;
     iso_follow *out = calloc(1, sizeof *out);
     if (!out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for branches");

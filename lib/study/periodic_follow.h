@@ -2,7 +2,7 @@
  *
  * The orbit passes its symmetry line at u (periodic.h), and again half an orbit later: there F(u, value), the distance
  * from the line, is 0. The curve F = 0 is followed by its arc length, through folds, in steps that adapt. D is the
- * derivative over half the orbit in coordinates of the line: u along it, and one across. The trace is
+ * derivative over half the orbit in coordinates along and across the line (half way: of the mean of two crossings). The trace is
  * 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. Slopes by u are carried along the orbit, those by the parameter are
  * differences.
  *
@@ -10,7 +10,7 @@
  *     symmetry breaking   D_01 = 0: orbits with less symmetry branch off (trace 2)
  *     period doubling     D_00 D_11 = 0: orbits of twice the period branch off (trace -2)
  *     collision           u reaches an end of the line, a rotation about a principal axis
- *     torus               k = 1 or -1: the orbit is one of a torus of them
+ *     torus               k = 1 or -1, or two equal moments: the orbit is one of a torus of them
  */
 #ifndef ISO_STUDY_PERIODIC_FOLLOW_H
 #define ISO_STUDY_PERIODIC_FOLLOW_H
@@ -62,8 +62,11 @@ typedef struct iso_follow_options {
     double from, to; /* the range, which holds the scene's own value */
     double longest;  /* step, in parts of the range and radians of the line */
     long most;       /* steps of a branch in each direction */
-    bool branches;   /* follow what branches off as well    */
+    bool branches;   /* follow what branches off as well; not what branches off from that */
     int threads;     /* that follow orbits side by side; 0: as many as there are processors to run on */
+    /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
+    void (*progress)(double part, void *data);
+    void *data;
 } iso_follow_options;
 
 static inline iso_follow_options iso_follow_defaults(void)
@@ -80,9 +83,12 @@ typedef struct iso_follow {
     iso_branch *branch;
 } iso_follow;
 
+/* Whether the options suit the scene: the errors of iso_follow_run about "range". */
+ISO_API iso_status iso_follow_check(iso_context *ctx, const iso_scene *scene, const iso_follow_options *options);
+
 /* Follows orbits[0 .. count) of a scene, as iso_periodic_run found them. Errors: ISO_BAD_ARGUMENT about "range": it is
  * none, k = 0 or a moment <= 0 is in it, or the scene's value is not; ISO_BAD_INPUT about "orbit": it has no
- * symmetry line; ISO_NO_MEMORY; ISO_STOPPED: *follow has what is known by then. A branch that cannot be followed to
+ * symmetry line, or there is none; ISO_NO_MEMORY; ISO_STOPPED: *follow has what is known by then. A branch that cannot be followed to
  * its end is kept, with an event. */
 ISO_API iso_status iso_follow_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[],
                                   size_t count, const iso_follow_options *options, iso_follow **follow);

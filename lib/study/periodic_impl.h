@@ -146,6 +146,22 @@ typedef struct iso_periodic_candidate {
     double l, x; /* its point of the section       */
 } iso_periodic_candidate;
 
+/* All copies of a point, and those by the reversors, become one point of [0, pi/2] x [0, 1]. */
+static inline void iso_periodic_fold(const double z[2], double folded[2])
+{
+    folded[0] = fabs(remainder(z[0], ISO_PI));
+    folded[1] = fabs(z[1]);
+}
+
+/* How far apart two points are, copies counting as one. */
+static inline double iso_periodic_apart(const double a[2], const double b[2])
+{
+    double p[2], q[2];
+    iso_periodic_fold(a, p);
+    iso_periodic_fold(b, q);
+    return fmax(fabs(p[0] - q[0]), fabs(p[1] - q[1]));
+}
+
 /* f's l modulo a turn into (-pi, pi]. */
 double iso_periodic_angle(double l);
 

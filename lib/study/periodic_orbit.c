@@ -14,7 +14,7 @@
 
 struct iso_periodic_folded {
     int period;
-    double l, x;
+    double z[2]; /* a point, folded */
 };
 
 double iso_periodic_angle(double l)
@@ -30,21 +30,15 @@ bool iso_periodic_meet(const double a[2], const double b[2])
 
 /* --- duplicates ------------------------------------------------------------------------------------------------- */
 
-/* All copies of a point, and those by the reversors, become one point of [0, pi/2] x [0, 1]. */
-static void fold(double *l, double *x)
-{
-    *l = fabs(remainder(*l, ISO_PI));
-    *x = fabs(*x);
-}
-
 /* Whether the point belongs to an orbit in the list whose period divides this one, or to a rotation. */
 static bool is_known(const iso_periodic_work *w, int period, double l, double x)
 {
-    fold(&l, &x);
-    if (x < SAME && fmin(l, ISO_PI / 2 - l) < SAME) return true;
+    double z[2];
+    iso_periodic_fold((const double[2]){l, x}, z);
+    if (z[1] < SAME && fmin(z[0], ISO_PI / 2 - z[0]) < SAME) return true;
     for (size_t i = 0; i < w->folded_count; i++) {
         const struct iso_periodic_folded *f = &w->folded[i];
-        if (period % f->period == 0 && fabs(f->l - l) < SAME && fabs(f->x - x) < SAME) return true;
+        if (period % f->period == 0 && fabs(f->z[0] - z[0]) < SAME && fabs(f->z[1] - z[1]) < SAME) return true;
     }
     return false;
 }
@@ -61,8 +55,8 @@ static iso_status remember(iso_periodic_work *w, int period, const double (*path
     }
     for (size_t i = 0; i < count; i++) {
         struct iso_periodic_folded *f = &w->folded[w->folded_count++];
-        *f = (struct iso_periodic_folded){period, path[i][0], path[i][1]};
-        fold(&f->l, &f->x);
+        f->period = period;
+        iso_periodic_fold(path[i], f->z);
     }
     return ISO_OK;
 }

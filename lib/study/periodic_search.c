@@ -165,7 +165,7 @@ static iso_status look_at(search *s, const interval *in, bool *split)
     s->w->out->unresolved += !clear;
     iso_status status = ISO_OK;
     for (int n = 0; n < s->periods && status == ISO_OK; n++)
-        if (a->off[n] * b->off[n] < 0) status = add_bracket(s, a, b, n);
+        if (a->off[n] * b->off[n] < 0 || a->off[n] == 0) status = add_bracket(s, a, b, n);
     return status;
 }
 
@@ -279,10 +279,8 @@ static int by_place(const void *a, const void *b)
 /* Whether b seems to be the other point on the line of an orbit that has one before b. Copies of both count. */
 static bool comes_again(const search *s, const bracket *b)
 {
-    for (const bracket *a = s->bracket; a < b; a++) {
-        const double l = fabs(remainder(a->end[0], ISO_PI)) - fabs(remainder(b->z[0], ISO_PI));
-        if (a->n == b->n && a->there && fabs(l) < 1e-4 && fabs(fabs(a->end[1]) - fabs(b->z[1])) < 1e-4) return true;
-    }
+    for (const bracket *a = s->bracket; a < b; a++)
+        if (a->n == b->n && a->there && iso_periodic_apart(a->end, b->z) < 1e-4) return true;
     return false;
 }
 

@@ -95,15 +95,16 @@ static bool solve(solver *s)
 iso_multipliers iso_multipliers_of(double trace, double error, double sense)
 {
     iso_multipliers m = {.stability = trace > 2 ? ISO_UNSTABLE : trace < -2 ? ISO_INVERSE : ISO_STABLE};
-    const double beyond = (fabs(trace) - 2) * (fabs(trace) + 2); /* trace^2 - 4 */
-    if (fabs(fabs(trace) - 2) <= error) m.stability = ISO_DEGENERATE;
+    const double beyond = fabs(trace) - 2,
+                 size = sqrt(fabs(beyond)) * sqrt(fabs(trace) + 2); /* |trace^2 - 4|^(1/2) */
+    if (!(fabs(beyond) > error)) m.stability = error < 1e-3 ? ISO_DEGENERATE : ISO_STABILITY_UNDECIDED;
     if (m.stability == ISO_STABLE) {
         m.krein = sense > 0 ? 1 : -1;
         m.value[0][0] = m.value[1][0] = trace / 2;
-        m.value[0][1] = sqrt(fmax(-beyond, 0)) / 2;
+        m.value[0][1] = size / 2;
         m.value[1][1] = -m.value[0][1];
     } else {
-        m.value[0][0] = copysign((fabs(trace) + sqrt(fmax(beyond, 0))) / 2, trace);
+        m.value[0][0] = copysign((fabs(trace) + (beyond > 0 ? size : 0)) / 2, trace);
         m.value[1][0] = 1 / m.value[0][0];
     }
     return m;
@@ -169,9 +170,9 @@ static bool judge(const solver *s, iso_periodic_orbit *o)
     o->error = error + 256 * digits * s->period * doubt + 4 * moved + fabs(o->determinant) * (1 + fabs(o->trace));
     o->error += 100 * by_other_steps(s); /* it has been seen to be 70 times too small */
     if (digits > 1e-25) o->error += 0x1p-52 * fabs(o->trace);
-    const double close_to_2 = fmin(fmax(4 * o->error, 1e-15), 0.5);
     o->torus = fabs(s->map.p.k) == 1 && fabs(o->trace - 2) <= fmax(1000 * o->error, 1e-9);
-    o->multipliers = iso_multipliers_of(o->trace, o->torus ? 1e-6 : close_to_2, (double)all.slope[1][0]);
+    o->multipliers =
+        iso_multipliers_of(o->trace, fmax(4 * o->error, o->torus ? 1e-9 : 1e-15), (double)all.slope[1][0]);
     return true;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
+#include "orbit/pool_impl.h"
 #include "study/periodic.h"
 
 typedef struct chart {
@@ -32,20 +33,34 @@ static void place(const chart *c, int i, int j, double at[2])
     at[1] = c->o.from[1] + (c->o.to[1] - c->o.from[1]) * j / n;
 }
 
+/* Some lines of equal J. */
+static bool fill_lines(iso_pool_worker *w, void *data, size_t first, size_t count)
+{
+    chart *c = data;
+    const size_t n = (size_t)c->o.steps + 1;
+    for (size_t j = first; j < first + count; j++) {
+        if (w->asks && c->o.progress) c->o.progress((double)j / (double)n, c->o.data);
+        for (size_t i = 0; i < n && iso_pool_goes_on(w); i++) {
+            double *row = iso_record_row(c->grid, n * j + i);
+            for (int which = 0; which < 2; which++) row[2 + which] = trace_at(c, which, row);
+        }
+    }
+    return true;
+}
+
 static iso_status fill_grid(chart *c)
 {
+    const int n = c->o.steps + 1;
     iso_status status = ISO_OK;
-    for (int j = 0; j <= c->o.steps && status == ISO_OK; j++)
-        for (int i = 0; i <= c->o.steps && status == ISO_OK; i++) {
-            double *row, at[2];
-            place(c, i, j, at);
-            status = iso_context_goes_on(c->ctx) ? iso_record_append(c->ctx, c->grid, &row)
-                                                 : iso_context_fail(c->ctx, ISO_STOPPED, "", "stopped on request");
-            if (status != ISO_OK) break;
-            row[0] = at[0], row[1] = at[1];
-            for (int which = 0; which < 2; which++) row[2 + which] = trace_at(c, which, at);
-        }
-    return status;
+    for (int i = 0; i < n * n && status == ISO_OK; i++) {
+        double *row;
+        status = iso_record_append(c->ctx, c->grid, &row);
+        if (status == ISO_OK) place(c, i % n, i / n, row);
+        if (status == ISO_OK) row[2] = row[3] = NAN;
+    }
+    iso_pool pool = {.count = (size_t)n, .chunk = 1, .solve = fill_lines, .data = c};
+    return status == ISO_OK ? iso_pool_run(c->ctx, &pool, iso_pool_threads(c->o.threads, pool.count - 1, 1), NULL)
+                            : status;
 }
 
 /* The zero of trace - level between a and b, by halving. A jump is none: the axis changes where moments are equal. */
@@ -73,6 +88,7 @@ static iso_status compare(chart *c, const double *a, const double *b)
     iso_status status = ISO_OK;
     for (int which = 0; which < 2; which++)
         for (int sign = -1; sign <= 1; sign += 2) {
+            if (!iso_context_goes_on(c->ctx)) return iso_context_fail(c->ctx, ISO_STOPPED, "", "stopped on request");
             const double level = 2 * sign, one = a[2 + which] - level, other = b[2 + which] - level;
             if (status == ISO_OK && one * other < 0 && a[0] * b[0] > 0) status = add_border(c, which, level, a, b);
         }
@@ -95,7 +111,10 @@ static iso_status check(const chart *c)
 {
     const iso_stability_options *o = &c->o;
     if (!(o->from[0] < o->to[0]) || !isfinite(o->to[0] - o->from[0]))
-        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "k", "k from %g to %g is no range", o->from[0], o->to[0]);
+        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "k", "k from %g to %g: give A:B with A < B", o->from[0], o->to[0]);
+    if (o->from[0] > -ISO_LEAST_K && o->to[0] < ISO_LEAST_K)
+        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "k", "k from %g to %g: nothing is computed for |k| < %g",
+                                o->from[0], o->to[0], ISO_LEAST_K);
     if (o->moment < 0 || o->moment > 2 || !(o->from[1] > 0) || !(o->from[1] < o->to[1]) || !isfinite(o->to[1]))
         return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "J", "J%d from %g to %g: give A:B with 0 < A < B",
                                 o->moment + 1, o->from[1], o->to[1]);

@@ -15,6 +15,10 @@ typedef struct iso_stability_options {
     double J[3];           /* the others, > 0           */
     double from[2], to[2]; /* k, the moment: from < to; |k| < ISO_LEAST_K is left out: there the trace has no limit */
     int steps;             /* of the grid, in both directions: 2 to 2000 */
+    int threads;           /* 0: as many as there are processors to run on */
+    /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
+    void (*progress)(double part, void *data);
+    void *data;
 } iso_stability_options;
 #define ISO_LEAST_K 0.02
 

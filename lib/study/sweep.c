@@ -184,7 +184,8 @@ const iso_sweep_head *iso_sweep_head_of(const iso_sweep *s)
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-static void make_points(iso_context *ctx, const iso_sweep *s, size_t first, iso_sweep_batch *b)
+/* Errors: ISO_NO_MEMORY, ISO_STOPPED; a point without a scene is a failed row. */
+static iso_status make_points(iso_context *ctx, const iso_sweep *s, size_t first, iso_sweep_batch *b)
 {
     const iso_family *f = &s->plan->family;
     iso_sweep_rows *r = b->rows;
@@ -194,8 +195,10 @@ static void make_points(iso_context *ctx, const iso_sweep *s, size_t first, iso_
         r->status[i] = ISO_OK;
         r->reason[i][0] = '\0';
         const iso_status status = f->scene(ctx, f->data, first + i, &b->scene[i], row);
+        if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
         if (status != ISO_OK) iso_sweep_note(ctx, NULL, b, i, status);
     }
+    return ISO_OK;
 }
 
 /* A point that has failed in an earlier quantity is still asked for the others, but not if it has no scene. */
@@ -232,10 +235,10 @@ iso_status iso_sweep_measure_points(iso_context *ctx, const iso_sweep *s, size_t
     b.scene = malloc((count + 1) * sizeof *b.scene);
     bool *made = malloc((count + 1) * sizeof *made);
     if (b.scene && made) {
-        make_points(ctx, s, first, &b);
+        status = make_points(ctx, s, first, &b);
         for (size_t i = 0; i < count; i++) made[i] = rows->status[i] == ISO_OK;
         b.made = made;
-        status = find_all(ctx, s, &b);
+        if (status == ISO_OK) status = find_all(ctx, s, &b);
     } else {
         status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu points", count);
     }

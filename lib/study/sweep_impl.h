@@ -37,7 +37,7 @@ typedef struct iso_sweep_quantity {
     int (*columns)(const iso_sweep_ask *ask, const char *name[]);
     /* How many points make a chunk of about a second. */
     size_t (*chunk)(const iso_sweep_ask *ask);
-    /* Why the scenes of this sweep do not have it. NULL: all do. Errors: ISO_BAD_INPUT about an effect or the name. */
+    /* Why the scenes of this sweep do not have it. NULL: all do. Errors: ISO_BAD_INPUT. */
     iso_status (*refuse)(iso_context *ctx, const iso_sweep_ask *ask);
     /* Its numbers for one scene. Numbers that are not set are NaN. Errors: those of the point. */
     iso_status (*find)(iso_context *ctx, const iso_sweep_ask *ask, const iso_scene *scene, double number[]);

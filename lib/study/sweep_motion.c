@@ -1,9 +1,9 @@
 /* sweep_motion.c - quantities of the free ball: frequencies, the splitting of the separatrix, the rotations. */
 #include <math.h>
 
+#include "study/free_impl.h"
 #include "study/frequencies.h"
 #include "study/periodic.h"
-#include "study/free_impl.h"
 #include "study/splitting.h"
 #include "study/sweep_impl.h"
 
@@ -38,16 +38,16 @@ static iso_status frequencies_find(iso_context *ctx, const iso_sweep_ask *ask, c
     return ISO_OK;
 }
 
-static size_t four(const iso_sweep_ask *ask)
+static size_t two(const iso_sweep_ask *ask)
 {
     (void)ask;
-    return 4;
+    return 2;
 }
 
 const iso_sweep_quantity iso_sweep_frequencies = {
     .topic = {.name = "frequencies", .doc = "frequencies and rotation number", .turns = true, .time = true},
     .columns = frequencies_columns,
-    .chunk = four,
+    .chunk = two,
     .find = frequencies_find,
 };
 
@@ -109,7 +109,7 @@ const iso_sweep_quantity iso_sweep_splitting = {
               .doc = "x and m of the separatrix, and their errors",
               .settings = splitting_settings},
     .columns = splitting_columns,
-    .chunk = four,
+    .chunk = two,
     .refuse = free_refuse,
     .find = splitting_find,
 };

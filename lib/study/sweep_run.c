@@ -1,5 +1,5 @@
-/* sweep_run.c - all chunks of a sweep on many threads: each takes a chunk, computes it, gives its rows away, and takes
- * the next. */
+/* sweep_run.c - all chunks of a sweep on many threads: each takes a chunk, computes it, gives its rows away,
+ * and takes the next. */
 #include <pthread.h>
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
-/* sweep_state.c - quantities of one trajectory: its state at the end, what the backends differ by, its error, and when
- * contact is lost. */
+/* sweep_state.c - quantities of one trajectory: its state at the end, what the backends differ by, its error, and
+ * when contact is lost. */
 #include <math.h>
 #include <string.h>
 

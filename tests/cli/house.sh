@@ -104,6 +104,7 @@ alone() {
             sed "s|^|$header: |"
     done
 }
+echo "$all" | "$CC" -std=c11 -fsyntax-only -I lib -x c - 2>&1 | grep error | complain "all public headers compile together"
 alone "$CC" -std=c11 -x c | complain "a public header compiles alone in C"
 cxx=
 for name in c++ g++ clang++; do

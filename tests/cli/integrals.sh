@@ -92,8 +92,8 @@ refuses 2 "--degree '0'" integrals other.yaml --degree 0
 refuses 2 "--degree '-1'" integrals other.yaml --degree=-1
 refuses 2 "--within '-1'" integrals other.yaml --within -1
 refuses 2 "--coefficients '1.5'" integrals other.yaml --coefficients 1.5
-refuses 2 "degree 9 is not in 1 to 8" integrals other.yaml --degree 9
-refuses 2 "degree 9 of the coefficients is not in 0 to 8" integrals other.yaml --coefficients 9
+refuses 2 "degree 9 of the polynomials in M: give 1 to 8" integrals other.yaml --degree 9
+refuses 2 "degree 9 of the coefficients in gamma: give 0 to 8" integrals other.yaml --coefficients 9
 refuses 2 "2 orbits: these degrees need" integrals other.yaml --orbits 2
 refuses 2 "20000 orbits: these degrees need 4 to 10000" integrals other.yaml --orbits 20000
 refuses 2 "turns are not in" integrals other.yaml --turns 0.1

@@ -40,7 +40,7 @@ check "columns" test "$(columns b.csv | cut -d, -f 1-12)" = \
 check "a stable fixed point of the return map" test "$(rows b.csv | awk -F, '$2 == 1 && $7 == "stable"' | wc -l)" -eq 1
 check "all close" awk -F, '/^[0-9]/ && !($13 <= 1e-14) { exit 1 }' b.csv
 count=$(rows b.csv | wc -l)
-run 0 periodic b.yaml --period 3 -o two.csv -j 1
+run 0 periodic b.yaml --period 3 -o two.csv -j 3
 check "threads change nothing" cmp b.csv two.csv
 run 0 periodic b.yaml --period 3 --all -o all.csv
 check "--all has more" test "$(rows all.csv | wc -l)" -gt "$count"
@@ -61,7 +61,7 @@ initial: {normal: [$(field 17), $(field 18), $(field 19)],
 time: {end: $(field 10), step: $(field 10)}
 END
 run 0 run orbit.yaml --tol 1e-14
-check "the state comes back" awk -F, '/^[0-9]/ { for (i = 2; i <= 7; i++) { if (n && ($i - a[i])^2 > 1e-22) exit 1; a[i] = $i } n++ }' out
+check "the state comes back" awk -F, '/^[0-9]/ { for (i = 2; i <= 7; i++) { if (n && ($i - a[i])^2 > 1e-22) exit 1; a[i] = $i } n++ } END { exit n != 2 }' out
 
 # --- following
 run 0 periodic b.yaml --period 1 --orbit 1 --follow k=0.3:0.8 -o f.csv
@@ -89,6 +89,26 @@ check "borders" grep -q '^border,' chart.csv
 run 0 periodic b.yaml --chart J3 --steps 4 --json
 check "JSON of a chart" grep -q '"borders": \[' out
 
+run 0 periodic a.yaml --period 3 --orbit 4 --follow J2=1.3:2.3
+check "equal moments: no special kind" grep -q "torus *J2 = 1.4 .*J1 = J2" out
+check "no other event there" test "$(grep -c "1\.4000\|1\.3999" out)" -eq 0
+run 0 periodic b.yaml --period 1 --follow k=0.5:0.7 --branches
+check "what branches off" grep -q "branch 2: period 2, .*from branch 1" out
+
+# --- interrupted
+if interruptible "periodic after SIGINT"; then
+    timeout --preserve-status -k 60 -s INT 2 "$isoroll" periodic b.yaml --period 2 --follow k=0.3:0.9 -j 1 \
+        -o cut.csv >out 2>err
+    check "Ctrl-C while following: exit 1" test $? -eq 1
+    check "words" grep -q "interrupted: branches are missing or cut" err
+    check "and the branches so far" grep -q ",failure$" cut.csv
+    timeout --preserve-status -k 60 -s INT 1 "$isoroll" periodic b.yaml --chart J2 --steps 1500 -o cut_chart.csv \
+        >out 2>err
+    check "Ctrl-C in a chart: exit 1" test $? -eq 1
+    check "words" grep -q "interrupted: no chart" err
+    check "and no file" test ! -e cut_chart.csv
+fi
+
 # --- refusals
 scene 0.5 "2, 2, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >round.yaml
 refuses 3 "J1 and J2 are equal" periodic round.yaml
@@ -105,10 +125,19 @@ refuses 3 "contains k = 0" periodic b.yaml --period 1 --follow k=-1:1
 refuses 3 "largest moment" periodic b.yaml --period 1 --follow J2=1.5:6
 refuses 3 "expected NAME=A:B" periodic b.yaml --period 1 --follow h=1:2
 refuses 3 "expected J1, J2 or J3" periodic b.yaml --chart J4
-refuses 3 "is no range" periodic b.yaml --chart J2=3:1
+refuses 3 "give A:B with" periodic b.yaml --chart J2=3:1
 refuses 2 "give 1 to 64" periodic b.yaml --period 65
 refuses 5 "nowhere" periodic b.yaml --period 1 --follow k=0.4:0.6 -o nowhere/f.csv
 refuses 5 "nowhere" periodic b.yaml --chart J2 -o nowhere/f.csv
+scene 2 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >calm.yaml
+refuses 3 "no symmetric orbit to follow" periodic calm.yaml --period 2 --follow k=1.9:2.1
+scene 0.01 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >flat.yaml
+refuses 3 "give |k| >= 0.02" periodic flat.yaml
+refuses 3 "nothing is computed for |k| < 0.02" periodic b.yaml --chart J2 --k=-0.01:0.01
+refuses 2 "goes with --all" periodic b.yaml --grid 100
+refuses 2 "goes with --chart" periodic b.yaml --steps 100
+refuses 2 "do not go with --chart" periodic b.yaml --chart J2 --all
+refuses 2 "not --polish" periodic b.yaml --polish --follow k=0.4:0.6
 refuses 2 "not both" periodic b.yaml --chart J2 --follow k=0.4:0.6
 refuses 2 "choose one" periodic b.yaml --json -o -
 refuses 2 "expected" periodic b.yaml --period 0

@@ -38,7 +38,7 @@ static const char *const inside = "scene:\n"
                                   "measure: {state: {}}\n";
 
 static const char *const chart =
-    "scene: {reduced: {k: 0.5, J: [1, 2, 5]}, time: {end: 10},\n"
+    "scene: {reduced: {k: 0.5, J: [1.5, 2, 5]}, time: {end: 10},\n"
     "        initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}}\n"
     "vary:\n"
     "  k: [0.5, -0.75, 2, 0.06]\n"
@@ -131,9 +131,10 @@ static void check_section(iso_context *ctx)
 /* Values of a range are those that one writes: 0.1, 0.2, ..., and both ends. */
 static void check_range(iso_context *ctx)
 {
-    iso_sweep_file *f = read(ctx, "scene: {reduced: {k: 0.5, J: [1, 2, 5]}, time: {end: 10}, initial:\n"
-                                  " {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}}\n"
-                                  "vary: {k: {from: -3, to: 3, count: 61}}\nmeasure: {state: {}}\n");
+    iso_sweep_file *f = read(
+        ctx, "scene: {reduced: {k: 0.5, J: [1, 2, 5]}, time: {end: 10}, initial:\n"
+             " {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}}\n"
+             "vary: {k: [{from: -3, to: -0.1, count: 30}, {from: 0, to: 3, count: 31}]}\nmeasure: {state: {}}\n");
     if (!f) return;
     const iso_family *family = &iso_sweep_file_plan(f)->family;
     for (size_t i = 0; i < 61; i++) {

@@ -227,11 +227,11 @@ static void check_both_searches(void)
     iso_random *random = iso_random_create(4);
     size_t seen = 0;
     int lost[2] = {0, 0};
-    for (int i = 0; i < tests_length(3, 10); i++) {
+    for (int i = 0; i < tests_length(3, 5); i++) {
         const double k = (i % 2 ? 1 : -1) * exp(iso_random_uniform(random, log(0.35), log(tests_length(1, 2))));
         const double J[3] = {iso_random_uniform(random, 1, 1.3), iso_random_uniform(random, 1.5, 2),
                              iso_random_uniform(random, 2.2, 3)};
-        const int period = tests_length(3, 5);
+        const int period = tests_length(3, 4);
         iso_periodic_options o = iso_periodic_defaults();
         o.period = period;
         iso_periodic *lines = orbits_of(k, J, &o), *grid = grid_of(k, J, period, 1000);
@@ -256,10 +256,10 @@ static void check_tori(void)
     iso_random *random = iso_random_create(1);
     iso_periodic_options o = iso_periodic_defaults();
     size_t tori = 0;
-    for (int i = 0; i < tests_length(6, 40); i++) {
+    for (int i = 0; i < tests_length(6, 16); i++) {
         const double k = i % 2 ? 1 : -1,
                      J[3] = {iso_random_uniform(random, 1, 1.5), iso_random_uniform(random, 1.6, 2),
-                             iso_random_uniform(random, 2.2, 3)};
+                             iso_random_uniform(random, 2.2, 2.6)};
         iso_periodic *f = orbits_of(k, J, &o);
         for (size_t j = 0; j < f->count; j++) {
             const iso_periodic_orbit *p = &f->orbit[j];
@@ -330,10 +330,10 @@ static void compare_digits(iso_random *random, int period, size_t *seen, size_t 
 /* The trace's error covers its distance from 128 bits, and orbits close to 1e-28 there. */
 static void check_polish(void)
 {
-    const size_t wanted = (size_t)tests_length(6, 60);
+    const size_t wanted = (size_t)tests_length(6, 30);
     size_t seen = 0, beaten = 0, open = 0;
     iso_random *random = iso_random_create(128);
-    for (int i = 0; i < 1000 && seen < wanted; i++) compare_digits(random, tests_length(2, 3), &seen, &beaten, &open);
+    for (int i = 0; i < 1000 && seen < wanted; i++) compare_digits(random, 2, &seen, &beaten, &open);
     iso_random_free(random);
     gsl_test(seen < wanted, "%zu orbits", seen);
     gsl_test(beaten > 0, "%zu of %zu errors of traces do not cover the distance from 128 bits", beaten, seen);

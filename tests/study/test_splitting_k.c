@@ -52,9 +52,9 @@ static void check_against_quad(double k, const double J[3], const iso_splitting 
 /* 128 bits, where there are any: the errors of 64 bits cover the distance. */
 static void test_fine(void)
 {
-    static const double cases[][4] = {{-1, 1.4, 2.1, 3}, {-0.4, 0.33, 0.9, 2.2}, {-1, 3, 1.1, 2},
-                                      {2, 1, 2, 5},      {-1, 1.4, 2.1, 3},      {0.2, 1, 2, 3}};
-    const int count = tests_length(0, 6);
+    static const double cases[][4] = {
+        {-1, 1.4, 2.1, 3}, {-0.4, 0.33, 0.9, 2.2}, {-1, 3, 1.1, 2}, {2, 1, 2, 5}, {0.2, 1, 2, 3}};
+    const int count = tests_length(0, 5);
     for (int i = 0; i < count; i++) {
         const iso_splitting s = at(cases[i][0], &cases[i][1], ISO_SPLITTING_DOUBLE);
         check_against_quad(cases[i][0], &cases[i][1], &s);
@@ -170,7 +170,7 @@ static void test_near_moments(void)
         const iso_splitting s = at(held[i][0], &held[i][1], ISO_SPLITTING_DOUBLE);
         gsl_test(!(s.error < 1e-16 && s.x_error < 1e-16), "J = %g %g %g, k = %g: errors %.1e, %.1e", held[i][1],
                  held[i][2], held[i][3], held[i][0], s.error, s.x_error);
-        if (tests_length(0, 1)) check_against_quad(held[i][0], &held[i][1], &s);
+        if (tests_length(0, i < 2)) check_against_quad(held[i][0], &held[i][1], &s);
     }
 }
 
@@ -183,8 +183,8 @@ static void test_refusals(void)
     check_refused(0.5, (double[3]){1, 2, 2}, "equal");
     check_refused(0.5, (double[3]){1, 1, 1}, "equal");
     check_refused(0, J_thin, "k = 0");
-    check_refused(1e6, J_thin, "hold");
-    check_refused(0.001, J_thin, "hold");
+    check_refused(1e6, J_thin, "give 0.05 <= |k|");
+    check_refused(0.001, J_thin, "give 0.05 <= |k|");
     check_refused(1, (double[3]){1, -2, 3}, "");
     iso_effects effects = iso_effects_default();
     gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_ARGUMENT || s, "no k");
