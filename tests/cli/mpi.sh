@@ -57,20 +57,17 @@ END
 run 1 sweep grid.yaml -o all.csv
 run 0 sweep long.yaml -o long.h5
 for number in 1 2 4 7; do
-    ranks 1 $number sweep grid.yaml -o again.csv -j $((number % 2 + 1))
-    once "6 of 30 points failed; the first is point 12: scene.yaml:1:14: k = 0"
-    check "$number ranks: rows that failed" cmp all.csv again.csv
     ranks 0 $number sweep long.yaml -o again.h5
     check "$number ranks" cmp long.h5 again.h5
-    ranks 0 $number sweep long.yaml -o again.h5 --resume
-    check "$number ranks: a result that is there stays" cmp long.h5 again.h5
-    rm again.csv again.h5
+    rm again.h5
 done
-for shard in 1 2 3; do ranks 0 2 sweep long.yaml -o part.$shard.h5 --shard $shard/3; done
+ranks 1 4 sweep grid.yaml -o again.csv -j 2
+once "6 of 30 points failed; the first is point 12: scene.yaml:1:14: k = 0"
+check "rows that failed" cmp all.csv again.csv
+ranks 0 3 sweep long.yaml -o long.h5 --resume
+for shard in 1 2; do ranks 0 2 sweep long.yaml -o part.$shard.h5 --shard $shard/2; done
 ranks 0 2 sweep --merge part.?.h5 -o merged.h5
 check "shards by ranks, merged" cmp long.h5 merged.h5
-ranks 1 3 sweep grid.yaml
-check "standard output" cmp out all.csv
 check "no journal stays" test "$(find . -name '*.part' | wc -l)" -eq 0
 
 # --- what is refused is refused once, with the status of isoroll
@@ -79,16 +76,12 @@ cp thesis.csv thesis.copy
 ranks 5 3 sweep grid.yaml -o thesis.csv --resume
 once "is no result of a sweep: it is not overwritten"
 check "a foreign file" cmp thesis.csv thesis.copy
-ranks 5 3 sweep grid.yaml -o /nowhere/new.csv
-once "cannot write"
 ranks 5 3 sweep grid.yaml -o /dev/full
 once "No space left"
 ranks 5 3 sweep none.yaml -o new.csv
 once "cannot open .none.yaml."
 ranks 2 3 sweep grid.yaml -o new.csv --shard 7/3
 once "expected i/n"
-ranks 2 3 sweep - -o new.csv
-once "give a file"
 ranks 2 3 run scene.yaml
 once "has the command 'sweep' alone"
 ranks 0 3 --version
