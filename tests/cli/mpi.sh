@@ -7,12 +7,13 @@ if ! [ -x "$program" ]; then
     skip "all" "isoroll-mpi is not built"
     exit 0
 fi
-has mpirun "all" || exit 0
+mpirun=${ISO_MPIRUN:-mpirun} # that of the MPI of this build
+has "$mpirun" "all" || exit 0
 
 # Both MPIs let more ranks run than there are processors; Open MPI must be told, and must be told that root may.
 # A single rank may use all processors.
 options=
-mpirun --version 2>&1 | grep -q -i 'open *mpi\|openrte' && options='--oversubscribe --bind-to none -q'
+"$mpirun" --version 2>&1 | grep -q -i 'open *mpi\|openrte' && options='--oversubscribe --bind-to none -q'
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export ASAN_OPTIONS=detect_leaks=0 # MPI keeps what it has got until the end
 
@@ -22,7 +23,7 @@ ranks() {
     shift 2
     checks=$((checks + 1))
     # shellcheck disable=SC2086 # options is a list
-    timeout -k 5 120 mpirun $options -n "$number" "$program" "$@" >out 2>err </dev/null
+    timeout -k 5 120 "$mpirun" $options -n "$number" "$program" "$@" >out 2>err </dev/null
     status=$?
     [ $status -eq "$wanted" ] || fail "$number ranks, $*: status $status, not $wanted"
 }
@@ -95,7 +96,7 @@ pids() { ps -o pid= --ppid "$1"; }
 start() {
     before=$(cat "$2.part" 2>/dev/null | wc -c)
     # shellcheck disable=SC2086
-    mpirun $options -n "$1" "$program" sweep long.yaml -o "$2" --resume >out 2>err </dev/null &
+    "$mpirun" $options -n "$1" "$program" sweep long.yaml -o "$2" --resume >out 2>err </dev/null &
     pid=$!
 }
 begun() {
