@@ -188,7 +188,8 @@ static void print_times(ranks *r)
     double t[TIMES];
     MPI_Ireduce(r->times, t, TIMES, MPI_DOUBLE, MPI_SUM, 0, r->comm, &request);
     ranks_wait(&request);
-    if (r->rank > 0 || !getenv("ISOROLL_TIMES")) return;
+    const char *wanted = getenv("ISOROLL_TIMES"); /* counts only if it is not empty */
+    if (r->rank > 0 || !wanted || !*wanted) return;
     fprintf(stderr, "isoroll: %d ranks: %.0f draws of %.2f us, %.0f sendings of %.1f us, ", r->size, t[DRAWS],
             1e6 * mean(t[DRAW_SECONDS], t[DRAWS]), t[SENDS], 1e6 * mean(t[SEND_SECONDS], t[SENDS]));
     fprintf(stderr, "%.0f messages of %.0f bytes taken in %.1f us\n", t[WRITES], mean(t[BYTES], t[WRITES]),

@@ -90,8 +90,13 @@ check "the version, once" test "$(grep -c '^isoroll' out)" -eq 1
 check_not "nothing is written" test -e new.csv
 
 # --- signals to mpirun, and to one rank
-# pids: of the ranks of this mpirun, one a line
-pids() { ps -o pid= --ppid "$1"; }
+# pids MPIRUN: of its ranks, one a line; rank 0 is the first. MPICH has a process between.
+pids() {
+    ps -e -o pid=,ppid=,comm= | awk -v top="$1" '
+        { above[$1] = $2; name[$1] = $3 }
+        END { for (i in name) if (name[i] ~ /^isoroll-mpi/) for (j = i; j > 1; j = above[j]) if (j == top) print i }' |
+        sort -n
+}
 # start N FILE: a run in the background, of $pid; it goes on when a further chunk is in the journal
 start() {
     before=$(cat "$2.part" 2>/dev/null | wc -c)
