@@ -125,6 +125,7 @@ sleep 1
 scancel --batch --signal=USR1 "$job"
 check "a limit: the job is in the queue again" within 60 waits
 check "a limit: the journal is kept" grep -q "stopped before the time limit: .* are in 'share.mpi.h5.part'" mpi.log
+sleep 3 # in the second in which it was stopped slurmd takes it for a job that was killed
 scontrol update JobId="$job" StartTime=now # Slurm would let it wait for two minutes
 check "a limit: the job ends" within 300 no_jobs
 cp mpi.log err
