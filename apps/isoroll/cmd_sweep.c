@@ -7,7 +7,7 @@
 #include "io/sweep_file.h"
 #include "io/sweep_store.h"
 #include "scene_options.h"
-#include "study/sweep.h"
+#include "sweep_team.h"
 
 /* What sweep can be told. */
 typedef struct options {
@@ -158,7 +158,13 @@ static int tell_failures(const iso_sweep_failures *f, const char *of)
     return EXIT_SOME_FAILED;
 }
 
-static int compute(iso_context *ctx, const options *o, const iso_sweep *sweep, iso_sweep_journal *journal)
+static int threads_of(const options *o)
+{
+    return o->threads < 1024 ? (int)o->threads : 1024;
+}
+
+static int compute(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep *sweep,
+                   iso_sweep_journal *journal)
 {
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     char of[32];
@@ -166,9 +172,7 @@ static int compute(iso_context *ctx, const options *o, const iso_sweep *sweep, i
     const iso_sweep_source source = {next_chunk, take_chunk, &w};
     w.before = iso_sweep_journal_done(journal);
     stop_before_limit();
-    iso_status status = ISO_OK;
-    if (w.before < iso_sweep_journal_wanted(journal))
-        status = iso_sweep_run(ctx, sweep, o->threads < 1024 ? (int)o->threads : 1024, &source);
+    iso_status status = team->run(team->data, ctx, sweep, threads_of(o), &source);
     progress_end();
     if (status != ISO_OK) return finish(ctx, status);
     if (iso_sweep_journal_done(journal) < iso_sweep_journal_wanted(journal)) return tell_interrupted(o, &w);
@@ -189,18 +193,32 @@ static int refused(iso_context *ctx, const options *o, const iso_sweep_plan *pla
     return finish(ctx, status);
 }
 
-static int run_file(iso_context *ctx, const options *o, const iso_sweep_file *file)
+/* Every member has read the sweep. The one that writes opens the journal. */
+static int run_sweep(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep *sweep,
+                     iso_sweep_share share)
+{
+    iso_sweep_journal *journal = NULL;
+    iso_status status = ISO_OK;
+    if (team->writes)
+        status = iso_sweep_journal_open(ctx, o->output, iso_sweep_head_of(sweep), share, o->resume, &journal);
+    int result = team->agree(team->data, finish(ctx, status));
+    if (result == EXIT_DONE && team->writes)
+        result = compute(ctx, o, team, sweep, journal);
+    else if (result == EXIT_DONE)
+        result = finish(ctx, team->run(team->data, ctx, sweep, threads_of(o), NULL));
+    iso_sweep_journal_close(journal);
+    return result;
+}
+
+static int run_file(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep_file *file)
 {
     const iso_sweep_plan *plan = iso_sweep_file_plan(file);
     iso_sweep_share share;
     iso_sweep *sweep = NULL;
-    iso_sweep_journal *journal = NULL;
     iso_status status = read_share(ctx, o->shard, &share);
     if (status == ISO_OK) status = iso_sweep_create(ctx, plan, &sweep);
-    if (status != ISO_OK) return refused(ctx, o, plan, status);
-    status = iso_sweep_journal_open(ctx, o->output, iso_sweep_head_of(sweep), share, o->resume, &journal);
-    const int result = status == ISO_OK ? compute(ctx, o, sweep, journal) : finish(ctx, status);
-    iso_sweep_journal_close(journal);
+    int result = team->agree(team->data, refused(ctx, o, plan, status));
+    if (result == EXIT_DONE) result = run_sweep(ctx, o, team, sweep, share);
     iso_sweep_free(sweep);
     return result;
 }
@@ -219,7 +237,7 @@ static bool fits(const options *o)
 static int print_point(iso_context *ctx, const options *o, const iso_sweep_file *file)
 {
     const size_t count = iso_sweep_file_plan(file)->family.count;
-    char *text;
+    char *text = NULL;
     if (!(o->point < (double)count))
         return complain("sweep: --point %.0f: points are 0 to %zu", o->point, count - 1), EXIT_USAGE;
     if (!fits(o)) return EXIT_USAGE;
@@ -238,17 +256,43 @@ static int merge(iso_context *ctx, const options *o)
     return status == ISO_OK ? tell_failures(&failures, "") : finish(ctx, status);
 }
 
-static int run(iso_context *ctx, const void *options_given)
+int sweep_with(iso_context *ctx, const void *options_given, const sweep_team *team)
 {
     const options *o = options_given;
     iso_sweep_file *file;
+    if (!o->merge && o->parts.count > 1)
+        return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
+    if (team->members > 1 && strcmp(o->file, "-") == 0)
+        return complain("sweep: standard input reaches one rank alone: give a file"), EXIT_USAGE;
+    const bool computes = !o->merge && isnan(o->point); /* else one member is enough */
+    if (!computes && !team->writes) return EXIT_DONE;
     if (o->merge) return merge(ctx, o);
-    if (o->parts.count > 1) return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
-    const iso_status status = iso_sweep_read(ctx, o->file, iso_sweep_topics(), &file);
-    if (status != ISO_OK) return finish(ctx, status);
-    const int result = isnan(o->point) ? run_file(ctx, o, file) : print_point(ctx, o, file);
+    int result = finish(ctx, iso_sweep_read(ctx, o->file, iso_sweep_topics(), &file));
+    if (computes) result = team->agree(team->data, result);
+    if (result == EXIT_DONE) result = computes ? run_file(ctx, o, team, file) : print_point(ctx, o, file);
     iso_sweep_file_free(file);
     return result;
+}
+
+/* --- a team of one ---------------------------------------------------------------------------------------------- */
+
+static int agree_alone(void *unused, int result)
+{
+    (void)unused;
+    return result;
+}
+
+static iso_status run_alone(void *unused, iso_context *ctx, const iso_sweep *sweep, int threads,
+                            const iso_sweep_source *source)
+{
+    (void)unused;
+    return iso_sweep_run(ctx, sweep, threads, source);
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    static const sweep_team alone = {1, true, agree_alone, run_alone, NULL};
+    return sweep_with(ctx, options_given, &alone);
 }
 
 static const options defaults = {.file = "-", .output = "-", .point = NAN};

@@ -55,18 +55,30 @@ bool interrupted(void)
     return stop_asked != 0;
 }
 
+static bool silently;
+static char kept[2048];
+
+void complain_silently(void)
+{
+    silently = true;
+}
+
+const char *complaint(void)
+{
+    return kept;
+}
+
 /* File names may hold control characters: they become question marks. */
 void complain(const char *format, ...)
 {
-    char text[2048];
     va_list args;
     progress_end();
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    vsnprintf(kept, sizeof kept, format, args);
     va_end(args);
-    for (char *c = text; *c; c++)
+    for (char *c = kept; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
-    fprintf(stderr, "isoroll: %s\n", text);
+    if (!silently) fprintf(stderr, "isoroll: %s\n", kept);
 }
 
 int worse(int a, int b)

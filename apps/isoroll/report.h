@@ -18,6 +18,10 @@ enum exit_status {
 /* Prints "isoroll: MESSAGE" on stderr, in one line. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* From now on complain only keeps its message, the last one; complaint gives it ("": none). */
+void complain_silently(void);
+const char *complaint(void);
+
 /* Prints the context's message and returns the exit status that belongs to `status`. Says nothing after success,
  * after a stop on request, and when the reader of a pipe has gone. */
 int finish(iso_context *ctx, iso_status status);
