@@ -1,6 +1,6 @@
 /* hdf5_sweep.c - results of sweeps as HDF5: the layout, and writing.
  *
- *     /              attributes: format, isoroll, hash, points, chunk, vectors, columns, sweep, scene; of a part: part
+ *     /              attributes: format, isoroll, hash, points, chunk, vectors, columns, sweep, scene, sum; of a part: part
  *     /vary/NAME     the numbers that vary                       points
  *     /QUANTITY/NAME what was measured                           points
  *     /point         of a part only: the numbers of its points   points of the part
@@ -10,6 +10,7 @@
  * The bytes of the file depend on nothing but what is in it: datasets have no time stamps, and are written by growing
  * number of the point in blocks of fixed length.
  */
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -251,15 +252,23 @@ static iso_status hdf5_rows(iso_context *ctx, void *file, const iso_sweep_rows *
     return good ? ISO_OK : iso_hdf5_trouble(ctx, "write", f->name);
 }
 
-static iso_status hdf5_close(iso_context *ctx, void *file, bool keep)
+static bool write_sum(const iso_sweep_hdf5 *f, uint64_t sum)
 {
+    char text[17];
+    snprintf(text, sizeof text, "%016" PRIx64, sum);
+    return iso_hdf5_write_text(f->file, "sum", text);
+}
+
+static iso_status hdf5_close(iso_context *ctx, void *file, const uint64_t *sum)
+{
+    const bool keep = sum != NULL;
     iso_sweep_hdf5 *f = file;
     iso_replacement replacement = f->replacement;
     const int descriptor = f->descriptor;
     bool good = true, closed;
     H5E_BEGIN_TRY
     {
-        if (keep) good = flush_block(f) && flush_failures(f);
+        if (keep) good = flush_block(f) && flush_failures(f) && write_sum(f, *sum);
         closed = iso_sweep_hdf5_free(f);
     }
     H5E_END_TRY

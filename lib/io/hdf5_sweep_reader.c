@@ -1,4 +1,6 @@
 /* hdf5_sweep_reader.c - reads results of sweeps from HDF5. hdf5_sweep.c tells the layout. */
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -170,6 +172,20 @@ static iso_status hdf5_next(iso_context *ctx, void *file, size_t count, iso_swee
     return good ? ISO_OK : iso_sweep_damaged(ctx, f->name, "a row is missing or damaged");
 }
 
+static bool hdf5_sum(void *file, uint64_t *sum)
+{
+    const iso_sweep_hdf5 *f = file;
+    char *text = NULL;
+    H5E_BEGIN_TRY
+    {
+        text = read_text(f->file, "sum");
+    }
+    H5E_END_TRY
+    const bool good = text && strlen(text) == 16 && sscanf(text, "%16" SCNx64, sum) == 1;
+    free(text);
+    return good;
+}
+
 static void hdf5_end(void *file)
 {
     H5E_BEGIN_TRY
@@ -179,4 +195,4 @@ static void hdf5_end(void *file)
     H5E_END_TRY
 }
 
-const iso_sweep_reading iso_sweep_hdf5_reading = {hdf5_open, hdf5_next, hdf5_end};
+const iso_sweep_reading iso_sweep_hdf5_reading = {hdf5_open, hdf5_next, hdf5_sum, hdf5_end};

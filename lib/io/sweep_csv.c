@@ -1,4 +1,5 @@
-/* sweep_csv.c - results of sweeps as CSV: lines "# key: value", one header line, one row for each point. */
+/* sweep_csv.c - results of sweeps as CSV: lines "# key: value", one header line, one row for each point, "# sum: SUM". */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -88,10 +89,11 @@ static iso_status csv_rows(iso_context *ctx, void *file, const iso_sweep_rows *r
     return iso_output_check(ctx, w->out);
 }
 
-static iso_status csv_close(iso_context *ctx, void *file, bool keep)
+static iso_status csv_close(iso_context *ctx, void *file, const uint64_t *sum)
 {
     csv_writer *w = file;
-    const iso_status status = iso_output_close(ctx, w->out, keep);
+    if (sum) fprintf(iso_output_stream(w->out), "# sum: %016" PRIx64 "\n", *sum);
+    const iso_status status = iso_output_close(ctx, w->out, sum != NULL);
     free(w);
     return status;
 }
@@ -232,8 +234,14 @@ static iso_status csv_next(iso_context *ctx, void *file, size_t count, iso_sweep
     for (size_t i = 0; i < count; i++, r->done++)
         if (!next_line(r) || !read_row(r, rows, i))
             return iso_sweep_damaged(ctx, r->path, "a row is missing, moved or damaged");
-    if (r->done < iso_sweep_share_points(&r->begin->head, r->begin->share) || fgetc(r->from) == EOF) return ISO_OK;
-    return iso_sweep_damaged(ctx, r->path, "there are lines behind its last row");
+    return ISO_OK;
 }
 
-const iso_sweep_reading iso_sweep_csv_reading = {csv_open, csv_next, csv_end};
+static bool csv_sum(void *file, uint64_t *sum)
+{
+    csv_reader *r = file;
+    const char *value = next_line(r) ? value_of(r->line, "sum") : NULL;
+    return value && strlen(value) == 16 && sscanf(value, "%16" SCNx64, sum) == 1 && fgetc(r->from) == EOF;
+}
+
+const iso_sweep_reading iso_sweep_csv_reading = {csv_open, csv_next, csv_sum, csv_end};

@@ -406,9 +406,11 @@ iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t 
     return ISO_OK;
 }
 
-static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, const iso_sweep_writing *kind, void *file)
+static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, const iso_sweep_writing *kind, void *file,
+                               uint64_t *sum)
 {
     iso_sweep_rows rows;
+    *sum = 0;
     iso_status status = iso_sweep_rows_create(ctx, j->head->columns, j->head->chunk, &rows);
     if (status != ISO_OK) return status;
     for (size_t c = j->share.index; c < iso_sweep_chunks(j->head) && status == ISO_OK; c += j->share.count) {
@@ -417,6 +419,7 @@ static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, const iso
             if (errno == 0) errno = EIO;
             status = trouble(ctx, j, "read");
         } else {
+            *sum = iso_sweep_sum(*sum, &rows);
             status = kind->rows(ctx, file, &rows);
         }
     }
@@ -427,12 +430,13 @@ static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, const iso
 iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j)
 {
     const iso_sweep_writing *kind = iso_sweep_writing_of(j->path);
+    uint64_t sum;
     void *file;
     if (j->complete) return ISO_OK;
     iso_status status = kind->create(ctx, j->path, j->head, j->share, &file);
     if (status != ISO_OK) return status;
-    status = write_chunks(ctx, j, kind, file);
-    const iso_status closed = kind->close(ctx, file, status == ISO_OK);
+    status = write_chunks(ctx, j, kind, file, &sum);
+    const iso_status closed = kind->close(ctx, file, status == ISO_OK ? &sum : NULL);
     if (status == ISO_OK) status = closed;
     if (status == ISO_OK && j->name) unlink(j->name);
     return status;

@@ -1,4 +1,5 @@
 /* sweep_record.c - the rows of a chunk as bytes, with a checksum; for journals, and for sending them elsewhere. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -51,7 +52,13 @@ bool iso_sweep_rows_unpack(const unsigned char bytes[], size_t length, iso_sweep
     return at == end;
 }
 
-/* Four sums side by side, of eight bytes at a time: each x becomes (x xor word) times an odd number, turned round. */
+static uint64_t mix(uint64_t x, uint64_t word)
+{
+    const uint64_t y = (x ^ word) * 0x9e3779b97f4a7c15;
+    return y << 29 | y >> 35;
+}
+
+/* Four sums side by side, of eight bytes at a time. */
 uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt)
 {
     enum { LANES = 4, BYTES = 8 * LANES };
@@ -59,14 +66,29 @@ uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt)
     for (size_t at = 0; at < length; at += BYTES) {
         if (length - at < BYTES) memset(word, 0, sizeof word);
         memcpy(word, (const char *)bytes + at, length - at < BYTES ? length - at : BYTES);
-        for (int i = 0; i < LANES; i++) {
-            const uint64_t y = (x[i] ^ word[i]) * 0x9e3779b97f4a7c15;
-            x[i] = y << 29 | y >> 35;
-        }
+        for (int i = 0; i < LANES; i++) x[i] = mix(x[i], word[i]);
     }
     uint64_t hash[2] = {0, 0};
     iso_sweep_hash(hash, x, sizeof x);
     return hash[1];
+}
+
+uint64_t iso_sweep_sum(uint64_t before, const iso_sweep_rows *rows)
+{
+    uint64_t sum = before;
+    for (size_t i = 0; i < rows->count; i++) {
+        const double *row = rows->number + i * (size_t)rows->columns;
+        sum = mix(sum, (uint64_t)rows->status[i]);
+        for (int c = 0; c < rows->columns; c++) {
+            const double x = isnan(row[c]) ? (double)NAN : row[c];
+            uint64_t word;
+            memcpy(&word, &x, sizeof word);
+            sum = mix(sum, word);
+        }
+        if (rows->status[i] != ISO_OK)
+            sum = mix(sum, iso_sweep_checksum(rows->reason[i], strnlen(rows->reason[i], ISO_REASON_SIZE), 0));
+    }
+    return sum;
 }
 
 /* --- records ---------------------------------------------------------------------------------------------------- */

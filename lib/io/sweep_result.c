@@ -117,6 +117,7 @@ struct iso_sweep_reader {
     void *file;
     iso_sweep_begin begin;
     size_t next, points; /* the row that is read next; rows in the file */
+    uint64_t sum;        /* of the rows that were read */
     char *path;
 };
 
@@ -128,6 +129,15 @@ static bool makes_sense(const iso_sweep_begin *b)
     return h->count > 0 && h->count <= (size_t)1 << 53 && h->chunk > 0 && h->chunk <= MOST_CHUNK && h->columns > 0 &&
            b->column && b->share.count > 0 && b->share.count <= ISO_SWEEP_MOST_SHARES &&
            b->share.index < b->share.count;
+}
+
+static iso_status check_sum(iso_context *ctx, const iso_sweep_reader *r)
+{
+    uint64_t sum;
+    if (!r->kind->sum(r->file, &sum))
+        return iso_sweep_damaged(ctx, r->path, "its end is missing, or there is more behind it");
+    if (sum != r->sum) return iso_sweep_damaged(ctx, r->path, "its rows were changed after it was written");
+    return ISO_OK;
 }
 
 iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_reader **reader)
@@ -152,7 +162,7 @@ iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_r
     if (status == ISO_OK && !makes_sense(&r->begin)) status = iso_sweep_damaged(ctx, path, "its head is damaged");
     if (status == ISO_OK) {
         r->points = iso_sweep_share_points(&r->begin.head, r->begin.share);
-        if (r->points == 0) status = r->kind->rows(ctx, r->file, 0, NULL);
+        if (r->points == 0) status = check_sum(ctx, r);
     }
     if (status == ISO_OK) {
         *reader = r;
@@ -189,7 +199,10 @@ iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *r, size_t c
     rows->first = iso_sweep_share_point(&r->begin.head, r->begin.share, r->next);
     rows->count = count;
     r->next += count;
-    return r->kind->rows(ctx, r->file, count, rows);
+    const iso_status status = r->kind->rows(ctx, r->file, count, rows);
+    if (status != ISO_OK) return status;
+    r->sum = iso_sweep_sum(r->sum, rows);
+    return r->next < r->points ? ISO_OK : check_sum(ctx, r);
 }
 
 iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *r, iso_sweep_failures *failures)
@@ -277,6 +290,7 @@ static iso_status write_parts(const merger *m, const char *path, iso_sweep_failu
     const iso_sweep_head *head = &m->part[0]->begin.head;
     const iso_sweep_writing *kind = iso_sweep_writing_of(path);
     iso_sweep_rows rows;
+    uint64_t sum = 0;
     void *file;
     if (!kind) return iso_context_fail(m->ctx, ISO_BAD_ARGUMENT, "", "'%s': this build has no HDF5", path);
     iso_status status = iso_sweep_rows_create(m->ctx, head->columns, head->chunk, &rows);
@@ -285,12 +299,14 @@ static iso_status write_parts(const merger *m, const char *path, iso_sweep_failu
     const bool created = status == ISO_OK;
     for (size_t c = 0; c < iso_sweep_chunks(head) && status == ISO_OK; c++) {
         status = iso_sweep_reader_rows(m->ctx, m->part[c % m->count], iso_sweep_chunk_points(head, c), &rows);
-        if (status == ISO_OK) iso_sweep_failures_add(failures, &rows);
-        if (status == ISO_OK) status = kind->rows(m->ctx, file, &rows);
+        if (status != ISO_OK) break;
+        iso_sweep_failures_add(failures, &rows);
+        sum = iso_sweep_sum(sum, &rows);
+        status = kind->rows(m->ctx, file, &rows);
     }
     iso_sweep_rows_free(&rows);
     if (!created) return status;
-    const iso_status closed = kind->close(m->ctx, file, status == ISO_OK);
+    const iso_status closed = kind->close(m->ctx, file, status == ISO_OK ? &sum : NULL);
     return status == ISO_OK ? closed : status;
 }
 

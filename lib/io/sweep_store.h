@@ -67,8 +67,7 @@ ISO_API iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j,
                                          const iso_sweep_rows *rows);
 
 /* Writes the result; all chunks of the share must be there. Errors: ISO_FILE_TROUBLE, also if a file of its name has
- * appeared, which stays: the journal stays;
- * ISO_NO_MEMORY. */
+ * appeared, which stays: the journal stays; ISO_NO_MEMORY. */
 ISO_API iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j);
 
 /* The journal's file stays, unless nothing is in it. */
@@ -95,7 +94,8 @@ ISO_API void iso_sweep_reader_close(iso_sweep_reader *reader);
 ISO_API const iso_sweep_head *iso_sweep_reader_head(const iso_sweep_reader *reader);
 ISO_API iso_sweep_share iso_sweep_reader_share(const iso_sweep_reader *reader);
 
-/* Reads the next `count` rows of one chunk, at most rows->most. Errors: ISO_FILE_TROUBLE. */
+/* Reads the next `count` rows of one chunk, at most rows->most. Errors: ISO_FILE_TROUBLE: a row is missing or damaged;
+ * with the last rows: the sum of all is not that in the file. */
 ISO_API iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *reader, size_t count,
                                          iso_sweep_rows *rows);
 
@@ -103,8 +103,8 @@ ISO_API iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *rea
 ISO_API iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *reader,
                                              iso_sweep_failures *failures);
 
-/* Puts the parts of one sweep together. *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a part is missing, is there twice, or belongs to
- * another sweep; `path` is there. */
+/* Puts the parts of one sweep together. *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a part is missing, is
+ * there twice, was changed or damaged, or belongs to another sweep; `path` is there. */
 ISO_API iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,
                                    iso_sweep_failures *failures);
 

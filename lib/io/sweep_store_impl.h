@@ -12,12 +12,14 @@
 #define ISO_SWEEP_FORMAT "isoroll sweep 1"
 #define ISO_SWEEP_PART_FORMAT "isoroll sweep part 1"
 
-/* A result being written. Rows come by growing number. A file that has the name when it is closed stays. */
+/* A result being written. Rows come by growing number. A file that has the name when it is closed stays. The sum of
+ * all rows stands in the file: a result that was changed or damaged later is found out. */
 typedef struct iso_sweep_writing {
     iso_status (*create)(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_share share,
                          void **file);
     iso_status (*rows)(iso_context *ctx, void *file, const iso_sweep_rows *rows);
-    iso_status (*close)(iso_context *ctx, void *file, bool keep); /* releases it, whatever it answers */
+    /* Releases it, whatever it answers. sum: of all rows; NULL: nothing is kept. */
+    iso_status (*close)(iso_context *ctx, void *file, const uint64_t *sum);
 } iso_sweep_writing;
 
 /* What is read of a file before its rows. The text and the columns are released by iso_sweep_reader_close. */
@@ -30,9 +32,10 @@ typedef struct iso_sweep_begin {
 
 typedef struct iso_sweep_reading {
     /* Errors: ISO_FILE_TROUBLE. *begin is released by the caller in any case, after close. The caller looks whether
-     * its numbers make sense before it reads rows; of a file without rows it reads 0. */
+     * its numbers make sense before it reads rows. */
     iso_status (*open)(iso_context *ctx, const char *path, iso_sweep_begin *begin, void **file);
     iso_status (*rows)(iso_context *ctx, void *file, size_t count, iso_sweep_rows *rows);
+    bool (*sum)(void *file, uint64_t *sum); /* behind the last row; false: there is none, or more than that */
     void (*close)(void *file);
 } iso_sweep_reading;
 
@@ -41,6 +44,9 @@ extern const iso_sweep_reading iso_sweep_csv_reading, iso_sweep_hdf5_reading;
 
 /* Of bytes; another salt gives another number. */
 uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt);
+
+/* The sum of rows before and these. It begins as 0. All kinds of nan count as one. */
+uint64_t iso_sweep_sum(uint64_t before, const iso_sweep_rows *rows);
 
 /* Adds the failures of these rows. */
 void iso_sweep_failures_add(iso_sweep_failures *failures, const iso_sweep_rows *rows);

@@ -48,11 +48,11 @@ rows_of() {
 }
 rows_of 'n == 2 { kept = $0; next } { print } n == 3 { print kept }' "moved or damaged"
 rows_of 'n != 6' "moved or damaged"
-rows_of '{ print } n == 6 { print }' "lines behind its last row"
+rows_of '{ print } n == 6 { print }' "its end is missing, or there is more behind it"
 rows_of '{ print } n == 2 { print }' "moved or damaged"
 sed '$a\# more' all.csv >bad.csv
 has gnuplot "a curve of a file with too many lines" &&
-    refuses 5 "lines behind its last row" plot bad.csv -o bad.svg
+    refuses 5 "its end is missing, or there is more behind it" plot bad.csv -o bad.svg
 # --- ends of lines of other systems, and a last line without one; but no row that was cut short
 sed 's/$/\r/' one.csv >other.csv
 run 0 sweep --merge other.csv two.csv -o crlf.csv
@@ -61,17 +61,36 @@ bytes=$(wc -c <two.csv)
 head -c $((bytes - 1)) two.csv >other.csv
 run 0 sweep --merge one.csv other.csv -o unended.csv
 check "a last line without end" cmp unended.csv all.csv
-for less in 2 3 4 9; do
+for less in 2 3 9 24; do
     head -c $((bytes - less)) two.csv >other.csv
-    refuses 5 "missing, moved or damaged" sweep --merge one.csv other.csv -o new.csv
+    refuses 5 "its end is missing" sweep --merge one.csv other.csv -o new.csv
 done
+for less in 25 26 30 60; do
+    head -c $((bytes - less)) two.csv >other.csv
+    refuses 5 "cannot read 'other.csv'" sweep --merge one.csv other.csv -o new.csv
+done
+# --- numbers that were changed: the sum of the rows tells
+sed '$ y/0123456789abcdef/123456789abcdef0/' one.csv >bad.csv
+refuses 5 "its rows were changed after it was written" sweep --merge bad.csv two.csv -o new.csv
+awk -F, 'BEGIN { OFS = "," } /^[1-9]/ && !done { $3 += 1e-9; done = 1 } { print }' one.csv >bad.csv
+refuses 5 "its rows were changed after it was written" sweep --merge bad.csv two.csv -o new.csv
+if "$isoroll" sweep sweep.yaml -o one.h5 --shard 1/2 2>err; then
+    run 0 sweep sweep.yaml -o two.h5 --shard 2/2
+    bytes=$(wc -c <one.h5)
+    # numbers stand as they are in memory: 0.3 is the first value of k
+    at=$(LC_ALL=C grep -obUaP '\x33\x33\x33\x33\x33\x33\xd3\x3f' one.h5 | head -n 1 | cut -d: -f1)
+    check "0.3 stands in the file of $bytes bytes" test -n "$at"
+    printf '\064' | dd of=one.h5 bs=1 seek="$at" conv=notrunc 2>/dev/null
+    refuses 5 "its rows were changed after it was written" sweep --merge one.h5 two.h5 -o new.h5
+    check_not "nothing was written" test -e new.h5
+fi
 
 run 0 sweep sweep.yaml -o empty.csv --shard 7/7
 for i in 1 2 3 4 5 6; do run 0 sweep sweep.yaml -o seventh.$i.csv --shard $i/7; done
 run 0 sweep --merge seventh.?.csv empty.csv -o sevenths.csv
 check "a share without chunks" cmp sevenths.csv all.csv
 echo "0,0.3,1,2,3,0," >>empty.csv
-refuses 5 "lines behind its last row" sweep --merge seventh.?.csv empty.csv -o new.csv
+refuses 5 "its end is missing, or there is more behind it" sweep --merge seventh.?.csv empty.csv -o new.csv
 check_not "nothing was written" test -e new.csv
 # --- the same bytes from another folder, where a point fails
 printf 'scene: scene.yaml\nvary: {k: [0, 0.5]}\nmeasure: {state: {}}\n' >fails.yaml
