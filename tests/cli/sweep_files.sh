@@ -72,7 +72,7 @@ done
 # --- numbers that were changed: the sum of the rows tells
 sed '$ y/0123456789abcdef/123456789abcdef0/' one.csv >bad.csv
 refuses 5 "its rows were changed after it was written" sweep --merge bad.csv two.csv -o new.csv
-awk -F, 'BEGIN { OFS = "," } /^[1-9]/ && !done { $2 = $2 "1"; done = 1 } { print }' one.csv >bad.csv
+awk -F, 'BEGIN { OFS = "," } /^[1-9]/ && !done { $2 = 1 $2; done = 1 } { print }' one.csv >bad.csv
 refuses 5 "its rows were changed after it was written" sweep --merge bad.csv two.csv -o new.csv
 if "$isoroll" sweep sweep.yaml -o one.h5 --shard 1/2 2>err; then
     run 0 sweep sweep.yaml -o two.h5 --shard 2/2
