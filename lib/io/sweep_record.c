@@ -58,14 +58,19 @@ static uint64_t mix(uint64_t x, uint64_t word)
     return y << 29 | y >> 35;
 }
 
-/* Four sums side by side, of eight bytes at a time. */
+/* Four sums side by side, of eight bytes at a time. The last bytes are filled up with zeros. */
 uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt)
 {
     enum { LANES = 4, BYTES = 8 * LANES };
     uint64_t x[LANES] = {salt, ~salt, salt + length, 1}, word[LANES];
-    for (size_t at = 0; at < length; at += BYTES) {
-        if (length - at < BYTES) memset(word, 0, sizeof word);
-        memcpy(word, (const char *)bytes + at, length - at < BYTES ? length - at : BYTES);
+    const char *at = bytes, *end = at + length - length % BYTES;
+    for (; at < end; at += BYTES) {
+        memcpy(word, at, sizeof word);
+        for (int i = 0; i < LANES; i++) x[i] = mix(x[i], word[i]);
+    }
+    if (length % BYTES > 0) {
+        memset(word, 0, sizeof word);
+        memcpy(word, at, length % BYTES);
         for (int i = 0; i < LANES; i++) x[i] = mix(x[i], word[i]);
     }
     uint64_t hash[2] = {0, 0};
