@@ -11,10 +11,12 @@
 
 enum { MOST_AXES = 16, NAME = 2 * ISO_NAME_SIZE + 2 };
 
-/* All rows of a result. */
+/* The columns of a result that the picture may need: all that vary, the value and its error. */
 typedef struct table {
     const iso_sweep_head *head;
     size_t count;
+    int *kept;      /* of each column of the result: its place in a row here; -1: it is not kept */
+    size_t columns; /* that are kept */
     double *number;
     int axis[MOST_AXES], axes; /* columns that vary */
     int value, low, high;      /* columns; low, high -1: there is no error */
@@ -39,7 +41,7 @@ static int find(const table *t, const char *wanted)
 
 static double at(const table *t, size_t row, int column)
 {
-    return t->number[row * (size_t)t->head->columns + (size_t)column];
+    return t->number[row * t->columns + (size_t)t->kept[column]];
 }
 
 bool is_sweep_result(const char *path)
@@ -54,18 +56,35 @@ bool is_sweep_result(const char *path)
 
 /* --- what is drawn ---------------------------------------------------------------------------------------------- */
 
+static bool make_room(table *t)
+{
+    t->kept = malloc(((size_t)t->head->columns + 1) * sizeof *t->kept);
+    for (int c = 0; t->kept && c < t->head->columns; c++) {
+        const bool keeps =
+            strcmp(t->head->column[c].group, "vary") == 0 || c == t->value || c == t->low || c == t->high;
+        t->kept[c] = keeps ? (int)t->columns++ : -1;
+    }
+    t->number = calloc(t->head->count + 1, (t->columns + 1) * sizeof *t->number); /* which looks at the product */
+    return t->kept && t->number;
+}
+
+static void keep_row(table *t, const double row[])
+{
+    double *to = t->number + t->count++ * t->columns;
+    for (int c = 0; c < t->head->columns; c++)
+        if (t->kept[c] >= 0) *to++ = row[c];
+}
+
 static iso_status read_rows(iso_context *ctx, iso_sweep_reader *reader, table *t)
 {
     iso_sweep_rows rows;
-    const size_t width = (size_t)t->head->columns;
     iso_status status = iso_sweep_rows_create(ctx, t->head->columns, t->head->chunk, &rows);
-    t->number = calloc(t->head->count + 1, width * sizeof *t->number); /* which looks at the product */
-    if (status == ISO_OK && !t->number) status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the rows");
+    if (status == ISO_OK && !make_room(t))
+        status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the rows");
     for (size_t c = 0; c < iso_sweep_chunks(t->head) && status == ISO_OK; c++) {
         status = iso_sweep_reader_rows(ctx, reader, iso_sweep_chunk_points(t->head, c), &rows);
-        if (status != ISO_OK) break;
-        memcpy(t->number + t->count * width, rows.number, rows.count * width * sizeof *t->number);
-        t->count += rows.count;
+        for (size_t i = 0; i < rows.count && status == ISO_OK; i++)
+            keep_row(t, rows.number + i * (size_t)rows.columns);
     }
     iso_sweep_rows_free(&rows);
     return status;
@@ -168,7 +187,7 @@ static iso_status draw_curve(iso_context *ctx, const table *t, const char *title
         if (status == ISO_OK) memcpy(row, sorted[i], sizeof sorted[i]);
     }
     name_of(&t->head->column[t->value], value);
-    if (status == ISO_OK) status = iso_plot_curve(ctx, output, title, name, value, strcmp(name, "k") == 0, rows);
+    if (status == ISO_OK) status = iso_plot_curve(ctx, output, title, name, value, rows);
     iso_record_free(rows);
     free(sorted);
     return status;
@@ -286,14 +305,7 @@ static iso_status draw_maps(iso_context *ctx, const table *t, const char *title,
     if (status == ISO_OK) status = collect(ctx, t, &l, &m);
     name_of(&t->head->column[t->value], value);
     for (int i = 0; i < m.count; i++) names[i] = m.name[i];
-    const iso_plot_panels p = {title,
-                               l.x_name,
-                               l.y_name,
-                               value,
-                               strcmp(l.x_name, "k") == 0,
-                               m.count,
-                               names,
-                               (const iso_record *const *)m.rows};
+    const iso_plot_panels p = {title, l.x_name, l.y_name, value, m.count, names, (const iso_record *const *)m.rows};
     if (status == ISO_OK) status = iso_plot_values(ctx, output, &p);
     for (int i = 0; i < m.count; i++) iso_record_free(m.rows[i]);
     return status;
@@ -309,8 +321,8 @@ iso_status plot_sweep(iso_context *ctx, const char *path, const char *value, con
     t.head = iso_sweep_reader_head(reader);
     if (iso_sweep_reader_share(reader).count > 1)
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "'%s' is a part of a sweep: merge the parts first", path);
-    if (status == ISO_OK) status = read_rows(ctx, reader, &t);
     if (status == ISO_OK) status = choose_value(ctx, value, &t);
+    if (status == ISO_OK) status = read_rows(ctx, reader, &t);
     if (status == ISO_OK) find_axes(&t);
     const char *slash = strrchr(path, '/');
     snprintf(title, sizeof title, "%.60s: %zu points", slash ? slash + 1 : path, t.count);
@@ -318,6 +330,7 @@ iso_status plot_sweep(iso_context *ctx, const char *path, const char *value, con
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "nothing varies in '%s'", path);
     if (status == ISO_OK)
         status = t.axes == 1 ? draw_curve(ctx, &t, title, output) : draw_maps(ctx, &t, title, output);
+    free(t.kept);
     free(t.number);
     iso_sweep_reader_close(reader);
     return status;

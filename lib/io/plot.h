@@ -132,16 +132,16 @@ typedef struct iso_plot_section {
 ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 
 /* A value over one number: a curve, and the band of its error. rows: columns x, value, low, high, by growing x; low
- * and high may be NaN. name, value: of the axes. k: x is k, and +-1 is marked. If values of both signs or of very
+ * and high may be NaN. name, value: of the axes. An axis that has the name k has marks at +-1. If values of both signs or of very
  * different sizes are there, |value| has a logarithmic axis. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_curve(iso_context *ctx, const char *path, const char *title, const char *name,
-                                  const char *value, bool k, const iso_record *rows);
+                                  const char *value, const iso_record *rows);
 
-/* A value over two numbers: maps side by side, with one scale of colours. A NaN is grey. */
+/* A value over two numbers: maps side by side, with one scale of colours. A NaN is grey. An axis that has the name k
+ * has marks at +-1. */
 enum { ISO_PLOT_MAPS = 6 };
 typedef struct iso_plot_panels {
     const char *title, *x, *y, *value; /* of the picture, of the axes, of the scale */
-    bool k;                            /* x is k, and +-1 is marked                 */
     int count;                         /* of panels, at most ISO_PLOT_MAPS          */
     const char *const *name;           /* of each; "": none                         */
     const iso_record *const *rows;     /* of each: columns x, y, value              */

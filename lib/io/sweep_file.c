@@ -371,8 +371,12 @@ bool iso_sweep_axis_words(const iso_sweep_file *f, int i, char words[ISO_SWEEP_W
 /* Good enough to choose between a scene and a sweep: neither key occurs in the other kind of file. */
 bool iso_sweep_is_one(const char *text, size_t length)
 {
-    static const char key[] = "vary:";
-    for (size_t i = 0; i + sizeof key - 1 <= length; i++)
-        if ((i == 0 || text[i - 1] == '\n') && memcmp(text + i, key, sizeof key - 1) == 0) return true;
-    return false;
+    iso_context *ctx = iso_context_create();
+    iso_yaml y = {.ctx = ctx, .name = ""};
+    const bool loaded = ctx && iso_yaml_load(&y, text, length) == ISO_OK;
+    const yaml_node_t *root = loaded ? yaml_document_get_root_node(&y.document) : NULL;
+    const bool is = root && root->type == YAML_MAPPING_NODE && iso_yaml_find(&y, root, "vary", NULL, NULL);
+    if (loaded) iso_yaml_free(&y);
+    iso_context_free(ctx);
+    return is;
 }

@@ -104,10 +104,20 @@ static size_t chunk_of(const iso_sweep *s)
     return chunk;
 }
 
+/* An orbit that is alone takes AVX2 where it is, whatever `vectors` says. */
+static bool has_avx2(void)
+{
+    const char *kind;
+    for (int i = 0; (kind = iso_batch_vectors(i, NULL)) != NULL; i++)
+        if (strcmp(kind, "avx2") == 0) return true;
+    return false;
+}
+
 /* Everything that the rows depend on. */
 static void make_head(iso_sweep *s)
 {
     iso_sweep_head *h = &s->head;
+    const unsigned char alone = has_avx2();
     h->count = s->plan->family.count;
     h->chunk = s->plan->chunk > 0 ? s->plan->chunk : chunk_of(s);
     h->text = s->plan->text ? s->plan->text : "";
@@ -116,6 +126,7 @@ static void make_head(iso_sweep *s)
     iso_sweep_hash(h->hash, &h->count, sizeof h->count);
     iso_sweep_hash(h->hash, &h->chunk, sizeof h->chunk);
     iso_sweep_hash(h->hash, h->vectors, strlen(h->vectors));
+    iso_sweep_hash(h->hash, &alone, 1);
     for (int i = 0; i < h->columns; i++) {
         iso_sweep_hash(h->hash, h->column[i].group, strlen(h->column[i].group));
         iso_sweep_hash(h->hash, h->column[i].name, strlen(h->column[i].name));
