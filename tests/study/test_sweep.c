@@ -1,6 +1,7 @@
 /* test_sweep.c - the rows of sweeps: laws that hold for every quantity.
  *
  * - A row does not depend on the chunk it is computed in, on threads, or on the order of the chunks.
+ * - No thread has more than one chunk that is not given away: so much is lost when a program is killed.
  * - Rows are what the functions of the library give for the scene.
  * - A point that fails is a row with its reason; the others are there.
  */
@@ -74,6 +75,7 @@ static iso_sweep_plan plan_of(double turns, double time, size_t chunk)
 typedef struct all {
     iso_sweep_rows rows;
     size_t next, chunks, step, seen;
+    size_t away, most_away; /* chunks that are computed at the moment */
 } all;
 
 static bool next_chunk(void *data, size_t *c)
@@ -81,6 +83,7 @@ static bool next_chunk(void *data, size_t *c)
     all *a = data;
     if (a->next == a->chunks) return false;
     *c = a->next++ * a->step % a->chunks; /* in an order that jumps */
+    if (++a->away > a->most_away) a->most_away = a->away;
     return true;
 }
 
@@ -93,6 +96,7 @@ static iso_status take_chunk(void *data, iso_context *of, size_t c, const iso_sw
     memcpy(a->rows.status + rows->first, rows->status, rows->count * sizeof *rows->status);
     memcpy(a->rows.reason + rows->first, rows->reason, rows->count * sizeof *rows->reason);
     a->seen += rows->count;
+    a->away--;
     return ISO_OK;
 }
 
@@ -106,6 +110,7 @@ static all measure(const iso_sweep_plan *plan, int threads, size_t step)
     must(iso_sweep_rows_create(ctx, head->columns, head->count, &a.rows), "rows");
     must(iso_sweep_run(ctx, sweep, threads, &source), "the run");
     gsl_test(a.seen != COUNT, "all points are there: %zu", a.seen);
+    gsl_test(a.most_away > (size_t)threads, "%zu chunks are computed at a time by %d threads", a.most_away, threads);
     iso_sweep_free(sweep);
     return a;
 }
