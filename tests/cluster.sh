@@ -114,7 +114,7 @@ cat share.*.log merge.log mpi.log >err 2>/dev/null
 check "array: five parts, merged: the bytes of a plain run" cmp share.h5 plain.h5
 check "MPI: the bytes of a plain run" cmp share.mpi.h5 plain.h5
 
-# --- a time limit: the signal comes a minute before, the job goes back to the queue and ends at its second try
+# --- as at a time limit: scancel sends the signal; the job goes back to the queue and ends at its second try
 rm -f share.mpi.h5 mpi.log
 sed 's/turns: 1000/turns: 2000/; s/starts: 100/starts: 20/' sweep.yaml >limit.yaml
 printf 'chunk: 1\n' >>limit.yaml
@@ -124,7 +124,7 @@ check "a limit: the job begins" within 60 test -s share.mpi.h5.part
 sleep 1
 scancel --batch --signal=USR1 "$job"
 check "a limit: the job is in the queue again" within 60 waits
-check "a limit: the journal is kept" grep -q "stopped before the time limit: .* are in 'share.mpi.h5.part'" mpi.log
+check "a limit: the journal is kept" grep -q "stopped by SIGTERM or SIGUSR1: .* are in 'share.mpi.h5.part'" mpi.log
 sleep 3 # in the second in which it was stopped slurmd takes it for a job that was killed
 scontrol update JobId="$job" StartTime=now # Slurm would let it wait for two minutes
 check "a limit: the job ends" within 300 no_jobs

@@ -20,7 +20,7 @@ static void help(FILE *to)
           "measure many orbits or balls, on the ranks of MPI; the result is that of 'isoroll sweep', to the byte\n\n"
           "  isoroll-mpi sweep --help     the options, those of 'isoroll sweep'; -j N: threads of each rank\n"
           "  isoroll-mpi --version        the versions of isoroll and its libraries\n\n"
-          "A rank that dies ends all. --resume goes on, with any number of ranks.\n",
+          "If a rank dies, MPI ends the job. --resume goes on, with any number of ranks.\n",
           to);
 }
 
@@ -40,7 +40,7 @@ static int words_or_work(int argc, char **argv)
     return EXIT_USAGE;
 }
 
-/* Rank 0 alone says words, and its exit status is that of all. */
+/* Rank 0 prints. If it has no trouble, another rank may print its own. The job has the exit status of rank 0. */
 int main(int argc, char **argv)
 {
     int threads;

@@ -91,7 +91,7 @@ static void take_rows(ranks *r, int from, size_t c, size_t length)
     if (known && iso_sweep_rows_unpack(r->bytes + sizeof(message_head), length, &r->rows))
         status = r->source->take(r->source->data, r->ctx, c, &r->rows);
     else
-        status = iso_context_fail(r->ctx, ISO_NUMERICAL, "", "rank %d has sent what are no rows", from);
+        status = iso_context_fail(r->ctx, ISO_NUMERICAL, "", "rank %d has sent a damaged chunk", from);
     if (status != ISO_OK) note_failure(r, status);
 }
 

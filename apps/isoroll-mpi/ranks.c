@@ -35,7 +35,7 @@ static int agree(void *data, int result)
     return all[0];
 }
 
-/* A processor that several ranks may use counts as a part for each. */
+/* A processor that n ranks may use counts as 1/n for each. */
 int ranks_threads(const ranks *r)
 {
     MPI_Comm machine;
@@ -73,15 +73,15 @@ void ranks_stop(ranks *r)
     change_counter(r, INT64_MAX / 2, MPI_REPLACE);
 }
 
-static bool draw(void *data, size_t *c)
+static bool fetch(void *data, size_t *c)
 {
     ranks *r = data;
     pthread_mutex_lock(&r->lock);
     const double begun = ranks_now();
     if (interrupted()) ranks_stop(r);
     const int64_t number = change_counter(r, 1, MPI_SUM);
-    r->times[DRAWS]++;
-    r->times[DRAW_SECONDS] += ranks_now() - begun;
+    r->times[FETCHES]++;
+    r->times[FETCH_SECONDS] += ranks_now() - begun;
     pthread_mutex_unlock(&r->lock);
     if (number >= (int64_t)r->count) return false;
     *c = (size_t)r->chunk[number];
@@ -153,11 +153,11 @@ static void open_counter(ranks *r)
 
 static iso_status compute(ranks *r, iso_context *ctx, int threads, bool same)
 {
-    const iso_sweep_source mine = {draw, take, r};
+    const iso_sweep_source mine = {fetch, take, r};
     if (!same)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "this rank has another sweep than rank 0: the files differ, or the processors (then "
-                                "say 'vectors' in the sweep)");
+                                "this rank has another sweep than rank 0: the files or the processors differ (for "
+                                "processors write 'vectors: avx2')");
     return r->count > 0 ? iso_sweep_run(ctx, r->sweep, threads, &mine) : ISO_OK;
 }
 
@@ -181,7 +181,7 @@ static double mean(double sum, double count)
     return count > 0 ? sum / count : 0;
 }
 
-/* For who wants to know what MPI costs on his machines (lib/doc/clusters.md). */
+/* For users who measure what MPI costs on their machines (lib/doc/clusters.md). */
 static void print_times(ranks *r)
 {
     MPI_Request request;
@@ -190,9 +190,9 @@ static void print_times(ranks *r)
     ranks_wait(&request);
     const char *wanted = getenv("ISOROLL_TIMES"); /* counts only if it is not empty */
     if (r->rank > 0 || !wanted || !*wanted) return;
-    fprintf(stderr, "isoroll: %d ranks: %.0f draws of %.2f us, %.0f sendings of %.1f us, ", r->size, t[DRAWS],
-            1e6 * mean(t[DRAW_SECONDS], t[DRAWS]), t[SENDS], 1e6 * mean(t[SEND_SECONDS], t[SENDS]));
-    fprintf(stderr, "%.0f messages of %.0f bytes taken in %.1f us\n", t[WRITES], mean(t[BYTES], t[WRITES]),
+    fprintf(stderr, "isoroll: %d ranks: %.0f fetches of %.2f us, %.0f messages sent in %.1f us, ", r->size,
+            t[FETCHES], 1e6 * mean(t[FETCH_SECONDS], t[FETCHES]), t[SENDS], 1e6 * mean(t[SEND_SECONDS], t[SENDS]));
+    fprintf(stderr, "%.0f received (%.0f bytes each) and written in %.1f us\n", t[WRITES], mean(t[BYTES], t[WRITES]),
             1e6 * mean(t[WRITE_SECONDS], t[WRITES]));
 }
 

@@ -1,9 +1,9 @@
 /* ranks.h - the ranks of MPI as the team of a sweep.
  *
- * Rank 0 writes. It tells all ranks which chunks are missing. A counter in its memory says how many of them are given
- * out: each rank draws the next number by one MPI_Fetch_and_op, which needs no help of rank 0 where the network can do
- * it. The rows of a chunk go to rank 0 as a message. A rank has one message on the way, so memory does not grow. On
- * rank 0 a thread of its own takes the messages; the other threads of rank 0 compute like all others.
+ * Rank 0 writes. It tells all ranks which chunks are missing. A counter in its memory says how many of them are
+ * taken: each rank fetches the next number by one MPI_Fetch_and_op, which needs no help of rank 0 where the network
+ * can do it. The rows of a chunk go to rank 0 as a message. A rank has one message on the way, so memory does not
+ * grow. On rank 0 a thread of its own takes the messages; the other threads of rank 0 compute like all others.
  *
  * To stop, any rank sets the counter to a number that is too large. Nobody gets a further chunk then. */
 #ifndef ISOROLL_RANKS_H
@@ -14,8 +14,8 @@
 
 #include "sweep_team.h"
 
-/* What the work with MPI took, for ranks_times. */
-enum { DRAWS, DRAW_SECONDS, SENDS, SEND_SECONDS, WRITES, WRITE_SECONDS, BYTES, TIMES };
+/* What MPI costs, for print_times: numbers of calls, their seconds, bytes. */
+enum { FETCHES, FETCH_SECONDS, SENDS, SEND_SECONDS, WRITES, WRITE_SECONDS, BYTES, TIMES };
 
 typedef struct ranks {
     MPI_Comm comm;
@@ -25,7 +25,7 @@ typedef struct ranks {
     /* while it runs */
     pthread_mutex_t lock; /* one thread of this process at a time is inside MPI */
     MPI_Win window;
-    int64_t *counter; /* of rank 0: numbers given out */
+    int64_t *counter; /* of rank 0: numbers taken */
     size_t count;     /* chunks that are missing ... */
     uint64_t *chunk;  /* ... and which */
     const iso_sweep *sweep;

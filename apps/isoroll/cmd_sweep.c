@@ -18,7 +18,7 @@ typedef struct options {
     bool resume, merge;
 } options;
 
-/* --- the share -------------------------------------------------------------------------------------------------- */
+/* --- the shard -------------------------------------------------------------------------------------------------- */
 
 static bool read_whole(const char *text, size_t length, double *x)
 {
@@ -35,7 +35,7 @@ static bool from_environment(const char *name, double usual, double *x)
     return text ? read_whole(text, strlen(text), x) : !isnan(usual);
 }
 
-/* "slurm/N": task I of Slurm computes share I of N, from 1 on, whichever tasks are submitted again. */
+/* "slurm/N": task I of Slurm computes shard I of N, from 1 on, also if only some tasks are submitted again. */
 static iso_status share_of_task(iso_context *ctx, const char *shares, iso_sweep_share *share)
 {
     double id, count;
@@ -48,28 +48,28 @@ static iso_status share_of_task(iso_context *ctx, const char *shares, iso_sweep_
                             "--shard slurm/%s: SLURM_ARRAY_TASK_ID must be a number from 1 to %s", shares, shares);
 }
 
-/* The number of a task of a Slurm array begins at any number, and can go in steps. Some tasks that are submitted again
- * are an array of their own: its numbers do not say which shares they were. */
+/* The number of a task of a Slurm array begins at any number, and can go in steps. Some tasks that are submitted
+ * again are an array of their own: its numbers do not tell their shards. */
 static iso_status share_of_slurm(iso_context *ctx, iso_sweep_share *share)
 {
     double id, count, least, step, most;
     if (!from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) ||
         !from_environment("SLURM_ARRAY_TASK_COUNT", NAN, &count) ||
         !from_environment("SLURM_ARRAY_TASK_MIN", 0, &least) || !from_environment("SLURM_ARRAY_TASK_STEP", 1, &step))
-        return iso_context_fail(
-            ctx, ISO_BAD_ARGUMENT, "shard",
-            "--shard slurm: SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT say no numbers: this is "
-            "no task of an array");
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
+                                "--shard slurm: SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT are not numbers: "
+                                "this is no task of an array");
     const double index = (id - least) / fmax(step, 1);
     if (!(index >= 0 && index < count && index == floor(index)))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
-                                "--shard slurm: task %g of %g from %g in steps of %g is none", id, count, least,
-                                step);
+        return iso_context_fail(
+            ctx, ISO_BAD_ARGUMENT, "shard",
+            "--shard slurm: the array has %g tasks from %g in steps of %g, and %g is none of them", count, least,
+            fmax(step, 1), id);
     if (count < 2 ||
         (from_environment("SLURM_ARRAY_TASK_MAX", NAN, &most) && most != least + (count - 1) * fmax(step, 1)))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
-                                "--shard slurm: this array is one task, or has gaps, as if tasks were submitted "
-                                "again: give their number as --shard slurm/N with --array=1-N");
+                                "--shard slurm: this array has one task or gaps, so it does not tell N: give "
+                                "--shard slurm/N, N the number of all shards");
     *share = (iso_sweep_share){(size_t)index, (size_t)count};
     return ISO_OK;
 }
@@ -146,7 +146,7 @@ static int tell_interrupted(const options *o, const work *w)
         return EXIT_SOME_FAILED;
     }
     complain("%s: %zu of %zu chunks are in '%s.part'; go on with: isoroll sweep %s -o %s%s%s --resume",
-             limit_is_near() ? "stopped before the time limit" : "interrupted", done, all, o->output, o->file,
+             limit_is_near() ? "stopped by SIGTERM or SIGUSR1" : "interrupted", done, all, o->output, o->file,
              o->output, o->shard ? " --shard " : "", o->shard ? o->shard : "");
     return limit_is_near() ? EXIT_DONE : EXIT_SOME_FAILED;
 }
@@ -304,7 +304,7 @@ static const option_row rows[] = {
     ROW("resume", NULL, NULL, "go on with what FILE.part has; begin if there is none", set_flag, options, resume),
     ROW("shard", "I/N", "i/n, slurm or slurm/n",
         "compute every N-th chunk, from the I-th on; slurm/N: I is the number of the task of a Slurm array; slurm: "
-        "the whole array says I and N",
+        "I and N come from the array, which must be whole",
         set_text, options, shard),
     ROW("merge", NULL, NULL, "put the files of all shards together: the arguments are these files", set_flag, options,
         merge),

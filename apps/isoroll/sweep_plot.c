@@ -1,4 +1,4 @@
-/* sweep_plot.c - chooses what of a sweep is drawn over what, and draws it (see sweep_plot.h). */
+/* sweep_plot.c - chooses the columns of a result that are drawn, and draws a curve or maps (see sweep_plot.h). */
 #include "sweep_plot.h"
 
 #include <math.h>
@@ -64,7 +64,8 @@ static bool make_room(table *t)
             strcmp(t->head->column[c].group, "vary") == 0 || c == t->value || c == t->low || c == t->high;
         t->kept[c] = keeps ? (int)t->columns++ : -1;
     }
-    t->number = calloc(t->head->count + 1, (t->columns + 1) * sizeof *t->number); /* which looks at the product */
+    t->number =
+        calloc(t->head->count + 1, (t->columns + 1) * sizeof *t->number); /* calloc checks the product for overflow */
     return t->kept && t->number;
 }
 

@@ -1,6 +1,7 @@
 /* hdf5_sweep.c - results of sweeps as HDF5: the layout, and writing.
  *
- *     /              attributes: format, isoroll, hash, points, chunk, vectors, columns, sweep, scene, sum; of a part: part
+ *     /              attributes: format, isoroll, hash, points, chunk, vectors, columns, sweep, scene, sum; of a
+ * part: part
  *     /vary/NAME     the numbers that vary                       points
  *     /QUANTITY/NAME what was measured                           points
  *     /point         of a part only: the numbers of its points   points of the part

@@ -83,10 +83,10 @@ ISO_API iso_status iso_plot_indicators(iso_context *ctx, const char *path, const
 ISO_API iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis,
                                       const iso_record *spots);
 
-/* The splitting of the separatrix. On the left |m| over k, as spots with errors, blue for m > 0, vermillion for m < 0,
- * triangles where m is not distinguished from 0: they are upper bounds. On the right, if there is a curve, W^u(O) and its mirror
- * W^s(O') on the section. rows: columns k, m, error; NULL or empty: only the right one. curve: columns u and x, as
- * iso_splitting_curve has them; NULL: none. at: the k of the curve. axis: of its section, 0 to 2.
+/* The splitting of the separatrix. On the left |m| over k, as spots with errors, blue for m > 0, vermillion for m <
+ * 0, triangles where m is not distinguished from 0: they are upper bounds. On the right, if there is a curve, W^u(O)
+ * and its mirror W^s(O') on the section. rows: columns k, m, error; NULL or empty: only the right one. curve:
+ * columns u and x, as iso_splitting_curve has them; NULL: none. at: the k of the curve. axis: of its section, 0 to 2.
  * Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
                                       const iso_record *curve, double at, int axis);
@@ -132,8 +132,8 @@ typedef struct iso_plot_section {
 ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 
 /* A value over one number: a curve, and the band of its error. rows: columns x, value, low, high, by growing x; low
- * and high may be NaN. name, value: of the axes. An axis that has the name k has marks at +-1. If values of both signs or of very
- * different sizes are there, |value| has a logarithmic axis. Errors: as iso_plot_momentum. */
+ * and high may be NaN. name, value: of the axes. An axis that has the name k has marks at +-1. If values of both
+ * signs or of very different sizes are there, |value| has a logarithmic axis. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_curve(iso_context *ctx, const char *path, const char *title, const char *name,
                                   const char *value, const iso_record *rows);
 
@@ -153,8 +153,8 @@ ISO_API iso_status iso_plot_values(iso_context *ctx, const char *path, const iso
 ISO_API iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const char *moment,
                                       const iso_record *grid, const iso_record *borders);
 
-/* Followed orbits: columns branch (0, 1, ...), value, x, trace, by branch and along it; x is |x|, or on x = 0 the part
- * 2 l/pi. parameter: the name of what varies. Errors: as iso_plot_momentum. */
+/* Followed orbits: columns branch (0, 1, ...), value, x, trace, by branch and along it; x is |x|, or on x = 0 the
+ * part 2 l/pi. parameter: the name of what varies. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_branches(iso_context *ctx, const char *path, const char *title, const char *parameter,
                                      const iso_record *points);
 

@@ -70,7 +70,8 @@ static void put_value_label(FILE *f, const char *axis, const char *value, bool s
     put_label(f, axis, size);
 }
 
-/* A gap of the curve where there is no value, and at k = 0, where there is no ball. With sizes the band may not reach 0. */
+/* A gap of the curve where there is no value, and at k = 0, where there is no ball. With sizes the band may not
+ * reach 0. */
 static bool put_curve(FILE *f, const iso_record *rows, bool sizes, bool k)
 {
     bool band = false;

@@ -191,7 +191,7 @@ static iso_status unknown_key(iso_draft *d, const entry *entries, const yaml_nod
         return iso_yaml_fail(&d->yaml, key->start_mark, "a key should be a name, not a list or a mapping");
     for (; entries[count].name && count < MAX_KEYS; count++) names[count] = entries[count].name;
     if (count == 0)
-        return iso_yaml_fail(&d->yaml, key->start_mark, "'%s': nothing is to be said here: write {}",
+        return iso_yaml_fail(&d->yaml, key->start_mark, "'%s': this has no settings: write {}",
                              (const char *)key->data.scalar.value);
     return iso_yaml_unknown(&d->yaml, key, entries->read == read_effect ? "effect" : "key", count, names);
 }

@@ -1,4 +1,5 @@
-/* sweep_csv.c - results of sweeps as CSV: lines "# key: value", one header line, one row for each point, "# sum: SUM". */
+/* sweep_csv.c - results of sweeps as CSV: lines "# key: value", one header line, one row for each point, "# sum:
+ * SUM". */
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -117,8 +118,7 @@ static const char *value_of(const char *line, const char *key)
     return line + length + 4;
 }
 
-/* The next line without its end, as editors and programs of all kinds leave it; false: there is none. A last row that
- * was cut short has no status, or its reason no end. */
+/* The next line without its line end (LF or CR LF); false: there is none. */
 static bool next_line(csv_reader *r)
 {
     ssize_t length = getline(&r->line, &r->room, r->from);
@@ -208,7 +208,8 @@ static bool read_cell(const char **at, double *x)
     return iso_number_read(cell, length, x);
 }
 
-/* A row that says another number than that of its place has been moved. */
+/* A row that says another number than that of its place has been moved. A row that was cut short has no status, or
+ * its reason no end. */
 static bool read_row(const csv_reader *r, iso_sweep_rows *rows, size_t i)
 {
     double point, status;

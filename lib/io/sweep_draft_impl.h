@@ -34,7 +34,7 @@ typedef struct iso_sweep_axis {
     int column; /* of its first number                                         */
     size_t offset;
     const yaml_node_t *node; /* ISO_TO_NUMBER: what it replaces in the scene's text ... */
-    int whole, part;         /* ... which has `whole` numbers, of which this is number `part` on */
+    int whole, part;         /* ... it has `whole` numbers; the axis sets those from number `part` on */
     int of;                  /* ISO_TO_RATIO                                */
     int chart;               /* ISO_TO_CHART: 0 l, 1 x, 2 both                     */
     size_t count;            /* of values; 1 of those that are drawn               */

@@ -27,7 +27,7 @@ iso_status iso_sweep_check_keys(iso_yaml *y, const yaml_node_t *mapping, const c
         while (i < count && !iso_yaml_is(key, names[i])) i++;
         if (i == count && count > 0) return iso_yaml_unknown(y, key, "key", count, names);
         if (i == count)
-            return iso_yaml_fail(y, key->start_mark, "'%s': nothing is to be said here: write {}",
+            return iso_yaml_fail(y, key->start_mark, "'%s': this has no settings: write {}",
                                  (const char *)key->data.scalar.value);
         iso_yaml_find(y, mapping, names[i], &first, NULL);
         if (first != key)
@@ -182,8 +182,7 @@ static iso_status check_until(iso_sweep_file *f, const yaml_node_t *until, const
                                  turns ? "time" : "turns");
     }
     if (used) return ISO_OK;
-    return iso_yaml_fail(&f->yaml, until->start_mark, "nothing of what is measured goes on for a number of %s",
-                         turns ? "turns" : "time units");
+    return iso_yaml_fail(&f->yaml, until->start_mark, "no quantity in 'measure' uses %s", turns ? "turns" : "a time");
 }
 
 static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until, const iso_sweep_topic *const topics[])
@@ -203,20 +202,20 @@ static iso_status read_until(iso_sweep_file *f, const yaml_node_t *until, const 
     return status == ISO_OK ? check_until(f, until, topics) : status;
 }
 
-/* A number that varies and that nothing looks at: `until` stands in the place of the scene's end, and a quantity's own
- * setting in that of the scene's. */
+/* Refuses numbers that vary but are not used: `until` replaces the scene's end, and a quantity's own setting replaces
+ * that of the scene. */
 static iso_status check_used(iso_sweep_file *f, const yaml_node_t *vary, const iso_sweep_topic *const topics[])
 {
     const iso_sweep_plan *p = &f->plan;
     for (int i = 0; i < f->axes; i++) {
         const char *name = f->axis[i].name;
         if (strcmp(name, "end") == 0 && !(isnan(p->turns) && isnan(p->time)))
-            return iso_yaml_fail(&f->yaml, vary->start_mark, "'end' varies, and 'until' stands in its place");
+            return iso_yaml_fail(&f->yaml, vary->start_mark, "'end' varies, but 'until' replaces it");
         for (int w = 0; w < p->wishes; w++) {
             const iso_sweep_topic *t = topics[p->wish[w].topic];
             for (int s = 0; t->settings && t->settings[s].name; s++)
                 if (strcmp(name, t->settings[s].name) == 0 && !isnan(p->wish[w].setting[s]))
-                    return iso_yaml_fail(&f->yaml, vary->start_mark, "'%s' varies, and '%s' has its own", name,
+                    return iso_yaml_fail(&f->yaml, vary->start_mark, "'%s' varies, but '%s' sets its own", name,
                                          t->name);
         }
     }

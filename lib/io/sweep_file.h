@@ -13,8 +13,8 @@
  *     until: {turns: 1000}                               # or time
  *
  * The points are all combinations of the values (a grid). The first number of `vary` changes slowest. All numbers
- * that are drawn together make one more factor of the grid, which changes fastest. For each point the numbers are put
- * into the scene in the order of the file.
+ * that are drawn take their values from the same samples; together they count as one key, which changes fastest. For
+ * each point the numbers are put into the scene in the order of the file.
  *
  * What can vary:
  * - each number that the scene's text states, by its key: k, mass, tolerance, end, eps, surface.radius, gravity.mgb;

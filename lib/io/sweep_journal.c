@@ -61,7 +61,7 @@ static journal_head head_of(const iso_sweep_journal *j)
 {
     journal_head h;
     memset(&h, 0, sizeof h); /* also what lies between its members */
-    snprintf(h.mark, sizeof h.mark, "isoroll sweep part\n");
+    snprintf(h.mark, sizeof h.mark, "isoroll sweep journal\n");
     h.order = -1234.5;
     memcpy(h.hash, j->head->hash, sizeof h.hash);
     h.points = j->head->count;
@@ -129,7 +129,7 @@ static iso_status refuse(iso_context *ctx, const char *path, const char *why)
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' %s", path, why);
 }
 
-/* Whether there is nothing but zeros: what a loss of power can leave of what was not on the disk yet. */
+/* Whether only zeros follow: a loss of power can leave them in place of bytes that were not on the disk yet. */
 static bool is_empty(iso_sweep_journal *j, off_t at, off_t size)
 {
     for (; at < size; at += (off_t)j->room) {
@@ -184,7 +184,7 @@ static iso_status scan(iso_context *ctx, iso_sweep_journal *j, off_t size)
     return status;
 }
 
-/* A program that was killed just before its end leaves the journal of a result that is whole. */
+/* A program killed just before its end leaves a complete result, and the journal beside it. */
 static void remove_old(const iso_sweep_journal *j)
 {
     const journal_head mine = head_of(j);
@@ -213,7 +213,7 @@ static iso_status look_at_result(iso_context *ctx, iso_sweep_journal *j, bool re
     if (same && resume) status = iso_sweep_reader_failures(ctx, reader, &j->failures);
     iso_sweep_reader_close(reader);
     if (status != ISO_OK) return status;
-    if (!same) return refuse(ctx, j->path, "is the result of another sweep, share or version: it is not overwritten");
+    if (!same) return refuse(ctx, j->path, "is the result of another sweep, shard or version: it is not overwritten");
     if (!resume) return refuse(ctx, j->path, "is there already, the result of this sweep: it is not overwritten");
     remove_old(j);
     j->complete = true;
@@ -241,7 +241,7 @@ static iso_status take_old(iso_context *ctx, iso_sweep_journal *j, off_t size, b
     if (memcmp(&there, &mine, sizeof mine) != 0)
         return refuse(
             ctx, j->name,
-            "is the journal of another sweep, share, version or kind of vectors: remove it, or give another "
+            "is the journal of another sweep, shard, version or kind of vectors: remove it, or give another "
             "name");
     if (!resume)
         return refuse(ctx, j->name,
@@ -294,7 +294,7 @@ static iso_status open_journal(iso_context *ctx, iso_sweep_journal *j, bool resu
 {
     struct stat s;
     if (j->share.count > ISO_SWEEP_MOST_SHARES)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "%zu shares: at most %d", j->share.count,
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--shard: n is %zu, it must be at most %d", j->share.count,
                                 ISO_SWEEP_MOST_SHARES);
     if (!iso_sweep_writing_of(j->path))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",

@@ -103,7 +103,7 @@ uint64_t iso_sweep_record_sum(const iso_sweep_record *r, const unsigned char byt
     return iso_sweep_checksum(bytes, r->length, r->chunk * 0x9e3779b97f4a7c15 + r->length + 1);
 }
 
-/* Of all places only few say a chunk and a length that can be, so few sums are made. */
+/* Few places hold a possible chunk and length, so few checksums are computed. */
 bool iso_sweep_record_inside(const iso_sweep_head *head, const unsigned char bytes[], size_t length)
 {
     const size_t chunks = iso_sweep_chunks(head), least = (size_t)head->columns * sizeof(double) + sizeof(int32_t);

@@ -14,8 +14,8 @@
  * The result is written from the journal, chunk by chunk by growing number, into a temporary file that is renamed. So
  * its bytes depend on nothing but the sweep. It is HDF5 if its name ends in .h5, else CSV (lib/doc/formats.md).
  *
- * A share of a sweep is chunk i, i + n, i + 2n, ... of it. Its result is a part; iso_sweep_merge puts parts together,
- * to the bytes that one program gives.
+ * Shard i of n (option --shard) is chunk i, i + n, i + 2n, ... of a sweep. Its result is a part; iso_sweep_merge
+ * puts parts together, to the bytes that one program gives.
  */
 #ifndef ISO_IO_SWEEP_STORE_H
 #define ISO_IO_SWEEP_STORE_H
@@ -58,7 +58,7 @@ ISO_API bool iso_sweep_journal_has(const iso_sweep_journal *j, size_t c);
 ISO_API size_t iso_sweep_journal_wanted(const iso_sweep_journal *j);
 ISO_API size_t iso_sweep_journal_done(const iso_sweep_journal *j);
 
-/* Points of the share, and those of the chunks that are there which have failed. */
+/* Points of the share; and the failed points of its finished chunks. */
 ISO_API size_t iso_sweep_journal_points(const iso_sweep_journal *j);
 ISO_API const iso_sweep_failures *iso_sweep_journal_failures(const iso_sweep_journal *j);
 
@@ -66,14 +66,14 @@ ISO_API const iso_sweep_failures *iso_sweep_journal_failures(const iso_sweep_jou
 ISO_API iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t c,
                                          const iso_sweep_rows *rows);
 
-/* Writes the result; all chunks of the share must be there. Errors: ISO_FILE_TROUBLE, also if a file of its name has
- * appeared, which stays: the journal stays; ISO_NO_MEMORY. */
+/* Writes the result; all chunks of the share must be there. Errors: ISO_FILE_TROUBLE, also if a file of this name
+ * has appeared: then that file and the journal both stay; ISO_NO_MEMORY. */
 ISO_API iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j);
 
 /* The journal's file stays, unless nothing is in it. */
 ISO_API void iso_sweep_journal_close(iso_sweep_journal *j);
 
-/* Whether the chunks can be gone on with later, by another program. */
+/* Whether the journal stays on the disk, so that another program can go on with it. */
 ISO_API bool iso_sweep_journal_lasts(const iso_sweep_journal *j);
 
 /* Rows as bytes, as a record of the journal has them, for programs that compute chunks elsewhere and send them to the
@@ -94,8 +94,8 @@ ISO_API void iso_sweep_reader_close(iso_sweep_reader *reader);
 ISO_API const iso_sweep_head *iso_sweep_reader_head(const iso_sweep_reader *reader);
 ISO_API iso_sweep_share iso_sweep_reader_share(const iso_sweep_reader *reader);
 
-/* Reads the next `count` rows of one chunk, at most rows->most. Errors: ISO_FILE_TROUBLE: a row is missing or damaged;
- * with the last rows: the sum of all is not that in the file. */
+/* Reads the next `count` rows of one chunk, at most rows->most. Errors: ISO_FILE_TROUBLE: a row is missing or
+ * damaged; with the last rows: the sum of all is not that in the file. */
 ISO_API iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *reader, size_t count,
                                          iso_sweep_rows *rows);
 
@@ -103,8 +103,8 @@ ISO_API iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *rea
 ISO_API iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *reader,
                                              iso_sweep_failures *failures);
 
-/* Puts the parts of one sweep together. *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a part is missing, is
- * there twice, was changed or damaged, or belongs to another sweep; `path` is there. */
+/* Puts the parts of one sweep together. *failures: those of all parts. Errors: ISO_FILE_TROUBLE: a part is missing,
+ * is there twice, was changed or damaged, or belongs to another sweep; `path` is there. */
 ISO_API iso_status iso_sweep_merge(iso_context *ctx, size_t count, const char *const parts[], const char *path,
                                    iso_sweep_failures *failures);
 

@@ -12,13 +12,13 @@
 #define ISO_SWEEP_FORMAT "isoroll sweep 1"
 #define ISO_SWEEP_PART_FORMAT "isoroll sweep part 1"
 
-/* A result being written. Rows come by growing number. A file that has the name when it is closed stays. The sum of
- * all rows stands in the file: a result that was changed or damaged later is found out. */
+/* A result being written. Rows come by growing number. If a file of this name exists at the closing, it is kept. The
+ * sum of all rows stands in the file: a result that was changed or damaged later is found out. */
 typedef struct iso_sweep_writing {
     iso_status (*create)(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_share share,
                          void **file);
     iso_status (*rows)(iso_context *ctx, void *file, const iso_sweep_rows *rows);
-    /* Releases it, whatever it answers. sum: of all rows; NULL: nothing is kept. */
+    /* Releases the file also after an error. sum: of all rows; NULL: the new file is thrown away. */
     iso_status (*close)(iso_context *ctx, void *file, const uint64_t *sum);
 } iso_sweep_writing;
 

@@ -85,10 +85,10 @@ typedef struct iso_sweep_head {
     const char *text, *scene; /* of the sweep file, and of the scene's own; scene NULL: it is in the sweep's */
 } iso_sweep_head;
 
-/* The rows of one chunk. A point that fails has a status and a reason; the numbers that it has not are NaN. */
+/* The rows of one chunk. A point that fails has a status and a reason; its missing numbers are NaN. */
 typedef struct iso_sweep_rows {
     int columns;
-    size_t most, first, count; /* room for points; the points that are here */
+    size_t most, first, count; /* room, in points; first point; points here */
     double *number;            /* number[columns i + c]                     */
     iso_status *status;
     char (*reason)[ISO_REASON_SIZE];

@@ -90,8 +90,8 @@ static void make_asks(iso_sweep *s)
     }
 }
 
-/* What the quantities suggest; of few points less, so that there are some chunks for every thread. Eights fill the
- * lanes of vectors. */
+/* The size that the quantities suggest. A sweep of few points gets smaller chunks, so that every thread has some.
+ * Multiples of 8 fill the lanes of vectors. */
 static size_t chunk_of(const iso_sweep *s)
 {
     enum { CHUNKS = 64, LANES = 8 };

@@ -12,7 +12,7 @@
  * or all chunks on many threads: iso_sweep_run.
  *
  * Each quantity calls the function of the library that its command calls. So its numbers are those that the command
- * gives for the scene of the point, to the bit.
+ * gives for the scene of the point, to the bit, with the same vectors.
  *
  *     quantity     command                 numbers
  *     state        run, section            the state at the time `until`, or at the turn `until`
@@ -21,7 +21,7 @@
  *     splitting    splitting               x and m of the separatrix, and their errors
  *     rotations    periodic                half-turn traces of the rotations about the three axes
  *     backends     compare                 largest differences of the backends
- *     error        run --verbose           largest errors of the rows
+ *     error        run --verbose           largest errors over the rows of `run`
  *     contact      run                     when contact is lost
  *
  * A verdict is 0 (regular), 1 (chaotic), 2 (undecided) or 3 (integrable).

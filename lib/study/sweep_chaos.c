@@ -115,7 +115,7 @@ static iso_status find_together(iso_context *ctx, const iso_sweep_ask *ask, iso_
         const iso_status why = followed ? c->failure : status[i];
         iso_context_fail(ctx, why, "", "%s", c ? c->words : "it failed");
         if (why == ISO_NO_MEMORY || why == ISO_STOPPED)
-            answer = why; /* of this computer, now; not of the point */
+            answer = why; /* this computer failed now, not the point */
         else
             iso_sweep_note(ctx, ask, b, i, why);
     }
@@ -144,7 +144,8 @@ static bool chaos_together(const iso_sweep_ask *ask)
 }
 
 /* A turn takes about 15 microseconds by each model, and most orbits have a verdict after 1000. Orbits are followed in
- * the lanes of vectors, so points come in eights. With effects a turn takes 300, and each orbit goes alone. */
+ * the lanes of vectors, so points come in eights. With effects a turn takes 300 microseconds, and each orbit goes
+ * alone. */
 static size_t chaos_chunk(const iso_sweep_ask *ask)
 {
     enum { MOST = 512, LANES = 8 };

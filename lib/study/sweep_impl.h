@@ -1,7 +1,7 @@
-/* sweep_impl.h - what can be measured at the points of a sweep: one row for each quantity.
+/* sweep_impl.h - what can be measured at the points of a sweep: one struct for each quantity.
  *
- * To add a quantity, write its row and a line in ISO_SWEEP_LIST. The reader of sweep files, the help and the rows of
- * results know it from there.
+ * To add a quantity, write its struct and a line in ISO_SWEEP_LIST. The reader of sweep files, the help and the rows
+ * of results know it from there.
  */
 #ifndef ISO_STUDY_SWEEP_IMPL_H
 #define ISO_STUDY_SWEEP_IMPL_H
@@ -12,7 +12,7 @@ enum { ISO_SWEEP_NUMBERS = 48 /* of one quantity, at most */ };
 
 struct iso_sweep_quantity;
 
-/* One quantity that is asked for, and how. */
+/* A wish of the plan with all that its quantity needs: settings, length, vectors, and its columns in a row. */
 typedef struct iso_sweep_ask {
     const struct iso_sweep_quantity *quantity;
     double setting[ISO_SWEEP_SETTINGS];

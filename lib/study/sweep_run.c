@@ -84,7 +84,7 @@ static void release(worker *w)
     iso_context_free(w->ctx);
 }
 
-/* Threads that cannot be had are done without. */
+/* If a thread cannot be started, the others do its work. */
 static void work_together(worker workers[], size_t count)
 {
     size_t started = 1;

@@ -191,7 +191,9 @@ static size_t few(const iso_sweep_ask *ask)
 }
 
 const iso_sweep_quantity iso_sweep_backends = {
-    .topic = {.name = "backends", .doc = "the largest differences of the backends over the rows", .time = true},
+    .topic = {.name = "backends",
+              .doc = "the largest differences of the backends over the rows of `compare`",
+              .time = true},
     .columns = backends_columns,
     .chunk = few,
     .refuse = backends_refuse,
@@ -234,7 +236,7 @@ static const iso_sweep_setting error_settings[] = {
 
 const iso_sweep_quantity iso_sweep_error = {
     .topic = {.name = "error",
-              .doc = "the largest errors of the rows, at a tolerance",
+              .doc = "the largest errors over the rows of `run`, at a tolerance",
               .settings = error_settings,
               .time = true},
     .columns = error_columns,

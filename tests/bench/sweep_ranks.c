@@ -8,7 +8,7 @@
  * Measured: how the times of chunks are spread (chaotic shares at 60 values of k: their mean is scaled to what the
  * table says), and what a row costs the writer, in the journal and in the result.
  *
- * Simulated: every rank draws a chunk, computes it, and waits until rank 0 has written it. The counter serves one rank
+ * Simulated: every rank fetches a chunk, computes it, and waits until rank 0 has written it. The counter serves one rank
  * at a time, and so does rank 0, which looks for messages every millisecond when it has none. Each rank computes 100
  * chunks; the time until the first rank finds no chunk gives the rate, what follows is the tail. A day's work is a
  * day at this rate, the tail, and the writing of the result.
@@ -113,7 +113,7 @@ static void measure_rows(double *journal_row, double *result_row)
 /* --- simulating ------------------------------------------------------------------------------------------------- */
 
 typedef struct costs {
-    double draw, message; /* seconds that the counter, rank 0 are busy for a chunk */
+    double fetch, message; /* seconds that the counter, rank 0 are busy for a chunk */
     double chunk;         /* seconds of a chunk, in the mean                       */
     const double *spread;
 } costs;
@@ -151,9 +151,9 @@ static double simulate(const costs *cost, size_t ranks, double *work, double *ta
     double *heap = malloc(ranks * sizeof *heap);
     if (!heap) exit(1);
     *work = 0;
-    for (size_t i = 0; i < ranks; i++, left--) { /* the first draws come at the same time */
+    for (size_t i = 0; i < ranks; i++, left--) { /* the first fetches come at the same time */
         const double chunk = time_of_chunk(cost);
-        counter += cost->draw;
+        counter += cost->fetch;
         heap[i] = counter + chunk;
         *work += chunk;
     }
@@ -164,7 +164,7 @@ static double simulate(const costs *cost, size_t ranks, double *work, double *ta
         end = writer;
         if (left > 0) {
             const double chunk = time_of_chunk(cost);
-            counter = (writer > counter ? writer : counter) + cost->draw;
+            counter = (writer > counter ? writer : counter) + cost->fetch;
             heap[0] = counter + chunk;
             *work += chunk;
             if (--left == 0) used_up = counter;
@@ -190,7 +190,7 @@ static double efficiency(const costs *cost, size_t ranks, double rows, double re
 
 int main(int argc, char **argv)
 {
-    const double draw = argc > 1 ? strtod(argv[1], NULL) : 5, message = argc > 2 ? strtod(argv[2], NULL) : 15;
+    const double fetch = argc > 1 ? strtod(argv[1], NULL) : 5, message = argc > 2 ? strtod(argv[2], NULL) : 15;
     static const double point[] = {1e-3, 1e-2, 1e-1, 1, 10}, chunk[] = {1, 10};
     static const size_t ranks[] = {100, 1000, 10000};
     double spread[SAMPLES], journal_row, result_row;
@@ -198,15 +198,15 @@ int main(int argc, char **argv)
     if (!ctx) return 1;
     measure_chunks(spread);
     measure_rows(&journal_row, &result_row);
-    printf("a draw takes %.1f us, a message %.1f us\n\nefficiency for a day's work, and chunks a second at which the "
+    printf("a fetch takes %.1f us, a message %.1f us\n\nefficiency for a day's work, and chunks a second at which the "
            "writer is full\npoint     chunk  ",
-           draw, message);
+           fetch, message);
     for (int r = 0; r < 3; r++) printf("%6zu ranks", ranks[r]);
     printf("   writer is full at\n");
     for (int c = 0; c < 2; c++)
         for (int p = 0; p < 5; p++) {
             const double rows = point[p] < chunk[c] ? chunk[c] / point[p] : 1, length = rows * point[p];
-            const costs cost = {1e-6 * draw, 1e-6 * (message + rows * journal_row), length, spread};
+            const costs cost = {1e-6 * fetch, 1e-6 * (message + rows * journal_row), length, spread};
             printf("%6.3f s %6.0f s ", point[p], length);
             for (int r = 0; r < 3; r++)
                 printf("%10.1f %%", 100 * efficiency(&cost, ranks[r], rows, 1e-6 * result_row));

@@ -116,13 +116,13 @@ if has ps "signals and kills"; then
     kill -USR1 $pid
     wait $pid
     check "USR1 to all" test $? -eq 0
-    once "stopped before the time limit: .* of 60 chunks are in 'stopped.h5.part'"
+    once "stopped by SIGTERM or SIGUSR1: .* of 60 chunks are in 'stopped.h5.part'"
     start 3 stopped.h5
     begun stopped.h5
     kill -TERM "$(pids $pid | tail -n 1)"
     wait $pid
     check "TERM to the last rank" test $? -eq 0
-    once "stopped before the time limit: .* of 60 chunks are in 'stopped.h5.part'"
+    once "stopped by SIGTERM or SIGUSR1: .* of 60 chunks are in 'stopped.h5.part'"
     ranks 0 2 sweep long.yaml -o stopped.h5 --resume
     check "after signals" cmp stopped.h5 long.h5
 

@@ -75,13 +75,13 @@ refuses 2 "this is no task of an array" sweep grid.yaml -o new.csv --shard slurm
 # task 3 alone, submitted again; then tasks 2 and 4
 SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=1 SLURM_ARRAY_TASK_MIN=3 SLURM_ARRAY_TASK_MAX=3
 export SLURM_ARRAY_TASK_ID SLURM_ARRAY_TASK_COUNT SLURM_ARRAY_TASK_MIN SLURM_ARRAY_TASK_MAX
-refuses 2 "submitted again: give their number as --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
+refuses 2 "one task or gaps, so it does not tell N: give --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
 run 0 sweep grid.yaml -o task3.csv --shard slurm/5
 check "task 3, submitted again" cmp task3.csv part.3.csv
 refuses 2 "a number from 1 to 2" sweep grid.yaml -o new.csv --shard slurm/2
 refuses 2 "a number from 1 to x" sweep grid.yaml -o new.csv --shard slurm/x
 SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_MIN=2 SLURM_ARRAY_TASK_MAX=4
-refuses 2 "submitted again: give their number as --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
+refuses 2 "one task or gaps, so it does not tell N: give --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
 unset SLURM_ARRAY_TASK_ID SLURM_ARRAY_TASK_COUNT SLURM_ARRAY_TASK_MIN SLURM_ARRAY_TASK_MAX
 refuses 2 "expected i/n" sweep grid.yaml -o new.csv --shard 6/5
 
@@ -282,14 +282,14 @@ scene: scene.yaml
 vary: {J2/J1: 2, J1: 2}
 measure: {state: {}}
 END
-bad 2:7 "'end' varies, and 'until' stands in its place" <<'END'
+bad 2:7 "'end' varies, but 'until' replaces it" <<'END'
 scene: scene.yaml
 vary: {end: [1, 2]}
 measure: {state: {}}
 until: {time: 5}
 END
 { cat scene.yaml && echo 'solver: {tolerance: 1.0e-9}'; } >solver.yaml
-bad 2:7 "'tolerance' varies, and 'error' has its own" <<'END'
+bad 2:7 "'tolerance' varies, but 'error' sets its own" <<'END'
 scene: solver.yaml
 vary: {tolerance: [1.0e-9, 1.0e-10]}
 measure: {error: {tolerance: 1.0e-8}}
@@ -403,8 +403,8 @@ stopped() {
     check "$1" cmp stopped.$h5 long.$h5
     rm stopped.$h5
 }
-stopped TERM 0 "stopped before the time limit"
-stopped USR1 0 "stopped before the time limit"
+stopped TERM 0 "stopped by SIGTERM or SIGUSR1"
+stopped USR1 0 "stopped by SIGTERM or SIGUSR1"
 interruptible "Ctrl-C" && stopped INT 1 "interrupted"
 
 # --- one journal, one program
