@@ -8,8 +8,8 @@
  * Measured: how the times of chunks are spread (chaotic shares at 60 values of k: their mean is scaled to what the
  * table says), and what a row costs the writer, in the journal and in the result.
  *
- * Simulated: every rank fetches a chunk, computes it, and waits until rank 0 has written it. The counter serves one rank
- * at a time, and so does rank 0, which looks for messages every millisecond when it has none. Each rank computes 100
+ * Simulated: every rank fetches a chunk, computes it, and waits until rank 0 has written it. The counter serves one
+ * rank at a time, and so does rank 0, which looks for messages every millisecond when it has none. Each rank computes 100
  * chunks; the time until the first rank finds no chunk gives the rate, what follows is the tail. A day's work is a
  * day at this rate, the tail, and the writing of the result.
  */
@@ -114,7 +114,7 @@ static void measure_rows(double *journal_row, double *result_row)
 
 typedef struct costs {
     double fetch, message; /* seconds that the counter, rank 0 are busy for a chunk */
-    double chunk;         /* seconds of a chunk, in the mean                       */
+    double chunk;          /* seconds of a chunk, in the mean                       */
     const double *spread;
 } costs;
 
@@ -198,9 +198,10 @@ int main(int argc, char **argv)
     if (!ctx) return 1;
     measure_chunks(spread);
     measure_rows(&journal_row, &result_row);
-    printf("a fetch takes %.1f us, a message %.1f us\n\nefficiency for a day's work, and chunks a second at which the "
-           "writer is full\npoint     chunk  ",
-           fetch, message);
+    printf(
+        "a fetch takes %.1f us, a message %.1f us\n\nefficiency for a day's work, and chunks a second at which the "
+        "writer is full\npoint     chunk  ",
+        fetch, message);
     for (int r = 0; r < 3; r++) printf("%6zu ranks", ranks[r]);
     printf("   writer is full at\n");
     for (int c = 0; c < 2; c++)

@@ -417,40 +417,4 @@ kill -CONT $pid
 wait $pid
 check "the first one goes on" cmp twice.$h5 long.$h5
 
-# --- explain, and pictures
-run 0 explain each.yaml
-check "explain: points" grep -q '^  2 points in 2 chunks of 1; [0-9]* columns' out
-check "explain: what varies" grep -q '^  start: 1 value' out
-check "explain: each quantity" test "$(grep -c ' a point, up to ' out)" -eq 6
-check "explain: time" grep -q 'of processor time; here, with [0-9]* threads, about ' out
-printf '{scene: scene.yaml, vary: {J1: [0.8, 1, 1.3], k: {from: -1.45, to: 0.8, count: 10}}, measure: {rotations: {}}}' \
-    >flow.yaml
-run 0 explain flow.yaml
-check "explain: a sweep in braces" grep -q '^  30 points' out
-sed 's/to: 0.8/to: 0.8x/' flow.yaml >wrong.yaml
-refuses 3 "wrong.yaml:1:" explain wrong.yaml
-if has gnuplot "pictures"; then
-    run 0 plot each.csv -o curve.svg
-    check "a curve" grep -q '</svg>' curve.svg
-    run 0 plot each.csv -o curve.svg --value rotations_trace2
-    check "its name" grep -q 'rotations_trace2' curve.svg
-    refuses 3 "there is no such column" plot each.csv -o curve.svg --value nothing
-    printf 'scene: scene.yaml\nvary: {k: [-1, -0.5, 0.5, 1]}\nmeasure: {state: {}}\n' >signs.yaml
-    run 0 sweep signs.yaml -o signs.csv
-    mkdir -p script
-    printf '#!/bin/sh\ntee script.gp | %s "$@"\n' "$(command -v gnuplot)" >script/gnuplot
-    chmod +x script/gnuplot
-    PATH=$PWD/script:$PATH run 0 plot signs.csv -o curve.svg --value state_n1
-    check "no curve across k = 0" test "$(sed -n '/^\$curve <</,/^EOD/p' script.gp | grep -c '^$')" -eq 1
-    run 0 sweep flow.yaml -o flow.csv
-    PATH=$PWD/script:$PATH run 0 plot flow.csv -o map.svg
-    check "a grid is drawn as cells" test "$(grep -c 'boxxyerror fs solid' script.gp)" -eq 1
-    check "a cell reaches half way to its neighbours" grep -q '^1 0.8 0.9 1.15 0.675 0.925 ' script.gp
-    check "k = -1 is marked, on the vertical axis" grep -q '^set arrow from graph 0, first -1 ' script.gp
-    check_not "k = 1 is not: it is not there" grep -q 'first 1' script.gp
-    run 0 plot long.$h5 -o curve.svg
-    refuses 3 "4 numbers vary" plot all.$h5 -o curve.svg --value state_s
-    refuses 3 "merge the parts first" plot part.1.$h5 -o curve.svg
-    refuses 2 "--value is for results of sweeps" plot run.csv -o curve.svg --value s
-fi
 finish
