@@ -46,13 +46,10 @@ static bool find_rotation(iso_periodic_work *w, int axis)
 {
     iso_rotation *r = &w->out->rotation[axis];
     const iso_params *p = &w->map.p;
-    long double y[2][2];
     iso_wide Y[2][2], section;
-    double error;
     *r = (iso_rotation){.axis = axis};
     place(&w->map, r);
-    const double rough = iso_hill_trace(p->k, p->J, axis, &error);
-    iso_hill_matrix(p->k, p->J, axis, y);
+    const double rough = iso_hill_trace(p->k, p->J, axis, NULL);
     iso_hill_matrix_wide(p->k, p->J, axis, Y);
     const iso_fine trace = iso_fine_of(Y[0][0] + Y[1][1]);
     r->half_turn_trace = trace.head;
