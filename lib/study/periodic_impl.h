@@ -54,6 +54,9 @@ typedef struct iso_periodic_fine {
     iso_wide determinant; /* of slope: the product of those of the returns, which do not cancel */
 } iso_periodic_fine;
 
+/* The way `first`, and then `next`, which begins at its end. *both is neither of them. */
+void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *next, iso_periodic_fine *both);
+
 /* g^halves of a point. path[n - 1] = g^n of it, n = 1 to halves; NULL: not asked. False: it failed. */
 bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
                       double (*path)[2], iso_periodic_fine *found);

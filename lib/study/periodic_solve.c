@@ -144,12 +144,7 @@ static bool close_up(const solver *s, iso_periodic_fine *all, double *error, dou
     const iso_periodic_fine half = *all;
     iso_periodic_fine rest;
     if (!iso_periodic_far(&s->map, s->code, half.to, s->period, NULL, &rest)) return false;
-    for (int i = 0; i < 2; i++) {
-        all->to[i] = rest.to[i];
-        for (int j = 0; j < 2; j++)
-            all->slope[i][j] = rest.slope[i][0] * half.slope[0][j] + rest.slope[i][1] * half.slope[1][j];
-    }
-    all->determinant *= rest.determinant;
+    iso_periodic_join(&half, &rest, all);
     *error = fabs((double)(all->slope[0][0] + all->slope[1][1] - s->trace)) / 16;
     return true;
 }

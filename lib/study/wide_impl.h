@@ -47,4 +47,11 @@ static inline iso_wide iso_wide_wrap(iso_wide angle, iso_wide period)
     return angle - WIDE_ROUND(angle / period) * period;
 }
 
+/* product = A B. The product is neither A nor B. */
+static inline void iso_wide_multiply(const iso_wide A[2][2], const iso_wide B[2][2], iso_wide product[2][2])
+{
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) product[i][j] = A[i][0] * B[0][j] + A[i][1] * B[1][j];
+}
+
 #endif
