@@ -208,19 +208,17 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
  * manifolds meet where W^u(O) meets the fixed points of g S3, g(S3 z) = z. The stable one has the direction D(g S3)
  * t there. */
 typedef struct mirror {
-    iso_manifold_point p;
-    iso_wide z[2], t[2]; /* of g S3 p */
+    iso_manifold_point p, image; /* g S3 p */
 } mirror;
 
 static iso_status look(const iso_manifold *m, iso_wide theta, int halves, mirror *r)
 {
-    iso_wide A[2][2];
-    iso_status status = iso_manifold_at(m, theta, halves, &r->p);
+    const iso_status status = iso_manifold_at(m, theta, halves, &r->p);
     if (status != ISO_OK) return status;
-    const iso_wide z[2] = {WIDE_PI - r->p.z[0], r->p.z[1]}, t[2] = {-r->p.t[0], r->p.t[1]};
-    status = iso_manifold_map(m, z, r->z, A);
-    for (int i = 0; i < 2; i++) r->t[i] = A[i][0] * t[0] + A[i][1] * t[1];
-    return status;
+    r->image = r->p;
+    r->image.z[0] = WIDE_PI - r->p.z[0];
+    r->image.t[0] = -r->p.t[0];
+    return iso_manifold_go_on(m, &r->image);
 }
 
 iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing *from, iso_manifold_crossing *c)
@@ -233,9 +231,9 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
         mirror r;
         const iso_status status = look(m, c->theta, c->halves, &r);
         if (status != ISO_OK) return status;
-        const iso_wide apart = iso_wide_turned(r.z[0] - r.p.z[0]), step = apart / (r.t[0] - r.p.t[0]);
+        const iso_wide apart = iso_wide_turned(r.image.z[0] - r.p.z[0]), step = apart / (r.image.t[0] - r.p.t[0]);
         for (int j = 0; j < 2; j++) c->z[j] = r.p.z[j];
-        c->slope = (r.p.t[1] / r.p.t[0] - r.t[1] / r.t[0]) / 2;
+        c->slope = (r.p.t[1] / r.p.t[0] - r.image.t[1] / r.image.t[0]) / 2;
         if (is_there(m, apart, last)) return ISO_OK;
         if (!(WIDE_ABS(step) < c->theta / 2)) break;
         c->theta -= step;
