@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/pi_impl.h"
 #include "study/splitting_impl.h"
 
 enum { MOST_SAMPLES = 4096, MOST_HALVES = 2000 };
@@ -104,14 +105,12 @@ static iso_status advance(piece *p)
 
 /* --- the first crossing ----------------------------------------------------------------------------------------- */
 
-static const double quarter = 1.5707963267948966;
-
 /* The place between two samples where u is about pi/2: ln tan(u/2) is a line over ln theta at k = +-1. */
 static iso_wide guess(const piece *p, int i)
 {
     const double u0 = p->u[i - 1], u1 = p->u[i];
     const double part =
-        u0 > 0 ? log(tan(u0 / 2)) / (log(tan(u0 / 2)) - log(tan(fmin(u1, 3) / 2))) : (quarter - u0) / (u1 - u0);
+        u0 > 0 ? log(tan(u0 / 2)) / (log(tan(u0 / 2)) - log(tan(fmin(u1, 3) / 2))) : (ISO_PI / 2 - u0) / (u1 - u0);
     return p->at[i - 1].theta * (iso_wide)exp(part * log((double)(p->at[i].theta / p->at[i - 1].theta)));
 }
 
@@ -188,7 +187,7 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
     int found = 0;
     while (status == ISO_OK && found == 0) {
         for (int i = 0; i < p.count && found == 0; i++)
-            if (p.u[i] >= quarter) found = i > 0 ? i : 1;
+            if (p.u[i] >= ISO_PI / 2) found = i > 0 ? i : 1;
         if (found > 0) break;
         status = p.halves < MOST_HALVES
                      ? advance(&p)
@@ -272,7 +271,7 @@ static iso_status draw(iso_context *ctx, const iso_manifold *m, int halves, iso_
             close_piece(&p);
             return ISO_OK;
         }
-        met = met || p.u[p.count - 1] >= quarter;
+        met = met || p.u[p.count - 1] >= ISO_PI / 2;
         if (status == ISO_OK) status = append(ctx, &p, 1, curve);
     }
     close_piece(&p);
