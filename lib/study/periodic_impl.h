@@ -68,9 +68,6 @@ bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_code *code
 /* The law of the derivative's determinant, from l to another l: G(l)/G(l'). */
 iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to);
 
-/* The code of numbers of 64 bits, or of 128 (NULL: there is none). */
-const iso_return_code *iso_periodic_code(bool polish);
-
 /* --- lines ------------------------------------------------------------------------------------------------------ */
 
 /* The symmetry lines: the fixed states of S1, S2, S3, T S1, T S2, T S3. The first three are lines of the section:

@@ -156,16 +156,6 @@ iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start
 
 /* --- one point in more digits ----------------------------------------------------------------------------------- */
 
-const iso_return_code *iso_periodic_code(bool polish)
-{
-    if (!polish) return &iso_return_extended;
-#ifdef ISO_TAYLOR_HAS_QUAD
-    return &iso_return_quad;
-#else
-    return NULL;
-#endif
-}
-
 static iso_wide determinant_of(const iso_return *r)
 {
     return iso_wide_of(r->slope[0][0]) * iso_wide_of(r->slope[1][1]) -

@@ -5,6 +5,8 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 
 #include "base/pi_impl.h"
 #include "method/methods_impl.h"
@@ -18,6 +20,7 @@ __extension__ typedef _Float128 iso_wide;
 #define WIDE_POW powf128
 #define WIDE_ABS fabsf128
 #define WIDE_ROUND roundf128
+#define WIDE_RETURN (&iso_return_quad)
 #define WIDE_PI __extension__ 3.14159265358979323846264338327950288419716939937510582097494459Q
 #else
 typedef long double iso_wide;
@@ -27,8 +30,15 @@ typedef long double iso_wide;
 #define WIDE_POW powl
 #define WIDE_ABS fabsl
 #define WIDE_ROUND roundl
+#define WIDE_RETURN NULL
 #define WIDE_PI ISO_PI_LONG
 #endif
+
+/* The return map in numbers of 64 bits; `fine`: of 128 bits, NULL where the compiler has none. */
+static inline const iso_return_code *iso_return_code_of(bool fine)
+{
+    return fine ? WIDE_RETURN : &iso_return_extended;
+}
 
 static inline iso_fine iso_fine_of(iso_wide x)
 {
