@@ -155,36 +155,19 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
 }
 
-/* What acts: the scene's effects, and the level of a point that is not on H = 0. */
-static iso_status find_effects(iso_context *ctx, const iso_scene *scene, iso_effects *effects)
-{
-    iso_orbit_options how = iso_orbit_defaults(&scene->start);
-    iso_orbit *orbit;
-    *effects = scene->effects;
-    if (scene->start.model != ISO_POINT) return ISO_OK;
-    how.effects = &scene->effects;
-    const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &how, &orbit);
-    if (status != ISO_OK) return status;
-    *effects = iso_orbit_effects(orbit);
-    iso_orbit_free(orbit);
-    return ISO_OK;
-}
-
 static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, iso_output *csv)
 {
     iso_splittings *s = NULL;
     iso_splitting_options how = iso_splitting_defaults();
     how.k = k->k, how.count = k->count;
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
-    iso_effects effects;
-    iso_status status = find_effects(ctx, scene, &effects);
-    how.effects = &effects;
+    how.scene = scene;
     how.digits = o->digits;
     how.threads = as_int(o->threads);
     how.progress = progress_told;
     stop_gently();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
-    if (status == ISO_OK) status = iso_splitting_run(ctx, &how, &s);
+    const iso_status status = iso_splitting_run(ctx, &how, &s);
     iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
     int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish_scene(ctx, &o->scene, scene, status);

@@ -70,19 +70,11 @@ static iso_status check_options(iso_context *ctx, iso_integral_search_options *o
     return ISO_OK;
 }
 
-/* Only free motions on H = 0 are searched: a point off it has the effect `level`. */
+/* Only free motions on H = 0 are searched. */
 static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
 {
-    const iso_effects given = iso_effects_acting(&scene->effects);
-    iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    iso_orbit *orbit = NULL;
-    o.effects = &given;
-    o.gamma_alone = true;
-    const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
-    if (status != ISO_OK) return status;
-    const iso_effects effects = iso_orbit_effects(orbit);
-    iso_orbit_free(orbit);
-    return iso_study_check_free(ctx, &effects, "integrals are sought");
+    const iso_effects acting = iso_effects_acting(&scene->effects);
+    return iso_study_check_free_start(ctx, scene, &acting, "integrals are sought");
 }
 
 /* --- integrals that are known ----------------------------------------------------------------------------------- */

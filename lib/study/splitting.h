@@ -22,7 +22,7 @@
 
 #include "../base/api.h"
 #include "../base/record.h"
-#include "../model/effect.h"
+#include "../orbit/scene.h"
 
 ISO_C_BEGIN
 
@@ -71,7 +71,8 @@ typedef struct iso_splitting_options {
     const double *k; /* the values, in any order                                              */
     size_t count;
     double J[3];
-    const iso_effects *effects; /* of the ball: none may act; NULL: none        */
+    const iso_scene *scene; /* no effect may act on its ball, and its point must be on H = 0; k and J are not
+                               read from it. NULL: a free ball                             */
     iso_splitting_digits digits;
     bool zeros;  /* look for zeros of m between neighbours of this list                    */
     int threads; /* 0: as many as there are processors to run on                           */
@@ -100,8 +101,9 @@ typedef struct iso_splittings {
  * distinguished from 0 if their r have opposite signs. There the manifolds touch at one point. If they cross at
  * the next one (next_m != 0), there is no further integral.
  * A failure at one k stands in its row, and is no failure of the call.
- * Errors: ISO_BAD_ARGUMENT (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball; ISO_NO_MEMORY;
- * ISO_STOPPED by the context's monitor: *s has the rows that are done. */
+ * Errors: ISO_BAD_ARGUMENT (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball, or the level of a
+ * point off H = 0; where the scene starts as a point, those of iso_orbit_create; ISO_NO_MEMORY; ISO_STOPPED by the
+ * context's monitor: *s has the rows that are done. */
 ISO_API iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *options, iso_splittings **s);
 ISO_API void iso_splitting_free(iso_splittings *s);
 
