@@ -13,8 +13,8 @@ const iso_effect *iso_study_not_free(const iso_effects *effects);
  * orbits are sought"; the message goes on: " only of the free ball and of the point on H = 0: remove 'gravity'". */
 iso_status iso_study_check_free(iso_context *ctx, const iso_effects *effects, const char *what);
 
-/* The same for a scene's start on which `effects` act. A point off H = 0 has the effect `level`, which its orbit tells.
- * Errors: also those of iso_orbit_create. */
+/* The same for a scene's start on which `effects` act. A point off H = 0 has the effect `level`, which its orbit
+ * tells. Errors: also those of iso_orbit_create. */
 iso_status iso_study_check_free_start(iso_context *ctx, const iso_scene *scene, const iso_effects *effects,
                                       const char *what);
 

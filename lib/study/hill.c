@@ -1,5 +1,4 @@
-/* hill.c - the rotations about the principal axes: Hill's equation over half a turn, in numbers of 64 and of 113 bits.
- */
+/* hill.c - the rotations about the principal axes: Hill's equation over half a turn, in 64 and in 113 bits. */
 #include <math.h>
 #include <stdbool.h>
 

@@ -34,12 +34,13 @@ const char *iso_integral_verdict_name(iso_integral_verdict verdict)
 static iso_status check_degrees(iso_context *ctx, iso_integral_search_options *o)
 {
     if (o->degree < 1 || o->degree > ISO_INTEGRAL_DEGREE)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "degree", "degree %d of the polynomials in M: give 1 to %d", o->degree,
-                                ISO_INTEGRAL_DEGREE);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "degree", "degree %d of the polynomials in M: give 1 to %d",
+                                o->degree, ISO_INTEGRAL_DEGREE);
     if (o->coefficients == -1) o->coefficients = o->degree > 2 ? o->degree : 2;
     if (o->coefficients >= 0 && o->coefficients <= ISO_INTEGRAL_DEGREE) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "coefficients", "degree %d of the coefficients in gamma: give 0 to %d",
-                            o->coefficients, ISO_INTEGRAL_DEGREE);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "coefficients",
+                            "degree %d of the coefficients in gamma: give 0 to %d", o->coefficients,
+                            ISO_INTEGRAL_DEGREE);
 }
 
 /* Twice as many conditions as there are terms. */

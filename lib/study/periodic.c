@@ -1,4 +1,4 @@
-/* periodic.c - the periodic orbits of a scene's ball, see periodic.h: what is refused, the order of the work, the list.
+/* periodic.c - the periodic orbits of a scene's ball, see periodic.h: what is refused, the order of work, the list.
  */
 #include "study/periodic.h"
 

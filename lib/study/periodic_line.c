@@ -1,7 +1,7 @@
 /* periodic_line.c - the six symmetry lines of the return map, and shots from one of them to itself.
  *
- * Between the crossings g^(p-1) z and g^p z an orbit passes a line half way if g^p z = S g^(p-1) z. So what stands for
- * the distance from the line is the middle of the two crossings, and its derivative (1 + D g)/2.
+ * Between the crossings g^(p-1) z and g^p z an orbit passes a line half way if g^p z = S g^(p-1) z. So what stands
+ * for the distance from the line is the middle of the two crossings, and its derivative (1 + D g)/2.
  */
 #include <math.h>
 #include <stdlib.h>

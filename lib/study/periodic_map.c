@@ -1,5 +1,5 @@
-/* periodic_map.c - the return map f of the section and half of it, g: many points at once in the lanes of vectors, one
- * point in numbers of more digits.
+/* periodic_map.c - the return map f of the section and half of it, g: many points at once in the lanes of vectors,
+ * one point in numbers of more digits.
  *
  * g z: from the crossing z half a return, to the next crossing downwards, then T: gamma -> -gamma. A start at -gamma,
  * M is a crossing downwards; its next crossings upwards are g z, g^3 z, ...

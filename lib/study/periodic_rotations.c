@@ -1,5 +1,5 @@
-/* periodic_rotations.c - the rotations about the principal axes: Hill's equation in 64 and 113 bits, and the section's
- * tangent map. */
+/* periodic_rotations.c - the rotations about the principal axes: Hill's equation in 64 and 113 bits, and the
+ * section's tangent map. */
 #include <math.h>
 
 #include "base/pi_impl.h"
@@ -15,8 +15,8 @@ static void place(const iso_periodic_map *map, iso_rotation *r)
     r->x = r->axis == map->axis ? 1 : 0;
 }
 
-/* By the derivative of g. g turns the deviation over: its trace has the other sign. The rotation about the section's own
- * axis never crosses it: the section of the next axis serves. */
+/* By the derivative of g. g turns the deviation over: its trace has the other sign. The rotation about the section's
+ * own axis never crosses it: the section of the next axis serves. */
 static bool ask_section(iso_periodic_work *w, iso_rotation *r, iso_wide *trace)
 {
     iso_periodic_map map = w->map;

@@ -85,7 +85,7 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
 }
 
 /* The zero of the search, and steps of the secant method farther, with the digits that were asked for, until m is not
- * distinguished from 0, or as small as the next double of k allows: the next crossing's slope must be seen beside it. */
+ * distinguished from 0, or as small as doubles of k allow: the next crossing's slope must be seen beside it. */
 static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_splitting *zero)
 {
     enum { MOST = 8 };
