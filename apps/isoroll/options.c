@@ -54,6 +54,11 @@ bool set_whole(void *at, const char *text)
     return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
 }
 
+int as_int(double whole)
+{
+    return whole < 1e9 ? (int)whole : 1000000000;
+}
+
 bool set_vector(void *at, const char *text)
 {
     double *x = at;

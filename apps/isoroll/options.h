@@ -61,6 +61,9 @@ bool set_as(void *at, const char *text);        /* iso_shown: ball, point, both 
 bool set_target(void *at, const char *text);    /* iso_model_kind: ball, point          */
 bool set_digits(void *at, const char *text);    /* int, 1 to 17, or ISO_HEXADECIMAL     */
 
+/* A whole number from 0 on, as set_whole and set_count read it, as an int: 1e9 if it is larger. */
+int as_int(double whole);
+
 /* Lists of words. */
 const char *method_word(int i);
 const char *backend_word(int i);
