@@ -68,7 +68,7 @@ check_not "k = 1 is not: it is not there" grep -q 'first 1' script.gp
 # --- what no picture shows
 sed 's/^vary: .*/vary: {k: [0.5, 0.6], J1: [1, 2], l: [0.3, 0.4],\n  x: [0.1, 0.2]}/' signs.yaml >four.yaml
 run 0 sweep four.yaml -o four.csv
-refuses 3 "4 numbers vary" plot four.csv -o curve.svg --value state_s
+refuses 3 "4 numbers vary" plot four.csv -o curve.svg --value state_t
 run 0 sweep signs.yaml -o part.csv --shard 1/2
 refuses 3 "merge the parts first" plot part.csv -o curve.svg
 run 0 run scene.yaml -o run.csv
