@@ -28,6 +28,7 @@ fi
 
 # --- a Slurm of one machine; it stops when this script ends, whichever way
 daemons=
+export SLURM_CONF="$work/slurm.conf" # before the trap: it must not reach another Slurm
 stop_daemons() {
     scancel --user=root 2>/dev/null
     # shellcheck disable=SC2086 # a list
@@ -74,7 +75,6 @@ SlurmdParameters=config_overrides
 NodeName=$host NodeAddr=127.0.0.1 CPUs=$processors State=UNKNOWN
 PartitionName=all Nodes=$host Default=YES MaxTime=INFINITE State=UP
 CONF
-export SLURM_CONF="$work/slurm.conf"
 munged --foreground --force --socket="$work/munge.socket" --key-file="$work/munge.key" --pid-file="$work/munged.pid" \
     --log-file="$work/munged.log" --seed-file="$work/munge.seed" >munged.out 2>&1 &
 daemons=$!

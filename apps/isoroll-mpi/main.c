@@ -57,7 +57,10 @@ int main(int argc, char **argv)
         complain("this MPI does not let threads call it (MPI_THREAD_SERIALIZED): build it with threads");
     else if (all.rank == 0 || argc > 2)
         result = words_or_work(argc, argv);
+    else
+        result = EXIT_DONE; /* rank 0 prints what was asked for */
     result = program_flush(result);
+    if (!all.agreed) result = all.team.agree(&all, result); /* others may wait for the answer of this rank */
     ranks_meet(&all);
     MPI_Finalize();
     return all.rank == 0 ? result : EXIT_DONE;

@@ -28,6 +28,7 @@ static int agree(void *data, int result)
 {
     ranks *r = data;
     MPI_Request request;
+    r->agreed = true;
     int mine[2] = {result, result == EXIT_DONE ? INT_MIN : -r->rank}, all[2];
     MPI_Iallreduce(mine, all, 2, MPI_INT, MPI_MAX, r->comm, &request);
     ranks_wait(&request);
@@ -73,6 +74,20 @@ void ranks_stop(ranks *r)
     change_counter(r, INT64_MAX / 2, MPI_REPLACE);
 }
 
+/* The missing chunk of this number: in the last gap that begins with it or before it. */
+static size_t chunk_of(const ranks *r, uint64_t number)
+{
+    size_t low = 0, high = r->gaps - 1;
+    while (low < high) {
+        const size_t middle = (low + high + 1) / 2;
+        if (r->gap[middle].before > number)
+            high = middle - 1;
+        else
+            low = middle;
+    }
+    return (size_t)(r->gap[low].first + (number - r->gap[low].before) * r->gap[low].step);
+}
+
 static bool fetch(void *data, size_t *c)
 {
     ranks *r = data;
@@ -84,7 +99,7 @@ static bool fetch(void *data, size_t *c)
     r->times[FETCH_SECONDS] += ranks_now() - begun;
     pthread_mutex_unlock(&r->lock);
     if (number >= (int64_t)r->count) return false;
-    *c = (size_t)r->chunk[number];
+    *c = chunk_of(r, (uint64_t)number);
     return true;
 }
 
@@ -110,32 +125,41 @@ static void no_memory(const ranks *r)
     MPI_Abort(r->comm, EXIT_NUMERICAL);
 }
 
+static void begin_gap(ranks *r, size_t c)
+{
+    if ((r->gaps & (r->gaps - 1)) == 0) { /* 0, 1, 2, 4, ... are full */
+        missing *more = realloc(r->gap, (2 * r->gaps + 1) * sizeof *more);
+        if (!more) no_memory(r);
+        r->gap = more;
+    }
+    r->gap[r->gaps++] = (missing){c, 0, r->count};
+}
+
+/* The second chunk of a gap gives its step. */
 static void list_missing(ranks *r, const iso_sweep_source *source)
 {
-    size_t room = 0, c;
-    while (source->next(source->data, &c)) {
-        if (r->count == room) {
-            room = 2 * room + 1024;
-            uint64_t *more = realloc(r->chunk, room * sizeof *more);
-            if (!more) no_memory(r);
-            r->chunk = more;
-        }
-        r->chunk[r->count++] = c;
+    size_t c;
+    for (; source->next(source->data, &c); r->count++) {
+        missing *last = r->gaps > 0 ? &r->gap[r->gaps - 1] : NULL;
+        const size_t length = last ? r->count - last->before : 0;
+        if (length == 1) last->step = c - last->first;
+        if (length == 0 || c != last->first + length * last->step) begin_gap(r, c);
     }
 }
 
 /* All ranks learn which chunks are missing. Gives whether they have the same sweep. */
 static bool share_missing(ranks *r)
 {
-    enum { PIECE = 1 << 24 };
+    enum { PIECE = 1 << 24, NUMBERS = sizeof(missing) / sizeof(uint64_t) };
     const iso_sweep_head *head = iso_sweep_head_of(r->sweep);
-    uint64_t begin[3] = {r->count, head->hash[0], head->hash[1]};
-    tell(r, begin, 3);
+    uint64_t begin[4] = {r->count, head->hash[0], head->hash[1], r->gaps};
+    tell(r, begin, 4);
     r->count = (size_t)begin[0];
-    if (r->rank > 0) r->chunk = calloc(r->count + 1, sizeof *r->chunk);
-    if (!r->chunk && r->count > 0) no_memory(r);
-    for (size_t at = 0; at < r->count; at += PIECE)
-        tell(r, r->chunk + at, r->count - at < PIECE ? r->count - at : PIECE);
+    r->gaps = (size_t)begin[3];
+    if (r->rank > 0) r->gap = calloc(r->gaps + 1, sizeof *r->gap);
+    if (!r->gap && r->gaps > 0) no_memory(r);
+    for (size_t at = 0; at < r->gaps; at += PIECE)
+        tell(r, r->gap + at, NUMBERS * (r->gaps - at < PIECE ? r->gaps - at : PIECE));
     return begin[1] == head->hash[0] && begin[2] == head->hash[1];
 }
 
@@ -211,7 +235,7 @@ static void release(ranks *r)
     iso_sweep_rows_free(&r->rows);
     iso_context_free(r->ctx);
     free(r->bytes);
-    free(r->chunk);
+    free(r->gap);
 }
 
 static iso_status run(void *data, iso_context *ctx, const iso_sweep *sweep, int threads,

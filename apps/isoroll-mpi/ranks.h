@@ -17,9 +17,16 @@
 /* What MPI costs, for print_times: numbers of calls, their seconds, bytes. */
 enum { FETCHES, FETCH_SECONDS, SENDS, SEND_SECONDS, WRITES, WRITE_SECONDS, BYTES, TIMES };
 
+/* Chunks first, first + step, first + 2 step, ... that are missing; `before` of them stand in gaps before this one. A
+ * sweep that begins has one gap, one that was stopped has a few more. So ranks need little memory. */
+typedef struct missing {
+    uint64_t first, step, before;
+} missing;
+
 typedef struct ranks {
     MPI_Comm comm;
     int rank, size;
+    bool agreed; /* at least once */
     sweep_team team;
 
     /* while it runs */
@@ -27,7 +34,8 @@ typedef struct ranks {
     MPI_Win window;
     int64_t *counter; /* of rank 0: numbers taken */
     size_t count;     /* chunks that are missing ... */
-    uint64_t *chunk;  /* ... and which */
+    missing *gap;     /* ... and which */
+    size_t gaps;
     const iso_sweep *sweep;
     const iso_sweep_source *source; /* of rank 0 */
     unsigned char *bytes;           /* one message */

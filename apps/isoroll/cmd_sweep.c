@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
 #include "io/sweep_file.h"
@@ -141,9 +142,9 @@ static iso_status take_chunk(void *data, iso_context *ctx, size_t c, const iso_s
 static int tell_interrupted(const options *o, const work *w)
 {
     const size_t done = iso_sweep_journal_done(w->journal), all = iso_sweep_journal_wanted(w->journal);
-    if (!iso_sweep_journal_lasts(w->journal)) {
+    if (!iso_sweep_journal_lasts(w->journal) || done == 0) {
         complain("interrupted: nothing was written");
-        return EXIT_SOME_FAILED;
+        return limit_is_near() && done == 0 ? EXIT_DONE : EXIT_SOME_FAILED;
     }
     complain("%s: %zu of %zu chunks are in '%s.part'; go on with: isoroll sweep %s -o %s%s%s --resume",
              limit_is_near() ? "stopped by SIGTERM or SIGUSR1" : "interrupted", done, all, o->output, o->file,
@@ -256,15 +257,24 @@ static int merge(iso_context *ctx, const options *o)
     return status == ISO_OK ? tell_failures(&failures, "") : finish(ctx, status);
 }
 
+/* Not a pipe: only one program can read that. A file that is not there is one: who opens it tells why. */
+static bool is_file(const char *path)
+{
+    struct stat s;
+    return strcmp(path, "-") != 0 && (stat(path, &s) != 0 || S_ISREG(s.st_mode));
+}
+
 int sweep_with(iso_context *ctx, const void *options_given, const sweep_team *team)
 {
     const options *o = options_given;
     iso_sweep_file *file;
     if (!o->merge && o->parts.count > 1)
         return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
-    if (team->members > 1 && strcmp(o->file, "-") == 0)
-        return complain("sweep: standard input reaches one rank alone: give a file"), EXIT_USAGE;
     const bool computes = !o->merge && isnan(o->point); /* else one member is enough */
+    if (computes && team->members > 1 && !is_file(o->file))
+        return complain("sweep: a pipe reaches one rank alone: give a file"), EXIT_USAGE;
+    if (computes && team->members > 1 && strcmp(o->output, "-") == 0)
+        return complain("sweep: mpirun does not tell whether its output arrives: give -o FILE"), EXIT_USAGE;
     if (!computes && !team->writes) return EXIT_DONE;
     if (o->merge) return merge(ctx, o);
     int result = finish(ctx, iso_sweep_read(ctx, o->file, iso_sweep_topics(), &file));

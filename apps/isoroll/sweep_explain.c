@@ -6,20 +6,23 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
 #include "io/sweep_file.h"
 #include "study/sweep.h"
 
-/* Places of the sweep at which points are computed, how many of each, and for how long at most. */
-enum { PLACES = 8, POINTS = 64 };
-static const double patience = 4; /* seconds for each quantity */
+/* Places of the sweep at which points are computed, how many of each, and for how long at most. A chaotic share is
+ * measured with STARTS orbits where it asks for many more: its time grows with them. */
+enum { PLACES = 8, POINTS = 64, STARTS = 48 };
+static const double patience = 10; /* seconds for each quantity */
 
 bool is_sweep(const char *path)
 {
     static const size_t most = 1 << 20;
     bool found = false;
-    FILE *file = strcmp(path, "-") == 0 ? NULL : fopen(path, "r");
+    struct stat s; /* what a pipe holds can be read once */
+    FILE *file = stat(path, &s) == 0 && S_ISREG(s.st_mode) ? fopen(path, "r") : NULL;
     char *text = file ? malloc(most) : NULL;
     if (text) found = iso_sweep_is_one(text, fread(text, 1, most, file));
     free(text);
@@ -37,21 +40,22 @@ static double now(void)
 /* Seconds of one point: the mean, and the largest mean of a place. */
 typedef struct cost {
     double mean, most;
-    size_t points, failed;
+    size_t points, failed, places;
 } cost;
 
 static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_rows *rows, cost *c)
 {
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
-    const size_t all = head->count < PLACES ? head->count : PLACES;
     double total = 0;
     *c = (cost){.mean = 0};
-    for (size_t p = 0; p < all && total < patience; p++) {
-        const size_t first = (size_t)(((double)p + 0.5) / (double)all * (double)head->count);
+    static const int order[PLACES] = {4, 1, 6, 3, 7, 0, 5, 2}; /* if time is short, places far from each other */
+    for (size_t p = 0; p < PLACES && total < patience; p++) {
+        const size_t first = (size_t)((order[p] + 0.5) / PLACES * (double)head->count);
+        if (head->count < PLACES && p >= head->count) break;
         size_t count = rows->most < POINTS ? rows->most : POINTS;
         if (count > head->count - first) count = head->count - first;
         if (c->points > 0 && total / (double)c->points * (double)count > patience) count = 1; /* they are slow */
-        if (p == 0) count = 1;
+        if (p == 0 || head->count < PLACES) count = 1;
         const double before = now();
         const iso_status status = iso_sweep_measure_points(ctx, sweep, first, count, rows);
         const double time = now() - before;
@@ -60,6 +64,7 @@ static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_ro
         c->points += count;
         c->most = fmax(c->most, time / (double)count);
         for (size_t i = 0; i < count; i++) c->failed += rows->status[i] != ISO_OK;
+        c->places++;
     }
     c->mean = total / (double)c->points;
     return ISO_OK;
@@ -85,6 +90,23 @@ static int processors(void)
     return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
 }
 
+static size_t head_count(const iso_sweep *sweep)
+{
+    return iso_sweep_head_of(sweep)->count;
+}
+
+/* Gives by how much a point with all its starts takes longer. */
+static double take_few_starts(const iso_sweep_topic *topic, iso_sweep_wish *wish)
+{
+    for (int i = 0; topic->settings && topic->settings[i].name; i++) {
+        const double starts = wish->setting[i];
+        if (strcmp(topic->settings[i].name, "starts") != 0 || !(starts > 2 * STARTS)) continue;
+        wish->setting[i] = STARTS;
+        return starts / STARTS;
+    }
+    return 1;
+}
+
 /* One quantity by itself; *mean: seconds of a point. */
 static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan, int which, size_t chunk,
                                    double *mean)
@@ -92,21 +114,26 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     iso_sweep_plan one = *plan;
     iso_sweep *sweep;
     iso_sweep_rows rows;
-    cost c;
+    cost c = {.mean = 0};
     one.wishes = 1;
     one.wish[0] = plan->wish[which];
     one.chunk = chunk;
     const iso_sweep_topic *topic = iso_sweep_topics()[one.wish[0].topic];
+    const double scale = take_few_starts(topic, &one.wish[0]);
     iso_status status = iso_sweep_create(ctx, &one, &sweep);
     if (status != ISO_OK) return status;
     status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
     if (status == ISO_OK) status = measure(ctx, sweep, &rows, &c);
+    c.mean *= scale;
+    c.most *= scale;
     if (status == ISO_OK) {
         printf("  %-12s %s\n  %-12s ", topic->name, topic->doc, "");
         print_time(c.mean);
         printf(" a point, up to ");
         print_time(c.most);
-        printf(" (%zu points, %zu of them failed); columns", c.points, c.failed);
+        printf(" (%zu points, %zu of them failed%s); columns", c.points, c.failed,
+               c.places > 1 || head_count(sweep) == 1 ? ""
+                                                      : "; one place alone: others may take several times as long");
         const iso_sweep_head *head = iso_sweep_head_of(sweep);
         for (int i = plan->family.columns; i < head->columns; i++) printf(" %s", head->column[i].name);
         printf("\n");

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "io/plot.h"
 #include "io/sweep_store.h"
@@ -48,7 +49,9 @@ bool is_sweep_result(const char *path)
 {
     iso_context *ctx = iso_context_create();
     iso_sweep_reader *reader = NULL;
-    const bool found = ctx && strcmp(path, "-") != 0 && iso_sweep_reader_open(ctx, path, &reader) == ISO_OK;
+    struct stat s; /* what a pipe holds can be read once */
+    const bool found =
+        ctx && stat(path, &s) == 0 && S_ISREG(s.st_mode) && iso_sweep_reader_open(ctx, path, &reader) == ISO_OK;
     iso_sweep_reader_close(reader);
     iso_context_free(ctx);
     return found;
@@ -135,8 +138,11 @@ static iso_status choose_value(iso_context *ctx, const char *wanted, table *t)
     t->value = wanted ? find(t, wanted) : -1;
     if (wanted && t->value < 0) return no_such_column(ctx, wanted, t);
     for (size_t i = 0; !wanted && i < count && t->value < 0; i++) t->value = find(t, known[i].value);
-    for (int c = 0; c < t->head->columns && t->value < 0; c++)
-        if (strcmp(t->head->column[c].group, "vary") != 0) t->value = c;
+    for (int c = 0; c < t->head->columns && t->value < 0; c++) {
+        const iso_sweep_column *column = &t->head->column[c];
+        const bool clock = strcmp(column->group, "state") == 0 && strcmp(column->name, "t") == 0; /* often constant */
+        if (strcmp(column->group, "vary") != 0 && !clock) t->value = c;
+    }
     if (t->value < 0) return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "nothing was measured");
     char name[NAME];
     name_of(&t->head->column[t->value], name);
@@ -237,6 +243,37 @@ static bool takes_moments(const table *t, layout *l, int rest[], int *others)
     return true;
 }
 
+/* Different values of a column, counted no further than what has room. */
+static int values_of(const table *t, int column)
+{
+    double seen[ISO_PLOT_MAPS];
+    int count = 0;
+    for (size_t i = 0; i < t->count; i++) {
+        const double x = at(t, i, column);
+        int j = 0;
+        while (j < count && seen[j] != x) j++;
+        if (j < count) continue;
+        if (count == ISO_PLOT_MAPS) return ISO_PLOT_MAPS + 1;
+        seen[count++] = x;
+    }
+    return count;
+}
+
+/* Of three numbers that vary the one with the fewest values tells the maps apart. */
+static void take_columns(const table *t, layout *l)
+{
+    int panel = -1, fewest = ISO_PLOT_MAPS + 2, rest[2], others = 0;
+    for (int i = 0; i < t->axes && t->axes == 3; i++) {
+        const int values = values_of(t, t->axis[i]);
+        if (values < fewest) fewest = values, panel = i;
+    }
+    for (int i = 0; i < t->axes; i++)
+        if (i != panel) rest[others++] = t->axis[i];
+    if (panel >= 0) l->panel = t->axis[panel];
+    l->x = rest[0];
+    l->y = rest[1];
+}
+
 static iso_status choose_layout(iso_context *ctx, const table *t, layout *l)
 {
     int rest[MOST_AXES], others;
@@ -250,9 +287,7 @@ static iso_status choose_layout(iso_context *ctx, const table *t, layout *l)
         if (left == 1) l->panel = rest[0];
         return ISO_OK;
     }
-    if (left == 1) l->panel = t->axis[0]; /* the slowest one */
-    l->x = t->axis[left];
-    l->y = t->axis[left + 1];
+    take_columns(t, l);
     snprintf(l->x_name, NAME, "%s", t->head->column[l->x].name);
     snprintf(l->y_name, NAME, "%s", t->head->column[l->y].name);
     return ISO_OK;

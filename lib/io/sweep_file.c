@@ -374,7 +374,8 @@ bool iso_sweep_is_one(const char *text, size_t length)
     iso_yaml y = {.ctx = ctx, .name = ""};
     const bool loaded = ctx && iso_yaml_load(&y, text, length) == ISO_OK;
     const yaml_node_t *root = loaded ? yaml_document_get_root_node(&y.document) : NULL;
-    const bool is = root && root->type == YAML_MAPPING_NODE && iso_yaml_find(&y, root, "vary", NULL, NULL);
+    const bool is = root && root->type == YAML_MAPPING_NODE &&
+                    (iso_yaml_find(&y, root, "vary", NULL, NULL) || iso_yaml_find(&y, root, "measure", NULL, NULL));
     if (loaded) iso_yaml_free(&y);
     iso_context_free(ctx);
     return is;

@@ -59,7 +59,7 @@ ISO_API bool iso_sweep_axis_words(const iso_sweep_file *file, int i, char words[
  * same scene, to the bit. *text is the caller's to free. Errors: ISO_NO_MEMORY, and those of the point. */
 ISO_API iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, size_t i, char **text);
 
-/* Whether a text is a sweep, with mistakes in it or not: YAML that has a key `vary` at its top. */
+/* Whether a text is a sweep, with mistakes in it or not: YAML that has a key `vary` or `measure` at its top. */
 ISO_API bool iso_sweep_is_one(const char *text, size_t length);
 
 ISO_C_END

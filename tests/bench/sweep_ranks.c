@@ -1,8 +1,8 @@
 /* What efficiency a sweep would reach on many ranks of MPI: a simulation with times that are measured here.
  *
- *     bench_sweep_ranks [DRAW] [MESSAGE]        microseconds; default 5 and 15
+ *     bench_sweep_ranks [FETCH] [MESSAGE]        microseconds; default 5 and 15
  *
- * DRAW: the counter is busy so long for a chunk. MESSAGE: rank 0 is busy so long for a message, besides its rows.
+ * FETCH: the counter is busy so long for a chunk. MESSAGE: rank 0 is busy so long for a message, besides its rows.
  * `ISOROLL_TIMES=1 mpirun ... isoroll-mpi sweep ...` prints both for a machine.
  *
  * Measured: how the times of chunks are spread (chaotic shares at 60 values of k: their mean is scaled to what the

@@ -85,6 +85,15 @@ ranks 2 3 sweep grid.yaml -o new.csv --shard 7/3
 once "expected i/n"
 ranks 2 3 run scene.yaml
 once "has the command 'sweep' alone"
+ranks 2 2 sweep grid.yaml -o -
+once "mpirun does not tell whether its output arrives: give -o FILE"
+ranks 2 2 sweep - -o new.csv
+once "a pipe reaches one rank alone: give a file"
+# shellcheck disable=SC2086
+timeout 60 "$mpirun" $options -n 2 "$program" sweep grid.yaml -o new.csv : -n 1 "$program" sweep grid.yaml --nothing \
+    >out 2>err </dev/null
+check "a rank with other options ends all: status $?" test $? -eq 2
+once "rank 2: sweep: unknown or ambiguous option --nothing"
 ranks 0 3 --version
 check "the version, once" test "$(grep -c '^isoroll' out)" -eq 1
 check_not "nothing is written" test -e new.csv
