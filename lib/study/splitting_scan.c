@@ -189,7 +189,8 @@ static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
 {
     static const char what[] = "the splitting is measured";
     if (!scene) return ISO_OK;
-    return scene->start.model == ISO_POINT ? iso_study_check_free_start(ctx, scene, &scene->effects, what)
+    const iso_effects acting = iso_effects_acting(&scene->effects);
+    return scene->start.model == ISO_POINT ? iso_study_check_free_start(ctx, scene, &acting, what)
                                            : iso_study_check_free(ctx, &scene->effects, what);
 }
 
