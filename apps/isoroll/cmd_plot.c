@@ -125,14 +125,13 @@ static iso_status read_two(iso_context *ctx, const options *o, iso_record **file
     return iso_context_fail(ctx, status, "", "%s", words);
 }
 
-static iso_status find_column(iso_context *ctx, const options *o, const iso_record *r, const char *name)
+static iso_status find_column(iso_context *ctx, const iso_record *r, const char *name)
 {
     char there[400] = "";
     if (iso_record_find(r, name) >= 0) return ISO_OK;
     for (size_t c = 0, used = 0; c < iso_record_columns(r) && used < sizeof there - NAME; c++)
         used += (size_t)snprintf(there + used, sizeof there - used, " %s", iso_record_name(r, c));
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "%s: no column '%s'; there are%s", name_of(o), name,
-                            there);
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "there is no column '%s'; there are%s", name, there);
 }
 
 /* Components of one vector: one unit is then equally long on both axes. */
@@ -148,7 +147,7 @@ static iso_status draw_two(iso_context *ctx, const options *o, char name[2][NAME
     char title[160];
     iso_record *file = NULL;
     iso_status status = read_two(ctx, o, &file);
-    for (int i = 0; status == ISO_OK && i < 2; i++) status = find_column(ctx, o, file, name[i]);
+    for (int i = 0; status == ISO_OK && i < 2; i++) status = find_column(ctx, file, name[i]);
     if (status == ISO_OK) {
         snprintf(title, sizeof title, "%.60s: %zu rows", name_of(o), iso_record_rows(file));
         status = iso_plot_columns(ctx, o->output, title, file, name[0], name[1], are_components(name[0], name[1]));

@@ -51,8 +51,8 @@ static void print_power(char text[64], int power)
 
 enum {
     MOST_COUNT = 2000, /* ticks this many steps from 0 are counted from the first one */
-    LARGE = 5,         /* from 10^5 on, and below 10^-3, a power of ten is taken out  */
-    SMALL = -3
+    LARGE = 5,         /* from 10^5 on, and below 10^-2, a power of ten is taken out  */
+    SMALL = -2
 };
 
 /* Ticks at i digit 10^power, for i = first ... last. They are written less base, over 10^taken. */

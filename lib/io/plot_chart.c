@@ -94,7 +94,7 @@ static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_ch
     char name[ISO_PLOT_NAME];
     fputs("unset label; unset arrow; unset object; set size noratio; set border 3 lc rgb '#606060'; set logscale y\n"
           "set grid ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'; unset ylabel\n"
-          "set key left top Left reverse vertical maxrows 16 samplen 3 spacing 1.2 noenhanced title 'largest' left "
+          "set key left top Left reverse vertical maxrows 16 samplen 2 spacing 1.2 noenhanced title 'largest' left "
           "enhanced\nset key at screen ",
           f);
     iso_gnuplot_number(f, chart->box.right + 0.015);

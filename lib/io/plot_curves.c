@@ -123,7 +123,8 @@ void iso_plot_curves(FILE *f, const iso_plot_panel *p)
     for (int c = 0; c < p->count; c++) put_data(f, p, c);
     fputs("unset label; unset arrow; unset object; unset title; unset logscale; set border 3 lc rgb '#606060'\n"
           "set grid xtics ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'; unset xlabel; unset ylabel; unset y2tics\n"
-          "set key default; set key noenhanced horizontal Left reverse samplen 2 at graph 1,1.03 right bottom\n",
+          "set key default; set key noenhanced horizontal maxrows 1 Left reverse samplen 2 at graph 1,1.03 right "
+          "bottom\n",
           f);
     fprintf(f, "set size %s\n", p->equal ? "ratio -1" : "noratio");
     iso_plot_place(f, &p->box);
@@ -139,7 +140,7 @@ void iso_plot_curves(FILE *f, const iso_plot_panel *p)
         fputs(curve->name ? "title " : "notitle", f);
         if (curve->name) iso_gnuplot_text(f, curve->name, 60);
     }
-    if (p->marks) fputs(", NaN with lines " ISO_PLOT_LOST_LINE " title 'contact lost'", f);
+    if (p->marks && p->count < 3) fputs(", NaN with lines " ISO_PLOT_LOST_LINE " title 'contact lost'", f);
     fputs("\nset autoscale; unset y2tics; unset y2label; unset label; unset arrow; set size noratio\n", f);
 }
 

@@ -133,6 +133,9 @@ bool iso_plot_is_narrow(const iso_plot_scenery *scenery);
 /* The two views. A narrow path has one, in a wide box. */
 void iso_plot_view(FILE *script, const iso_plot_box *box, const iso_plot_scenery *scenery, bool from_above);
 
+/* How high the higher of the two is, in parts of their width. */
+double iso_plot_view_shape(const iso_plot_scenery *scenery);
+
 /* The entries of their key, into text. */
 void iso_plot_view_key(const iso_plot_scenery *scenery, char text[static 512]);
 

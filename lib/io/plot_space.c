@@ -17,6 +17,7 @@
 
 #define ALIKE 1e-6 /* directions and radii that differ by less are the same             */
 #define NARROW 6   /* a path that is so many times longer than wide has a wide panel    */
+#define FLAT 3     /* the same on a sphere: the eye looks at its side                  */
 #define LOST 1e-9  /* a pressure below this part of the largest is 0                    */
 
 static const double *vector_at(const iso_record *r, size_t row, int column)
@@ -131,10 +132,16 @@ static void name_views(iso_plot_scenery *s, bool axes)
     s->from_above = s->vertical   ? "the way of the ball, seen from above"
                     : level_plane ? "the way of the ball, seen along the normal of the plane"
                                   : "the way of the ball, seen along axis 3 of space";
-    s->from_side = s->vertical ? "seen from the side" : "seen along axis 2 of space";
-    s->right_name = axes ? "axis 1" : "horizontal";
-    s->away_name = axes ? "axis 2" : "horizontal";
+    s->from_side = s->vertical ? "seen from the side" : axes ? "seen along axis 2 of space" : "seen across axis 3";
+    s->right_name = axes ? "axis 1" : s->vertical ? "horizontal" : "across axis 3";
+    s->away_name = axes ? "axis 2" : s->vertical ? "horizontal" : "across axis 3";
     s->up_name = !s->vertical ? "axis 3" : axes ? "height (axis 3)" : "height";
+}
+
+/* Whether the way lies nearly in one upright plane, which is then seen from the front. */
+static bool is_flat(const iso_plot_scenery *s)
+{
+    return s->high[0] - s->low[0] > FLAT * (s->high[1] - s->low[1]);
 }
 
 /* Sideways: down the slope of a plane, along a narrow way, else axis 1 of space. */
@@ -147,7 +154,7 @@ static void choose_directions(iso_plot_scenery *s, const double normal[3], bool 
     if (!s->level) {
         turn_to(s, right);
         name_views(s, false);
-        s->right_name = "horizontal, down the slope", s->away_name = "horizontal, across the slope";
+        s->right_name = "horizontal, down the slope", s->away_name = "across the slope";
         return;
     }
     if (upright)
@@ -156,12 +163,16 @@ static void choose_directions(iso_plot_scenery *s, const double normal[3], bool 
         across(axis[1], s->up, right);
     turn_to(s, right);
     name_views(s, upright);
-    if (!s->plane || !find_far(s, right)) return;
+    if (!find_far(s, right)) return;
     iso_plot_scenery turned = *s;
     turn_to(&turned, right);
-    if (!iso_plot_is_narrow(&turned)) return;
+    if (!(s->plane ? iso_plot_is_narrow(&turned) : is_flat(&turned))) return;
     *s = turned;
-    s->right_name = "along the way", s->away_name = "across, on a larger scale";
+    name_views(s, false);
+    if (!s->plane) return;
+    s->from_above = s->vertical ? "the way of the ball, seen from above; across on a larger scale"
+                                : "the way of the ball, along the normal of the plane; across on a larger scale";
+    s->right_name = "along the way", s->away_name = "across";
 }
 
 bool iso_plot_is_narrow(const iso_plot_scenery *s)

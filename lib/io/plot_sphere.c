@@ -20,7 +20,8 @@
 #include "io/plot_impl.h"
 
 enum {
-    MARKERS = 48 /* of the second backend on each path */
+    MARKERS = 48, /* of the second backend on each path  */
+    FEW = 500     /* rows that are drawn as larger dots  */
 };
 #define ARC 0.07   /* longest straight piece of a path, in radians                     */
 #define JOINED 0.6 /* rows farther apart than this are no path: they are drawn as dots */
@@ -195,7 +196,8 @@ void iso_plot_sphere(FILE *f, const iso_plot_box *box, const iso_record *line, i
 {
     const char *near_style = fine ? "lines lw 0.8" : "lines lw 1.8";
     const char *far_style = "lines lw 0.8";
-    if (!is_joined(line, line_column)) near_style = far_style = "points pt 7 ps 0.2";
+    if (!is_joined(line, line_column))
+        near_style = far_style = iso_plot_drawn_rows(line) > FEW ? "points pt 7 ps 0.2" : "points pt 7 ps 0.5";
     for (int near = 0; near < 2; near++) {
         put_graticule(f, near);
         put_path(f, line, line_column, near);

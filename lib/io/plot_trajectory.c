@@ -15,7 +15,7 @@
 #include "io/plot_impl.h"
 
 /* In pixels. */
-enum { WIDTH = 900, TITLE = 50, SQUARE = 420, WIDE = 270, CHART = 235, LINE = 40, FOOT = 12 };
+enum { WIDTH = 900, TITLE = 50, SQUARE = 420, VIEW = 320, WIDE = 270, CHART = 235, LINE = 40, FOOT = 12 };
 
 typedef enum square { FROM_ABOVE, FROM_SIDE, ON_BALL, ON_POINT, SQUARES } square;
 typedef enum chart { ENERGIES, PRESSURE, DRIFT, CLOCKS, CHARTS } chart;
@@ -28,7 +28,7 @@ typedef struct sheet {
     int ball, point;   /* first columns of n or the trace, and of gamma; -1: not there */
     square square[SQUARES];
     chart chart[CHARTS];
-    int squares, charts;
+    int squares, charts, beside; /* beside: charts on the right of the last square */
     bool narrow, noise;
     size_t lost[ISO_PLOT_MARKS];
     int losses;
@@ -121,16 +121,32 @@ static void choose_panels(sheet *s)
     s->noise = p->drift && largest_drift(p->drift) < 1000 * DBL_EPSILON;
     if (p->energies && !is_constant(p->energies)) s->chart[s->charts++] = ENERGIES;
     if (has_pressure(p)) s->chart[s->charts++] = PRESSURE;
-    if (p->drift && !s->noise) s->chart[s->charts++] = DRIFT;
+    const bool drift = p->drift && !s->noise, odd = s->squares % 2;
+    if (drift && !odd) s->chart[s->charts++] = DRIFT;
     if (p->clocks) s->chart[s->charts++] = CLOCKS;
+    s->beside = !odd ? 0 : s->charts < 2 ? s->charts : 2;
+    if (drift && odd) s->chart[s->charts++] = DRIFT; /* its key needs room: not beside a square */
     if (p->ball) s->losses = iso_plot_losses(p->ball, s->lost);
+}
+
+static bool is_view(square which)
+{
+    return which == FROM_ABOVE || which == FROM_SIDE;
+}
+
+/* The height of a row of squares: that of two views can be less. */
+static int row_height(const sheet *s, int first)
+{
+    const bool views = is_view(s->square[first]) && first + 1 < s->squares && is_view(s->square[first + 1]);
+    return views ? SQUARE - (int)(VIEW * (1 - iso_plot_view_shape(&s->scenery))) : SQUARE;
 }
 
 static void choose_height(sheet *s)
 {
-    const int beside = s->squares % 2 ? (s->charts < 2 ? s->charts : 2) : 0;
-    s->height = TITLE + (s->narrow ? WIDE : 0) + (s->squares + 1) / 2 * SQUARE +
-                (s->charts - beside + 1) / 2 * CHART + (s->noise ? LINE : 0) + FOOT;
+    int rows = 0;
+    for (int i = 0; i < s->squares; i += 2) rows += row_height(s, i);
+    s->height = TITLE + (s->narrow ? WIDE : 0) + rows + (s->charts - s->beside + 1) / 2 * CHART +
+                (s->noise ? LINE : 0) + FOOT;
 }
 
 /* --- where it stands -------------------------------------------------------------------------------------------- */
@@ -157,11 +173,6 @@ static void put_title(const sheet *s)
 
 /* --- squares ---------------------------------------------------------------------------------------------------- */
 
-static bool is_view(square which)
-{
-    return which == FROM_ABOVE || which == FROM_SIDE;
-}
-
 static void put_key(const sheet *s, square which, double x, int from_above)
 {
     char text[512];
@@ -180,11 +191,11 @@ static void put_sphere(const sheet *s, const iso_plot_box *box, const iso_record
     iso_plot_sphere(s->f, box, r, column, NULL, 0, iso_plot_is_long(r, column));
 }
 
-static void put_square(const sheet *s, square which, int left)
+static void put_square(const sheet *s, square which, int left, int height)
 {
     const int y = s->y;
-    const iso_plot_box view = box_of(s, left + 75, left + 435, y + 25, y + SQUARE - 75);
-    const iso_plot_box sphere = box_of(s, left + 9, left + 441, y + 25, y + SQUARE - 40);
+    const iso_plot_box view = box_of(s, left + 75, left + 435, y + 25, y + height - 75);
+    const iso_plot_box sphere = box_of(s, left + 9, left + 441, y + 25, y + height - 40);
     if (is_view(which))
         iso_plot_view(s->f, &view, &s->scenery, which == FROM_ABOVE);
     else if (which == ON_POINT)
@@ -198,14 +209,15 @@ static void put_square(const sheet *s, square which, int left)
 
 static void put_energies(const sheet *s, const iso_plot_box *box)
 {
-    static const iso_plot_curve curve[] = {
-        {1, "h, all", "'black'", false}, {2, "kinetic", ISO_PLOT_BLUE, false}, {3, "potential", "'#E69F00'", false}};
+    static const iso_plot_curve curve[] = {{1, "energy h", "'black'", false},
+                                           {2, "kinetic", ISO_PLOT_BLUE, false},
+                                           {3, "potential", "'#E69F00'", false}};
     const int count = (int)iso_record_columns(s->plot->energies) - 1;
     iso_plot_curves(s->f, &(iso_plot_panel){.box = *box,
                                             .rows = s->plot->energies,
                                             .count = count < 3 ? count : 3,
                                             .curve = curve,
-                                            .title = "energy",
+
                                             .mark = s->lost,
                                             .marks = s->losses});
 }
@@ -227,8 +239,8 @@ static void put_pressure(const sheet *s, const iso_plot_box *box)
 {
     const iso_record *r = s->plot->ball;
     const int pressure = iso_record_find(r, "pressure"), mu = iso_record_find(r, "mu");
-    const iso_plot_curve curve[] = {{pressure, "pressure (left)", ISO_PLOT_BLUE, false},
-                                    {mu, "friction needed, mu (right)", "'#CC79A7'", true}};
+    const iso_plot_curve curve[] = {{pressure, "pressure", ISO_PLOT_BLUE, false},
+                                    {mu, "mu (right)", "'#CC79A7'", true}};
     iso_plot_curves(s->f, &(iso_plot_panel){.box = *box,
                                             .rows = r,
                                             .over = clock_of(r),
@@ -250,10 +262,10 @@ static void put_clocks(const sheet *s, const iso_plot_box *box)
 }
 
 /* A chart in this part of the sheet, with its title above and its numbers around it. */
-static void put_chart(const sheet *s, chart which, int left, int right, int top)
+static void put_chart(const sheet *s, chart which, int left, int right, int top, int height)
 {
-    const iso_plot_box box = box_of(s, left + 75, right - 55, top + 40, top + CHART - 55);
-    const iso_plot_box beside_key = box_of(s, left + 75, right - 155, top + 40, top + CHART - 55);
+    const iso_plot_box box = box_of(s, left + 75, right - 55, top + 40, top + height - 52);
+    const iso_plot_box beside_key = box_of(s, left + 75, right - 180, top + 40, top + height - 52);
     if (which == ENERGIES) put_energies(s, &box);
     if (which == PRESSURE) put_pressure(s, &box);
     if (which == CLOCKS) put_clocks(s, &box);
@@ -288,25 +300,25 @@ static void put_noise(const sheet *s)
 
 /* --- the sheet -------------------------------------------------------------------------------------------------- */
 
-static void put_squares(sheet *s, int *used)
+static void put_squares(sheet *s)
 {
-    for (int i = 0; i < s->squares; i += 2, s->y += SQUARE) {
+    for (int i = 0; i < s->squares; i += 2) {
+        const int height = row_height(s, i);
         const bool pair = i + 1 < s->squares, alike = pair && is_view(s->square[i]) == is_view(s->square[i + 1]);
-        const int beside = pair ? 0 : s->charts < 2 ? s->charts : 2, left = pair || beside ? 0 : WIDTH / 4;
-        put_square(s, s->square[i], left);
-        if (pair) put_square(s, s->square[i + 1], WIDTH / 2);
-        put_key(s, s->square[i], alike ? 0.5 : (left + WIDTH / 4.0) / WIDTH, s->y + SQUARE - 25);
-        if (pair && !alike) put_key(s, s->square[i + 1], 0.75, s->y + SQUARE - 25);
+        const int beside = pair ? 0 : s->beside, left = pair || beside ? 0 : WIDTH / 4;
+        put_square(s, s->square[i], left, height);
+        if (pair) put_square(s, s->square[i + 1], WIDTH / 2, height);
+        put_key(s, s->square[i], alike ? 0.5 : (left + WIDTH / 4.0) / WIDTH, s->y + height - 19);
+        if (pair && !alike) put_key(s, s->square[i + 1], 0.75, s->y + height - 19);
         for (int c = 0; c < beside; c++)
-            put_chart(s, s->chart[c], WIDTH / 2, WIDTH,
-                      s->y + (beside == 1 ? (SQUARE - CHART) / 2 : c * SQUARE / 2 - 10));
-        *used = beside;
+            put_chart(s, s->chart[c], WIDTH / 2, WIDTH, s->y + c * SQUARE / 2 - (beside == 1 ? 0 : 8),
+                      beside == 1 ? SQUARE - 50 : SQUARE / 2);
+        s->y += height;
     }
 }
 
 static void put_sheet(sheet *s)
 {
-    int used = 0;
     s->y = TITLE;
     if (s->narrow) {
         const iso_plot_box wide = box_of(s, 75, WIDTH - 35, s->y + 30, s->y + WIDE - 80);
@@ -314,11 +326,11 @@ static void put_sheet(sheet *s)
         put_key(s, FROM_ABOVE, 0.5, s->y + WIDE - 20);
         s->y += WIDE;
     }
-    put_squares(s, &used);
-    for (; used < s->charts; used += 2, s->y += CHART) {
+    put_squares(s);
+    for (int used = s->beside; used < s->charts; used += 2, s->y += CHART) {
         const bool pair = used + 1 < s->charts;
-        put_chart(s, s->chart[used], 0, pair ? WIDTH / 2 : WIDTH, s->y);
-        if (pair) put_chart(s, s->chart[used + 1], WIDTH / 2, WIDTH, s->y);
+        put_chart(s, s->chart[used], 0, pair ? WIDTH / 2 : WIDTH, s->y, CHART);
+        if (pair) put_chart(s, s->chart[used + 1], WIDTH / 2, WIDTH, s->y, CHART);
     }
     if (s->noise) put_noise(s);
 }

@@ -6,7 +6,9 @@
 #include "io/gnuplot_impl.h"
 #include "io/plot_impl.h"
 
-#define JOINED 0.6 /* rows farther apart than this, as seen from the centre of the sphere, are no path: dots */
+#define JOINED 0.6    /* rows farther apart than this, as seen from the centre of the sphere, are no path: dots */
+#define OUTLINE 0.1   /* so near the outline of the support, as a part of its radius, nothing is hidden */
+#define FLATTEST 0.45 /* height of a view, of its width, and the other way round, at least */
 #define MARGIN 0.06
 
 typedef struct view {
@@ -69,7 +71,7 @@ static void put_path(FILE *f, const view *v, int column, const char *name, bool 
     for (size_t i = 0; i < iso_plot_drawn_rows(v->s->rows); i++) {
         const double *place = iso_plot_drawn_row(v->s->rows, i) + column;
         double at[2];
-        const bool seen = !hides || v->sign * dot(place, v->towards) >= 0;
+        const bool seen = !hides || v->sign * dot(place, v->towards) >= -OUTLINE * v->s->support;
         project(v, place, at);
         if (seen == near || open) iso_gnuplot_pair(f, at[0], at[1]); /* a piece ends where the next one begins */
         if (seen != near && open) fputc('\n', f);
@@ -143,7 +145,25 @@ static void put_balls(FILE *f, const view *v)
                "back fc rgb " ISO_PLOT_FAR_BLUE " fs transparent solid 0.35 border lc rgb '#606060'");
 }
 
+/* Where contact is lost in the last row, that sign says more. */
+static bool shows_end(const iso_plot_scenery *s)
+{
+    return s->losses == 0 || s->lost[s->losses - 1] != iso_record_rows(s->rows) - 1;
+}
+
 /* --- the panel -------------------------------------------------------------------------------------------------- */
+
+/* Both views of a sphere have one scale: as wide as the widest of the three directions needs. */
+static void fill_square(const iso_plot_scenery *s, double range[2][2])
+{
+    double width = 0;
+    for (int a = 0; a < 3; a++)
+        width = fmax(width, fmax(s->high[a] + s->ball, s->support) - fmin(s->low[a] - s->ball, -s->support));
+    for (int a = 0; a < 2; a++) {
+        const double middle = (range[a][0] + range[a][1]) / 2, half = width * (0.5 + MARGIN);
+        range[a][0] = middle - half, range[a][1] = middle + half;
+    }
+}
 
 /* What must fit into the panel: the path, the ball, the sphere. */
 static void find_range(const view *v, double range[2][2])
@@ -161,11 +181,25 @@ static void find_range(const view *v, double range[2][2])
         if (s->support > 0) range[a][0] = fmin(range[a][0], -s->support);
         if (s->support > 0) range[a][1] = fmax(range[a][1], s->support);
     }
-    for (int a = 0; a < 2; a++) {
-        const double other = v->narrow ? 0 : 0.2 * (range[1 - a][1] - range[1 - a][0]);
+    if (s->support > 0) fill_square(s, range);
+    for (int a = 0; a < 2 && s->support == 0; a++) {
+        const double other = v->narrow ? 0 : FLATTEST * (range[1 - a][1] - range[1 - a][0]);
         const double width = range[a][1] - range[a][0], room = MARGIN * width + fmax(0, (other - width) / 2);
         range[a][0] -= room, range[a][1] += room;
     }
+}
+
+double iso_plot_view_shape(const iso_plot_scenery *s)
+{
+    double shape = FLATTEST;
+    for (int above = 0; above < 2; above++) {
+        const view v = make_view(s, above);
+        double range[2][2];
+        find_range(&v, range);
+        const double width = range[0][1] - range[0][0], height = range[1][1] - range[1][0];
+        shape = fmax(shape, width > 0 ? fmin(height / width, 1) : 1);
+    }
+    return shape;
 }
 
 static void put_axes(FILE *f, const view *v, double range[2][2])
@@ -173,9 +207,9 @@ static void put_axes(FILE *f, const view *v, double range[2][2])
     const iso_plot_scenery *s = v->s;
     char name[ISO_PLOT_NAME];
     const char *along = v->along_range == 1 ? s->away_name : s->up_name;
-    iso_plot_ticks(f, &(iso_plot_axis){"x", range[0][0], range[0][1], v->narrow ? 10 : 4, s->right_name, NULL, true},
+    iso_plot_ticks(f, &(iso_plot_axis){"x", range[0][0], range[0][1], v->narrow ? 10 : 5, s->right_name, NULL, true},
                    name);
-    iso_plot_ticks(f, &(iso_plot_axis){"y", range[1][0], range[1][1], v->narrow ? 5 : 4, along, NULL, true}, name);
+    iso_plot_ticks(f, &(iso_plot_axis){"y", range[1][0], range[1][1], v->narrow ? 4 : 5, along, NULL, true}, name);
 }
 
 /* The sizes of both axes' units, if they differ: a picture whose circles are none must say so. */
@@ -208,7 +242,7 @@ void iso_plot_view(FILE *f, const iso_plot_box *box, const iso_plot_scenery *s, 
     put_support(f, &v, range);
     put_balls(f, &v);
     put_sign(f, &v, 0, ISO_PLOT_START " lc rgb 'black'");
-    put_sign(f, &v, iso_record_rows(s->rows) - 1, ISO_PLOT_END " lc rgb 'black'");
+    if (shows_end(s)) put_sign(f, &v, iso_record_rows(s->rows) - 1, ISO_PLOT_END " lc rgb 'black'");
     for (int i = 0; i < s->losses; i++) put_sign(f, &v, s->lost[i], ISO_PLOT_LOST);
     fprintf(f, "plot $way0 w %s lw 1 lc rgb " ISO_PLOT_FAR_BLUE, with);
     if (both) fprintf(f, ", $touch0 w %s lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION, with);
@@ -223,8 +257,9 @@ void iso_plot_view_key(const iso_plot_scenery *s, char text[static 512])
     snprintf(text, 512,
              "NaN w l lw 1.8 lc rgb " ISO_PLOT_BLUE " title '%s'%s"
              ", NaN w p " ISO_PLOT_START " lc rgb 'black' title 'start'"
-             ", NaN w p " ISO_PLOT_END " lc rgb 'black' title 'end'%s",
+             "%s%s",
              s->centre >= 0 ? "centre" : "contact",
              both ? ", NaN w l lw 1.2 lc rgb " ISO_PLOT_VERMILLION " title 'contact'" : "",
+             shows_end(s) ? ", NaN w p " ISO_PLOT_END " lc rgb 'black' title 'end'" : "",
              s->losses ? ", NaN w p " ISO_PLOT_LOST " title 'contact lost'" : "");
 }
