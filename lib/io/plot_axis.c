@@ -68,7 +68,8 @@ static ticks choose(double low, double high, int most)
     const double step = (high - low) / most;
     t.power = (int)floor(log10(step));
     const double part = step / pow(10, t.power);
-    t.digit = part > 5 ? 10 : part > 2 ? 5 : part > 1 ? 2 : 1;
+    const double rounding = 1 + 1e-9;
+    t.digit = part > 5 * rounding ? 10 : part > 2 * rounding ? 5 : part > rounding ? 2 : 1;
     if (t.digit == 10) t.digit = 1, t.power++;
     const double unit = (double)t.digit * pow(10, t.power);
     t.first = (long long)ceil(low / unit - 1e-9);
@@ -84,7 +85,10 @@ static ticks choose(double low, double high, int most)
 static void put_name(FILE *f, const ticks *t, const iso_plot_axis *axis, char text[static ISO_PLOT_NAME])
 {
     char base[64], power[64];
-    print_decimal(base, (t->base < 0 ? -t->base : t->base) * t->digit, t->power);
+    long long count = (t->base < 0 ? -t->base : t->base) * t->digit;
+    int places = t->power;
+    for (; places < 0 && count % 10 == 0; places++) count /= 10;
+    print_decimal(base, count, places);
     print_power(power, t->taken);
     const bool shifted = t->base != 0, taken = t->taken != 0;
     snprintf(text, ISO_PLOT_NAME, "%s%s%s%s%s%s%s%s", shifted && taken ? "(" : "", axis->name,
