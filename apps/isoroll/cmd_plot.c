@@ -78,8 +78,9 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_params *par
     iso_status status = find_twin(ctx, params, p);
     if (status == ISO_OK) status = pair_clocks(ctx, p);
     if (status == ISO_OK) status = iso_check_drifts(ctx, params, p->file, &p->drifts);
-    const bool has_ball = model_of(p->file) == ISO_BALL;
-    if (status == ISO_OK && has_ball) status = iso_record_energies(ctx, params, p->file, &p->energies);
+    /* of a free ball the energy is one of the integrals */
+    const bool forced = model_of(p->file) == ISO_BALL && iso_record_get(p->file, "effects");
+    if (status == ISO_OK && forced) status = iso_record_energies(ctx, params, p->file, &p->energies);
     if (status != ISO_OK) return status;
     const bool ball = iso_record_find(p->file, "n1") >= 0, point = iso_record_find(p->file, "gamma1") >= 0;
     const bool in_space = find_space(ctx, params, p->file, up, &space);

@@ -68,12 +68,12 @@ static ticks choose(double low, double high, int most)
     const double step = (high - low) / most;
     t.power = (int)floor(log10(step));
     const double part = step / pow(10, t.power);
-    const double rounding = 1 + 1e-9;
+    const double rounding = 1 + 1e-6;
     t.digit = part > 5 * rounding ? 10 : part > 2 * rounding ? 5 : part > rounding ? 2 : 1;
     if (t.digit == 10) t.digit = 1, t.power++;
     const double unit = (double)t.digit * pow(10, t.power);
-    t.first = (long long)ceil(low / unit - 1e-9);
-    t.last = (long long)floor(high / unit + 1e-9);
+    t.first = (long long)ceil(low / unit - 1e-6);
+    t.last = (long long)floor(high / unit + 1e-6);
     t.base = llabs(t.first) > MOST_COUNT || llabs(t.last) > MOST_COUNT ? t.first : 0;
     const double largest = fmax(fabs((double)(t.first - t.base)), fabs((double)(t.last - t.base))) * unit;
     const int size = largest > 0 ? (int)floor(log10(largest) + 1e-9) : 0;
