@@ -65,7 +65,7 @@ tells "bowl" "the way of the ball, seen from above" "seen from the side" "height
     "energy h" "pressure" "mu " "up to rounding" \
     "where it touched the support"
 tells_not "bowl" "contact lost" '$difference' "or less than"
-at_most "radius of the support" "$(sed -n 's/^set object 1 circle at 0,0 size \([^ ]*\).*/\1/p' script | awk '
+at_most "radius of the support" "$(sed -n 's/^set object 1 circle at 0,0 size \([^ ]*\).*/\1/p' script | head -n 2 | awk '
     { d = $1 - 0.3; if (d < 0) d = -d; if (d > worst) worst = d } END { print (NR == 2 ? worst + 0 : "none") }')" 1e-15
 block way1 1 >a && columns_of bowl.csv centre1 centre2 >b && same "from above: centre1, centre2"
 block way1 2 >a && columns_of bowl.csv centre1 centre3 >b && same "from the side: centre1, centre3"
