@@ -144,6 +144,18 @@ void iso_plot_curves(FILE *f, const iso_plot_panel *p)
     fputs("\nset autoscale; unset y2tics; unset y2label; unset label; unset arrow; set size noratio\n", f);
 }
 
+void iso_plot_heading(FILE *f, const char *title, double y)
+{
+    fputs("unset border; unset tics; unset key; set xrange [0:1]; set yrange [0:1]\n"
+          "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
+          "set label 1 ",
+          f);
+    iso_gnuplot_text(f, title ? title : "", 95);
+    fputs(" at screen 0.5,", f);
+    iso_gnuplot_number(f, y);
+    fputs(" center noenhanced font ',12'\nplot NaN notitle\nunset label\n", f);
+}
+
 void iso_plot_key(FILE *f, double x, double y, const char *entries)
 {
     fputs(

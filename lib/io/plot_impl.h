@@ -74,6 +74,9 @@ bool iso_plot_is_long(const iso_record *record, int column);
 size_t iso_plot_drawn_rows(const iso_record *record);
 const double *iso_plot_drawn_row(const iso_record *record, size_t i);
 
+/* A plot that is only the title of the page, at the height y. */
+void iso_plot_heading(FILE *script, const char *title, double y);
+
 /* A plot that is only a key, in one line: its entries, as gnuplot's `plot` takes them, at (x, y). */
 void iso_plot_key(FILE *script, double x, double y, const char *entries);
 

@@ -23,7 +23,7 @@ enum {
     MARKERS = 48, /* of the second backend on each path  */
     FEW = 500     /* rows that are drawn as larger dots  */
 };
-#define ARC 0.07   /* longest straight piece of a path, in radians                     */
+#define ARC 0.1    /* longest straight piece of a path, in radians                     */
 #define JOINED 0.6 /* rows farther apart than this are no path: they are drawn as dots */
 #define LONG 60.0  /* a path of more radians is drawn with a finer line                */
 
@@ -143,7 +143,7 @@ static void put_graticule(FILE *f, bool near)
         const double angle0 = (circle < 6 ? circle : circle - 8) * 30 * degree;
         double last[3] = {0, 0, 0};
         bool open = false;
-        for (int i = 0; i <= 360; i += 4) {
+        for (int i = 0; i <= 360; i += 5) {
             const double lat = circle < 6 ? i * degree : angle0, lon = circle < 6 ? angle0 : i * degree;
             const double v[3] = {cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)};
             if (i > 0) put_arc(f, last, v, near, &open);

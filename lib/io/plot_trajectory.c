@@ -158,19 +158,6 @@ static iso_plot_box box_of(const sheet *s, int left, int right, int top, int bot
                           1 - (double)top / s->height};
 }
 
-static void put_title(const sheet *s)
-{
-    FILE *f = s->f;
-    fputs("unset border; unset tics; unset key; set xrange [0:1]; set yrange [0:1]\n"
-          "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
-          "set label 1 ",
-          f);
-    iso_gnuplot_text(f, s->plot->title ? s->plot->title : "", 95);
-    fputs(" at screen 0.5,", f);
-    iso_gnuplot_number(f, 1 - 22.0 / s->height);
-    fputs(" center noenhanced font ',12'\nplot NaN notitle\nunset label\n", f);
-}
-
 /* --- squares ---------------------------------------------------------------------------------------------------- */
 
 static void put_key(const sheet *s, square which, double x, int from_above)
@@ -363,53 +350,11 @@ iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plo
     if (status == ISO_OK) {
         s.f = iso_gnuplot_script(g);
         fputs("set multiplot\n", s.f);
-        put_title(&s);
+        iso_plot_heading(s.f, s.plot->title, 1 - 22.0 / s.height);
         put_sheet(&s);
         fputs("unset multiplot\nunset output\n", s.f);
         status = iso_gnuplot_close(ctx, g, true);
     }
     iso_record_free(s.trace);
     return status;
-}
-
-/* --- two columns ------------------------------------------------------------------------------------------------ */
-
-static iso_status find_column(iso_context *ctx, const iso_record *r, const char *name, int *column)
-{
-    *column = iso_record_find(r, name);
-    if (*column < 0) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "a picture: there is no column '%s'", name);
-    for (size_t i = 0; i < iso_record_rows(r); i++)
-        if (!isfinite(iso_record_const_row(r, i)[*column]))
-            return iso_context_fail(ctx, ISO_NUMERICAL, name, "a picture: %s is not finite in row %zu", name, i + 1);
-    return ISO_OK;
-}
-
-iso_status iso_plot_columns(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
-                            const char *x, const char *y, bool equal)
-{
-    ISO_DEFAULT_ARITHMETIC;
-    iso_gnuplot *g;
-    iso_plot_curve curve = {0, NULL, ISO_PLOT_BLUE, false};
-    int over = -1;
-    char words[100];
-    sheet s = {.plot = &(iso_plot_orbit){.title = title}, .height = equal ? 900 : 560};
-    iso_status status = iso_record_rows(rows) > 0
-                            ? find_column(ctx, rows, x, &over)
-                            : iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs at least one row");
-    if (status == ISO_OK) status = find_column(ctx, rows, y, &curve.column);
-    if (status == ISO_OK) status = iso_gnuplot_open(ctx, path, WIDTH, s.height, &g);
-    if (status != ISO_OK) return status;
-    s.f = iso_gnuplot_script(g);
-    snprintf(words, sizeof words, "%s over %s", iso_plot_symbol(y), iso_plot_symbol(x));
-    fputs("set multiplot\n", s.f);
-    put_title(&s);
-    iso_plot_curves(s.f, &(iso_plot_panel){.box = box_of(&s, 95, WIDTH - 55, 85, s.height - 60),
-                                           .rows = rows,
-                                           .over = over,
-                                           .count = 1,
-                                           .curve = &curve,
-                                           .title = words,
-                                           .equal = equal});
-    fputs("unset multiplot\nunset output\n", s.f);
-    return iso_gnuplot_close(ctx, g, true);
 }
