@@ -23,7 +23,7 @@ compared() {
     shift
     "$isoroll" compare "$name/scene.yaml" --plot "$name/picture.svg" "$@" >"$work/out"
 }
-compared 01_bowling_ball --t-end 30 --step 0.3
+compared 01_bowling_ball --t-end 60 --step 0.35
 compared 02_neumann_shell --t-end 50 --step 0.5
 compared 03_outside --t-end 30 --step 0.3
 compared 04_inside --t-end 25 --step 0.25
@@ -45,7 +45,7 @@ seen() {
 }
 seen 01_bowling_ball/lane 01_bowling_ball/lane.yaml --step 0.25 --tol 1e-14
 seen 09_off_the_top/off 09_off_the_top/scene.yaml --step 0.01
-seen 10_bowl/bowl 10_bowl/scene.yaml --t-end 3.4 --step 0.0125
+seen 10_bowl/bowl 10_bowl/scene.yaml --t-end 3.2 --step 0.0125
 mv 09_off_the_top/off.svg 09_off_the_top/picture.svg
 mv 10_bowl/bowl.svg 10_bowl/picture.svg
 

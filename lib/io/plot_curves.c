@@ -162,7 +162,7 @@ void iso_plot_key(FILE *f, double x, double y, const char *entries)
         "unset border; unset tics; unset label; unset arrow; unset object; unset title; unset logscale; unset grid\n"
         "unset xlabel; unset ylabel; set size noratio; set xrange [0:1]; set yrange [0:1]\n"
         "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
-        "set key default; set key horizontal maxrows 1 samplen 2 Left reverse center center at screen ",
+        "set key default; set key horizontal maxrows 1 samplen 1.4 Left reverse center center at screen ",
         f);
     iso_gnuplot_number(f, x);
     fputc(',', f);

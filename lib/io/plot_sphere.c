@@ -25,7 +25,7 @@ enum {
 };
 #define ARC 0.1    /* longest straight piece of a path, in radians                     */
 #define JOINED 0.6 /* rows farther apart than this are no path: they are drawn as dots */
-#define LONG 60.0  /* a path of more radians is drawn with a finer line                */
+#define LONG 40.0  /* a path of more radians is drawn with a finer line                */
 
 size_t iso_plot_drawn_rows(const iso_record *r)
 {

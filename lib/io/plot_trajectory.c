@@ -15,7 +15,7 @@
 #include "io/plot_impl.h"
 
 /* In pixels. */
-enum { WIDTH = 900, TITLE = 50, SQUARE = 420, VIEW = 320, WIDE = 270, CHART = 235, LINE = 40, FOOT = 12 };
+enum { WIDTH = 900, TITLE = 50, SQUARE = 420, VIEW = 320, WIDE = 270, CHART = 260, LINE = 40, FOOT = 12 };
 
 typedef enum square { FROM_ABOVE, FROM_SIDE, ON_BALL, ON_POINT, SQUARES } square;
 typedef enum chart { ENERGIES, PRESSURE, DRIFT, CLOCKS, CHARTS } chart;
