@@ -1,4 +1,5 @@
-/* isoroll plot - draws a trajectory: the way in space, paths on the spheres, energies, integrals, clocks; or two columns. */
+/* isoroll plot - draws a trajectory: the way in space, paths on the spheres, energies, integrals, clocks; or any two
+ * of its columns. */
 #include <stdio.h>
 #include <string.h>
 

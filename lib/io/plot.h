@@ -60,8 +60,8 @@ typedef struct iso_plot_orbit {
 /* A sheet of panels, as many as there is something to show in:
  * - the way in space, from above and from the side, with the support, the ball at the start and at the end, and where
  *   contact is lost (pressure 0, or the support would have to pull);
- * - the paths on their spheres, start and end marked: gamma of the point, n of the ball, or trace1..3 of a ball that is
- *   drawn without its point;
+ * - the paths on their spheres, start and end marked: gamma of the point, n of the ball, or trace1..3 of a ball that
+ *   is drawn without its point;
  * - energies over time, unless they are constant; pressure and mu, if the ball has these columns;
  * - the integrals' drift; if all drifts are rounding (below 1000 times the smallest one of doubles, 2.2e-13), one
  *   line of text in its place;

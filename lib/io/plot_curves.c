@@ -6,7 +6,7 @@
 #include "io/plot_impl.h"
 
 enum { SLOTS = 1000 /* of the rows; each shows its least and its largest number, so that thinning hides none */ };
-#define EQUAL_ROOM 0.04 /* beyond the ends of a curve, as a part of the axis */
+#define ROOM 0.04 /* beyond the ends of a curve, as a part of the axis */
 
 /* --- data ------------------------------------------------------------------------------------------------------- */
 
@@ -59,7 +59,7 @@ static bool range_of(const iso_plot_panel *p, bool right, double range[2])
         }
     if (!found) return false;
     if (p->top[right] > 0) range[1] = fmin(range[1], p->top[right]);
-    const double room = EQUAL_ROOM * (range[1] - range[0]);
+    const double room = ROOM * (range[1] - range[0]);
     if (!(range[0] >= 0 && range[0] < 0.3 * range[1]))
         range[0] -= room;
     else
@@ -68,34 +68,55 @@ static bool range_of(const iso_plot_panel *p, bool right, double range[2])
     return true;
 }
 
-static void put_axes(FILE *f, const iso_plot_panel *p)
+static void put_x_axis(FILE *f, const iso_plot_panel *p)
 {
     char name[ISO_PLOT_NAME];
-    const bool wide = p->box.right - p->box.left > 0.5, low = p->box.top - p->box.bottom < 0.2;
-    double range[2], x[2] = {number_at(p, 0, p->over), number_at(p, 0, p->over)};
+    double x[2] = {number_at(p, 0, p->over), number_at(p, 0, p->over)};
     for (size_t i = 0; i < iso_record_rows(p->rows); i++) {
         x[0] = fmin(x[0], number_at(p, i, p->over));
         x[1] = fmax(x[1], number_at(p, i, p->over));
     }
-    const double room = p->equal ? EQUAL_ROOM * (x[1] - x[0]) : 0;
-    const char *over = iso_plot_symbol(iso_record_name(p->rows, (size_t)p->over));
-    iso_plot_ticks(
-        f,
-        &(iso_plot_axis){
-            .which = "x", .low = x[0] - room, .high = x[1] + room, .most = wide ? 9 : 5, .name = over, .label = true},
-        name);
-    for (int right = 0; right < 2; right++) {
-        if (!range_of(p, right, range)) continue;
-        const iso_plot_axis y = {
-            .which = right ? "y2" : "y", .low = range[0], .high = range[1], .most = low ? 3 : 5, .name = ""};
-        iso_plot_ticks(f, &y, name);
-        const char *unit = strstr(name, "10"); /* a power of ten, or a base, stands above the axis */
-        if (!name[0]) continue;
-        fprintf(f, "set label %d ", 2 + right);
-        iso_gnuplot_text(f, unit && strncmp(name, " / ", 3) == 0 ? unit : name, ISO_PLOT_NAME);
-        fprintf(f, " noenhanced tc rgb '#404040' %s at graph %d,1.0 offset %s\n", right ? "left" : "right", right,
-                right ? "1,0.6" : "-1,0.6");
-    }
+    const double room = p->equal ? ROOM * (x[1] - x[0]) : 0;
+    const iso_plot_axis axis = {.which = "x",
+                                .low = x[0] - room,
+                                .high = x[1] + room,
+                                .most = p->box.right - p->box.left > 0.5 ? 9 : 5,
+                                .name = iso_plot_symbol(iso_record_name(p->rows, (size_t)p->over)),
+                                .label = true};
+    iso_plot_ticks(f, &axis, name);
+}
+
+#define NUMBER "number"
+
+/* What is taken out of the ticks stands above the axis: "10⁻⁴", or "number − 66.7". */
+static void put_y_axis(FILE *f, const iso_plot_panel *p, bool right)
+{
+    static const char power[] = NUMBER " / ";
+    char name[ISO_PLOT_NAME];
+    double range[2];
+    if (!range_of(p, right, range)) return;
+    const iso_plot_axis axis = {.which = right ? "y2" : "y",
+                                .low = range[0],
+                                .high = range[1],
+                                .most = p->box.top - p->box.bottom < 0.2 ? 3 : 5,
+                                .name = NUMBER};
+    iso_plot_ticks(f, &axis, name);
+    if (strcmp(name, NUMBER) == 0) return;
+    const bool short_name = strncmp(name, power, strlen(power)) == 0;
+    fprintf(f, "set label %d ", 2 + right);
+    iso_gnuplot_text(f, short_name ? name + strlen(power) : name, ISO_PLOT_NAME);
+    fprintf(f, " noenhanced tc rgb '#404040' %s at graph %d,1.0 offset %s,0.6\n",
+            short_name == right ? "left" : "right", right,
+            !short_name ? "0"
+            : right     ? "1"
+                        : "-1");
+}
+
+static void put_axes(FILE *f, const iso_plot_panel *p)
+{
+    put_x_axis(f, p);
+    put_y_axis(f, p, false);
+    put_y_axis(f, p, true);
 }
 
 static void put_marks(FILE *f, const iso_plot_panel *p)

@@ -144,27 +144,12 @@ static bool is_flat(const iso_plot_scenery *s)
     return s->high[0] - s->low[0] > FLAT * (s->high[1] - s->low[1]);
 }
 
-/* Sideways: down the slope of a plane, along a narrow way, else axis 1 of space. */
-static void choose_directions(iso_plot_scenery *s, const double normal[3], bool known)
+/* Along the way, if it is narrow, on a sphere if it is flat. Else nothing changes. */
+static void follow_way(iso_plot_scenery *s)
 {
-    static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    double right[3];
-    const bool upright = norm((double[]){s->up[0], s->up[1], s->up[2] - 1}) <= ALIKE;
-    s->level = !(s->plane && known && across(normal, s->up, right));
-    if (!s->level) {
-        turn_to(s, right);
-        name_views(s, false);
-        s->right_name = "horizontal, down the slope", s->away_name = "across the slope";
-        return;
-    }
-    if (upright)
-        copy(axis[0], right, 3);
-    else if (!across(axis[0], s->up, right))
-        across(axis[1], s->up, right);
-    turn_to(s, right);
-    name_views(s, upright);
-    if (!find_far(s, right)) return;
     iso_plot_scenery turned = *s;
+    double right[3];
+    if (!find_far(s, right)) return;
     turn_to(&turned, right);
     if (!(s->plane ? iso_plot_is_narrow(&turned) : is_flat(&turned))) return;
     *s = turned;
@@ -173,6 +158,28 @@ static void choose_directions(iso_plot_scenery *s, const double normal[3], bool 
     s->from_above = s->vertical ? "the way of the ball, seen from above; across on a larger scale"
                                 : "the way of the ball, along the normal of the plane; across on a larger scale";
     s->right_name = "along the way", s->away_name = "across";
+}
+
+/* To the right: down the slope of a plane, along a narrow way, else axis 1 of space, or what is nearest to it. */
+static void choose_directions(iso_plot_scenery *s, const double normal[3], bool known)
+{
+    static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double right[3];
+    s->level = !(s->plane && known && across(normal, s->up, right));
+    if (!s->level) {
+        turn_to(s, right);
+        name_views(s, false);
+        s->right_name = "horizontal, down the slope", s->away_name = "across the slope";
+        return;
+    }
+    const bool upright = norm((double[]){s->up[0], s->up[1], s->up[2] - 1}) <= ALIKE;
+    if (upright)
+        copy(axis[0], right, 3);
+    else if (!across(axis[0], s->up, right))
+        across(axis[1], s->up, right);
+    turn_to(s, right);
+    name_views(s, upright);
+    follow_way(s);
 }
 
 bool iso_plot_is_narrow(const iso_plot_scenery *s)

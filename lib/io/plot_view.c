@@ -212,7 +212,6 @@ static void put_axes(FILE *f, const view *v, double range[2][2])
     iso_plot_ticks(f, &(iso_plot_axis){"y", range[1][0], range[1][1], v->narrow ? 4 : 5, along, NULL, true}, name);
 }
 
-/* The sizes of both axes' units, if they differ: a picture whose circles are none must say so. */
 static void put_title(FILE *f, const view *v, bool from_above)
 {
     fputs("set title ", f);
@@ -220,16 +219,37 @@ static void put_title(FILE *f, const view *v, bool from_above)
     fputs(" noenhanced offset 0,-0.3\n", f);
 }
 
+static void put_signs(FILE *f, const view *v)
+{
+    const iso_plot_scenery *s = v->s;
+    put_sign(f, v, 0, ISO_PLOT_START " lc rgb 'black'");
+    if (shows_end(s)) put_sign(f, v, iso_record_rows(s->rows) - 1, ISO_PLOT_END " lc rgb 'black'");
+    for (int i = 0; i < s->losses; i++) put_sign(f, v, s->lost[i], ISO_PLOT_LOST);
+}
+
+/* The far side first. */
+static void put_lines(FILE *f, const char *with, bool both)
+{
+    fprintf(f, "plot $way0 w %s lw 1 lc rgb " ISO_PLOT_FAR_BLUE, with);
+    if (both) fprintf(f, ", $touch0 w %s lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION, with);
+    if (both) fprintf(f, ", $touch1 w %s lw 1 lc rgb " ISO_PLOT_VERMILLION, with);
+    fprintf(f, ", $way1 w %s lw 1.6 lc rgb " ISO_PLOT_BLUE "\nset size noratio; unset grid\n", with);
+}
+
+/* Whether the way of the contact is drawn beside that of the centre: on a plane they are the same from above. */
+static bool shows_contact(const iso_plot_scenery *s)
+{
+    return s->centre >= 0 && s->contact >= 0 && !s->plane;
+}
+
 void iso_plot_view(FILE *f, const iso_plot_box *box, const iso_plot_scenery *s, bool from_above)
 {
     const view v = make_view(s, from_above);
     const int column = s->centre >= 0 ? s->centre : s->contact;
-    const bool both = s->centre >= 0 && s->contact >= 0 && !s->plane;
-    const char *with = is_joined(&v, column) ? "lines" : "points pt 7 ps 0.2";
     double range[2][2];
     for (int near = 0; near < 2; near++) {
         put_path(f, &v, column, "way", near);
-        if (both) put_path(f, &v, s->contact, "touch", near);
+        if (shows_contact(s)) put_path(f, &v, s->contact, "touch", near);
     }
     fputs("unset label; unset arrow; unset object; unset key; unset logscale; set border 3 lc rgb '#606060'\n"
           "set grid xtics ytics back lt 1 lw 0.8 lc rgb '#EEF0F2'\n",
@@ -241,25 +261,18 @@ void iso_plot_view(FILE *f, const iso_plot_box *box, const iso_plot_scenery *s, 
     put_title(f, &v, from_above);
     put_support(f, &v, range);
     put_balls(f, &v);
-    put_sign(f, &v, 0, ISO_PLOT_START " lc rgb 'black'");
-    if (shows_end(s)) put_sign(f, &v, iso_record_rows(s->rows) - 1, ISO_PLOT_END " lc rgb 'black'");
-    for (int i = 0; i < s->losses; i++) put_sign(f, &v, s->lost[i], ISO_PLOT_LOST);
-    fprintf(f, "plot $way0 w %s lw 1 lc rgb " ISO_PLOT_FAR_BLUE, with);
-    if (both) fprintf(f, ", $touch0 w %s lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION, with);
-    if (both) fprintf(f, ", $touch1 w %s lw 1 lc rgb " ISO_PLOT_VERMILLION, with);
-    fprintf(f, ", $way1 w %s lw 1.6 lc rgb " ISO_PLOT_BLUE "\n", with);
-    fputs("set size noratio; unset grid\n", f);
+    put_signs(f, &v);
+    put_lines(f, is_joined(&v, column) ? "lines" : "points pt 7 ps 0.2", shows_contact(s));
 }
 
 void iso_plot_view_key(const iso_plot_scenery *s, char text[static 512])
 {
-    const bool both = s->centre >= 0 && s->contact >= 0 && !s->plane;
     snprintf(text, 512,
              "NaN w l lw 1.8 lc rgb " ISO_PLOT_BLUE " title '%s'%s"
              ", NaN w p " ISO_PLOT_START " lc rgb 'black' title 'start'"
              "%s%s",
              s->centre >= 0 ? "centre" : "contact",
-             both ? ", NaN w l lw 1.2 lc rgb " ISO_PLOT_VERMILLION " title 'contact'" : "",
+             shows_contact(s) ? ", NaN w l lw 1.2 lc rgb " ISO_PLOT_VERMILLION " title 'contact'" : "",
              shows_end(s) ? ", NaN w p " ISO_PLOT_END " lc rgb 'black' title 'end'" : "",
              s->losses ? ", NaN w p " ISO_PLOT_LOST " title 'contact lost'" : "");
 }

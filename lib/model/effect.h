@@ -180,7 +180,8 @@ iso_dimension iso_level_dimension(void);
 
 /* What is wrong with numbers or combinations, as the physics sees it: an effect that cannot matter here (gravity on a
  * level plane, a constant field), numbers that are none. `normal` is n at the start. Makes unit vectors of those that
- * are (to 1e-6), and fills in numbers that follow from others: the attitude, where it was not given. Errors: ISO_BAD_INPUT about the effect's name or its number's. */
+ * are (to 1e-6), and fills in numbers that follow from others: the attitude, where it was not given.
+ * Errors: ISO_BAD_INPUT about the effect's name or its number's. */
 ISO_API iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3],
                                      iso_effects *effects);
 

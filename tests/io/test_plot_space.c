@@ -196,7 +196,8 @@ static int read_block(const char *name, int n, double xy[][2], int most)
         if (at) at += strlen(head);
     }
     for (; at && strncmp(at, "EOD", 3) != 0 && count < most; at = strchr(at, '\n') + 1)
-        if (*at != '\n' && sscanf(at, "%lf %lf", &xy[count][0], &xy[count][1]) == 2 && isfinite(xy[count][0])) count++;
+        if (*at != '\n' && sscanf(at, "%lf %lf", &xy[count][0], &xy[count][1]) == 2 && isfinite(xy[count][0]))
+            count++;
     return count;
 }
 

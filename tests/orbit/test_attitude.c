@@ -4,7 +4,8 @@
 
 static iso_context *ctx;
 
-static laws_worst unit, vertical, frame, upright, kept_axes, turning, normal, centre, slip, place, lengths, tangents, bending, twisting;
+static laws_worst unit, vertical, frame, upright, kept_axes, turning, normal, centre, slip, place, lengths, tangents,
+    bending, twisting;
 
 enum { TIMES = 12 };
 
@@ -189,8 +190,8 @@ static void check_ball(const rolling *ball, int load, iso_random *random)
  * of axes 1 and 2. Without gravity the axes are the body's. */
 static void check_axes(const rolling *ball, iso_random *random)
 {
-    static const double special[][3] = {
-        {0, 0, 1}, {0, 0, -1}, {1e-9, 0, -1}, {0, -1e-160, -1}, {1e-5, 1e-5, -1}, {0, 1, 0}, {-1, 0, 0}, {0.6, 0, 0.8}};
+    static const double special[][3] = {{0, 0, 1},        {0, 0, -1}, {1e-9, 0, -1}, {0, -1e-160, -1},
+                                        {1e-5, 1e-5, -1}, {0, 1, 0},  {-1, 0, 0},    {0.6, 0, 0.8}};
     enum { SPECIAL = sizeof special / sizeof *special, UPS = SPECIAL + 8 };
     static const double axis_3[3] = {0, 0, 1};
     for (int i = 0; i <= UPS; i++) {
