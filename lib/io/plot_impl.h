@@ -114,6 +114,7 @@ typedef struct iso_plot_scenery {
     const iso_record *rows;
     int centre, contact;             /* first columns, -1: not there                                        */
     bool plane, level;               /* the support is a plane; it is level, or what is up is not known     */
+    bool normal;                     /* the columns tell its normal                                         */
     bool vertical;                   /* whether up[] is the vertical                                        */
     double right[3], away[3], up[3]; /* of the view from the side; `away` is up in the view from above      */
     double ball, support;            /* radii, 0: not known                                                 */

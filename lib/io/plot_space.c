@@ -128,13 +128,14 @@ static void turn_to(iso_plot_scenery *s, const double right[3])
 
 static void name_views(iso_plot_scenery *s, bool axes)
 {
-    const bool level_plane = s->plane && s->level;
+    const bool level_plane = s->plane && s->level && s->normal;
     s->from_above = s->vertical   ? "the way of the ball, seen from above"
                     : level_plane ? "the way of the ball, seen along the normal of the plane"
                                   : "the way of the ball, seen along axis 3 of space";
     s->from_side = s->vertical ? "seen from the side" : axes ? "seen along axis 2 of space" : "seen across axis 3";
     s->right_name = axes ? "axis 1" : s->vertical ? "horizontal" : "across axis 3";
     s->away_name = axes ? "axis 2" : s->vertical ? "horizontal" : "across axis 3";
+    if (level_plane && !s->vertical) s->right_name = s->away_name = "in the plane";
     s->up_name = !s->vertical ? "axis 3" : axes ? "height (axis 3)" : "height";
 }
 
@@ -142,6 +143,12 @@ static void name_views(iso_plot_scenery *s, bool axes)
 static bool is_flat(const iso_plot_scenery *s)
 {
     return s->high[0] - s->low[0] > FLAT * (s->high[1] - s->low[1]);
+}
+
+/* Whether the way has one height. */
+static bool is_even(const iso_plot_scenery *s)
+{
+    return s->high[2] - s->low[2] <= ALIKE * fmax(s->high[0] - s->low[0], s->high[1] - s->low[1]);
 }
 
 /* Along the way, if it is narrow, on a sphere if it is flat. Else nothing changes. */
@@ -156,7 +163,8 @@ static void follow_way(iso_plot_scenery *s)
     name_views(s, false);
     if (!s->plane) return;
     s->from_above = s->vertical ? "the way of the ball, seen from above; across on a larger scale"
-                                : "the way of the ball, along the normal of the plane; across on a larger scale";
+                    : s->normal ? "the way of the ball, along the normal of the plane; across on a larger scale"
+                                : "the way of the ball, along axis 3 of space; across on a larger scale";
     s->right_name = "along the way", s->away_name = "across";
 }
 
@@ -165,8 +173,7 @@ static void choose_directions(iso_plot_scenery *s, const double normal[3], bool 
 {
     static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     double right[3];
-    s->level = !(s->plane && known && across(normal, s->up, right));
-    if (!s->level) {
+    if (s->plane && known && across(normal, s->up, right)) {
         turn_to(s, right);
         name_views(s, false);
         s->right_name = "horizontal, down the slope", s->away_name = "across the slope";
@@ -178,6 +185,7 @@ static void choose_directions(iso_plot_scenery *s, const double normal[3], bool 
     else if (!across(axis[0], s->up, right))
         across(axis[1], s->up, right);
     turn_to(s, right);
+    s->level = s->plane && (known || is_even(s));
     name_views(s, upright);
     follow_way(s);
 }
@@ -224,7 +232,7 @@ iso_status iso_plot_look_around(iso_context *ctx, const iso_plot_space *space, i
                                 "a picture of space: no columns centre1, centre2, centre3 or contact1, contact2, "
                                 "contact3 side by side");
     find_radii(s);
-    const bool known = s->plane && find_normal(s, normal);
+    const bool known = s->normal = s->plane && find_normal(s, normal);
     copy(space->up ? space->up : known ? normal : axis_3, s->up, 3);
     if (!(fabs(norm(s->up) - 1) <= ALIKE))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "up", "a picture of space: up is no unit vector");

@@ -69,6 +69,8 @@ static iso_status find_trace(iso_context *ctx, sheet *s)
         status = iso_record_append(ctx, s->trace, &to);
         if (status != ISO_OK) break;
         for (int c = 0; c < 3; c++) to[c] = iso_record_const_row(r, i)[column[c]];
+        if (norm(to) == 0)
+            status = iso_context_fail(ctx, ISO_NUMERICAL, names[0], "a picture: the trace is 0 in row %zu", i + 1);
         scale(to, 1 / norm(to));
     }
     if (status == ISO_OK) s->ball = find_path(ctx, s->trace, names, &status);
@@ -174,7 +176,7 @@ static void put_key(const sheet *s, square which, double x, int from_above)
 
 static void put_sphere(const sheet *s, const iso_plot_box *box, const iso_record *r, int column, const char *title)
 {
-    fprintf(s->f, "unset grid; unset xlabel; unset ylabel; set title '%s' offset 0,0\n", title);
+    fprintf(s->f, "unset grid; unset object; unset xlabel; unset ylabel; set title '%s' offset 0,0\n", title);
     iso_plot_sphere(s->f, box, r, column, NULL, 0, iso_plot_is_long(r, column));
 }
 
@@ -270,9 +272,11 @@ static void put_noise(const sheet *s)
     for (size_t c = 1; c < iso_record_columns(r); c++) {
         double largest = 0;
         for (size_t i = 0; i < iso_record_rows(r); i++) largest = fmax(largest, iso_record_const_row(r, i)[c]);
-        if (used < 300)
-            used += snprintf(text + used, sizeof text - (size_t)used, "%s%.31s %.0e", c > 1 ? ",  " : "",
-                             iso_record_name(r, c), largest);
+        if (used >= 300) continue;
+        used +=
+            snprintf(text + used, sizeof text - (size_t)used, "%s%.31s ", c > 1 ? ",  " : "", iso_record_name(r, c));
+        used += largest > 0 ? snprintf(text + used, sizeof text - (size_t)used, "%.0e", largest)
+                            : snprintf(text + used, sizeof text - (size_t)used, "0");
     }
     fputs("unset border; unset tics; unset key; unset label; unset arrow; unset object; unset title; unset grid\n"
           "unset logscale; unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]; set size noratio\n"

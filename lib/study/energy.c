@@ -19,17 +19,26 @@ typedef struct energies {
     const iso_integral *h;
 } energies;
 
-/* Observers without the columns that they begin with: the file has not all of them. The ball does not need them. */
+/* Whether the record has what an effect begins with: the columns of a number that turns with the ball, and on a plane
+ * those of what moves. */
+static bool has_beginning(const energies *e, iso_effect_id id)
+{
+    bool has = true;
+    int i = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
+    for (const iso_effect_column *g = iso_effect_list[id]->columns; g && g->name; g++) {
+        bool needed = g->moves && e->params->k == 1;
+        for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
+            needed = needed || (n->turns_with && strcmp(n->turns_with, g->name) == 0);
+        for (const int end = i + g->count; i < end; i++) has = has && (!needed || e->columns[i] >= 0);
+    }
+    return has;
+}
+
+/* Observers that cannot begin are left out: the motion does not need them. */
 static void leave_out_observers(energies *e)
 {
-    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++) {
-        const int first = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
-        bool whole = true;
-        int i = first;
-        for (const iso_effect_column *g = iso_effect_list[id]->columns; g && g->name; g++)
-            for (const int end = i + g->count; i < end; i++) whole = whole && e->columns[i] >= 0;
-        if (iso_effect_list[id]->observes && !whole) e->effects.on[id] = false;
-    }
+    for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)
+        if (iso_effect_list[id]->observes && !has_beginning(e, id)) e->effects.on[id] = false;
 }
 
 /* Whether all effects say what they do to the energy. */

@@ -138,6 +138,18 @@ static void test_frames(void)
     gsl_test(!s.level || !(off_frame(&s, tilted) <= 1e-15) || strstr(s.from_above, "above"),
              "up not known: the plane's normal");
     iso_record_free(r);
+    /* the way of the contact alone does not tell the normal */
+    iso_record *contact = make_plane(100, tilted, steep, 0.1), *place;
+    if (iso_record_create(ctx, 3, all_names + CONTACT, &place) != ISO_OK) exit(1);
+    for (size_t i = 0; i < 100; i++) {
+        double *to;
+        if (iso_record_append(ctx, place, &to) != ISO_OK) exit(1);
+        copy(iso_record_const_row(contact, i) + CONTACT, to, 3);
+    }
+    s = look(place, NULL, true);
+    gsl_test(s.level || s.normal || strstr(s.from_above, "normal") || s.up[2] != 1, "no normal: %s", s.from_above);
+    iso_record_free(contact);
+    iso_record_free(place);
     r = make_plane(100, axis_3, along, 0.1);
     s = look(r, axis_3, true);
     gsl_test(!s.level || !iso_plot_is_narrow(&s) || !strstr(s.from_above, "larger scale"), "a narrow way says so");
