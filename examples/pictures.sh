@@ -1,6 +1,6 @@
 #!/bin/sh
-# pictures.sh BUILD - draws the pictures of examples/README.md: examples/NN_name/picture.svg (.png of 16), and cost.svg
-# of 02.
+# pictures.sh BUILD - draws the pictures of examples/README.md: examples/NN_name/picture.svg (.png of 16), lane.svg of
+# 01, and cost.svg of 02.
 #     cmake -S . -B .build/release && cmake --build .build/release -j 2 && sh examples/pictures.sh .build/release
 # BUILD is a folder that cmake has built, with the tests. Times and steps are shortened to keep the files small.
 # cost.svg shows times of this machine: draw it on a quiet one, with `pictures.sh BUILD cost`.
@@ -23,7 +23,7 @@ compared() {
     shift
     "$isoroll" compare "$name/scene.yaml" --plot "$name/picture.svg" "$@" >"$work/out"
 }
-compared 01_bowling_ball --t-end 30 --step 0.3
+compared 01_bowling_ball --t-end 60 --step 0.35
 compared 02_neumann_shell --t-end 50 --step 0.5
 compared 03_outside --t-end 30 --step 0.3
 compared 04_inside --t-end 25 --step 0.25
@@ -36,33 +36,25 @@ compared 15_two_spheres
 # a trajectory of somebody else
 "$isoroll" plot --scene 14_from_python/scene.yaml 14_from_python/orbit.txt -o 14_from_python/picture.svg
 
+# seen NAME SCENE OPTION...: the way in space, from above and from the side
+seen() {
+    name=$1
+    shift
+    "$isoroll" run "$@" -o "$work/$(basename "$name").csv" 2>"$work/out"
+    "$isoroll" plot "$work/$(basename "$name").csv" -o "$name.svg" 2>"$work/out"
+}
+seen 01_bowling_ball/lane 01_bowling_ball/lane.yaml --step 0.25 --tol 1e-14
+seen 09_off_the_top/off 09_off_the_top/scene.yaml --step 0.01
+seen 10_bowl/bowl 10_bowl/scene.yaml --t-end 3.2 --step 0.0125
+mv 09_off_the_top/off.svg 09_off_the_top/picture.svg
+mv 10_bowl/bowl.svg 10_bowl/picture.svg
+
 # Charts of the others. $1: the picture; gnuplot's commands are the standard input.
 chart() {
     { echo "set terminal svg size 640,400 background 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,13'"
         echo "set output '$1'; set border 3; set tics nomirror out"
         cat; } | gnuplot
 }
-
-"$isoroll" run 09_off_the_top/scene.yaml --step 0.005 -o "$work/off.csv" 2>"$work/out"
-chart 09_off_the_top/picture.svg <<EOF
-set datafile separator ","; set xlabel 't, s'; set ylabel 'N'; set y2label 'mu'; set y2tics; set border 11
-set key left center; set y2range [0:2]
-plot '$work/off.csv' using 't':'pressure' with lines lw 2 lc rgb '#0072B2' title 'pressure of the contact', \
-     '' using 't':'mu' axes x1y2 with lines lw 2 lc rgb '#D55E00' title 'friction coefficient needed (right)'
-EOF
-
-"$isoroll" run 10_bowl/scene.yaml -o "$work/bowl.csv"
-chart 10_bowl/picture.svg <<EOF
-u1 = -0.850441116; u2 = 0.171623361; u3 = -0.497287975    # \`up\` of the scene: seen along it
-h = sqrt(u1**2 + u2**2)
-set datafile separator ","; set size ratio -1; unset key; set title 'path of the centre, from above'
-set xlabel 'm'; set ylabel 'm'
-a(x, y, z) = (u2*x - u1*y)/h
-b(x, y, z) = (u3*u1*x + u3*u2*y)/h - h*z
-c1 = 'centre1'; c2 = 'centre2'; c3 = 'centre3'
-plot '$work/bowl.csv' using (a(column(c1), column(c2), column(c3))):(b(column(c1), column(c2), column(c3))) \
-     with lines lw 1.2 lc rgb '#0072B2'
-EOF
 
 scene=11_rubber_and_marble/scene.yaml
 sed '/resistance: 10/d' "$scene" | "$isoroll" run - -o "$work/rubber.csv"

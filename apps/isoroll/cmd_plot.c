@@ -1,10 +1,12 @@
-/* isoroll plot - draws a trajectory: paths on the spheres, drift of integrals, clocks. */
+/* isoroll plot - draws a trajectory: the way in space, paths on the spheres, energies, integrals, clocks; or any two
+ * of its columns. */
 #include <stdio.h>
 #include <string.h>
 
 #include "io/plot.h"
 #include "parameters.h"
 #include "study/check.h"
+#include "study/energy.h"
 #include "sweep_plot.h"
 
 /* What plot can be told. */
@@ -15,7 +17,7 @@ typedef struct options {
 
 /* What is drawn: the file, its conversion, and numbers from both. */
 typedef struct parts {
-    iso_record *file, *twin, *drifts, *clocks;
+    iso_record *file, *twin, *drifts, *clocks, *energies;
 } parts;
 
 /* The model of the file; the ball if it has both. */
@@ -55,47 +57,141 @@ static iso_status find_twin(iso_context *ctx, const iso_params *params, parts *p
     return ISO_OK;
 }
 
+static const char *name_of(const options *o)
+{
+    const char *slash = strrchr(o->from.file, '/');
+    return strcmp(o->from.file, "-") == 0 ? "<stdin>" : slash ? slash + 1 : o->from.file;
+}
+
+/* Whether the file has the way of a ball in space, and what it says of it. */
+static bool find_space(iso_context *ctx, const iso_params *params, const iso_record *file, double up[3],
+                       iso_plot_space *space)
+{
+    *space = (iso_plot_space){.rows = file, .plane = params->k == 1};
+    if (iso_record_up(ctx, file, up)) space->up = up;
+    return iso_record_find(file, "centre1") >= 0 || iso_record_find(file, "contact1") >= 0;
+}
+
 static iso_status draw(iso_context *ctx, const options *o, const iso_params *params, parts *p)
 {
     char title[160];
+    double up[3];
+    iso_plot_space space;
     iso_status status = find_twin(ctx, params, p);
     if (status == ISO_OK) status = pair_clocks(ctx, p);
     if (status == ISO_OK) status = iso_check_drifts(ctx, params, p->file, &p->drifts);
+    /* of a free ball the energy is one of the integrals */
+    const bool forced = model_of(p->file) == ISO_BALL && iso_record_get(p->file, "effects");
+    if (status == ISO_OK && forced) status = iso_record_energies(ctx, params, p->file, &p->energies);
     if (status != ISO_OK) return status;
     const bool ball = iso_record_find(p->file, "n1") >= 0, point = iso_record_find(p->file, "gamma1") >= 0;
-    const char *name = strrchr(o->from.file, '/') ? strrchr(o->from.file, '/') + 1 : o->from.file;
-    snprintf(title, sizeof title, "%.60s: k = %.6g, J = %.6g, %.6g, %.6g, %zu rows",
-             strcmp(o->from.file, "-") == 0 ? "<stdin>" : name, params->k, params->J[0], params->J[1], params->J[2],
-             iso_record_rows(p->file));
+    const bool in_space = find_space(ctx, params, p->file, up, &space);
+    snprintf(title, sizeof title, "%.60s: k = %.6g, J = %.6g, %.6g, %.6g, %zu rows", name_of(o), params->k,
+             params->J[0], params->J[1], params->J[2], iso_record_rows(p->file));
     const iso_plot_orbit plot = {.title = title,
                                  .ball = ball ? p->file : p->twin,
                                  .point = point ? p->file : p->twin,
                                  .drift = p->drifts,
-                                 .clocks = p->clocks};
+                                 .clocks = p->clocks,
+                                 .energies = p->energies,
+                                 .space = in_space ? &space : NULL};
     return iso_plot_trajectory(ctx, o->output, &plot);
+}
+
+/* --- two columns ------------------------------------------------------------------------------------------------ */
+
+enum { NAME = 32 };
+
+/* Whether --columns names two columns, but for those passed over ("-"). */
+static bool names_two(const char *columns, char name[2][NAME])
+{
+    int count = 0;
+    for (const char *c = columns; c && *c; c += strcspn(c, ","), c += *c == ',') {
+        const int length = (int)strcspn(c, ",");
+        if (length == 1 && *c == '-') continue;
+        if (count < 2 && length < NAME) snprintf(name[count], NAME, "%.*s", length, c);
+        if (length >= NAME) return false;
+        count++;
+    }
+    return count == 2;
+}
+
+/* Reads the file by its own names. One that has none, or of which columns are passed over, is read by --columns. */
+static iso_status read_two(iso_context *ctx, const options *o, iso_record **file)
+{
+    const bool passes = strstr(o->from.columns, "-") != NULL, once = strcmp(o->from.file, "-") == 0;
+    char words[400];
+    iso_status status = iso_trajectory_read(ctx, o->from.file, passes ? o->from.columns : NULL, file);
+    if (status == ISO_OK || passes || once) return status;
+    snprintf(words, sizeof words, "%s", iso_context_message(ctx));
+    if (iso_trajectory_read(ctx, o->from.file, o->from.columns, file) == ISO_OK) return ISO_OK;
+    return iso_context_fail(ctx, status, "", "%s", words);
+}
+
+static iso_status find_column(iso_context *ctx, const iso_record *r, const char *name)
+{
+    char there[400] = "";
+    if (iso_record_find(r, name) >= 0) return ISO_OK;
+    for (size_t c = 0, used = 0; c < iso_record_columns(r) && used < sizeof there - NAME; c++)
+        used += (size_t)snprintf(there + used, sizeof there - used, " %s", iso_record_name(r, c));
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "there is no column '%s'; there are%s", name, there);
+}
+
+/* Components of one vector: one unit is then equally long on both axes. */
+static bool are_components(const char *x, const char *y)
+{
+    const size_t length = strlen(x);
+    return length > 1 && strlen(y) == length && strncmp(x, y, length - 1) == 0 && x[0] != 'q' &&
+           strchr("123", x[length - 1]) && strchr("123", y[length - 1]);
+}
+
+static iso_status draw_two(iso_context *ctx, const options *o, char name[2][NAME])
+{
+    char title[160];
+    iso_record *file = NULL;
+    iso_status status = read_two(ctx, o, &file);
+    for (int i = 0; status == ISO_OK && i < 2; i++) status = find_column(ctx, file, name[i]);
+    if (status == ISO_OK) {
+        snprintf(title, sizeof title, "%.60s: %zu rows", name_of(o), iso_record_rows(file));
+        status = iso_plot_columns(ctx, o->output, title, file, name[0], name[1], are_components(name[0], name[1]));
+    }
+    iso_record_free(file);
+    return status;
+}
+
+/* --- the command ------------------------------------------------------------------------------------------------ */
+
+static iso_status draw_file(iso_context *ctx, const options *o)
+{
+    parts p = {NULL, NULL, NULL, NULL, NULL};
+    iso_params params;
+    iso_status status = iso_trajectory_read(ctx, o->from.file, o->from.columns, &p.file);
+    if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, p.file, &params);
+    if (status == ISO_OK) status = draw(ctx, o, &params, &p);
+    iso_record_free(p.file);
+    iso_record_free(p.twin);
+    iso_record_free(p.drifts);
+    iso_record_free(p.clocks);
+    iso_record_free(p.energies);
+    return status;
 }
 
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
-    parts p = {NULL, NULL, NULL, NULL};
-    iso_params params;
+    char name[2][NAME];
     if (strcmp(o->output, "-") == 0)
         return complain("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
     iso_status status = iso_plot_check_format(ctx, o->output);
-    if (status == ISO_OK && is_sweep_result(o->from.file))
-        return finish(ctx, plot_sweep(ctx, o->from.file, o->value, o->output));
+    const bool sweep = status == ISO_OK && is_sweep_result(o->from.file);
+    if (sweep && o->from.columns)
+        return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
+    if (sweep) return finish(ctx, plot_sweep(ctx, o->from.file, o->value, o->output));
     if (status == ISO_OK && o->value)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
-    if (status == ISO_OK) status = iso_trajectory_read(ctx, o->from.file, o->from.columns, &p.file);
-    if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, p.file, &params);
-    if (status == ISO_OK) status = draw(ctx, o, &params, &p);
+    if (status == ISO_OK) status = names_two(o->from.columns, name) ? draw_two(ctx, o, name) : draw_file(ctx, o);
     if (status != ISO_OK && status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
         status = name_the_file(ctx, o->from.file, status);
-    iso_record_free(p.file);
-    iso_record_free(p.twin);
-    iso_record_free(p.drifts);
-    iso_record_free(p.clocks);
     return finish(ctx, status);
 }
 
@@ -119,10 +215,15 @@ const command command_plot = {
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
     .description = "-o FILE is needed; its ending chooses the format. The path and the clock of the other model are "
-                   "computed, where the orbit has a twin. gnuplot draws the picture.\n\n"
+                   "computed, where the orbit has a twin. A file with the columns of the effect attitude also "
+                   "shows the way of the ball from above and from the side; with those of reactions, the pressure, "
+                   "mu, and where contact is lost.\n\n"
+                   "--columns X,Y with two names draws these two columns alone, the second over the first: "
+                   "--columns t,n3. If the file has no names, they are its columns from left to right, with - for "
+                   "those to be passed over.\n\n"
                    "Of a sweep: a value over the number that varies, as a curve with its error; over two numbers, as "
                    "a map; over J, as a map of J1/J3 and J2/J3 where J1 < J2 < J3. Further numbers that vary make "
-                   "several maps. k = 1 and k = -1 are marked.",
+                   "several maps. k = 1 and k = -1 are marked.\n\ngnuplot draws the picture.",
     .example = "isoroll plot trajectory.csv -o trajectory.svg",
     .run = run,
 };

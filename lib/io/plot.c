@@ -91,15 +91,13 @@ iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plo
     const bool fine = iso_plot_is_long(plot->ball, n[0]) || iso_plot_is_long(plot->ball, gamma[0]);
     fputs("set multiplot\n", f);
     put_heading(f, plot->title);
-    fputs("set lmargin at screen 0.01; set rmargin at screen 0.49\n"
-          "set title 'ball: the normal n at the contact'\n",
-          f);
-    iso_plot_sphere(f, plot->ball, n[0], plot->point, n[1], fine);
-    fputs("set lmargin at screen 0.51; set rmargin at screen 0.99\n"
-          "set title 'point: its place γ'\n",
-          f);
-    iso_plot_sphere(f, plot->ball, gamma[0], plot->point, gamma[1], fine);
-    static const iso_plot_chart chart = {95, 780, "relative difference", "in the units of the scene"};
+    static const iso_plot_box left = {0.01, 0.49, 0.43, 0.905}, right = {0.51, 0.99, 0.43, 0.905};
+    fputs("set title 'ball: the normal n at the contact'\n", f);
+    iso_plot_sphere(f, &left, plot->ball, n[0], plot->point, n[1], fine);
+    fputs("set title 'point: its place γ'\n", f);
+    iso_plot_sphere(f, &right, plot->ball, gamma[0], plot->point, gamma[1], fine);
+    static const iso_plot_chart chart = {
+        {0.095, 0.78, 0.085, 0.34}, "relative difference of the two computations", ", in the units of the scene"};
     iso_plot_differences(f, plot->difference, plot->tolerance, &chart);
     fputs("unset multiplot\nunset output\n", f);
     return iso_gnuplot_close(ctx, g, true);

@@ -39,17 +39,41 @@ ISO_API iso_status iso_plot_check_format(iso_context *ctx, const char *path);
  * ISO_FILE_TROUBLE (no gnuplot, or what it said; the file cannot be written), ISO_NO_MEMORY. */
 ISO_API iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot);
 
+/* The way of a ball in space. A support whose place the columns do not tell is not drawn. */
+typedef struct iso_plot_space {
+    const iso_record *rows; /* columns centre1..3, or contact1..3, or both; pressure: where contact is lost       */
+    const double *up;       /* upward vertical, a unit vector in axes of space; NULL: not known. Nothing is called
+                               up then: the eye is on axis 3 of space, or on the normal of the plane              */
+    bool plane;             /* the support is a plane; else a sphere about 0                                      */
+} iso_plot_space;
+
 /* One trajectory, in one model or both. */
 typedef struct iso_plot_orbit {
     const char *title;
-    const iso_record *ball, *point; /* columns n1..3, and gamma1..3; NULL: not known                         */
-    const iso_record *drift;        /* a clock, then non-negative drifts of integrals; NULL: none            */
-    const iso_record *clocks;       /* a clock, then one other; NULL: only one is known                      */
+    const iso_record *ball, *point; /* columns n1..3, and gamma1..3; NULL: not known                              */
+    const iso_record *drift;        /* a clock, then non-negative drifts of integrals; NULL: none                 */
+    const iso_record *clocks;       /* a clock, then one other; NULL: only one is known                           */
+    const iso_record *energies;     /* a clock, then "h", "kinetic", "potential"; NULL: not known                 */
+    const iso_plot_space *space;    /* NULL: not known                                                            */
 } iso_plot_orbit;
 
-/* Above: the paths n and gamma on their spheres, start and end marked. Below: the integrals' drift, and the one clock
- * over the other. Errors: as iso_plot_comparison. */
+/* A sheet of panels, as many as there is something to show in:
+ * - the way in space, from above and from the side, with the support, the ball at the start and at the end, and where
+ *   contact is lost (pressure 0, or the support would have to pull);
+ * - the paths on their spheres, start and end marked: gamma of the point, n of the ball, or trace1..3 of a ball that
+ *   is drawn without its point;
+ * - energies over time, unless they are constant; pressure and mu, if the ball has these columns;
+ * - the integrals' drift; if all drifts are rounding (below 1000 times the smallest one of doubles, 2.2e-13), one
+ *   line of text in its place;
+ * - the one clock over the other.
+ * Errors: as iso_plot_comparison. */
 ISO_API iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot);
+
+/* One column over another; equal: one unit is equally long on both axes. At most 5000 rows are drawn, or of each of
+ * 1000 slots the least and the largest number. Errors: ISO_BAD_ARGUMENT (name, columns, no rows), ISO_NUMERICAL (a
+ * number that is not finite), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+ISO_API iso_status iso_plot_columns(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
+                                    const char *x, const char *y, bool equal);
 
 /* A map of kinds of motion over the energy h and a second integral F. */
 enum { ISO_PLOT_PARTS = 4, ISO_PLOT_LINES = 4 };

@@ -9,8 +9,12 @@
 #include "io/gnuplot_impl.h"
 #include "io/plot_impl.h"
 
-enum { SLOTS = 450 /* of the time axis; each shows its largest difference, so that thinning hides none */ };
-#define FLOOR 1e-17 /* stands for 0 on the logarithmic axis; below any difference of doubles of order one */
+enum {
+    LOWEST = -17,
+    SLOTS = 450 /* of the time axis; each shows its largest difference, so that thinning hides none */
+};
+#define FLOOR                                                                                                        \
+    1e-17 /* 10^LOWEST, stands for 0 on the logarithmic axis; below any difference of doubles of order one */
 
 /* How a column of differences looks; every other name is drawn as the last. In grey they differ by their dashes: the
  * ball's are solid, the point's dashed, clocks dotted. */
@@ -40,14 +44,14 @@ static const look *find_look(const char *name)
     return l;
 }
 
-static const char *symbol(const char *name)
+const char *iso_plot_symbol(const char *name)
 {
     const look *l = find_look(name);
     return l->name ? l->symbol : name;
 }
 
 /* One column over the first: in each slot of rows the largest, at its own time. Answers the largest of all. */
-static double put_differences(FILE *f, const iso_record *r, int column, bool *has_floor)
+static double put_differences(FILE *f, const iso_record *r, int column)
 {
     const size_t rows = iso_record_rows(r), slots = rows < SLOTS ? rows : SLOTS;
     double largest = 0;
@@ -57,7 +61,6 @@ static double put_differences(FILE *f, const iso_record *r, int column, bool *ha
         for (size_t i = slot * rows / slots; i < (slot + 1) * rows / slots; i++)
             if (iso_record_const_row(r, i)[column] > worst[column]) worst = iso_record_const_row(r, i);
         iso_gnuplot_pair(f, worst[0], fmax(worst[column], FLOOR));
-        *has_floor = *has_floor || worst[column] <= FLOOR;
         largest = fmax(largest, worst[column]);
     }
     fputs("EOD\n", f);
@@ -76,38 +79,32 @@ static void put_level(FILE *f, int tag, double level)
     fputs(" nohead back " LEVEL "\n", f);
 }
 
-static void put_floor(FILE *f)
-{
-    put_level(f, 1, FLOOR);
-    fputs("set label 1 '0, or less than 10^{-17}' at graph 0.99, first ", f);
-    iso_gnuplot_number(f, FLOOR);
-    fputs(" offset 0,0.6 right front tc rgb '#404040'\n", f);
-}
-
-/* Axes of a chart below the spheres. A single time gets room on both sides. */
+/* Axes of the chart. Its lowest tick stands for 0 as well. */
 static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_chart *chart)
 {
     const double a = iso_record_const_row(r, 0)[0], b = iso_record_const_row(r, iso_record_rows(r) - 1)[0];
-    const double room = a == b ? fmax(fabs(a), 1) / 2 : 0;
-    fputs(
-        "unset label; unset arrow; unset object; set size noratio; set border 3 lc rgb '#606060'; unset title\n"
-        "set tmargin at screen 0.345; set bmargin at screen 0.085\n"
-        "set logscale y; set format y '10^{%T}'; set xtics nomirror out scale 0.6; set ytics nomirror out scale 0.6\n"
-        "set grid ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'\n"
-        "set key left top Left reverse vertical maxrows 16 samplen 3 spacing 1.2 noenhanced title 'largest' left "
-        "enhanced\n",
-        f);
-    fprintf(f, "set lmargin at screen 0.%03d; set rmargin at screen 0.%03d; set key at screen 0.%03d,0.36\n",
-            chart->left, chart->right, chart->right + 15);
-    fprintf(f, "set ylabel '%s' offset 0.5,0\nset xrange [", chart->ylabel);
-    iso_gnuplot_number(f, fmin(a, b) - room);
-    fputc(':', f);
-    iso_gnuplot_number(f, fmax(a, b) + room);
-    fputs("]\nset yrange [3e-18:", f);
-    iso_gnuplot_number(f, pow(10, ceil(log10(fmax(top, 1e-15)) + 0.3)));
-    fputs("]\nset xlabel ", f);
-    iso_gnuplot_text(f, symbol(iso_record_name(r, 0)), 31);
-    fprintf(f, ".' %s' offset 0,0.3\n", chart->units);
+    const int highest = (int)ceil(log10(fmax(top, 1e-15)) + 0.3);
+    const iso_plot_axis clock = {.which = "x",
+                                 .low = fmin(a, b),
+                                 .high = fmax(a, b),
+                                 .most = chart->box.right - chart->box.left > 0.4 ? 8 : 4,
+                                 .name = iso_plot_symbol(iso_record_name(r, 0)),
+                                 .units = chart->units,
+                                 .label = true};
+    char name[ISO_PLOT_NAME];
+    fputs("unset label; unset arrow; unset object; set size noratio; set border 3 lc rgb '#606060'; set logscale y\n"
+          "set grid ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'; unset ylabel\n"
+          "set key left top Left reverse vertical maxrows 16 samplen 2 spacing 1.2 noenhanced title 'largest' left "
+          "enhanced\nset key at screen ",
+          f);
+    iso_gnuplot_number(f, chart->box.right + 0.015);
+    fputc(',', f);
+    iso_gnuplot_number(f, chart->box.top + 0.015);
+    fprintf(f, "\nunset title; set label 1 '%s' left at graph 0,1.09\nset yrange [5e-18:1e%d]\n", chart->title,
+            highest);
+    iso_plot_place(f, &chart->box);
+    iso_plot_powers(f, LOWEST, highest, 8);
+    iso_plot_ticks(f, &clock, name);
 }
 
 /* In the key: the column's symbol and its largest number. */
@@ -115,7 +112,7 @@ static void put_name(FILE *f, const char *name, double largest)
 {
     char words[64], number[16];
     snprintf(number, sizeof number, "%.0e", largest); /* no decimal mark, which is the locale's */
-    snprintf(words, sizeof words, "%s  %s", symbol(name), largest > 0 ? number : "0");
+    snprintf(words, sizeof words, "%s  %s", iso_plot_symbol(name), largest > 0 ? number : "0");
     iso_gnuplot_text(f, words, 60);
 }
 
@@ -136,13 +133,11 @@ void iso_plot_differences(FILE *f, const iso_record *r, double tolerance, const 
 {
     const int columns = (int)iso_record_columns(r);
     double top = tolerance, largest[ISO_PLOT_DIFFERENCES + 1];
-    bool has_floor = false;
     for (int c = 1; c < columns; c++) {
-        largest[c] = put_differences(f, r, c, &has_floor);
+        largest[c] = put_differences(f, r, c);
         top = fmax(top, largest[c]);
     }
     put_axes(f, r, top, chart);
-    if (has_floor) put_floor(f);
     if (tolerance > 0) put_level(f, 2, tolerance);
     for (int c = 1; c < columns; c++) {
         const char *name = iso_record_name(r, (size_t)c), *line = line_of(name, c - 1);

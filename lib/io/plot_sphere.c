@@ -20,22 +20,22 @@
 #include "io/plot_impl.h"
 
 enum {
-    MARKERS = 48 /* of the second backend on each path */
+    MARKERS = 48, /* of the second backend on each path  */
+    FEW = 500     /* rows that are drawn as larger dots  */
 };
-#define ARC 0.07   /* longest straight piece of a path, in radians                     */
+#define ARC 0.1    /* longest straight piece of a path, in radians                     */
 #define JOINED 0.6 /* rows farther apart than this are no path: they are drawn as dots */
-#define LONG 60.0  /* a path of more radians is drawn with a finer line                */
+#define LONG 40.0  /* a path of more radians is drawn with a finer line                */
 
-/* The i-th of the rows to draw; the last is the record's last. */
-static size_t drawn_rows(const iso_record *r)
+size_t iso_plot_drawn_rows(const iso_record *r)
 {
     const size_t rows = iso_record_rows(r);
     return rows < ISO_PLOT_ROWS ? rows : ISO_PLOT_ROWS;
 }
 
-static const double *drawn_row(const iso_record *r, size_t i)
+const double *iso_plot_drawn_row(const iso_record *r, size_t i)
 {
-    const size_t rows = iso_record_rows(r), drawn = drawn_rows(r);
+    const size_t rows = iso_record_rows(r), drawn = iso_plot_drawn_rows(r);
     if (rows == drawn) return iso_record_const_row(r, i);
     return iso_record_const_row(r, (size_t)((double)i * (double)(rows - 1) / (double)(drawn - 1) + 0.5));
 }
@@ -86,8 +86,8 @@ static void put_arc(FILE *f, const double a[3], const double b[3], bool near, bo
 
 static bool is_joined(const iso_record *r, int column)
 {
-    for (size_t i = 1; i < drawn_rows(r); i++)
-        if (angle(drawn_row(r, i - 1) + column, drawn_row(r, i) + column) > JOINED) return false;
+    for (size_t i = 1; i < iso_plot_drawn_rows(r); i++)
+        if (angle(iso_plot_drawn_row(r, i - 1) + column, iso_plot_drawn_row(r, i) + column) > JOINED) return false;
     return true;
 }
 
@@ -103,10 +103,10 @@ static void put_path(FILE *f, const iso_record *r, int column, bool near)
     const bool joined = is_joined(r, column);
     bool open = false;
     begin_block(f, "path", near);
-    for (size_t i = 0; i < drawn_rows(r); i++) {
-        const double *v = drawn_row(r, i) + column;
+    for (size_t i = 0; i < iso_plot_drawn_rows(r); i++) {
+        const double *v = iso_plot_drawn_row(r, i) + column;
         const spot s = project(v);
-        if (joined && i > 0) put_arc(f, drawn_row(r, i - 1) + column, v, near, &open);
+        if (joined && i > 0) put_arc(f, iso_plot_drawn_row(r, i - 1) + column, v, near, &open);
         if (!joined && (s.depth > 0) == near) iso_gnuplot_pair(f, s.x, s.y);
     }
     fputs("EOD\n", f);
@@ -143,7 +143,7 @@ static void put_graticule(FILE *f, bool near)
         const double angle0 = (circle < 6 ? circle : circle - 8) * 30 * degree;
         double last[3] = {0, 0, 0};
         bool open = false;
-        for (int i = 0; i <= 360; i += 4) {
+        for (int i = 0; i <= 360; i += 5) {
             const double lat = circle < 6 ? i * degree : angle0, lon = circle < 6 ? angle0 : i * degree;
             const double v[3] = {cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)};
             if (i > 0) put_arc(f, last, v, near, &open);
@@ -181,32 +181,33 @@ static void put_axes(FILE *f)
 static const char *const setup =
     "unset border; unset tics; unset key; unset label; unset arrow; set size ratio -1\n"
     "set xrange [-1.2:1.2]; set yrange [-1.07:1.2]\n"
-    "set tmargin at screen 0.905; set bmargin at screen 0.43\n"
     "set object 1 circle at 0,0 size 1 back fillcolor rgb '#F4F6F8' fillstyle solid border lc rgb '#8A939B'\n";
 
 bool iso_plot_is_long(const iso_record *r, int column)
 {
     double length = 0;
-    for (size_t i = 1; i < drawn_rows(r); i++)
-        length += angle(drawn_row(r, i - 1) + column, drawn_row(r, i) + column);
+    for (size_t i = 1; i < iso_plot_drawn_rows(r); i++)
+        length += angle(iso_plot_drawn_row(r, i - 1) + column, iso_plot_drawn_row(r, i) + column);
     return length > LONG;
 }
 
-void iso_plot_sphere(FILE *f, const iso_record *line, int line_column, const iso_record *markers, int marker_column,
-                     bool fine)
+void iso_plot_sphere(FILE *f, const iso_plot_box *box, const iso_record *line, int line_column,
+                     const iso_record *markers, int marker_column, bool fine)
 {
     const char *near_style = fine ? "lines lw 0.8" : "lines lw 1.8";
     const char *far_style = "lines lw 0.8";
-    if (!is_joined(line, line_column)) near_style = far_style = "points pt 7 ps 0.2";
+    if (!is_joined(line, line_column))
+        near_style = far_style = iso_plot_drawn_rows(line) > FEW ? "points pt 7 ps 0.2" : "points pt 7 ps 0.5";
     for (int near = 0; near < 2; near++) {
         put_graticule(f, near);
         put_path(f, line, line_column, near);
         if (markers) put_markers(f, markers, marker_column, near);
     }
     fputs(setup, f);
+    iso_plot_place(f, box);
     put_axes(f);
-    put_end(f, drawn_row(line, 0) + line_column, ISO_PLOT_START);
-    put_end(f, drawn_row(line, drawn_rows(line) - 1) + line_column, ISO_PLOT_END);
+    put_end(f, iso_plot_drawn_row(line, 0) + line_column, ISO_PLOT_START);
+    put_end(f, iso_plot_drawn_row(line, iso_plot_drawn_rows(line) - 1) + line_column, ISO_PLOT_END);
     fputs("plot $grid0 w l lw 0.6 lc rgb '#DDE1E5',", f);
     fprintf(f, " $path0 w %s lc rgb " ISO_PLOT_FAR_BLUE ",", far_style);
     if (markers) fputs(" $marker0 w p pt 6 ps 0.8 lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION ",", f);

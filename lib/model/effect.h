@@ -105,6 +105,9 @@ typedef struct iso_effect {
      * whether the scene has the key. Errors: ISO_BAD_INPUT about the key, or the effect's name. */
     iso_status (*complete)(iso_context *ctx, const iso_params *p, int model, double number[],
                            bool (*given)(const void *scene, const char *key), const void *scene);
+    /* Computes numbers that were not given (`initially` is NaN) from those of other effects, which stand before it in
+     * the list and are checked. */
+    void (*fill)(iso_effects *effects);
     /* What else must hold. n: the normal at the start. Errors: ISO_BAD_INPUT about a number's or the effect's name.
      */
     iso_status (*check)(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *effects);
@@ -177,13 +180,17 @@ iso_dimension iso_level_dimension(void);
 
 /* What is wrong with numbers or combinations, as the physics sees it: an effect that cannot matter here (gravity on a
  * level plane, a constant field), numbers that are none. `normal` is n at the start. Makes unit vectors of those that
- * are (to 1e-6). Errors: ISO_BAD_INPUT about the effect's name or its number's. */
+ * are (to 1e-6), and fills in numbers that follow from others: the attitude, where it was not given.
+ * Errors: ISO_BAD_INPUT about the effect's name or its number's. */
 ISO_API iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3],
                                      iso_effects *effects);
 
 /* Whether gravity has no torque, up to rounding: on a plane with `up`, a unit vector, along the normal the weight
  * only presses the ball down. */
 ISO_API bool iso_effects_on_level_plane(const iso_params *params, const double normal[3], const iso_effects *effects);
+
+/* The upward vertical at the start, in body axes: 3 numbers, meant if gravity is on. */
+const double *iso_effects_up(const iso_effects *effects);
 
 /* The effects carried from the caller's units to own ones (power -1), or back (power 1). */
 iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power);

@@ -4,6 +4,9 @@
  *     x' = R (w x n)                       on a plane: displacement of the centre, in units of b
  *
  * On a sphere no displacement has to be integrated: the contact is at a R n, the centre at (a+b) R n.
+ *
+ * The axes of space are those in which the quaternion at time 0 is given. Without one, axis 3 of space is the upward
+ * vertical if there is gravity; otherwise the axes of space are the body's at time 0.
  */
 #include <math.h>
 
@@ -102,10 +105,33 @@ static const char *const q_names[] = {"q0", "q1", "q2", "q3"}, *const x_names[] 
                          *const trace_names[] = {"trace1", "trace2", "trace3"},
                          *const centre_names[] = {"centre1", "centre2", "centre3"};
 
-static const double upright[] = {1, 0, 0, 0};
+/* The smallest turn that takes the unit vector u to axis 3. It is a turn about u x e3 = (u2, -u1, 0) by the angle A
+ * between them: Q = (cos(A/2), sin(A/2) u x e3/|u x e3|), where u3 = cos A, |u x e3| = sin A. From -e3 it is a half
+ * turn about axis 1. */
+static void turn_to_axis_3(const double u[3], double Q[4])
+{
+    const double across = hypot(u[0], u[1]), half = 0.5 * atan2(across, u[2]);
+    Q[0] = cos(half);
+    Q[1] = across > 0 ? sin(half) * (u[1] / across) : sin(half);
+    Q[2] = across > 0 ? -sin(half) * (u[0] / across) : 0;
+    Q[3] = 0;
+    if (across == 0) Q[0] = u[2] > 0; /* exactly 1 or 0 */
+}
+
+/* The attitude at time 0, if nobody gave it. */
+static void fill(iso_effects *effects)
+{
+    double *Q = effects->number[ISO_ATTITUDE];
+    if (!isnan(Q[0]) || !isnan(Q[1]) || !isnan(Q[2]) || !isnan(Q[3])) return;
+    const double axis_3[3] = {0, 0, 1};
+    const bool gravity = effects->on[ISO_GRAVITY];
+    turn_to_axis_3(gravity ? iso_effects_up(effects) : axis_3, Q);
+}
+
+static const double unknown[] = {NAN, NAN, NAN, NAN};
 
 static const iso_effect_number numbers[] = {
-    {.name = "quaternion", .count = 4, .kind = ISO_NUMBER_UNIT, .initially = upright, .turns_with = "q"},
+    {.name = "quaternion", .count = 4, .kind = ISO_NUMBER_UNIT, .initially = unknown, .turns_with = "q"},
     {0},
 };
 
@@ -136,6 +162,7 @@ const iso_effect iso_effect_attitude = {
     .needs_radius = true,
     .numbers = numbers,
     .columns = columns,
+    .fill = fill,
     .show = show,
     .recall = recall,
     .motion = motion,

@@ -60,7 +60,7 @@ static const char *no_frequencies(const iso_problem *f)
 
 static void begin(const iso_problem *f, double y[])
 {
-    copy(f->effects.number[ISO_GRAVITY] + UP, y + f->at[ISO_GRAVITY], 3);
+    copy(iso_effects_up(&f->effects), y + f->at[ISO_GRAVITY], 3);
 }
 
 static void size(const iso_problem *f, const double y[], double size[])
@@ -106,10 +106,15 @@ static void recall(const iso_problem *f, const double columns[], double y[])
 
 /* --- its numbers ------------------------------------------------------------------------------------------------ */
 
+const double *iso_effects_up(const iso_effects *e)
+{
+    return e->number[ISO_GRAVITY] + UP;
+}
+
 bool iso_effects_on_level_plane(const iso_params *p, const double normal[3], const iso_effects *e)
 {
     double e_n[3];
-    cross(e->number[ISO_GRAVITY] + UP, normal, e_n);
+    cross(iso_effects_up(e), normal, e_n);
     return e->on[ISO_GRAVITY] && p->k == 1 && norm(e_n) <= 4 * DBL_EPSILON;
 }
 

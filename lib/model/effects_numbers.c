@@ -236,6 +236,7 @@ iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double
         const iso_effect *effect = iso_effect_list[e];
         if (!effects->on[e]) continue;
         status = check_row(ctx, effect);
+        if (status == ISO_OK && effect->fill) effect->fill(effects);
         for (const iso_effect_number *n = effect->numbers; status == ISO_OK && n && n->name; n++)
             status = check_number(ctx, effect->name, n, iso_effect_values(effects, e, n));
         if (status == ISO_OK && effect->check) status = effect->check(ctx, p, normal, effects);

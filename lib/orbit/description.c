@@ -8,6 +8,7 @@
 #include "base/arithmetic_impl.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
+#include "model/attitude_impl.h"
 
 /* "effect.number", the key of a line. */
 static void line_key(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *n)
@@ -162,6 +163,24 @@ iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects
         if (status != ISO_OK) return status;
     }
     return check_named(ctx, r, effects);
+}
+
+bool iso_record_up(iso_context *ctx, const iso_record *r, double up[3])
+{
+    ISO_DEFAULT_ARITHMETIC;
+    static const char *const names[] = {"q0", "q1", "q2", "q3", "e1", "e2", "e3"};
+    double x[7];
+    int columns[7];
+    iso_status status;
+    const bool lines = iso_record_get_numbers(ctx, r, "attitude.quaternion", 4, x, &status) &&
+                       iso_record_get_numbers(ctx, r, "gravity.up", 3, x + 4, &status);
+    const bool there = iso_record_rows(r) > 0 && iso_record_find_all(r, 7, names, columns, NULL);
+    for (int i = 0; !lines && there && i < 7; i++) x[i] = iso_record_const_row(r, 0)[columns[i]];
+    if (!lines && !there) return false;
+    iso_turn_to_space(x, x + 4, up);
+    const double length = norm(up);
+    scale(up, 1 / length);
+    return fabs(length - 1) <= 1e-3;
 }
 
 /* The group of an effect's columns that is called `name`. */

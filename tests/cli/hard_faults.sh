@@ -109,6 +109,9 @@ END
     if has gnuplot "memory for a picture"; then
         ln -s made made.svg
         starve 40 compare scene.yaml --plot made.svg
+        "$isoroll" run effects.yaml --as ball -o space.csv 2>err
+        starve 12 plot space.csv -o made.svg
+        starve 3 plot space.csv --columns t,n3 -o made.svg
         rm -f made.svg
     fi
     echo "memory: $starved runs, $wrong wrong"

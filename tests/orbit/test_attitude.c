@@ -4,7 +4,8 @@
 
 static iso_context *ctx;
 
-static laws_worst unit, vertical, frame, turning, normal, centre, slip, place, lengths, tangents, bending, twisting;
+static laws_worst unit, vertical, frame, upright, kept_axes, turning, normal, centre, slip, place, lengths, tangents,
+    bending, twisting;
 
 enum { TIMES = 12 };
 
@@ -184,6 +185,39 @@ static void check_ball(const rolling *ball, int load, iso_random *random)
     iso_orbit_free(orbit);
 }
 
+/* Without a quaternion, axis 3 of space is the vertical where there is gravity: at the start and later; also where
+ * `up` is the axis of the body, or its opposite, or next to it. The turn is the smallest: its axis lies in the plane
+ * of axes 1 and 2. Without gravity the axes are the body's. */
+static void check_axes(const rolling *ball, iso_random *random)
+{
+    static const double special[][3] = {{0, 0, 1},        {0, 0, -1}, {1e-9, 0, -1}, {0, -1e-160, -1},
+                                        {1e-5, 1e-5, -1}, {0, 1, 0},  {-1, 0, 0},    {0.6, 0, 0.8}};
+    enum { SPECIAL = sizeof special / sizeof *special, UPS = SPECIAL + 8 };
+    static const double axis_3[3] = {0, 0, 1};
+    for (int i = 0; i <= UPS; i++) {
+        iso_effects e = iso_effects_default();
+        const iso_start start = scene_start(ball, random);
+        double up[3], in_space[3];
+        iso_random_direction(random, up);
+        if (i < SPECIAL) copy(special[i], up, 3), scale(up, 1 / norm(up));
+        e.on[ISO_ATTITUDE] = true;
+        if (i < UPS) add_gravity(ball, 0.9, up, &e);
+        iso_orbit *orbit = scene_orbit(ctx, ball, &start, &e, NULL);
+        const iso_sample begin = scene_at(ctx, orbit, 0), later = scene_at(ctx, orbit, 3.7);
+        const double *Q = sample_of(&begin, "q");
+        iso_orbit_free(orbit);
+        if (i == UPS) {
+            laws_note(&kept_axes, fabs(Q[0] - 1) + norm(Q + 1), 0, &ball->p, ball->name);
+            continue;
+        }
+        to_space(&begin, up, in_space);
+        laws_note(&upright, laws_distance(in_space, axis_3), 1e-15, &ball->p, "at the start");
+        laws_note(&upright, Q[0] >= 0 ? fabs(Q[3]) : 1, 0, &ball->p, "the smallest turn");
+        to_space(&later, sample_of(&later, "e"), in_space);
+        laws_note(&upright, laws_distance(in_space, axis_3) / 1e4, 1e-15, &ball->p, "later");
+    }
+}
+
 int main(void)
 {
     gsl_test_verbose(1);
@@ -194,8 +228,14 @@ int main(void)
             const rolling ball = rolling_ball(ctx, which);
             check_ball(&ball, load, random);
         }
+    for (int which = 0; which < ROLLINGS; which++) {
+        const rolling ball = rolling_ball(ctx, which);
+        check_axes(&ball, random);
+    }
     iso_random_free(random);
     laws_report(&frame, "the attitude begins as stated");
+    laws_report(&upright, "where there is gravity, axis 3 of space is up");
+    laws_report(&kept_axes, "without gravity the axes of space are the body's at the start");
     laws_report(&unit, "unit quaternion");
     laws_report(&vertical, "R e: the vertical stands still in space");
     laws_report(&turning, "(R v)' = R (w x v) for v fixed in the body");

@@ -1,0 +1,26 @@
+/* energy.h - the energies of a ball along a trajectory, for pictures. */
+#ifndef ISO_STUDY_ENERGY_H
+#define ISO_STUDY_ENERGY_H
+
+#include "../base/api.h"
+#include "../base/record.h"
+#include "../model/params.h"
+
+ISO_C_BEGIN
+
+/* A new record with a row for each row of `record`, a ball's trajectory with its effects (orbit/description.h):
+ *
+ *     the ball's first clock, or "row"
+ *     h = kinetic + potential
+ *     kinetic = (1/2)(omega, J omega) - (D/2)(omega,n)^2, the second term for a ball that twists
+ *     potential                                            (kinetic and potential only where there is a potential)
+ *
+ * in the units of the record. *energies is NULL, with ISO_OK, where the energy is not known: on a plane with gravity
+ * it needs the height, which are the columns of `attitude`.
+ * Errors: ISO_BAD_INPUT (no ball's columns, a row that is no state), ISO_NUMERICAL, ISO_NO_MEMORY. */
+ISO_API iso_status iso_record_energies(iso_context *ctx, const iso_params *params, const iso_record *record,
+                                       iso_record **energies);
+
+ISO_C_END
+
+#endif

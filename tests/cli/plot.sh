@@ -1,0 +1,185 @@
+#!/bin/sh
+# plot.sh ISOROLL - pictures of trajectories: the way in space, where contact is lost, what the file does not tell,
+# any two columns. gnuplot is replaced by a script that keeps what it is told; the last part takes the real one.
+. "$(dirname "$0")/lib.sh"
+mkdir bin
+cat >bin/gnuplot <<END
+#!/bin/sh
+cat >"$work/script"
+echo '<svg></svg>'
+END
+chmod +x bin/gnuplot
+real_path=$PATH
+PATH=$work/bin:$PATH
+
+# draw ARGUMENT...: a picture; what gnuplot is told is in `script`
+draw() {
+    rm -f script
+    run 0 plot "$@" -o picture.svg
+}
+
+# tells NAME WORDS...: the script has each of the words
+tells() {
+    what=$1
+    shift
+    for words; do check "$what: '$words'" grep -q -F -e "$words" script; done
+}
+
+# tells_not NAME WORDS...: it has none of them
+tells_not() {
+    what=$1
+    shift
+    for words; do check_not "$what: '$words'" grep -q -F -e "$words" script; done
+}
+
+# block NAME N: the numbers of the N-th block of data with this name, x and y
+block() {
+    awk -v head="\$$1 << EOD" -v wanted="$2" '
+        $0 == head { n++; inside = n == wanted; next }
+        $0 == "EOD" { inside = 0 }
+        inside && NF == 2 && $1 != "NaN"' script
+}
+
+# columns_of FILE NAME...: these columns, with blanks between
+columns_of() {
+    file=$1
+    shift
+    { columns "$file"; rows "$file"; } | awk -F, -v names="$*" '
+        NR == 1 { n = split(names, name, " "); for (i = 1; i <= NF; i++) at[$i] = i; next }
+        { for (i = 1; i <= n; i++) printf "%s%s", $at[name[i]], i < n ? " " : "\n" }'
+}
+
+# same NAME: two lists of pairs, `a` and `b`, are equal to 1e-14
+same() {
+    check "$1: rows" test "$(wc -l <a)" -eq "$(wc -l <b)" -a -s a
+    at_most "$1" "$(paste a b | awk '
+        function abs(x) { return x < 0 ? -x : x }
+        { d = abs($1 - $3) + abs($2 - $4); if (d > worst) worst = d } END { print worst + 0 }')" 1e-14
+}
+
+# --- a bowl: axis 3 of space is up, so that the views are columns of the file
+bowl=$source/examples/10_bowl/scene.yaml
+run 0 run "$bowl" --t-end 8 --step 0.02 -o bowl.csv
+draw bowl.csv
+tells "bowl" "the way of the ball, seen from above" "seen from the side" "height \\050axis 3\\051" \
+    "energy h" "pressure" "mu " "up to rounding" \
+    "where it touched the support"
+tells_not "bowl" "contact lost" '$difference' "or less than"
+at_most "radius of the support" "$(sed -n 's/^set object 1 circle at 0,0 size \([^ ]*\).*/\1/p' script | head -n 2 | awk '
+    { d = $1 - 0.3; if (d < 0) d = -d; if (d > worst) worst = d } END { print (NR == 2 ? worst + 0 : "none") }')" 1e-15
+block way1 1 >a && columns_of bowl.csv centre1 centre2 >b && same "from above: centre1, centre2"
+block way1 2 >a && columns_of bowl.csv centre1 centre3 >b && same "from the side: centre1, centre3"
+block touch1 2 >a && columns_of bowl.csv contact1 contact3 >b && same "the contact from the side"
+cp picture.svg kept.svg
+
+# the same motion in other axes of space, as files had them before: seen from above and from the side all the same
+sed 's/attitude: {}/attitude: {quaternion: [1, 0, 0, 0]}/' "$bowl" >turned.yaml
+run 0 run turned.yaml --t-end 8 --step 0.02 -o turned.csv
+block way1 1 >above
+block way1 2 | awk '{ print $2, 0 }' >b
+draw turned.csv
+tells "turned" "seen from above" '"horizontal"' '"height"'
+tells_not "turned" "height \\050axis 3\\051"
+block way1 2 | awk '{ print $2, 0 }' >a && same "heights do not depend on the axes of space"
+awk '{ print $1 ^ 2 + $2 ^ 2, 0 }' above >b
+block way1 1 | awk '{ print $1 ^ 2 + $2 ^ 2, 0 }' >a && same "nor do distances from the vertical"
+
+# a file of another program: the centre alone. Nothing is called up, and no support is assumed
+{ echo "t,omega1,omega2,omega3,n1,n2,n3,centre1,centre2,centre3"; columns_of bowl.csv t omega1 omega2 omega3 n1 n2 n3 \
+    centre1 centre2 centre3 | tr ' ' ','; } >foreign.csv
+draw foreign.csv --k 1.1 --J 1.18e-4,1.26e-4,1.34e-4
+tells "foreign" "seen along axis 3 of space" "seen along axis 2 of space"
+tells_not "foreign" "above" "height" "circle at 0,0 size 0.3" "object 2 circle" "energy h"
+
+# --- off the top: the last row is where contact is lost
+top=$source/examples/09_off_the_top/scene.yaml
+run 0 run "$top" -o off.csv
+lost=$(columns_of off.csv t | tail -n 1)
+draw off.csv
+tells "off the top" "title 'contact lost'" "front point pt 2" "from first $lost, graph 0 to first $lost, graph 1"
+tells_not "off the top" "title 'end', NaN w p pt 2"
+run 0 run "$top" --t-end 0.5 -o on.csv
+draw on.csv
+tells "still on" "title 'end'"
+tells_not "still on" "contact lost" "front point pt 2"
+sed 's/reactions: {}/reactions: {two_sided: true}/' "$top" >two.yaml
+run 0 run two.yaml --t-end 2.5 -o two.csv
+draw two.csv
+tells "a support that pulls" "title 'contact lost'" "title 'end'"
+
+# --- on a plane
+run 0 run "$source/examples/01_bowling_ball/lane.yaml" --t-end 30 -o lane.csv
+draw lane.csv
+tells "lane" "across on a larger scale" "along the way" "where it touched the support"
+tells_not "lane" "seen from the side"
+at_most "the height of a ball on a level lane is its radius" "$(columns_of lane.csv centre3 | awk '
+    { d = $1 - 0.108585; if (d < 0) d = -d; if (d > worst) worst = d } END { print worst + 0 }')" 1e-12
+
+# --- a free ball: no space, no weight; long and late times
+scene -1 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1.0e+6 1.0e+4 >free.yaml
+run 0 run free.yaml --tol 1e-9 -o free.csv
+draw free.csv
+tells "long times" '"t / 10⁶"' "'0.4' 400000" '"the clock s over the clock t"'
+tells_not "a free ball" "seen from" "energy h" "pressure" "or less than"
+scene -1 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.1 >free.yaml
+run 0 run free.yaml -o free.csv
+awk -F, -v OFS=, '/^[0-9]/ { $1 = sprintf("%.17g", $1 + 1000000000) } { print }' free.csv >late.csv
+draw late.csv --columns t,n3
+tells "late times" '"t − 1000000000"'
+
+# --- two columns
+draw bowl.csv --columns t,n3
+tells "two columns" '"n3 over t"'
+block curve0 1 >a && columns_of bowl.csv t n3 >b && same "t, n3"
+draw bowl.csv --columns centre1,centre3
+tells "components of a vector" "set size ratio -1"
+block curve0 1 >a && columns_of bowl.csv centre1 centre3 >b && same "centre1, centre3"
+draw bowl.csv --columns pressure,mu
+tells "no vector" "set size noratio"
+columns_of bowl.csv t omega1 n3 | tr ' ' ',' >bare.csv
+draw bare.csv --columns t,-,n3
+block curve0 1 >a && columns_of bowl.csv t n3 >b && same "by their places, in a file without names"
+columns_of bowl.csv t n3 | tr ' ' ',' >bare.csv
+draw bare.csv --columns t,n3
+block curve0 1 >a && same "two columns without names"
+cp script kept
+draw - --columns t,n3 <bowl.csv
+tells "standard input" '\074stdin\076'
+if "$isoroll" run "$bowl" --t-end 8 --step 0.02 -o bowl.h5 2>/dev/null; then
+    draw bowl.h5 --columns t,n3
+    block curve0 1 >a && same "HDF5"
+fi
+
+# --- what is refused, and leaves the picture that was there
+cp kept.svg picture.svg
+refuses 3 "bowl.csv: there is no column 'n4'; there are t omega1" plot bowl.csv --columns t,n4 -o picture.svg
+refuses 3 "there is no column '\`touch OWNED\`'" plot bowl.csv --columns 't,`touch OWNED`' -o picture.svg
+refuses 3 "expected a line of column names" plot - --columns t,n3 -o picture.svg <bare.csv
+refuses 3 "does not say its k" plot foreign.csv -o picture.svg
+sed '5s/,[^,]*,\([^,]*\)$/,nan,\1/' foreign.csv >bad.csv
+refuses 3 "expected a finite number for centre2" plot bad.csv --k 1.1 --J 1,2,3 -o picture.svg
+refuses 3 "expected a finite number for centre2" plot bad.csv --columns t,centre2 -o picture.svg
+sed 's/^# effects: .*/# effects: rolling_resistance attitude reactions/' bowl.csv >bad.csv
+refuses 3 "'# gravity.mgb', but no line '# effects' that names 'gravity'" plot bad.csv -o picture.svg
+sed '/^# gravity.up/d' bowl.csv >bad.csv
+refuses 3 "effect 'gravity' needs a line '# gravity.up" plot bad.csv -o picture.svg
+columns_of bowl.csv t n3 | head -n 0 >none.csv
+refuses 3 "" plot none.csv --columns t,n3 -o picture.svg
+check "the old picture is still there" cmp -s kept.svg picture.svg
+check "nothing was run" test ! -e OWNED
+
+# --- drawn by gnuplot, in all formats
+PATH=$real_path
+if has gnuplot "pictures"; then
+    for format in svg png pdf; do
+        for file in bowl off two lane turned foreign on; do
+            [ $file = foreign ] && set -- --k 1.1 --J 1.18e-4,1.26e-4,1.34e-4 || set --
+            run 0 plot $file.csv "$@" -o $file.$format
+            check "$file.$format" test -s $file.$format
+        done
+        run 0 plot late.csv -o late.$format
+        run 0 plot bowl.csv --columns centre1,centre2 -o two.$format
+    done
+    check "words of the picture" grep -q ">seen from the side<" bowl.svg
+fi
+finish
