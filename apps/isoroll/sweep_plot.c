@@ -194,7 +194,7 @@ static iso_status draw_curve(iso_context *ctx, const table *t, const char *title
         if (status == ISO_OK) memcpy(row, sorted[i], sizeof sorted[i]);
     }
     name_of(&t->head->column[t->value], value);
-    if (status == ISO_OK) status = iso_plot_curve(ctx, output, title, name, value, rows);
+    if (status == ISO_OK) status = iso_plot_sweep_curve(ctx, output, title, name, value, rows);
     iso_record_free(rows);
     free(sorted);
     return status;
@@ -342,7 +342,7 @@ static iso_status draw_maps(iso_context *ctx, const table *t, const char *title,
     name_of(&t->head->column[t->value], value);
     for (int i = 0; i < m.count; i++) names[i] = m.name[i];
     const iso_plot_panels p = {title, l.x_name, l.y_name, value, m.count, names, (const iso_record *const *)m.rows};
-    if (status == ISO_OK) status = iso_plot_values(ctx, output, &p);
+    if (status == ISO_OK) status = iso_plot_sweep_maps(ctx, output, &p);
     for (int i = 0; i < m.count; i++) iso_record_free(m.rows[i]);
     return status;
 }

@@ -158,8 +158,8 @@ ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const i
 /* A value over one number: a curve, and the band of its error. rows: columns x, value, low, high, by growing x; low
  * and high may be NaN. name, value: of the axes. An axis that has the name k has marks at +-1. If values of both
  * signs or of very different sizes are there, |value| has a logarithmic axis. Errors: as iso_plot_momentum. */
-ISO_API iso_status iso_plot_curve(iso_context *ctx, const char *path, const char *title, const char *name,
-                                  const char *value, const iso_record *rows);
+ISO_API iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const char *name,
+                                        const char *value, const iso_record *rows);
 
 /* A value over two numbers: maps side by side, with one scale of colours. A NaN is grey. An axis that has the name k
  * has marks at +-1. */
@@ -170,7 +170,7 @@ typedef struct iso_plot_panels {
     const char *const *name;           /* of each; "": none                         */
     const iso_record *const *rows;     /* of each: columns x, y, value              */
 } iso_plot_panels;
-ISO_API iso_status iso_plot_values(iso_context *ctx, const char *path, const iso_plot_panels *panels);
+ISO_API iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const iso_plot_panels *panels);
 
 /* Where the rotations about the axes of least and greatest moment are stable: the records of study/stability_chart.h.
  * moment: the name of the one that varies. Errors: as iso_plot_momentum. */

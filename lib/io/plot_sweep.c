@@ -160,8 +160,8 @@ static bool put_curve(FILE *f, const iso_record *rows, bool sizes, bool k)
     return band;
 }
 
-iso_status iso_plot_curve(iso_context *ctx, const char *path, const char *title, const char *name, const char *value,
-                          const iso_record *rows)
+iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const char *name,
+                                const char *value, const iso_record *rows)
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_gnuplot *g;
@@ -307,7 +307,7 @@ static void put_steps(FILE *f, const line *x)
     fprintf(f, "set xtics %.6g\n", power * (digit < 2 ? 1 : digit < 5 ? 2 : 5));
 }
 
-iso_status iso_plot_values(iso_context *ctx, const char *path, const iso_plot_panels *p)
+iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const iso_plot_panels *p)
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_gnuplot *g;
