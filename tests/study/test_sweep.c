@@ -127,6 +127,14 @@ static bool same_rows(const all *a, const all *b)
     return true;
 }
 
+/* Whether something was measured; not all need be numbers: a chaotic orbit has no rotation number. */
+static bool measured(const iso_sweep_rows *rows, size_t i)
+{
+    bool any = false;
+    for (int c = 2; c < rows->columns; c++) any = any || !isnan(rows->number[i * (size_t)rows->columns + (size_t)c]);
+    return any;
+}
+
 static void check_ways(const char *name, double turns, double time)
 {
     static const struct {
@@ -145,8 +153,7 @@ static void check_ways(const char *name, double turns, double time)
         for (size_t i = 0; i < COUNT; i++) {
             const bool ball = a.rows.number[i * (size_t)a.rows.columns] != 0;
             gsl_test(ball != (a.rows.status[i] == ISO_OK), "%s, point %zu: %s", name, i, a.rows.reason[i]);
-            gsl_test(ball == isnan(a.rows.number[i * (size_t)a.rows.columns + 2]), "%s, point %zu: a number", name,
-                     i);
+            gsl_test(ball != measured(&a.rows, i), "%s, point %zu: numbers if there is a ball", name, i);
         }
         if (w > 0) iso_sweep_rows_free(&a.rows);
     }
