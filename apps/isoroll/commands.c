@@ -5,7 +5,7 @@
 
 extern const command command_run, command_convert, command_compare, command_cost, command_check, command_analogue,
     command_frequencies, command_explain, command_list, command_plot, command_manual, command_section, command_chaos,
-    command_periodic, command_splitting, command_integrals;
+    command_periodic, command_splitting, command_integrals, command_view;
 
 const command *const commands[] = {&command_run,
                                    &command_convert,
@@ -13,6 +13,7 @@ const command *const commands[] = {&command_run,
                                    &command_cost,
                                    &command_check,
                                    &command_plot,
+                                   &command_view,
                                    &command_section,
                                    &command_chaos,
                                    &command_periodic,

@@ -26,6 +26,11 @@ json_t *json_number(double x)
     return isfinite(x) ? json_real(x) : json_null();
 }
 
+bool json_whole(const json_t *o)
+{
+    return o && !lacking;
+}
+
 bool json_print(json_t *o)
 {
     char *text = o ? json_dumps(o, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) : NULL;
