@@ -67,6 +67,14 @@ static file_kind kind_of(const file_options *from)
     return told ? TRAJECTORY : SCENE;
 }
 
+/* The file with the folder it is in: many scenes are called scene.yaml. */
+static const char *short_name(const char *path)
+{
+    const char *at = path + strlen(path);
+    for (int slashes = 0; at > path && (slashes += at[-1] == '/') < 2; at--) {}
+    return at;
+}
+
 /* --- the page --------------------------------------------------------------------------------------------------- */
 
 static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
@@ -102,8 +110,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (status == ISO_OK && standard) status = make_seekable(ctx);
     if (status != ISO_OK) return finish(ctx, status);
     const file_kind kind = kind_of(&o->from);
-    const char *slash = strrchr(o->from.file, '/');
-    view_page page = view_page_empty(standard ? "<stdin>" : slash ? slash + 1 : o->from.file, names[kind]);
+    view_page page = view_page_empty(standard ? "<stdin>" : short_name(o->from.file), names[kind]);
     stop_gently();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     status = make(ctx, o, kind, &page);

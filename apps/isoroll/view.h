@@ -18,7 +18,7 @@ enum {
     VIEW_MOST_ROWS = 5000,      /* of the orbit that is played; more are thinned out, and the page says so   */
     VIEW_MOST_CROSSINGS = 20000 /* of a section                                                             */
 };
-#define VIEW_MOST_NUMBERS 100000.0 /* of all orbits of a section */
+#define VIEW_MOST_NUMBERS 140000.0 /* of all orbits of a section */
 
 /* The largest turn of the ball, of n or of gamma between two rows, in radians. Cubic curves through such rows are
  * right to 1e-6. */

@@ -144,13 +144,29 @@ static json_t *rows_of(const view_page *page)
     return o;
 }
 
+/* [number of the orbit, number of its crossings], one after the other. */
+static json_t *counts_of(const iso_record *crossings)
+{
+    json_t *list = json_array();
+    const size_t rows = iso_record_rows(crossings);
+    for (size_t i = 0, first = 0; i < rows; i++) {
+        const double orbit = iso_record_const_row(crossings, i)[0];
+        if (i + 1 < rows && iso_record_const_row(crossings, i + 1)[0] == orbit) continue;
+        json_array_append_new(list, json_pack("[I,I]", (json_int_t)orbit, (json_int_t)(i + 1 - first)));
+        first = i + 1;
+    }
+    return list;
+}
+
 static json_t *section_of(const view_section *s)
 {
     json_t *o = json_object(), *list = json_array();
     json_object_set_new(o, "axis", json_integer(s->axis));
     json_object_set_new(o, "total", json_integer((json_int_t)s->total));
     json_object_set_new(o, "orbits", json_integer((json_int_t)s->orbits));
+    json_object_set_new(o, "counts", counts_of(s->crossings));
     json_object_set_new(o, "crossings", columns_of(s->crossings));
+    json_object_del(json_object_get(o, "crossings"), "orbit");
     for (size_t i = 0; i < s->count; i++) {
         json_t *one = json_object();
         json_object_set_new(one, "number", json_integer((json_int_t)s->number[i]));

@@ -13,7 +13,7 @@
 #include "map/state.h"
 
 enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 13 /* of a row: t tau s, M, gamma, q */ };
-#define ORBIT_TURN 0.2 /* of the ball, n or gamma from row to row, about */
+#define ORBIT_TURN 0.3 /* of the ball, n or gamma from row to row, about */
 
 typedef struct builder {
     iso_context *ctx;
@@ -110,8 +110,7 @@ static double step_of(const view_page *page, const iso_start *start)
     else
         memcpy(ball, start->y, sizeof ball);
     const double speed = sqrt(ball[0] * ball[0] + ball[1] * ball[1] + ball[2] * ball[2]);
-    const double least = fmin(fmin(p->J[0], p->J[1]), p->J[2]), most = fmax(fmax(p->J[0], p->J[1]), p->J[2]);
-    return ORBIT_TURN / (speed * fmax(1, fabs(p->k)) * pow(most / least, 0.25));
+    return ORBIT_TURN / (speed * fmax(1, fabs(p->k)));
 }
 
 static iso_status follow(const builder *b, iso_orbit *orbit, double step, iso_record *to)

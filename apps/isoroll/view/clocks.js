@@ -6,11 +6,16 @@ const clockWords = {
   s: ["s", "the point’s time"],
 };
 
-const digits = (x) => {
+const raised = (n) => [...String(n)].map((d) => d === "-" ? "⁻" : d === "." ? "·" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("");
+
+// A number with so many significant digits, without zeros at its end.
+const digits = (x, count = 6) => {
   if (!Number.isFinite(x)) return "–";
   if (x === 0) return "0";
   const size = Math.abs(x);
-  return size >= 1e5 || size < 1e-3 ? x.toExponential(4).replace("-", "−") : x.toPrecision(6).replace("-", "−");
+  const [digit, power] = x.toExponential(count - 1).split("e").map(Number);
+  const text = size >= 1e6 || size < 1e-3 ? `${digit}·10${raised(power)}` : String(Number(x.toPrecision(count)));
+  return text.replace(/^-/, "−");
 };
 
 // For a clock that runs: a fixed number of decimals, so that digits do not jump.
@@ -92,48 +97,67 @@ const clocks = {
     for (const name in this.tiles) {
       const tile = this.tiles[name];
       tile.own.value.textContent = reading(now[name], this.spans[name]);
-      const pace = motion.rate(name, now.n) / motion.rate(this.even, now.n) / this.mean(name);
+      const pace = this.pace(name, now);
       tile.own.rate.textContent = name === this.even ? "runs evenly" : `${pace > 1.02 ? "hurries" : pace < 0.98 ? "waits" : "keeps pace"} ×${pace.toFixed(2)}`;
       tile.own.rate.classList.toggle("even", name === this.even);
     }
   },
 
+  // The pace of a clock now, against its mean.
+  pace(name, now) {
+    return motion.rate(name, now.n) / motion.rate(this.even, now.n) / this.mean(name);
+  },
+
+  // Where there is only t: how high the centre of the ball is, or how fast the ball turns.
+  heights(orbit) {
+    const up = upOf(orbit), high = page.effects.gravity && body.kind !== "plane";
+    const value = high ? (now) => dot(now.centre, up) : (now) => Math.hypot(...now.omega);
+    if (this.heightsOf !== orbit) {
+      this.heightsOf = orbit;
+      this.heightCurve = orbit.t.length > 1 ? Array.from(orbit.t, (t, i) => [t, value(motion.inside(orbit, Math.min(i, orbit.count - 2), i === orbit.count - 1 ? 1 : 0))]) : [];
+      document.getElementById("pace-words").textContent = high ? "The curve: how high the centre of the ball is." : "The curve: how fast the ball turns, |ω|.";
+    }
+    return ["t", this.heightCurve, value];
+  },
+
   // The curves of pace, and a line at the present.
   draw(orbit, now) {
-    const { g, width, height } = sheet(document.getElementById("pace")), left = 8, right = width - 34, top = 8, bottom = height - 18;
+    const { g, width, height } = sheet(document.getElementById("pace")), left = 8, right = width - 54, top = 8, bottom = height - 18;
     const others = orbit.clocks.filter((name) => name !== this.even);
     const column = orbit[this.even], from = column[0], to = column[orbit.count - 1];
     const x = (value) => left + (value - from) / (to - from) * (right - left), style = getComputedStyle(document.body);
-    let most = 1.2;
-    for (const name of others) for (const point of this.curves[name]) most = Math.max(most, point[1]);
-    const y = (pace) => bottom - pace / (most * 1.05) * (bottom - top);
+    const lines = others.length ? others.map((name) => [name, this.curves[name], (now) => this.pace(name, now)]) : [this.heights(orbit)];
+    let low = others.length ? 1 : Infinity, most = others.length ? 1 : -Infinity;
+    for (const [, curve] of lines) for (const [, value] of curve) { low = Math.min(low, value); most = Math.max(most, value); }
+    const room = Math.max(most - low, 1e-6) * 0.06;
+    const y = (value) => bottom - 4 - (value - low + room) / (most - low + 2 * room) * (bottom - 4 - top);
     g.strokeStyle = style.getPropertyValue("--rule");
     g.fillStyle = style.getPropertyValue("--quiet");
     g.lineWidth = 1;
     this.ticks(g, from, to, x, bottom, width);
+    g.textAlign = "left";
     if (others.length) {
+      const precise = most - low > 0.1 ? 3 : 5, far = (value) => Math.abs(y(value) - y(1)) > 15;
       g.setLineDash([3, 4]);
       g.beginPath(); g.moveTo(left, y(1)); g.lineTo(right, y(1)); g.stroke();
       g.setLineDash([]);
-      g.textAlign = "left";
       g.fillText("×1", right + 6, y(1) + 4);
-      if (y(most) < y(1) - 14) g.fillText(`×${most.toFixed(1)}`, right + 6, y(most) + 6);
-      g.fillText("×0", right + 6, bottom);
-    }
-    for (const name of others) {
+      if (far(most)) g.fillText(`×${digits(most, precise)}`, right + 6, y(most) + 6);
+      if (far(low)) g.fillText(`×${digits(low, precise)}`, right + 6, y(low));
+    } else for (const value of [low, most]) g.fillText(digits(value, 3), right + 6, y(value) + 4);
+    for (const [name, curve] of lines) {
       g.strokeStyle = style.getPropertyValue(`--${name}`);
       g.lineWidth = 1.6;
       g.beginPath();
-      for (const [at, pace] of this.curves[name]) g.lineTo(x(at), y(pace));
+      for (const [at, value] of curve) g.lineTo(x(at), y(value));
       g.stroke();
     }
     g.strokeStyle = style.getPropertyValue("--text");
     g.lineWidth = 1.5;
     g.beginPath(); g.moveTo(x(now[this.even]), top - 4); g.lineTo(x(now[this.even]), bottom); g.stroke();
-    for (const name of others) {
-      const pace = motion.rate(name, now.n) / motion.rate(this.even, now.n) / this.mean(name);
+    for (const [name, , value] of lines) {
       g.fillStyle = style.getPropertyValue(`--${name}`);
-      g.beginPath(); g.arc(x(now[this.even]), y(pace), 4, 0, 7); g.fill();
+      g.beginPath(); g.arc(x(now[this.even]), y(value(now)), 4, 0, 7); g.fill();
     }
     this.toValue = (pixel) => from + Math.min(1, Math.max(0, (pixel - left) / (right - left))) * (to - from);
   },

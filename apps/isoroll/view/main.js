@@ -63,7 +63,7 @@ const controls = {
   // How much of the trail is bright, in radii of the sphere that it lies on.
   trail() {
     const choice = element("trail").value;
-    return choice === "short" ? { length: 3, future: 0.0 } : choice === "long" ? { length: 16, future: 0.1 } : { length: 1e9, future: 0.1 };
+    return choice === "short" ? { length: 3, future: 0 } : choice === "long" ? { length: 16, future: 0.14 } : { length: 1e9, future: 0.14 };
   },
 
   // --- frames ---
@@ -217,8 +217,8 @@ const controls = {
     clocks.even = page.clock;
     this.steer();
     numbers.describe(this.orbit);
+    camera.face((this.orbit.gamma || this.orbit.n)[0]);
     this.setOrbit(this.orbit);
-    if (this.long) element("trail").value = "long";
     this.last = null;
     const frames = /^#frames=(\d+),(\d+),(\d+)$/.exec(location.hash);
     if (frames && this.pictures) return this.writeFrames(...frames.slice(1).map(Number));

@@ -3,7 +3,7 @@
 const numbers = {
   // A unit from its dimension: J^(a + b/(2k)) / time^c, where J stands for the unit of moments of inertia.
   unitOf([a, b, c]) {
-    const power = a + b / (2 * body.k), up = (x) => x === 1 ? "" : `^${+x.toPrecision(4)}`;
+    const power = a + b / (2 * body.k), up = (x) => x === 1 ? "" : raised(+x.toPrecision(3));
     const J = Math.abs(power) < 1e-12 ? "" : `J${up(power)}`;
     if (c === 0) return J || "1";
     return c > 0 ? `${J || "1"}/time${up(c)}` : `${J ? J + "·" : ""}time${up(-c)}`;
@@ -20,7 +20,7 @@ const numbers = {
     });
   },
 
-  small: (x) => !Number.isFinite(x) ? "–" : x === 0 ? "0" : Math.abs(x).toExponential(1).replace("e-", " · 10⁻").replace(/⁻(\d+)/, (_, d) => "⁻" + [...d].map((n) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[n]).join("")).replace("e+0", ""),
+  small: (x) => digits(Math.abs(x), 2),
 
   build(orbit) {
     const id = (name) => document.getElementById(name);
@@ -30,7 +30,7 @@ const numbers = {
     const head = () => this.row(id("integrals"), ["", "value", "unit", "drift now", "largest"], "th");
     if (page.integrals.length) head();
     page.integrals.forEach((one, i) => {
-      const cells = this.row(id("integrals"), [one.name, digits(one.start), this.unitOf(one.dimension), "", this.small(one.worst)]);
+      const cells = this.row(id("integrals"), [`${one.name} (${one.model})`, digits(one.start, 5), this.unitOf(one.dimension), "", this.small(one.worst)]);
       cells[0].title = `${one.model}: ${one.doc}`;
       this.integrals.push([cells[3], orbit.column[`drift${i}`]]);
     });
@@ -83,15 +83,16 @@ const numbers = {
     document.title = `${page.title} – isoroll`;
     id("title").textContent = page.title;
     id("lead").textContent = page.alone
-      ? `A ball with three moments of inertia rolls ${where} without slipping${page.effects.twist ? "" : " or twisting"}.`
+      ? `A ball with three moments of inertia rolls ${where}${page.effects.gravity ? ", under gravity," : ""} without slipping${page.effects.twist ? "" : " or twisting"}.`
       : `Left, a ball rolls ${where} without slipping or twisting. Right, a point moves on a sphere. Both follow the same curve: only their clocks differ.`;
     id("left-words").textContent = { plane: "rolls on a plane", outside: "rolls on the outside of a sphere", inside: "rolls inside a sphere", shell: "is hollow and rolls around a sphere" }[kind];
+    if (page.notes.some((note) => note.startsWith("contact is lost"))) id("left-words").textContent += "; contact is lost at the end";
     if (page.alone) {
       id("right-name").textContent = "The contact";
       id("right-words").textContent = "on the ball, seen in the ball’s own axes";
     } else id("right-words").textContent = `moves in the ${k === -1 ? "Neumann " : k === 1 ? "Braden " : ""}potential V`;
     this.legends();
-    const about = [["k", `${digits(k)} (${kind})`], ["J", body.J.map(digits).join(", ")]];
+    const about = [["k", `${digits(k)} (${kind})`], ["J", body.J.map((x) => digits(x)).join(", ")]];
     about.push(["ball radius B", body.reduced ? "1 (unit of length)" : digits(B)]);
     if (kind !== "plane") about.push(["sphere radius A", digits(A)]);
     if (page.h !== null) about.push(["energy h", `${digits(page.h)} J/time²`]);
@@ -134,7 +135,7 @@ const numbers = {
     if (page.alone) put("right-legend", [[colours.curve, "path of the contact"]]);
     else {
       put("right-legend", [[colours.curve, "path of the point"]]);
-      if (potential.height) put("right-legend", [[null, `V from ${digits(potential.least)} (dark: deep, fast) to ${digits(potential.most)}${potential.logarithmic ? ", logarithmic" : ""}`, "scale"]]);
+      if (potential.height) put("right-legend", [[null, `V from ${digits(potential.least, 3)} (dark: deep, fast) to ${digits(potential.most, 3)}${potential.logarithmic ? ", logarithmic" : ""}`, "scale"]]);
     }
   },
 };

@@ -5,7 +5,8 @@
 
 const sections = !page.section ? null : (() => {
   const { J, k } = body, a = page.section.axis, b = (a + 1) % 3, c = (a + 2) % 3;
-  const column = { orbit: decoded(page.section.crossings.orbit), l: decoded(page.section.crossings.l), x: decoded(page.section.crossings.x) };
+  const column = { orbit: page.section.counts.flatMap(([number, count]) => Array(count).fill(number)),
+    l: decoded(page.section.crossings.l), x: decoded(page.section.crossings.x) };
   const free = page.eps > 0 && !Object.keys(page.effects).some((name) => name !== "level" && name !== "clock");
   const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#999933", "#7d6b9e"];
   const G = (l) => free ? Math.sqrt(2 * page.eps) * (J[b] * Math.cos(l) ** 2 + J[c] * Math.sin(l) ** 2) ** (-1 / (2 * k)) : 1;

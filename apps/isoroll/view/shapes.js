@@ -6,9 +6,9 @@ const derivatives = { derivatives: true };
 
 const colours = {
   curve: "#d55e00", support: "#0072b2", t: "#0072b2", tau: "#b5578f", s: "#00825c",
-  light: { paper: "#ffffff", ball: "#f3efe6", dark: "#c3ccd6", line: "#56657a", ground: "#dfe4e8", rule: "#9aa7b3",
+  light: { paper: "#ffffff", ball: "#f3efe6", dark: "#c3ccd6", line: "#56657a", ground: "#e9edf0", rule: "#93a1ae",
     deep: "#1d4f86", middle: "#86b0d0", shallow: "#fbf3dd", text: "#1c2733", future: "#6f7c88" },
-  dark: { paper: "#171c22", ball: "#d9d6cf", dark: "#8796a6", line: "#39485a", ground: "#2c343d", rule: "#5c6a78",
+  dark: { paper: "#171c22", ball: "#d9d6cf", dark: "#8796a6", line: "#39485a", ground: "#323b45", rule: "#6b7a89",
     deep: "#0d2f57", middle: "#4d84b0", shallow: "#f2e6c4", text: "#e8edf2", future: "#9aa7b3" },
 };
 const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
@@ -25,11 +25,12 @@ void main() {
 
 // Patterns: 0 octants of a ball with the great circles of its axes, 1 a graticule, 2 heights with contours.
 const fragment = `
-uniform vec3 a, b, c, line; uniform float opacity; uniform int pattern;
+uniform vec3 a, b, c, line, up; uniform float opacity, rim; uniform int pattern;
 varying vec3 place; varying vec3 normalOut; varying vec3 toEye; varying float height;
 float near(float x, float width) { float w = fwidth(x); return 1.0 - smoothstep(width * w, (width + 1.0) * w, abs(x)); }
 float rule(float x) { float w = fwidth(x); return (1.0 - smoothstep(0.5 * w, 1.5 * w, abs(fract(x + 0.5) - 0.5))) * step(w, 0.4); }
 void main() {
+  if (dot(place, up) > rim) discard; // a bowl is open above its rim
   vec3 p = normalize(place), colour;
   if (pattern == 0) {
     vec3 w = fwidth(p) + 1e-5, side = smoothstep(-w, w, p) * 2.0 - 1.0;
@@ -43,7 +44,8 @@ void main() {
     colour = height < 0.5 ? mix(a, c, height * 2.0) : mix(c, b, height * 2.0 - 1.0);
     colour = mix(colour, line, 0.3 * rule(height * 10.0));
   }
-  vec3 n = normalize(normalOut) * (gl_FrontFacing ? 1.0 : -1.0);
+  vec3 n = normalize(normalOut);
+  if (dot(n, toEye) < 0.0) n = -n;
   float light = 0.8 + 0.24 * max(0.0, dot(n, normalize(vec3(-0.45, 0.75, 0.6))));
   light *= 0.84 + 0.16 * abs(dot(n, normalize(toEye)));
   gl_FragColor = vec4(min(colour * light, 1.0), opacity);
@@ -57,7 +59,7 @@ function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, h
     level[i] = height(unit([places.getX(i), places.getY(i), places.getZ(i)]));
   geometry.setAttribute("level", new THREE.BufferAttribute(level, 1));
   const uniforms = { a: { value: 0 }, b: { value: 0 }, c: { value: 0 }, line: { value: 0 },
-    opacity: { value: opacity }, pattern: { value: pattern } };
+    opacity: { value: opacity }, pattern: { value: pattern }, up: { value: new THREE.Vector3() }, rim: { value: 1 } };
   const material = new THREE.ShaderMaterial({ vertexShader: vertex, fragmentShader: fragment, uniforms, side,
     transparent: opacity < 1, depthWrite: opacity === 1, extensions: derivatives,
     polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });

@@ -3,8 +3,13 @@
 // Axis 3 of the body points up, as in the pictures of `isoroll plot`.
 const bodyUp = new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(1, 0, 0), -Math.PI / 2);
 
-const camera = { azimuth: 0.7, elevation: 0.42, zoom: 1,
-  reset() { Object.assign(camera, { azimuth: 0.7, elevation: 0.42, zoom: 1 }); } };
+const camera = { azimuth: 0.7, elevation: 0.42, zoom: 1, home: { azimuth: 0.7, elevation: 0.42, zoom: 1 },
+  reset() { Object.assign(camera, camera.home); },
+  // Turns to a direction in body axes: there the point is seen from the front.
+  face(v) {
+    camera.home.azimuth = Math.hypot(v[0], v[1]) > 0.1 ? Math.atan2(v[0], -v[1]) + 0.5 : 0.7;
+    camera.reset();
+  } };
 
 class Picture {
   constructor(canvas, distance) {
@@ -37,7 +42,7 @@ class Picture {
   }
 
   draw() {
-    const { azimuth: a, elevation: e, zoom } = camera, d = this.distance * this.far / zoom;
+    const { azimuth: a, elevation: e, zoom } = camera, d = (this.near || this.distance) * this.far / zoom;
     const place = new THREE.Vector3(Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e));
     this.eye.position.copy(place.multiplyScalar(d)).add(this.target);
     this.eye.lookAt(this.target);
@@ -96,6 +101,7 @@ class BallPicture extends Picture {
     this.buildSupport();
     this.buildBall();
     this.bead = this.add(this.world, bead(0.045 * Math.min(B, this.size / 2), colours.curve));
+    this.middle = new THREE.Vector3();
     this.from = kind === "plane" ? "follow" : "room";
   }
 
@@ -119,12 +125,12 @@ class BallPicture extends Picture {
   }
 
   setOrbit(orbit, moments) {
-    const B = body.B, width = 0.022 * Math.min(B, this.size / 2), plane = body.kind === "plane";
+    const B = body.B, thin = Math.min(0.026 * B, 0.014 * this.size), wide = 0.011 * this.size, plane = body.kind === "plane";
     for (const old of this.ribbons || []) { old.parent.remove(old); old.geometry.dispose(); }
     const out = body.b > 0 ? 1 : -1; // the trace lies on the outside of the ball, of a shell on its inside
     const side = body.kind === "shell" ? -1 : 1;
-    const trace = (hidden) => ribbon(moments, (m) => m.trace, (m) => times(m.n, -out * side), width, colours.curve, B, { hidden });
-    const space = (hidden) => ribbon(moments, (m) => m.contact, (m) => times(m.normal, body.b > 0 ? 1 : -1), width,
+    const trace = (hidden) => ribbon(moments, (m) => m.trace, (m) => times(m.n, -out * side), thin, colours.curve, B, { hidden });
+    const space = (hidden) => ribbon(moments, (m) => m.contact, (m) => times(m.normal, body.kind === "inside" ? -1 : 1), wide,
       colours.support, B, { hidden });
     this.ribbons = [this.add(this.ball, trace(false)), this.add(this.world, space(false))];
     if (body.kind !== "shell") this.ribbons.push(this.add(this.ball, trace(true)));
@@ -132,7 +138,21 @@ class BallPicture extends Picture {
     const up = upOf(orbit);
     this.upright = new THREE.Quaternion().setFromUnitVectors(three(up), new THREE.Vector3(0, 1, 0));
     this.flat = plane && new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), three(turned(orbit.q[0], orbit.n[0])));
+    if (body.kind === "inside" && page.effects.gravity) this.openBowl(moments, up);
     this.recolour();
+  }
+
+  // With gravity only the part of the sphere below the highest contact is drawn: a bowl.
+  openBowl(moments, up) {
+    const { A, B } = body, uniforms = this.support.material.uniforms;
+    const highest = moments.reduce((most, m) => Math.max(most, dot(m.contact, up)), -A);
+    const rim = Math.min(0.9 * A, highest + 0.12 * A), low = Math.min(rim, 0);
+    uniforms.up.value.copy(three(up));
+    uniforms.rim.value = rim;
+    const width = Math.sqrt(A * A - low * low), height = rim + A;
+    this.distance = 4.05 * Math.max(width, height / 2, 2 * B);
+    this.middle = new THREE.Vector3(0, (rim - A) / 2, 0);
+    camera.elevation = camera.home.elevation = 0.6;
   }
 
   show(now, trail) {
@@ -143,10 +163,12 @@ class BallPicture extends Picture {
     for (const strip of this.ribbons) strip.show(now.row, trail.length, trail.future);
     this.world.quaternion.copy(this.upright);
     this.world.position.set(0, 0, 0);
-    this.target.set(0, 0, 0);
+    this.target.copy(this.middle);
+    this.near = this.from === "room" ? 0 : 4.05 * (body.kind === "shell" ? 1.2 : 2.2) * body.B;
     if (this.from === "follow") this.target.copy(three(now.centre).applyQuaternion(this.upright));
     if (this.from === "ball") {
       const back = bodyUp.clone().multiply(turn(inverse(now.q)));
+      this.target.set(0, 0, 0);
       this.world.quaternion.copy(back);
       this.world.position.copy(three(now.centre).applyQuaternion(back).negate());
     }
