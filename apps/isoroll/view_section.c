@@ -219,9 +219,10 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
     iso_record *in = NULL;
     page->section = calloc(1, sizeof *page->section);
     if (!page->section) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a section");
-    iso_status status = view_section_read(ctx, from->file, &in);
-    if (status == ISO_OK) status = of_record(ctx, from, in, page);
-    if (status != ISO_OK && status != ISO_FILE_TROUBLE) status = name_the_file(ctx, from->file, status);
+    iso_status status = view_section_read(ctx, from->file, &in); /* its messages have the name already */
+    if (status != ISO_OK) return status;
+    status = of_record(ctx, from, in, page);
+    if (status != ISO_OK) status = name_the_file(ctx, from->file, status);
     iso_record_free(in);
     return status;
 }

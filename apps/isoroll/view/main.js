@@ -2,6 +2,12 @@
 
 const element = (name) => document.getElementById(name);
 
+function hasWebGL() {
+  const canvas = document.createElement("canvas"), context = canvas.getContext("webgl") || canvas.getContext("experimental-webgl");
+  if (context && context.getExtension("WEBGL_lose_context")) context.getExtension("WEBGL_lose_context").loseContext();
+  return Boolean(context);
+}
+
 const controls = {
   playing: false,
   value: 0,      // of the even clock
@@ -206,13 +212,12 @@ const controls = {
 
   begin() {
     this.orbit = orbitOf(page.rows || page.section.list[0]);
-    try {
-      this.pictures = [new BallPicture(element("ball")), new PointPicture(element("point"), !page.alone)];
-    } catch (error) {
-      this.pictures = null;
+    if (hasWebGL()) this.pictures = [new BallPicture(element("ball")), new PointPicture(element("point"), !page.alone)];
+    else {
       element("trouble").hidden = false;
-      element("trouble").textContent = "This browser has no WebGL, which draws the pictures in space. The clocks and numbers below work without it.";
+      element("trouble").textContent = "This browser has no WebGL, which draws the pictures in space. Clocks and numbers work without it.";
       element("models").hidden = true;
+      element("picture").hidden = true;
     }
     clocks.even = page.clock;
     this.steer();

@@ -115,7 +115,7 @@ const numbers = {
   notes(orbit) {
     const list = [...page.notes], { rows } = page;
     if (page.alone) list.unshift(`There is no point: ${page.alone}.`);
-    if (rows && rows.every > 1) list.push(`Each ${rows.every}th of ${rows.total} rows is here (${orbit.count}).`.replace(" 2th", " 2nd").replace(" 3th", " 3rd"));
+    if (rows && rows.every > 1) list.push(`One row of each ${rows.every} is here: ${orbit.count} of ${rows.total}.`);
     else if (rows && rows.between > 0) list.push(`${rows.total} rows of the scene, and ${rows.between} between each two of them.`);
     else if (rows) list.push(`All ${rows.total} rows are here.`);
     list.push("Between rows the motion is interpolated by cubic curves with the slopes of the equations of motion.");

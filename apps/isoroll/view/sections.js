@@ -109,9 +109,17 @@ const sections = !page.section ? null : (() => {
   const api = {
     orbits: page.section.list.map((one) => one.number),
     get chosen() { return chosen; },
-    dot(i, number) { // where a dot of an orbit is drawn, for tests
-      const j = column.orbit.indexOf(number), frame = frameOf(plots[i]), box = plots[i].canvas.getBoundingClientRect();
-      return [box.left + frame.x(dots[i][j][0]), box.top + frame.y(dots[i][j][1])];
+    // Where a dot of an orbit is drawn, far from the dots of others; for tests.
+    alone(i, number) {
+      const frame = frameOf(plots[i]), box = plots[i].canvas.getBoundingClientRect();
+      const spots = dots[i].map(([right, up]) => [box.left + frame.x(right), box.top + frame.y(up)]);
+      let best = null, most = -1;
+      spots.forEach((spot, j) => {
+        if (column.orbit[j] !== number) return;
+        const room = Math.min(...spots.map((other, m) => column.orbit[m] === number ? Infinity : Math.hypot(other[0] - spot[0], other[1] - spot[1])));
+        if (room > most) { most = room; best = spot; }
+      });
+      return best;
     },
     choose(number) {
       if (!runnable.has(number)) return;
