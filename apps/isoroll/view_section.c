@@ -13,7 +13,9 @@
 #include "map/state.h"
 
 enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 13 /* of a row: t tau s, M, gamma, q */ };
-#define ORBIT_TURN 0.3 /* of the ball, n or gamma from row to row, about */
+/* The turn of the ball, n or gamma from row to row, about: of few orbits each has more and closer rows. */
+#define ORBIT_TURN      0.15
+#define LONG_ORBIT_TURN 0.3
 
 typedef struct builder {
     iso_context *ctx;
@@ -100,8 +102,8 @@ static iso_status start_of(const builder *b, size_t row, iso_start *start, iso_e
     return iso_start_point(b->ctx, point, point + 3, &page->eps, true, start);
 }
 
-/* A step of t in which neither the ball, n nor gamma turns by more than about ORBIT_TURN. */
-static double step_of(const view_page *page, const iso_start *start)
+/* A step of t in which neither the ball, n nor gamma turns by much more than `turn`. */
+static double step_of(const view_page *page, const iso_start *start, double turn)
 {
     const iso_params *p = &page->params;
     double ball[ISO_STATE];
@@ -110,7 +112,7 @@ static double step_of(const view_page *page, const iso_start *start)
     else
         memcpy(ball, start->y, sizeof ball);
     const double speed = sqrt(ball[0] * ball[0] + ball[1] * ball[1] + ball[2] * ball[2]);
-    return ORBIT_TURN / (speed * fmax(1, fabs(p->k)));
+    return turn / (speed * fmax(1, fabs(p->k)));
 }
 
 static iso_status follow(const builder *b, iso_orbit *orbit, double step, iso_record *to)
@@ -158,7 +160,7 @@ static iso_status run_orbit(const builder *b, size_t row, iso_record **to)
     for (int i = 0; !*b->page->alone && i < ISO_CLOCKS; i++) o.with_clock[i] = true;
     status = iso_orbit_create(b->ctx, &b->page->params, &start, &o, &orbit);
     if (status == ISO_OK) status = iso_record_create(b->ctx, columns_of(b->page, names), names, to);
-    if (status == ISO_OK) status = follow(b, orbit, step_of(b->page, &start), *to);
+    if (status == ISO_OK) status = follow(b, orbit, step_of(b->page, &start, b->rows < 400 ? LONG_ORBIT_TURN : ORBIT_TURN), *to);
     iso_orbit_free(orbit);
     return status;
 }

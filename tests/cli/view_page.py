@@ -40,13 +40,15 @@ def apart(a, b):
     return max(abs(x - y) for x, y in zip(a, b)) / max(1, max(map(abs, b)))
 
 
-def distance(state, row):
-    """The largest difference of a page's state and a row of isoroll run."""
+def distance(state, row, names=("n", "gamma", "contact", "centre"), length=1):
+    """The largest difference of a page's place, in n, gamma and space, and a row of isoroll run; places in space are
+    measured in `length`."""
     q = vector(row, "q", 0, 4)
     worst = min(apart(state["q"], q), apart(state["q"], [-x for x in q]))
-    for name in ("n", "gamma", "M", "omega", "contact", "centre"):
+    for name in names:
         if name + "1" in row and name in state:
-            worst = max(worst, apart(state[name], vector(row, name)))
+            size = length if name.startswith("c") else 1
+            worst = max(worst, apart(state[name], [x / size for x in vector(row, name)]))
     return worst
 
 
@@ -94,6 +96,8 @@ def positions(page, name):
     check(f"{name}: as many rows as times", len(rows) == len(times))
     worst = max(distance(page.evaluate(f"isoroll.seek({row['t']!r})"), row) for row in rows)
     check(f"{name}: positions at t", worst <= BOUND, worst)
+    worst = max(distance(page.evaluate(f"isoroll.seek({row['t']!r})"), row, ("omega", "M")) for row in rows)
+    check(f"{name}: omega and M at t", worst <= (1e-3 if name == "bowl" else 1e-5), worst)  # of third, fourth order
     for clock in ("tau", "s"):
         if clock not in rows[0]:
             continue
@@ -163,7 +167,9 @@ def trajectories(browser):
         write("wide.yaml", scene(name, columns_of(name)))
         run("run", "wide.yaml", "-o", "wide.csv")
         page = browser.open(os.path.join(work, "plain.html"), media=still)
-        worst = max(distance(page.evaluate(f"isoroll.seek({row['t']!r})"), row) for row in table("wide.csv")[::7])
+        # such a file does not say the radius: it is the unit of length
+        radius = 0.5 if name == "plane" else 1
+        worst = max(distance(page.evaluate(f"isoroll.seek({row['t']!r})"), row, length=radius) for row in table("wide.csv")[::7])
         check(f"trajectory {name}: positions at rows", worst <= BOUND, worst)
         quiet(page, "trajectory " + name)
     run("run", "shell.yaml", "--step", "3e-4", "-o", "many.csv")
@@ -196,7 +202,7 @@ def section(browser):
         own = [row for row in rows if row["orbit"] == wanted]
         found = page.evaluate("isoroll.sections().crossings()")
         worst = max(max(abs(math.remainder(a["l"] - b["l"], 2 * math.pi)), abs(a["x"] - b["x"]))
-                    for a, b in zip(found, own))
+                    for a, b in zip(found[:6], own))  # on a chaotic orbit rounding errors grow from return to return
         check("it crosses where the file says", len(found) >= 3 and worst <= 2e-3, (len(found), worst))
     page.evaluate("document.getElementById('section-point').focus()")
     page.key("ArrowRight")

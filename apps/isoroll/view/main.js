@@ -14,6 +14,7 @@ const controls = {
   speed: 1,
   drawn: 0,      // frames so far
   dirty: true,
+  quality: 1, slow: 20, before: 0, resting: 0,
 
   // --- time ---
 
@@ -82,9 +83,27 @@ const controls = {
       this.seek(this.value + since * this.speed * (to - from) / this.seconds);
       if (this.value >= to) this.play(false);
     }
+    this.adapt(milliseconds);
     if (!this.dirty) return;
     this.dirty = false;
     this.draw();
+  },
+  // Slow computers draw what moves with fewer pixels, and all of them when it stands still.
+  adapt(milliseconds) {
+    const since = milliseconds - this.before;
+    this.before = milliseconds;
+    if (!this.pictures) return;
+    if (this.dirty) {
+      this.resting = milliseconds;
+      this.slow = since < 1000 ? 0.8 * this.slow + 0.2 * since : this.slow;
+      if (this.slow > 34 && this.quality > 0.45) this.setQuality(this.quality * 0.8);
+    } else if (this.quality < 1 && milliseconds - this.resting > 400) this.setQuality(1);
+  },
+  setQuality(quality) {
+    this.quality = quality;
+    this.slow = 20;
+    for (const picture of this.pictures) picture.quality = quality;
+    this.resize();
   },
   draw() {
     const { now } = this, scrub = element("scrub"), button = element("play");

@@ -7,12 +7,28 @@ function cubic(a, b, c, d, u) {
   return v * v * ((1 + 2 * u) * a + u * c) + u * u * ((1 + 2 * v) * b - v * d);
 }
 const cubics = (a, b, c, d, h, u) => a.map((x, i) => cubic(x, b[i], c[i] * h, d[i] * h, u));
-const between = (a, b, u) => a.map((x, i) => x + (b[i] - x) * u);
 
 // q' = q (0, omega)/2
 function spin(q, w) {
   const p = q.slice(1), v = plus(times(w, q[0]), cross(p, w));
   return [-dot(p, w) / 2, v[0] / 2, v[1] / 2, v[2] / 2];
+}
+
+// omega' of a free ball (9), M' of the point (24) by s.
+const free = !Object.keys(page.effects).some((name) => !["attitude", "reactions", "clock"].includes(name));
+function omegaRate(n, w) {
+  const x = cross(w.map((v, i) => v * body.J[i]), w), u = n.map((v, i) => v / body.J[i]), lambda = -dot(x, u) / dot(n, u);
+  return x.map((v, i) => v / body.J[i] + lambda * u[i]);
+}
+function forceAt(gamma) {
+  const Jg = gamma.map((v, i) => v * body.J[i]), q = dot(gamma, Jg);
+  return times(cross(gamma, Jg), 2 * page.eps / body.k * q ** (-1 - 1 / body.k));
+}
+
+// The slope from the rows beside row i: with effects, omega and M have none that is known here.
+function difference(o, name, i) {
+  const a = Math.max(0, i - 1), b = Math.min(o.count - 1, i + 1);
+  return times(plus(o[name][b], times(o[name][a], -1)), 1 / (o.t[b] - o.t[a]));
 }
 
 // Slopes by t at row i.
@@ -23,6 +39,8 @@ const slope = {
   n: (o, i) => times(cross(o.n[i], o.omega[i]), body.k),
   q: (o, i) => spin(o.q[i], o.omega[i]),
   gamma: (o, i) => times(cross(o.gamma[i], o.M[i]), slope.s(o, i)),
+  omega: (o, i) => free ? omegaRate(o.n[i], o.omega[i]) : difference(o, "omega", i),
+  M: (o, i) => free ? times(forceAt(o.gamma[i]), slope.s(o, i)) : difference(o, "M", i),
   contact: (o, i) => times(turned(o.q[i], cross(o.omega[i], o.n[i])), body.b), // on a plane
 };
 
@@ -64,12 +82,12 @@ const motion = {
   inside(o, i, u) {
     const h = o.t[i + 1] - o.t[i], j = i + 1;
     const curve = (name) => cubics(o[name][i], o[name][j], slope[name](o, i), slope[name](o, j), h, u);
-    const now = { row: i + u, n: unit(curve("n")), q: unit(curve("q")), omega: between(o.omega[i], o.omega[j], u) };
+    const now = { row: i + u, n: unit(curve("n")), q: unit(curve("q")), omega: curve("omega") };
     for (const name of o.clocks)
       now[name] = cubic(o[name][i], o[name][j], slope[name](o, i) * h, slope[name](o, j) * h, u);
     if (o.gamma) {
       now.gamma = unit(curve("gamma"));
-      now.M = between(o.M[i], o.M[j], u);
+      now.M = curve("M");
     }
     return motion.place(now, body.kind === "plane" ? curve("contact") : null);
   },

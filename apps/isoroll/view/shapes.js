@@ -53,7 +53,7 @@ void main() {
 
 // A sphere; colours a and b (and c between them) and line by name in the theme. height(v): of a unit vector, 0 to 1.
 function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, height } = {}) {
-  const geometry = new THREE.SphereBufferGeometry(radius, 96, 64), places = geometry.attributes.position;
+  const geometry = new THREE.SphereBufferGeometry(radius, ...(height ? [80, 56] : [64, 40])), places = geometry.attributes.position;
   const level = new Float32Array(places.count);
   for (let i = 0; height && i < places.count; i++)
     level[i] = height(unit([places.getX(i), places.getY(i), places.getZ(i)]));

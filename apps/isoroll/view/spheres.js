@@ -19,7 +19,7 @@ class Picture {
     this.eye = new THREE.PerspectiveCamera(30, 1, distance / 100, distance * 20);
     this.distance = distance;
     this.target = new THREE.Vector3();
-    this.turned = new THREE.Quaternion();
+    this.quality = 1; // of the resolution: less where drawing is slow
     this.steer();
   }
 
@@ -30,7 +30,7 @@ class Picture {
   resize() {
     const box = this.canvas.parentElement.getBoundingClientRect();
     const width = Math.max(1, Math.round(box.width)), height = Math.max(1, Math.round(box.height));
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2) * this.quality);
     this.renderer.setSize(width, height, false);
     this.shape(width / height);
   }
