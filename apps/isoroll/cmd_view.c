@@ -71,7 +71,8 @@ static file_kind kind_of(const file_options *from)
 static const char *short_name(const char *path)
 {
     const char *at = path + strlen(path);
-    for (int slashes = 0; at > path && (slashes += at[-1] == '/') < 2; at--) {}
+    for (int slashes = 0; at > path && (slashes += at[-1] == '/') < 2; at--) {
+    }
     return at;
 }
 

@@ -34,10 +34,10 @@ typedef struct view_integral {
 
 typedef struct view_section {
     int axis;
-    iso_record *crossings;  /* orbit, l, x: those that are drawn                 */
-    size_t total, orbits;   /* crossings and orbits of the file                  */
-    iso_record **orbit;     /* the orbits that can be run; rows as in view_page  */
-    size_t *number;         /* of the file, of each of them                      */
+    iso_record *crossings; /* orbit, l, x: those that are drawn                 */
+    size_t total, orbits;  /* crossings and orbits of the file                  */
+    iso_record **orbit;    /* the orbits that can be run; rows as in view_page  */
+    size_t *number;        /* of the file, of each of them                      */
     size_t count;
 } view_section;
 
@@ -46,16 +46,16 @@ typedef struct view_page {
     const char *kind;  /* "scene", "trajectory" or "section" */
     iso_params params;
     iso_effects effects;
-    double eps, h;           /* NAN: not known                                              */
-    iso_clock clock;         /* the one that runs evenly at first                           */
-    char alone[VIEW_WORDS];  /* why the ball has no point; "": it has one                   */
+    double eps, h;          /* NAN: not known                                              */
+    iso_clock clock;        /* the one that runs evenly at first                           */
+    char alone[VIEW_WORDS]; /* why the ball has no point; "": it has one                   */
     char note[VIEW_NOTES][VIEW_WORDS];
     int notes;
-    iso_record *rows;        /* by columns of iso_column_name, in the order of their times  */
-    size_t total, every;     /* rows of the file or scene; each `every`-th of them is here  */
-    size_t between;          /* rows put between two of the scene's                         */
-    iso_record *drifts;      /* a column for each integral, rows as above; NULL: none       */
-    iso_record *apart;       /* n and gamma by the point's own equations; NULL: none        */
+    iso_record *rows;    /* by columns of iso_column_name, in the order of their times  */
+    size_t total, every; /* rows of the file or scene; each `every`-th of them is here  */
+    size_t between;      /* rows put between two of the scene's                         */
+    iso_record *drifts;  /* a column for each integral, rows as above; NULL: none       */
+    iso_record *apart;   /* n and gamma by the point's own equations; NULL: none        */
     view_integral integral[2 * ISO_MAX_INTEGRALS];
     int integrals;
     view_section *section; /* NULL: none */

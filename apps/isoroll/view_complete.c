@@ -21,12 +21,12 @@ typedef struct completion {
     const view_page *page;
     const iso_record *in;
     iso_record *out;
-    iso_model_kind model;       /* whose states the rows have              */
-    iso_clock clock;            /* in which the short orbits are asked     */
+    iso_model_kind model; /* whose states the rows have              */
+    iso_clock clock;      /* in which the short orbits are asked     */
     bool twin;
-    double begun[ISO_CLOCKS];   /* clocks where the present orbit began    */
-    double shift[3];            /* on a plane: the contact there           */
-    double q[4];                /* attitude there                          */
+    double begun[ISO_CLOCKS]; /* clocks where the present orbit began    */
+    double shift[3];          /* on a plane: the contact there           */
+    double q[4];              /* attitude there                          */
 } completion;
 
 static bool has(const iso_record *r, const char *name)
@@ -41,8 +41,8 @@ static iso_status create(completion *c)
     size_t count = 0;
     for (int i = 0; i < iso_columns_count(); i++) {
         const char *name = iso_column_name(i);
-        const bool of_point = i == ISO_CLOCK_TAU || i == ISO_CLOCK_S ||
-                              (i >= ISO_COLUMN_POINT && i < ISO_COLUMN_EFFECTS);
+        const bool of_point =
+            i == ISO_CLOCK_TAU || i == ISO_CLOCK_S || (i >= ISO_COLUMN_POINT && i < ISO_COLUMN_EFFECTS);
         bool wanted = i >= ISO_COLUMN_EFFECTS ? has(c->in, name) : !of_point || c->twin;
         for (int a = 0; a < ATTITUDE; a++) wanted = wanted || strcmp(name, attitude_names[a]) == 0;
         if (wanted) names[count++] = name;
@@ -85,8 +85,7 @@ static iso_status begin(completion *c, size_t row, iso_orbit **orbit)
 {
     iso_start start;
     iso_effects effects = c->page->effects;
-    iso_status status =
-        iso_record_start(c->ctx, c->in, &c->page->params, c->model, row, &start, &effects);
+    iso_status status = iso_record_start(c->ctx, c->in, &c->page->params, c->model, row, &start, &effects);
     if (status == ISO_OK && !has(c->in, "q0"))
         status = iso_effects_set(c->ctx, &effects, "attitude", "quaternion", 4, c->q);
     if (status != ISO_OK) return status;

@@ -48,8 +48,7 @@ static json_t *column_of(const iso_record *r, size_t column)
 static json_t *columns_of(const iso_record *r)
 {
     json_t *o = json_object();
-    for (size_t i = 0; i < iso_record_columns(r); i++)
-        json_object_set_new(o, iso_record_name(r, i), column_of(r, i));
+    for (size_t i = 0; i < iso_record_columns(r); i++) json_object_set_new(o, iso_record_name(r, i), column_of(r, i));
     return o;
 }
 

@@ -30,9 +30,17 @@ static int spawn(const char *address, int out, pid_t *child)
 {
     static const char *const names[] = {"chromium", "chromium-browser", "google-chrome", "chrome"};
     const char *sandbox = geteuid() == 0 ? "--no-sandbox" : "--headless"; /* root has no sandbox */
-    const char *arguments[] = {NULL, "--headless", sandbox, "--disable-gpu", "--use-angle=swiftshader",
-                               "--enable-unsafe-swiftshader", "--host-resolver-rules=MAP * ~NOTFOUND",
-                               "--no-first-run", "--dump-dom", address, NULL};
+    const char *arguments[] = {NULL,
+                               "--headless",
+                               sandbox,
+                               "--disable-gpu",
+                               "--use-angle=swiftshader",
+                               "--enable-unsafe-swiftshader",
+                               "--host-resolver-rules=MAP * ~NOTFOUND",
+                               "--no-first-run",
+                               "--dump-dom",
+                               address,
+                               NULL};
     posix_spawn_file_actions_t actions;
     int error = posix_spawn_file_actions_init(&actions);
     if (error != 0) return error;
@@ -56,7 +64,8 @@ static iso_status run_chromium(iso_context *ctx, const char *address, FILE *out)
     if (error != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
                                 "--frames: cannot run Chromium: %s; install it (package chromium), or take pictures "
-                                "in the page", strerror(error));
+                                "in the page",
+                                strerror(error));
     while (waitpid(child, &result, 0) < 0)
         if (errno != EINTR) break;
     rewind(out);
@@ -122,8 +131,8 @@ static void address_of(const char *path, size_t first, size_t count, size_t all,
 {
     size_t used = (size_t)snprintf(to, size, "file://");
     for (const char *c = path; *c && used + 64 < size; c++) {
-        const bool plain = strchr("/-._~", *c) || (*c >= '0' && *c <= '9') || (*c >= 'a' && *c <= 'z') ||
-                           (*c >= 'A' && *c <= 'Z');
+        const bool plain =
+            strchr("/-._~", *c) || (*c >= '0' && *c <= '9') || (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z');
         used += (size_t)snprintf(to + used, size - used, plain ? "%c" : "%%%02X", (unsigned char)*c);
     }
     snprintf(to + used, size - used, "#frames=%zu,%zu,%zu", first, count, all);
@@ -137,7 +146,8 @@ static iso_status draw(iso_context *ctx, const view_frames *f, const char *page,
         const size_t count = all - first < BATCH ? all - first : BATCH;
         size_t taken = 0;
         FILE *out = tmpfile();
-        if (!out) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open a temporary file: %s", strerror(errno));
+        if (!out)
+            return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open a temporary file: %s", strerror(errno));
         address_of(page, first, count, all, address, sizeof address);
         status = run_chromium(ctx, address, out);
         if (status == ISO_OK) status = take_frames(ctx, out, f->folder, &taken);
@@ -145,8 +155,7 @@ static iso_status draw(iso_context *ctx, const view_frames *f, const char *page,
         if (status == ISO_OK && taken < count)
             status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "--frames: Chromium drew %zu of frames %zu to %zu",
                                       taken, first + 1, first + count);
-        if (status == ISO_OK && interrupted())
-            status = iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
+        if (status == ISO_OK && interrupted()) status = iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
         progress_show((double)(first + count) / (double)all);
     }
     return status;

@@ -62,8 +62,8 @@ static void choose_columns(iso_scene *scene, bool twin)
 {
     scene->columns = 0;
     for (int c = 0; c < iso_columns_count() && scene->columns < ISO_MAX_COLUMNS; c++) {
-        const bool of_twin = c == ISO_CLOCK_TAU || c == ISO_CLOCK_S ||
-                             (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
+        const bool of_twin =
+            c == ISO_CLOCK_TAU || c == ISO_CLOCK_S || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
         iso_effect_id effect = ISO_EFFECTS;
         if (c >= ISO_COLUMN_EFFECTS) iso_effect_column_name(c - ISO_COLUMN_EFFECTS, &effect, NULL, NULL);
         if ((of_twin && !twin) || (effect != ISO_EFFECTS && !scene->effects.on[effect])) continue;

@@ -14,7 +14,7 @@
 
 enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 13 /* of a row: t tau s, M, gamma, q */ };
 /* The turn of the ball, n or gamma from row to row, about: of few orbits each has more and closer rows. */
-#define ORBIT_TURN      0.15
+#define ORBIT_TURN 0.15
 #define LONG_ORBIT_TURN 0.3
 
 typedef struct builder {
@@ -86,7 +86,8 @@ static iso_status keep_crossings(builder *b)
         status = iso_record_append(b->ctx, s->crossings, &row);
         if (status == ISO_OK) row[0] = from[b->orbit], row[1] = from[b->l], row[2] = from[b->x];
     }
-    if (most > each) view_note(b->page, "Of each orbit the section shows the first %zu of %zu crossings.", each, most);
+    if (most > each)
+        view_note(b->page, "Of each orbit the section shows the first %zu of %zu crossings.", each, most);
     return status;
 }
 
@@ -160,7 +161,8 @@ static iso_status run_orbit(const builder *b, size_t row, iso_record **to)
     for (int i = 0; !*b->page->alone && i < ISO_CLOCKS; i++) o.with_clock[i] = true;
     status = iso_orbit_create(b->ctx, &b->page->params, &start, &o, &orbit);
     if (status == ISO_OK) status = iso_record_create(b->ctx, columns_of(b->page, names), names, to);
-    if (status == ISO_OK) status = follow(b, orbit, step_of(b->page, &start, b->rows < 400 ? LONG_ORBIT_TURN : ORBIT_TURN), *to);
+    if (status == ISO_OK)
+        status = follow(b, orbit, step_of(b->page, &start, b->rows < 400 ? LONG_ORBIT_TURN : ORBIT_TURN), *to);
     iso_orbit_free(orbit);
     return status;
 }

@@ -88,8 +88,7 @@ iso_status view_section_read(iso_context *ctx, const char *path, iso_record **re
     const bool standard = strcmp(path, "-") == 0;
     reading r = {.ctx = ctx, .name = standard ? "<stdin>" : path, .file = standard ? stdin : fopen(path, "r")};
     *record = NULL;
-    if (!r.file)
-        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));
+    if (!r.file) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));
     const iso_status status = read_lines(&r);
     if (!standard) fclose(r.file);
     free(r.line);

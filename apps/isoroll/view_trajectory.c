@@ -16,7 +16,8 @@ static bool has_all(const iso_record *r, const char *const names[], const char *
 static iso_status check_columns(iso_context *ctx, const iso_record *r, iso_clock *clock)
 {
     const char *ball, *point;
-    const bool is_ball = has_all(r, iso_system_ball.state, &ball), is_point = has_all(r, iso_system_point.state, &point);
+    const bool is_ball = has_all(r, iso_system_ball.state, &ball),
+               is_point = has_all(r, iso_system_point.state, &point);
     if (!is_ball && !is_point) {
         const bool more_ball = iso_record_find(r, "n1") >= 0 || iso_record_find(r, "omega1") >= 0;
         return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
@@ -47,9 +48,10 @@ static iso_status pick(iso_context *ctx, const iso_record *in, int time, size_t 
         double *to;
         if (row[time] == last) continue;
         if (row[time] < last)
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "", "row %zu: its %s = %.17g is out of order: a page plays "
-                                    "the rows in the order of their times", from + 1, iso_record_name(in, (size_t)time),
-                                    row[time]);
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                    "row %zu: its %s = %.17g is out of order: a page plays "
+                                    "the rows in the order of their times",
+                                    from + 1, iso_record_name(in, (size_t)time), row[time]);
         last = row[time];
         if (i % every != 0 && i != rows - 1) continue;
         const iso_status status = iso_record_append(ctx, out, &to);
