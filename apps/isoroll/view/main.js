@@ -47,7 +47,7 @@ const controls = {
 
   setOrbit(orbit) {
     this.orbit = orbit;
-    const length = Math.min(0.06, 0.02 + 2 * orbit.count * 1e-5), moments = motion.moments(orbit, Math.max(0.04, length));
+    const moments = motion.moments(orbit, 0.08);
     clocks.build(orbit);
     if (this.pictures) for (const picture of this.pictures) picture.setOrbit(orbit, moments);
     if (sections) sections.setOrbit(orbit);
@@ -70,7 +70,7 @@ const controls = {
   // How much of the trail is bright, in radii of the sphere that it lies on.
   trail() {
     const choice = element("trail").value;
-    return choice === "short" ? { length: 3, future: 0 } : choice === "long" ? { length: 16, future: 0.14 } : { length: 1e9, future: 0.14 };
+    return choice === "short" ? { length: 3, whole: false } : { length: choice === "long" ? 14 : 1e9, whole: true };
   },
 
   // --- frames ---
@@ -113,9 +113,9 @@ const controls = {
     scrub.setAttribute("aria-valuetext", `${clockWords[clocks.even][0]} = ${digits(this.value)}`);
     if (this.pictures) for (const picture of this.pictures) { picture.show(now, this.trail()); picture.draw(); }
     clocks.show(now);
-    clocks.draw(this.orbit, now);
+    pace.draw(now);
     if (sections) sections.draw(now);
-    numbers.show(now);
+    if (!this.playing || this.drawn % 4 === 0) numbers.show(now); // faster than this nobody can read
     this.drawn++;
   },
   resize() {
@@ -189,9 +189,9 @@ const controls = {
       : [["room", "the room"], ["follow", "beside the ball"], ["ball", "the ball itself"]];
     for (const [value, words] of frames) element("frame").append(new Option(words, value));
     element("frame").addEventListener("change", (e) => { if (this.pictures) this.pictures[0].from = e.target.value; this.changed(); });
-    const pace = element("pace"), drag = (e) => { if (e.buttons) { this.play(false); this.seek(clocks.toValue(e.clientX - pace.getBoundingClientRect().left)); } };
-    pace.addEventListener("pointerdown", (e) => { pace.setPointerCapture(e.pointerId); drag(e); });
-    pace.addEventListener("pointermove", drag);
+    const strip = element("pace"), drag = (e) => { if (e.buttons) { this.play(false); this.seek(pace.toValue(e.clientX - strip.getBoundingClientRect().left)); } };
+    strip.addEventListener("pointerdown", (e) => { strip.setPointerCapture(e.pointerId); drag(e); });
+    strip.addEventListener("pointermove", drag);
     element("clocks").addEventListener("keydown", (e) => this.turnRadio(e));
     document.addEventListener("keydown", (e) => this.key(e));
     addEventListener("resize", () => this.resize());

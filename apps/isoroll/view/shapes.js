@@ -53,7 +53,7 @@ void main() {
 
 // A sphere; colours a and b (and c between them) and line by name in the theme. height(v): of a unit vector, 0 to 1.
 function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, height } = {}) {
-  const geometry = new THREE.SphereBufferGeometry(radius, ...(height ? [80, 56] : [64, 40])), places = geometry.attributes.position;
+  const geometry = new THREE.SphereBufferGeometry(radius, ...(height ? [64, 44] : [56, 36])), places = geometry.attributes.position;
   const level = new Float32Array(places.count);
   for (let i = 0; height && i < places.count; i++)
     level[i] = height(unit([places.getX(i), places.getY(i), places.getZ(i)]));
@@ -88,12 +88,13 @@ function plane(size, spacing) {
   return mesh;
 }
 
-// A ribbon that lies on a surface: bright behind the present, pale before it. `at(moment)` gives its points,
-// `normal(moment)` the surface's normal there. Its length is counted in units of `scale`.
+// The way behind the present: a ribbon that lies on a surface and fades with its length, in units of `scale`.
+// `at(moment)` gives its points, `normal(moment)` the surface's normal there. Only its bright part is drawn.
 function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = {}) {
   const count = moments.length, points = moments.map(at), length = new Float64Array(count);
-  for (let i = 1; i < count; i++) length[i] = length[i - 1] + Math.hypot(...plus(points[i], times(points[i - 1], -1))) / scale;
-  const places = new Float32Array(6 * count), along = new Float32Array(2 * count), index = [];
+  for (let i = 1; i < count; i++)
+    length[i] = length[i - 1] + Math.hypot(...plus(points[i], times(points[i - 1], -1))) / scale;
+  const places = new Float32Array(6 * count), along = new Float32Array(2 * count), index = new Uint32Array(6 * count - 6);
   for (let i = 0; i < count; i++) {
     const ahead = plus(points[Math.min(i + 1, count - 1)], times(points[Math.max(i - 1, 0)], -1));
     const n = normal(moments[i]), aside = cross(n, ahead), size = Math.hypot(...aside) || 1;
@@ -101,40 +102,50 @@ function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = 
     places.set(plus(lifted, times(aside, width / size)), 6 * i);
     places.set(plus(lifted, times(aside, -width / size)), 6 * i + 3);
     along[2 * i] = along[2 * i + 1] = length[i];
-    if (i > 0) index.push(2 * i - 2, 2 * i - 1, 2 * i, 2 * i, 2 * i - 1, 2 * i + 1);
+    if (i > 0) index.set([2 * i - 2, 2 * i - 1, 2 * i, 2 * i, 2 * i - 1, 2 * i + 1], 6 * i - 6);
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
   geometry.setAttribute("along", new THREE.BufferAttribute(along, 1));
-  geometry.setIndex(index);
+  geometry.setIndex(new THREE.BufferAttribute(index, 1));
   const uniforms = { now: { value: 0 }, tail: { value: 6 }, colour: { value: new THREE.Color(colour) },
-    pale: { value: new THREE.Color(colour) }, strength: { value: hidden ? 0.22 : 1 }, future: { value: 0.16 } };
+    strength: { value: hidden ? 0.22 : 1 } };
   const material = new THREE.ShaderMaterial({ uniforms, transparent: true, depthWrite: false, side: THREE.DoubleSide,
     depthFunc: hidden ? THREE.GreaterDepth : THREE.LessEqualDepth,
     vertexShader: `attribute float along; varying float where;
       void main() { where = along; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
-    fragmentShader: `uniform float now, tail, strength, future; uniform vec3 colour, pale; varying float where;
-      void main() { float age = (now - where) / tail, past = step(0.0, age);
-      float bright = past * exp(-2.5 * age * age); float alpha = max(bright, future);
-      gl_FragColor = vec4(mix(pale, colour, bright), alpha * strength); }` });
+    fragmentShader: `uniform float now, tail, strength; uniform vec3 colour; varying float where;
+      void main() { float age = (now - where) / tail; if (age < 0.0) discard;
+      gl_FragColor = vec4(colour, exp(-2.5 * age * age) * strength); }` });
   const mesh = new THREE.Mesh(geometry, material);
   mesh.frustumCulled = false;
   mesh.renderOrder = hidden ? 3 : 2;
   const rows = moments.map((m) => m.row);
-  mesh.show = (row, tail, future) => {
+  mesh.show = (row, trail) => {
     const i = interval(rows, row), part = (row - rows[i]) / (rows[i + 1] - rows[i]);
-    uniforms.now.value = length[i] + (length[i + 1] - length[i]) * Math.min(Math.max(part, 0), 1);
-    uniforms.tail.value = tail;
-    uniforms.future.value = future;
+    const now = length[i] + (length[i + 1] - length[i]) * Math.min(Math.max(part, 0), 1);
+    const first = interval(length, now - 1.6 * trail.length);
+    geometry.setDrawRange(6 * first, 6 * (i + 1 - first));
+    uniforms.now.value = now;
+    uniforms.tail.value = trail.length;
   };
-  mesh.recolour = () => { uniforms.pale.value = new THREE.Color(theme().future); };
-  mesh.total = length[count - 1];
   return mesh;
+}
+
+// The whole way, as a pale line.
+function whole(moments, at, lift) {
+  const each = Math.ceil(moments.length / 4000), points = moments.filter((_, i) => i % each === 0).map((m) => three(times(at(m), lift)));
+  const line = new THREE.Line(new THREE.BufferGeometry().setFromPoints(points),
+    new THREE.LineBasicMaterial({ transparent: true, opacity: 0.42, depthWrite: false }));
+  line.frustumCulled = false;
+  line.show = (row, trail) => { line.visible = trail.whole; };
+  line.recolour = () => line.material.color.set(theme().future);
+  return line;
 }
 
 // A bright bead, with a halo, seen faintly through what hides it.
 function bead(radius, colour) {
-  const group = new THREE.Group(), ball = new THREE.SphereBufferGeometry(radius, 24, 16);
+  const group = new THREE.Group(), ball = new THREE.SphereBufferGeometry(radius, 16, 10);
   const add = (scale, settings) => {
     const mesh = new THREE.Mesh(ball, new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, ...settings }));
     mesh.scale.setScalar(scale);

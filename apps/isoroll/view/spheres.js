@@ -132,7 +132,9 @@ class BallPicture extends Picture {
     const trace = (hidden) => ribbon(moments, (m) => m.trace, (m) => times(m.n, -out * side), thin, colours.curve, B, { hidden });
     const space = (hidden) => ribbon(moments, (m) => m.contact, (m) => times(m.normal, body.kind === "inside" ? -1 : 1), wide,
       colours.support, B, { hidden });
-    this.ribbons = [this.add(this.ball, trace(false)), this.add(this.world, space(false))];
+    this.ribbons = [this.add(this.ball, trace(false)), this.add(this.world, space(false)),
+      this.add(this.ball, whole(moments, (m) => m.trace, 1 + 0.003 * side)),
+      this.add(this.world, whole(moments, (m) => m.contact, body.kind === "plane" ? 1 : body.kind === "inside" ? 0.998 : 1.002))];
     if (body.kind !== "shell") this.ribbons.push(this.add(this.ball, trace(true)));
     if (!plane) this.ribbons.push(this.add(this.world, space(true)));
     const up = upOf(orbit);
@@ -160,7 +162,7 @@ class BallPicture extends Picture {
     this.ball.quaternion.copy(turn(now.q));
     this.bead.position.copy(three(now.contact));
     if (this.flat) this.showPlane(now);
-    for (const strip of this.ribbons) strip.show(now.row, trail.length, trail.future);
+    for (const strip of this.ribbons) strip.show(now.row, trail);
     this.world.quaternion.copy(this.upright);
     this.world.position.set(0, 0, 0);
     this.target.copy(this.middle);
@@ -208,13 +210,15 @@ class PointPicture extends Picture {
   setOrbit(orbit, moments) {
     for (const old of this.ribbons || []) { old.parent.remove(old); old.geometry.dispose(); }
     const at = (m) => this.hasPoint ? m.gamma : m.n;
-    this.ribbons = [false, true].map((hidden) => this.add(this.world, ribbon(moments, at, at, 0.016, colours.curve, 1, { hidden })));
+    this.ribbons = [false, true].map((hidden) => ribbon(moments, at, at, 0.016, colours.curve, 1, { hidden }));
+    this.ribbons.push(whole(moments, at, 1.003));
+    this.add(this.world, ...this.ribbons);
     this.recolour();
   }
 
   show(now, trail) {
     this.bead.position.copy(three(this.hasPoint ? now.gamma : now.n));
-    for (const strip of this.ribbons) strip.show(now.row, trail.length, trail.future);
+    for (const strip of this.ribbons) strip.show(now.row, trail);
   }
 }
 
