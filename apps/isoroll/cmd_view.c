@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include "scene_options.h"
-#include "view.h"
+#include "view_section.h"
 
 /* What view can be told. */
 typedef struct options {
@@ -60,6 +60,7 @@ static file_kind kind_of(const file_options *from)
     char text[64];
     read_beginning(from->file, text, sizeof text);
     if (strncmp(text, "# isoroll section ", 18) == 0) return SECTION;
+    if (ends_with(from->file, ".h5") && view_section_is_hdf5(from->file)) return SECTION;
     if (strncmp(text, "# isoroll trajectory ", 21) == 0) return TRAJECTORY;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
         if (ends_with(from->file, endings[i])) return TRAJECTORY;
@@ -143,7 +144,7 @@ const command command_view = {
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
     .description =
-        "FILE is a scene, a trajectory (CSV or HDF5) or a section (CSV). The page is one file. It opens from disk in "
+        "FILE is a scene, or a trajectory or section (CSV or HDF5). The page is one file. It opens from disk in "
         "any browser with WebGL, and loads nothing from anywhere.\n\n"
         "Left, the ball rolls on its plane or sphere; right, the point moves in its potential. Choose which clock "
         "runs evenly, t, tau or s: the other model then hurries and waits. Of a scene each model is integrated by "

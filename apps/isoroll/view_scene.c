@@ -30,6 +30,12 @@ static iso_status keep_row(void *data, const double row[], size_t count)
     return status;
 }
 
+static void show_progress(void *data, double part)
+{
+    (void)data;
+    progress_show(part);
+}
+
 static void keep_note(void *data, iso_run_note note, const char *words)
 {
     collector *c = data;
@@ -42,7 +48,8 @@ static iso_status run_at(iso_context *ctx, const iso_scene *scene, const double 
                          view_page *page, iso_record **rows)
 {
     collector c = {ctx, page, NULL};
-    const iso_run_sink sink = {.header = keep_header, .row = keep_row, .note = keep_note, .data = &c};
+    const iso_run_sink sink = {
+        .header = keep_header, .row = keep_row, .note = keep_note, .progress = show_progress, .data = &c};
     iso_run_options how = iso_run_defaults();
     iso_run_result result;
     how.times = count > 0 ? times : NULL;
@@ -119,6 +126,8 @@ static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_pag
 {
     iso_record *rough;
     page->total = iso_scene_rows(scene);
+    if (page->total < 2)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "end", "a page needs motion: the last time is 0");
     page->every = (page->total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
     if (page->every < 1) page->every = 1;
     page->between = 0;

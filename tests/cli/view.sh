@@ -115,6 +115,18 @@ sed '20s/,.*/,x/' section.csv >b.csv
 refuses 3 "b.csv:20:" view b.csv -o b.html
 check_not "no page of bad input" test -e b.html
 
+if "$isoroll" section scene.yaml --starts 30 --crossings 300 --quiet -o section.h5 2>/dev/null; then
+    run 0 view section.h5 -o section5.html
+    check "a section in HDF5 gives the same page" test "$(sed 's/section.h5/section.csv/' section5.html | cksum)" = "$(cksum <section.html)"
+    printf 'x' >broken.h5
+    refuses 3 "broken.h5: this is not an HDF5 file" view broken.h5 -o b.html
+fi
+refuses 3 "the last time is 0" view - -o b.html <<END
+reduced: {k: 1, J: [1, 2, 3]}
+initial: {normal: [0, 0, 1], angular_velocity: [1, 0, 0]}
+time: {end: 0, step: 1}
+END
+
 # --- times that run backwards, and repeat
 "$isoroll" run scene.yaml --t-end -3 -o back.csv
 run 0 view back.csv -o back.html

@@ -237,7 +237,7 @@ const potential = (() => {
     least = Math.min(least, V);
     most = Math.max(most, V);
   }
-  if (!(most > least)) return {};
+  if (!(most - least > 1e-9 * Math.abs(least))) return {}; // equal moments: V is constant
   const logarithmic = most < 0 && least / most > 4;
   const height = logarithmic
     ? (v) => Math.log(least / physics.V(v)) / Math.log(least / most)
