@@ -1,8 +1,8 @@
 /* view_frames.c - pictures of a page, drawn by a Chromium without a window (see view.h).
  *
- * Chromium opens the page with a fragment #frames=FIRST,COUNT,ALL. The page draws these frames while it loads and
- * writes each as a line "frame NUMBER data:image/png;base64,..." into its text, which --dump-dom prints. One run draws
- * BATCH frames, so memory stays small. No port is opened and nothing is loaded from a network.
+ * Chromium opens the page with a fragment #frames=FIRST,COUNT,ALL. The page draws these pictures while it loads and
+ * writes each into its text as a line "frame NUMBER data:image/png;base64,...", which --dump-dom prints. One run draws
+ * BATCH pictures, so memory stays small. No port is opened and nothing is loaded from a network.
  */
 #include <errno.h>
 #include <fcntl.h>

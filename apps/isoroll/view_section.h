@@ -4,7 +4,7 @@
 
 #include "view.h"
 
-/* Reads a section file as HDF5, or as text, "-" being standard input: all columns and lines. Errors: ISO_BAD_INPUT, of text
+/* Reads a section file, HDF5 or text, "-" being standard input: all columns and lines. Errors: ISO_BAD_INPUT, of text
  * with line and column, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status view_section_read(iso_context *ctx, const char *path, iso_record **record);
 

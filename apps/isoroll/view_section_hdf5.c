@@ -1,4 +1,4 @@
-/* view_section_hdf5.c - reads a section file that is HDF5 (lib/doc/formats.md, section 5) into a record (see view.h). */
+/* view_section_hdf5.c - reads a section file that is HDF5 into a record (lib/doc/formats.md, section 5). */
 #include "view_section.h"
 
 #include <string.h>

@@ -144,8 +144,8 @@ class Page:
     def drag(self, x, y, dx, dy):
         self.call("Input.dispatchMouseEvent", type="mousePressed", x=x, y=y, button="left", buttons=1, clickCount=1)
         for i in range(1, 6):
-            self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x + dx * i / 5, y=y + dy * i / 5, button="left",
-                      buttons=1)
+            self.call("Input.dispatchMouseEvent", type="mouseMoved", x=x + dx * i / 5, y=y + dy * i / 5,
+                      button="left", buttons=1)
         self.call("Input.dispatchMouseEvent", type="mouseReleased", x=x + dx, y=y + dy, button="left", clickCount=1)
 
     def picture(self, whole=False):

@@ -1,6 +1,7 @@
 #!/bin/sh
 # view_page.sh ISOROLL - pages of isoroll view in a real Chromium (view_page.py), and pictures by --frames.
 . "$(dirname "$0")/lib.sh"
+run 0 view --help
 browser=
 for name in chromium chromium-browser google-chrome chrome; do
     [ -n "$browser" ] || ! command -v "$name" >/dev/null || browser=$name

@@ -6,14 +6,17 @@ const clockWords = {
   s: ["s", "the point’s time"],
 };
 
-const raised = (n) => [...String(n)].map((d) => d === "-" ? "⁻" : d === "." ? "·" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]).join("");
+const raised = (n) => [...String(n)].map((d) => (d === "-" ? "⁻" : d === "." ? "·" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[d])).join("");
 
 // A number with so many significant digits, without zeros at its end.
 const digits = (x, count = 6) => {
   if (!Number.isFinite(x)) return "–";
   if (x === 0) return "0";
   const size = Math.abs(x);
-  const [digit, power] = x.toExponential(count - 1).split("e").map(Number);
+  const [digit, power] = x
+    .toExponential(count - 1)
+    .split("e")
+    .map(Number);
   const text = size >= 1e6 || size < 1e-3 ? `${digit}·10${raised(power)}` : String(Number(x.toPrecision(count)));
   return text.replace(/^-/, "−");
 };
@@ -26,8 +29,11 @@ const reading = (x, span) => {
 
 // A canvas for drawings in pixels of the page; draws anew when its size changes.
 function sheet(canvas) {
-  const g = canvas.getContext("2d"), box = canvas.getBoundingClientRect(), scale = Math.min(devicePixelRatio, 2);
-  const width = Math.max(1, Math.round(box.width)), height = Math.max(1, Math.round(box.height));
+  const g = canvas.getContext("2d"),
+    box = canvas.getBoundingClientRect(),
+    scale = Math.min(devicePixelRatio, 2);
+  const width = Math.max(1, Math.round(box.width)),
+    height = Math.max(1, Math.round(box.height));
   if (canvas.width !== Math.round(width * scale) || canvas.height !== Math.round(height * scale)) {
     canvas.width = Math.round(width * scale);
     canvas.height = Math.round(height * scale);
@@ -47,7 +53,8 @@ const clocks = {
     box.textContent = "";
     this.tiles = {};
     orbit.clocks.forEach((name, i) => {
-      const tile = document.createElement("button"), [symbol, words] = clockWords[name];
+      const tile = document.createElement("button"),
+        [symbol, words] = clockWords[name];
       tile.setAttribute("role", "radio");
       tile.setAttribute("aria-keyshortcuts", String(i + 1));
       tile.className = "clock";
@@ -86,13 +93,16 @@ const clocks = {
       const tile = this.tiles[name];
       tile.own.value.textContent = reading(now[name], this.spans[name]);
       const pace = this.pace(name, now.n);
-      tile.own.rate.textContent = name === this.even ? "runs evenly" : `${pace > 1.02 ? "hurries" : pace < 0.98 ? "waits" : "keeps pace"} ×${pace.toFixed(2)}`;
+      tile.own.rate.textContent =
+        name === this.even
+          ? "runs evenly"
+          : `${pace > 1.02 ? "hurries" : pace < 0.98 ? "waits" : "keeps pace"} ×${pace.toFixed(2)}`;
       tile.own.rate.classList.toggle("even", name === this.even);
     }
   },
 
   // The pace of a clock where the normal is n, against its mean.
   pace(name, n) {
-    return motion.rate(name, n) / motion.rate(this.even, n) * this.spans[this.even] / this.spans[name];
+    return ((motion.rate(name, n) / motion.rate(this.even, n)) * this.spans[this.even]) / this.spans[name];
   },
 };

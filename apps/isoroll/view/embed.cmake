@@ -1,4 +1,5 @@
-# embed.cmake - writes files as arrays of C: cmake -DOUTPUT=FILE.c -DFILES=a.js,b.css -DTHREE=three.min.js -P embed.cmake
+# embed.cmake - writes files as arrays of C:
+#     cmake -DOUTPUT=FILE.c -DFILES=a.js,b.css -DTHREE=three.min.js -P embed.cmake
 # Each file is found by its name without the ending. THREE may be empty: then the array "three" has no bytes.
 string(REPLACE "," ";" files "${FILES}")
 set(arrays)
@@ -15,7 +16,12 @@ function(add name path)
   file(APPEND "${OUTPUT}.new" "static const unsigned char file_${name}[] = {${bytes}0};\n")
   set(rows "${rows}    {\"${name}\", file_${name}, ${length}},\n" PARENT_SCOPE)
 endfunction()
-file(WRITE "${OUTPUT}.new" "/* Made by apps/isoroll/view/embed.cmake. */\n#include <string.h>\n\n#include \"view_files.h\"\n\n")
+file(WRITE "${OUTPUT}.new" "/* Made by apps/isoroll/view/embed.cmake. */
+#include <string.h>
+
+#include \"view_files.h\"
+
+")
 foreach(path IN LISTS files)
   get_filename_component(name "${path}" NAME_WE)
   add(${name} "${path}")

@@ -3,18 +3,22 @@
 const element = (name) => document.getElementById(name);
 
 function hasWebGL() {
-  const canvas = document.createElement("canvas"), context = canvas.getContext("webgl") || canvas.getContext("experimental-webgl");
+  const canvas = document.createElement("canvas"),
+    context = canvas.getContext("webgl") || canvas.getContext("experimental-webgl");
   if (context && context.getExtension("WEBGL_lose_context")) context.getExtension("WEBGL_lose_context").loseContext();
   return Boolean(context);
 }
 
 const controls = {
   playing: false,
-  value: 0,      // of the even clock
+  value: 0, // of the even clock
   speed: 1,
-  drawn: 0,      // frames so far
+  drawn: 0, // frames so far
   dirty: true,
-  quality: 1, slow: 20, before: 0, resting: 0,
+  quality: 1,
+  slow: 20,
+  before: 0,
+  resting: 0,
 
   // --- time ---
 
@@ -43,7 +47,9 @@ const controls = {
     this.last = null;
     this.changed();
   },
-  changed() { this.dirty = true; },
+  changed() {
+    this.dirty = true;
+  },
 
   setOrbit(orbit) {
     this.orbit = orbit;
@@ -53,15 +59,17 @@ const controls = {
     if (sections) sections.setOrbit(orbit);
     numbers.build(orbit);
     // a natural speed: the ball turns by about 1.5 radians in a second
-    const last = orbit.count - 1, turns = orbit.omega.reduce((sum, w, i) => i ? sum + Math.hypot(...w) * (orbit.t[i] - orbit.t[i - 1]) : 0, 0);
-    this.seconds = Math.min(240, Math.max(8, turns * Math.max(1, Math.abs(body.k)) / 1.5));
+    const last = orbit.count - 1,
+      turns = orbit.omega.reduce((sum, w, i) => (i ? sum + Math.hypot(...w) * (orbit.t[i] - orbit.t[i - 1]) : 0), 0);
+    this.seconds = Math.min(240, Math.max(8, (turns * Math.max(1, Math.abs(body.k))) / 1.5));
     this.long = turns > 60;
     this.setRange();
     this.seek(orbit[clocks.even][0]);
     this.last = last;
   },
   setRange() {
-    const [from, to] = this.range(), scrub = element("scrub");
+    const [from, to] = this.range(),
+      scrub = element("scrub");
     scrub.min = from;
     scrub.max = to;
     scrub.step = "any";
@@ -78,9 +86,10 @@ const controls = {
   tick(milliseconds) {
     requestAnimationFrame((next) => this.tick(next));
     if (this.playing) {
-      const [from, to] = this.range(), since = this.last === null ? 0 : Math.min(200, milliseconds - this.last) / 1000;
+      const [from, to] = this.range(),
+        since = this.last === null ? 0 : Math.min(200, milliseconds - this.last) / 1000;
       this.last = milliseconds;
-      this.seek(this.value + since * this.speed * (to - from) / this.seconds);
+      this.seek(this.value + (since * this.speed * (to - from)) / this.seconds);
       if (this.value >= to) this.play(false);
     }
     this.adapt(milliseconds);
@@ -106,12 +115,18 @@ const controls = {
     this.resize();
   },
   draw() {
-    const { now } = this, scrub = element("scrub"), button = element("play");
+    const { now } = this,
+      scrub = element("scrub"),
+      button = element("play");
     const label = this.playing ? "Pause" : this.value >= this.range()[1] ? "Play again" : "Play";
     if (button.textContent !== label) button.textContent = label;
     scrub.value = this.value;
     scrub.setAttribute("aria-valuetext", `${clockWords[clocks.even][0]} = ${digits(this.value)}`);
-    if (this.pictures) for (const picture of this.pictures) { picture.show(now, this.trail()); picture.draw(); }
+    if (this.pictures)
+      for (const picture of this.pictures) {
+        picture.show(now, this.trail());
+        picture.draw();
+      }
     clocks.show(now);
     pace.draw(now);
     if (sections) sections.draw(now);
@@ -127,11 +142,16 @@ const controls = {
 
   // Both models side by side on one canvas of this size.
   compose(width, height) {
-    const canvas = document.createElement("canvas"), g = canvas.getContext("2d"), style = getComputedStyle(document.body);
-    canvas.width = width; canvas.height = height;
+    const canvas = document.createElement("canvas"),
+      g = canvas.getContext("2d"),
+      style = getComputedStyle(document.body);
+    canvas.width = width;
+    canvas.height = height;
     g.fillStyle = style.getPropertyValue("--page");
     g.fillRect(0, 0, width, height);
-    const head = Math.round(height * 0.09), foot = Math.round(height * 0.09), half = width / 2;
+    const head = Math.round(height * 0.09),
+      foot = Math.round(height * 0.09),
+      half = width / 2;
     this.pictures.forEach((picture, i) => {
       picture.renderer.setPixelRatio(1);
       picture.renderer.setSize(half, height - head - foot, false);
@@ -146,10 +166,14 @@ const controls = {
     g.fillText("the ball", half / 2, head * 0.65);
     g.fillText(page.alone ? "the contact, in the ball’s axes" : "the point", half * 1.5, head * 0.65);
     g.font = `${Math.round(foot * 0.36)}px ui-monospace, monospace`;
-    const words = this.orbit.clocks.map((name) => `${clockWords[name][0]} = ${reading(this.now[name], clocks.spans[name])}${name === clocks.even && this.orbit.clocks.length > 1 ? " (even)" : ""}`);
+    const several = this.orbit.clocks.length > 1;
+    const words = this.orbit.clocks.map((name) => {
+      const text = `${clockWords[name][0]} = ${reading(this.now[name], clocks.spans[name])}`;
+      return several && name === clocks.even ? `${text} (even)` : text;
+    });
     words.forEach((text, i) => {
       g.fillStyle = style.getPropertyValue(`--${this.orbit.clocks[i]}`);
-      g.fillText(text, width * (i + 1) / (words.length + 1), height - foot * 0.4);
+      g.fillText(text, (width * (i + 1)) / (words.length + 1), height - foot * 0.4);
     });
     return canvas;
   },
@@ -166,7 +190,8 @@ const controls = {
   },
   // For `isoroll view --frames`: #frames=FIRST,COUNT,ALL writes these pictures as text.
   writeFrames(first, count, all) {
-    const [from, to] = this.range(), out = document.createElement("pre");
+    const [from, to] = this.range(),
+      out = document.createElement("pre");
     for (let i = first; i < first + count; i++) {
       this.seek(from + (to - from) * (all > 1 ? i / (all - 1) : 0));
       out.append(`\nframe ${i} ${this.compose(1280, 720).toDataURL("image/png")}\n`);
@@ -177,20 +202,51 @@ const controls = {
   // --- buttons and keys ---
 
   steer() {
-    const speeds = [0.125, 0.25, 0.5, 1, 2, 4, 8], select = element("speed");
-    for (const speed of speeds) select.append(new Option(`${speed < 1 ? "1/" + 1 / speed : speed}×`, String(speed), false, speed === 1));
-    select.addEventListener("change", () => { this.speed = Number(select.value); });
+    const speeds = [0.125, 0.25, 0.5, 1, 2, 4, 8],
+      select = element("speed");
+    for (const speed of speeds)
+      select.append(new Option(`${speed < 1 ? "1/" + 1 / speed : speed}×`, String(speed), false, speed === 1));
+    select.addEventListener("change", () => {
+      this.speed = Number(select.value);
+    });
     element("play").addEventListener("click", () => this.play());
-    element("scrub").addEventListener("input", (e) => { this.play(false); this.seek(Number(e.target.value)); });
+    element("scrub").addEventListener("input", (e) => {
+      this.play(false);
+      this.seek(Number(e.target.value));
+    });
     element("trail").addEventListener("change", () => this.changed());
-    element("reset").addEventListener("click", () => { camera.reset(); this.changed(); });
+    element("reset").addEventListener("click", () => {
+      camera.reset();
+      this.changed();
+    });
     element("picture").addEventListener("click", () => this.savePicture());
-    const frames = body.kind === "plane" ? [["follow", "beside the ball"], ["ball", "the ball itself"]]
-      : [["room", "the room"], ["follow", "beside the ball"], ["ball", "the ball itself"]];
+    const frames =
+      body.kind === "plane"
+        ? [
+            ["follow", "beside the ball"],
+            ["ball", "the ball itself"],
+          ]
+        : [
+            ["room", "the room"],
+            ["follow", "beside the ball"],
+            ["ball", "the ball itself"],
+          ];
     for (const [value, words] of frames) element("frame").append(new Option(words, value));
-    element("frame").addEventListener("change", (e) => { if (this.pictures) this.pictures[0].from = e.target.value; this.changed(); });
-    const strip = element("pace"), drag = (e) => { if (e.buttons) { this.play(false); this.seek(pace.toValue(e.clientX - strip.getBoundingClientRect().left)); } };
-    strip.addEventListener("pointerdown", (e) => { strip.setPointerCapture(e.pointerId); drag(e); });
+    element("frame").addEventListener("change", (e) => {
+      if (this.pictures) this.pictures[0].from = e.target.value;
+      this.changed();
+    });
+    const strip = element("pace"),
+      drag = (e) => {
+        if (e.buttons) {
+          this.play(false);
+          this.seek(pace.toValue(e.clientX - strip.getBoundingClientRect().left));
+        }
+      };
+    strip.addEventListener("pointerdown", (e) => {
+      strip.setPointerCapture(e.pointerId);
+      drag(e);
+    });
     strip.addEventListener("pointermove", drag);
     element("clocks").addEventListener("keydown", (e) => this.turnRadio(e));
     document.addEventListener("keydown", (e) => this.key(e));
@@ -201,7 +257,8 @@ const controls = {
     });
   },
   turnRadio(e) {
-    const by = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[e.key], list = this.orbit.clocks;
+    const by = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[e.key],
+      list = this.orbit.clocks;
     if (!by) return;
     const next = list[(list.indexOf(clocks.even) + by + list.length) % list.length];
     this.setClock(next);
@@ -211,11 +268,23 @@ const controls = {
   },
   key(e) {
     if (e.ctrlKey || e.altKey || e.metaKey) return;
-    const tag = e.target.tagName, [from, to] = this.range(), step = (to - from) / (e.shiftKey ? 1000 : 100);
+    const tag = e.target.tagName,
+      [from, to] = this.range(),
+      step = (to - from) / (e.shiftKey ? 1000 : 100);
     if (tag === "SELECT" || (tag === "BUTTON" && (e.key === " " || e.key === "Enter"))) return;
-    const jump = (value) => { this.play(false); this.seek(value); };
-    const act = { " ": () => this.play(), ArrowLeft: () => jump(this.value - step), ArrowRight: () => jump(this.value + step),
-      Home: () => jump(from), End: () => jump(to), "+": () => this.hurry(1), "-": () => this.hurry(-1) }[e.key];
+    const jump = (value) => {
+      this.play(false);
+      this.seek(value);
+    };
+    const act = {
+      " ": () => this.play(),
+      ArrowLeft: () => jump(this.value - step),
+      ArrowRight: () => jump(this.value + step),
+      Home: () => jump(from),
+      End: () => jump(to),
+      "+": () => this.hurry(1),
+      "-": () => this.hurry(-1),
+    }[e.key];
     if (act) act();
     else if (/^[123]$/.test(e.key) && this.orbit.clocks[e.key - 1]) this.setClock(this.orbit.clocks[e.key - 1]);
     else return;
@@ -231,10 +300,12 @@ const controls = {
 
   begin() {
     this.orbit = orbitOf(page.rows || page.section.list[0]);
-    if (hasWebGL()) this.pictures = [new BallPicture(element("ball")), new PointPicture(element("point"), !page.alone)];
+    if (hasWebGL())
+      this.pictures = [new BallPicture(element("ball")), new PointPicture(element("point"), !page.alone)];
     else {
       element("trouble").hidden = false;
-      element("trouble").textContent = "This browser has no WebGL, which draws the pictures in space. Clocks and numbers work without it.";
+      element("trouble").textContent =
+        "This browser has no WebGL, which draws the pictures in space. Clocks and numbers work without it.";
       element("models").hidden = true;
       element("picture").hidden = true;
     }
@@ -257,7 +328,11 @@ const controls = {
 window.isoroll = {
   time: () => controls.value,
   clock: () => clocks.even,
-  seek: (value) => { controls.play(false); controls.seek(value); return window.isoroll.state(); },
+  seek: (value) => {
+    controls.play(false);
+    controls.seek(value);
+    return window.isoroll.state();
+  },
   setClock: (name) => controls.setClock(name),
   play: (on) => controls.play(on),
   range: () => controls.range(),

@@ -5,14 +5,40 @@ const turn = (q) => new THREE.Quaternion(q[1], q[2], q[3], q[0]);
 const derivatives = { derivatives: true };
 
 const colours = {
-  curve: "#d55e00", support: "#0072b2", t: "#0072b2", tau: "#b5578f", s: "#00825c",
-  light: { paper: "#ffffff", ball: "#f3efe6", dark: "#c3ccd6", line: "#56657a", ground: "#e9edf0", rule: "#93a1ae",
-    deep: "#1d4f86", middle: "#86b0d0", shallow: "#fbf3dd", text: "#1c2733", future: "#6f7c88" },
-  dark: { paper: "#171c22", ball: "#d9d6cf", dark: "#8796a6", line: "#39485a", ground: "#323b45", rule: "#6b7a89",
-    deep: "#0d2f57", middle: "#4d84b0", shallow: "#f2e6c4", text: "#e8edf2", future: "#9aa7b3" },
+  curve: "#d55e00",
+  support: "#0072b2",
+  t: "#0072b2",
+  tau: "#b5578f",
+  s: "#00825c",
+  light: {
+    paper: "#ffffff",
+    ball: "#f3efe6",
+    dark: "#c3ccd6",
+    line: "#56657a",
+    ground: "#e9edf0",
+    rule: "#93a1ae",
+    deep: "#1d4f86",
+    middle: "#86b0d0",
+    shallow: "#fbf3dd",
+    text: "#1c2733",
+    future: "#6f7c88",
+  },
+  dark: {
+    paper: "#171c22",
+    ball: "#d9d6cf",
+    dark: "#8796a6",
+    line: "#39485a",
+    ground: "#323b45",
+    rule: "#6b7a89",
+    deep: "#0d2f57",
+    middle: "#4d84b0",
+    shallow: "#f2e6c4",
+    text: "#e8edf2",
+    future: "#9aa7b3",
+  },
 };
 const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
-const theme = () => isDark() ? colours.dark : colours.light;
+const theme = () => (isDark() ? colours.dark : colours.light);
 
 const vertex = `
 attribute float level;
@@ -27,8 +53,14 @@ void main() {
 const fragment = `
 uniform vec3 a, b, c, line, up; uniform float opacity, rim; uniform int pattern;
 varying vec3 place; varying vec3 normalOut; varying vec3 toEye; varying float height;
-float near(float x, float width) { float w = fwidth(x); return 1.0 - smoothstep(width * w, (width + 1.0) * w, abs(x)); }
-float rule(float x) { float w = fwidth(x); return (1.0 - smoothstep(0.5 * w, 1.5 * w, abs(fract(x + 0.5) - 0.5))) * step(w, 0.4); }
+float near(float x, float width) {
+  float w = fwidth(x);
+  return 1.0 - smoothstep(width * w, (width + 1.0) * w, abs(x));
+}
+float rule(float x) {
+  float w = fwidth(x), away = abs(fract(x + 0.5) - 0.5);
+  return (1.0 - smoothstep(0.5 * w, 1.5 * w, away)) * step(w, 0.4);
+}
 void main() {
   if (dot(place, up) > rim) discard; // a bowl is open above its rim
   vec3 p = normalize(place), colour;
@@ -53,51 +85,93 @@ void main() {
 
 // A sphere; colours a and b (and c between them) and line by name in the theme. height(v): of a unit vector, 0 to 1.
 function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, height } = {}) {
-  const geometry = new THREE.SphereBufferGeometry(radius, ...(height ? [64, 44] : [56, 36])), places = geometry.attributes.position;
+  const geometry = new THREE.SphereBufferGeometry(radius, ...(height ? [64, 44] : [56, 36])),
+    places = geometry.attributes.position;
   const level = new Float32Array(places.count);
   for (let i = 0; height && i < places.count; i++)
     level[i] = height(unit([places.getX(i), places.getY(i), places.getZ(i)]));
   geometry.setAttribute("level", new THREE.BufferAttribute(level, 1));
-  const uniforms = { a: { value: 0 }, b: { value: 0 }, c: { value: 0 }, line: { value: 0 },
-    opacity: { value: opacity }, pattern: { value: pattern }, up: { value: new THREE.Vector3() }, rim: { value: 1 } };
-  const material = new THREE.ShaderMaterial({ vertexShader: vertex, fragmentShader: fragment, uniforms, side,
-    transparent: opacity < 1, depthWrite: opacity === 1, extensions: derivatives,
-    polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  const uniforms = {
+    a: { value: 0 },
+    b: { value: 0 },
+    c: { value: 0 },
+    line: { value: 0 },
+    opacity: { value: opacity },
+    pattern: { value: pattern },
+    up: { value: new THREE.Vector3() },
+    rim: { value: 1 },
+  };
+  const material = new THREE.ShaderMaterial({
+    vertexShader: vertex,
+    fragmentShader: fragment,
+    uniforms,
+    side,
+    transparent: opacity < 1,
+    depthWrite: opacity === 1,
+    extensions: derivatives,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
   const mesh = new THREE.Mesh(geometry, material);
-  mesh.recolour = () => { for (const key in names) uniforms[key].value = new THREE.Color(theme()[names[key]]); };
+  mesh.recolour = () => {
+    for (const key in names) uniforms[key].value = new THREE.Color(theme()[names[key]]);
+  };
   return mesh;
 }
 
 // A level plane with rules one radius apart, which fades far from `middle`.
 function plane(size, spacing) {
-  const uniforms = { a: { value: 0 }, line: { value: 0 }, middle: { value: new THREE.Vector3() },
-    right: { value: new THREE.Vector3(1, 0, 0) }, ahead: { value: new THREE.Vector3(0, 0, 1) },
-    size: { value: size }, spacing: { value: spacing } };
-  const material = new THREE.ShaderMaterial({ uniforms, transparent: true, depthWrite: false, side: THREE.DoubleSide,
+  const uniforms = {
+    a: { value: 0 },
+    line: { value: 0 },
+    middle: { value: new THREE.Vector3() },
+    right: { value: new THREE.Vector3(1, 0, 0) },
+    ahead: { value: new THREE.Vector3(0, 0, 1) },
+    size: { value: size },
+    spacing: { value: spacing },
+  };
+  const material = new THREE.ShaderMaterial({
+    uniforms,
+    transparent: true,
+    depthWrite: false,
+    side: THREE.DoubleSide,
     extensions: derivatives,
-    vertexShader: `varying vec2 local; varying vec2 ruled; uniform float size, spacing; uniform vec3 middle, right, ahead;
-      void main() { local = position.xy / size; ruled = (position.xy + vec2(dot(middle, right), dot(middle, ahead))) / spacing;
+    vertexShader: `varying vec2 local; varying vec2 ruled;
+      uniform float size, spacing; uniform vec3 middle, right, ahead;
+      void main() { local = position.xy / size;
+      ruled = (position.xy + vec2(dot(middle, right), dot(middle, ahead))) / spacing;
       gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
     fragmentShader: `varying vec2 local; varying vec2 ruled; uniform vec3 a, line;
       float rule(vec2 x) { vec2 w = fwidth(x), d = abs(fract(x + 0.5) - 0.5);
         vec2 g = (1.0 - smoothstep(0.5 * w, 1.5 * w, d)) * (1.0 - smoothstep(0.1, 0.45, w)); return max(g.x, g.y); }
       void main() { float fade = 1.0 - smoothstep(0.3, 1.0, length(local));
-      gl_FragColor = vec4(mix(a, line, 0.35 * rule(ruled) + 0.3 * rule(ruled / 5.0)), fade * 0.9); }` });
+      gl_FragColor = vec4(mix(a, line, 0.35 * rule(ruled) + 0.3 * rule(ruled / 5.0)), fade * 0.9); }`,
+  });
   const mesh = new THREE.Mesh(new THREE.PlaneBufferGeometry(2 * size, 2 * size), material);
-  mesh.recolour = () => { uniforms.a.value = new THREE.Color(theme().ground); uniforms.line.value = new THREE.Color(theme().rule); };
+  mesh.recolour = () => {
+    uniforms.a.value = new THREE.Color(theme().ground);
+    uniforms.line.value = new THREE.Color(theme().rule);
+  };
   return mesh;
 }
 
 // The way behind the present: a ribbon that lies on a surface and fades with its length, in units of `scale`.
 // `at(moment)` gives its points, `normal(moment)` the surface's normal there. Only its bright part is drawn.
 function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = {}) {
-  const count = moments.length, points = moments.map(at), length = new Float64Array(count);
+  const count = moments.length,
+    points = moments.map(at),
+    length = new Float64Array(count);
   for (let i = 1; i < count; i++)
     length[i] = length[i - 1] + Math.hypot(...plus(points[i], times(points[i - 1], -1))) / scale;
-  const places = new Float32Array(6 * count), along = new Float32Array(2 * count), index = new Uint32Array(6 * count - 6);
+  const places = new Float32Array(6 * count),
+    along = new Float32Array(2 * count),
+    index = new Uint32Array(6 * count - 6);
   for (let i = 0; i < count; i++) {
     const ahead = plus(points[Math.min(i + 1, count - 1)], times(points[Math.max(i - 1, 0)], -1));
-    const n = normal(moments[i]), aside = cross(n, ahead), size = Math.hypot(...aside) || 1;
+    const n = normal(moments[i]),
+      aside = cross(n, ahead),
+      size = Math.hypot(...aside) || 1;
     const lifted = plus(points[i], times(n, width * 0.12));
     places.set(plus(lifted, times(aside, width / size)), 6 * i);
     places.set(plus(lifted, times(aside, -width / size)), 6 * i + 3);
@@ -108,21 +182,31 @@ function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = 
   geometry.setAttribute("position", new THREE.BufferAttribute(places, 3));
   geometry.setAttribute("along", new THREE.BufferAttribute(along, 1));
   geometry.setIndex(new THREE.BufferAttribute(index, 1));
-  const uniforms = { now: { value: 0 }, tail: { value: 6 }, colour: { value: new THREE.Color(colour) },
-    strength: { value: hidden ? 0.22 : 1 } };
-  const material = new THREE.ShaderMaterial({ uniforms, transparent: true, depthWrite: false, side: THREE.DoubleSide,
+  const uniforms = {
+    now: { value: 0 },
+    tail: { value: 6 },
+    colour: { value: new THREE.Color(colour) },
+    strength: { value: hidden ? 0.22 : 1 },
+  };
+  const material = new THREE.ShaderMaterial({
+    uniforms,
+    transparent: true,
+    depthWrite: false,
+    side: THREE.DoubleSide,
     depthFunc: hidden ? THREE.GreaterDepth : THREE.LessEqualDepth,
     vertexShader: `attribute float along; varying float where;
       void main() { where = along; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
     fragmentShader: `uniform float now, tail, strength; uniform vec3 colour; varying float where;
       void main() { float age = (now - where) / tail; if (age < 0.0) discard;
-      gl_FragColor = vec4(colour, exp(-2.5 * age * age) * strength); }` });
+      gl_FragColor = vec4(colour, exp(-2.5 * age * age) * strength); }`,
+  });
   const mesh = new THREE.Mesh(geometry, material);
   mesh.frustumCulled = false;
   mesh.renderOrder = hidden ? 3 : 2;
   const rows = moments.map((m) => m.row);
   mesh.show = (row, trail) => {
-    const i = interval(rows, row), part = (row - rows[i]) / (rows[i + 1] - rows[i]);
+    const i = interval(rows, row),
+      part = (row - rows[i]) / (rows[i + 1] - rows[i]);
     const now = length[i] + (length[i + 1] - length[i]) * Math.min(Math.max(part, 0), 1);
     const first = interval(length, now - 1.6 * trail.length);
     geometry.setDrawRange(6 * first, 6 * (i + 1 - first));
@@ -134,20 +218,29 @@ function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = 
 
 // The whole way, as a pale line.
 function whole(moments, at, lift) {
-  const each = Math.ceil(moments.length / 4000), points = moments.filter((_, i) => i % each === 0).map((m) => three(times(at(m), lift)));
-  const line = new THREE.Line(new THREE.BufferGeometry().setFromPoints(points),
-    new THREE.LineBasicMaterial({ transparent: true, opacity: 0.42, depthWrite: false }));
+  const each = Math.ceil(moments.length / 4000),
+    points = moments.filter((_, i) => i % each === 0).map((m) => three(times(at(m), lift)));
+  const line = new THREE.Line(
+    new THREE.BufferGeometry().setFromPoints(points),
+    new THREE.LineBasicMaterial({ transparent: true, opacity: 0.42, depthWrite: false }),
+  );
   line.frustumCulled = false;
-  line.show = (row, trail) => { line.visible = trail.whole; };
+  line.show = (row, trail) => {
+    line.visible = trail.whole;
+  };
   line.recolour = () => line.material.color.set(theme().future);
   return line;
 }
 
 // A bright bead, with a halo, seen faintly through what hides it.
 function bead(radius, colour) {
-  const group = new THREE.Group(), ball = new THREE.SphereBufferGeometry(radius, 16, 10);
+  const group = new THREE.Group(),
+    ball = new THREE.SphereBufferGeometry(radius, 16, 10);
   const add = (scale, settings) => {
-    const mesh = new THREE.Mesh(ball, new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, ...settings }));
+    const mesh = new THREE.Mesh(
+      ball,
+      new THREE.MeshBasicMaterial({ transparent: true, depthWrite: false, ...settings }),
+    );
     mesh.scale.setScalar(scale);
     mesh.renderOrder = 5;
     group.add(mesh);

@@ -3,13 +3,20 @@
 // Axis 3 of the body points up, as in the pictures of `isoroll plot`.
 const bodyUp = new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(1, 0, 0), -Math.PI / 2);
 
-const camera = { azimuth: 0.7, elevation: 0.42, zoom: 1, home: { azimuth: 0.7, elevation: 0.42, zoom: 1 },
-  reset() { Object.assign(camera, camera.home); },
+const camera = {
+  azimuth: 0.7,
+  elevation: 0.42,
+  zoom: 1,
+  home: { azimuth: 0.7, elevation: 0.42, zoom: 1 },
+  reset() {
+    Object.assign(camera, camera.home);
+  },
   // Turns to a direction in body axes: there the point is seen from the front.
   face(v) {
     camera.home.azimuth = Math.hypot(v[0], v[1]) > 0.1 ? Math.atan2(v[0], -v[1]) + 0.5 : 0.7;
     camera.reset();
-  } };
+  },
+};
 
 class Picture {
   constructor(canvas, distance) {
@@ -23,13 +30,19 @@ class Picture {
     this.steer();
   }
 
-  add(parent, ...things) { for (const thing of things) parent.add(thing); return things[0]; }
+  add(parent, ...things) {
+    for (const thing of things) parent.add(thing);
+    return things[0];
+  }
 
-  recolour() { this.scene.traverse((thing) => thing.recolour && thing.recolour()); }
+  recolour() {
+    this.scene.traverse((thing) => thing.recolour && thing.recolour());
+  }
 
   resize() {
     const box = this.canvas.parentElement.getBoundingClientRect();
-    const width = Math.max(1, Math.round(box.width)), height = Math.max(1, Math.round(box.height));
+    const width = Math.max(1, Math.round(box.width)),
+      height = Math.max(1, Math.round(box.height));
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2) * this.quality);
     this.renderer.setSize(width, height, false);
     this.shape(width / height);
@@ -42,7 +55,8 @@ class Picture {
   }
 
   draw() {
-    const { azimuth: a, elevation: e, zoom } = camera, d = (this.near || this.distance) * this.far / zoom;
+    const { azimuth: a, elevation: e, zoom } = camera,
+      d = ((this.near || this.distance) * this.far) / zoom;
     const place = new THREE.Vector3(Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e));
     this.eye.position.copy(place.multiplyScalar(d)).add(this.target);
     this.eye.lookAt(this.target);
@@ -52,15 +66,22 @@ class Picture {
 
   // Drag, wheel, two fingers, and arrow keys.
   steer() {
-    const fingers = new Map(), { canvas } = this;
+    const fingers = new Map(),
+      { canvas } = this;
     let apart = 0;
-    const spread = () => { const [p, q] = [...fingers.values()]; return Math.hypot(p[0] - q[0], p[1] - q[1]); };
+    const spread = () => {
+      const [p, q] = [...fingers.values()];
+      return Math.hypot(p[0] - q[0], p[1] - q[1]);
+    };
     const rotate = (dx, dy) => {
       camera.azimuth -= dx;
       camera.elevation = Math.min(1.5, Math.max(-1.5, camera.elevation + dy));
       controls.changed();
     };
-    const zoom = (by) => { camera.zoom = Math.min(12, Math.max(0.3, camera.zoom * by)); controls.changed(); };
+    const zoom = (by) => {
+      camera.zoom = Math.min(12, Math.max(0.3, camera.zoom * by));
+      controls.changed();
+    };
     canvas.addEventListener("pointerdown", (e) => {
       canvas.setPointerCapture(e.pointerId);
       fingers.set(e.pointerId, [e.clientX, e.clientY]);
@@ -71,11 +92,22 @@ class Picture {
       if (!last) return;
       fingers.set(e.pointerId, [e.clientX, e.clientY]);
       if (fingers.size === 1) rotate((e.clientX - last[0]) / 150, (e.clientY - last[1]) / 150);
-      if (fingers.size === 2) { const now = spread(); zoom(now / apart); apart = now; }
+      if (fingers.size === 2) {
+        const now = spread();
+        zoom(now / apart);
+        apart = now;
+      }
     });
     for (const name of ["pointerup", "pointercancel"])
       canvas.addEventListener(name, (e) => fingers.delete(e.pointerId));
-    canvas.addEventListener("wheel", (e) => { e.preventDefault(); zoom(Math.exp(-e.deltaY / 600)); }, { passive: false });
+    canvas.addEventListener(
+      "wheel",
+      (e) => {
+        e.preventDefault();
+        zoom(Math.exp(-e.deltaY / 600));
+      },
+      { passive: false },
+    );
     canvas.addEventListener("keydown", (e) => {
       const by = { ArrowLeft: [0.08, 0], ArrowRight: [-0.08, 0], ArrowUp: [0, 0.08], ArrowDown: [0, -0.08] }[e.key];
       if (!by) return;
@@ -96,7 +128,7 @@ class BallPicture extends Picture {
     this.distance = 4.05 * this.size;
     this.eye.near = this.distance / 200;
     this.eye.far = this.distance * 30;
-    this.world = this.add(this.scene, new THREE.Group());  // space axes, as they are drawn
+    this.world = this.add(this.scene, new THREE.Group()); // space axes, as they are drawn
     this.ball = this.add(this.world, new THREE.Group());
     this.buildSupport();
     this.buildBall();
@@ -106,14 +138,19 @@ class BallPicture extends Picture {
   }
 
   buildSupport() {
-    const { A, B, kind } = body, names = { a: "ground", b: "ground", c: "ground", line: "rule" };
+    const { A, B, kind } = body,
+      names = { a: "ground", b: "ground", c: "ground", line: "rule" };
     if (kind === "plane") this.support = this.add(this.world, plane(16 * B, B));
-    else this.support = this.add(this.world,
-      sphere(A, 1, names, { side: kind === "inside" ? THREE.BackSide : THREE.FrontSide }));
+    else
+      this.support = this.add(
+        this.world,
+        sphere(A, 1, names, { side: kind === "inside" ? THREE.BackSide : THREE.FrontSide }),
+      );
   }
 
   buildBall() {
-    const { B, kind } = body, names = { a: "ball", b: "dark", c: "ball", line: "line" };
+    const { B, kind } = body,
+      names = { a: "ball", b: "dark", c: "ball", line: "line" };
     if (kind === "shell") {
       this.add(this.ball, sphere(B, 0, names, { side: THREE.BackSide }), sphere(B, 0, names, { opacity: 0.1 }));
     } else this.add(this.ball, sphere(B, 0, names));
@@ -125,33 +162,70 @@ class BallPicture extends Picture {
   }
 
   setOrbit(orbit, moments) {
-    const B = body.B, thin = Math.min(0.026 * B, 0.014 * this.size), wide = 0.011 * this.size, plane = body.kind === "plane";
-    for (const old of this.ribbons || []) { old.parent.remove(old); old.geometry.dispose(); }
+    const B = body.B,
+      thin = Math.min(0.026 * B, 0.014 * this.size),
+      wide = 0.011 * this.size,
+      plane = body.kind === "plane";
+    for (const old of this.ribbons || []) {
+      old.parent.remove(old);
+      old.geometry.dispose();
+    }
     const out = body.b > 0 ? 1 : -1; // the trace lies on the outside of the ball, of a shell on its inside
     const side = body.kind === "shell" ? -1 : 1;
-    const trace = (hidden) => ribbon(moments, (m) => m.trace, (m) => times(m.n, -out * side), thin, colours.curve, B, { hidden });
-    const space = (hidden) => ribbon(moments, (m) => m.contact, (m) => times(m.normal, body.kind === "inside" ? -1 : 1), wide,
-      colours.support, B, { hidden });
-    this.ribbons = [this.add(this.ball, trace(false)), this.add(this.world, space(false)),
-      this.add(this.ball, whole(moments, (m) => m.trace, 1 + 0.003 * side)),
-      this.add(this.world, whole(moments, (m) => m.contact, body.kind === "plane" ? 1 : body.kind === "inside" ? 0.998 : 1.002))];
+    const trace = (hidden) =>
+      ribbon(
+        moments,
+        (m) => m.trace,
+        (m) => times(m.n, -out * side),
+        thin,
+        colours.curve,
+        B,
+        { hidden },
+      );
+    const space = (hidden) =>
+      ribbon(
+        moments,
+        (m) => m.contact,
+        (m) => times(m.normal, body.kind === "inside" ? -1 : 1),
+        wide,
+        colours.support,
+        B,
+        { hidden },
+      );
+    this.ribbons = [
+      this.add(this.ball, trace(false)),
+      this.add(this.world, space(false)),
+      this.add(
+        this.ball,
+        whole(moments, (m) => m.trace, 1 + 0.003 * side),
+      ),
+      this.add(
+        this.world,
+        whole(moments, (m) => m.contact, body.kind === "plane" ? 1 : body.kind === "inside" ? 0.998 : 1.002),
+      ),
+    ];
     if (body.kind !== "shell") this.ribbons.push(this.add(this.ball, trace(true)));
     if (!plane) this.ribbons.push(this.add(this.world, space(true)));
     const up = upOf(orbit);
     this.upright = new THREE.Quaternion().setFromUnitVectors(three(up), new THREE.Vector3(0, 1, 0));
-    this.flat = plane && new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), three(turned(orbit.q[0], orbit.n[0])));
+    this.flat =
+      plane &&
+      new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), three(turned(orbit.q[0], orbit.n[0])));
     if (body.kind === "inside" && page.effects.gravity) this.openBowl(moments, up);
     this.recolour();
   }
 
   // With gravity only the part of the sphere below the highest contact is drawn: a bowl.
   openBowl(moments, up) {
-    const { A, B } = body, uniforms = this.support.material.uniforms;
+    const { A, B } = body,
+      uniforms = this.support.material.uniforms;
     const highest = moments.reduce((most, m) => Math.max(most, dot(m.contact, up)), -A);
-    const rim = Math.min(0.9 * A, highest + 0.12 * A), low = Math.min(rim, 0);
+    const rim = Math.min(0.9 * A, highest + 0.12 * A),
+      low = Math.min(rim, 0);
     uniforms.up.value.copy(three(up));
     uniforms.rim.value = rim;
-    const width = Math.sqrt(A * A - low * low), height = rim + A;
+    const width = Math.sqrt(A * A - low * low),
+      height = rim + A;
     this.distance = 4.05 * Math.max(width, height / 2, 2 * B);
     this.middle = new THREE.Vector3(0, (rim - A) / 2, 0);
     camera.elevation = camera.home.elevation = 0.6;
@@ -196,11 +270,16 @@ class PointPicture extends Picture {
     this.world.quaternion.copy(bodyUp);
     this.hasPoint = hasPoint;
     const { height } = hasPoint ? potential : {};
-    const names = height ? { a: "deep", b: "shallow", c: "middle", line: "line" } : { a: "ball", b: "dark", c: "ball", line: "line" };
+    const names = height
+      ? { a: "deep", b: "shallow", c: "middle", line: "line" }
+      : { a: "ball", b: "dark", c: "ball", line: "line" };
     this.add(this.world, sphere(1, height ? 2 : 0, names, { height }));
     for (let i = 0; i < 3; i++) {
-      const end = [0, 0, 0], start = [0, 0, 0], sign = label(String(i + 1), 0.19);
-      end[i] = 1.1; start[i] = 1;
+      const end = [0, 0, 0],
+        start = [0, 0, 0],
+        sign = label(String(i + 1), 0.19);
+      end[i] = 1.1;
+      start[i] = 1;
       sign.position.setComponent(i, 1.16);
       this.add(this.world, segment(start, end), sign);
     }
@@ -208,8 +287,11 @@ class PointPicture extends Picture {
   }
 
   setOrbit(orbit, moments) {
-    for (const old of this.ribbons || []) { old.parent.remove(old); old.geometry.dispose(); }
-    const at = (m) => this.hasPoint ? m.gamma : m.n;
+    for (const old of this.ribbons || []) {
+      old.parent.remove(old);
+      old.geometry.dispose();
+    }
+    const at = (m) => (this.hasPoint ? m.gamma : m.n);
     this.ribbons = [false, true].map((hidden) => ribbon(moments, at, at, 0.016, colours.curve, 1, { hidden }));
     this.ribbons.push(whole(moments, at, 1.003));
     this.add(this.world, ...this.ribbons);
@@ -222,12 +304,16 @@ class PointPicture extends Picture {
   }
 }
 
-// The potential on the sphere, as heights from 0 (deepest) to 1; by its logarithm where it spans more than a factor 4.
+// The potential on the sphere, as heights from 0 (deepest) to 1, by its logarithm where it spans more than 4 to 1.
 const potential = (() => {
   if (page.alone || !(page.eps !== null) || page.eps === 0) return {};
-  let least = Infinity, most = -Infinity;
-  for (let i = 0; i < 4000; i++) { // points spread evenly over the sphere
-    const z = 1 - (2 * i + 1) / 4000, r = Math.sqrt(1 - z * z), angle = i * 2.399963229728653;
+  let least = Infinity,
+    most = -Infinity;
+  for (let i = 0; i < 4000; i++) {
+    // points spread evenly over the sphere
+    const z = 1 - (2 * i + 1) / 4000,
+      r = Math.sqrt(1 - z * z),
+      angle = i * 2.399963229728653;
     const V = physics.V([r * Math.cos(angle), r * Math.sin(angle), z]);
     least = Math.min(least, V);
     most = Math.max(most, V);
