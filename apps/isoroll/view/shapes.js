@@ -85,7 +85,7 @@ void main() {
 
 // A sphere; colours a and b (and c between them) and line by name in the theme. height(v): of a unit vector, 0 to 1.
 function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, height } = {}) {
-  const geometry = new THREE.SphereBufferGeometry(radius, ...(height ? [64, 44] : [56, 36])),
+  const geometry = new THREE.SphereBufferGeometry(radius, ...(height ? [112, 76] : [56, 36])),
     places = geometry.attributes.position;
   const level = new Float32Array(places.count);
   for (let i = 0; height && i < places.count; i++)

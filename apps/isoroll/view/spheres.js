@@ -299,7 +299,7 @@ class PointPicture extends Picture {
   }
 
   show(now, trail) {
-    this.bead.position.copy(three(this.hasPoint ? now.gamma : now.n));
+    this.bead.position.copy(three(this.hasPoint ? now.gamma : now.n)).multiplyScalar(1.015);
     for (const strip of this.ribbons) strip.show(now.row, trail);
   }
 }
