@@ -180,6 +180,10 @@ def trajectories(browser):
         worst = max(distance(page.evaluate(f"isoroll.seek({row['t']!r})"), row, length=radius)
                     for row in table("wide.csv")[::7])
         check(f"trajectory {name}: positions at rows", worst <= BOUND, worst)
+        last = table("wide.csv")[-1]
+        now = page.evaluate(f"isoroll.seek({last['t']!r})")
+        worst = max((abs(now[clock] / last[clock] - 1) for clock in ("tau", "s") if clock in last), default=0)
+        check(f"trajectory {name}: the other clocks at the end", worst <= 1e-9, worst)
         quiet(page, "trajectory " + name)
     run("run", "shell.yaml", "--step", "3e-4", "-o", "many.csv")
     run("view", "many.csv", "-o", "many.html")

@@ -64,7 +64,7 @@ class Picture {
     this.renderer.render(this.scene, this.eye);
   }
 
-  // Drag, wheel, two fingers, and arrow keys.
+  // Drag, wheel, two fingers, and arrow keys. One finger up or down scrolls the page.
   steer() {
     const fingers = new Map(),
       { canvas } = this;
@@ -96,6 +96,7 @@ class Picture {
         const now = spread();
         zoom(now / apart);
         apart = now;
+        rotate(0, (e.clientY - last[1]) / 300);
       }
     });
     for (const name of ["pointerup", "pointercancel"])
