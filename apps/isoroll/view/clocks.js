@@ -24,7 +24,7 @@ const digits = (x, count = 6) => {
 // For a clock that runs: a fixed number of decimals, so that digits do not jump.
 const reading = (x, span) => {
   const decimals = Math.min(8, Math.max(0, 4 - Math.floor(Math.log10(span || 1))));
-  return span >= 1e6 || span < 1e-4 ? x.toExponential(5) : x.toFixed(decimals);
+  return span >= 1e6 || span < 1e-4 ? digits(x) : x.toFixed(decimals);
 };
 
 // A canvas for drawings in pixels of the page; draws anew when its size changes.

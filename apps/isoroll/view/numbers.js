@@ -133,7 +133,8 @@ const numbers = {
       id("right-name").textContent = "The contact";
       id("right-words").textContent = "on the ball, seen in the ball’s own axes";
     } else
-      id("right-words").textContent = `moves in the ${k === -1 ? "Neumann " : k === 1 ? "Braden " : ""}potential V`;
+      id("right-words").textContent =
+        `moves in the ${page.effects.field ? "" : k === -1 ? "Neumann " : k === 1 ? "Braden " : ""}potential V`;
     this.legends();
     const about = [
       ["k", `${digits(k)} (${kind})`],
@@ -191,7 +192,7 @@ const numbers = {
     if (page.alone) put("right-legend", [[colours.curve, "path of the contact"]]);
     else {
       put("right-legend", [[colours.curve, "path of the point"]]);
-      if (potential.height)
+      if (potential.levels)
         put("right-legend", [
           [
             null,

@@ -266,7 +266,7 @@ const sections = !page.section
       for (const number of api.orbits) select.append(new Option(String(number), String(number)));
       select.addEventListener("change", () => api.choose(Number(select.value)));
       document.getElementById("sections").hidden = false;
-  document.body.classList.add("with-sections");
+      document.body.classList.add("with-sections");
       document.getElementById("section-name").textContent = `n${"₁₂₃"[a]} = 0`;
       return api;
     })();

@@ -41,18 +41,27 @@ const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 const theme = () => (isDark() ? colours.dark : colours.light);
 
 const vertex = `
-attribute float level;
-varying vec3 place; varying vec3 normalOut; varying vec3 toEye; varying float height;
+varying vec3 place; varying vec3 normalOut; varying vec3 toEye;
 void main() {
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
-  place = position; height = level; toEye = -seen.xyz; normalOut = normalMatrix * normal;
+  place = position; toEye = -seen.xyz; normalOut = normalMatrix * normal;
   gl_Position = projectionMatrix * seen;
 }`;
 
-// Patterns: 0 octants of a ball with the great circles of its axes, 1 a graticule, 2 heights with contours.
+// Patterns: 0 octants of a ball with the great circles of its axes, 1 a graticule, 2 the potential with contours.
+// The potential's height, 0 to 1 between the two numbers of `range`: with u = ln q^(-1/k),
+//     mode 0   by u, where V = -eps e^u        mode 1   by V        mode 2   by the logarithm of V
 const fragment = `
 uniform vec3 a, b, c, line, up; uniform float opacity, rim; uniform int pattern;
-varying vec3 place; varying vec3 normalOut; varying vec3 toEye; varying float height;
+uniform vec3 J, linear; uniform vec2 range; uniform float power, free, bound; uniform mat3 quadratic; uniform int mode;
+varying vec3 place; varying vec3 normalOut; varying vec3 toEye;
+float heightOf(vec3 p) {
+  float u = power * log(dot(p * p, J));
+  if (mode == 0) return (u - range.x) / (range.y - range.x);
+  vec3 n = normalize(sqrt(J) * p);
+  float V = (free + bound * (0.5 * dot(n, quadratic * n) + dot(linear, n))) * exp(u);
+  return mode == 1 ? (V - range.x) / (range.y - range.x) : log(range.x / V) / log(range.x / range.y);
+}
 float near(float x, float width) {
   float w = fwidth(x);
   return 1.0 - smoothstep(width * w, (width + 1.0) * w, abs(x));
@@ -73,6 +82,7 @@ void main() {
     float g = max(rule(lat / 2.0), rule(lon / 2.0) * smoothstep(0.985, 0.93, abs(p.z)));
     colour = mix(a, line, 0.45 * g);
   } else {
+    float height = heightOf(p);
     colour = height < 0.5 ? mix(a, c, height * 2.0) : mix(c, b, height * 2.0 - 1.0);
     colour = mix(colour, line, 0.3 * rule(height * 10.0));
   }
@@ -83,14 +93,9 @@ void main() {
   gl_FragColor = vec4(min(colour * light, 1.0), opacity);
 }`;
 
-// A sphere; colours a and b (and c between them) and line by name in the theme. height(v): of a unit vector, 0 to 1.
-function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, height } = {}) {
-  const geometry = new THREE.SphereBufferGeometry(radius, ...(height ? [112, 76] : [56, 36])),
-    places = geometry.attributes.position;
-  const level = new Float32Array(places.count);
-  for (let i = 0; height && i < places.count; i++)
-    level[i] = height(unit([places.getX(i), places.getY(i), places.getZ(i)]));
-  geometry.setAttribute("level", new THREE.BufferAttribute(level, 1));
+// A sphere; colours a and b (and c between them) and line by name in the theme. levels: the uniforms of heightOf.
+function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, levels = {} } = {}) {
+  const geometry = new THREE.SphereBufferGeometry(radius, 56, 36);
   const uniforms = {
     a: { value: 0 },
     b: { value: 0 },
@@ -99,8 +104,17 @@ function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, h
     opacity: { value: opacity },
     pattern: { value: pattern },
     up: { value: new THREE.Vector3() },
-    rim: { value: 1 },
+    rim: { value: 1e30 },
+    J: { value: new THREE.Vector3(1, 1, 1) },
+    linear: { value: new THREE.Vector3() },
+    range: { value: new THREE.Vector2(0, 1) },
+    power: { value: 1 },
+    free: { value: 0 },
+    bound: { value: 0 },
+    quadratic: { value: new THREE.Matrix3() },
+    mode: { value: 0 },
   };
+  for (const name in levels) uniforms[name].value = levels[name];
   const material = new THREE.ShaderMaterial({
     vertexShader: vertex,
     fragmentShader: fragment,

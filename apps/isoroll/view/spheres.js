@@ -270,11 +270,11 @@ class PointPicture extends Picture {
     this.world = this.add(this.scene, new THREE.Group());
     this.world.quaternion.copy(bodyUp);
     this.hasPoint = hasPoint;
-    const { height } = hasPoint ? potential : {};
-    const names = height
+    const { levels } = hasPoint ? potential : {};
+    const names = levels
       ? { a: "deep", b: "shallow", c: "middle", line: "line" }
       : { a: "ball", b: "dark", c: "ball", line: "line" };
-    this.add(this.world, sphere(1, height ? 2 : 0, names, { height }));
+    this.add(this.world, sphere(1, levels ? 2 : 0, names, { levels }));
     for (let i = 0; i < 3; i++) {
       const end = [0, 0, 0],
         start = [0, 0, 0],
@@ -305,6 +305,22 @@ class PointPicture extends Picture {
   }
 }
 
+// The numbers with which heightOf (shapes.js) gives 0 at `least` and 1 at `most`. V is measured in its largest size.
+function levelsOf(least, most, logarithmic) {
+  const { field } = page.effects,
+    size = Math.max(Math.abs(least), Math.abs(most)),
+    by = (x) => Math.log(x / -page.eps);
+  const levels = { J: three(body.J), power: -1 / body.k, mode: !logarithmic ? 1 : field ? 2 : 0 };
+  levels.range =
+    levels.mode === 0 ? new THREE.Vector2(by(least), by(most)) : new THREE.Vector2(least / size, most / size);
+  levels.free = -page.eps / size;
+  if (!field) return levels;
+  levels.bound = body.detJ / body.k ** 2 / size;
+  if (field.linear) levels.linear = three(field.linear);
+  if (field.quadratic) levels.quadratic = new THREE.Matrix3().set(...field.quadratic);
+  return levels;
+}
+
 // The potential on the sphere, as heights from 0 (deepest) to 1, by its logarithm where it spans more than 4 to 1.
 const potential = (() => {
   if (page.alone || !(page.eps !== null) || page.eps === 0) return {};
@@ -326,8 +342,5 @@ const potential = (() => {
   }
   if (!(most - least > 1e-9 * Math.abs(least))) return {}; // equal moments: V is constant
   const logarithmic = most < 0 && least / most > 4;
-  const height = logarithmic
-    ? (v) => Math.log(least / physics.V(v)) / Math.log(least / most)
-    : (v) => (physics.V(v) - least) / (most - least);
-  return { height, least, most, logarithmic };
+  return { levels: levelsOf(least, most, logarithmic), least, most, logarithmic };
 })();
