@@ -2,20 +2,13 @@
 
 const element = (name) => document.getElementById(name);
 
-function hasWebGL() {
-  const canvas = document.createElement("canvas"),
-    context = canvas.getContext("webgl") || canvas.getContext("experimental-webgl");
-  if (context && context.getExtension("WEBGL_lose_context")) context.getExtension("WEBGL_lose_context").loseContext();
-  return Boolean(context);
-}
-
 const controls = {
   playing: false,
   value: 0, // of the even clock
   speed: 1,
   drawn: 0, // frames so far
   dirty: true,
-  quality: 1,
+  quality: 1, // of the resolution
   slow: 20,
   before: 0,
   resting: 0,
@@ -106,7 +99,7 @@ const controls = {
       this.resting = milliseconds;
       this.slow = since < 1000 ? 0.8 * this.slow + 0.2 * since : this.slow;
       if (this.slow > 34 && this.quality > 0.45) this.setQuality(this.quality * 0.8);
-    } else if (this.quality < 1 && milliseconds - this.resting > 400) this.setQuality(1);
+    } else if (this.quality < graphics.best && milliseconds - this.resting > 400) this.setQuality(graphics.best);
   },
   setQuality(quality) {
     this.quality = quality;
@@ -153,12 +146,12 @@ const controls = {
       foot = Math.round(height * 0.09),
       half = width / 2;
     this.pictures.forEach((picture, i) => {
-      picture.renderer.setPixelRatio(1);
+      picture.renderer.setPixelRatio(2); // smooth edges
       picture.renderer.setSize(half, height - head - foot, false);
       picture.shape(half / (height - head - foot));
       picture.show(this.now, this.trail());
       picture.draw();
-      g.drawImage(picture.canvas, i * half, head);
+      g.drawImage(picture.canvas, i * half, head, half, height - head - foot);
     });
     g.fillStyle = style.getPropertyValue("--text");
     g.textAlign = "center";
@@ -300,7 +293,7 @@ const controls = {
 
   begin() {
     this.orbit = orbitOf(page.rows || page.section.list[0]);
-    if (hasWebGL())
+    if (graphics.there)
       this.pictures = [new BallPicture(element("ball")), new PointPicture(element("point"), !page.alone)];
     else {
       element("trouble").hidden = false;

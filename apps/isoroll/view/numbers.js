@@ -143,8 +143,7 @@ const numbers = {
     about.push(["ball radius B", body.reduced ? "1 (unit of length)" : digits(B)]);
     if (kind !== "plane") about.push(["sphere radius A", digits(A)]);
     if (page.h !== null) about.push(["energy h", `${digits(page.h)} J/time²`]);
-    if (page.eps !== null)
-      about.push(["coupling ε", `${digits(page.eps)} ${this.unitOf([2, 0, 2].map((x, i) => (i === 0 ? 3 : x)))}`]);
+    if (page.eps !== null) about.push(["coupling ε", `${digits(page.eps)} J⁴/time²`]);
     const effects = Object.keys(page.effects).filter((name) => name !== "clock");
     if (effects.length) about.push(["effects", effects.join(", ")]);
     about.push(["made by", `isoroll ${page.version}`]);

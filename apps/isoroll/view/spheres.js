@@ -18,10 +18,24 @@ const camera = {
   },
 };
 
+// Whether the browser has WebGL, and whether a graphics card or the processor draws. The processor draws edges that
+// are not smoothed, and more pixels when everything stands still.
+const graphics = (() => {
+  const canvas = document.createElement("canvas"),
+    gl = canvas.getContext("webgl") || canvas.getContext("experimental-webgl");
+  if (!gl) return { there: false };
+  const masked = gl.getParameter(gl.RENDERER) === "WebKit WebGL" && gl.getExtension("WEBGL_debug_renderer_info");
+  const name = gl.getParameter(masked ? masked.UNMASKED_RENDERER_WEBGL : gl.RENDERER);
+  const byProcessor = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name),
+    lose = gl.getExtension("WEBGL_lose_context");
+  if (lose) lose.loseContext();
+  return { there: true, byProcessor, best: byProcessor ? 2 : 1 };
+})();
+
 class Picture {
   constructor(canvas, distance) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !graphics.byProcessor, alpha: true });
     this.scene = new THREE.Scene();
     this.eye = new THREE.PerspectiveCamera(30, 1, distance / 100, distance * 20);
     this.distance = distance;
@@ -43,7 +57,7 @@ class Picture {
     const box = this.canvas.parentElement.getBoundingClientRect();
     const width = Math.max(1, Math.round(box.width)),
       height = Math.max(1, Math.round(box.height));
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2) * this.quality);
+    this.renderer.setPixelRatio(Math.min(Math.min(devicePixelRatio, 2) * this.quality, 2));
     this.renderer.setSize(width, height, false);
     this.shape(width / height);
   }
