@@ -1,7 +1,9 @@
 /* isoroll view - a page that opens from disk: the ball and its point move side by side. */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "scene_options.h"
@@ -45,12 +47,13 @@ static bool ends_with(const char *text, const char *end)
 static void read_beginning(const char *path, char *text, size_t size)
 {
     const bool standard = strcmp(path, "-") == 0;
-    FILE *file = standard ? NULL : fopen(path, "r");
-    ssize_t got = 0;
-    if (standard) got = pread(STDIN_FILENO, text, size - 1, 0);
-    if (file) got = (ssize_t)fread(text, 1, size - 1, file);
+    struct stat about;
+    const bool regular =
+        standard || (stat(path, &about) == 0 && S_ISREG(about.st_mode)); /* of a pipe nothing is taken */
+    const int file = standard ? STDIN_FILENO : regular ? open(path, O_RDONLY | O_CLOEXEC) : -1;
+    const ssize_t got = file >= 0 ? pread(file, text, size - 1, 0) : 0;
     text[got > 0 ? got : 0] = '\0';
-    if (file) fclose(file);
+    if (file >= 0 && !standard) close(file);
 }
 
 /* isoroll's own files say what they are. Of others, the ending does, or an option that is for trajectories. */

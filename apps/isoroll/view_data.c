@@ -14,7 +14,7 @@
 static json_t *base64(const unsigned char *bytes, size_t count)
 {
     static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    char *text = malloc((count + 2) / 3 * 4 + 1), *to = text;
+    char *text = json_allocate((count + 2) / 3 * 4 + 1), *to = text;
     if (!text) return NULL;
     for (size_t i = 0; i < count; i += 3) {
         const unsigned second = i + 1 < count ? bytes[i + 1] : 0, third = i + 2 < count ? bytes[i + 2] : 0;
@@ -29,19 +29,28 @@ static json_t *base64(const unsigned char *bytes, size_t count)
     return made;
 }
 
-/* One column, little-endian. */
+/* Numbers, little-endian. */
+static json_t *packed(size_t count, const double numbers[])
+{
+    unsigned char *bytes = json_allocate(8 * count + 1);
+    if (!bytes) return NULL;
+    for (size_t i = 0; i < count; i++) {
+        uint64_t bits;
+        memcpy(&bits, &numbers[i], sizeof bits);
+        for (size_t b = 0; b < 8; b++) bytes[8 * i + b] = (unsigned char)(bits >> 8 * b);
+    }
+    json_t *made = base64(bytes, 8 * count);
+    free(bytes);
+    return made;
+}
+
 static json_t *column_of(const iso_record *r, size_t column)
 {
     const size_t rows = iso_record_rows(r);
-    unsigned char *bytes = malloc(8 * rows + 1);
-    if (!bytes) return NULL;
-    for (size_t i = 0; i < rows; i++) {
-        uint64_t bits;
-        memcpy(&bits, iso_record_const_row(r, i) + column, sizeof bits);
-        for (size_t b = 0; b < 8; b++) bytes[8 * i + b] = (unsigned char)(bits >> 8 * b);
-    }
-    json_t *made = base64(bytes, 8 * rows);
-    free(bytes);
+    double *numbers = json_allocate(rows * sizeof *numbers + 1);
+    for (size_t i = 0; numbers && i < rows; i++) numbers[i] = iso_record_const_row(r, i)[column];
+    json_t *made = numbers ? packed(rows, numbers) : NULL;
+    free(numbers);
     return made;
 }
 
@@ -59,7 +68,8 @@ static json_t *text_of(const char *text)
 {
     json_t *made = json_string(text);
     if (made) return made;
-    char *copy = strdup(text);
+    char *copy = json_allocate(strlen(text) + 1);
+    if (copy) memcpy(copy, text, strlen(text) + 1);
     for (char *c = copy; c && *c; c++)
         if ((unsigned char)*c >= 0x80) *c = '?';
     made = copy ? json_string(copy) : NULL;
@@ -105,21 +115,17 @@ static json_t *integrals_of(const view_page *page)
     return list;
 }
 
-/* |difference| of three adjacent columns of two records, as one more column. */
+/* |difference| of three adjacent columns of both records, as one more column. */
 static void put_apart(json_t *columns, const view_page *page, const char *key, const char *name)
 {
-    iso_context *ctx = iso_context_create();
-    iso_record *r = NULL;
-    double *row;
-    iso_status status = ctx ? iso_record_create(ctx, 1, &key, &r) : ISO_NO_MEMORY;
-    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(page->rows); i++) {
+    const size_t rows = iso_record_rows(page->rows);
+    double *apart = json_allocate(rows * sizeof *apart + 1);
+    for (size_t i = 0; apart && i < rows; i++) {
         const double *a = view_vector(page->rows, i, name), *b = view_vector(page->apart, i, name);
-        status = iso_record_append(ctx, r, &row);
-        if (status == ISO_OK) row[0] = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+        apart[i] = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
     }
-    if (status == ISO_OK) json_object_set_new(columns, key, column_of(r, 0));
-    iso_record_free(r);
-    iso_context_free(ctx);
+    if (apart) json_object_set_new(columns, key, packed(rows, apart));
+    free(apart);
 }
 
 static json_t *rows_of(const view_page *page)

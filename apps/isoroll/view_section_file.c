@@ -76,7 +76,7 @@ static iso_status read_lines(reading *r)
         r->number++;
         status = read_line(r);
     }
-    if (status == ISO_OK && ferror(r->file))
+    if (status == ISO_OK && !feof(r->file))
         status = iso_context_fail(r->ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", r->name, strerror(errno));
     if (status == ISO_OK && (!r->record || iso_record_rows(r->record) == 0))
         status = fail(r, NULL, "expected rows of crossings, found the end of the file");

@@ -40,7 +40,8 @@ static bool is_marker(const char *at, size_t length, char name[16])
     return true;
 }
 
-static void put_page(FILE *to, const json_t *data)
+/* False: there is no memory for it. What cannot be written is seen at the end. */
+static bool put_page(FILE *to, const json_t *data)
 {
     const view_file *page = view_file_find("page");
     const char *at = (const char *)page->bytes, *end = at + page->length;
@@ -51,7 +52,8 @@ static void put_page(FILE *to, const json_t *data)
         if (!is_marker(at, length, name)) {
             fwrite(at, 1, length, to);
         } else if (strcmp(name, "data") == 0) {
-            json_dump_callback(data, put_escaped, to, JSON_COMPACT | JSON_REAL_PRECISION(17));
+            if (json_dump_callback(data, put_escaped, to, JSON_COMPACT | JSON_REAL_PRECISION(17)) != 0 && !ferror(to))
+                return false;
         } else {
             const view_file *file = view_file_find(name);
             fwrite(file->bytes, 1, file->length, to);
@@ -59,6 +61,12 @@ static void put_page(FILE *to, const json_t *data)
         fputc('\n', to);
         at += length + 1;
     }
+    return true;
+}
+
+static iso_status no_memory(iso_context *ctx)
+{
+    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the page");
 }
 
 iso_status view_write(iso_context *ctx, const char *path, const view_page *page)
@@ -66,14 +74,9 @@ iso_status view_write(iso_context *ctx, const char *path, const view_page *page)
     iso_output *out;
     json_begin();
     json_t *data = view_data(page);
-    if (!json_whole(data)) {
-        json_decref(data);
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the page");
-    }
-    iso_status status = iso_output_open(ctx, path, &out);
+    iso_status status = json_whole(data) ? iso_output_open(ctx, path, &out) : no_memory(ctx);
     if (status == ISO_OK) {
-        put_page(iso_output_stream(out), data);
-        status = iso_output_check(ctx, out);
+        status = put_page(iso_output_stream(out), data) ? iso_output_check(ctx, out) : no_memory(ctx);
         const iso_status closed = iso_output_close(ctx, out, status == ISO_OK);
         if (status == ISO_OK) status = closed;
     }

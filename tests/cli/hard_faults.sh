@@ -99,6 +99,10 @@ if [ -n "$ISO_NO_MEMORY" ]; then
         starve 17 run scene.yaml --method $method --tol 1e-6 -o made
     done
     starve 17 run scene.yaml --backend exact -o made
+    if "$isoroll" view ball.csv -o - >/dev/null 2>&1; then # with three.js
+        starve 40 view scene.yaml -o made
+        starve 20 view ball.csv -o made
+    fi
     if has gnuplot "memory for a picture"; then
         ln -s made made.svg
         starve 40 compare scene.yaml --plot made.svg
