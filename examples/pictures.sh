@@ -86,6 +86,12 @@ section=16_sections
 scene=17_why_only_one
 "$isoroll" splitting $scene/scene.yaml --k=-3:-1/8:1/8,1/8:3:1/8 --plot $scene/picture.svg >"$work/out"
 
+# sweeps: about a minute each
+for sweep in 18_chaotic_share 19_atlas; do
+    "$isoroll" sweep $sweep/sweep.yaml -o "$work/$sweep.csv"
+    "$isoroll" plot "$work/$sweep.csv" -o $sweep/picture.svg
+done
+
 "$build/tests/example_13_chaos" >"$work/chaos.txt"
 chart 13_chaos/picture.svg <<EOF
 set xlabel 'k'; set ylabel 'chaotic orbits, of 200'; unset key; set yrange [-3:]

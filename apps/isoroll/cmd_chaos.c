@@ -248,7 +248,7 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     how->turns = (long)o->turns;
     how->starts = (size_t)o->starts;
     how->seed = (uint64_t)o->seed;
-    how->threads = o->threads < 1e9 ? (int)o->threads : 1000000000;
+    how->threads = as_int(o->threads);
     how->models = o->models;
     how->tolerance = o->scene.tolerance;
     how->progress = progress_told;

@@ -5,6 +5,7 @@
 
 #include "scene_options.h"
 #include "study/section.h"
+#include "sweep_explain.h"
 
 /* What explain can be told. */
 typedef struct options {
@@ -210,6 +211,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_scene scene = {.places = 0};
     iso_orbit *orbit;
     int columns[ISO_MAX_COLUMNS], count;
+    if (is_sweep(o->scene.file)) return explain_sweep(ctx, o->scene.file);
     iso_status status = scene_with_options(ctx, &o->scene, &scene);
     if (status != ISO_OK) return finish(ctx, status);
     count = iso_scene_columns(&scene, columns);
@@ -253,7 +255,9 @@ const command command_explain = {
     .description =
         "Tells the ball's parameters, the effects that act, whether the orbit has a twin, which Poincare section is "
         "global, whether there is a closed solution, the backend and the method, which integrals hold, and the "
-        "measured cost of one right-hand side.",
+        "measured cost of one right-hand side.\n\n"
+        "Of a sweep: how many points it has, its columns, what its quantities cost, and how long it takes here. For "
+        "this a few of its points are computed.",
     .example = "isoroll explain scene.yaml",
     .run = run,
 };

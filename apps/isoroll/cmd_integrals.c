@@ -158,7 +158,7 @@ static iso_integral_search_options options_of(const options *o)
     how.seed = (uint64_t)o->seed;
     how.within = o->within;
     if (!isnan(o->scene.tolerance)) how.tolerance = o->scene.tolerance;
-    how.threads = o->threads < 1e9 ? (int)o->threads : 1000000000;
+    how.threads = as_int(o->threads);
     how.progress = progress_told;
     return how;
 }
@@ -205,13 +205,7 @@ static const option_row rows[] = {
      .doc = "largest relative error of one step (default 1e-14)",
      .set = set_tolerance,
      .offset = offsetof(options, scene.tolerance)},
-    {.name = "threads",
-     .argument = "N",
-     .expected = "a whole number from 1 on",
-     .doc = "threads that follow orbits (default: one for each processor)",
-     .set = set_count,
-     .offset = offsetof(options, threads),
-     .letter = 'j'},
+    ROW_THREADS(options, threads),
     ROW_JSON(options, json),
     ROW_END,
 };

@@ -19,11 +19,6 @@ typedef struct options {
     bool all, polish, json, branches;
 } options;
 
-static int how_many_threads(const options *o)
-{
-    return o->threads < 1e9 ? (int)o->threads : 1000000000;
-}
-
 /* --- the list --------------------------------------------------------------------------------------------------- */
 
 static int tell_gaps(const iso_periodic *f)
@@ -41,7 +36,7 @@ static int follow(iso_context *ctx, const options *o, const iso_scene *scene, co
     const periodic_follow how = {.range = o->follow,
                                  .orbit = o->orbit,
                                  .branches = o->branches,
-                                 .threads = how_many_threads(o),
+                                 .threads = as_int(o->threads),
                                  .rows = csv,
                                  .alone = o->output && strcmp(o->output, "-") == 0,
                                  .plot = o->plot,
@@ -71,11 +66,11 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
 {
     iso_periodic_options how = iso_periodic_defaults();
     iso_periodic *found = NULL;
-    how.period = o->period < 1e9 ? (int)o->period : 1000000000;
+    how.period = as_int(o->period);
     how.grid = o->grid < 1e18 ? (long)o->grid : 1000000000000000000;
     how.all = o->all;
     how.polish = o->polish;
-    how.threads = how_many_threads(o);
+    how.threads = as_int(o->threads);
     how.progress = progress_told;
     stop_gently();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
@@ -101,9 +96,8 @@ static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .period = 6, .gri
 /* Refuses wrong options before the work begins. */
 static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, iso_output **csv)
 {
-    if (o->output && strcmp(o->output, "-") == 0 && o->json)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output",
-                                "periodic: -o - and --json both write to standard output: choose one");
+    iso_status status = check_json_alone(ctx, "periodic", o->output, o->json);
+    if (status != ISO_OK) return status;
     if (o->chart && o->follow)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "chart", "periodic: --chart or --follow, not both");
     if ((o->orbit > 0 || o->branches) && !o->follow)
@@ -120,7 +114,7 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "steps", "periodic: --steps goes with --chart");
     if (o->k && !o->chart)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "periodic: --k is the range of --chart");
-    iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
+    if (o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     if (status == ISO_OK && o->follow) status = follow_check(ctx, scene, o->follow);
     return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
@@ -138,7 +132,7 @@ static int run(iso_context *ctx, const void *options_given)
                           &(periodic_chart){.moment = o->chart,
                                             .k = o->k,
                                             .steps = o->steps,
-                                            .threads = how_many_threads(o),
+                                            .threads = as_int(o->threads),
                                             .rows = csv,
                                             .alone = o->output && strcmp(o->output, "-") == 0,
                                             .plot = o->plot,

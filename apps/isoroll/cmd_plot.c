@@ -5,11 +5,12 @@
 #include "io/plot.h"
 #include "parameters.h"
 #include "study/check.h"
+#include "sweep_plot.h"
 
 /* What plot can be told. */
 typedef struct options {
     file_options from;
-    const char *output;
+    const char *output, *value; /* value NULL: not given */
 } options;
 
 /* What is drawn: the file, its conversion, and numbers from both. */
@@ -82,6 +83,10 @@ static int run(iso_context *ctx, const void *options_given)
     if (strcmp(o->output, "-") == 0)
         return complain("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
     iso_status status = iso_plot_check_format(ctx, o->output);
+    if (status == ISO_OK && is_sweep_result(o->from.file))
+        return finish(ctx, plot_sweep(ctx, o->from.file, o->value, o->output));
+    if (status == ISO_OK && o->value)
+        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "value", "plot: --value is for results of sweeps");
     if (status == ISO_OK) status = iso_trajectory_read(ctx, o->from.file, o->from.columns, &p.file);
     if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, p.file, &params);
     if (status == ISO_OK) status = draw(ctx, o, &params, &p);
@@ -99,6 +104,8 @@ static const options defaults = {.from = FILE_OPTIONS_UNSET, .output = "-"};
 static const option_row rows[] = {
     ROW_OF_FILE("output", "FILE", "a file", "the picture: .svg, .png or .pdf", set_text, options, output, 'o',
                 OPTION_WRITES),
+    ROW("value", "NAME", "a name", "of a sweep: which column is drawn, such as splitting_m", set_text, options,
+        value),
     ROWS_OF_FILE(options, from),
     ROW_END,
 };
@@ -106,13 +113,16 @@ static const option_row rows[] = {
 const command command_plot = {
     .name = "plot",
     .argument = "[FILE]",
-    .doc = "draw a trajectory: paths on the spheres, integrals, clocks",
+    .doc = "draw a trajectory, or the result of a sweep",
     .rows = rows,
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
     .description = "-o FILE is needed; its ending chooses the format. The path and the clock of the other model are "
-                   "computed, where the orbit has a twin. gnuplot draws the picture.",
+                   "computed, where the orbit has a twin. gnuplot draws the picture.\n\n"
+                   "Of a sweep: a value over the number that varies, as a curve with its error; over two numbers, as "
+                   "a map; over J, as a map of J1/J3 and J2/J3 where J1 < J2 < J3. Further numbers that vary make "
+                   "several maps. k = 1 and k = -1 are marked.",
     .example = "isoroll plot trajectory.csv -o trajectory.svg",
     .run = run,
 };

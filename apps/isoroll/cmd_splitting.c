@@ -112,12 +112,6 @@ static iso_status read_k(iso_context *ctx, const options *o, const iso_scene *sc
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
-static void show(double part, void *unused)
-{
-    (void)unused;
-    progress_show(part);
-}
-
 /* All rows failed: the first one's reason is that of the command. Some: they are told. */
 static int judge(iso_context *ctx, const iso_splittings *s)
 {
@@ -154,28 +148,11 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
 
 static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, numbers *k, iso_output **csv)
 {
-    if (o->output && strcmp(o->output, "-") == 0 && o->json)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output",
-                                "splitting: -o - and --json both write to standard output: choose one");
-    iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
+    iso_status status = check_json_alone(ctx, "splitting", o->output, o->json);
+    if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     if (status == ISO_OK) status = read_k(ctx, o, scene, k);
     return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
-}
-
-/* What acts: the scene's effects, and the level of a point that is not on H = 0. */
-static iso_status find_effects(iso_context *ctx, const iso_scene *scene, iso_effects *effects)
-{
-    iso_orbit_options how = iso_orbit_defaults(&scene->start);
-    iso_orbit *orbit;
-    *effects = scene->effects;
-    if (scene->start.model != ISO_POINT) return ISO_OK;
-    how.effects = &scene->effects;
-    const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &how, &orbit);
-    if (status != ISO_OK) return status;
-    *effects = iso_orbit_effects(orbit);
-    iso_orbit_free(orbit);
-    return ISO_OK;
 }
 
 static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, iso_output *csv)
@@ -184,15 +161,13 @@ static int work(iso_context *ctx, const options *o, const iso_scene *scene, cons
     iso_splitting_options how = iso_splitting_defaults();
     how.k = k->k, how.count = k->count;
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
-    iso_effects effects;
-    iso_status status = find_effects(ctx, scene, &effects);
-    how.effects = &effects;
+    how.scene = scene;
     how.digits = o->digits;
-    how.threads = o->threads < 1e9 ? (int)o->threads : 1000000000;
-    how.progress = show;
+    how.threads = as_int(o->threads);
+    how.progress = progress_told;
     stop_gently();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
-    if (status == ISO_OK) status = iso_splitting_run(ctx, &how, &s);
+    const iso_status status = iso_splitting_run(ctx, &how, &s);
     iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
     int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish_scene(ctx, &o->scene, scene, status);

@@ -16,6 +16,7 @@ typedef struct command {
     const void *defaults;       /* a value of its struct of options                                     */
     size_t size;                /* of that struct                                                       */
     size_t file;                /* offset of the argument in it, a const char *                         */
+    size_t files;               /* offset of a file_list in it, for further arguments; 0: there are none */
     const char *(*word)(int i); /* the words that the argument can be; NULL: it is a file           */
     const char *description;    /* paragraphs with an empty line between; lines are folded          */
     const char *example;        /* lines as they are typed                                          */

@@ -5,7 +5,7 @@
 
 extern const command command_run, command_convert, command_compare, command_cost, command_check, command_analogue,
     command_frequencies, command_explain, command_list, command_plot, command_manual, command_section, command_chaos,
-    command_periodic, command_splitting, command_integrals, command_view;
+    command_periodic, command_splitting, command_integrals, command_sweep, command_view;
 
 const command *const commands[] = {&command_run,
                                    &command_convert,
@@ -19,6 +19,7 @@ const command *const commands[] = {&command_run,
                                    &command_periodic,
                                    &command_splitting,
                                    &command_integrals,
+                                   &command_sweep,
                                    &command_explain,
                                    &command_analogue,
                                    &command_frequencies,

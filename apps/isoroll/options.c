@@ -54,6 +54,11 @@ bool set_whole(void *at, const char *text)
     return set_bound(at, text) && *(double *)at == floor(*(double *)at) && *(double *)at < 9e15;
 }
 
+int as_int(double whole)
+{
+    return whole < 1e9 ? (int)whole : 1000000000;
+}
+
 bool set_vector(void *at, const char *text)
 {
     double *x = at;
@@ -199,7 +204,8 @@ static void make_known(const command *c, struct option known[MOST_ROWS + 1], cha
 static options_result set_file(const command *c, int argc, char **argv, bool help, char *options)
 {
     const bool optional = c->argument[0] == '[';
-    if (argc > optind + 1) return wrong(c, "one argument too many: ", argv[optind + 1]);
+    if (c->files) *(file_list *)(void *)(options + c->files) = (file_list){argv + optind, argc - optind};
+    if (argc > optind + 1 && !c->files) return wrong(c, "one argument too many: ", argv[optind + 1]);
     if (argc == optind && !optional && !help) return wrong(c, "missing argument ", c->argument);
     *(const char **)(void *)(options + c->file) = argc > optind ? argv[optind] : "-";
     return help ? OPTIONS_HELP : OPTIONS_DONE;

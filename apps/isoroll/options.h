@@ -32,6 +32,12 @@ typedef struct option_row {
 
 typedef enum options_result { OPTIONS_WRONG, OPTIONS_HELP, OPTIONS_DONE } options_result;
 
+/* All arguments of a command that takes more than one. */
+typedef struct file_list {
+    char **path;
+    int count;
+} file_list;
+
 /* Reads the arguments of a command into its struct, which already holds the defaults. OPTIONS_WRONG: a message has
  * been given. */
 options_result options_read(const struct command *c, int argc, char **argv, void *options);
@@ -54,6 +60,9 @@ bool set_backend(void *at, const char *text);   /* iso_backend: ball, point, exa
 bool set_as(void *at, const char *text);        /* iso_shown: ball, point, both         */
 bool set_target(void *at, const char *text);    /* iso_model_kind: ball, point          */
 bool set_digits(void *at, const char *text);    /* int, 1 to 17, or ISO_HEXADECIMAL     */
+
+/* A whole number from 0 on, as set_whole and set_count read it, as an int: 1e9 if it is larger. */
+int as_int(double whole);
 
 /* Lists of words. */
 const char *method_word(int i);

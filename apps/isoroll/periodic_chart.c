@@ -40,7 +40,7 @@ static iso_status read_words(iso_context *ctx, const iso_scene *scene, const per
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--k '%s': expected A:B, A < B", c->k);
     o->from[0] = k[0], o->to[0] = k[1];
     o->from[1] = moment[0], o->to[1] = moment[1];
-    o->steps = c->steps < 1e9 ? (int)c->steps : 1000000000;
+    o->steps = as_int(c->steps);
     o->threads = c->threads;
     o->progress = progress_told;
     return ISO_OK;

@@ -7,7 +7,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { WIDTH = 40 };
+enum { WIDTH = 40, WORDS = 30 };
 
 static double now(void)
 {
@@ -18,7 +18,7 @@ static double now(void)
 
 static bool drawn;
 
-void progress_show(double part)
+void progress_with(double part, const char *words)
 {
     static double start = -1, last;
     if (start < 0) start = now();
@@ -29,9 +29,15 @@ void progress_show(double part)
     const bool coloured = !no_color || !*no_color;
     fprintf(stderr, "\r%s", coloured ? "\033[36m" : "");
     for (int i = 0; i < WIDTH; i++) fputc(i < (int)(part * WIDTH) ? '#' : '.', stderr);
-    fprintf(stderr, "%s %3.0f %%", coloured ? "\033[0m" : "", 100 * part);
+    fprintf(stderr, "%s %3.0f %% %-*.*s", coloured ? "\033[0m" : "", 100 * part, WORDS * (*words != '\0'), WORDS,
+            words);
     fflush(stderr);
     drawn = true;
+}
+
+void progress_show(double part)
+{
+    progress_with(part, "");
 }
 
 void progress_told(double part, void *unused)
@@ -42,6 +48,6 @@ void progress_told(double part, void *unused)
 
 void progress_end(void)
 {
-    if (drawn) fprintf(stderr, "\r%*s\r", WIDTH + 8, "");
+    if (drawn) fprintf(stderr, "\r%*s\r", WIDTH + 8 + WORDS, "");
     drawn = false;
 }

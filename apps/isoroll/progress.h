@@ -5,6 +5,9 @@
 /* Shows which part of the work is done, 0 to 1. Draws only on a terminal, and only after the first second. */
 void progress_show(double part);
 
+/* The same, with words behind it. */
+void progress_with(double part, const char *words);
+
 /* The same, for options of the library that take such a function. */
 void progress_told(double part, void *unused);
 

@@ -9,25 +9,45 @@
 
 #include "progress.h"
 
-static volatile sig_atomic_t stop_asked;
+static volatile sig_atomic_t stop_asked, stop_signal;
 
 static void ask_to_stop(int signal_number)
 {
     static volatile time_t first;
-    if (!stop_asked) first = time(NULL);
+    if (!stop_asked) {
+        first = time(NULL);
+        stop_signal = signal_number;
+    }
     stop_asked = 1;
     if (time(NULL) - first < 2) return; /* timeout(1) sends two signals at once */
     signal(signal_number, SIG_DFL);
     raise(signal_number);
 }
 
-void stop_gently(void)
+/* A signal that nohup or a background start ignores stays ignored. */
+static void stop_at(int signal_number)
 {
-    static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     const struct sigaction ask = {.sa_handler = ask_to_stop};
     struct sigaction old;
-    for (int i = 0; i < 3; i++) /* a signal that nohup or a background start ignores stays ignored */
-        if (sigaction(signals[i], NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(signals[i], &ask, NULL);
+    if (sigaction(signal_number, NULL, &old) == 0 && old.sa_handler != SIG_IGN) sigaction(signal_number, &ask, NULL);
+}
+
+void stop_gently(void)
+{
+    stop_at(SIGINT);
+    stop_at(SIGTERM);
+    stop_at(SIGHUP);
+}
+
+void stop_before_limit(void)
+{
+    stop_gently();
+    stop_at(SIGUSR1);
+}
+
+bool limit_is_near(void)
+{
+    return stop_signal == SIGTERM || stop_signal == SIGUSR1;
 }
 
 bool interrupted(void)
@@ -35,18 +55,30 @@ bool interrupted(void)
     return stop_asked != 0;
 }
 
+static bool silently;
+static char kept[2048];
+
+void complain_silently(void)
+{
+    silently = true;
+}
+
+const char *complaint(void)
+{
+    return kept;
+}
+
 /* File names may hold control characters: they become question marks. */
 void complain(const char *format, ...)
 {
-    char text[2048];
     va_list args;
     progress_end();
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    vsnprintf(kept, sizeof kept, format, args);
     va_end(args);
-    for (char *c = text; *c; c++)
+    for (char *c = kept; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
-    fprintf(stderr, "isoroll: %s\n", text);
+    if (!silently) fprintf(stderr, "isoroll: %s\n", kept);
 }
 
 int worse(int a, int b)

@@ -18,6 +18,10 @@ enum exit_status {
 /* Prints "isoroll: MESSAGE" on stderr, in one line. */
 void complain(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
+/* From now on complain only keeps its message, the last one; complaint gives it ("": none). */
+void complain_silently(void);
+const char *complaint(void);
+
 /* Prints the context's message and returns the exit status that belongs to `status`. Says nothing after success,
  * after a stop on request, and when the reader of a pipe has gone. */
 int finish(iso_context *ctx, iso_status status);
@@ -27,6 +31,12 @@ int worse(int a, int b);
 
 /* From now on SIGINT, SIGTERM and SIGHUP only ask to stop. A signal that comes two seconds later ends the program. */
 void stop_gently(void);
+
+/* The same, and SIGUSR1 as well: schedulers send it before a time limit. */
+void stop_before_limit(void);
+
+/* True if the first signal that asked to stop was SIGTERM or SIGUSR1: a time limit, not the user. */
+bool limit_is_near(void);
 
 /* True once the user has asked to stop. */
 bool interrupted(void);

@@ -45,6 +45,13 @@ iso_status read_axis(iso_context *ctx, const char *text, int *axis)
                             text);
 }
 
+iso_status check_json_alone(iso_context *ctx, const char *name, const char *output, bool json)
+{
+    if (!json || !output || strcmp(output, "-") != 0) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "output",
+                            "%s: -o - and --json both write to standard output: choose one", name);
+}
+
 bool not_interrupted(void *unused)
 {
     (void)unused;

@@ -49,6 +49,9 @@ int finish_scene(iso_context *ctx, const scene_options *o, const iso_scene *scen
 /* An axis as typed: 1, 2 or 3 becomes 0 to 2; auto or NULL ISO_AXIS_AUTO. Errors: ISO_BAD_INPUT. */
 iso_status read_axis(iso_context *ctx, const char *text, int *axis);
 
+/* Refuses `-o -` beside --json: both write to standard output. output NULL: not given. name: of the command. */
+iso_status check_json_alone(iso_context *ctx, const char *name, const char *output, bool json);
+
 /* Prints the effects that act, with their numbers and, if wanted, what they are. Prints nothing where none acts. */
 void print_effects(const iso_effects *effects, bool docs);
 

@@ -100,3 +100,32 @@ bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write)
     }
     return true;
 }
+
+static bool write_attribute(hid_t at, const char *key, hid_t type, hid_t space, const void *value)
+{
+    const hid_t attribute = H5Acreate2(at, key, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    const bool written = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
+    if (attribute >= 0) H5Aclose(attribute);
+    return written;
+}
+
+/* Text of variable length, since Python reads that as text and not as bytes. */
+bool iso_hdf5_write_text(hid_t at, const char *key, const char *value)
+{
+    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, H5T_VARIABLE);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    const bool written = write_attribute(at, key, type, space, &value);
+    H5Tclose(type);
+    H5Sclose(space);
+    return written;
+}
+
+bool iso_hdf5_write_numbers(hid_t at, const char *key, int count, const double numbers[])
+{
+    const hsize_t size = (hsize_t)count;
+    const hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, NULL);
+    const bool written = write_attribute(at, key, H5T_NATIVE_DOUBLE, space, numbers);
+    H5Sclose(space);
+    return written;
+}

@@ -67,6 +67,10 @@ bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write);
 /* How datasets are accessed: chunk by chunk, of which none need be kept. */
 hid_t iso_hdf5_access(void);
 
+/* Attributes: text, and numbers. False: it fails. */
+bool iso_hdf5_write_text(hid_t at, const char *key, const char *value);
+bool iso_hdf5_write_numbers(hid_t at, const char *key, int count, const double numbers[]);
+
 /* Records that the HDF5 library failed, which does not say why. Returns ISO_FILE_TROUBLE. */
 iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name);
 

@@ -40,35 +40,6 @@ static int numbers_of(const char *value, double numbers[ISO_HDF5_NUMBERS])
     return 0;
 }
 
-static bool write_attribute(hid_t at, const char *key, hid_t type, hid_t space, const void *value)
-{
-    const hid_t attribute = H5Acreate2(at, key, type, space, H5P_DEFAULT, H5P_DEFAULT);
-    const bool written = attribute >= 0 && H5Awrite(attribute, type, value) >= 0;
-    if (attribute >= 0) H5Aclose(attribute);
-    return written;
-}
-
-/* Text of variable length, since Python reads that as text and not as bytes. */
-static bool write_text(hid_t at, const char *key, const char *value)
-{
-    const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
-    H5Tset_size(type, H5T_VARIABLE);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    const bool written = write_attribute(at, key, type, space, &value);
-    H5Tclose(type);
-    H5Sclose(space);
-    return written;
-}
-
-static bool write_numbers(hid_t at, const char *key, int count, const double numbers[])
-{
-    const hsize_t size = (hsize_t)count;
-    const hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, NULL);
-    const bool written = write_attribute(at, key, H5T_NATIVE_DOUBLE, space, numbers);
-    H5Sclose(space);
-    return written;
-}
-
 static iso_status hdf5_line(iso_context *ctx, iso_trajectory_writer *w, const char *key, const char *value)
 {
     const iso_hdf5_store *s = w->data;
@@ -77,7 +48,8 @@ static iso_status hdf5_line(iso_context *ctx, iso_trajectory_writer *w, const ch
     bool written;
     H5E_BEGIN_TRY
     {
-        written = count > 0 ? write_numbers(s->file, key, count, numbers) : write_text(s->file, key, value);
+        written = count > 0 ? iso_hdf5_write_numbers(s->file, key, count, numbers)
+                            : iso_hdf5_write_text(s->file, key, value);
     }
     H5E_END_TRY
     return written ? ISO_OK : iso_hdf5_trouble(ctx, "write", w->name);
@@ -150,7 +122,7 @@ static iso_status hdf5_header(iso_context *ctx, iso_trajectory_writer *w, const 
     H5E_BEGIN_TRY
     {
         snprintf(format, sizeof format, "isoroll %s " ISO_TRAJECTORY_VERSION, w->kind);
-        good = write_text(s->file, "format", format);
+        good = iso_hdf5_write_text(s->file, "format", format);
         for (int p = 0; good && p < count; p++) good = create_part(s, &parts[p], header);
         good = good && create_others(s, header);
     }

@@ -102,6 +102,11 @@ const char *iso_output_name(const iso_output *out)
     return out->name;
 }
 
+void iso_output_keep_others(iso_output *out)
+{
+    out->replacement.fresh = true;
+}
+
 iso_status iso_output_check(iso_context *ctx, iso_output *out)
 {
     if (!ferror(out->file)) return ISO_OK;

@@ -27,6 +27,10 @@ ISO_API iso_status iso_output_open(iso_context *ctx, const char *path, iso_outpu
 /* Where to write. */
 ISO_API FILE *iso_output_stream(iso_output *out);
 
+/* A file that has the name when this one ends is not replaced: closing fails then. Nothing changes for what is written
+ * directly. */
+ISO_API void iso_output_keep_others(iso_output *out);
+
 /* Whether all that was written so far arrived. Errors: ISO_FILE_TROUBLE; ISO_CLOSED_PIPE when the
  * reader of a pipe has gone (the program must ignore SIGPIPE to see it). */
 ISO_API iso_status iso_output_check(iso_context *ctx, iso_output *out);

@@ -83,10 +83,10 @@ ISO_API iso_status iso_plot_indicators(iso_context *ctx, const char *path, const
 ISO_API iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis,
                                       const iso_record *spots);
 
-/* The splitting of the separatrix. On the left |m| over k, as spots with errors, blue for m > 0, vermillion for m < 0,
- * triangles where m is not distinguished from 0: they are upper bounds. On the right, if there is a curve, W^u(O) and its mirror
- * W^s(O') on the section. rows: columns k, m, error; NULL or empty: only the right one. curve: columns u and x, as
- * iso_splitting_curve has them; NULL: none. at: the k of the curve. axis: of its section, 0 to 2.
+/* The splitting of the separatrix. On the left |m| over k, as spots with errors, blue for m > 0, vermillion for m <
+ * 0, triangles where m is not distinguished from 0: they are upper bounds. On the right, if there is a curve, W^u(O)
+ * and its mirror W^s(O') on the section. rows: columns k, m, error; NULL or empty: only the right one. curve:
+ * columns u and x, as iso_splitting_curve has them; NULL: none. at: the k of the curve. axis: of its section, 0 to 2.
  * Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
                                       const iso_record *curve, double at, int axis);
@@ -131,13 +131,30 @@ typedef struct iso_plot_section {
  * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis or orbit), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 ISO_API iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
 
+/* A value over one number: a curve, and the band of its error. rows: columns x, value, low, high, by growing x; low
+ * and high may be NaN. name, value: of the axes. An axis that has the name k has marks at +-1. If values of both
+ * signs or of very different sizes are there, |value| has a logarithmic axis. Errors: as iso_plot_momentum. */
+ISO_API iso_status iso_plot_curve(iso_context *ctx, const char *path, const char *title, const char *name,
+                                  const char *value, const iso_record *rows);
+
+/* A value over two numbers: maps side by side, with one scale of colours. A NaN is grey. An axis that has the name k
+ * has marks at +-1. */
+enum { ISO_PLOT_MAPS = 6 };
+typedef struct iso_plot_panels {
+    const char *title, *x, *y, *value; /* of the picture, of the axes, of the scale */
+    int count;                         /* of panels, at most ISO_PLOT_MAPS          */
+    const char *const *name;           /* of each; "": none                         */
+    const iso_record *const *rows;     /* of each: columns x, y, value              */
+} iso_plot_panels;
+ISO_API iso_status iso_plot_values(iso_context *ctx, const char *path, const iso_plot_panels *panels);
+
 /* Where the rotations about the axes of least and greatest moment are stable: the records of study/stability_chart.h.
  * moment: the name of the one that varies. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const char *moment,
                                       const iso_record *grid, const iso_record *borders);
 
-/* Followed orbits: columns branch (0, 1, ...), value, x, trace, by branch and along it; x is |x|, or on x = 0 the part
- * 2 l/pi. parameter: the name of what varies. Errors: as iso_plot_momentum. */
+/* Followed orbits: columns branch (0, 1, ...), value, x, trace, by branch and along it; x is |x|, or on x = 0 the
+ * part 2 l/pi. parameter: the name of what varies. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_branches(iso_context *ctx, const char *path, const char *title, const char *parameter,
                                      const iso_record *points);
 

@@ -74,12 +74,33 @@ static void sync_folder(const char *path)
     free(folder);
 }
 
+/* Gives the file its name, unless it is taken. In one step where the file system can do that, or by a second name. */
+static int name_fresh(const char *temporary, const char *target)
+{
+    struct stat s;
+#ifdef RENAME_NOREPLACE
+    if (renameat2(AT_FDCWD, temporary, AT_FDCWD, target, RENAME_NOREPLACE) == 0) return 0;
+    if (errno == EEXIST) return -1;
+#endif
+    if (link(temporary, target) == 0) return unlink(temporary), 0;
+    if (errno == EEXIST) return -1;
+    if (lstat(target, &s) == 0) return errno = EEXIST, -1;
+    return rename(temporary, target);
+}
+
+static iso_status give_name(iso_context *ctx, const iso_replacement *r)
+{
+    if ((r->fresh ? name_fresh : rename)(r->temporary, r->target) == 0) return ISO_OK;
+    if (r->fresh && errno == EEXIST)
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "'%s' has appeared: it is not overwritten", r->target);
+    return iso_file_trouble(ctx, "rename", r->target);
+}
+
 iso_status iso_replacement_close(iso_context *ctx, iso_replacement *r, int descriptor, bool keep)
 {
     iso_status status = ISO_OK;
     if (keep && fsync(descriptor) != 0) status = iso_file_trouble(ctx, "write", r->target);
-    if (keep && status == ISO_OK && rename(r->temporary, r->target) != 0)
-        status = iso_file_trouble(ctx, "rename", r->target);
+    if (keep && status == ISO_OK) status = give_name(ctx, r);
     if (keep && status == ISO_OK)
         sync_folder(r->target);
     else

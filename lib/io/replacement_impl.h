@@ -13,6 +13,7 @@
 typedef struct iso_replacement {
     char *target;    /* the name it is to have, links followed     */
     char *temporary; /* the name it has till then, in that folder  */
+    bool fresh;      /* set it between open and close: a file that has the name by then is not replaced */
 } iso_replacement;
 
 /* ISO_FILE_TROUBLE in errno's words: "cannot WHAT 'path': ..."; ISO_CLOSED_PIPE when errno is EPIPE. */
@@ -23,8 +24,8 @@ iso_status iso_file_trouble(iso_context *ctx, const char *what, const char *path
 iso_status iso_replacement_open(iso_context *ctx, const char *path, iso_replacement *r, int *descriptor);
 
 /* Brings the file to the disk (keep) or takes it away, closes nothing, releases r. With keep the descriptor is
- * synced, the file renamed and its folder synced. Errors: ISO_FILE_TROUBLE; an older file of that name is then as
- * it was. */
+ * synced, the file renamed and its folder synced. Errors: ISO_FILE_TROUBLE, also if a fresh file's name is taken; an
+ * older file of that name is then as it was. */
 iso_status iso_replacement_close(iso_context *ctx, iso_replacement *r, int descriptor, bool keep);
 
 #endif

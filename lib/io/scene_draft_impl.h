@@ -19,11 +19,30 @@ typedef struct iso_draft {
     iso_scene scene;
 } iso_draft;
 
+/* A draft before its text is read. */
+iso_draft iso_draft_empty(iso_context *ctx, const char *name);
+
 /* A key of `initial` and the model whose start it states (ISO_SHOW_BOTH: either). */
 bool iso_draft_initial_key(int i, const char **name, iso_shown *model);
 
 /* Reads every key under d->root into the draft: types, ranges, unknown, duplicate and missing keys.
  * What must hold between sections is left to the caller. Errors: ISO_BAD_INPUT. */
 iso_status iso_draft_read_keys(iso_draft *d);
+
+/* Checks what must hold between keys and makes d->scene. The yaml is only read, so that copies of a draft, with other
+ * numbers in them, can be made on several threads at the same time. Errors: ISO_BAD_INPUT. */
+iso_status iso_draft_make(iso_draft *d);
+
+/* A number or a vector that the text states, for sweeps. */
+typedef struct iso_draft_number {
+    char name[2 * ISO_NAME_SIZE]; /* "k", "surface.radius", "gravity.up"  */
+    int count;                    /* 1, 3 or 9 numbers                    */
+    size_t offset;                /* of the first, from the draft's begin */
+    const yaml_node_t *value;     /* where it stands                      */
+} iso_draft_number;
+
+/* Lists the numbers that the text states, at most `most`, and gives how many. A number that two sections can have, or
+ * that belongs to an effect, is called SECTION.KEY. */
+int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[]);
 
 #endif

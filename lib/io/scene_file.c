@@ -198,11 +198,10 @@ static iso_status make_start(iso_draft *d, iso_model_kind model)
     return fail_at_field(d, status, "initial");
 }
 
-static iso_status make_scene(iso_draft *d)
+iso_status iso_draft_make(iso_draft *d)
 {
     const char *name;
-    iso_status status = iso_draft_read_keys(d);
-    if (status == ISO_OK) status = check_sections(d, &name);
+    iso_status status = check_sections(d, &name);
     if (status != ISO_OK) return status;
     const iso_model_kind model = strcmp(name, "point") == 0 ? ISO_POINT : ISO_BALL;
     if ((status = check_surface(d)) != ISO_OK) return status;
@@ -217,16 +216,23 @@ static iso_status make_scene(iso_draft *d)
     return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, iso_scene_check_columns(d->yaml.ctx, &d->scene));
 }
 
-iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
+iso_draft iso_draft_empty(iso_context *ctx, const char *name)
 {
-    ISO_DEFAULT_ARITHMETIC;
     iso_draft d = {.yaml = {.ctx = ctx, .name = name}, .backend = ISO_BACKEND_AUTO, .as = ISO_SHOW_START};
     d.scene = iso_scene_default();
     d.D = NAN;
+    return d;
+}
+
+iso_status iso_scene_parse(iso_context *ctx, const char *name, const char *text, size_t length, iso_scene *scene)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_draft d = iso_draft_empty(ctx, name);
     iso_status status = iso_yaml_load(&d.yaml, text, length);
     if (status != ISO_OK) return status;
     d.root = yaml_document_get_root_node(&d.yaml.document);
-    status = make_scene(&d);
+    status = iso_draft_read_keys(&d);
+    if (status == ISO_OK) status = iso_draft_make(&d);
     iso_yaml_free(&d.yaml);
     if (status == ISO_OK) *scene = d.scene;
     return status;

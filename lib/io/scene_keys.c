@@ -191,7 +191,7 @@ static iso_status unknown_key(iso_draft *d, const entry *entries, const yaml_nod
         return iso_yaml_fail(&d->yaml, key->start_mark, "a key should be a name, not a list or a mapping");
     for (; entries[count].name && count < MAX_KEYS; count++) names[count] = entries[count].name;
     if (count == 0)
-        return iso_yaml_fail(&d->yaml, key->start_mark, "'%s': nothing is to be said here: write {}",
+        return iso_yaml_fail(&d->yaml, key->start_mark, "'%s': this has no settings: write {}",
                              (const char *)key->data.scalar.value);
     return iso_yaml_unknown(&d->yaml, key, entries->read == read_effect ? "effect" : "key", count, names);
 }
@@ -363,4 +363,54 @@ iso_status iso_draft_read_keys(iso_draft *d)
     if (d->root->type != YAML_MAPPING_NODE)
         return iso_yaml_expected(&d->yaml, d->root, "scene", "a mapping with ball, surface, initial and time");
     return read_mapping(d, scene_keys, "the scene", d->root, d->root);
+}
+
+/* --- the numbers of a text, for sweeps --- */
+
+typedef struct listing {
+    iso_draft *d;
+    int most, count;
+    iso_draft_number *list;
+} listing;
+
+static void list_one(listing *l, const char *prefix, const char *name, int count, const void *at,
+                     const yaml_node_t *mapping)
+{
+    const yaml_node_t *value;
+    if (l->count == l->most || !iso_yaml_find(&l->d->yaml, mapping, name, NULL, &value)) return;
+    iso_draft_number *n = &l->list[l->count++];
+    *n =
+        (iso_draft_number){.count = count, .offset = (size_t)((const char *)at - (const char *)l->d), .value = value};
+    snprintf(n->name, sizeof n->name, "%s%s%s", prefix, *prefix ? "." : "", name);
+}
+
+static void list_section(listing *l, const entry *section, const yaml_node_t *mapping)
+{
+    for (const entry *e = section->section; e->name; e++) {
+        const bool number = e->read == read_number || e->read == read_tolerance || e->read == read_D;
+        const char *prefix = strcmp(e->name, "radius") == 0 ? section->name : ""; /* of ball, and of surface */
+        if (number) list_one(l, prefix, e->name, 1, target(l->d, e), mapping);
+        if (e->read == read_vector) list_one(l, "", e->name, 3, target(l->d, e), mapping);
+    }
+}
+
+static void list_effect(listing *l, iso_effect_id id, const yaml_node_t *mapping)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++)
+        if (n->kind != ISO_NUMBER_FLAG)
+            list_one(l, effect->name, n->name, n->count, iso_effect_values(&l->d->scene.effects, id, n), mapping);
+}
+
+int iso_draft_numbers(iso_draft *d, int most, iso_draft_number list[])
+{
+    listing l = {d, most, 0, list};
+    const yaml_node_t *effects, *mapping;
+    for (const entry *e = scene_keys; e->name; e++)
+        if (e->section && iso_yaml_find(&d->yaml, d->root, e->name, NULL, &mapping)) list_section(&l, e, mapping);
+    if (iso_yaml_find(&d->yaml, d->root, "effects", NULL, &effects))
+        for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
+            if (iso_yaml_find(&d->yaml, effects, iso_effect_list[i]->name, NULL, &mapping))
+                list_effect(&l, i, mapping);
+    return l.count;
 }

@@ -27,9 +27,10 @@ typedef struct iso_batch_orbit {
 typedef struct iso_batch_options {
     size_t size;         /* set by iso_batch_defaults; see isoroll.h */
     iso_backend backend; /* ISO_BACKEND_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the
-                            start's own model; not ISO_BACKEND_EXACT, whose orbits have nothing to do together: iso_orbit   */
+                            start's own model; not ISO_BACKEND_EXACT, whose orbits have nothing to do together:
+                            iso_orbit                                                                           */
     double tolerance;
-    long max_steps;      /* of each orbit; 0: no bound                                                         */
+    long max_steps; /* of each orbit; 0: no bound                                                         */
     iso_clock clock;
     iso_shown shown;
     bool with_clock[ISO_CLOCKS];

@@ -169,3 +169,20 @@ void iso_crossings_give(const iso_crossings *c, const iso_sample *from, iso_samp
     for (int i = 0; i < ISO_STATE && c->options.shown == ISO_SHOW_POINT; i++) to->ball[i] = NAN;
     for (int i = 0; i < ISO_EFFECT_COLUMNS && c->options.shown == ISO_SHOW_POINT; i++) to->effect[i] = NAN;
 }
+
+/* The start is made in own units, in which powers of q fit a double. */
+iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x)
+{
+    const iso_units *units = iso_orbit_units(orbit);
+    const double eps = iso_orbit_coupling(orbit);
+    double point[ISO_STATE];
+    iso_start start = {.model = model, .eps = isnormal(eps) ? eps : (double)NAN};
+    const bool ball = model == ISO_BALL;
+    iso_section_point(&units->own, iso_orbit_model(orbit)->problem.eps, axis, l, x, point);
+    if (ball)
+        iso_point_to_ball(&units->own, point, start.y);
+    else
+        copy(point, start.y, ISO_STATE);
+    scale(start.y, ball ? units->w : iso_unit(units, iso_system_point.fast_dimension));
+    return start;
+}

@@ -2,6 +2,7 @@
  * orbits are followed by chaos_walk.c. */
 #include "study/chaos.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -166,7 +167,8 @@ static void count_shares(const iso_chaos_walk *w)
     iso_chaos_interval(s->chaotic, s->count, &s->low, &s->high);
 }
 
-static iso_status run(iso_chaos_walk *w)
+/* All that comes before the first turn. */
+static iso_status prepare(iso_chaos_walk *w)
 {
     iso_sample start;
     iso_status status = check_options(w);
@@ -186,23 +188,38 @@ static iso_status run(iso_chaos_walk *w)
     w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
     w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
     if (!w->out->start) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the starts");
+    return ISO_OK;
+}
+
+static iso_status run(iso_chaos_walk *w)
+{
+    iso_status status = prepare(w);
+    if (status != ISO_OK) return status;
     status = iso_chaos_follow(w);
     count_shares(w);
     return status;
+}
+
+static iso_status begin(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options, iso_chaos_walk *w)
+{
+    *w = (iso_chaos_walk){.ctx = ctx, .scene = scene, .options = iso_chaos_defaults()};
+    const iso_status status = iso_options_take(ctx, "iso_chaos_options", &w->options, sizeof w->options, options);
+    if (status != ISO_OK) return status;
+    if (isnan(w->options.tolerance)) w->options.tolerance = scene->tolerance;
+    w->out = calloc(1, sizeof *w->out);
+    if (!w->out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the indicators");
+    w->out->own.verdict = ISO_UNDECIDED;
+    return ISO_OK;
 }
 
 iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options,
                          iso_chaos **chaos)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_chaos_walk w = {.ctx = ctx, .scene = scene, .options = iso_chaos_defaults()};
+    iso_chaos_walk w;
     *chaos = NULL;
-    iso_status status = iso_options_take(ctx, "iso_chaos_options", &w.options, sizeof w.options, options);
+    iso_status status = begin(ctx, scene, options, &w);
     if (status != ISO_OK) return status;
-    if (isnan(w.options.tolerance)) w.options.tolerance = scene->tolerance;
-    w.out = calloc(1, sizeof *w.out);
-    if (!w.out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the indicators");
-    w.out->own.verdict = ISO_UNDECIDED;
     status = run(&w);
     iso_orbit_free(w.orbit);
     if (status == ISO_OK || status == ISO_STOPPED)
@@ -210,6 +227,96 @@ iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_cha
     else
         iso_chaos_free(w.out);
     return status;
+}
+
+/* --- many scenes ------------------------------------------------------------------------------------------------ */
+
+static bool alike(const iso_chaos_walk *a, const iso_chaos_walk *b)
+{
+    return a->options.tolerance == b->options.tolerance && a->out->with[0] == b->out->with[0] &&
+           a->out->with[1] == b->out->with[1];
+}
+
+/* Orbits that turn from section to section can share lanes; the others are followed alone. */
+static iso_status follow_alone(iso_chaos_walk *w, iso_status *status)
+{
+    *status = iso_chaos_follow(w);
+    for (int m = 0; m < 2; m++) {
+        iso_record_free(w->out->trace[m]);
+        w->out->trace[m] = NULL;
+    }
+    return *status == ISO_STOPPED || *status == ISO_NO_MEMORY ? *status : ISO_OK;
+}
+
+/* Follows walk[0] and all that are like it. The others move to the front; *count is their number. */
+static iso_status follow_alike(iso_chaos_walk *walk[], iso_chaos_walk *together[], size_t *count)
+{
+    size_t others = 0, like = 0;
+    for (size_t i = 0; i < *count; i++)
+        if (like == 0 || alike(together[0], walk[i]))
+            together[like++] = walk[i];
+        else
+            walk[others++] = walk[i];
+    *count = others;
+    return iso_chaos_follow_each(like, together);
+}
+
+static iso_status follow_many(size_t count, iso_chaos_walk walk[], iso_chaos_walk *left[], iso_status status[])
+{
+    iso_status answer = ISO_OK;
+    size_t free = 0;
+    for (size_t i = 0; i < count && answer == ISO_OK; i++) {
+        if (status[i] != ISO_OK) continue;
+        if (walk[i].out->axis < 0 || walk[i].out->plane >= 0)
+            answer = follow_alone(&walk[i], &status[i]);
+        else
+            left[free++] = &walk[i];
+    }
+    while (free > 0 && answer == ISO_OK) answer = follow_alike(left, left + count, &free);
+    return answer;
+}
+
+/* The orbit of a walk is only needed before the first turn. */
+static iso_status prepare_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
+                               const iso_chaos_options *options, iso_chaos_walk walk[], iso_status status[])
+{
+    for (size_t i = 0; i < count; i++) {
+        if (!scene[i]) continue;
+        status[i] = begin(ctx, scene[i], options, &walk[i]);
+        if (status[i] == ISO_OK) status[i] = prepare(&walk[i]);
+        iso_orbit_free(walk[i].orbit);
+        walk[i].orbit = NULL;
+        if (status[i] == ISO_NO_MEMORY || status[i] == ISO_STOPPED) return status[i];
+        if (status[i] == ISO_OK || !walk[i].out) continue;
+        snprintf(walk[i].out->words, sizeof walk[i].out->words, "%s", iso_context_message(ctx));
+    }
+    return ISO_OK;
+}
+
+iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
+                              const iso_chaos_options *options, iso_chaos *chaos[], iso_status status[])
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_chaos_walk *walk = calloc(count + 1, sizeof *walk), **left = calloc(2 * count + 1, sizeof *left);
+    iso_status answer = ISO_NO_MEMORY;
+    for (size_t i = 0; i < count; i++) status[i] = ISO_BAD_ARGUMENT;
+    if (walk && left) {
+        answer = prepare_many(ctx, count, scene, options, walk, status);
+        if (answer == ISO_OK) answer = follow_many(count, walk, left, status);
+    } else {
+        iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", count);
+    }
+    for (size_t i = 0; i < count; i++) {
+        chaos[i] = walk ? walk[i].out : NULL;
+        if (answer == ISO_OK && status[i] == ISO_OK && walk[i].out->plane < 0)
+            status[i] = iso_chaos_check_own(&walk[i]);
+        if (answer == ISO_OK) continue;
+        iso_chaos_free(chaos[i]);
+        chaos[i] = NULL;
+    }
+    free(walk);
+    free(left);
+    return answer;
 }
 
 void iso_chaos_free(iso_chaos *chaos)

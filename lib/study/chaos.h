@@ -113,6 +113,13 @@ ISO_API iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const
                                  iso_chaos **chaos);
 ISO_API void iso_chaos_free(iso_chaos *chaos);
 
+/* The own orbits of many scenes, followed together: as fast as the starts of one scene. options: no starts, no axis.
+ * scene[i] may be NULL. chaos[i], status[i]: what iso_chaos_run gives for scene i, to the bit, but without a trace.
+ * After a failure of scene i, chaos[i]->words says why (chaos[i] may be NULL). The caller frees each chaos[i].
+ * Errors of the call: ISO_NO_MEMORY, ISO_STOPPED, and those of iso_crossings_create: then every chaos[i] is NULL. */
+ISO_API iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
+                                      const iso_chaos_options *options, iso_chaos *chaos[], iso_status status[]);
+
 /* Wilson's confidence interval of 95 % for a share, when `found` of `count` random samples belong to it. */
 ISO_API void iso_chaos_interval(size_t found, size_t count, double *low, double *high);
 

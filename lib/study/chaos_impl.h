@@ -23,6 +23,14 @@ typedef struct iso_chaos_walk {
  * scene's own orbit. */
 iso_status iso_chaos_follow(iso_chaos_walk *w);
 
+/* Follows the own orbits of free scenes together, in the lanes of the same vectors. They have the same options, the
+ * same models, and no trace. The numbers are those that iso_chaos_follow gives, to the bit. Errors: ISO_NO_MEMORY,
+ * ISO_STOPPED, those of iso_crossings_create; an orbit that fails says so in its own result. */
+iso_status iso_chaos_follow_each(size_t count, iso_chaos_walk *const walk[]);
+
+/* The failure of the scene's own orbit if no model could follow it. */
+iso_status iso_chaos_check_own(const iso_chaos_walk *w);
+
 /* The verdict of both models. */
 void iso_chaos_judge(const iso_chaos *c, iso_chaos_orbit *orbit);
 

@@ -23,7 +23,8 @@ typedef struct runner {
 
 typedef struct group {
     iso_chaos_walk *w;
-    size_t first, count; /* orbits; orbit 0 is the scene's own, orbit i is start i - 1 */
+    iso_chaos_walk *const *each; /* of each orbit, the scene whose own orbit it is; NULL: all are of one scene */
+    size_t first, count;         /* orbits; orbit 0 is the scene's own, orbit i is start i - 1 */
     iso_start start[GROUP];
     iso_batch_orbit orbit[GROUP];
     runner model[2];
@@ -36,18 +37,19 @@ typedef struct group {
 static iso_chaos_orbit *orbit_of(const group *g, size_t i)
 {
     iso_chaos *c = g->w->out;
+    if (g->each) return &g->each[i]->out->own;
     return g->first + i == 0 ? &c->own : &c->start[g->first + i - 1];
 }
 
 static void make_starts(group *g)
 {
-    const iso_chaos_walk *w = g->w;
-    const iso_chaos_options *how = &w->options;
+    const iso_chaos_options *how = &g->w->options;
     for (size_t i = 0; i < g->count; i++) {
+        const iso_chaos_walk *w = g->each ? g->each[i] : g->w;
         iso_chaos_orbit *o = orbit_of(g, i);
         *o = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_UNDECIDED};
         g->start[i] = w->scene->start;
-        if (g->first + i > 0) {
+        if (!g->each && g->first + i > 0) {
             iso_section_chart_of_start(&w->spread, how->starts, how->at, g->first + i - 1, &o->l, &o->x);
             g->start[i] = iso_section_start(w->orbit, w->scene->start.model, w->out->axis, o->l, o->x);
         }
@@ -94,12 +96,12 @@ static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators
 /* Keeps the words of the first failure. */
 static void note_failure(const group *g, int model, size_t i, const char *words)
 {
-    iso_chaos *c = g->w->out;
+    iso_chaos *c = g->each ? g->each[i]->out : g->w->out;
     const iso_status status = g->model[model].status[i];
     orbit_of(g, i)->status[model] = status;
     if (c->failure != ISO_OK) return;
     c->failure = status;
-    snprintf(c->words, sizeof c->words, "orbit %zu: %s", g->first + i, words);
+    snprintf(c->words, sizeof c->words, "orbit %zu: %s", g->each ? 0 : g->first + i, words);
 }
 
 static void note_failures(const group *g, int model)
@@ -129,7 +131,7 @@ static iso_status take(group *g, int model, size_t i)
             break;
         }
         iso_indicators_add(shown, &beat);
-        if (g->first + i == 0) status = trace(w, model, shown);
+        if (!g->each && g->first + i == 0) status = trace(w, model, shown);
     }
     r->wanted[i] =
         r->status[i] == ISO_OK && iso_indicators_verdict(shown) == ISO_UNDECIDED && shown->turns < w->options.turns;
@@ -151,7 +153,7 @@ static iso_status open_model(group *g, int model)
     iso_crossings_options c = iso_crossings_defaults();
     c.backend = (iso_backend)model;
     c.kind = w->out->axis < 0 ? ISO_SECTION_CLOCK : ISO_SECTION_AXIS;
-    c.axis = w->out->axis < 0 ? ISO_AXIS_AUTO : w->out->axis;
+    c.axis = w->out->axis < 0 || g->each ? ISO_AXIS_AUTO : w->out->axis;
     c.value = w->out->turn;
     c.deviations = true;
     c.tolerance = o->tolerance;
@@ -161,7 +163,7 @@ static iso_status open_model(group *g, int model)
     runner *r = &g->model[model];
     for (size_t i = 0; i < g->count; i++) {
         iso_indicators_begin(&r->shown[i], o->turns);
-        r->shown[i].integrable = g->w->out->integral != NULL;
+        r->shown[i].integrable = (g->each ? g->each[i]->out : w->out)->integral != NULL;
         r->wanted[i] = true;
         r->status[i] = ISO_OK;
     }
@@ -248,7 +250,7 @@ static iso_status follow_group(group *g)
 }
 
 /* The scene's own orbit must be followed by one model at least. */
-static iso_status check_own(const iso_chaos_walk *w)
+iso_status iso_chaos_check_own(const iso_chaos_walk *w)
 {
     const iso_chaos *c = w->out;
     for (int m = 0; m < 2; m++)
@@ -280,16 +282,29 @@ static iso_status follow_all(group *g)
         g->first = first;
         g->count = first == 0 ? 1 : orbits - first < GROUP ? orbits - first : GROUP;
         status = follow_group(g);
-        if (first == 0 && status == ISO_OK) status = check_own(w);
+        if (first == 0 && status == ISO_OK) status = iso_chaos_check_own(w);
         w->out->starts = first + g->count - 1;
     }
     return status;
 }
 
-iso_status iso_chaos_follow(iso_chaos_walk *w)
+/* The own orbits of many scenes. */
+static iso_status follow_each(group *g, size_t count, iso_chaos_walk *const each[])
+{
+    iso_status status = ISO_OK;
+    for (size_t first = 0; first < count && status == ISO_OK; first += g->count) {
+        g->each = each + first;
+        g->count = count - first < GROUP ? count - first : GROUP;
+        status = follow_group(g);
+    }
+    return status;
+}
+
+/* Makes room for a group of orbits of the scene w, and follows all orbits. */
+static iso_status with_group(iso_chaos_walk *w, size_t most, size_t count, iso_chaos_walk *const each[])
 {
     group *g = calloc(1, sizeof *g);
-    const size_t cells = ROUND * (w->options.starts + w->options.at_count > 0 ? GROUP : 1);
+    const size_t cells = ROUND * most;
     iso_status status = ISO_OK;
     if (g) {
         g->w = w;
@@ -298,11 +313,21 @@ iso_status iso_chaos_follow(iso_chaos_walk *w)
     }
     if (!g || !g->crossing || (w->out->axis < 0 && !g->sample))
         status = iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the orbits");
-    if (status == ISO_OK) status = follow_all(g);
+    if (status == ISO_OK) status = each ? follow_each(g, count, each) : follow_all(g);
     if (g) {
         free(g->crossing);
         free(g->sample);
     }
     free(g);
     return status;
+}
+
+iso_status iso_chaos_follow(iso_chaos_walk *w)
+{
+    return with_group(w, w->options.starts + w->options.at_count > 0 ? GROUP : 1, 0, NULL);
+}
+
+iso_status iso_chaos_follow_each(size_t count, iso_chaos_walk *const walk[])
+{
+    return with_group(walk[0], count < GROUP ? count : GROUP, count, walk);
 }

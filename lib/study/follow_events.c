@@ -81,6 +81,13 @@ static bool are_equal(const iso_follow_family *f, double *value, char names[2])
     return false;
 }
 
+static const char *words_of(iso_branch_kind kind)
+{
+    return kind == ISO_BRANCH_FOLD    ? "two orbits meet and vanish"
+           : kind == ISO_BRANCH_TORUS ? "the orbit lies on a resonant torus"
+                                      : "orbits with less symmetry branch off";
+}
+
 /* turns: the parameter turns back there. */
 static void name(const iso_follow_family *f, iso_follow_point *at, int test, bool turns, iso_branch_event *e)
 {
@@ -96,17 +103,15 @@ static void name(const iso_follow_family *f, iso_follow_point *at, int test, boo
                  names[0], names[1]);
         return;
     }
-    static const char *const what[] = {"two orbits meet and vanish", "", "orbits with less symmetry branch off", "",
-                                       "the orbit lies on a resonant torus"};
     if (e->kind == ISO_BRANCH_DOUBLING)
         snprintf(e->words, sizeof e->words, "orbits of period %d branch off at %s = %.12g", 2 * f->period, vary,
                  at->value);
     else
-        snprintf(e->words, sizeof e->words, "%s at %s = %.12g", what[e->kind], vary, at->value);
+        snprintf(e->words, sizeof e->words, "%s at %s = %.12g", words_of(e->kind), vary, at->value);
 }
 
-/* The curve turns where it meets another one, without a fold: there this orbit branches off from one of half the period
- * (F of this period is 0 as well) or of more symmetry. */
+/* The curve turns where it meets another one, without a fold: there this orbit branches off from one of half the
+ * period (F of this period is 0 as well) or of more symmetry. */
 static void name_turn(const iso_follow_family *f, const iso_follow_point *at, iso_branch_event *e)
 {
     iso_follow_family half = *f;
@@ -167,9 +172,9 @@ static double mismatch(const iso_follow_family *f, int axis, double value, doubl
     return iso_follow_params(f, value, &p) ? iso_hill_trace(p.k, p.J, axis, NULL) - target : NAN;
 }
 
-/* The trace of the rotation at a collision, 2 cos theta, nearest to what it is. Neighbours of a fixed point turn p times
- * by theta, whole half-turns in all. Those of the section's own axis cross the section every half-turn of theirs: p of
- * these are m half-turns of the rotation, p pi = m theta. */
+/* The trace of the rotation at a collision, 2 cos theta, nearest to what it is. Neighbours of a fixed point turn p
+ * times by theta, whole half-turns in all. Those of the section's own axis cross the section every half-turn of
+ * theirs: p of these are m half-turns of the rotation, p pi = m theta. */
 static double target_of(const iso_follow_family *f, int axis, double trace)
 {
     const int p = f->period;

@@ -21,3 +21,17 @@ iso_status iso_study_check_free(iso_context *ctx, const iso_effects *effects, co
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
                             "%s only of the free ball and of the point on H = 0: remove '%s'", what, effect->name);
 }
+
+iso_status iso_study_check_free_start(iso_context *ctx, const iso_scene *scene, const iso_effects *effects,
+                                      const char *what)
+{
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    iso_orbit *orbit;
+    o.effects = effects;
+    o.gamma_alone = true; /* M need not fit a double */
+    const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    if (status != ISO_OK) return status;
+    const iso_effects found = iso_orbit_effects(orbit);
+    iso_orbit_free(orbit);
+    return iso_study_check_free(ctx, &found, what);
+}

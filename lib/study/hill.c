@@ -1,5 +1,4 @@
-/* hill.c - the rotations about the principal axes: Hill's equation over half a turn, in numbers of 64 and of 113 bits.
- */
+/* hill.c - the rotations about the principal axes: Hill's equation over half a turn, in 64 and in 113 bits. */
 #include <math.h>
 #include <stdbool.h>
 
@@ -31,11 +30,6 @@
 #define TERMS 70 /* 0.3^70 = 3e-37 */
 #include "study/hill_impl.h"
 
-void iso_hill_matrix(double k, const double J[3], int axis, long double y[2][2])
-{
-    hill_turn(k, J[axis], J[(axis + 1) % 3], J[(axis + 2) % 3], y);
-}
-
 void iso_hill_matrix_wide(double k, const double J[3], int axis, iso_wide y[2][2])
 {
     hill_wide_turn(k, J[axis], J[(axis + 1) % 3], J[(axis + 2) % 3], y);
@@ -47,7 +41,7 @@ double iso_hill_trace(double k, const double J[3], int axis, double *error)
     long double y[2][2];
     if (error) *error = NAN;
     if (!(fabs(k) >= 1e-4) || !(fmin(fmin(J[0], J[1]), J[2]) > 0) || !isfinite(k * J[0] * J[1] * J[2])) return NAN;
-    iso_hill_matrix(k, J, axis, y);
+    hill_turn(k, J[axis], J[(axis + 1) % 3], J[(axis + 2) % 3], y);
     const long double size = fabsl(y[0][0] * y[1][1]) + fabsl(y[0][1] * y[1][0]);
     const long double trace = y[0][0] + y[1][1];
     const double off = (double)fabsl(y[0][0] * y[1][1] - y[0][1] * y[1][0] - 1);

@@ -34,12 +34,13 @@ const char *iso_integral_verdict_name(iso_integral_verdict verdict)
 static iso_status check_degrees(iso_context *ctx, iso_integral_search_options *o)
 {
     if (o->degree < 1 || o->degree > ISO_INTEGRAL_DEGREE)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "degree", "degree %d of the polynomials in M: give 1 to %d", o->degree,
-                                ISO_INTEGRAL_DEGREE);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "degree", "degree %d of the polynomials in M: give 1 to %d",
+                                o->degree, ISO_INTEGRAL_DEGREE);
     if (o->coefficients == -1) o->coefficients = o->degree > 2 ? o->degree : 2;
     if (o->coefficients >= 0 && o->coefficients <= ISO_INTEGRAL_DEGREE) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "coefficients", "degree %d of the coefficients in gamma: give 0 to %d",
-                            o->coefficients, ISO_INTEGRAL_DEGREE);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "coefficients",
+                            "degree %d of the coefficients in gamma: give 0 to %d", o->coefficients,
+                            ISO_INTEGRAL_DEGREE);
 }
 
 /* Twice as many conditions as there are terms. */
@@ -70,19 +71,11 @@ static iso_status check_options(iso_context *ctx, iso_integral_search_options *o
     return ISO_OK;
 }
 
-/* Only free motions on H = 0 are searched: a point off it has the effect `level`. */
+/* Only free motions on H = 0 are searched. */
 static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
 {
-    const iso_effects given = iso_effects_acting(&scene->effects);
-    iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    iso_orbit *orbit = NULL;
-    o.effects = &given;
-    o.gamma_alone = true;
-    const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
-    if (status != ISO_OK) return status;
-    const iso_effects effects = iso_orbit_effects(orbit);
-    iso_orbit_free(orbit);
-    return iso_study_check_free(ctx, &effects, "integrals are sought");
+    const iso_effects acting = iso_effects_acting(&scene->effects);
+    return iso_study_check_free_start(ctx, scene, &acting, "integrals are sought");
 }
 
 /* --- integrals that are known ----------------------------------------------------------------------------------- */

@@ -134,8 +134,9 @@ typedef struct iso_integral_search {
 
 /* Only k, J and the effects of the scene are read, and whether its start lies on H = 0.
  * Errors: ISO_BAD_ARGUMENT about "degree", "coefficients", "orbits" (too few for the functions, or more than 10000),
- * "turns", "within", "tolerance", "threads"; ISO_BAD_INPUT about "k" where powers of q do not fit a double, about an effect that acts on the ball (observers do not
- * matter), or the level of a point off H = 0; those of iso_batch_run; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: the degrees done are valid. */
+ * "turns", "within", "tolerance", "threads"; ISO_BAD_INPUT about "k" where powers of q do not fit a double, about an
+ * effect that acts on the ball (observers do not matter), or the level of a point off H = 0; those of iso_batch_run;
+ * ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: the degrees done are valid. */
 ISO_API iso_status iso_integral_search_run(iso_context *ctx, const iso_scene *scene,
                                            const iso_integral_search_options *options, iso_integral_search *result);
 

@@ -1,4 +1,4 @@
-/* periodic.c - the periodic orbits of a scene's ball, see periodic.h: what is refused, the order of the work, the list.
+/* periodic.c - the periodic orbits of a scene's ball, see periodic.h: what is refused, the order of work, the list.
  */
 #include "study/periodic.h"
 
@@ -30,7 +30,7 @@ static iso_status check_options(const iso_periodic_work *w)
                                 ISO_PERIODIC_MOST);
     if (o->grid < 1 || o->grid > 10000000)
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "grid", "a grid of %ld points: give 1 to 1e7", o->grid);
-    if (!iso_periodic_code(o->polish))
+    if (!iso_return_code_of(o->polish))
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "polish", "this build has no numbers of 128 bits");
     return ISO_OK;
 }
@@ -107,6 +107,7 @@ static iso_status work(iso_periodic_work *w)
     iso_periodic_map_prepare(w->ctx, &w->units.own, w->options.threads, &w->map);
     w->out->axis = w->map.axis;
     status = iso_periodic_rotations(w);
+    if (w->options.rotations_alone) return status;
     if (status == ISO_OK && !(w->options.all && w->options.no_lines)) status = iso_periodic_search(w);
     if (status == ISO_OK && w->options.all) status = iso_periodic_from_grid(w);
     if (w->out->count > 0) qsort(w->out->orbit, w->out->count, sizeof *w->out->orbit, by_period);

@@ -7,18 +7,19 @@
  *     found->orbit[0].trace;                  of the first orbit
  *     iso_periodic_free(found);
  *
- * The section is n_a = 0 (map/section.h). f is its return map, and S1: (l, x) -> (l, -x), S2: (-l, x), S3: (pi - l, x)
- * are reversors: S f S = f^-1. The equations are odd in gamma: T (M, gamma) = (M, -gamma). Half a return, from n_a
- * growing to n_a falling, followed by T is a map g of the section with g g = f and S g S = g^-1.
+ * The section is n_a = 0 (map/section.h). f is its return map, and S1: (l, x) -> (l, -x), S2: (-l, x), and
+ * S3: (pi - l, x) are reversors: S f S = f^-1. The equations are odd in gamma: T (M, gamma) = (M, -gamma). Half a
+ * return, from n_a growing to n_a falling, followed by T is a map g of the section with g g = f and S g S = g^-1.
  *
  * An orbit that S or T S maps to itself is symmetric. Each of the six reversors has a line of fixed states, which the
- * orbit, or its image by T, passes: for S1, S2, S3 the lines x = 0, l = 0, l = pi/2 of the section. For T S1, T S2, T S3 these lines lie half
- * way between two crossings: gamma = -e_a, and the planes gamma_b = 0 and gamma_c = 0, met at right angles. Half an orbit
- * later, p half returns for a period p, it is on this line again. The search looks for such orbits along each line. A
- * symmetric orbit can be missed only within 1e-4 of a rotation, or between samples that are too far apart: `unresolved` and `lost` count such places.
+ * orbit, or its image by T, passes: for S1, S2, S3 the lines x = 0, l = 0, l = pi/2 of the section. For T S1, T S2,
+ * T S3 these lines lie half way between two crossings: gamma = -e_a, and the planes gamma_b = 0 and gamma_c = 0, met
+ * at right angles. Half an orbit later, p half returns for a period p, it is on this line again. The search looks for
+ * such orbits along each line. A symmetric orbit can be missed only within 1e-4 of a rotation, or between samples
+ * that are too far apart: `unresolved` and `lost` count such places.
  *
- * R: (l, x) -> (l + pi, x) and S1 S2: (l, x) -> (-l, -x) and T carry orbits to orbits of the same kind: copies. One of
- * them is listed.
+ * R: (l, x) -> (l + pi, x) and S1 S2: (l, x) -> (-l, -x) and T carry orbits to orbits of the same kind: copies. One
+ * of them is listed.
  *
  * Energy scales out: orbits are the same for every energy, and isolated, but for k = 1 and k = -1 and equal moments.
  */
@@ -59,10 +60,10 @@ typedef struct iso_multipliers {
 typedef struct iso_rotation {
     int axis; /* 0 to 2 */
     double half_turn_trace;
-    double error; /* of it, or with `polish` of half_turn_trace + tail                                  */
-    double tail;  /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
-    double
-        by_section; /* the same by the derivative of g at the fixed point, of the section's own axis by another section */
+    double error;             /* of it, or with `polish` of half_turn_trace + tail                                  */
+    double tail;              /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
+    double by_section;        /* the same by the derivative of g at the fixed point, of the section's own axis by
+                                 another section                                                               */
     double turn_trace;        /* half_turn_trace^2 - 2: of a whole turn                                             */
     iso_multipliers half;     /* of half a turn                                                                    */
     double clock[ISO_CLOCKS]; /* of a whole turn, in the scene's units                                            */
@@ -103,7 +104,8 @@ typedef struct iso_periodic_options {
     long grid;     /* its points                                                                                   */
     bool no_lines; /* with `all`: the grid alone, to test one search by the other                               */
     bool polish;   /* everything in numbers of 128 bits                                                            */
-    int threads;   /* 0: as many as there are processors to run on                                                 */
+    bool rotations_alone; /* no search: only iso_periodic.rotation is found                                     */
+    int threads; /* 0: as many as there are processors to run on                                                 */
     void (*progress)(double part, void *data); /* NULL: nobody is told                                           */
     void *data;
 } iso_periodic_options;
@@ -129,8 +131,9 @@ typedef struct iso_periodic {
 
 /* options NULL: iso_periodic_defaults(). Errors: ISO_BAD_ARGUMENT about "period" or "grid", or about "polish" where
  * there are no numbers of 128 bits; ISO_BAD_INPUT: an effect acts on the ball or the point is not on H = 0 (about the
- * effect); a ball at rest; |k| < 0.02 (about "k"); max J/(min J |k|) > 1e5, or two equal moments (about "J"): then a rotation carries every orbit along, and none is
- * isolated; ISO_NUMERICAL; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *found has what is known by then. */
+ * effect); a ball at rest; |k| < 0.02 (about "k"); max J/(min J |k|) > 1e5, or two equal moments (about "J"): then a
+ * rotation carries every orbit along, and none is isolated; ISO_NUMERICAL; ISO_NO_MEMORY; ISO_STOPPED by the
+ * context's monitor: *found has what is known by then. */
 ISO_API iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_options *options,
                                     iso_periodic **found);
 ISO_API void iso_periodic_free(iso_periodic *found);
@@ -143,8 +146,8 @@ enum { ISO_DIGITS_SIZE = 48 };
 ISO_API void iso_periodic_digits(double head, double tail, char text[ISO_DIGITS_SIZE]);
 ISO_API int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE]);
 
-/* The half-turn trace of Hill's equation about `axis` (0 to 2), by numbers of 64 bits of mantissa, and in *error (NULL:
- * not asked) how far it may be off. NaN for |k| < 1e-4 or a moment <= 0. */
+/* The half-turn trace of Hill's equation about `axis` (0 to 2), by numbers of 64 bits of mantissa, and in *error
+ * (NULL: not asked) how far it may be off. NaN for |k| < 1e-4 or a moment <= 0. */
 ISO_API double iso_hill_trace(double k, const double J[3], int axis, double *error);
 
 ISO_C_END

@@ -201,7 +201,8 @@ static iso_status check(const iso_follow_family *f, double own)
     const char *name = iso_vary_name((int)o->vary);
     iso_params p;
     if (!name || !(o->from < o->to) || !isfinite(o->to - o->from))
-        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "%s from %g to %g: give A:B with A < B", name ? name : "?", o->from, o->to);
+        return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "%s from %g to %g: give A:B with A < B",
+                                name ? name : "?", o->from, o->to);
     if (o->vary == ISO_VARY_K && o->from <= 0 && o->to >= 0)
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
                                 "the range %g to %g contains k = 0, where there is no ball", o->from, o->to);

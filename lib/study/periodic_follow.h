@@ -1,10 +1,10 @@
 /* periodic_follow.h - follows a symmetric periodic orbit while k or a moment changes.
  *
- * The orbit passes its symmetry line at u (periodic.h), and again half an orbit later: there F(u, value), the distance
- * from the line, is 0. The curve F = 0 is followed by its arc length, through folds, in steps that adapt. D is the
- * derivative over half the orbit in coordinates along and across the line (half way: of the mean of two crossings). The trace is
- * 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. Slopes by u are carried along the orbit, those by the parameter are
- * differences.
+ * The orbit passes its symmetry line at u (periodic.h), and again half an orbit later: there F(u, value), the
+ * distance from the line, is 0. The curve F = 0 is followed by its arc length, through folds, in steps that adapt. D
+ * is the derivative over half the orbit in coordinates along and across the line (half way: of the mean of two
+ * crossings). The trace is 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. Slopes by u are carried along the orbit,
+ * those by the parameter are differences.
  *
  *     fold                D_10 = 0, the slope of F along the line: two orbits meet and vanish
  *     symmetry breaking   D_01 = 0: orbits with less symmetry branch off (trace 2)
@@ -86,10 +86,10 @@ typedef struct iso_follow {
 /* Whether the options suit the scene: the errors of iso_follow_run about "range". */
 ISO_API iso_status iso_follow_check(iso_context *ctx, const iso_scene *scene, const iso_follow_options *options);
 
-/* Follows orbits[0 .. count) of a scene, as iso_periodic_run found them. Errors: ISO_BAD_ARGUMENT about "range": it is
- * none, k = 0 or a moment <= 0 is in it, or the scene's value is not; ISO_BAD_INPUT about "orbit": it has no
- * symmetry line, or there is none; ISO_NO_MEMORY; ISO_STOPPED: *follow has what is known by then. A branch that cannot be followed to
- * its end is kept, with an event. */
+/* Follows orbits[0 .. count) of a scene, as iso_periodic_run found them. Errors: ISO_BAD_ARGUMENT about "range": it
+ * is none, k = 0 or a moment <= 0 is in it, or the scene's value is not; ISO_BAD_INPUT about "orbit": it has no
+ * symmetry line, or there is none; ISO_NO_MEMORY; ISO_STOPPED: *follow has what is known by then. A branch that
+ * cannot be followed to its end is kept, with an event. */
 ISO_API iso_status iso_follow_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_orbit orbits[],
                                   size_t count, const iso_follow_options *options, iso_follow **follow);
 ISO_API void iso_follow_free(iso_follow *follow);

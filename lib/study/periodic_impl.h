@@ -2,7 +2,7 @@
  *
  *     hill.c                 Hill's equation of the rotations
  *     periodic.c             the call: what is refused, the order of the work, the list
- *     periodic_map.c         the map g (half a return and T) and f = g g: many points in lanes, one point in more digits
+ *     periodic_map.c         the map g (half a return and T) and f = g g: many points in lanes, one in more digits
  *     periodic_rotations.c   the rotations
  *     periodic_line.c        the six symmetry lines, and shots from one of them to itself
  *     periodic_search.c      symmetric orbits along the symmetry lines
@@ -54,6 +54,9 @@ typedef struct iso_periodic_fine {
     iso_wide determinant; /* of slope: the product of those of the returns, which do not cancel */
 } iso_periodic_fine;
 
+/* The way `first`, and then `next`, which begins at its end. *both is neither of them. */
+void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *next, iso_periodic_fine *both);
+
 /* g^halves of a point. path[n - 1] = g^n of it, n = 1 to halves; NULL: not asked. False: it failed. */
 bool iso_periodic_far(const iso_periodic_map *map, const iso_return_code *code, const iso_wide from[2], int halves,
                       double (*path)[2], iso_periodic_fine *found);
@@ -65,15 +68,12 @@ bool iso_periodic_enter(const iso_periodic_map *map, const iso_return_code *code
 /* The law of the derivative's determinant, from l to another l: G(l)/G(l'). */
 iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to);
 
-/* The code of numbers of 64 bits, or of 128 (NULL: there is none). */
-const iso_return_code *iso_periodic_code(bool polish);
-
 /* --- lines ------------------------------------------------------------------------------------------------------ */
 
 /* The symmetry lines: the fixed states of S1, S2, S3, T S1, T S2, T S3. The first three are lines of the section:
  * x = 0, l = 0, l = pi/2. The others lie half way between two crossings: gamma = -e_a; gamma_b = 0; gamma_c = 0
- * (iso_return_start). Each has a coordinate u from 0 to pi/2; on x = 0 it is l, on l = 0 and pi/2 it is asin x. At both
- * ends are rotations. */
+ * (iso_return_start). Each has a coordinate u from 0 to pi/2; on x = 0 it is l, on l = 0 and pi/2 it is asin x. At
+ * both ends are rotations. */
 enum { LINE_X, LINE_0, LINE_QUARTER, LINE_POLE, LINE_PLANE_B, LINE_PLANE_C, LINES };
 
 static inline bool iso_line_is_half_way(int line)
@@ -98,14 +98,14 @@ iso_status iso_periodic_place(const iso_periodic_map *map, int line, size_t coun
                               double (*by_u)[2]);
 
 /* F_n(u), a number that changes its sign where the orbit is on the line again after n half returns; before, at:
- * g^(n-1) z and g^n z. *slope: by u. *there: its mirror image is itself, as an orbit of the line must be; F_n has other
- * zeros too, of lines half way. */
+ * g^(n-1) z and g^n z. *slope: by u. *there: its mirror image is itself, as an orbit of the line must be; F_n has
+ * other zeros too, of lines half way. */
 double iso_periodic_miss(int line, const iso_periodic_point *before, const iso_periodic_point *at,
                          const double by_u[2], double *slope, bool *there);
 
 /* A shot: from u of a line half an orbit of `period` returns, to the same line. With E = diag(1, -1) the reflection
- * of (u, c), and D the derivative to coordinates along and across the line there, the derivative of the whole orbit is
- * E D^-1 E D. Its trace is 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. */
+ * of (u, c), and D the derivative to coordinates along and across the line there, the derivative of the whole orbit
+ * is E D^-1 E D. Its trace is 2 + 4 D_01 D_10/det D = 4 D_00 D_11/det D - 2. */
 typedef struct iso_periodic_shot {
     iso_wide u, z[2]; /* the start, and its first point on the section */
     /* On the line at the end, the crossing behind it is S of the crossing before it (on the section they are one).
@@ -178,8 +178,8 @@ typedef enum iso_periodic_answer {
 iso_periodic_answer iso_periodic_solve(const iso_periodic_map *map, const iso_return_code *code,
                                        const iso_periodic_candidate *c, iso_periodic_orbit *o, double (*path)[2]);
 
-/* Solves candidates on all threads, and adds their orbits to the list, unless they are there already or have a smaller
- * period. Errors: ISO_NO_MEMORY; ISO_STOPPED. */
+/* Solves candidates on all threads, and adds their orbits to the list, unless they are there already or have a
+ * smaller period. Errors: ISO_NO_MEMORY; ISO_STOPPED. */
 iso_status iso_periodic_add(iso_periodic_work *w, const iso_periodic_candidate c[], size_t count);
 
 iso_status iso_periodic_rotations(iso_periodic_work *w);

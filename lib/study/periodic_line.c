@@ -1,7 +1,7 @@
 /* periodic_line.c - the six symmetry lines of the return map, and shots from one of them to itself.
  *
- * Between the crossings g^(p-1) z and g^p z an orbit passes a line half way if g^p z = S g^(p-1) z. So what stands for
- * the distance from the line is the middle of the two crossings, and its derivative (1 + D g)/2.
+ * Between the crossings g^(p-1) z and g^p z an orbit passes a line half way if g^p z = S g^(p-1) z. So what stands
+ * for the distance from the line is the middle of the two crossings, and its derivative (1 + D g)/2.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -155,28 +155,16 @@ static bool shoot_from_section(const iso_periodic_map *map, const iso_return_cod
     return true;
 }
 
-/* product = A B */
-static void multiply(const iso_wide A[2][2], const iso_wide B[2][2], iso_wide product[2][2])
-{
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++) product[i][j] = A[i][0] * B[0][j] + A[i][1] * B[1][j];
-}
-
 /* in: from the line to z; before: from z to the last crossing before the line at the end; last: from there on. */
-static void join(int line, const iso_periodic_fine *in, const iso_periodic_fine *before,
-                 const iso_periodic_fine *last, iso_periodic_shot *s)
+static void arrive_half_way(int line, const iso_periodic_fine *in, const iso_periodic_fine *before,
+                            const iso_periodic_fine *last, iso_periodic_shot *s)
 {
     iso_wide A[2][2], B[2][2];
-    multiply(before->slope, in->slope, A);
-    multiply(last->slope, (const iso_wide(*)[2])A, B);
+    iso_wide_multiply(before->slope, in->slope, A);
+    iso_wide_multiply(last->slope, (const iso_wide(*)[2])A, B);
     arrive(line, &(arrival){before->to, last->to, A, B, before->determinant * in->determinant}, s);
-    s->way = *last;
-    multiply(last->slope, before->slope, s->way.slope);
-    s->way.determinant = last->determinant * before->determinant;
-    for (int c = 0; c < ISO_CLOCKS; c++) {
-        s->way.clock[c] = before->clock[c] + last->clock[c];
-        s->clock[c] = in->clock[c] + before->clock[c] + last->clock[c] / 2;
-    }
+    iso_periodic_join(before, last, &s->way);
+    for (int c = 0; c < ISO_CLOCKS; c++) s->clock[c] = in->clock[c] + before->clock[c] + last->clock[c] / 2;
 }
 
 static bool shoot_from_half_way(const iso_periodic_map *map, const iso_return_code *code, int line, int period,
@@ -187,7 +175,7 @@ static bool shoot_from_half_way(const iso_periodic_map *map, const iso_return_co
     memcpy(s->z, in.to, sizeof s->z);
     if (!iso_periodic_far(map, code, s->z, period - 1, s->path, &before)) return false;
     if (!iso_periodic_far(map, code, before.to, 1, s->path + period - 1, &last)) return false;
-    join(line, &in, &before, &last, s);
+    arrive_half_way(line, &in, &before, &last, s);
     return true;
 }
 

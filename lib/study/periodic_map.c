@@ -1,5 +1,5 @@
-/* periodic_map.c - the return map f of the section and half of it, g: many points at once in the lanes of vectors, one
- * point in numbers of more digits.
+/* periodic_map.c - the return map f of the section and half of it, g: many points at once in the lanes of vectors,
+ * one point in numbers of more digits.
  *
  * g z: from the crossing z half a return, to the next crossing downwards, then T: gamma -> -gamma. A start at -gamma,
  * M is a crossing downwards; its next crossings upwards are g z, g^3 z, ...
@@ -156,26 +156,6 @@ iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start
 
 /* --- one point in more digits ----------------------------------------------------------------------------------- */
 
-const iso_return_code *iso_periodic_code(bool polish)
-{
-    if (!polish) return &iso_return_extended;
-#ifdef ISO_TAYLOR_HAS_QUAD
-    return &iso_return_quad;
-#else
-    return NULL;
-#endif
-}
-
-/* slope = next slope */
-static void chain(const iso_return *r, iso_wide slope[2][2])
-{
-    iso_wide product[2][2];
-    for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++)
-            product[i][j] = iso_wide_of(r->slope[i][0]) * slope[0][j] + iso_wide_of(r->slope[i][1]) * slope[1][j];
-    memcpy(slope, product, sizeof product);
-}
-
 static iso_wide determinant_of(const iso_return *r)
 {
     return iso_wide_of(r->slope[0][0]) * iso_wide_of(r->slope[1][1]) -
@@ -237,16 +217,32 @@ static bool go_once(const iso_periodic_map *map, const iso_return_code *code, is
     return true;
 }
 
-/* Goes on by one return: of the whole way that is known, the end, the derivative and the clocks. */
+static iso_periodic_fine fine_of(const iso_return *r)
+{
+    iso_periodic_fine way = {.determinant = determinant_of(r)};
+    for (int i = 0; i < 2; i++) way.to[i] = iso_wide_of(r->to[i]);
+    for (int i = 0; i < 2; i++)
+        for (int j = 0; j < 2; j++) way.slope[i][j] = iso_wide_of(r->slope[i][j]);
+    for (int c = 0; c < ISO_CLOCKS; c++) way.clock[c] = iso_wide_of(r->clock[c]);
+    return way;
+}
+
+void iso_periodic_join(const iso_periodic_fine *first, const iso_periodic_fine *next, iso_periodic_fine *both)
+{
+    *both = *next;
+    iso_wide_multiply(next->slope, first->slope, both->slope);
+    both->determinant = first->determinant * next->determinant;
+    for (int c = 0; c < ISO_CLOCKS; c++) both->clock[c] = first->clock[c] + next->clock[c];
+}
+
+/* Goes on by one return. */
 static bool go_on(const iso_periodic_map *map, const iso_return_code *code, iso_return_start start,
                   iso_periodic_fine *way)
 {
     iso_return r = {.start = start, .from = {iso_fine_of(way->to[0]), iso_fine_of(way->to[1])}};
     if (!go_once(map, code, &r)) return false;
-    for (int i = 0; i < 2; i++) way->to[i] = iso_wide_of(r.to[i]);
-    for (int c = 0; c < ISO_CLOCKS; c++) way->clock[c] += iso_wide_of(r.clock[c]);
-    chain(&r, way->slope);
-    way->determinant *= determinant_of(&r);
+    const iso_periodic_fine before = *way, next = fine_of(&r);
+    iso_periodic_join(&before, &next, way);
     return true;
 }
 

@@ -1,5 +1,5 @@
-/* periodic_rotations.c - the rotations about the principal axes: Hill's equation in 64 and 113 bits, and the section's
- * tangent map. */
+/* periodic_rotations.c - the rotations about the principal axes: Hill's equation in 64 and 113 bits, and the
+ * section's tangent map. */
 #include <math.h>
 
 #include "base/pi_impl.h"
@@ -15,8 +15,8 @@ static void place(const iso_periodic_map *map, iso_rotation *r)
     r->x = r->axis == map->axis ? 1 : 0;
 }
 
-/* By the derivative of g. g turns the deviation over: its trace has the other sign. The rotation about the section's own
- * axis never crosses it: the section of the next axis serves. */
+/* By the derivative of g. g turns the deviation over: its trace has the other sign. The rotation about the section's
+ * own axis never crosses it: the section of the next axis serves. */
 static bool ask_section(iso_periodic_work *w, iso_rotation *r, iso_wide *trace)
 {
     iso_periodic_map map = w->map;
@@ -27,7 +27,7 @@ static bool ask_section(iso_periodic_work *w, iso_rotation *r, iso_wide *trace)
         map.zeros = iso_crossings_zeros(&map.p, 1, map.axis, ISO_CLOCK_T);
     }
     const iso_wide z[2] = {r->axis == (map.axis + 1) % 3 ? WIDE_PI / 2 : 0, 0};
-    if (!iso_periodic_far(&map, iso_periodic_code(w->options.polish), z, 1, NULL, &found)) return false;
+    if (!iso_periodic_far(&map, iso_return_code_of(w->options.polish), z, 1, NULL, &found)) return false;
     *trace = -(found.slope[0][0] + found.slope[1][1]);
     for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] = 2 * (double)found.clock[c] * w->unit_clock[c];
     return true;
@@ -46,13 +46,10 @@ static bool find_rotation(iso_periodic_work *w, int axis)
 {
     iso_rotation *r = &w->out->rotation[axis];
     const iso_params *p = &w->map.p;
-    long double y[2][2];
     iso_wide Y[2][2], section;
-    double error;
     *r = (iso_rotation){.axis = axis};
     place(&w->map, r);
-    const double rough = iso_hill_trace(p->k, p->J, axis, &error);
-    iso_hill_matrix(p->k, p->J, axis, y);
+    const double rough = iso_hill_trace(p->k, p->J, axis, NULL);
     iso_hill_matrix_wide(p->k, p->J, axis, Y);
     const iso_fine trace = iso_fine_of(Y[0][0] + Y[1][1]);
     r->half_turn_trace = trace.head;

@@ -1,8 +1,8 @@
 /* periodic_search.c - symmetric periodic orbits: roots along the symmetry lines.
  *
- * u runs along a line, and F_n(u) tells how far the orbit is from the same line n half returns later. F_n is sampled with its derivative,
- * closer and closer until between two samples each F_n either has no zero or is monotone. A sign change then holds one
- * zero, a point of an orbit of period n or a divisor of it.
+ * u runs along a line, and F_n(u) tells how far the orbit is from the same line n half returns later. F_n is sampled
+ * with its derivative, closer and closer until between two samples each F_n either has no zero or is monotone. A sign
+ * change then holds one zero, a point of an orbit of period n or a divisor of it.
  */
 #include <math.h>
 #include <stdlib.h>

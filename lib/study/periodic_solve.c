@@ -1,5 +1,5 @@
-/* periodic_solve.c - from a place near a periodic orbit to the orbit: Newton's method in numbers of 64 or 113 bits, its
- * trace with an error, closure, determinant, multipliers.
+/* periodic_solve.c - from a place near a periodic orbit to the orbit: Newton's method in numbers of 64 or 113 bits,
+ * its trace with an error, closure, determinant, multipliers.
  *
  * A symmetric orbit keeps its symmetry: only the coordinate u of its line is sought.
  */
@@ -110,8 +110,9 @@ iso_multipliers iso_multipliers_of(double trace, double error, double sense)
     return m;
 }
 
-/* What other steps, the last digit of k, and the step of Newton's method that was not taken change in the trace. Where
- * an orbit passes near a saddle, rounding errors grow more on the way than the derivative of the whole tells. */
+/* What other steps, the last digit of k, and the step of Newton's method that was not taken change in the trace.
+ * Where an orbit passes near a saddle, rounding errors grow more on the way than the derivative of the whole
+ * tells. */
 static double by_other_steps(const solver *s)
 {
     solver other = *s;
@@ -144,12 +145,7 @@ static bool close_up(const solver *s, iso_periodic_fine *all, double *error, dou
     const iso_periodic_fine half = *all;
     iso_periodic_fine rest;
     if (!iso_periodic_far(&s->map, s->code, half.to, s->period, NULL, &rest)) return false;
-    for (int i = 0; i < 2; i++) {
-        all->to[i] = rest.to[i];
-        for (int j = 0; j < 2; j++)
-            all->slope[i][j] = rest.slope[i][0] * half.slope[0][j] + rest.slope[i][1] * half.slope[1][j];
-    }
-    all->determinant *= rest.determinant;
+    iso_periodic_join(&half, &rest, all);
     *error = fabs((double)(all->slope[0][0] + all->slope[1][1] - s->trace)) / 16;
     return true;
 }
@@ -176,8 +172,8 @@ static bool judge(const solver *s, iso_periodic_orbit *o)
     return true;
 }
 
-/* The points of a symmetric orbit's second half are mirror images: S g^n z = g^(2p - n) z, or g^(2p - 1 - n) z if z is
- * the first crossing behind a line half way. */
+/* The points of a symmetric orbit's second half are mirror images: S g^n z = g^(2p - n) z, or g^(2p - 1 - n) z if z
+ * is the first crossing behind a line half way. */
 static void complete_path(const solver *s)
 {
     const int p = s->period, shift = iso_line_is_half_way(s->line) ? 1 : 0;

@@ -63,7 +63,4 @@ iso_status iso_section_walk_group(iso_section_walk *w);
 void iso_section_chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
                                 double *l, double *x);
 
-/* A start of this model on the section n_axis = 0, at (l, x), with the energy of `orbit`. */
-iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x);
-
 #endif

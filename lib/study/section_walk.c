@@ -74,23 +74,6 @@ void iso_section_chart_of_start(const iso_section_spread *spread, size_t starts,
     }
 }
 
-/* The start is made in own units, in which powers of q fit a double. */
-iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x)
-{
-    const iso_units *units = iso_orbit_units(orbit);
-    const double eps = iso_orbit_coupling(orbit);
-    double point[ISO_STATE];
-    iso_start start = {.model = model, .eps = isnormal(eps) ? eps : (double)NAN};
-    const bool ball = model == ISO_BALL;
-    iso_section_point(&units->own, iso_orbit_model(orbit)->problem.eps, axis, l, x, point);
-    if (ball)
-        iso_point_to_ball(&units->own, point, start.y);
-    else
-        copy(point, start.y, ISO_STATE);
-    scale(start.y, ball ? units->w : iso_unit(units, iso_system_point.fast_dimension));
-    return start;
-}
-
 static iso_start start_of(const iso_section_walk *w, size_t orbit)
 {
     const iso_section_options *o = &w->options;

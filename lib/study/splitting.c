@@ -10,15 +10,11 @@
 
 /* Terms of the polynomial, and of the one that is compared with it. Its domain is 3/4 as large. */
 typedef struct level {
-    const iso_return_code *code;
     int terms, other;
     int digits;
 } level;
 
-static const level with_64_bits = {&iso_return_extended, 12, 10, 19};
-#ifdef ISO_TAYLOR_HAS_QUAD
-static const level with_106_bits = {&iso_return_quad, 21, 18, 32};
-#endif
+static const level with_64_bits = {12, 10, 19}, with_106_bits = {21, 18, 32};
 
 /* --- the domain ------------------------------------------------------------------------------------------------- */
 
@@ -106,32 +102,19 @@ static iso_status compute(iso_manifold *m, const level *l, iso_manifold_crossing
     return status;
 }
 
-static bool has_quad(void)
-{
-#ifdef ISO_TAYLOR_HAS_QUAD
-    return true;
-#else
-    return false;
-#endif
-}
-
 static iso_status check_digits(iso_context *ctx, iso_splitting_digits digits)
 {
-    if (digits != ISO_SPLITTING_QUAD || has_quad()) return ISO_OK;
+    if (digits != ISO_SPLITTING_QUAD || iso_return_code_of(true)) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "digits", "splitting: this build has no numbers of 128 bits");
 }
 
+/* Where there are numbers of 128 bits. */
 static iso_status compute_finer(iso_manifold *m, iso_manifold_crossing *c, iso_splitting *s)
 {
-#ifdef ISO_TAYLOR_HAS_QUAD
-    iso_status status = iso_manifold_use(m, with_106_bits.code);
+    iso_status status = iso_manifold_use(m, iso_return_code_of(true));
     m->terms = with_106_bits.terms;
     if (status == ISO_OK) status = iso_manifold_solve(m);
     return status == ISO_OK ? compute(m, &with_106_bits, c, s) : status;
-#else
-    (void)c, (void)s;
-    return check_digits(m->ctx, ISO_SPLITTING_QUAD);
-#endif
 }
 
 /* --- one k ------------------------------------------------------------------------------------------------------ */
@@ -156,7 +139,8 @@ static iso_status find_finer(iso_manifold *m, iso_manifold_crossing *c, iso_spli
     const bool unclear = !(fabs(s->m) >= 1000 * s->error);
     const iso_manifold kept = *m;
     const iso_manifold_crossing found = *c;
-    if (digits == ISO_SPLITTING_DOUBLE || (digits == ISO_SPLITTING_AUTO && !(unclear && has_quad()))) return ISO_OK;
+    if (digits == ISO_SPLITTING_DOUBLE || (digits == ISO_SPLITTING_AUTO && !(unclear && iso_return_code_of(true))))
+        return ISO_OK;
     const iso_status status = compute_finer(m, c, s);
     if (status != ISO_NUMERICAL || digits == ISO_SPLITTING_QUAD) return status;
     snprintf(s->words, sizeof s->words, "128 bits failed: %s", iso_context_message(m->ctx));

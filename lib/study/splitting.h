@@ -10,10 +10,10 @@
  *     iso_splitting s;
  *     status = iso_splitting_at(ctx, 0.5, (double[3]){1.4, 2.1, 3}, ISO_SPLITTING_AUTO, &s);     s.x, s.m, s.error
  *
- * The manifold near O is a polynomial W with g(W(theta)) = W(lambda^(1/2) theta), g half a return, found by Newton's method;
- * farther out it is followed by half returns with their derivatives. Numbers have 64 bits of mantissa, and 113 where
- * those do not distinguish m from 0; 106 of the 113 are kept. Errors come from a second computation, with another polynomial on another domain, and from what
- * rounding does.
+ * The manifold near O is a polynomial W with g(W(theta)) = W(lambda^(1/2) theta), g half a return, found by Newton's
+ * method; farther out it is followed by half returns with their derivatives. Numbers have 64 bits of mantissa, and
+ * 113 where those do not distinguish m from 0; 106 of the 113 are kept. Errors come from a second computation, with
+ * another polynomial on another domain, and from what rounding does.
  */
 #ifndef ISO_STUDY_SPLITTING_H
 #define ISO_STUDY_SPLITTING_H
@@ -22,11 +22,11 @@
 
 #include "../base/api.h"
 #include "../base/record.h"
-#include "../model/effect.h"
+#include "../orbit/scene.h"
 
 ISO_C_BEGIN
 
-/* Numbers of 64 bits of mantissa, of 128 bits (113 of mantissa), or the first and where |m| < 1000 errors the second. */
+/* Numbers of 64 bits of mantissa, of 128 (113 of mantissa), or the first and where |m| < 1000 errors the second. */
 typedef enum iso_splitting_digits {
     ISO_SPLITTING_DOUBLE,
     ISO_SPLITTING_QUAD,
@@ -56,9 +56,9 @@ typedef struct iso_splitting {
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and
  * there is no middle axis); a middle axis whose rotation is not hyperbolic, or lambda below 1.02 (moments that are
- * nearly equal, large |k|), where m is estimated at 1e-427 or less and not computed; parameters beyond what the numbers hold.
- * ISO_NUMERICAL: no crossing was found, or a return failed. ISO_BAD_ARGUMENT about "digits" where this build has no
- * 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The status and its words are in *s as well. */
+ * nearly equal, large |k|), where m is estimated at 1e-427 or less and not computed; parameters beyond what the
+ * numbers hold. ISO_NUMERICAL: no crossing was found, or a return failed. ISO_BAD_ARGUMENT about "digits" where this
+ * build has no 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The status and its words are in *s as well. */
 ISO_API iso_status iso_splitting_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits,
                                     iso_splitting *s);
 
@@ -71,7 +71,8 @@ typedef struct iso_splitting_options {
     const double *k; /* the values, in any order                                              */
     size_t count;
     double J[3];
-    const iso_effects *effects; /* of the ball: none may act; NULL: none        */
+    const iso_scene *scene; /* no effect may act on its ball, and its point must be on H = 0; k and J are not
+                               read from it. NULL: a free ball                             */
     iso_splitting_digits digits;
     bool zeros;  /* look for zeros of m between neighbours of this list                    */
     int threads; /* 0: as many as there are processors to run on                           */
@@ -96,12 +97,13 @@ typedef struct iso_splittings {
     iso_splitting *zero; /* zeros of m other than k = +-1, by growing k                                    */
 } iso_splittings;
 
-/* Other zeros of m than k = 1 and k = -1 are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1): there is one between two neighbours that are
- * distinguished from 0 if their r have opposite signs. There the manifolds touch at one point. If they cross at
- * the next one (next_m != 0), there is no further integral.
+/* Other zeros of m than k = 1 and k = -1 are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1): there is one between two
+ * neighbours that are distinguished from 0 if their r have opposite signs. There the manifolds touch at one point. If
+ * they cross at the next one (next_m != 0), there is no further integral.
  * A failure at one k stands in its row, and is no failure of the call.
- * Errors: ISO_BAD_ARGUMENT (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball; ISO_NO_MEMORY;
- * ISO_STOPPED by the context's monitor: *s has the rows that are done. */
+ * Errors: ISO_BAD_ARGUMENT (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball, or the level of a
+ * point off H = 0; where the scene starts as a point, those of iso_orbit_create; ISO_NO_MEMORY; ISO_STOPPED by the
+ * context's monitor: *s has the rows that are done. */
 ISO_API iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *options, iso_splittings **s);
 ISO_API void iso_splitting_free(iso_splittings *s);
 

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/pi_impl.h"
 #include "study/splitting_impl.h"
 
 enum { MOST_SAMPLES = 4096, MOST_HALVES = 2000 };
@@ -104,14 +105,12 @@ static iso_status advance(piece *p)
 
 /* --- the first crossing ----------------------------------------------------------------------------------------- */
 
-static const double quarter = 1.5707963267948966;
-
 /* The place between two samples where u is about pi/2: ln tan(u/2) is a line over ln theta at k = +-1. */
 static iso_wide guess(const piece *p, int i)
 {
     const double u0 = p->u[i - 1], u1 = p->u[i];
     const double part =
-        u0 > 0 ? log(tan(u0 / 2)) / (log(tan(u0 / 2)) - log(tan(fmin(u1, 3) / 2))) : (quarter - u0) / (u1 - u0);
+        u0 > 0 ? log(tan(u0 / 2)) / (log(tan(u0 / 2)) - log(tan(fmin(u1, 3) / 2))) : (ISO_PI / 2 - u0) / (u1 - u0);
     return p->at[i - 1].theta * (iso_wide)exp(part * log((double)(p->at[i].theta / p->at[i - 1].theta)));
 }
 
@@ -188,7 +187,7 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
     int found = 0;
     while (status == ISO_OK && found == 0) {
         for (int i = 0; i < p.count && found == 0; i++)
-            if (p.u[i] >= quarter) found = i > 0 ? i : 1;
+            if (p.u[i] >= ISO_PI / 2) found = i > 0 ? i : 1;
         if (found > 0) break;
         status = p.halves < MOST_HALVES
                      ? advance(&p)
@@ -208,19 +207,17 @@ iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c)
  * manifolds meet where W^u(O) meets the fixed points of g S3, g(S3 z) = z. The stable one has the direction D(g S3)
  * t there. */
 typedef struct mirror {
-    iso_manifold_point p;
-    iso_wide z[2], t[2]; /* of g S3 p */
+    iso_manifold_point p, image; /* g S3 p */
 } mirror;
 
 static iso_status look(const iso_manifold *m, iso_wide theta, int halves, mirror *r)
 {
-    iso_wide A[2][2];
-    iso_status status = iso_manifold_at(m, theta, halves, &r->p);
+    const iso_status status = iso_manifold_at(m, theta, halves, &r->p);
     if (status != ISO_OK) return status;
-    const iso_wide z[2] = {WIDE_PI - r->p.z[0], r->p.z[1]}, t[2] = {-r->p.t[0], r->p.t[1]};
-    status = iso_manifold_map(m, z, r->z, A);
-    for (int i = 0; i < 2; i++) r->t[i] = A[i][0] * t[0] + A[i][1] * t[1];
-    return status;
+    r->image = r->p;
+    r->image.z[0] = WIDE_PI - r->p.z[0];
+    r->image.t[0] = -r->p.t[0];
+    return iso_manifold_go_on(m, &r->image);
 }
 
 iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing *from, iso_manifold_crossing *c)
@@ -233,9 +230,9 @@ iso_status iso_manifold_next(const iso_manifold *m, const iso_manifold_crossing 
         mirror r;
         const iso_status status = look(m, c->theta, c->halves, &r);
         if (status != ISO_OK) return status;
-        const iso_wide apart = iso_wide_turned(r.z[0] - r.p.z[0]), step = apart / (r.t[0] - r.p.t[0]);
+        const iso_wide apart = iso_wide_turned(r.image.z[0] - r.p.z[0]), step = apart / (r.image.t[0] - r.p.t[0]);
         for (int j = 0; j < 2; j++) c->z[j] = r.p.z[j];
-        c->slope = (r.p.t[1] / r.p.t[0] - r.t[1] / r.t[0]) / 2;
+        c->slope = (r.p.t[1] / r.p.t[0] - r.image.t[1] / r.image.t[0]) / 2;
         if (is_there(m, apart, last)) return ISO_OK;
         if (!(WIDE_ABS(step) < c->theta / 2)) break;
         c->theta -= step;
@@ -274,7 +271,7 @@ static iso_status draw(iso_context *ctx, const iso_manifold *m, int halves, iso_
             close_piece(&p);
             return ISO_OK;
         }
-        met = met || p.u[p.count - 1] >= quarter;
+        met = met || p.u[p.count - 1] >= ISO_PI / 2;
         if (status == ISO_OK) status = append(ctx, &p, 1, curve);
     }
     close_piece(&p);

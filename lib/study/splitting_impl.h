@@ -6,8 +6,8 @@
  *     splitting_scan.c       many k, and the zeros between them
  *
  * Coordinates are z = (u, x): u = l - l0, so that the fixed point is 0. The map is g = sign h, h half a return
- * (return_map_impl.h), sign so that its multiplier is positive: here lambda is that of
- * half a return, the square root of iso_splitting.lambda. (The maps commute with z -> -z.)
+ * (return_map_impl.h), sign so that its multiplier is positive: here lambda is that of half a return, the square root
+ * of iso_splitting.lambda. (The maps commute with z -> -z.)
  */
 #ifndef ISO_STUDY_SPLITTING_IMPL_H
 #define ISO_STUDY_SPLITTING_IMPL_H

@@ -14,8 +14,6 @@
 #include "orbit/crossings_impl.h"
 #include "study/splitting_impl.h"
 
-/* --- numbers ---------------------------------------------------------------------------------------------------- */
-
 /* --- the map ---------------------------------------------------------------------------------------------------- */
 
 static iso_status no_return(const iso_manifold *m)
@@ -39,7 +37,8 @@ iso_status iso_manifold_map(const iso_manifold *m, const iso_wide z[2], iso_wide
 }
 
 /* lambda must be 1.01 or more, that of a whole return 1.02: with smaller ones the crossing is very many half returns
- * away, and m, about exp(-2 pi^2/ln lambda^2), is below 1e-430. No bound is computed then, so none is told. */
+ * away. m is estimated at exp(-2 pi^2/ln lambda^2), which is 2e-429 at this bound: 1e-427 or less. No bound of m is
+ * computed then, so none is told. */
 static iso_status check_trace(const iso_manifold *m, double trace)
 {
     const double apart = trace - 2; /* (lambda - 1)^2/lambda */

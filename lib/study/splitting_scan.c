@@ -85,7 +85,7 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
 }
 
 /* The zero of the search, and steps of the secant method farther, with the digits that were asked for, until m is not
- * distinguished from 0, or as small as the next double of k allows: the next crossing's slope must be seen beside it. */
+ * distinguished from 0, or as small as doubles of k allow: the next crossing's slope must be seen beside it. */
 static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_splitting *zero)
 {
     enum { MOST = 8 };
@@ -184,6 +184,16 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     return status;
 }
 
+/* The start of a ball does not matter: it may be at rest. That of a point tells its level. */
+static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
+{
+    static const char what[] = "the splitting is measured";
+    if (!scene) return ISO_OK;
+    const iso_effects acting = iso_effects_acting(&scene->effects);
+    return scene->start.model == ISO_POINT ? iso_study_check_free_start(ctx, scene, &acting, what)
+                                           : iso_study_check_free(ctx, &scene->effects, what);
+}
+
 static iso_status run(iso_context *ctx, const iso_splitting_options *o, iso_splittings *s)
 {
     scan c = {.o = o, .s = s, .all = o->count};
@@ -203,7 +213,7 @@ iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *opti
     iso_status status = iso_options_take(ctx, "iso_splitting_options", &o, sizeof o, options);
     if (status == ISO_OK && o.count == 0)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
-    if (status == ISO_OK) status = iso_study_check_free(ctx, o.effects, "the splitting is measured");
+    if (status == ISO_OK) status = check_scene(ctx, o.scene);
     if (status != ISO_OK) return status;
     iso_splittings *found = calloc(1, sizeof *found);
     if (!found) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the splitting");

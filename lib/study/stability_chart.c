@@ -111,7 +111,8 @@ static iso_status check(const chart *c)
 {
     const iso_stability_options *o = &c->o;
     if (!(o->from[0] < o->to[0]) || !isfinite(o->to[0] - o->from[0]))
-        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "k", "k from %g to %g: give A:B with A < B", o->from[0], o->to[0]);
+        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "k", "k from %g to %g: give A:B with A < B", o->from[0],
+                                o->to[0]);
     if (o->from[0] > -ISO_LEAST_K && o->to[0] < ISO_LEAST_K)
         return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "k", "k from %g to %g: nothing is computed for |k| < %g",
                                 o->from[0], o->to[0], ISO_LEAST_K);

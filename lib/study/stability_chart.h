@@ -1,5 +1,5 @@
-/* stability_chart.h - where the rotations about the axes of least and greatest moment are stable, in the plane of k and
- * one moment: traces of Hill's equation (periodic.h) on a grid, and the border curves on which a trace is 2 or -2.
+/* stability_chart.h - where the rotations about the axes of least and greatest moment are stable, in the plane of k
+ * and one moment: traces of Hill's equation (periodic.h) on a grid, and the borders, where a trace is 2 or -2.
  */
 #ifndef ISO_STUDY_STABILITY_CHART_H
 #define ISO_STUDY_STABILITY_CHART_H
@@ -33,9 +33,9 @@ static inline iso_stability_options iso_stability_defaults(void)
     return o;
 }
 
-/* grid: columns k, J, least, greatest (half-turn traces of the rotations about these axes). borders: columns axis (0: of
- * the least moment, 1: of the greatest), trace (2 or -2), k, J: points of the border curves, where they cross the lines
- * of the grid of equal J and of equal k. The caller frees both records.
+/* grid: columns k, J, least, greatest (half-turn traces of the rotations about these axes). borders: columns axis (0:
+ * of the least moment, 1: of the greatest), trace (2 or -2), k, J: points of the border curves, where they cross the
+ * lines of the grid of equal J and of equal k. The caller frees both records.
  * Errors: ISO_BAD_ARGUMENT about "k", "J", "steps"; ISO_NO_MEMORY; ISO_STOPPED. */
 ISO_API iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *options, iso_record **grid,
                                        iso_record **borders);

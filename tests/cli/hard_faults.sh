@@ -103,6 +103,13 @@ if [ -n "$ISO_NO_MEMORY" ]; then
         starve 40 view scene.yaml -o made
         starve 20 view ball.csv -o made
     fi
+    cat >many.yaml <<'END'
+scene: {reduced: {k: 0.5, J: [1, 2, 5]}, time: {end: 1},
+        initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}}
+vary: {k: [0.5, 0.75]}
+measure: {state: {}}
+END
+    starve 7 sweep many.yaml -j 1
     if has gnuplot "memory for a picture"; then
         ln -s made made.svg
         starve 40 compare scene.yaml --plot made.svg

@@ -186,13 +186,18 @@ static void test_refusals(void)
     check_refused(1e6, J_thin, "give 0.05 <= |k|");
     check_refused(0.001, J_thin, "give 0.05 <= |k|");
     check_refused(1, (double[3]){1, -2, 3}, "");
-    iso_effects effects = iso_effects_default();
+    iso_scene scene = iso_scene_default();
     gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_ARGUMENT || s, "no k");
-    iso_effects_set(ctx, &effects, "gravity", "mgb", 1, (double[]){0.7});
-    o.k = &half, o.count = 1, o.effects = &effects;
+    iso_params_reduced(ctx, half, J_thin, &scene.params);
+    iso_effects_set(ctx, &scene.effects, "gravity", "mgb", 1, (double[]){0.7});
+    o.k = &half, o.count = 1, o.scene = &scene;
     memcpy(o.J, J_thin, sizeof o.J);
     gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_INPUT || s || strcmp(iso_context_about(ctx), "gravity") != 0,
              "a ball with gravity: %s", iso_context_message(ctx));
+    scene.effects = iso_effects_default();
+    scene.start = (iso_start){.model = ISO_POINT, .y = {0.8, -0.6, 0, 0.6, 0.8, 0}, .eps = 0.3};
+    gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_INPUT || s || strcmp(iso_context_about(ctx), "level") != 0,
+             "a point off H = 0: %s", iso_context_message(ctx));
     iso_context_set_monitor(ctx, never, NULL);
     gsl_test(iso_splitting_at(ctx, 0.5, J_thin, ISO_SPLITTING_AUTO, &one) != ISO_STOPPED, "stopped on request");
     iso_context_set_monitor(ctx, NULL, NULL);

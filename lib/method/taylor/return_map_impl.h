@@ -15,8 +15,8 @@ typedef struct iso_fine {
  * down, and passes 0 upwards after half a return. The square of this map is the return map, and it keeps the fixed
  * points (rotations) as they are: its derivative there has the half-turn trace, up to its sign.
  *
- * The others begin half way between two crossings, where a reversor leaves the state as it is: the motion before is the
- * mirror image of the motion after. (b, c, a) are the axes in cyclic order, gamma' = v (...), v^2 = F(q). */
+ * The others begin half way between two crossings, where a reversor leaves the state as it is: the motion before is
+ * the mirror image of the motion after. (b, c, a) are the axes in cyclic order, gamma' = v (...), v^2 = F(q). */
 typedef enum iso_return_start {
     ISO_FROM_CHART,   /* (l, x) of a crossing upwards                                                       */
     ISO_FROM_BELOW,   /* (l, x) of a crossing upwards: its -gamma, -gamma'. Half a return                    */
@@ -36,8 +36,8 @@ typedef struct iso_return {
 typedef struct iso_return_code {
     const char *name;
     double error; /* of one operation, relative */
-    /* model: the free point on H = 0. zeros: see iso_lane_job. tolerance: as of other Taylor methods where their numbers are doubles; it is
-     * multiplied by error/1e-16.
+    /* model: the free point on H = 0. zeros: see iso_lane_job. tolerance: as of other Taylor methods where their
+     * numbers are doubles; it is multiplied by error/1e-16.
      * False: no memory, or no crossing. */
     bool (*go)(const iso_model *model, int axis, double zeros, double tolerance, iso_return *r);
 } iso_return_code;

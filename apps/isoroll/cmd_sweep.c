@@ -1,0 +1,351 @@
+/* isoroll sweep - measures many orbits or balls, on all cores, in pieces that can be interrupted and resumed. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include "io/sweep_file.h"
+#include "io/sweep_store.h"
+#include "scene_options.h"
+#include "sweep_team.h"
+
+/* What sweep can be told. */
+typedef struct options {
+    const char *file;
+    file_list parts; /* of --merge */
+    const char *output, *shard;
+    double threads, point; /* point NAN: not given */
+    bool resume, merge;
+} options;
+
+/* --- the shard -------------------------------------------------------------------------------------------------- */
+
+static bool read_whole(const char *text, size_t length, double *x)
+{
+    char copy[24] = "";
+    if (length == 0 || length >= sizeof copy) return false;
+    memcpy(copy, text, length);
+    return set_whole(x, copy);
+}
+
+static bool from_environment(const char *name, double usual, double *x)
+{
+    const char *text = getenv(name);
+    *x = usual;
+    return text ? read_whole(text, strlen(text), x) : !isnan(usual);
+}
+
+/* "slurm/N": task I of Slurm computes shard I of N, from 1 on, also if only some tasks are submitted again. */
+static iso_status share_of_task(iso_context *ctx, const char *shares, iso_sweep_share *share)
+{
+    double id, count;
+    if (read_whole(shares, strlen(shares), &count) && from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) && id >= 1 &&
+        id <= count) {
+        *share = (iso_sweep_share){(size_t)id - 1, (size_t)count};
+        return ISO_OK;
+    }
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
+                            "--shard slurm/%s: SLURM_ARRAY_TASK_ID must be a number from 1 to %s", shares, shares);
+}
+
+/* The number of a task of a Slurm array begins at any number, and can go in steps. Some tasks that are submitted
+ * again are an array of their own: its numbers do not tell their shards. */
+static iso_status share_of_slurm(iso_context *ctx, iso_sweep_share *share)
+{
+    double id, count, least, step, most;
+    if (!from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) ||
+        !from_environment("SLURM_ARRAY_TASK_COUNT", NAN, &count) ||
+        !from_environment("SLURM_ARRAY_TASK_MIN", 0, &least) || !from_environment("SLURM_ARRAY_TASK_STEP", 1, &step))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
+                                "--shard slurm: SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT are not numbers: "
+                                "this is no task of an array");
+    const double index = (id - least) / fmax(step, 1);
+    if (!(index >= 0 && index < count && index == floor(index)))
+        return iso_context_fail(
+            ctx, ISO_BAD_ARGUMENT, "shard",
+            "--shard slurm: the array has %g tasks from %g in steps of %g, and %g is none of them", count, least,
+            fmax(step, 1), id);
+    if (count < 2 ||
+        (from_environment("SLURM_ARRAY_TASK_MAX", NAN, &most) && most != least + (count - 1) * fmax(step, 1)))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
+                                "--shard slurm: this array has one task or gaps, so it does not tell N: give "
+                                "--shard slurm/N, N the number of all shards");
+    *share = (iso_sweep_share){(size_t)index, (size_t)count};
+    return ISO_OK;
+}
+
+static iso_status read_share(iso_context *ctx, const char *text, iso_sweep_share *share)
+{
+    double i, n;
+    *share = (iso_sweep_share){0, 1};
+    if (!text) return ISO_OK;
+    if (strcmp(text, "slurm") == 0) return share_of_slurm(ctx, share);
+    if (strncmp(text, "slurm/", 6) == 0) return share_of_task(ctx, text + 6, share);
+    const char *slash = strchr(text, '/');
+    if (!slash || !read_whole(text, (size_t)(slash - text), &i) || !read_whole(slash + 1, strlen(slash + 1), &n) ||
+        i < 1 || i > n)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
+                                "--shard '%s': expected i/n with 1 <= i <= n, slurm or slurm/n", text);
+    *share = (iso_sweep_share){(size_t)i - 1, (size_t)n};
+    return ISO_OK;
+}
+
+/* --- the work --------------------------------------------------------------------------------------------------- */
+
+typedef struct work {
+    iso_sweep_journal *journal;
+    size_t next, chunks; /* the chunk to look at next; all */
+    size_t before;       /* chunks that were there at the beginning */
+    double begun;
+} work;
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void show(const work *w)
+{
+    const double done = (double)iso_sweep_journal_done(w->journal),
+                 all = (double)iso_sweep_journal_wanted(w->journal);
+    const double fresh = done - (double)w->before, left = (now() - w->begun) * (all - done) / fresh;
+    char words[32] = "";
+    if (fresh > 0 && left < 120)
+        snprintf(words, sizeof words, "%.0f s left", left);
+    else if (fresh > 0 && left < 7200)
+        snprintf(words, sizeof words, "%.0f min left", left / 60);
+    else if (fresh > 0)
+        snprintf(words, sizeof words, "%.1f h left", left / 3600);
+    progress_with(done / all, words);
+}
+
+static bool next_chunk(void *data, size_t *c)
+{
+    work *w = data;
+    while (w->next < w->chunks && iso_sweep_journal_has(w->journal, w->next)) w->next++;
+    if (interrupted() || w->next == w->chunks) return false;
+    *c = w->next++;
+    return true;
+}
+
+static iso_status take_chunk(void *data, iso_context *ctx, size_t c, const iso_sweep_rows *rows)
+{
+    const work *w = data;
+    const iso_status status = iso_sweep_journal_add(ctx, w->journal, c, rows);
+    show(w);
+    return status;
+}
+
+static int tell_interrupted(const options *o, const work *w)
+{
+    const size_t done = iso_sweep_journal_done(w->journal), all = iso_sweep_journal_wanted(w->journal);
+    if (!iso_sweep_journal_lasts(w->journal) || done == 0) {
+        complain("interrupted: nothing was written");
+        return limit_is_near() && done == 0 ? EXIT_DONE : EXIT_SOME_FAILED;
+    }
+    complain("%s: %zu of %zu chunks are in '%s.part'; go on with: isoroll sweep %s -o %s%s%s --resume",
+             limit_is_near() ? "stopped by SIGTERM or SIGUSR1" : "interrupted", done, all, o->output, o->file,
+             o->output, o->shard ? " --shard " : "", o->shard ? o->shard : "");
+    return limit_is_near() ? EXIT_DONE : EXIT_SOME_FAILED;
+}
+
+static int tell_failures(const iso_sweep_failures *f, const char *of)
+{
+    if (f->count == 0) return EXIT_DONE;
+    complain("%zu %spoints failed; the first is point %zu: %s", f->count, of, f->first, f->reason);
+    return EXIT_SOME_FAILED;
+}
+
+static int threads_of(const options *o)
+{
+    return o->threads < 1024 ? (int)o->threads : 1024;
+}
+
+static int compute(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep *sweep,
+                   iso_sweep_journal *journal)
+{
+    const iso_sweep_head *head = iso_sweep_head_of(sweep);
+    char of[32];
+    work w = {.journal = journal, .chunks = iso_sweep_chunks(head), .begun = now()};
+    const iso_sweep_source source = {next_chunk, take_chunk, &w};
+    w.before = iso_sweep_journal_done(journal);
+    stop_before_limit();
+    iso_status status = team->run(team->data, ctx, sweep, threads_of(o), &source);
+    progress_end();
+    if (status != ISO_OK) return finish(ctx, status);
+    if (iso_sweep_journal_done(journal) < iso_sweep_journal_wanted(journal)) return tell_interrupted(o, &w);
+    status = iso_sweep_journal_finish(ctx, journal);
+    snprintf(of, sizeof of, "of %zu ", iso_sweep_journal_points(journal));
+    return status == ISO_OK ? tell_failures(iso_sweep_journal_failures(journal), of) : finish(ctx, status);
+}
+
+/* A quantity that the scene does not have is refused where the file asks for it. */
+static int refused(iso_context *ctx, const options *o, const iso_sweep_plan *plan, iso_status status)
+{
+    const char *name = strcmp(o->file, "-") == 0 ? "<stdin>" : o->file;
+    for (int i = 0; i < plan->wishes; i++) {
+        const iso_place *at = &plan->wish[i].place;
+        if (status == ISO_BAD_INPUT && strcmp(at->key, iso_context_about(ctx)) == 0)
+            iso_context_fail(ctx, status, "", "%s:%d:%d: %s", name, at->line, at->column, iso_context_message(ctx));
+    }
+    return finish(ctx, status);
+}
+
+/* Every member has read the sweep. The one that writes opens the journal. */
+static int run_sweep(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep *sweep,
+                     iso_sweep_share share)
+{
+    iso_sweep_journal *journal = NULL;
+    iso_status status = ISO_OK;
+    if (team->writes)
+        status = iso_sweep_journal_open(ctx, o->output, iso_sweep_head_of(sweep), share, o->resume, &journal);
+    int result = team->agree(team->data, finish(ctx, status));
+    if (result == EXIT_DONE && team->writes)
+        result = compute(ctx, o, team, sweep, journal);
+    else if (result == EXIT_DONE)
+        result = finish(ctx, team->run(team->data, ctx, sweep, threads_of(o), NULL));
+    iso_sweep_journal_close(journal);
+    return result;
+}
+
+static int run_file(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep_file *file)
+{
+    const iso_sweep_plan *plan = iso_sweep_file_plan(file);
+    iso_sweep_share share;
+    iso_sweep *sweep = NULL;
+    iso_status status = read_share(ctx, o->shard, &share);
+    if (status == ISO_OK) status = iso_sweep_create(ctx, plan, &sweep);
+    int result = team->agree(team->data, refused(ctx, o, plan, status));
+    if (result == EXIT_DONE) result = run_sweep(ctx, o, team, sweep, share);
+    iso_sweep_free(sweep);
+    return result;
+}
+
+/* Options that would do nothing. False: one is there. */
+static bool fits(const options *o)
+{
+    const char *alone = o->merge ? "--merge" : isnan(o->point) ? NULL : "--point";
+    const char *other = o->resume ? "--resume" : o->shard ? "--shard" : NULL;
+    if (!o->merge && !isnan(o->point) && strcmp(o->output, "-") != 0) other = "--output";
+    if (o->merge && !isnan(o->point)) other = "--point";
+    if (alone && other) complain("sweep: %s does nothing with %s", other, alone);
+    return !alone || !other;
+}
+
+static int print_point(iso_context *ctx, const options *o, const iso_sweep_file *file)
+{
+    const size_t count = iso_sweep_file_plan(file)->family.count;
+    char *text = NULL;
+    if (!(o->point < (double)count))
+        return complain("sweep: --point %.0f: points are 0 to %zu", o->point, count - 1), EXIT_USAGE;
+    if (!fits(o)) return EXIT_USAGE;
+    const iso_status status = iso_sweep_scene_text(ctx, file, (size_t)o->point, &text);
+    if (status == ISO_OK) fputs(text, stdout);
+    free(text);
+    return finish(ctx, status);
+}
+
+static int merge(iso_context *ctx, const options *o)
+{
+    iso_sweep_failures failures;
+    if (!fits(o)) return EXIT_USAGE;
+    const char *const *parts = (const char *const *)o->parts.path;
+    const iso_status status = iso_sweep_merge(ctx, (size_t)o->parts.count, parts, o->output, &failures);
+    return status == ISO_OK ? tell_failures(&failures, "") : finish(ctx, status);
+}
+
+/* Not a pipe: only one program can read that. A file that is not there is one: who opens it tells why. */
+static bool is_file(const char *path)
+{
+    struct stat s;
+    return strcmp(path, "-") != 0 && (stat(path, &s) != 0 || S_ISREG(s.st_mode));
+}
+
+int sweep_with(iso_context *ctx, const void *options_given, const sweep_team *team)
+{
+    const options *o = options_given;
+    iso_sweep_file *file;
+    if (!o->merge && o->parts.count > 1)
+        return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
+    const bool computes = !o->merge && isnan(o->point); /* else one member is enough */
+    if (computes && team->members > 1 && !is_file(o->file))
+        return complain("sweep: a pipe reaches one rank alone: give a file"), EXIT_USAGE;
+    if (computes && team->members > 1 && strcmp(o->output, "-") == 0)
+        return complain("sweep: mpirun does not tell whether its output arrives: give -o FILE"), EXIT_USAGE;
+    if (!computes && !team->writes) return EXIT_DONE;
+    if (o->merge) return merge(ctx, o);
+    int result = finish(ctx, iso_sweep_read(ctx, o->file, iso_sweep_topics(), &file));
+    if (computes) result = team->agree(team->data, result);
+    if (result == EXIT_DONE) result = computes ? run_file(ctx, o, team, file) : print_point(ctx, o, file);
+    iso_sweep_file_free(file);
+    return result;
+}
+
+/* --- a team of one ---------------------------------------------------------------------------------------------- */
+
+static int agree_alone(void *unused, int result)
+{
+    (void)unused;
+    return result;
+}
+
+static iso_status run_alone(void *unused, iso_context *ctx, const iso_sweep *sweep, int threads,
+                            const iso_sweep_source *source)
+{
+    (void)unused;
+    return iso_sweep_run(ctx, sweep, threads, source);
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    static const sweep_team alone = {1, true, agree_alone, run_alone, NULL};
+    return sweep_with(ctx, options_given, &alone);
+}
+
+static const options defaults = {.file = "-", .output = "-", .point = NAN};
+
+static const option_row rows[] = {
+    ROW_OF_FILE("output", "FILE", "a file", "write to FILE: HDF5 if it ends in .h5, else CSV; - is standard output",
+                set_text, options, output, 'o', OPTION_WRITES),
+    ROW_THREADS(options, threads),
+    ROW("resume", NULL, NULL, "go on with what FILE.part has; begin if there is none", set_flag, options, resume),
+    ROW("shard", "I/N", "i/n, slurm or slurm/n",
+        "compute every N-th chunk, from the I-th on; slurm/N: I is the number of the task of a Slurm array; slurm: "
+        "I and N come from the array, which must be whole",
+        set_text, options, shard),
+    ROW("merge", NULL, NULL, "put the files of all shards together: the arguments are these files", set_flag, options,
+        merge),
+    ROW("point", "I", "a whole number from 0 on", "print the scene of point I and do nothing else", set_whole,
+        options, point),
+    ROW_END,
+};
+
+const command command_sweep = {
+    .name = "sweep",
+    .argument = "SWEEP",
+    .doc = "measure many orbits or balls, on all cores, resumable",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, file),
+    .files = offsetof(options, parts),
+    .description =
+        "A sweep is a file in YAML: a scene, the numbers in it that vary, and what is measured at each point "
+        "(lib/doc/formats.md). 'isoroll explain SWEEP' tells how many points it has, and how long it takes here.\n\n"
+        "Finished chunks of points are kept in FILE.part until all are there; then FILE is written. Ctrl-C lets the "
+        "chunks that are being computed end. So do SIGTERM and SIGUSR1, after which the exit status is 0. Even "
+        "kill -9 loses only the chunks that are being computed. --resume goes on, with any number of threads. The "
+        "bytes "
+        "of FILE do not depend on threads, shards or interruptions.\n\n"
+        "A point that fails is a row with its reason. A file that is there is not overwritten.",
+    .example = "isoroll sweep sweep.yaml -o out.h5\n"
+               "isoroll sweep sweep.yaml -o out.h5 --resume\n"
+               "isoroll sweep sweep.yaml -o out.2.h5 --shard 2/5\n"
+               "isoroll sweep --merge out.*.h5 -o out.h5",
+    .exits = "0: done, or stopped by SIGTERM or SIGUSR1\n"
+             "1: some points failed, or interrupted by Ctrl-C",
+    .run = run,
+};

@@ -1,0 +1,76 @@
+/* program.c - how a program of isoroll begins, runs a command, and ends (see program.h). */
+#include "program.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_version.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sundials/sundials_version.h>
+#include <unistd.h>
+#include <yaml.h>
+
+#include "json.h"
+
+void program_version(void)
+{
+    char sundials[32] = "?";
+    int major, minor, patch;
+    yaml_get_version(&major, &minor, &patch);
+    SUNDIALSGetVersion(sundials, sizeof sundials);
+    printf("isoroll %s\nSUNDIALS %s\nGSL %s\nlibyaml %d.%d.%d\njansson %s\n", iso_version(), sundials, gsl_version,
+           major, minor, patch, JANSSON_VERSION);
+}
+
+static int run_with(iso_context *ctx, void *options, const command *c, int argc, char **argv)
+{
+    if (!ctx || !options) return complain("out of memory"), EXIT_NUMERICAL;
+    memcpy(options, c->defaults, c->size);
+    switch (options_read(c, argc, argv, options)) {
+    case OPTIONS_WRONG: return EXIT_USAGE;
+    case OPTIONS_HELP: help_command(c, stdout); return EXIT_DONE;
+    case OPTIONS_DONE: break;
+    }
+    return c->run(ctx, options);
+}
+
+int program_run(const command *c, int argc, char **argv)
+{
+    iso_context *ctx = iso_context_create();
+    void *options = malloc(c->size);
+    const int status = run_with(ctx, options, c, argc, argv);
+    progress_end();
+    free(options);
+    iso_context_free(ctx);
+    return status;
+}
+
+/* What was printed may still be lost: a full disk shows when the buffer is written. */
+int program_flush(int status)
+{
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout)) return status;
+    if (errno == 0) (void)!write(STDOUT_FILENO, "\n", 1); /* an earlier write failed: this one says why */
+    if (errno != EPIPE && status != EXIT_FILE)
+        complain("cannot write to standard output: %s", strerror(errno ? errno : EIO));
+    return status == EXIT_DONE ? EXIT_FILE : status;
+}
+
+/* A file that we open must not get the number of a closed standard stream: messages would be written into it. Writing
+ * to a closed stdout still fails, since /dev/null is opened for reading there. */
+static void fill_closed_streams(void)
+{
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) < 0) (void)!open("/dev/null", fd == 2 ? O_WRONLY : O_RDONLY);
+}
+
+void program_begin(void)
+{
+    fill_closed_streams();
+    signal(SIGPIPE, SIG_IGN); /* a failed write says so: to a closed pipe, and to a file that would be too large */
+    signal(SIGXFSZ, SIG_IGN);
+    gsl_set_error_handler_off();
+    json_begin();
+}

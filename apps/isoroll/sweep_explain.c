@@ -1,0 +1,185 @@
+/* sweep_explain.c - tells how many points a sweep has, and measures what they cost here (see sweep_explain.h). */
+#include "sweep_explain.h"
+
+#include <math.h>
+#include <sched.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+
+#include "io/sweep_file.h"
+#include "study/sweep.h"
+
+/* Places of the sweep at which points are computed, how many of each, and for how long at most. A chaotic share is
+ * measured with STARTS orbits where it asks for many more: its time grows with them. */
+enum { PLACES = 8, POINTS = 64, STARTS = 48 };
+static const double patience = 10; /* seconds for each quantity */
+
+bool is_sweep(const char *path)
+{
+    static const size_t most = 1 << 20;
+    bool found = false;
+    struct stat s; /* what a pipe holds can be read once */
+    FILE *file = stat(path, &s) == 0 && S_ISREG(s.st_mode) ? fopen(path, "r") : NULL;
+    char *text = file ? malloc(most) : NULL;
+    if (text) found = iso_sweep_is_one(text, fread(text, 1, most, file));
+    free(text);
+    if (file) fclose(file);
+    return found;
+}
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Seconds of one point: the mean, and the largest mean of a place. */
+typedef struct cost {
+    double mean, most;
+    size_t points, failed, places;
+} cost;
+
+static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_rows *rows, cost *c)
+{
+    const iso_sweep_head *head = iso_sweep_head_of(sweep);
+    double total = 0;
+    *c = (cost){.mean = 0};
+    static const int order[PLACES] = {4, 1, 6, 3, 7, 0, 5, 2}; /* if time is short, places far from each other */
+    for (size_t p = 0; p < PLACES && total < patience; p++) {
+        const size_t first = (size_t)((order[p] + 0.5) / PLACES * (double)head->count);
+        if (head->count < PLACES && p >= head->count) break;
+        size_t count = rows->most < POINTS ? rows->most : POINTS;
+        if (count > head->count - first) count = head->count - first;
+        if (c->points > 0 && total / (double)c->points * (double)count > patience) count = 1; /* they are slow */
+        if (p == 0 || head->count < PLACES) count = 1;
+        const double before = now();
+        const iso_status status = iso_sweep_measure_points(ctx, sweep, first, count, rows);
+        const double time = now() - before;
+        if (status != ISO_OK) return status;
+        total += time;
+        c->points += count;
+        c->most = fmax(c->most, time / (double)count);
+        for (size_t i = 0; i < count; i++) c->failed += rows->status[i] != ISO_OK;
+        c->places++;
+    }
+    c->mean = total / (double)c->points;
+    return ISO_OK;
+}
+
+static void print_time(double seconds)
+{
+    if (seconds < 1)
+        printf("%.*f ms", seconds < 1e-3 ? 3 : seconds < 0.1 ? 1 : 0, 1e3 * seconds);
+    else if (seconds < 120)
+        printf("%.*f s", seconds < 10, seconds);
+    else if (seconds < 7200)
+        printf("%.0f minutes", seconds / 60);
+    else if (seconds < 172800)
+        printf("%.3g hours", seconds / 3600);
+    else
+        printf("%.3g days", seconds / 86400);
+}
+
+static int processors(void)
+{
+    cpu_set_t set;
+    return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
+
+static size_t head_count(const iso_sweep *sweep)
+{
+    return iso_sweep_head_of(sweep)->count;
+}
+
+/* Gives by how much a point with all its starts takes longer. */
+static double take_few_starts(const iso_sweep_topic *topic, iso_sweep_wish *wish)
+{
+    for (int i = 0; topic->settings && topic->settings[i].name; i++) {
+        const double starts = wish->setting[i];
+        if (strcmp(topic->settings[i].name, "starts") != 0 || !(starts > 2 * STARTS)) continue;
+        wish->setting[i] = STARTS;
+        return starts / STARTS;
+    }
+    return 1;
+}
+
+/* One quantity by itself; *mean: seconds of a point. */
+static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan, int which, size_t chunk,
+                                   double *mean)
+{
+    iso_sweep_plan one = *plan;
+    iso_sweep *sweep;
+    iso_sweep_rows rows;
+    cost c = {.mean = 0};
+    one.wishes = 1;
+    one.wish[0] = plan->wish[which];
+    one.chunk = chunk;
+    const iso_sweep_topic *topic = iso_sweep_topics()[one.wish[0].topic];
+    const double scale = take_few_starts(topic, &one.wish[0]);
+    iso_status status = iso_sweep_create(ctx, &one, &sweep);
+    if (status != ISO_OK) return status;
+    status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
+    if (status == ISO_OK) status = measure(ctx, sweep, &rows, &c);
+    c.mean *= scale;
+    c.most *= scale;
+    if (status == ISO_OK) {
+        printf("  %-12s %s\n  %-12s ", topic->name, topic->doc, "");
+        print_time(c.mean);
+        printf(" a point, up to ");
+        print_time(c.most);
+        printf(" (%zu points, %zu of them failed%s); columns", c.points, c.failed,
+               c.places > 1 || head_count(sweep) == 1 ? ""
+                                                      : "; one place alone: others may take several times as long");
+        const iso_sweep_head *head = iso_sweep_head_of(sweep);
+        for (int i = plan->family.columns; i < head->columns; i++) printf(" %s", head->column[i].name);
+        printf("\n");
+        *mean = c.mean;
+    }
+    iso_sweep_rows_free(&rows);
+    iso_sweep_free(sweep);
+    return status;
+}
+
+static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
+{
+    const iso_sweep_plan *plan = iso_sweep_file_plan(file);
+    iso_sweep *sweep;
+    char words[ISO_SWEEP_WORDS];
+    double total = 0;
+    iso_status status = iso_sweep_create(ctx, plan, &sweep);
+    if (status != ISO_OK) return status;
+    const iso_sweep_head head = *iso_sweep_head_of(sweep);
+    printf("sweep\n  %zu points in %zu chunks of %zu; %d columns; vectors %s\n", head.count, iso_sweep_chunks(&head),
+           head.chunk, head.columns, head.vectors);
+    for (int i = 0; iso_sweep_axis_words(file, i, words); i++) printf("  %s\n", words);
+    printf("\nmeasured\n");
+    for (int i = 0; i < plan->wishes && status == ISO_OK; i++) {
+        double mean = 0;
+        status = explain_quantity(ctx, plan, i, head.chunk, &mean);
+        total += mean;
+    }
+    iso_sweep_free(sweep);
+    if (status != ISO_OK) return status;
+    printf("\ntime\n  about ");
+    print_time(total * (double)head.count);
+    printf(" of processor time; here, with %d threads, about ", processors());
+    print_time(total * (double)head.count / processors());
+    printf("\n  a chunk takes about ");
+    print_time(total * (double)iso_sweep_chunk_points(&head, 0));
+    printf("\n  a file of about %.3g MB\n", ((double)head.columns + 0.5) * 8e-6 * (double)head.count);
+    return ISO_OK;
+}
+
+int explain_sweep(iso_context *ctx, const char *path)
+{
+    iso_sweep_file *file;
+    iso_status status = iso_sweep_read(ctx, path, iso_sweep_topics(), &file);
+    if (status != ISO_OK) return finish(ctx, status);
+    status = explain(ctx, file);
+    iso_sweep_file_free(file);
+    return finish(ctx, status);
+}

@@ -1,0 +1,169 @@
+#!/bin/sh
+# mpi.sh ISOROLL - `isoroll-mpi sweep`: the bytes of `isoroll sweep` for any number of ranks; signals; ranks and whole
+# runs that are killed, and gone on with by another number of ranks; files in the way.
+. "$(dirname "$0")/lib.sh"
+program=$(dirname "$isoroll")/isoroll-mpi
+if ! [ -x "$program" ]; then
+    skip "all" "isoroll-mpi is not built"
+    exit 0
+fi
+mpirun=${ISO_MPIRUN:-mpirun} # that of the MPI of this build
+has "$mpirun" "all" || exit 0
+
+# Both MPIs let more ranks run than there are processors; Open MPI must be told, and must be told that root may.
+# A single rank may use all processors.
+options=
+"$mpirun" --version 2>&1 | grep -q -i 'open *mpi\|openrte' && options='--oversubscribe --bind-to none -q'
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export ASAN_OPTIONS=detect_leaks=0 # MPI keeps what it has got until the end
+
+# ranks STATUS N ARGUMENT...: isoroll-mpi on N ranks; words in err
+ranks() {
+    wanted=$1 number=$2
+    shift 2
+    checks=$((checks + 1))
+    # shellcheck disable=SC2086 # options is a list
+    timeout -k 5 120 "$mpirun" $options -n "$number" "$program" "$@" >out 2>err </dev/null
+    status=$?
+    [ $status -eq "$wanted" ] || fail "$number ranks, $*: status $status, not $wanted"
+}
+
+# once WORDS: rank 0 alone says them
+once() {
+    checks=$((checks + 1))
+    [ "$(grep -c -e "$1" err)" -eq 1 ] || fail "'$1' is not said once"
+}
+
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
+cat >grid.yaml <<'END'
+scene: scene.yaml
+vary:
+  k: {from: -1, to: 1, count: 5}
+  J2/J1: [1.5, 2]
+  start: {spread: 3, seed: 4}
+measure:
+  state: {as: both}
+  backends: {}
+chunk: 4
+END
+cat >long.yaml <<'END'
+scene: scene.yaml
+vary: {k: {from: 0.3, to: 0.9, count: 60}}
+measure: {state: {}}
+until: {time: 20000}
+chunk: 1
+END
+
+# --- the same bytes
+run 1 sweep grid.yaml -o all.csv
+run 0 sweep long.yaml -o long.h5
+for number in 1 2 4 7; do
+    ranks 0 $number sweep long.yaml -o again.h5
+    check "$number ranks" cmp long.h5 again.h5
+    rm again.h5
+done
+ranks 1 4 sweep grid.yaml -o again.csv -j 2
+once "6 of 30 points failed; the first is point 12: scene.yaml:1:14: k = 0"
+check "rows that failed" cmp all.csv again.csv
+ranks 0 3 sweep long.yaml -o long.h5 --resume
+for shard in 1 2; do ranks 0 2 sweep long.yaml -o part.$shard.h5 --shard $shard/2; done
+ranks 0 2 sweep --merge part.?.h5 -o merged.h5
+check "shards by ranks, merged" cmp long.h5 merged.h5
+check "no journal stays" test "$(find . -name '*.part' | wc -l)" -eq 0
+
+# --- what is refused is refused once, with the status of isoroll
+echo "my thesis" >thesis.csv
+cp thesis.csv thesis.copy
+ranks 5 3 sweep grid.yaml -o thesis.csv --resume
+once "is no result of a sweep: it is not overwritten"
+check "a foreign file" cmp thesis.csv thesis.copy
+ranks 5 3 sweep grid.yaml -o /dev/full
+once "No space left"
+ranks 5 3 sweep none.yaml -o new.csv
+once "cannot open .none.yaml."
+ranks 2 3 sweep grid.yaml -o new.csv --shard 7/3
+once "expected i/n"
+ranks 2 3 run scene.yaml
+once "has the command 'sweep' alone"
+ranks 2 2 sweep grid.yaml -o -
+once "mpirun does not tell whether its output arrives: give -o FILE"
+ranks 2 2 sweep - -o new.csv
+once "a pipe reaches one rank alone: give a file"
+# shellcheck disable=SC2086
+timeout 60 "$mpirun" $options -n 2 "$program" sweep grid.yaml -o new.csv : -n 1 "$program" sweep grid.yaml --nothing \
+    >out 2>err </dev/null
+check "a rank with other options ends all: status $?" test $? -eq 2
+once "rank 2: sweep: unknown or ambiguous option --nothing"
+ranks 0 3 --version
+check "the version, once" test "$(grep -c '^isoroll' out)" -eq 1
+check_not "nothing is written" test -e new.csv
+
+# --- signals to mpirun, and to one rank
+# pids MPIRUN: of its ranks, one a line; rank 0 is the first. MPICH has a process between.
+pids() {
+    ps -e -o pid=,ppid=,comm= | awk -v top="$1" '
+        { above[$1] = $2; name[$1] = $3 }
+        END { for (i in name) if (name[i] ~ /^isoroll-mpi/) for (j = i; j > 1; j = above[j]) if (j == top) print i }' |
+        sort -n
+}
+# start N FILE: a run in the background, of $pid; it goes on when a further chunk is in the journal
+start() {
+    before=$(cat "$2.part" 2>/dev/null | wc -c)
+    # shellcheck disable=SC2086
+    "$mpirun" $options -n "$1" "$program" sweep long.yaml -o "$2" --resume >out 2>err </dev/null &
+    pid=$!
+}
+begun() {
+    for _ in $(seq 500); do
+        [ "$(cat "$1.part" 2>/dev/null | wc -c)" -le $((before + 200)) ] || break
+        sleep 0.02
+    done
+}
+if has ps "signals and kills"; then
+    start 3 stopped.h5
+    begun stopped.h5
+    kill -USR1 $pid
+    wait $pid
+    check "USR1 to all" test $? -eq 0
+    once "stopped by SIGTERM or SIGUSR1: .* of 60 chunks are in 'stopped.h5.part'"
+    start 3 stopped.h5
+    begun stopped.h5
+    kill -TERM "$(pids $pid | tail -n 1)"
+    wait $pid
+    check "TERM to the last rank" test $? -eq 0
+    once "stopped by SIGTERM or SIGUSR1: .* of 60 chunks are in 'stopped.h5.part'"
+    ranks 0 2 sweep long.yaml -o stopped.h5 --resume
+    check "after signals" cmp stopped.h5 long.h5
+
+    # --- a full disk, as far as rank 0 can see
+    if has prlimit "a full disk"; then
+        start 3 full.h5
+        begun full.h5
+        prlimit --pid "$(pids $pid | head -n 1)" --fsize=100
+        wait $pid
+        check "a full disk" test $? -eq 5
+        once "cannot write 'full.h5.part': File too large"
+        ranks 0 4 sweep long.yaml -o full.h5 --resume
+        check "after a full disk" cmp full.h5 long.h5
+    fi
+
+    # --- kill -9 of a rank, or of everything, at any moment; then another number of ranks
+    tries=0 kills=$(length 3 20)
+    while [ $tries -lt "$kills" ]; do
+        start $((tries % 4 + 1)) killed.h5
+        sleep "$(awk -v n=$tries 'BEGIN { srand(n + 3); printf "%.3f", 0.3 + 1.2 * rand() }')"
+        list=$(pids $pid)
+        case $((tries % 3)) in
+        0) kill -9 $(echo "$list" | tail -n 1) 2>/dev/null ;; # the last rank
+        1) kill -9 $(echo "$list" | head -n 1) 2>/dev/null ;; # rank 0
+        2) kill -9 $pid $list 2>/dev/null ;;
+        esac
+        wait $pid 2>/dev/null
+        for one in $list; do while kill -0 "$one" 2>/dev/null; do sleep 0.05; done; done
+        tries=$((tries + 1))
+        [ ! -e killed.h5 ] || { check "killed" cmp killed.h5 long.h5; rm -f killed.h5; }
+    done
+    ranks 0 2 sweep long.yaml -o killed.h5 --resume
+    check "killed $kills times" cmp killed.h5 long.h5
+fi
+finish

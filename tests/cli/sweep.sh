@@ -1,0 +1,420 @@
+#!/bin/sh
+# sweep.sh ISOROLL - `isoroll sweep`: the same bytes whichever way they are computed, every quantity as its own command
+# gives it, bad files, files that must not be overwritten, interruptions.
+. "$(dirname "$0")/lib.sh"
+
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >scene.yaml
+
+# --- HDF5, where the build has it
+h5=h5 other=h5
+"$isoroll" sweep - -o probe.h5 2>err <<'END'
+scene: scene.yaml
+vary: {k: 1}
+measure: {state: {}}
+END
+if grep -q 'this build has no HDF5' err; then
+    h5=csv other=
+    skip "HDF5" "this build has none"
+fi
+rm -f probe.h5
+
+# --- the same bytes: threads, shards, another chunk; points that fail are rows
+cat >grid.yaml <<'END'
+scene: scene.yaml
+vary:
+  k: {from: -1, to: 1, count: 5}
+  J2/J1: [1.5, 2]
+  start: {spread: 3, seed: 4}
+measure:
+  state: {as: both}
+  backends: {}
+chunk: 4
+END
+for kind in csv $other; do
+    run 1 sweep grid.yaml -o "all.$kind"
+    says "6 of 30 points failed; the first is point 12: scene.yaml:1:14: k = 0"
+    for threads in 1 2 3; do
+        run 1 sweep grid.yaml -o "again.$kind" -j $threads
+        check "$kind, $threads threads" cmp "all.$kind" "again.$kind"
+        rm "again.$kind"
+    done
+    for shard in 1 2 3 4 5; do
+        "$isoroll" sweep grid.yaml -o "part.$shard.$kind" --shard $shard/5 2>err
+    done
+    run 1 sweep --merge part.?.$kind -o "merged.$kind"
+    says "6 points failed; the first is point 12: scene.yaml:1:14: k = 0"
+    check "$kind: five shards" cmp "all.$kind" "merged.$kind"
+    run 1 sweep --merge part.5.$kind part.3.$kind part.1.$kind part.2.$kind part.4.$kind -o "shuffled.$kind"
+    check "$kind: five shards in another order" cmp "all.$kind" "shuffled.$kind"
+    refuses 5 "part 3 of 5 is missing" sweep --merge part.1.$kind part.2.$kind part.4.$kind part.5.$kind -o new.$kind
+    refuses 5 "part 2 of 5 is there twice" sweep --merge part.2.$kind part.2.$kind -o new.$kind
+    refuses 5 "is a whole sweep" sweep --merge all.$kind -o new.$kind
+    refuses 5 "is no result of a sweep" sweep --merge scene.yaml -o new.$kind
+    refuses 5 "is there: it is not overwritten" sweep --merge part.?.$kind -o merged.$kind
+    check_not "nothing is written" test -e new.$kind
+done
+run 1 sweep grid.yaml
+check "standard output" cmp out all.csv
+sed 's/chunk: 4/chunk: 7/' grid.yaml >other.yaml
+run 1 sweep other.yaml -o other.csv
+grep -v '^#' all.csv >one
+grep -v '^#' other.csv >two
+check "other chunks give the same rows" cmp one two
+"$isoroll" sweep other.yaml -o other.2.csv --shard 2/5 2>err
+refuses 5 "part of another sweep" sweep --merge part.1.$h5 other.2.csv -o new.$h5
+check "no journal stays" test "$(find . -name '*.part' | wc -l)" -eq 0
+
+# --- shards of Slurm: arrays can begin anywhere, and go in steps
+slurm() { SLURM_ARRAY_TASK_ID=$1 SLURM_ARRAY_TASK_COUNT=5 SLURM_ARRAY_TASK_MIN=$2 SLURM_ARRAY_TASK_STEP=$3 \
+    "$isoroll" sweep grid.yaml -o "$4" --shard slurm 2>err; }
+slurm 0 0 1 task.csv
+check "task 0 of 0-4" cmp task.csv part.1.csv
+slurm 17 11 3 task2.csv
+check "task 17 of 11-23:3" cmp task2.csv part.3.csv
+refuses 2 "this is no task of an array" sweep grid.yaml -o new.csv --shard slurm
+# task 3 alone, submitted again; then tasks 2 and 4
+SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=1 SLURM_ARRAY_TASK_MIN=3 SLURM_ARRAY_TASK_MAX=3
+export SLURM_ARRAY_TASK_ID SLURM_ARRAY_TASK_COUNT SLURM_ARRAY_TASK_MIN SLURM_ARRAY_TASK_MAX
+refuses 2 "one task or gaps, so it does not tell N: give --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
+run 0 sweep grid.yaml -o task3.csv --shard slurm/5
+check "task 3, submitted again" cmp task3.csv part.3.csv
+refuses 2 "a number from 1 to 2" sweep grid.yaml -o new.csv --shard slurm/2
+refuses 2 "a number from 1 to x" sweep grid.yaml -o new.csv --shard slurm/x
+SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_MIN=2 SLURM_ARRAY_TASK_MAX=4
+refuses 2 "one task or gaps, so it does not tell N: give --shard slurm/N" sweep grid.yaml -o new.csv --shard slurm
+unset SLURM_ARRAY_TASK_ID SLURM_ARRAY_TASK_COUNT SLURM_ARRAY_TASK_MIN SLURM_ARRAY_TASK_MAX
+refuses 2 "expected i/n" sweep grid.yaml -o new.csv --shard 6/5
+
+# --- every quantity is what its own command gives for the scene of the point
+# value KEY [N]: the N-th number of this name in the JSON of the last run
+value() { sed -n "s/.*\"$1\": \([^,}]*\).*/\1/p" out | sed -n "${2:-1}p"; }
+# cell FILE POINT COLUMN
+cell() { grep -v '^#' "$1" | awk -F, -v row="$2" -v name="$3" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) at = i }
+    NR == row + 2 { print at ? $at : "no column" }'; }
+# equal NAME CELL VALUE: the same number (null is nan)
+equal() {
+    checks=$((checks + 1))
+    awk -v a="$2" -v b="$3" 'BEGIN { if (b == "null") b = "nan"; 
+        number = "^[-+]?([0-9]+[.]?[0-9]*|[.][0-9]+)([eE][-+]?[0-9]+)?$"
+        exit !(a == "nan" ? b == "nan" || b == "null" : a ~ number && b ~ number && a + 0 == b + 0) }' ||
+        fail "$1: $2 is not $3"
+}
+cat >each.yaml <<'END'
+scene: scene.yaml
+vary:
+  k: [0.5, -0.75]
+  start: [[0.4, 0.3]]
+measure:
+  state: {as: both}
+  frequencies: {}
+  splitting: {digits: double}
+  rotations: {}
+  backends: {}
+  error: {tolerance: 1.0e-10}
+until: {time: 400}
+END
+cat >turns.yaml <<'END'
+scene: scene.yaml
+vary: {k: [0.5, -0.75], l: 0.4, x: 0.3}
+measure:
+  chaos: {starts: 5, seed: 2}
+  state: {as: both}
+until: {turns: 150}
+END
+run 0 sweep each.yaml -o each.csv
+run 0 sweep turns.yaml -o turns.csv
+for point in 0 1; do
+    run 0 sweep each.yaml --point $point
+    cp out point.yaml
+    run 0 run point.yaml --as both --t-end 400 -o run.csv
+    for name in t s omega1 n3 M2 gamma1; do
+        equal "state $name" "$(cell each.csv $point state_$name)" "$(tail -n 1 run.csv | cut -d, -f"$(columns run.csv |
+            tr , '\n' | grep -nx $name | cut -d: -f1)")"
+    done
+    run 0 frequencies point.yaml --json --t-end 400
+    equal "rotation number" "$(cell each.csv $point frequencies_rotation)" "$(value rotation_number)"
+    equal "first frequency" "$(cell each.csv $point frequencies_f1_t)" "$(value t 1)"
+    equal "h" "$(cell each.csv $point frequencies_h)" "$(value h)"
+    run 0 splitting point.yaml --json --digits double
+    for name in x m error x_error x_tail m_tail multiplier; do
+        equal "splitting $name" "$(cell each.csv $point splitting_$name)" "$(value $name)"
+    done
+    run 0 periodic point.yaml --json --period 1
+    for axis in 1 2 3; do
+        equal "trace $axis" "$(cell each.csv $point rotations_trace$axis)" "$(value half_turn_trace $axis)"
+        equal "its error" "$(cell each.csv $point rotations_error$axis)" "$(value error $axis)"
+    done
+    run 0 compare point.yaml --t-end 400 --json
+    sed -n '/"worst_difference": {/,/}/p' out >largest
+    cp largest out
+    for name in omega n M gamma tau s; do
+        equal "difference of $name" "$(cell each.csv $point backends_$name)" "$(value $name)"
+    done
+    run 0 run point.yaml --as ball --t-end 400 --tol 1e-10 --verbose -o run.csv
+    worst=$(sed -n 's/.*error of (omega, n) at most \([^,]*\),.*/\1/p' err)
+    at_most "error, which run rounds up" "$(cell each.csv $point error_ball)" "$worst"
+    at_most "error, not below a tenth" "$(awk -v x="$worst" 'BEGIN { print x / 1.11 }')" \
+        "$(cell each.csv $point error_ball)"
+
+    run 0 sweep turns.yaml --point $point
+    cp out point.yaml
+    run 0 chaos point.yaml --turns 150 --starts 5 --seed 2 --json
+    for name in megno gali2 exponent_per_turn; do
+        column=$name
+        [ $name = exponent_per_turn ] && column=per_turn
+        equal "ball $name" "$(cell turns.csv $point chaos_ball_$column)" "$(value $name 1)"
+        equal "point $name" "$(cell turns.csv $point chaos_point_$column)" "$(value $name 2)"
+    done
+    equal "exponent" "$(cell turns.csv $point chaos_ball_exponent_s)" "$(value s 1)"
+    equal "share" "$(cell turns.csv $point chaos_share)" "$(value chaotic)"
+    equal "its interval" "$(cell turns.csv $point chaos_share_high)" "$(value high)"
+    run 0 section point.yaml --crossings 150 --as both -o section.csv
+    for name in t l x; do
+        equal "turn 150: $name" "$(cell turns.csv $point state_$name)" "$(tail -n 1 section.csv |
+            cut -d, -f"$(columns section.csv | tr , '\n' | grep -nx $name | cut -d: -f1)")"
+    done
+done
+sed 's/^time:.*/time: {end: 3}/' "$source/examples/09_off_the_top/scene.yaml" >off.yaml
+printf 'scene: off.yaml\nvary: {mass: [1, 2]}\nmeasure: {contact: {}}\n' >contact.yaml
+sed -i "s/mass: [0-9.]*/mass: 1/" off.yaml
+run 0 sweep contact.yaml -o contact.csv
+run 0 run off.yaml -o run.csv
+equal "contact is lost" "$(cell contact.csv 0 contact_time)" "$(tail -n 1 run.csv | cut -d, -f1)"
+
+# --- a scene of a point reads back as the same start: its sweep with nothing but itself
+run 0 sweep each.yaml --point 1
+cp out point.yaml
+printf 'scene: point.yaml\nvary: {k: -0.75}\nmeasure: {state: {as: both}}\nuntil: {time: 400}\n' >itself.yaml
+run 0 sweep itself.yaml -o itself.csv
+for name in omega1 omega2 n1 n3 M1 gamma2; do
+    equal "read back: $name" "$(cell each.csv 1 state_$name)" "$(cell itself.csv 0 state_$name)"
+done
+
+# --- bad files: PLACE|WORDS|what stands in the place of grid.yaml's lines
+bad() {
+    cat >bad.yaml
+    refuses 3 "bad.yaml:$1: $2" sweep bad.yaml -o new.csv
+}
+bad 1:1 "missing 'scene' in the sweep" <<'END'
+vary: {k: 1}
+measure: {state: {}}
+END
+bad 1:8 "cannot open 'none.yaml'" <<'END'
+scene: none.yaml
+vary: {k: 1}
+measure: {state: {}}
+END
+bad 3:1 "unknown key 'mesure'; did you mean 'measure'?" <<'END'
+scene: scene.yaml
+vary: {k: 1}
+mesure: {state: {}}
+END
+bad 2:8 "unknown number of this scene 'kk'" <<'END'
+scene: scene.yaml
+vary: {kk: 1}
+measure: {state: {}}
+END
+bad 2:11 "a range from -1e+308 to 1e+308 is too wide" <<'END'
+scene: scene.yaml
+vary: {k: {from: -1.0e+308, to: 1.0e+308, count: 3}}
+measure: {state: {}}
+END
+bad 2:11 "a range from 1e-200 to 1e+200 is too wide" <<'END'
+scene: scene.yaml
+vary: {k: {from: 1.0e-200, to: 1.0e+200, count: 3, logarithmic: true}}
+measure: {state: {}}
+END
+bad 2:11 "missing 'to' in a range" <<'END'
+scene: scene.yaml
+vary: {k: {from: 1}}
+measure: {state: {}}
+END
+cat >bad.yaml <<'END'
+scene: scene.yaml
+vary:
+  k: {from: 1, to: 2}
+measure: {state: {}}
+END
+refuses 3 "bad.yaml:3:3: a range without a count is drawn: 'samples: {count: ...}' is missing" sweep bad.yaml
+bad 3:11 "unknown key 'chaoss'; did you mean 'chaos'?" <<'END'
+scene: scene.yaml
+vary: {k: [1, 2]}
+measure: {chaoss: {}}
+END
+bad 3:27 "'starts' is 1.5, it must be a whole number" <<'END'
+scene: scene.yaml
+vary: {k: [1, 2]}
+measure: {chaos: {starts: 1.5}}
+END
+bad 3:11 "contact: the scene needs the effect 'reactions'" <<'END'
+scene: scene.yaml
+vary: {k: [1, 2]}
+measure: {contact: {}}
+END
+bad 4:8 "'backends' needs 'until: {time: ...}'" <<'END'
+scene: scene.yaml
+vary: {k: [1, 2]}
+measure: {backends: {}}
+until: {turns: 100}
+END
+bad 2:7 "a start on the section is 'l' and 'x'" <<'END'
+scene: scene.yaml
+vary: {l: [1, 2]}
+measure: {state: {}}
+END
+bad 2:22 "'J2' varies twice" <<'END'
+scene: scene.yaml
+vary: {J: [[1,2,3]], J2: 5}
+measure: {state: {}}
+END
+bad 2:15 "'J2' and 'J2/J1' set the same moment" <<'END'
+scene: scene.yaml
+vary: {J2: 5, J2/J1: 2}
+measure: {state: {}}
+END
+bad 2:24 "'J' and 'J3/J1' set the same moment" <<'END'
+scene: scene.yaml
+vary: {J: [[1, 2, 3]], J3/J1: 2}
+measure: {state: {}}
+END
+bad 2:18 "'J1' changes 'J2/J1': write it first" <<'END'
+scene: scene.yaml
+vary: {J2/J1: 2, J1: 2}
+measure: {state: {}}
+END
+bad 2:7 "'end' varies, but 'until' replaces it" <<'END'
+scene: scene.yaml
+vary: {end: [1, 2]}
+measure: {state: {}}
+until: {time: 5}
+END
+{ cat scene.yaml && echo 'solver: {tolerance: 1.0e-9}'; } >solver.yaml
+bad 2:7 "'tolerance' varies, but 'error' sets its own" <<'END'
+scene: solver.yaml
+vary: {tolerance: [1.0e-9, 1.0e-10]}
+measure: {error: {tolerance: 1.0e-8}}
+END
+bad 3:11 "state: 'model' is for 'until: {turns: ...}'" <<'END'
+scene: scene.yaml
+vary: {k: [1, 2]}
+measure: {state: {model: point}}
+END
+bad 2:7 "'vary' names no number: write k: [0.5, 1], for example" <<'END'
+scene: scene.yaml
+vary: {}
+measure: {state: {}}
+END
+bad 2:12 "'k' should be a finite number" <<'END'
+scene: scene.yaml
+vary: {k: [one]}
+measure: {state: {}}
+END
+refuses 3 "<stdin>:1:" sweep - <<'END'
+scene: {reduced: {k: 1, J: [1, 2, -5]}, initial: {normal: [1, 0, 0], angular_velocity: [0, 1, 0]}, time: {end: 1}}
+vary: {k: [1, 2]}
+measure: {state: {}}
+END
+
+# --- files that are in the way: words, status 5, and not a byte is changed
+echo "my thesis" >thesis.csv
+cp thesis.csv thesis.copy
+refuses 5 "is no result of a sweep: it is not overwritten" sweep grid.yaml -o thesis.csv
+refuses 5 "is no result of a sweep: it is not overwritten" sweep grid.yaml -o thesis.csv --resume
+refuses 5 "is there already" sweep grid.yaml -o all.$h5
+refuses 5 "is the result of another sweep" sweep other.yaml -o all.$h5 --resume
+cp all.$h5 before.$h5
+run 1 sweep grid.yaml -o all.$h5 --resume
+says "6 of 30 points failed; the first is point 12: scene.yaml:1:14: k = 0"
+check "a result that is there stays" cmp all.$h5 before.$h5
+for option in "-o new.csv" --resume "--shard 1/2"; do
+    refuses 2 "does nothing with --point" sweep grid.yaml --point 1 $option
+done
+for option in "--point 1" --resume "--shard 1/2"; do
+    refuses 2 "does nothing with --merge" sweep --merge part.1.csv part.2.csv -o new.csv $option
+done
+cp thesis.csv new.csv.part
+refuses 5 "is no journal of a sweep" sweep grid.yaml -o new.csv --resume
+check "the thesis" cmp thesis.csv thesis.copy
+check "the thesis, as a journal" cmp new.csv.part thesis.copy
+rm new.csv.part
+refuses 5 "cannot write" sweep grid.yaml -o /nowhere/new.csv
+refuses 5 "No space left" sweep grid.yaml -o /dev/full
+mkdir locked && chmod 555 locked
+if [ "$(id -u)" = 0 ]; then
+    skip "read-only folder" "root may write everywhere"
+else
+    refuses 5 "Permission denied" sweep grid.yaml -o locked/new.csv
+fi
+
+# --- a full disk, and a journal that is cut short or damaged
+cat >long.yaml <<'END'
+scene: scene.yaml
+vary: {k: {from: 0.3, to: 0.9, count: 60}}
+measure: {state: {}}
+until: {time: 10000}
+chunk: 1
+END
+run 0 sweep long.yaml -o long.$h5
+run 0 sweep long.yaml -o long.$h5 --resume
+silent
+checks=$((checks + 1))
+(ulimit -f 4 && "$isoroll" sweep long.yaml -o full.$h5 2>err)
+[ $? -eq 5 ] || fail "a full disk: not status 5"
+check "a full disk: words" grep -q "cannot write 'full.$h5.part': File too large" err
+refuses 5 "add --resume to go on with it" sweep long.yaml -o full.$h5
+refuses 5 "journal of another sweep" sweep grid.yaml -o full.$h5 --resume
+cp full.$h5.part torn.$h5.part
+printf 'half a record of a chunk' >>torn.$h5.part
+cp full.$h5.part damaged.$h5.part
+printf 'X' | dd of=damaged.$h5.part bs=1 seek=400 conv=notrunc 2>err
+run 0 sweep long.yaml -o full.$h5 --resume
+check "after a full disk" cmp full.$h5 long.$h5
+run 0 sweep long.yaml -o torn.$h5 --resume
+check "after a torn record" cmp torn.$h5 long.$h5
+cp damaged.$h5.part damaged.copy
+refuses 5 "is damaged" sweep long.yaml -o damaged.$h5 --resume
+check "a damaged journal stays" cmp damaged.$h5.part damaged.copy
+
+cp damaged.copy long.$h5.part
+run 0 sweep long.yaml -o long.$h5 --resume
+check_not "a journal that outlived its result is removed" test -e long.$h5.part
+
+# --- kill -9 at any moment, then another number of threads; SIGTERM and SIGINT
+tries=0 kills=$(length 6 60)
+while [ $tries -lt "$kills" ]; do
+    "$isoroll" sweep long.yaml -o killed.$h5 --resume -j $((tries % 3 + 1)) 2>/dev/null &
+    pid=$!
+    sleep "0.$(awk -v n=$tries 'BEGIN { srand(n + 7); printf "%03d", 20 + 180 * rand() }')"
+    kill -9 $pid 2>/dev/null
+    wait $pid 2>/dev/null
+    tries=$((tries + 1))
+    [ ! -e killed.$h5 ] || { check "killed" cmp killed.$h5 long.$h5; rm -f killed.$h5; }
+done
+run 0 sweep long.yaml -o killed.$h5 --resume
+check "killed $kills times" cmp killed.$h5 long.$h5
+
+# stopped SIGNAL STATUS WORDS
+stopped() {
+    timeout --preserve-status -k 30 -s "$1" 0.4 "$isoroll" sweep long.yaml -o stopped.$h5 -j 1 2>err
+    status=$?
+    check "$1: status $status" test $status -eq "$2"
+    check "$1: words" grep -q "$3: .* of 60 chunks are in 'stopped.$h5.part'; go on with: .* --resume" err
+    run 0 sweep long.yaml -o stopped.$h5 --resume
+    check "$1" cmp stopped.$h5 long.$h5
+    rm stopped.$h5
+}
+stopped TERM 0 "stopped by SIGTERM or SIGUSR1"
+stopped USR1 0 "stopped by SIGTERM or SIGUSR1"
+interruptible "Ctrl-C" && stopped INT 1 "interrupted"
+
+# --- one journal, one program
+"$isoroll" sweep long.yaml -o twice.$h5 -j 1 2>/dev/null &
+pid=$!
+while [ ! -s twice.$h5.part ]; do sleep 0.02; done
+kill -STOP $pid
+refuses 5 "another isoroll works on this sweep" sweep long.yaml -o twice.$h5 --resume
+kill -CONT $pid
+wait $pid
+check "the first one goes on" cmp twice.$h5 long.$h5
+
+finish
