@@ -27,7 +27,7 @@ fi
 
 echo "isoroll needs packages that this script cannot install here. On Debian or Ubuntu, as root:" >&2
 echo "    apt-get install --no-install-recommends$missing" >&2
-echo "elsewhere what they hold: a C compiler, CMake, make, pkg-config, SUNDIALS, GSL, libyaml, jansson, gnuplot; if wanted HDF5" >&2
+echo "elsewhere what they hold: a C compiler, CMake, make, pkg-config, SUNDIALS, GSL, libyaml, jansson, gnuplot; if wanted HDF5, three.js" >&2
 for tool in cmake make cc pkg-config gnuplot; do
     command -v $tool >/dev/null || { echo "$tool is not there: cannot go on" >&2; exit 1; }
 done

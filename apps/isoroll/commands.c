@@ -5,12 +5,27 @@
 
 extern const command command_run, command_convert, command_compare, command_cost, command_check, command_analogue,
     command_frequencies, command_explain, command_list, command_plot, command_manual, command_section, command_chaos,
-    command_periodic, command_splitting, command_integrals, command_sweep;
+    command_periodic, command_splitting, command_integrals, command_sweep, command_view;
 
-const command *const commands[] = {
-    &command_run,     &command_convert,  &command_compare,     &command_cost,      &command_check,     &command_plot,
-    &command_section, &command_chaos,    &command_periodic,    &command_splitting, &command_integrals, &command_sweep,
-    &command_explain, &command_analogue, &command_frequencies, &command_list,      &command_manual,    NULL};
+const command *const commands[] = {&command_run,
+                                   &command_convert,
+                                   &command_compare,
+                                   &command_cost,
+                                   &command_check,
+                                   &command_plot,
+                                   &command_view,
+                                   &command_section,
+                                   &command_chaos,
+                                   &command_periodic,
+                                   &command_splitting,
+                                   &command_integrals,
+                                   &command_sweep,
+                                   &command_explain,
+                                   &command_analogue,
+                                   &command_frequencies,
+                                   &command_list,
+                                   &command_manual,
+                                   NULL};
 
 const char *const about_isoroll =
     "isoroll simulates the rubber Chaplygin ball that rolls on a sphere, and its twin, a point on a sphere in a "

@@ -9,7 +9,7 @@
 
 static bool lacking; /* jansson leaves out what it has no memory for, and does not say so */
 
-static void *allocate(size_t size)
+void *json_allocate(size_t size)
 {
     void *block = malloc(size);
     lacking = lacking || !block;
@@ -18,12 +18,17 @@ static void *allocate(size_t size)
 
 void json_begin(void)
 {
-    json_set_alloc_funcs(allocate, free);
+    json_set_alloc_funcs(json_allocate, free);
 }
 
 json_t *json_number(double x)
 {
     return isfinite(x) ? json_real(x) : json_null();
+}
+
+bool json_whole(const json_t *o)
+{
+    return o && !lacking;
 }
 
 bool json_print(json_t *o)

@@ -99,6 +99,10 @@ if [ -n "$ISO_NO_MEMORY" ]; then
         starve 17 run scene.yaml --method $method --tol 1e-6 -o made
     done
     starve 17 run scene.yaml --backend exact -o made
+    if "$isoroll" view ball.csv -o - >/dev/null 2>&1; then # with three.js
+        starve 40 view scene.yaml -o made
+        starve 20 view ball.csv -o made
+    fi
     cat >many.yaml <<'END'
 scene: {reduced: {k: 0.5, J: [1, 2, 5]}, time: {end: 1},
         initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}}

@@ -1,0 +1,159 @@
+/* isoroll view - a page that opens from disk: the ball and its point move side by side. */
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "scene_options.h"
+#include "view_section.h"
+
+/* What view can be told. */
+typedef struct options {
+    file_options from;
+    const char *output; /* NULL: not given */
+    view_frames frames; /* folder NULL: not given */
+} options;
+
+/* --- which kind of file ----------------------------------------------------------------------------------------- */
+
+typedef enum file_kind { SCENE, TRAJECTORY, SECTION } file_kind;
+
+/* Copies standard input to a temporary file, which takes its place: so its first line can be looked at. */
+static iso_status make_seekable(iso_context *ctx)
+{
+    char block[65536];
+    ssize_t got = 0;
+    FILE *copy = tmpfile();
+    bool good = copy != NULL;
+    while (good && (got = read(STDIN_FILENO, block, sizeof block)) > 0)
+        good = fwrite(block, 1, (size_t)got, copy) == (size_t)got;
+    good = good && got == 0 && fflush(copy) == 0 && lseek(fileno(copy), 0, SEEK_SET) == 0 &&
+           dup2(fileno(copy), STDIN_FILENO) >= 0;
+    const int error = errno;
+    if (copy) fclose(copy);
+    if (good) return ISO_OK;
+    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '<stdin>': %s", strerror(error));
+}
+
+static bool ends_with(const char *text, const char *end)
+{
+    const size_t length = strlen(text), n = strlen(end);
+    return length > n && strcmp(text + length - n, end) == 0;
+}
+
+/* The first bytes of the file; "" where it cannot be read, which the reader will say. */
+static void read_beginning(const char *path, char *text, size_t size)
+{
+    const bool standard = strcmp(path, "-") == 0;
+    struct stat about;
+    const bool regular =
+        standard || (stat(path, &about) == 0 && S_ISREG(about.st_mode)); /* of a pipe nothing is taken */
+    const int file = standard ? STDIN_FILENO : regular ? open(path, O_RDONLY | O_CLOEXEC) : -1;
+    const ssize_t got = file >= 0 ? pread(file, text, size - 1, 0) : 0;
+    text[got > 0 ? got : 0] = '\0';
+    if (file >= 0 && !standard) close(file);
+}
+
+/* isoroll's own files say what they are. Of others, the ending does, or an option that is for trajectories. */
+static file_kind kind_of(const file_options *from)
+{
+    static const char *const endings[] = {".h5", ".csv", ".txt", ".dat", ".tsv"};
+    char text[64];
+    read_beginning(from->file, text, sizeof text);
+    if (strncmp(text, "# isoroll section ", 18) == 0) return SECTION;
+    if (ends_with(from->file, ".h5") && view_section_is_hdf5(from->file)) return SECTION;
+    if (strncmp(text, "# isoroll trajectory ", 21) == 0) return TRAJECTORY;
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
+        if (ends_with(from->file, endings[i])) return TRAJECTORY;
+    const bool told = from->columns || from->scene || !isnan(from->k) || !isnan(from->J[0]);
+    return told ? TRAJECTORY : SCENE;
+}
+
+/* The file with the folder it is in: many scenes are called scene.yaml. */
+static const char *short_name(const char *path)
+{
+    const char *at = path + strlen(path);
+    for (int slashes = 0; at > path && (slashes += at[-1] == '/') < 2; at--) {
+    }
+    return at;
+}
+
+/* --- the page --------------------------------------------------------------------------------------------------- */
+
+static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
+{
+    iso_scene scene = {.places = 0};
+    iso_status status = iso_scene_read(ctx, o->from.file, &scene);
+    const char *name = strcmp(o->from.file, "-") == 0 ? "<stdin>" : o->from.file;
+    if (status == ISO_OK) status = iso_scene_check_times(ctx, &scene);
+    if (status == ISO_OK) status = view_of_scene(ctx, &scene, page);
+    return iso_scene_blame(ctx, &scene, name, status);
+}
+
+static iso_status make(iso_context *ctx, const options *o, file_kind kind, view_page *page)
+{
+    iso_status status = kind == SECTION      ? view_of_section(ctx, &o->from, page)
+                        : kind == TRAJECTORY ? view_of_trajectory(ctx, &o->from, page)
+                                             : of_scene(ctx, o, page);
+    if (status == ISO_OK && page->rows) status = view_numbers(ctx, page);
+    if (status == ISO_OK && o->output) status = view_write(ctx, o->output, page);
+    if (status == ISO_OK && o->frames.folder) status = view_write_frames(ctx, &o->frames, page);
+    return status;
+}
+
+static int run(iso_context *ctx, const void *options_given)
+{
+    static const char *const names[] = {"scene", "trajectory", "section"};
+    const options *o = options_given;
+    if (!o->output && !o->frames.folder)
+        return complain("view: -o FILE is missing: name the page, such as page.html; - is standard output"),
+               EXIT_USAGE;
+    const bool standard = strcmp(o->from.file, "-") == 0;
+    iso_status status = view_check_build(ctx);
+    if (status == ISO_OK && standard) status = make_seekable(ctx);
+    if (status != ISO_OK) return finish(ctx, status);
+    const file_kind kind = kind_of(&o->from);
+    view_page page = view_page_empty(standard ? "<stdin>" : short_name(o->from.file), names[kind]);
+    stop_gently();
+    iso_context_set_monitor(ctx, not_interrupted, NULL);
+    status = make(ctx, o, kind, &page);
+    iso_context_set_monitor(ctx, NULL, NULL);
+    view_page_free(&page);
+    return finish(ctx, status);
+}
+
+static const options defaults = {.from = FILE_OPTIONS_UNSET, .frames = {.fps = 25, .seconds = 10}};
+
+static const option_row rows[] = {
+    ROW_OF_FILE("output", "FILE", "a file", "the page; - is standard output", set_text, options, output, 'o',
+                OPTION_WRITES),
+    ROW("frames", "DIR", "a folder", "draw the motion as pictures DIR/frame0001.png, ... (needs Chromium)", set_text,
+        options, frames.folder),
+    ROW("fps", "N", "a positive number", "pictures for each second (default 25)", set_positive, options, frames.fps),
+    ROW("seconds", "N", "a positive number", "seconds that the whole motion takes in pictures (default 10)",
+        set_positive, options, frames.seconds),
+    ROWS_OF_FILE(options, from),
+    ROW_END,
+};
+
+const command command_view = {
+    .name = "view",
+    .argument = "FILE",
+    .doc = "make a page in which ball and point move side by side",
+    .rows = rows,
+    .defaults = &defaults,
+    .size = sizeof defaults,
+    .file = offsetof(options, from.file),
+    .description =
+        "FILE is a scene, or a trajectory or section (CSV or HDF5). The page is one file. It opens from disk in "
+        "any browser with WebGL, and loads nothing from anywhere.\n\n"
+        "Left, the ball rolls on its plane or sphere; right, the point moves in its potential. Choose which clock "
+        "runs evenly, t, tau or s: the other model then hurries and waits. Of a scene each model is integrated by "
+        "itself, and the page tells how far they differ. What a trajectory lacks (clocks, how the ball stands) is "
+        "computed from row to row. Of a section choose a crossing: its orbit runs.\n\n"
+        "More than 5000 rows are thinned out, and the page says so. A scene with few rows gets more between them.",
+    .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html",
+    .run = run,
+};

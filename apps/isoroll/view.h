@@ -1,0 +1,112 @@
+/* view.h - the page of `isoroll view`: what it is made of, and who makes its parts.
+ *
+ *     view_scene.c       a scene: both models, each integrated by itself
+ *     view_trajectory.c  a trajectory file: what it lacks is computed from row to row
+ *     view_section.c     a section file: its crossings, and the first part of each of its orbits
+ *     view_numbers.c     integrals along the rows
+ *     view_write.c       the page: data as JSON, numbers as base64, and the files of view/
+ *     view_frames.c      pictures of the page, drawn by Chromium
+ */
+#ifndef ISOROLL_VIEW_H
+#define ISOROLL_VIEW_H
+
+#include "isoroll.h"
+#include "parameters.h"
+
+/* Bounds that keep a page of the examples below 3 MB. A number takes 10.7 bytes. */
+enum {
+    VIEW_MOST_ROWS = 5000,      /* of the orbit that is played; more are thinned out, and the page says so   */
+    VIEW_MOST_CROSSINGS = 20000 /* of a section                                                             */
+};
+#define VIEW_MOST_NUMBERS 140000.0 /* of all orbits of a section */
+
+/* The largest turn of the ball, of n or of gamma between two rows, in radians. Cubic curves through such rows are
+ * right to 1e-6. */
+#define VIEW_TURN 0.1
+
+enum { VIEW_NOTES = 8, VIEW_WORDS = 512 };
+
+typedef struct view_integral {
+    const iso_integral *integral;
+    iso_model_kind model;
+    double start, worst; /* value at the start in the caller's units; largest drift */
+} view_integral;
+
+typedef struct view_section {
+    int axis;
+    iso_record *crossings; /* orbit, l, x: those that are drawn                 */
+    size_t total, orbits;  /* crossings and orbits of the file                  */
+    iso_record **orbit;    /* the orbits that can be run; rows as in view_page  */
+    size_t *number;        /* of the file, of each of them                      */
+    size_t count;
+} view_section;
+
+typedef struct view_page {
+    const char *title; /* the name of the file */
+    const char *kind;  /* "scene", "trajectory" or "section" */
+    iso_params params;
+    iso_effects effects;
+    double eps, h;          /* NAN: not known                                              */
+    iso_clock clock;        /* the one that runs evenly at first                           */
+    char alone[VIEW_WORDS]; /* why the ball has no point; "": it has one                   */
+    char note[VIEW_NOTES][VIEW_WORDS];
+    int notes;
+    iso_record *rows;    /* by columns of iso_column_name, in the order of their times  */
+    size_t total, every; /* rows of the file or scene; each `every`-th of them is here  */
+    size_t between;      /* rows put between two of the scene's                         */
+    iso_record *drifts;  /* a column for each integral, rows as above; NULL: none       */
+    iso_record *apart;   /* n and gamma by the point's own equations; NULL: none        */
+    view_integral integral[2 * ISO_MAX_INTEGRALS];
+    int integrals;
+    view_section *section; /* NULL: none */
+} view_page;
+
+view_page view_page_empty(const char *title, const char *kind);
+void view_page_free(view_page *page);
+
+/* One more line that the page shows. */
+void view_note(view_page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* --- parts ------------------------------------------------------------------------------------------------------ */
+
+/* The orbit of a scene. Errors: those of iso_run. */
+iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *page);
+
+/* A trajectory file. Errors: ISO_BAD_INPUT names the missing column or the row; those of the library. */
+iso_status view_of_trajectory(iso_context *ctx, const file_options *from, view_page *page);
+
+/* A section file, CSV. Errors: likewise. */
+iso_status view_of_section(iso_context *ctx, const file_options *from, view_page *page);
+
+/* Adds to `rows`, which have a clock and the states of one model, the columns they lack: the other model (not where
+ * page->alone says why there is none), the clocks, q, contact and centre. params, effects and alone are read. */
+iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **complete);
+
+/* The integrals that hold for page->rows, and their drifts. */
+iso_status view_numbers(iso_context *ctx, view_page *page);
+
+/* --- records ---------------------------------------------------------------------------------------------------- */
+
+/* A new record with the same lines and other columns. */
+iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t columns, const char *const names[],
+                            iso_record **made);
+
+/* Three numbers of a row by the name of the first of adjacent columns; NULL: there is no such column. */
+const double *view_vector(const iso_record *r, size_t row, const char *name);
+
+/* --- output ----------------------------------------------------------------------------------------------------- */
+
+/* Whether this build has what a page needs. Errors: ISO_BAD_ARGUMENT: it was built without three.js. */
+iso_status view_check_build(iso_context *ctx);
+
+/* Errors: ISO_FILE_TROUBLE, ISO_CLOSED_PIPE, ISO_NO_MEMORY. */
+iso_status view_write(iso_context *ctx, const char *path, const view_page *page);
+
+/* Frames as PNG in a folder, which is made if it is not there. Errors: ISO_FILE_TROUBLE. */
+typedef struct view_frames {
+    const char *folder;
+    double fps, seconds;
+} view_frames;
+iso_status view_write_frames(iso_context *ctx, const view_frames *frames, const view_page *page);
+
+#endif

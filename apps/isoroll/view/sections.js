@@ -1,0 +1,272 @@
+// sections.js - both Poincare sections as plots, from the chart (l, x) that they share.
+//
+// For axis a, with b and c after it: gamma = (cos l, -sin l) in the axes b, c. The ball's coordinates are the angle
+// of n in them and omega_a/|omega|; the point's are l and L = G(l) x, G^2 = 2 eps q^(-1/k).
+
+const sections = !page.section
+  ? null
+  : (() => {
+      const { J, k } = body,
+        a = page.section.axis,
+        b = (a + 1) % 3,
+        c = (a + 2) % 3;
+      const column = {
+        orbit: page.section.counts.flatMap(([number, count]) => Array(count).fill(number)),
+        l: decoded(page.section.crossings.l),
+        x: decoded(page.section.crossings.x),
+      };
+      const free = page.eps > 0 && !Object.keys(page.effects).some((name) => name !== "level" && name !== "clock");
+      const palette = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#999933", "#7d6b9e"];
+      const G = (l) =>
+        free ? Math.sqrt(2 * page.eps) * (J[b] * Math.cos(l) ** 2 + J[c] * Math.sin(l) ** 2) ** (-1 / (2 * k)) : 1;
+      const ofBall = (l, x) => {
+        const across = Math.sqrt((1 - x) * (1 + x)),
+          omega = [
+            (Math.sign(k) * across * Math.sin(l)) / Math.sqrt(J[b]),
+            (Math.sign(k) * across * Math.cos(l)) / Math.sqrt(J[c]),
+            (Math.sign(k) * x) / Math.sqrt(J[a]),
+          ];
+        return [
+          Math.atan2(Math.sqrt(J[c]) * Math.sin(l), Math.sqrt(J[b]) * Math.cos(l)),
+          omega[2] / Math.hypot(...omega),
+        ];
+      };
+      const ofPoint = (l, x) => [l, G(l) * x];
+      const top = Math.max(...Array.from({ length: 361 }, (_, i) => G((i * Math.PI) / 180)));
+      const plots = [
+        {
+          canvas: document.getElementById("section-ball"),
+          place: ofBall,
+          top: 1,
+          across: "angle of n",
+          up: `ω${"₁₂₃"[a]}/|ω|`,
+          edge: () => 1,
+        },
+        {
+          canvas: document.getElementById("section-point"),
+          place: ofPoint,
+          top,
+          across: "angle of γ",
+          up: free ? `L = M${"₁₂₃"[a]}` : `x = M${"₁₂₃"[a]}/|M|`,
+          edge: G,
+        },
+      ];
+      const dots = plots.map((plot) => Array.from(column.l, (l, i) => plot.place(l, column.x[i])));
+      const runnable = new Map(page.section.list.map((one, i) => [one.number, i]));
+      let chosen = page.section.list.length ? page.section.list[0].number : -1,
+        hovered = -1,
+        crossings = [];
+
+      const frameOf = (plot) => {
+        const box = plot.canvas.getBoundingClientRect();
+        return {
+          x: (v) => 46 + ((v + Math.PI) / (2 * Math.PI)) * (box.width - 58),
+          y: (v) => 12 + ((1 - v / (plot.top * 1.04)) / 2) * (box.height - 50),
+        };
+      };
+
+      function axes(g, plot, { x, y }, width, height) {
+        const style = getComputedStyle(document.body);
+        g.strokeStyle = style.getPropertyValue("--rule");
+        g.fillStyle = style.getPropertyValue("--quiet");
+        g.textAlign = "center";
+        for (const [v, text] of [
+          [-Math.PI, "−π"],
+          [-Math.PI / 2, "−π/2"],
+          [0, "0"],
+          [Math.PI / 2, "π/2"],
+          [Math.PI, "π"],
+        ]) {
+          g.beginPath();
+          g.moveTo(x(v), y(-plot.top * 1.04));
+          g.lineTo(x(v), y(-plot.top * 1.04) + 4);
+          g.stroke();
+          g.fillText(text, x(v), y(-plot.top * 1.04) + 17);
+        }
+        g.fillText(plot.across, x(0) + (x(Math.PI) - x(0)) / 4, height - 6);
+        g.textAlign = "right";
+        for (const v of [-1, -0.5, 0, 0.5, 1]) {
+          g.beginPath();
+          g.moveTo(x(-Math.PI) - 4, y(v * plot.top));
+          g.lineTo(x(-Math.PI), y(v * plot.top));
+          g.stroke();
+          g.fillText(String(+(v * plot.top).toPrecision(2)).replace("-", "−"), x(-Math.PI) - 7, y(v * plot.top) + 4);
+        }
+        g.save();
+        g.translate(11, y(0) - 40);
+        g.rotate(-Math.PI / 2);
+        g.textAlign = "center";
+        g.fillText(plot.up, -0, 0);
+        g.restore();
+        g.beginPath();
+        for (const sign of [1, -1])
+          for (let i = 0; i <= 240; i++) {
+            const l = sign * Math.PI * ((2 * i) / 240 - 1);
+            g.lineTo(x(l), y(sign * plot.edge(l)));
+          }
+        g.closePath();
+        g.stroke();
+      }
+
+      // All dots, once for each size and theme.
+      function background(plot, i, width, height) {
+        const key = [width, height, isDark(), devicePixelRatio].join();
+        if (plot.key === key) return plot.image;
+        const scale = Math.min(devicePixelRatio, 2),
+          image = document.createElement("canvas"),
+          g = image.getContext("2d");
+        image.width = width * scale;
+        image.height = height * scale;
+        g.scale(scale, scale);
+        g.font = "12px system-ui, sans-serif";
+        const frame = frameOf(plot),
+          size = Math.max(1, Math.min(2.4, 200 / Math.sqrt(dots[i].length)));
+        axes(g, plot, frame, width, height);
+        g.globalAlpha = 0.75;
+        dots[i].forEach(([right, up], j) => {
+          g.fillStyle = palette[column.orbit[j] % palette.length];
+          g.fillRect(frame.x(right) - size / 2, frame.y(up) - size / 2, size, size);
+        });
+        Object.assign(plot, { key, image });
+        return image;
+      }
+
+      function highlight(g, frame, i, orbit, colour, size) {
+        g.fillStyle = colour;
+        dots[i].forEach(([right, up], j) => {
+          if (column.orbit[j] !== orbit) return;
+          g.beginPath();
+          g.arc(frame.x(right), frame.y(up), size, 0, 7);
+          g.fill();
+        });
+      }
+
+      // The last crossing before the present, as a ring that shrinks.
+      function live(g, plot, frame, now) {
+        const passed = crossings.filter((one) => one.t <= now.t);
+        passed.slice(-12).forEach((one, j, list) => {
+          const [right, up] = plot.place(one.l, one.x),
+            last = j === list.length - 1;
+          g.strokeStyle = colours.curve;
+          g.globalAlpha = 0.25 + (0.75 * (j + 1)) / list.length;
+          g.lineWidth = last ? 2.5 : 1.2;
+          g.beginPath();
+          g.arc(frame.x(right), frame.y(up), last ? 8 : 5, 0, 7);
+          g.stroke();
+        });
+        g.globalAlpha = 1;
+      }
+
+      const nearest = (i, e) => {
+        const box = plots[i].canvas.getBoundingClientRect(),
+          frame = frameOf(plots[i]);
+        let best = -1,
+          least = 18 ** 2;
+        dots[i].forEach(([right, up], j) => {
+          const d = (frame.x(right) - e.clientX + box.left) ** 2 + (frame.y(up) - e.clientY + box.top) ** 2;
+          if (d < least && runnable.has(column.orbit[j])) {
+            least = d;
+            best = j;
+          }
+        });
+        return best < 0 ? -1 : column.orbit[best];
+      };
+
+      const api = {
+        orbits: page.section.list.map((one) => one.number),
+        get chosen() {
+          return chosen;
+        },
+        // Where a dot of an orbit is drawn, far from the dots of others; for tests.
+        alone(i, number) {
+          const frame = frameOf(plots[i]),
+            box = plots[i].canvas.getBoundingClientRect();
+          const spots = dots[i].map(([right, up]) => [box.left + frame.x(right), box.top + frame.y(up)]);
+          let best = null,
+            most = -1;
+          spots.forEach((spot, j) => {
+            if (column.orbit[j] !== number) return;
+            const room = Math.min(
+              ...spots.map((other, m) =>
+                column.orbit[m] === number ? Infinity : Math.hypot(other[0] - spot[0], other[1] - spot[1]),
+              ),
+            );
+            if (room > most) {
+              most = room;
+              best = spot;
+            }
+          });
+          return best;
+        },
+        choose(number) {
+          if (!runnable.has(number)) return;
+          chosen = number;
+          document.getElementById("orbit").value = String(number);
+          controls.setOrbit(orbitOf(page.section.list[runnable.get(number)]));
+        },
+        // The crossings n_a = 0, n_a growing, of the orbit that runs.
+        setOrbit(orbit) {
+          crossings = [];
+          const sign = (i) => orbit.n[i][a];
+          for (let i = 0; i + 1 < orbit.count; i++) {
+            if (!(sign(i) < 0 && sign(i + 1) >= 0) && !(i === 0 && Math.abs(sign(0)) < 1e-9)) continue;
+            let low = 0,
+              high = i === 0 && Math.abs(sign(0)) < 1e-9 ? 0 : 1;
+            for (let step = 0; step < 50 && high > low; step++) {
+              const middle = (low + high) / 2;
+              if (motion.inside(orbit, i, middle).n[a] < 0) low = middle;
+              else high = middle;
+            }
+            const now = motion.inside(orbit, i, high),
+              root = J.map(Math.sqrt);
+            const gamma = now.n.map((v, j) => v / root[j]),
+              M = now.omega.map((v, j) => Math.sign(k) * v * root[j]);
+            crossings.push({ t: now.t, l: Math.atan2(-gamma[c], gamma[b]), x: M[a] / Math.hypot(...M) });
+          }
+          document.getElementById("orbit-words").textContent =
+            `The rings: where it crosses while it runs here, ${crossings.length} times of many.`;
+        },
+        crossings: () => crossings,
+        draw(now) {
+          plots.forEach((plot, i) => {
+            const { g, width, height } = sheet(plot.canvas),
+              frame = frameOf(plot);
+            g.drawImage(background(plot, i, width, height), 0, 0, width, height);
+            if (hovered >= 0 && hovered !== chosen) highlight(g, frame, i, hovered, theme().text, 2);
+            highlight(g, frame, i, chosen, colours.curve, 2.2);
+            live(g, plot, frame, now);
+          });
+        },
+      };
+
+      plots.forEach((plot, i) => {
+        plot.canvas.addEventListener("pointermove", (e) => {
+          hovered = nearest(i, e);
+          controls.changed();
+        });
+        plot.canvas.addEventListener("pointerleave", () => {
+          hovered = -1;
+          controls.changed();
+        });
+        plot.canvas.addEventListener("click", (e) => {
+          const number = nearest(i, e);
+          if (number >= 0) api.choose(number);
+        });
+        plot.canvas.addEventListener("keydown", (e) => {
+          const by = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[e.key];
+          if (!by) return;
+          const count = api.orbits.length,
+            at = api.orbits.indexOf(chosen);
+          api.choose(api.orbits[(at + by + count) % count]);
+          e.preventDefault();
+          e.stopPropagation();
+        });
+      });
+      const select = document.getElementById("orbit");
+      for (const number of api.orbits) select.append(new Option(String(number), String(number)));
+      select.addEventListener("change", () => api.choose(Number(select.value)));
+      document.getElementById("sections").hidden = false;
+      document.body.classList.add("with-sections");
+      document.getElementById("section-name").textContent = `n${"₁₂₃"[a]} = 0`;
+      return api;
+    })();

@@ -1,0 +1,57 @@
+/* view_page.c - what the parts of `isoroll view` share: the page's struct, and records with other columns. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include "view.h"
+
+view_page view_page_empty(const char *title, const char *kind)
+{
+    return (view_page){.title = title, .kind = kind, .eps = NAN, .h = NAN, .every = 1};
+}
+
+static void free_section(view_section *s)
+{
+    if (!s) return;
+    for (size_t i = 0; i < s->count; i++) iso_record_free(s->orbit[i]);
+    iso_record_free(s->crossings);
+    free(s->orbit);
+    free(s->number);
+    free(s);
+}
+
+void view_page_free(view_page *page)
+{
+    iso_record_free(page->rows);
+    iso_record_free(page->drifts);
+    iso_record_free(page->apart);
+    free_section(page->section);
+}
+
+void view_note(view_page *page, const char *format, ...)
+{
+    va_list arguments;
+    if (page->notes == VIEW_NOTES) return;
+    va_start(arguments, format);
+    vsnprintf(page->note[page->notes++], VIEW_WORDS, format, arguments);
+    va_end(arguments);
+}
+
+iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t columns, const char *const names[],
+                            iso_record **made)
+{
+    const char *key, *value;
+    iso_status status = iso_record_create(ctx, columns, names, made);
+    if (status != ISO_OK) return status;
+    iso_record_set_row_tolerance(*made, iso_record_row_tolerance(r));
+    for (size_t i = 0; status == ISO_OK && iso_record_line(r, i, &key, &value); i++)
+        status = iso_record_set(ctx, *made, key, value);
+    if (status != ISO_OK) iso_record_free(*made), *made = NULL;
+    return status;
+}
+
+const double *view_vector(const iso_record *r, size_t row, const char *name)
+{
+    const int column = iso_record_find(r, name);
+    return column < 0 ? NULL : iso_record_const_row(r, row) + column;
+}

@@ -1,0 +1,201 @@
+/* view_scene.c - a scene for the page: the ball's orbit by its own equations, the point's by its own (see view.h). */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene_options.h"
+#include "view.h"
+
+/* Rows of a run. */
+typedef struct collector {
+    iso_context *ctx;
+    view_page *page; /* NULL: notes are not wanted */
+    iso_record *rows;
+} collector;
+
+static iso_status keep_header(void *data, const iso_record *header)
+{
+    collector *c = data;
+    const char *names[ISO_MAX_COLUMNS];
+    for (size_t i = 0; i < iso_record_columns(header); i++) names[i] = iso_record_name(header, i);
+    return view_record_like(c->ctx, header, iso_record_columns(header), names, &c->rows);
+}
+
+static iso_status keep_row(void *data, const double row[], size_t count)
+{
+    collector *c = data;
+    double *to;
+    const iso_status status = iso_record_append(c->ctx, c->rows, &to);
+    if (status == ISO_OK) memcpy(to, row, count * sizeof *row);
+    return status;
+}
+
+static void show_progress(void *data, double part)
+{
+    (void)data;
+    progress_show(part);
+}
+
+static void keep_note(void *data, iso_run_note note, const char *words)
+{
+    collector *c = data;
+    (void)note;
+    if (c->page) view_note(c->page, "%s", words);
+}
+
+/* Runs a scene at the given times (count 0: the scene's own) into a new record. */
+static iso_status run_at(iso_context *ctx, const iso_scene *scene, const double times[], size_t count,
+                         view_page *page, iso_record **rows)
+{
+    collector c = {ctx, page, NULL};
+    const iso_run_sink sink = {
+        .header = keep_header, .row = keep_row, .note = keep_note, .progress = show_progress, .data = &c};
+    iso_run_options how = iso_run_defaults();
+    iso_run_result result;
+    how.times = count > 0 ? times : NULL;
+    how.count = count;
+    const iso_status status = iso_run(ctx, scene, &how, &sink, &result);
+    *rows = c.rows;
+    if (status == ISO_OK) return status;
+    iso_record_free(c.rows);
+    *rows = NULL;
+    return status;
+}
+
+/* --- columns ---------------------------------------------------------------------------------------------------- */
+
+/* All columns whose effect acts, of both models or of the ball alone. */
+static void choose_columns(iso_scene *scene, bool twin)
+{
+    scene->columns = 0;
+    for (int c = 0; c < iso_columns_count() && scene->columns < ISO_MAX_COLUMNS; c++) {
+        const bool of_twin =
+            c == ISO_CLOCK_TAU || c == ISO_CLOCK_S || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
+        iso_effect_id effect = ISO_EFFECTS;
+        if (c >= ISO_COLUMN_EFFECTS) iso_effect_column_name(c - ISO_COLUMN_EFFECTS, &effect, NULL, NULL);
+        if ((of_twin && !twin) || (effect != ISO_EFFECTS && !scene->effects.on[effect])) continue;
+        if (effect == ISO_ATTITUDE && strncmp(iso_column_name(c), "trace", 5) == 0) continue; /* -b n */
+        snprintf(scene->column[scene->columns++], ISO_NAME_SIZE, "%s", iso_column_name(c));
+    }
+}
+
+/* The largest turn of the ball, of n or of gamma from one row to the next. */
+static double largest_turn(const iso_record *r, double k)
+{
+    const int t = iso_record_find(r, "t");
+    double most = 0;
+    for (size_t i = 1; i < iso_record_rows(r); i++) {
+        const double *omega = view_vector(r, i, "omega1"), *before = view_vector(r, i - 1, "gamma1"),
+                     *now = view_vector(r, i, "gamma1");
+        const double dt = fabs(iso_record_const_row(r, i)[t] - iso_record_const_row(r, i - 1)[t]);
+        const double turn = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]) * dt;
+        most = fmax(most, turn * fmax(1, fabs(k)));
+        if (now) most = fmax(most, hypot(hypot(now[0] - before[0], now[1] - before[1]), now[2] - before[2]));
+    }
+    return most;
+}
+
+/* --- times ------------------------------------------------------------------------------------------------------ */
+
+/* The times of the page: the scene's rows, or each `every`-th of them and the last, or `between` more after each. In
+ * increasing order. */
+static double *times_of(const iso_scene *scene, const view_page *page, size_t *count)
+{
+    const size_t rows = iso_scene_rows(scene), pieces = page->between + 1;
+    const size_t steps = (rows - 1 + page->every - 1) / page->every;
+    double *times = malloc((steps * pieces + 1) * sizeof *times);
+    if (!times) return NULL;
+    *count = 0;
+    for (size_t i = 0; i < steps; i++) {
+        const double from = iso_scene_time(scene, i * page->every);
+        const size_t last = (i + 1) * page->every < rows - 1 ? (i + 1) * page->every : rows - 1;
+        const double step = (iso_scene_time(scene, last) - from) / (double)pieces;
+        for (size_t j = 0; j < pieces; j++) times[(*count)++] = from + (double)j * step;
+    }
+    times[(*count)++] = iso_scene_time(scene, rows - 1);
+    for (size_t i = 0, j = *count - 1; scene->end < 0 && i < j; i++, j--) {
+        const double swapped = times[i];
+        times[i] = times[j];
+        times[j] = swapped;
+    }
+    return times;
+}
+
+/* Runs the scene as its file says, and chooses how many of its rows the page has. */
+static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_page *page)
+{
+    iso_record *rough;
+    page->total = iso_scene_rows(scene);
+    if (page->total < 2)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "end", "a page needs motion: the last time is 0");
+    page->every = (page->total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
+    if (page->every < 1) page->every = 1;
+    page->between = 0;
+    if (page->every > 1 || page->total < 2) return ISO_OK;
+    const iso_status status = run_at(ctx, scene, NULL, 0, NULL, &rough);
+    if (status != ISO_OK) return status;
+    const double pieces = ceil(largest_turn(rough, scene->params.k) / VIEW_TURN);
+    const double most = floor((double)(VIEW_MOST_ROWS - 1) / (double)(page->total - 1));
+    page->between = (size_t)fmax(fmin(pieces, most), 1) - 1;
+    iso_record_free(rough);
+    return ISO_OK;
+}
+
+/* --- the two models --------------------------------------------------------------------------------------------- */
+
+/* The ball by its own equations, with its attitude, and the point that belongs to it. */
+static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *page, double **times, size_t *count)
+{
+    iso_scene scene = *asked;
+    iso_status status = iso_effects_set(ctx, &scene.effects, "attitude", NULL, 0, NULL);
+    scene.backend = ISO_BACKEND_BALL;
+    scene.as = ISO_SHOW_BOTH;
+    choose_columns(&scene, true);
+    if (status == ISO_OK) status = choose_rows(ctx, &scene, page);
+    if (status == ISO_NOT_MAPPED && scene.start.model == ISO_BALL) {
+        snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
+        scene.as = ISO_SHOW_BALL;
+        choose_columns(&scene, false);
+        status = choose_rows(ctx, &scene, page);
+    }
+    if (status != ISO_OK) return status;
+    *times = times_of(&scene, page, count);
+    if (!*times) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the times");
+    return run_at(ctx, &scene, *times, *count, page, &page->rows);
+}
+
+/* The same orbit by the point's own equations: n and gamma. */
+static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page *page, const double times[],
+                            size_t count)
+{
+    static const char *const names[] = {"n1", "n2", "n3", "gamma1", "gamma2", "gamma3"};
+    iso_scene scene = *asked;
+    scene.backend = ISO_BACKEND_POINT;
+    scene.as = ISO_SHOW_BOTH;
+    snprintf(scene.method, sizeof scene.method, "auto");
+    scene.effects = iso_effects_acting(&asked->effects);
+    scene.columns = sizeof names / sizeof *names;
+    for (size_t i = 0; i < scene.columns; i++) snprintf(scene.column[i], ISO_NAME_SIZE, "%s", names[i]);
+    const iso_status status = run_at(ctx, &scene, times, count, NULL, &page->apart);
+    if (status == ISO_OK || status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
+    view_note(page, "The point was not integrated by itself: %s. It is the ball, carried across.",
+              iso_context_message(ctx));
+    return ISO_OK;
+}
+
+iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *page)
+{
+    double *times = NULL;
+    size_t count;
+    page->params = scene->params;
+    page->clock = scene->start.model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
+    iso_status status = run_ball(ctx, scene, page, &times, &count);
+    if (status == ISO_OK) status = iso_record_effects(ctx, page->rows, &page->effects);
+    if (status == ISO_OK && !*page->alone) {
+        iso_record_get_numbers(ctx, page->rows, "h", 1, &page->h, &status);
+        iso_record_get_numbers(ctx, page->rows, "eps", 1, &page->eps, &status);
+        status = run_point(ctx, scene, page, times, count);
+    }
+    free(times);
+    return status;
+}

@@ -1,0 +1,232 @@
+/* view_section.c - a section file for the page: its crossings, and the first part of each orbit (see view.h).
+ *
+ * An orbit is computed from its first crossing in the file: from the states of that row, or from (l, x), which
+ * determine a free orbit (map/section.h).
+ */
+#include "view_section.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "map/section.h"
+#include "map/state.h"
+
+enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 13 /* of a row: t tau s, M, gamma, q */ };
+/* The turn of the ball, n or gamma from row to row, about: of few orbits each has more and closer rows. */
+#define ORBIT_TURN 0.15
+#define LONG_ORBIT_TURN 0.3
+
+typedef struct builder {
+    iso_context *ctx;
+    view_page *page;
+    const iso_record *in;
+    iso_model_kind model; /* of the states in the rows           */
+    bool states;          /* the rows have states                */
+    int orbit, l, x;      /* columns                             */
+    size_t rows;          /* of each orbit                       */
+} builder;
+
+/* --- what the file must have ------------------------------------------------------------------------------------ */
+
+static iso_status check(builder *b)
+{
+    const iso_record *r = b->in;
+    int columns[ISO_STATE];
+    const char *axis = iso_record_get(r, "axis");
+    const bool ball = iso_record_find_all(r, ISO_STATE, iso_system_ball.state, columns, NULL);
+    b->states = ball || iso_record_find_all(r, ISO_STATE, iso_system_point.state, columns, NULL);
+    b->model = ball ? ISO_BALL : ISO_POINT;
+    b->orbit = iso_record_find(r, "orbit");
+    b->l = iso_record_find(r, "l");
+    b->x = iso_record_find(r, "x");
+    if (b->orbit < 0) return iso_context_fail(b->ctx, ISO_BAD_INPUT, "", "there is no column 'orbit'");
+    if (b->l < 0 || b->x < 0)
+        return iso_context_fail(b->ctx, ISO_BAD_INPUT, "",
+                                "there are no columns 'l' and 'x': a page draws sections n_A = 0; write the file "
+                                "with 'isoroll section --axis A', without --event");
+    if (!axis || axis[0] < '1' || axis[0] > '3' || axis[1])
+        return iso_context_fail(b->ctx, ISO_BAD_INPUT, "", "there is no line '# axis: 1', 2 or 3");
+    b->page->section->axis = axis[0] - '1';
+    if (!b->states && (iso_record_get(r, "effects") || isnan(b->page->eps)))
+        return iso_context_fail(b->ctx, ISO_BAD_INPUT, "",
+                                "l and x do not determine these orbits (there are effects, or no line '# eps'): "
+                                "write the file with the states, by 'isoroll section --as ball'");
+    return ISO_OK;
+}
+
+/* --- crossings -------------------------------------------------------------------------------------------------- */
+
+static size_t orbit_of(const builder *b, size_t row)
+{
+    return (size_t)iso_record_const_row(b->in, row)[b->orbit];
+}
+
+static size_t count_orbits(const builder *b)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < iso_record_rows(b->in); i++) count += i == 0 || orbit_of(b, i) != orbit_of(b, i - 1);
+    return count;
+}
+
+/* The first crossings of each orbit, as many as there is room for. */
+static iso_status keep_crossings(builder *b)
+{
+    view_section *s = b->page->section;
+    const size_t each = VIEW_MOST_CROSSINGS / s->orbits > 0 ? VIEW_MOST_CROSSINGS / s->orbits : 1;
+    iso_status status = iso_record_create(b->ctx, 3, (const char *const[]){"orbit", "l", "x"}, &s->crossings);
+    size_t first = 0, most = 0;
+    double *row;
+    s->total = iso_record_rows(b->in);
+    for (size_t i = 0; status == ISO_OK && i < s->total; i++) {
+        const double *from = iso_record_const_row(b->in, i);
+        if (orbit_of(b, i) != orbit_of(b, first)) first = i;
+        if (i - first + 1 > most) most = i - first + 1;
+        if (i - first >= each) continue;
+        status = iso_record_append(b->ctx, s->crossings, &row);
+        if (status == ISO_OK) row[0] = from[b->orbit], row[1] = from[b->l], row[2] = from[b->x];
+    }
+    if (most > each)
+        view_note(b->page, "Of each orbit the section shows the first %zu of %zu crossings.", each, most);
+    return status;
+}
+
+/* --- orbits ----------------------------------------------------------------------------------------------------- */
+
+static iso_status start_of(const builder *b, size_t row, iso_start *start, iso_effects *effects)
+{
+    const view_page *page = b->page;
+    const double *r = iso_record_const_row(b->in, row);
+    double point[ISO_STATE];
+    if (b->states) return iso_record_start(b->ctx, b->in, &page->params, b->model, row, start, effects);
+    iso_section_point(&page->params, page->eps, page->section->axis, r[b->l], r[b->x], point);
+    return iso_start_point(b->ctx, point, point + 3, &page->eps, true, start);
+}
+
+/* A step of t in which neither the ball, n nor gamma turns by much more than `turn`. */
+static double step_of(const view_page *page, const iso_start *start, double turn)
+{
+    const iso_params *p = &page->params;
+    double ball[ISO_STATE];
+    if (start->model == ISO_POINT)
+        iso_point_to_ball(p, start->y, ball);
+    else
+        memcpy(ball, start->y, sizeof ball);
+    const double speed = sqrt(ball[0] * ball[0] + ball[1] * ball[1] + ball[2] * ball[2]);
+    return turn / (speed * fmax(1, fabs(p->k)));
+}
+
+static iso_status follow(const builder *b, iso_orbit *orbit, double step, iso_record *to)
+{
+    iso_status status = ISO_OK;
+    for (size_t i = 0; status == ISO_OK && i < b->rows; i++) {
+        iso_sample sample;
+        double *row;
+        status = iso_orbit_at(orbit, (double)i * step, &sample);
+        if (status == ISO_OK) status = iso_record_append(b->ctx, to, &row);
+        for (size_t j = 0; status == ISO_OK && j < iso_record_columns(to); j++)
+            row[j] = iso_sample_get(&sample, iso_record_name(to, j));
+        if (status == ISO_OK && iso_record_find(to, "t") == 0) row[0] = (double)i * step;
+    }
+    return status;
+}
+
+/* Columns of an orbit. omega and n follow from M and gamma where there are these. */
+static size_t columns_of(const view_page *page, const char *names[])
+{
+    static const char *const twin[] = {"t", "tau", "s", "M1", "M2", "M3", "gamma1", "gamma2", "gamma3"};
+    static const char *const alone[] = {"t", "omega1", "omega2", "omega3", "n1", "n2", "n3"};
+    static const char *const both[] = {"q0", "q1", "q2", "q3", "contact1", "contact2", "contact3"};
+    const bool has_twin = !*page->alone;
+    size_t count = 0;
+    for (size_t i = 0; i < (has_twin ? 9 : 7); i++) names[count++] = has_twin ? twin[i] : alone[i];
+    for (size_t i = 0; i < (page->params.k == 1 ? 7 : 4); i++) names[count++] = both[i];
+    return count;
+}
+
+static iso_status run_orbit(const builder *b, size_t row, iso_record **to)
+{
+    const char *names[16];
+    iso_start start;
+    iso_orbit *orbit = NULL;
+    iso_effects effects = b->page->effects;
+    iso_status status = start_of(b, row, &start, &effects);
+    if (status == ISO_OK) status = iso_effects_set(b->ctx, &effects, "attitude", NULL, 0, NULL);
+    if (status != ISO_OK) return status;
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    o.effects = &effects;
+    o.backend = ISO_BACKEND_BALL;
+    o.clock = ISO_CLOCK_T;
+    o.shown = *b->page->alone ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
+    for (int i = 0; !*b->page->alone && i < ISO_CLOCKS; i++) o.with_clock[i] = true;
+    status = iso_orbit_create(b->ctx, &b->page->params, &start, &o, &orbit);
+    if (status == ISO_OK) status = iso_record_create(b->ctx, columns_of(b->page, names), names, to);
+    if (status == ISO_OK)
+        status = follow(b, orbit, step_of(b->page, &start, b->rows < 400 ? LONG_ORBIT_TURN : ORBIT_TURN), *to);
+    iso_orbit_free(orbit);
+    return status;
+}
+
+/* As many orbits as there is room for, each long enough to be seen. */
+static iso_status run_orbits(builder *b)
+{
+    view_section *s = b->page->section;
+    const double most = floor(VIEW_MOST_NUMBERS / (ORBIT_NUMBERS * LEAST_ROWS));
+    const size_t wanted = (double)s->orbits < most ? s->orbits : (size_t)most;
+    b->rows = (size_t)fmin(floor(VIEW_MOST_NUMBERS / (ORBIT_NUMBERS * (double)wanted)), MOST_ROWS);
+    s->orbit = calloc(wanted, sizeof *s->orbit);
+    s->number = calloc(wanted, sizeof *s->number);
+    iso_status status = s->orbit && s->number
+                            ? ISO_OK
+                            : iso_context_fail(b->ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", wanted);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(b->in) && s->count < wanted; i++) {
+        if (i > 0 && orbit_of(b, i) == orbit_of(b, i - 1)) continue;
+        s->number[s->count] = orbit_of(b, i);
+        status = run_orbit(b, i, &s->orbit[s->count++]);
+    }
+    if (wanted < s->orbits)
+        view_note(b->page, "The first %zu of %zu orbits can be run in this page.", wanted, s->orbits);
+    return status;
+}
+
+/* --- the page --------------------------------------------------------------------------------------------------- */
+
+static iso_status read_lines(iso_context *ctx, const file_options *from, iso_record *in, view_page *page)
+{
+    iso_status status = parameters_of_file(ctx, from, in, &page->params);
+    if (status == ISO_OK) status = iso_record_effects(ctx, in, &page->effects);
+    if (status != ISO_OK) return status;
+    const iso_effect *breaking = iso_effects_breaking(&page->effects);
+    if (breaking)
+        snprintf(page->alone, sizeof page->alone, "the effect '%s' breaks the isomorphism: %s", breaking->name,
+                 iso_effect_why_broken(breaking));
+    if (!iso_record_get_numbers(ctx, in, "h", 1, &page->h, &status) && status == ISO_OK) page->h = NAN;
+    if (status == ISO_OK && !iso_record_coupling(ctx, in, &page->params, &page->eps, &status) && status == ISO_OK)
+        page->eps = NAN;
+    return status;
+}
+
+static iso_status of_record(iso_context *ctx, const file_options *from, iso_record *in, view_page *page)
+{
+    builder b = {.ctx = ctx, .page = page, .in = in};
+    iso_status status = read_lines(ctx, from, in, page);
+    if (status == ISO_OK) status = check(&b);
+    if (status != ISO_OK) return status;
+    page->section->orbits = count_orbits(&b);
+    status = keep_crossings(&b);
+    if (status == ISO_OK) status = run_orbits(&b);
+    return status;
+}
+
+iso_status view_of_section(iso_context *ctx, const file_options *from, view_page *page)
+{
+    iso_record *in = NULL;
+    page->section = calloc(1, sizeof *page->section);
+    if (!page->section) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a section");
+    iso_status status = view_section_read(ctx, from->file, &in); /* its messages have the name already */
+    if (status != ISO_OK) return status;
+    status = of_record(ctx, from, in, page);
+    if (status != ISO_OK) status = name_the_file(ctx, from->file, status);
+    iso_record_free(in);
+    return status;
+}

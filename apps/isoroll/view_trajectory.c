@@ -1,0 +1,145 @@
+/* view_trajectory.c - a trajectory file for the page: its rows in order, thinned out, and completed (see view.h). */
+#include <math.h>
+#include <string.h>
+
+#include "map/state.h"
+#include "view.h"
+
+/* --- what the file must have ------------------------------------------------------------------------------------ */
+
+static bool has_all(const iso_record *r, const char *const names[], const char **missing)
+{
+    int columns[ISO_STATE];
+    return iso_record_find_all(r, ISO_STATE, names, columns, missing);
+}
+
+static iso_status check_columns(iso_context *ctx, const iso_record *r, iso_clock *clock)
+{
+    const char *ball, *point;
+    const bool is_ball = has_all(r, iso_system_ball.state, &ball),
+               is_point = has_all(r, iso_system_point.state, &point);
+    if (!is_ball && !is_point) {
+        const bool more_ball = iso_record_find(r, "n1") >= 0 || iso_record_find(r, "omega1") >= 0;
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
+                                "there is no column '%s': a page needs omega1 ... n3 of the ball, or M1 ... gamma3 "
+                                "of the point; 'isoroll run SCENE' writes them",
+                                more_ball ? ball : point);
+    }
+    const bool t = iso_record_find(r, "t") >= 0, s = iso_record_find(r, "s") >= 0;
+    if (!t && !s)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "columns",
+                                "there is no column 't' or 's': a page needs the time of each row; 'isoroll run' "
+                                "writes it, or output.columns of the scene asks for it");
+    *clock = t && (is_ball || !s) ? ISO_CLOCK_T : ISO_CLOCK_S;
+    return ISO_OK;
+}
+
+/* --- order and number of rows ----------------------------------------------------------------------------------- */
+
+/* The rows in increasing order of the clock, each time once, each `every`-th and the last. */
+static iso_status pick(iso_context *ctx, const iso_record *in, int time, size_t every, iso_record *out)
+{
+    const size_t rows = iso_record_rows(in);
+    const bool back = iso_record_const_row(in, rows - 1)[time] < iso_record_const_row(in, 0)[time];
+    double last = -INFINITY;
+    for (size_t i = 0; i < rows; i++) {
+        const size_t from = back ? rows - 1 - i : i;
+        const double *row = iso_record_const_row(in, from);
+        double *to;
+        if (row[time] == last) continue;
+        if (row[time] < last)
+            return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                    "row %zu: its %s = %.17g is out of order: a page plays "
+                                    "the rows in the order of their times",
+                                    from + 1, iso_record_name(in, (size_t)time), row[time]);
+        last = row[time];
+        if (i % every != 0 && i != rows - 1) continue;
+        const iso_status status = iso_record_append(ctx, out, &to);
+        if (status != ISO_OK) return status;
+        memcpy(to, row, iso_record_columns(in) * sizeof *row);
+    }
+    return ISO_OK;
+}
+
+static iso_status thin_out(iso_context *ctx, const iso_record *in, view_page *page, iso_record **out)
+{
+    const char *names[ISO_TRAJECTORY_COLUMNS];
+    const int time = iso_record_find(in, iso_clock_name(page->clock));
+    *out = NULL;
+    page->total = iso_record_rows(in);
+    if (page->total < 2)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "a page needs at least two rows, found %zu", page->total);
+    page->every = (page->total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
+    for (size_t i = 0; i < iso_record_columns(in); i++) names[i] = iso_record_name(in, i);
+    iso_status status = view_record_like(ctx, in, iso_record_columns(in), names, out);
+    if (status == ISO_OK) status = pick(ctx, in, time, page->every, *out);
+    if (status == ISO_OK && iso_record_rows(*out) < 2)
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "", "all rows have the same time: nothing moves");
+    return status;
+}
+
+/* --- the page --------------------------------------------------------------------------------------------------- */
+
+/* Whether the ball has a point; if not, page->alone says why. */
+static void find_twin(view_page *page, const iso_record *r)
+{
+    const iso_effect *breaking = iso_effects_breaking(&page->effects);
+    const double *omega = view_vector(r, 0, "omega1");
+    if (breaking)
+        snprintf(page->alone, sizeof page->alone, "the effect '%s' breaks the isomorphism: %s", breaking->name,
+                 iso_effect_why_broken(breaking));
+    else if (omega && omega[0] == 0 && omega[1] == 0 && omega[2] == 0)
+        snprintf(page->alone, sizeof page->alone, "a ball at rest has no point");
+}
+
+/* h and eps of the lines; a line that is absent leaves NAN. */
+static iso_status read_energy(iso_context *ctx, const iso_record *r, view_page *page)
+{
+    iso_status status = ISO_OK;
+    if (!iso_record_get_numbers(ctx, r, "h", 1, &page->h, &status) && status == ISO_OK) page->h = NAN;
+    if (status != ISO_OK) return status;
+    if (!iso_record_coupling(ctx, r, &page->params, &page->eps, &status) && status == ISO_OK) page->eps = NAN;
+    return status;
+}
+
+/* The coupling of a file that does not state it: from its first row, if the ball is free. */
+static void find_energy(view_page *page)
+{
+    double ball[ISO_STATE];
+    const iso_effects acting = iso_effects_acting(&page->effects);
+    if (*page->alone || !isnan(page->eps)) return;
+    for (int e = 0; e < ISO_EFFECTS; e++)
+        if (acting.on[e]) return;
+    for (int i = 0; i < 3; i++) {
+        ball[i] = view_vector(page->rows, 0, "omega1")[i];
+        ball[i + 3] = view_vector(page->rows, 0, "n1")[i];
+    }
+    page->h = iso_ball_energy(&page->params, ball);
+    page->eps = iso_coupling(&page->params, page->h);
+}
+
+static iso_status of_record(iso_context *ctx, const file_options *from, iso_record *in, view_page *page)
+{
+    iso_record *thin = NULL;
+    iso_status status = parameters_of_file(ctx, from, in, &page->params);
+    if (status == ISO_OK) status = check_columns(ctx, in, &page->clock);
+    if (status == ISO_OK) status = iso_record_effects(ctx, in, &page->effects);
+    if (status == ISO_OK) status = read_energy(ctx, in, page);
+    if (status == ISO_OK) status = thin_out(ctx, in, page, &thin);
+    if (status == ISO_OK) find_twin(page, thin);
+    if (status == ISO_OK) status = view_complete(ctx, page, thin, &page->rows);
+    if (status == ISO_OK) find_energy(page);
+    iso_record_free(thin);
+    return status;
+}
+
+iso_status view_of_trajectory(iso_context *ctx, const file_options *from, view_page *page)
+{
+    iso_record *in = NULL;
+    iso_status status = iso_trajectory_read(ctx, from->file, from->columns, &in);
+    if (status == ISO_OK) status = of_record(ctx, from, in, page);
+    if (status != ISO_OK && status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
+        status = name_the_file(ctx, from->file, status);
+    iso_record_free(in);
+    return status;
+}

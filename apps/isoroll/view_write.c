@@ -1,0 +1,85 @@
+/* view_write.c - writes the page: page.html with its style, three.js, the data and our code in their places.
+ *
+ * page.html has lines "@name@". Each is replaced by a file of view/ or by the data. In the data the characters <, >
+ * and & are escaped, so no text of a file can end the script that holds it, or begin another.
+ */
+#include <string.h>
+
+#include "io/output.h"
+#include "json.h"
+#include "view.h"
+#include "view_data.h"
+#include "view_files.h"
+
+iso_status view_check_build(iso_context *ctx)
+{
+    if (view_file_find("three")->length > 0) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                            "this isoroll was built without three.js, which a page needs: install it (package "
+                            "libjs-three) and build again, or set ISO_THREE_JS to three.min.js");
+}
+
+/* Text of JSON as it comes. <, > and & stand only in its strings. */
+static int put_escaped(const char *text, size_t length, void *data)
+{
+    FILE *to = data;
+    for (size_t i = 0; i < length; i++)
+        if (text[i] == '<' || text[i] == '>' || text[i] == '&')
+            fprintf(to, "\\u%04x", (unsigned)text[i]);
+        else
+            fputc(text[i], to);
+    return ferror(to) ? -1 : 0;
+}
+
+/* The line "@name@" at `at`: its name, and true. */
+static bool is_marker(const char *at, size_t length, char name[16])
+{
+    if (length < 3 || length > 16 || at[0] != '@' || at[length - 1] != '@') return false;
+    memcpy(name, at + 1, length - 2);
+    name[length - 2] = '\0';
+    return true;
+}
+
+/* False: there is no memory for it. What cannot be written is seen at the end. */
+static bool put_page(FILE *to, const json_t *data)
+{
+    const view_file *page = view_file_find("page");
+    const char *at = (const char *)page->bytes, *end = at + page->length;
+    char name[16];
+    while (at < end) {
+        const char *stop = memchr(at, '\n', (size_t)(end - at));
+        const size_t length = (size_t)((stop ? stop : end) - at);
+        if (!is_marker(at, length, name)) {
+            fwrite(at, 1, length, to);
+        } else if (strcmp(name, "data") == 0) {
+            if (json_dump_callback(data, put_escaped, to, JSON_COMPACT | JSON_REAL_PRECISION(17)) != 0 && !ferror(to))
+                return false;
+        } else {
+            const view_file *file = view_file_find(name);
+            fwrite(file->bytes, 1, file->length, to);
+        }
+        fputc('\n', to);
+        at += length + 1;
+    }
+    return true;
+}
+
+static iso_status no_memory(iso_context *ctx)
+{
+    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the page");
+}
+
+iso_status view_write(iso_context *ctx, const char *path, const view_page *page)
+{
+    iso_output *out;
+    json_begin();
+    json_t *data = view_data(page);
+    iso_status status = json_whole(data) ? iso_output_open(ctx, path, &out) : no_memory(ctx);
+    if (status == ISO_OK) {
+        status = put_page(iso_output_stream(out), data) ? iso_output_check(ctx, out) : no_memory(ctx);
+        const iso_status closed = iso_output_close(ctx, out, status == ISO_OK);
+        if (status == ISO_OK) status = closed;
+    }
+    json_decref(data);
+    return status;
+}

@@ -1,0 +1,149 @@
+#!/bin/sh
+# view.sh ISOROLL - isoroll view without a browser: sizes, what a page may not contain, messages. view_page.sh has the
+# browser.
+. "$(dirname "$0")/lib.sh"
+scene -1 "1, 2, 5" "0.8, 0.1, -0.6" "0.6, 0, 0.8" 30 0.1 >scene.yaml
+
+# --- a build without three.js refuses
+if "$isoroll" view scene.yaml -o page.html 2>&1 | grep -q "built without three.js"; then
+    refuses 2 "package libjs-three" view scene.yaml -o page.html
+    skip "pages" "isoroll was built without three.js"
+    finish
+    exit
+fi
+
+# --- a page of each kind of input, at most 3 MB
+# bytes FILE
+bytes() {
+    wc -c <"$1"
+}
+run 0 view scene.yaml -o page.html
+silent
+at_most "a page of a scene" "$(bytes page.html)" 3000000
+cp page.html first.html
+run 0 view scene.yaml -o page.html
+check "a page takes the place of an older one, and is the same" cmp page.html first.html
+run 0 view scene.yaml -o -
+check "standard output" cmp out page.html
+"$isoroll" view - -o - <scene.yaml | sed 's/<stdin>/scene.yaml/' >stdin.html
+check "standard input" grep -q '"kind":"scene"' stdin.html
+"$isoroll" run scene.yaml -o ball.csv
+"$isoroll" run scene.yaml --as point -o point.csv
+for file in ball.csv point.csv; do
+    run 0 view $file -o $file.html
+    silent
+    check "$file is a trajectory" grep -q '"kind":"trajectory"' $file.html
+done
+"$isoroll" view - -o - <ball.csv >stdin.html
+check "a trajectory on standard input" grep -q '"kind":"trajectory"' stdin.html
+if "$isoroll" run scene.yaml -o ball.h5 2>/dev/null; then
+    run 0 view ball.h5 -o h5.html
+    check "HDF5" grep -q '"kind":"trajectory"' h5.html
+else
+    skip "HDF5" "this build has none"
+fi
+"$isoroll" section scene.yaml --starts 30 --crossings 300 --quiet -o section.csv
+run 0 view section.csv -o section.html
+check "a section" grep -q '"kind":"section"' section.html
+at_most "a page of a section" "$(bytes section.html)" 3000000
+for file in "$source"/examples/*/scene.yaml; do
+    run 0 view "$file" -o example.html
+    at_most "a page of $file" "$(bytes example.html)" 3000000
+done
+"$isoroll" run scene.yaml --step 0.001 -o many.csv
+run 0 view many.csv -o many.html
+check "rows are thinned out, and the page says so" grep -q '"total":30001,"every":7,' many.html
+at_most "a page of many rows" "$(bytes many.html)" 3000000
+
+# --- nothing is loaded
+policy="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:"
+check "a policy that allows no request" grep -q "content=\"$policy\"" page.html
+check_not "a source elsewhere" grep -Eiq '(src|href|action) *= *"?(https?:|//)|@import|url\((https?:|//)' page.html
+check "the only link" test "$(grep -ci '<link' page.html)" -eq 1
+for code in "$source"/apps/isoroll/view/*.js "$source"/apps/isoroll/view/*.css; do
+    check_not "$code: fetch, XMLHttpRequest, WebSocket, innerHTML, eval" \
+        grep -Eq 'fetch\(|XMLHttpRequest|WebSocket|sendBeacon|innerHTML|outerHTML|insertAdjacent|document\.write|eval\(|https?://' "$code"
+done
+
+# --- hostile names and lines
+hostile='<img src=x onerror=alert(1)>&amp;"'
+sed "1a # title: </script><script>alert(1)</script>" ball.csv >"$hostile.csv"
+run 0 view "$hostile.csv" -o hostile.html
+check_not "a tag of the file's name" grep -q '<img' hostile.html
+check_not "a tag of the file's lines" grep -q 'alert(1)</script' hostile.html
+check "as many scripts end as in another page" \
+    test "$(grep -o '</script' hostile.html | wc -l)" -eq "$(grep -o '</script' page.html | wc -l)"
+check "the name is there, escaped" grep -q 'u003cimg src=x onerror=alert(1)' hostile.html
+name=$(printf 'b\377\303.csv') # no UTF-8
+cp ball.csv "$name"
+run 0 view "$name" -o utf8.html
+check "a name that is no UTF-8" grep -q '"title":"[^"]*b??.csv"' utf8.html
+
+# --- what a file lacks is named
+refuses 2 "view: -o FILE is missing" view scene.yaml
+# without COLUMN...: ball.csv without these columns
+without() {
+    awk -F, -v drop=" $* " '/^#/ { print; next }
+        !n { for (i = 1; i <= NF; i++) keep[i] = index(drop, " " $i " ") == 0; n = NF }
+        { line = ""; for (i = 1; i <= n; i++) if (keep[i]) line = line (line == "" ? "" : ",") $i; print line }' ball.csv
+}
+without omega2 >a.csv
+refuses 3 "a.csv: there is no column 'omega2'" view a.csv -o a.html
+without t >a.csv
+refuses 3 "there is no column 't' or 's': a page needs the time of each row" view a.csv -o a.html
+without n1 n2 n3 omega1 omega2 omega3 >a.csv
+refuses 3 "there is no column 'M1': a page needs omega1 ... n3 of the ball, or M1 ... gamma3" view a.csv -o a.html
+grep -v '^# k' ball.csv >a.csv
+refuses 3 "does not say its k" view a.csv -o a.html
+run 0 view a.csv --k=-1 -o a.html
+head -n 12 ball.csv >a.csv
+refuses 3 "at least two rows" view a.csv -o a.html
+{ head -n 14 ball.csv; sed -n 13p ball.csv; } >a.csv
+refuses 3 "row 4: its t = 0.10000000000000001 is out of order" view a.csv -o a.html
+sed 's/^0.5,[^,]*,/0.5,nan,/' ball.csv >a.csv
+refuses 3 "expected a finite number for omega1" view a.csv -o a.html
+printf 'reduced: {k: 0}\n' >a.yaml
+refuses 3 "a.yaml:1:" view a.yaml -o a.html
+refuses 5 "cannot open 'absent.yaml'" view absent.yaml -o a.html
+refuses 5 "cannot open 'absent.csv'" view absent.csv -o a.html
+refuses 5 "absent/page.html" view scene.yaml -o absent/page.html
+check_not "no page is left" test -e a.htm
+sed 's/,l,x$/,l,y/' section.csv >b.csv
+refuses 3 "there are no columns 'l' and 'x'" view b.csv -o b.html
+sed '/^# eps/d; /^# h:/d' section.csv >b.csv
+refuses 3 "'isoroll section --as ball'" view b.csv -o b.html
+sed '20s/,.*/,x/' section.csv >b.csv
+refuses 3 "b.csv:20:" view b.csv -o b.html
+check_not "no page of bad input" test -e b.html
+
+if "$isoroll" section scene.yaml --starts 30 --crossings 300 --quiet -o section.h5 2>/dev/null; then
+    run 0 view section.h5 -o section5.html
+    check "a section in HDF5 gives the same page" test "$(sed 's/section.h5/section.csv/' section5.html | cksum)" = "$(cksum <section.html)"
+    printf 'x' >broken.h5
+    refuses 3 "broken.h5: this is not an HDF5 file" view broken.h5 -o b.html
+fi
+refuses 3 "the last time is 0" view - -o b.html <<END
+reduced: {k: 1, J: [1, 2, 3]}
+initial: {normal: [0, 0, 1], angular_velocity: [1, 0, 0]}
+time: {end: 0, step: 1}
+END
+
+# --- times that run backwards, and repeat
+"$isoroll" run scene.yaml --t-end -3 -o back.csv
+run 0 view back.csv -o back.html
+{ cat ball.csv; tail -n 1 ball.csv; } >a.csv
+run 0 view a.csv -o a.html
+
+# --- a ball without a point
+cat >bowl.yaml <<END
+reduced: {k: 1.5, J: [1, 2, 3]}
+initial: {normal: [0.6, 0, 0.8], angular_velocity: [0.8, 1.5, -0.6]}
+time: {end: 3, step: 0.1}
+effects: {gravity: {mgb: -0.7, up: [0, 0.6, 0.8]}}
+END
+run 0 view bowl.yaml -o bowl.html
+check "the page says why there is no point" grep -q '"alone":"[^"]*gravity' bowl.html
+"$isoroll" run bowl.yaml -o bowl.csv
+run 0 view bowl.csv -o bowl2.html
+check "so does that of its trajectory" grep -q '"alone":"[^"]*gravity' bowl2.html
+finish
