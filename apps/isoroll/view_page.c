@@ -1,4 +1,4 @@
-/* view_page.c - what the parts of `isoroll view` share: the page's struct, and records with other columns. */
+/* view_page.c - what the parts of `isoroll view` share: the struct of the page, and records (see view.h). */
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
