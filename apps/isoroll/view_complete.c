@@ -80,13 +80,14 @@ static iso_status copy_row(completion *c, size_t i)
     return ISO_OK;
 }
 
-/* The short orbit that begins at a row, with the attitude that the last one has reached. */
+/* The short orbit that begins at a row, with the attitude that the last one has reached; at row 0 with that of the
+ * file, or with the default one. */
 static iso_status begin(completion *c, size_t row, iso_orbit **orbit)
 {
     iso_start start;
     iso_effects effects = c->page->effects;
     iso_status status = iso_record_start(c->ctx, c->in, &c->page->params, c->model, row, &start, &effects);
-    if (status == ISO_OK && !has(c->in, "q0"))
+    if (status == ISO_OK && row > 0 && !has(c->in, "q0"))
         status = iso_effects_set(c->ctx, &effects, "attitude", "quaternion", 4, c->q);
     if (status != ISO_OK) return status;
     iso_orbit_options o = iso_orbit_defaults(&start);
@@ -145,7 +146,7 @@ static iso_status complete(completion *c)
 
 iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **made)
 {
-    completion c = {.ctx = ctx, .page = page, .in = rows, .q = {1}, .twin = !*page->alone};
+    completion c = {.ctx = ctx, .page = page, .in = rows, .twin = !*page->alone};
     c.model = has(rows, "omega1") && has(rows, "n1") ? ISO_BALL : ISO_POINT;
     c.clock = has(rows, "t") ? ISO_CLOCK_T : ISO_CLOCK_S;
     const iso_status status = complete(&c);

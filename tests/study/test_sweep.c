@@ -141,8 +141,9 @@ static void check_ways(const char *name, double turns, double time)
         int threads;
         size_t chunk, step;
     } ways[] = {{1, 1, 1}, {2, 5, 3}, {3, 2, 5}, {2, 64, 1}};
+    const int count = isnan(turns) && isnan(time) ? 2 : 4; /* what goes on as long as it must takes long */
     all first = {.seen = 0};
-    for (int w = 0; w < 4; w++) {
+    for (int w = 0; w < count; w++) {
         iso_sweep_plan plan = plan_of(turns, time, ways[w].chunk);
         ask(&plan, name);
         all a = measure(&plan, ways[w].threads, ways[w].step);
