@@ -66,6 +66,9 @@ typedef struct view_page {
 view_page view_page_empty(const char *title, const char *kind);
 void view_page_free(view_page *page);
 
+/* Whether an effect breaks the isomorphism; if so, page->alone gets the words. Reads page->effects. */
+bool view_is_broken(view_page *page);
+
 /* Adds a line that the page shows. */
 void view_note(view_page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

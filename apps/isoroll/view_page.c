@@ -28,6 +28,15 @@ void view_page_free(view_page *page)
     free_section(page->section);
 }
 
+bool view_is_broken(view_page *page)
+{
+    const iso_effect *breaking = iso_effects_breaking(&page->effects);
+    if (breaking)
+        snprintf(page->alone, sizeof page->alone, "the effect '%s' breaks the isomorphism: %s", breaking->name,
+                 iso_effect_why_broken(breaking));
+    return breaking != NULL;
+}
+
 void view_note(view_page *page, const char *format, ...)
 {
     va_list arguments;

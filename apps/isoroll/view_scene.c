@@ -153,7 +153,8 @@ static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *
     choose_columns(&scene, true);
     if (status == ISO_OK) status = choose_rows(ctx, &scene, page);
     if (status == ISO_NOT_MAPPED && scene.start.model == ISO_BALL) {
-        snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
+        page->effects = scene.effects;
+        if (!view_is_broken(page)) snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
         scene.as = ISO_SHOW_BALL;
         choose_columns(&scene, false);
         status = choose_rows(ctx, &scene, page);

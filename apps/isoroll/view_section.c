@@ -198,10 +198,7 @@ static iso_status read_lines(iso_context *ctx, const file_options *from, iso_rec
     iso_status status = parameters_of_file(ctx, from, in, &page->params);
     if (status == ISO_OK) status = iso_record_effects(ctx, in, &page->effects);
     if (status != ISO_OK) return status;
-    const iso_effect *breaking = iso_effects_breaking(&page->effects);
-    if (breaking)
-        snprintf(page->alone, sizeof page->alone, "the effect '%s' breaks the isomorphism: %s", breaking->name,
-                 iso_effect_why_broken(breaking));
+    view_is_broken(page);
     if (!iso_record_get_numbers(ctx, in, "h", 1, &page->h, &status) && status == ISO_OK) page->h = NAN;
     if (status == ISO_OK && !iso_record_coupling(ctx, in, &page->params, &page->eps, &status) && status == ISO_OK)
         page->eps = NAN;

@@ -83,12 +83,8 @@ static iso_status thin_out(iso_context *ctx, const iso_record *in, view_page *pa
 /* Whether the ball has a point; if not, page->alone says why. */
 static void find_twin(view_page *page, const iso_record *r)
 {
-    const iso_effect *breaking = iso_effects_breaking(&page->effects);
     const double *omega = view_vector(r, 0, "omega1");
-    if (breaking)
-        snprintf(page->alone, sizeof page->alone, "the effect '%s' breaks the isomorphism: %s", breaking->name,
-                 iso_effect_why_broken(breaking));
-    else if (omega && omega[0] == 0 && omega[1] == 0 && omega[2] == 0)
+    if (!view_is_broken(page) && omega && omega[0] == 0 && omega[1] == 0 && omega[2] == 0)
         snprintf(page->alone, sizeof page->alone, "a ball at rest has no point");
 }
 

@@ -4,7 +4,7 @@ const numbers = {
   // A unit from its dimension: J^(a + b/(2k)) / time^c, where J stands for the unit of moments of inertia.
   unitOf([a, b, c]) {
     const power = a + b / (2 * body.k),
-      up = (x) => (x === 1 ? "" : raised(+x.toPrecision(3)));
+      up = (x) => (x === 1 ? "" : Number.isInteger(x) ? raised(x) : `^${+x.toPrecision(3)}`);
     const J = Math.abs(power) < 1e-12 ? "" : `J${up(power)}`;
     if (c === 0) return J || "1";
     return c > 0 ? `${J || "1"}/time${up(c)}` : `${J ? J + "·" : ""}time${up(-c)}`;
@@ -29,7 +29,7 @@ const numbers = {
     id("conserved").hidden = page.integrals.length === 0;
     id("integrals").textContent = "";
     this.integrals = [];
-    const head = () => this.row(id("integrals"), ["", "value", "unit", "relative drift now", "largest"], "th");
+    const head = () => this.row(id("integrals"), ["", "value", "unit", "drift now", "largest"], "th");
     if (page.integrals.length) head();
     page.integrals.forEach((one, i) => {
       const cells = this.row(id("integrals"), [
@@ -85,7 +85,7 @@ const numbers = {
     this.extras = [];
     for (const [name, words, of] of [
       ["pressure", "pressure", "force"],
-      ["mu", "friction needed", "1"],
+      ["mu", "mu needed", "1"],
       ["friction", "friction", "force"],
       ["lambda", "twist torque", "torque"],
     ])
@@ -171,6 +171,9 @@ const numbers = {
       list.push(`The page has the scene’s ${rows.total} rows, and ${rows.between} more after each but the last.`);
     else if (rows) list.push(`The page has all ${rows.total} rows.`);
     list.push("Between rows the motion is interpolated by cubic curves with the slopes of the equations of motion.");
+    list.push(`${page.alone ? "ω and n" : "ω, n, M and γ"} are in the ball’s axes, the contact is in axes of space.`);
+    if (page.integrals.length)
+      list.push("Drift: change of an integral since the first row, divided by the size of its terms.");
     list.push("Units are those of the file. J stands for the unit of the moments of inertia (mass·length²).");
     if (orbit.tau)
       list.push(`Units: t: time; τ: ${this.unitOf([1, -1, -1])}; s: ${this.unitOf([-2, 1, -1])}.`);

@@ -224,7 +224,7 @@ const sections = !page.section
             crossings.push({ t: now.t, l: Math.atan2(-gamma[c], gamma[b]), x: M[a] / Math.hypot(...M) });
           }
           document.getElementById("orbit-words").textContent =
-            `Rings mark where it crosses while it runs here: ${crossings.length} crossings.`;
+            `Rings mark where this orbit crosses while it runs here: ${crossings.length} crossings.`;
         },
         crossings: () => crossings,
         draw(now) {
