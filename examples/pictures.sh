@@ -36,7 +36,7 @@ compared 15_two_spheres
 # a trajectory of somebody else
 "$isoroll" plot --scene 14_from_python/scene.yaml 14_from_python/orbit.txt -o 14_from_python/picture.svg
 
-# seen NAME SCENE OPTION...: the way in space, from above and from the side
+# seen NAME SCENE OPTION...: the path in space, from above and from the side
 seen() {
     name=$1
     shift

@@ -1,4 +1,4 @@
-/* isoroll plot - draws a trajectory: the way in space, paths on the spheres, energies, integrals, clocks; or any two
+/* isoroll plot - draws a trajectory: the path in space, paths on the spheres, energies, integrals, clocks; or any two
  * of its columns. */
 #include <stdio.h>
 #include <string.h>
@@ -63,7 +63,7 @@ static const char *name_of(const options *o)
     return strcmp(o->from.file, "-") == 0 ? "<stdin>" : slash ? slash + 1 : o->from.file;
 }
 
-/* Whether the file has the way of a ball in space, and what it says of it. */
+/* Whether the file has the path of a ball in space; into `space`, what the file says of it. */
 static bool find_space(iso_context *ctx, const iso_params *params, const iso_record *file, double up[3],
                        iso_plot_space *space)
 {
@@ -80,7 +80,7 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_params *par
     iso_status status = find_twin(ctx, params, p);
     if (status == ISO_OK) status = pair_clocks(ctx, p);
     if (status == ISO_OK) status = iso_check_drifts(ctx, params, p->file, &p->drifts);
-    /* of a free ball the energy is one of the integrals */
+    /* of a free ball the energy is one of the integrals, whose drift is drawn */
     const bool forced = model_of(p->file) == ISO_BALL && iso_record_get(p->file, "effects");
     if (status == ISO_OK && forced) status = iso_record_energies(ctx, params, p->file, &p->energies);
     if (status != ISO_OK) return status;
@@ -102,7 +102,7 @@ static iso_status draw(iso_context *ctx, const options *o, const iso_params *par
 
 enum { NAME = 32 };
 
-/* Whether --columns names two columns, but for those passed over ("-"). */
+/* Whether --columns names two columns; "-" stands for a column that is not read, and is not counted. */
 static bool names_two(const char *columns, char name[2][NAME])
 {
     int count = 0;
@@ -116,7 +116,7 @@ static bool names_two(const char *columns, char name[2][NAME])
     return count == 2;
 }
 
-/* Reads the file by its own names. One that has none, or of which columns are passed over, is read by --columns. */
+/* Reads the file by its own names of columns. If it has none, or if --columns has a "-", by those of --columns. */
 static iso_status read_two(iso_context *ctx, const options *o, iso_record **file)
 {
     const bool passes = strstr(o->from.columns, "-") != NULL, once = strcmp(o->from.file, "-") == 0;
@@ -137,7 +137,7 @@ static iso_status find_column(iso_context *ctx, const iso_record *r, const char 
     return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "there is no column '%s'; there are%s", name, there);
 }
 
-/* Components of one vector: one unit is then equally long on both axes. */
+/* Whether x and y are components of one vector: one unit is then equally long on both axes. */
 static bool are_components(const char *x, const char *y)
 {
     const size_t length = strlen(x);
@@ -215,12 +215,12 @@ const command command_plot = {
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
     .description = "-o FILE is needed; its ending chooses the format. The path and the clock of the other model are "
-                   "computed, where the orbit has a twin. A file with the columns of the effect attitude also "
-                   "shows the way of the ball from above and from the side; with those of reactions, the pressure, "
-                   "mu, and where contact is lost.\n\n"
-                   "--columns X,Y with two names draws these two columns alone, the second over the first: "
-                   "--columns t,n3. If the file has no names, they are its columns from left to right, with - for "
-                   "those to be passed over.\n\n"
+                   "computed, where the orbit has a twin. If the file has the columns of the effect attitude, the "
+                   "picture also shows the path of the ball from above and from the side; if it has those of "
+                   "reactions, also the pressure, the friction coefficient mu, and where contact is lost.\n\n"
+                   "--columns X,Y draws only these two columns: Y upward, X to the right, as in --columns t,n3. If "
+                   "the file has no names of columns, name its columns from left to right, with - for each that "
+                   "is not drawn.\n\n"
                    "Of a sweep: a value over the number that varies, as a curve with its error; over two numbers, as "
                    "a map; over J, as a map of J1/J3 and J2/J3 where J1 < J2 < J3. Further numbers that vary make "
                    "several maps. k = 1 and k = -1 are marked.\n\ngnuplot draws the picture.",

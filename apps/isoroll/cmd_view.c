@@ -20,7 +20,7 @@ typedef struct options {
 
 typedef enum file_kind { SCENE, TRAJECTORY, SECTION } file_kind;
 
-/* Copies standard input to a temporary file, which takes its place: so its first line can be looked at. */
+/* Copies standard input to a temporary file and reads that instead: so its first bytes can be read twice. */
 static iso_status make_seekable(iso_context *ctx)
 {
     char block[65536];
@@ -43,20 +43,21 @@ static bool ends_with(const char *text, const char *end)
     return length > n && strcmp(text + length - n, end) == 0;
 }
 
-/* The first bytes of the file; "" where it cannot be read, which the reader will say. */
+/* The first bytes of the file; "" if it cannot be read: the reader of the file will say so. */
 static void read_beginning(const char *path, char *text, size_t size)
 {
     const bool standard = strcmp(path, "-") == 0;
     struct stat about;
     const bool regular =
-        standard || (stat(path, &about) == 0 && S_ISREG(about.st_mode)); /* of a pipe nothing is taken */
+        standard || (stat(path, &about) == 0 && S_ISREG(about.st_mode)); /* a pipe can be read only once */
     const int file = standard ? STDIN_FILENO : regular ? open(path, O_RDONLY | O_CLOEXEC) : -1;
     const ssize_t got = file >= 0 ? pread(file, text, size - 1, 0) : 0;
     text[got > 0 ? got : 0] = '\0';
     if (file >= 0 && !standard) close(file);
 }
 
-/* isoroll's own files say what they are. Of others, the ending does, or an option that is for trajectories. */
+/* isoroll's own files say in their first line what they are. Of other files the ending says it, or an option that is
+ * only for trajectories. */
 static file_kind kind_of(const file_options *from)
 {
     static const char *const endings[] = {".h5", ".csv", ".txt", ".dat", ".tsv"};
@@ -71,7 +72,7 @@ static file_kind kind_of(const file_options *from)
     return told ? TRAJECTORY : SCENE;
 }
 
-/* The file with the folder it is in: many scenes are called scene.yaml. */
+/* The name of the file with its folder: many scenes are called scene.yaml. */
 static const char *short_name(const char *path)
 {
     const char *at = path + strlen(path);
@@ -129,11 +130,11 @@ static const options defaults = {.from = FILE_OPTIONS_UNSET, .frames = {.fps = 2
 static const option_row rows[] = {
     ROW_OF_FILE("output", "FILE", "a file", "the page; - is standard output", set_text, options, output, 'o',
                 OPTION_WRITES),
-    ROW("frames", "DIR", "a folder", "draw the motion as pictures DIR/frame0001.png, ... (needs Chromium)", set_text,
-        options, frames.folder),
-    ROW("fps", "N", "a positive number", "pictures for each second (default 25)", set_positive, options, frames.fps),
-    ROW("seconds", "N", "a positive number", "seconds that the whole motion takes in pictures (default 10)",
-        set_positive, options, frames.seconds),
+    ROW("frames", "DIR", "a folder", "draw the motion as DIR/frame0001.png, ... (needs Chromium)", set_text, options,
+        frames.folder),
+    ROW("fps", "N", "a positive number", "pictures in each second (default 25)", set_positive, options, frames.fps),
+    ROW("seconds", "N", "a positive number", "seconds that the whole motion takes (default 10)", set_positive,
+        options, frames.seconds),
     ROWS_OF_FILE(options, from),
     ROW_END,
 };
@@ -148,12 +149,15 @@ const command command_view = {
     .file = offsetof(options, from.file),
     .description =
         "FILE is a scene, or a trajectory or section (CSV or HDF5). The page is one file. It opens from disk in "
-        "any browser with WebGL, and loads nothing from anywhere.\n\n"
+        "any browser with WebGL, and needs no network.\n\n"
         "Left, the ball rolls on its plane or sphere; right, the point moves in its potential. Choose which clock "
-        "runs evenly, t, tau or s: the other model then hurries and waits. Of a scene each model is integrated by "
-        "itself, and the page tells how far they differ. What a trajectory lacks (clocks, how the ball stands) is "
-        "computed from row to row. Of a section choose a crossing: its orbit runs.\n\n"
-        "More than 5000 rows are thinned out, and the page says so. A scene with few rows gets more between them.",
+        "runs evenly, t, tau or s: the other model then hurries and waits. For a scene, each model is integrated by "
+        "itself, and the page shows how far they differ. Columns that a trajectory lacks (clocks, attitude, the "
+        "other model) are computed from row to row. In the page of a section, choose a crossing: its orbit runs "
+        "from the first crossing on.\n\n"
+        "Of more than 5000 rows, the page has only every second, third, ... row, and says so. A scene with large "
+        "steps gets more rows between its own.\n\n"
+        "--frames draws pictures of 1280 x 720 pixels with Chromium, without a window; -o is then not needed.",
     .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html",
     .run = run,
 };

@@ -11,10 +11,11 @@ void json_begin(void);
 /* A number. JSON has no infinity and no nan: they become null. */
 json_t *json_number(double x);
 
-/* Memory for what goes into JSON; NULL is noted for json_whole() and json_print(). Release it by free(). */
+/* Memory for what goes into JSON; release it by free(). NULL: no memory. Then json_whole() and json_print() return
+ * false. */
 void *json_allocate(size_t size);
 
-/* Whether o and all that was made for it since json_begin() is there: false after a lack of memory. */
+/* Whether o is complete. False: memory was short at some time since json_begin(). */
 bool json_whole(const json_t *o);
 
 /* Prints o and frees it. False: there is no memory for all of it; then nothing is printed, and a message says so. */

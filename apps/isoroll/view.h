@@ -1,10 +1,12 @@
 /* view.h - the page of `isoroll view`: what it is made of, and who makes its parts.
  *
  *     view_scene.c       a scene: both models, each integrated by itself
- *     view_trajectory.c  a trajectory file: what it lacks is computed from row to row
+ *     view_trajectory.c  a trajectory file
+ *     view_complete.c    columns that the file lacks, computed from row to row
  *     view_section.c     a section file: its crossings, and the first part of each of its orbits
  *     view_numbers.c     integrals along the rows
- *     view_write.c       the page: data as JSON, numbers as base64, and the files of view/
+ *     view_data.c        the data as JSON, columns of numbers as base64
+ *     view_write.c       the page: the data and the files of view/
  *     view_frames.c      pictures of the page, drawn by Chromium
  */
 #ifndef ISOROLL_VIEW_H
@@ -13,15 +15,15 @@
 #include "isoroll.h"
 #include "parameters.h"
 
-/* Bounds that keep a page of the examples below 3 MB. A number takes 10.7 bytes. */
+/* Bounds that keep a page below 3 MB. In base64 a number takes 10.7 bytes. */
 enum {
-    VIEW_MOST_ROWS = 5000,      /* of the orbit that is played; more are thinned out, and the page says so   */
+    VIEW_MOST_ROWS = 5000,      /* of the orbit that is played; of more, each second, third, ... is kept     */
     VIEW_MOST_CROSSINGS = 20000 /* of a section                                                             */
 };
 #define VIEW_MOST_NUMBERS 140000.0 /* of all orbits of a section */
 
 /* The largest turn of the ball, of n or of gamma between two rows, in radians. Cubic curves through such rows are
- * right to 1e-6. */
+ * right to 1e-6 of the radius. */
 #define VIEW_TURN 0.1
 
 enum { VIEW_NOTES = 8, VIEW_WORDS = 512 };
@@ -34,11 +36,11 @@ typedef struct view_integral {
 
 typedef struct view_section {
     int axis;
-    iso_record *crossings; /* orbit, l, x: those that are drawn                 */
+    iso_record *crossings; /* columns orbit, l, x: those that are drawn         */
     size_t total, orbits;  /* crossings and orbits of the file                  */
     iso_record **orbit;    /* the orbits that can be run; rows as in view_page  */
-    size_t *number;        /* of the file, of each of them                      */
-    size_t count;
+    size_t *number;        /* the number that each of them has in the file      */
+    size_t count;          /* of orbits that can be run                         */
 } view_section;
 
 typedef struct view_page {
@@ -47,7 +49,7 @@ typedef struct view_page {
     iso_params params;
     iso_effects effects;
     double eps, h;          /* NAN: not known                                              */
-    iso_clock clock;        /* the one that runs evenly at first                           */
+    iso_clock clock;        /* the clock that runs evenly at first                         */
     char alone[VIEW_WORDS]; /* why the ball has no point; "": it has one                   */
     char note[VIEW_NOTES][VIEW_WORDS];
     int notes;
@@ -64,7 +66,10 @@ typedef struct view_page {
 view_page view_page_empty(const char *title, const char *kind);
 void view_page_free(view_page *page);
 
-/* One more line that the page shows. */
+/* Whether an effect breaks the isomorphism; if so, page->alone gets the words. Reads page->effects. */
+bool view_is_broken(view_page *page);
+
+/* Adds a line that the page shows. */
 void view_note(view_page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* --- parts ------------------------------------------------------------------------------------------------------ */
@@ -75,11 +80,12 @@ iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *pa
 /* A trajectory file. Errors: ISO_BAD_INPUT names the missing column or the row; those of the library. */
 iso_status view_of_trajectory(iso_context *ctx, const file_options *from, view_page *page);
 
-/* A section file, CSV. Errors: likewise. */
+/* A section file, CSV or HDF5. Errors: likewise. */
 iso_status view_of_section(iso_context *ctx, const file_options *from, view_page *page);
 
-/* Adds to `rows`, which have a clock and the states of one model, the columns they lack: the other model (not where
- * page->alone says why there is none), the clocks, q, contact and centre. params, effects and alone are read. */
+/* `rows` have a clock and the states of one model. *complete also has the columns that they lack: the other model
+ * (not if page->alone says why there is none), the clocks, q, contact and centre. Of `page` it reads params, effects
+ * and alone. */
 iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **complete);
 
 /* The integrals that hold for page->rows, and their drifts. */
@@ -91,7 +97,7 @@ iso_status view_numbers(iso_context *ctx, view_page *page);
 iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t columns, const char *const names[],
                             iso_record **made);
 
-/* Three numbers of a row by the name of the first of adjacent columns; NULL: there is no such column. */
+/* The three numbers of a vector in a row; `name` is its first column. NULL: there is no such column. */
 const double *view_vector(const iso_record *r, size_t row, const char *name);
 
 /* --- output ----------------------------------------------------------------------------------------------------- */
@@ -102,11 +108,13 @@ iso_status view_check_build(iso_context *ctx);
 /* Errors: ISO_FILE_TROUBLE, ISO_CLOSED_PIPE, ISO_NO_MEMORY. */
 iso_status view_write(iso_context *ctx, const char *path, const view_page *page);
 
-/* Frames as PNG in a folder, which is made if it is not there. Errors: ISO_FILE_TROUBLE. */
+/* Frames as PNG. */
 typedef struct view_frames {
     const char *folder;
-    double fps, seconds;
+    double fps, seconds; /* frames in each second; seconds that the whole motion takes */
 } view_frames;
+
+/* Makes the folder if it is not there. Errors: ISO_FILE_TROUBLE, ISO_BAD_ARGUMENT (too many frames), ISO_STOPPED. */
 iso_status view_write_frames(iso_context *ctx, const view_frames *frames, const view_page *page);
 
 #endif

@@ -1,8 +1,8 @@
-/* view_complete.c - gives rows of a file the columns that a page needs: the other model by the map (18), the clocks
- * and how the ball stands by short orbits (see view.h).
+/* view_complete.c - gives rows of a file the columns that a page needs (see view.h). The other model comes from the
+ * map (18); the clocks and the attitude come from short orbits.
  *
- * A short orbit begins at a row and gives the clocks, q, contact and centre at the next SEGMENT rows, where another
- * one begins. So these columns stay with the file's own rows, also on chaotic orbits.
+ * A short orbit begins at a row and gives the clocks, q, contact and centre at the next SEGMENT rows. There the next
+ * one begins. So these columns stay close to the file's own rows, also on chaotic orbits.
  */
 #include <math.h>
 #include <string.h>
@@ -22,9 +22,9 @@ typedef struct completion {
     const iso_record *in;
     iso_record *out;
     iso_model_kind model; /* whose states the rows have              */
-    iso_clock clock;      /* in which the short orbits are asked     */
+    iso_clock clock;      /* that gives the times of the rows        */
     bool twin;
-    double begun[ISO_CLOCKS]; /* clocks where the present orbit began    */
+    double begun[ISO_CLOCKS]; /* clocks where this short orbit began     */
     double shift[3];          /* on a plane: the contact there           */
     double q[4];              /* attitude there                          */
 } completion;
@@ -55,7 +55,7 @@ static void put(completion *c, double *row, const char *name, double value)
     if (has(c->out, name) && !has(c->in, name)) row[iso_record_find(c->out, name)] = value;
 }
 
-/* What the row of the file has, and its state in the other model. */
+/* Copies a row of the file, and adds its state in the other model. */
 static iso_status copy_row(completion *c, size_t i)
 {
     double *row, ball[ISO_STATE], point[ISO_STATE];
@@ -80,8 +80,8 @@ static iso_status copy_row(completion *c, size_t i)
     return ISO_OK;
 }
 
-/* The orbit that begins at a row, with the attitude that has been reached; at row 0 with that of the file, or the
- * usual one. */
+/* The short orbit that begins at a row, with the attitude that the last one has reached; at row 0 with that of the
+ * file, or with the default one. */
 static iso_status begin(completion *c, size_t row, iso_orbit **orbit)
 {
     iso_start start;
@@ -100,7 +100,7 @@ static iso_status begin(completion *c, size_t row, iso_orbit **orbit)
     return iso_orbit_create(c->ctx, &c->page->params, &start, &o, orbit);
 }
 
-/* What the short orbit says of row `i`. */
+/* Puts into row `i` what the short orbit gives at its time. */
 static iso_status fill(completion *c, iso_orbit *orbit, size_t first, size_t i, iso_sample *sample)
 {
     const int time = iso_record_find(c->in, iso_clock_name(c->clock));

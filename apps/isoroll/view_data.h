@@ -6,7 +6,7 @@
 
 #include "view.h"
 
-/* To be released by the caller. What there was no memory for is left out; json_whole() then says so. */
+/* The caller releases it. If memory is short, parts are missing; json_whole() then says so. */
 json_t *view_data(const view_page *page);
 
 #endif

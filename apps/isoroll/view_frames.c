@@ -25,11 +25,11 @@ extern char **environ;
 
 /* --- Chromium --------------------------------------------------------------------------------------------------- */
 
-/* Starts the first Chromium there is. `out` becomes its standard output. Gives an errno. */
+/* Starts the first Chromium that is found. `out` becomes its standard output. Returns 0 or an errno. */
 static int spawn(const char *address, int out, pid_t *child)
 {
     static const char *const names[] = {"chromium", "chromium-browser", "google-chrome", "chrome"};
-    const char *sandbox = geteuid() == 0 ? "--no-sandbox" : "--headless"; /* root has no sandbox */
+    const char *sandbox = geteuid() == 0 ? "--no-sandbox" : "--headless"; /* for root, Chromium has no sandbox */
     const char *arguments[] = {NULL,
                                "--headless",
                                sandbox,
@@ -63,7 +63,7 @@ static iso_status run_chromium(iso_context *ctx, const char *address, FILE *out)
     const int error = spawn(address, fileno(out), &child);
     if (error != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
-                                "--frames: cannot run Chromium: %s; install it (package chromium), or take pictures "
+                                "--frames: cannot run Chromium: %s; install it (package chromium), or save pictures "
                                 "in the page",
                                 strerror(error));
     while (waitpid(child, &result, 0) < 0)
@@ -105,7 +105,7 @@ static iso_status write_picture(iso_context *ctx, const char *folder, unsigned l
     return iso_output_close(ctx, out, true);
 }
 
-/* Takes the frames out of what Chromium printed. */
+/* Writes the frames that Chromium printed. */
 static iso_status take_frames(iso_context *ctx, FILE *from, const char *folder, size_t *taken)
 {
     static const char start[] = "frame ", kind[] = "data:image/png;base64,";
@@ -153,8 +153,9 @@ static iso_status draw(iso_context *ctx, const view_frames *f, const char *page,
         if (status == ISO_OK) status = take_frames(ctx, out, f->folder, &taken);
         fclose(out);
         if (status == ISO_OK && taken < count)
-            status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "--frames: Chromium drew %zu of frames %zu to %zu",
-                                      taken, first + 1, first + count);
+            status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
+                                      "--frames: Chromium drew only %zu of the frames %zu to %zu", taken, first + 1,
+                                      first + count);
         if (status == ISO_OK && interrupted()) status = iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
         progress_show((double)(first + count) / (double)all);
     }
@@ -166,8 +167,8 @@ iso_status view_write_frames(iso_context *ctx, const view_frames *f, const view_
     char folder[PATH_MAX], path[PATH_MAX + 32];
     const double all = ceil(f->fps * f->seconds);
     if (all > MOST_FRAMES)
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--frames: %g pictures are more than %d", all,
-                                MOST_FRAMES);
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--frames: fps times seconds is %g pictures, more than %d",
+                                all, MOST_FRAMES);
     if (mkdir(f->folder, 0777) != 0 && errno != EEXIST)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot make the folder '%s': %s", f->folder,
                                 strerror(errno));

@@ -4,7 +4,7 @@
 
 #include "view.h"
 
-/* The orbit through the first row: it knows which integrals hold. */
+/* The orbit through the first row; it tells which integrals hold. */
 static iso_status orbit_of(iso_context *ctx, view_page *page, iso_orbit **orbit)
 {
     iso_start start;
@@ -18,7 +18,7 @@ static iso_status orbit_of(iso_context *ctx, view_page *page, iso_orbit **orbit)
     return iso_orbit_create(ctx, &page->params, &start, &o, orbit);
 }
 
-/* Row i as a sample: what it lacks is NaN. */
+/* Row i as a sample; numbers that the row lacks are NaN. */
 static iso_sample sample_of(const iso_record *r, size_t i)
 {
     iso_sample s;
@@ -41,7 +41,7 @@ static iso_sample sample_of(const iso_record *r, size_t i)
     return s;
 }
 
-/* Lists the integrals of one model that hold. The constraints are no news in a picture. */
+/* Lists the integrals of one model that hold. Those with a known value, such as |n| = 1, are left out, but not H. */
 static void list_integrals(view_page *page, const iso_orbit *orbit, iso_model_kind model)
 {
     const iso_system *system = model == ISO_BALL ? &iso_system_ball : &iso_system_point;

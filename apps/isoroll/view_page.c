@@ -1,4 +1,4 @@
-/* view_page.c - what the parts of `isoroll view` share: the page's struct, and records with other columns. */
+/* view_page.c - what the parts of `isoroll view` share: the struct of the page, and records (see view.h). */
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -26,6 +26,15 @@ void view_page_free(view_page *page)
     iso_record_free(page->drifts);
     iso_record_free(page->apart);
     free_section(page->section);
+}
+
+bool view_is_broken(view_page *page)
+{
+    const iso_effect *breaking = iso_effects_breaking(&page->effects);
+    if (breaking)
+        snprintf(page->alone, sizeof page->alone, "the effect '%s' breaks the isomorphism: %s", breaking->name,
+                 iso_effect_why_broken(breaking));
+    return breaking != NULL;
 }
 
 void view_note(view_page *page, const char *format, ...)

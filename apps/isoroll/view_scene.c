@@ -64,7 +64,7 @@ static iso_status run_at(iso_context *ctx, const iso_scene *scene, const double 
 
 /* --- columns ---------------------------------------------------------------------------------------------------- */
 
-/* All columns whose effect acts, of both models or of the ball alone. */
+/* All columns of the effects that are on, of both models or of the ball alone. */
 static void choose_columns(iso_scene *scene, bool twin)
 {
     scene->columns = 0;
@@ -97,8 +97,8 @@ static double largest_turn(const iso_record *r, double k)
 
 /* --- times ------------------------------------------------------------------------------------------------------ */
 
-/* The times of the page: the scene's rows, or each `every`-th of them and the last, or `between` more after each. In
- * increasing order. */
+/* The times of the page, growing: those of each `every`-th row of the scene and of the last row. After each but the
+ * last there are `between` more. */
 static double *times_of(const iso_scene *scene, const view_page *page, size_t *count)
 {
     const size_t rows = iso_scene_rows(scene), pieces = page->between + 1;
@@ -121,7 +121,7 @@ static double *times_of(const iso_scene *scene, const view_page *page, size_t *c
     return times;
 }
 
-/* Runs the scene as its file says, and chooses how many of its rows the page has. */
+/* Chooses page->every, or runs the scene once at its own times and chooses page->between. */
 static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_page *page)
 {
     iso_record *rough;
@@ -143,7 +143,7 @@ static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_pag
 
 /* --- the two models --------------------------------------------------------------------------------------------- */
 
-/* The ball by its own equations, with its attitude, and the point that belongs to it. */
+/* The ball by its own equations, with its attitude, and its point by the map. */
 static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *page, double **times, size_t *count)
 {
     iso_scene scene = *asked;
@@ -153,7 +153,8 @@ static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *
     choose_columns(&scene, true);
     if (status == ISO_OK) status = choose_rows(ctx, &scene, page);
     if (status == ISO_NOT_MAPPED && scene.start.model == ISO_BALL) {
-        snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
+        page->effects = scene.effects;
+        if (!view_is_broken(page)) snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
         scene.as = ISO_SHOW_BALL;
         choose_columns(&scene, false);
         status = choose_rows(ctx, &scene, page);
@@ -164,7 +165,7 @@ static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *
     return run_at(ctx, &scene, *times, *count, page, &page->rows);
 }
 
-/* The same orbit by the point's own equations: n and gamma. */
+/* The same orbit by the point's own equations; n comes from the map. */
 static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page *page, const double times[],
                             size_t count)
 {
@@ -178,7 +179,7 @@ static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page 
     for (size_t i = 0; i < scene.columns; i++) snprintf(scene.column[i], ISO_NAME_SIZE, "%s", names[i]);
     const iso_status status = run_at(ctx, &scene, times, count, NULL, &page->apart);
     if (status == ISO_OK || status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
-    view_note(page, "The point was not integrated by itself: %s. It is the ball, carried across.",
+    view_note(page, "The point was not integrated by itself: %s. It is computed from the ball, by the map.",
               iso_context_message(ctx));
     return ISO_OK;
 }

@@ -13,7 +13,8 @@
 #include "map/state.h"
 
 enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 13 /* of a row: t tau s, M, gamma, q */ };
-/* The turn of the ball, n or gamma from row to row, about: of few orbits each has more and closer rows. */
+/* About how far the ball, n or gamma turns from row to row, in radians. LONG: if there are many orbits, each has few
+ * rows, farther apart. */
 #define ORBIT_TURN 0.15
 #define LONG_ORBIT_TURN 0.3
 
@@ -87,7 +88,8 @@ static iso_status keep_crossings(builder *b)
         if (status == ISO_OK) row[0] = from[b->orbit], row[1] = from[b->l], row[2] = from[b->x];
     }
     if (most > each)
-        view_note(b->page, "Of each orbit the section shows the first %zu of %zu crossings.", each, most);
+        view_note(b->page, "Of each orbit the section shows at most the first %zu crossings; the file has up to %zu.",
+                  each, most);
     return status;
 }
 
@@ -131,7 +133,7 @@ static iso_status follow(const builder *b, iso_orbit *orbit, double step, iso_re
     return status;
 }
 
-/* Columns of an orbit. omega and n follow from M and gamma where there are these. */
+/* Columns of an orbit. If it has M and gamma, omega and n follow from them. */
 static size_t columns_of(const view_page *page, const char *names[])
 {
     static const char *const twin[] = {"t", "tau", "s", "M1", "M2", "M3", "gamma1", "gamma2", "gamma3"};
@@ -167,7 +169,7 @@ static iso_status run_orbit(const builder *b, size_t row, iso_record **to)
     return status;
 }
 
-/* As many orbits as there is room for, each long enough to be seen. */
+/* As many orbits as there is room for, each of at least LEAST_ROWS rows. */
 static iso_status run_orbits(builder *b)
 {
     view_section *s = b->page->section;
@@ -185,7 +187,7 @@ static iso_status run_orbits(builder *b)
         status = run_orbit(b, i, &s->orbit[s->count++]);
     }
     if (wanted < s->orbits)
-        view_note(b->page, "The first %zu of %zu orbits can be run in this page.", wanted, s->orbits);
+        view_note(b->page, "The first %zu of the %zu orbits can run in this page.", wanted, s->orbits);
     return status;
 }
 
@@ -196,10 +198,7 @@ static iso_status read_lines(iso_context *ctx, const file_options *from, iso_rec
     iso_status status = parameters_of_file(ctx, from, in, &page->params);
     if (status == ISO_OK) status = iso_record_effects(ctx, in, &page->effects);
     if (status != ISO_OK) return status;
-    const iso_effect *breaking = iso_effects_breaking(&page->effects);
-    if (breaking)
-        snprintf(page->alone, sizeof page->alone, "the effect '%s' breaks the isomorphism: %s", breaking->name,
-                 iso_effect_why_broken(breaking));
+    view_is_broken(page);
     if (!iso_record_get_numbers(ctx, in, "h", 1, &page->h, &status) && status == ISO_OK) page->h = NAN;
     if (status == ISO_OK && !iso_record_coupling(ctx, in, &page->params, &page->eps, &status) && status == ISO_OK)
         page->eps = NAN;
@@ -223,7 +222,7 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
     iso_record *in = NULL;
     page->section = calloc(1, sizeof *page->section);
     if (!page->section) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a section");
-    iso_status status = view_section_read(ctx, from->file, &in); /* its messages have the name already */
+    iso_status status = view_section_read(ctx, from->file, &in); /* its messages already name the file */
     if (status != ISO_OK) return status;
     status = of_record(ctx, from, in, page);
     if (status != ISO_OK) status = name_the_file(ctx, from->file, status);

@@ -1,4 +1,4 @@
-/* view_section_file.c - reads a section file (lib/doc/formats.md, section 5) as text into a record (see view.h). */
+/* view_section_file.c - reads a section file that is CSV (lib/doc/formats.md, section 5) into a record. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,8 +14,8 @@ typedef struct reading {
     FILE *file;
     char *line;
     size_t room, number; /* number: of the line, from 1 */
-    iso_record *record;  /* NULL until the names have come */
-    iso_record *lines;   /* the lines of # before that     */
+    iso_record *record;  /* NULL until the line of names   */
+    iso_record *lines;   /* the lines of # before it       */
 } reading;
 
 static iso_status fail(const reading *r, const char *at, const char *words)
@@ -55,7 +55,7 @@ static iso_status read_row(reading *r)
         const size_t length = strcspn(at, ",");
         if (!iso_number_read(at, length, &row[i])) return fail(r, at, "expected a finite number");
         if ((at[length] == ',') != (i + 1 < columns))
-            return fail(r, at + length, "expected as many numbers as there are names of columns");
+            return fail(r, at + length, "expected one number for each name of a column");
         at += length + 1;
     }
     return ISO_OK;

@@ -36,7 +36,7 @@ static iso_status check_columns(iso_context *ctx, const iso_record *r, iso_clock
 
 /* --- order and number of rows ----------------------------------------------------------------------------------- */
 
-/* The rows in increasing order of the clock, each time once, each `every`-th and the last. */
+/* Each `every`-th row and the last, by growing times; of rows with equal times the first. */
 static iso_status pick(iso_context *ctx, const iso_record *in, int time, size_t every, iso_record *out)
 {
     const size_t rows = iso_record_rows(in);
@@ -83,16 +83,12 @@ static iso_status thin_out(iso_context *ctx, const iso_record *in, view_page *pa
 /* Whether the ball has a point; if not, page->alone says why. */
 static void find_twin(view_page *page, const iso_record *r)
 {
-    const iso_effect *breaking = iso_effects_breaking(&page->effects);
     const double *omega = view_vector(r, 0, "omega1");
-    if (breaking)
-        snprintf(page->alone, sizeof page->alone, "the effect '%s' breaks the isomorphism: %s", breaking->name,
-                 iso_effect_why_broken(breaking));
-    else if (omega && omega[0] == 0 && omega[1] == 0 && omega[2] == 0)
+    if (!view_is_broken(page) && omega && omega[0] == 0 && omega[1] == 0 && omega[2] == 0)
         snprintf(page->alone, sizeof page->alone, "a ball at rest has no point");
 }
 
-/* h and eps of the lines; a line that is absent leaves NAN. */
+/* h and eps by the lines of the file; NAN without such a line. */
 static iso_status read_energy(iso_context *ctx, const iso_record *r, view_page *page)
 {
     iso_status status = ISO_OK;
@@ -102,7 +98,7 @@ static iso_status read_energy(iso_context *ctx, const iso_record *r, view_page *
     return status;
 }
 
-/* The coupling of a file that does not state it: from its first row, if the ball is free. */
+/* If the file does not state h and eps: from its first row, if the ball is free. */
 static void find_energy(view_page *page)
 {
     double ball[ISO_STATE];

@@ -16,10 +16,10 @@ iso_status view_check_build(iso_context *ctx)
     if (view_file_find("three")->length > 0) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                             "this isoroll was built without three.js, which a page needs: install it (package "
-                            "libjs-three) and build again, or set ISO_THREE_JS to three.min.js");
+                            "libjs-three) and build again, or build with cmake -DISO_THREE_JS=three.min.js");
 }
 
-/* Text of JSON as it comes. <, > and & stand only in its strings. */
+/* Writes a piece of the JSON text. It has <, > and & only in its strings, where they may be escaped. */
 static int put_escaped(const char *text, size_t length, void *data)
 {
     FILE *to = data;
@@ -31,7 +31,7 @@ static int put_escaped(const char *text, size_t length, void *data)
     return ferror(to) ? -1 : 0;
 }
 
-/* The line "@name@" at `at`: its name, and true. */
+/* Whether the line at `at` is "@name@"; if so, its name. */
 static bool is_marker(const char *at, size_t length, char name[16])
 {
     if (length < 3 || length > 16 || at[0] != '@' || at[length - 1] != '@') return false;
@@ -40,7 +40,7 @@ static bool is_marker(const char *at, size_t length, char name[16])
     return true;
 }
 
-/* False: there is no memory for it. What cannot be written is seen at the end. */
+/* False: there is no memory for it. Errors of writing are found at the end, by iso_output_check. */
 static bool put_page(FILE *to, const json_t *data)
 {
     const view_file *page = view_file_find("page");

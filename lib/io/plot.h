@@ -39,11 +39,11 @@ ISO_API iso_status iso_plot_check_format(iso_context *ctx, const char *path);
  * ISO_FILE_TROUBLE (no gnuplot, or what it said; the file cannot be written), ISO_NO_MEMORY. */
 ISO_API iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot);
 
-/* The way of a ball in space. A support whose place the columns do not tell is not drawn. */
+/* The path of a ball in space. If the columns do not tell where the support is, it is not drawn. */
 typedef struct iso_plot_space {
     const iso_record *rows; /* columns centre1..3, or contact1..3, or both; pressure: where contact is lost       */
-    const double *up;       /* upward vertical, a unit vector in axes of space; NULL: not known. Nothing is called
-                               up then: the eye is on axis 3 of space, or on the normal of the plane              */
+    const double *up;       /* upward vertical, a unit vector in axes of space; NULL: not known. Then nothing is
+                               called up: the eye is on axis 3 of space, or on the normal of the plane            */
     bool plane;             /* the support is a plane; else a sphere about 0                                      */
 } iso_plot_space;
 
@@ -58,20 +58,19 @@ typedef struct iso_plot_orbit {
 } iso_plot_orbit;
 
 /* A sheet of panels, as many as there is something to show in:
- * - the way in space, from above and from the side, with the support, the ball at the start and at the end, and where
- *   contact is lost (pressure 0, or the support would have to pull);
+ * - the path in space, from above and from the side, with the support, the ball at the start and at the end, and
+ *   where contact is lost (pressure 0, or the support would have to pull);
  * - the paths on their spheres, start and end marked: gamma of the point, n of the ball, or trace1..3 of a ball that
  *   is drawn without its point;
  * - energies over time, unless they are constant; pressure and mu, if the ball has these columns;
- * - the integrals' drift; if all drifts are rounding (below 1000 times the smallest one of doubles, 2.2e-13), one
- *   line of text in its place;
+ * - the integrals' drift; if all drifts are rounding (below 1000 DBL_EPSILON = 2.2e-13), one line of text instead;
  * - the one clock over the other.
  * Errors: as iso_plot_comparison. */
 ISO_API iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot);
 
-/* One column over another; equal: one unit is equally long on both axes. At most 5000 rows are drawn, or of each of
- * 1000 slots the least and the largest number. Errors: ISO_BAD_ARGUMENT (name, columns, no rows), ISO_NUMERICAL (a
- * number that is not finite), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+/* Column y over column x; equal: one unit is equally long on both axes. Of many rows not all are drawn: over a clock
+ * the least and the largest number in each of 1000 slots, else 5000 rows. Errors: ISO_BAD_ARGUMENT (name, columns, no
+ * rows), ISO_NUMERICAL (a number that is not finite), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 ISO_API iso_status iso_plot_columns(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
                                     const char *x, const char *y, bool equal);
 

@@ -1,7 +1,7 @@
 /* plot_axis.c - a panel's place on the page, and the ticks of its axes.
  *
  * gnuplot's own ticks of long times overlap ("200000400000600000"), and those of late times are all alike. Here the
- * ticks are few, and what they have in common stands in the name of the axis: "t / 10⁶", "t − 1000000".
+ * ticks are few, and what they have in common goes into the name of the axis: "t / 10⁶", "t − 1000000".
  */
 #include <float.h>
 #include <math.h>

@@ -88,7 +88,7 @@ static void put_x_axis(FILE *f, const iso_plot_panel *p)
 
 #define NUMBER "number"
 
-/* What is taken out of the ticks stands above the axis: "10⁻⁴", or "number − 66.7". */
+/* The power and the shift that are taken out of the ticks stand above the axis: "10⁻⁴", or "number − 66.7". */
 static void put_y_axis(FILE *f, const iso_plot_panel *p, bool right)
 {
     static const char power[] = NUMBER " / ";

@@ -25,15 +25,15 @@ enum {
 #define ISO_PLOT_LOST "pt 2 ps 1.7 lw 3 lc rgb " ISO_PLOT_VERMILLION
 #define ISO_PLOT_LOST_LINE "dt (6,4) lw 1.5 lc rgb " ISO_PLOT_VERMILLION
 
-/* Where something stands, as parts of the page: 0 and 1 are its edges, (0, 0) is below on the left. */
+/* A rectangle in parts of the page: 0 and 1 are its edges, (0, 0) is its lower left corner. */
 typedef struct iso_plot_box {
     double left, right, bottom, top;
 } iso_plot_box;
 
-/* The next plot's axes end there. */
+/* The next plot's axes fill the box. */
 void iso_plot_place(FILE *script, const iso_plot_box *box);
 
-/* An axis from low to high with about `most` ticks. The name is that of the numbers; units may follow it. */
+/* An axis from low to high with about `most` ticks. `name`: what the numbers are; units may follow it. */
 typedef struct iso_plot_axis {
     const char *which; /* "x", "y", "y2" */
     double low, high;  /* equal: a single number, which gets room on both sides */
@@ -44,10 +44,10 @@ typedef struct iso_plot_axis {
 
 enum { ISO_PLOT_NAME = 160 };
 
-/* Sets the range, the ticks and the label. Into `name`: what the ticks mean, such as "t / 10⁶". */
+/* Sets the range, the ticks and the label. Writes into `name` what the ticks mean, such as "t / 10⁶". */
 void iso_plot_ticks(FILE *script, const iso_plot_axis *axis, char name[static ISO_PLOT_NAME]);
 
-/* The ticks of a logarithmic y axis, from 10^lowest, which stands for all below it. */
+/* The ticks of a logarithmic y axis, from 10^lowest on; that tick stands for all below it. */
 void iso_plot_powers(FILE *script, int lowest, int highest, int most);
 
 /* A chart of differences: its axes, a title above them, a key on the right. */
@@ -109,11 +109,11 @@ void iso_plot_curves(FILE *script, const iso_plot_panel *panel);
 
 struct iso_plot_space;
 
-/* What plot_space.c found out about a path in space. */
+/* What plot_space.c knows about a path in space. */
 typedef struct iso_plot_scenery {
     const iso_record *rows;
     int centre, contact;             /* first columns, -1: not there                                        */
-    bool plane, level;               /* the support is a plane; it is level, or what is up is not known     */
+    bool plane, level;               /* the support is a plane; a plane that is level, or up is not known   */
     bool normal;                     /* the columns tell its normal                                         */
     bool vertical;                   /* whether up[] is the vertical                                        */
     double right[3], away[3], up[3]; /* of the view from the side; `away` is up in the view from above      */
@@ -128,16 +128,17 @@ typedef struct iso_plot_scenery {
 /* Errors: ISO_BAD_ARGUMENT (no columns), ISO_NUMERICAL. */
 iso_status iso_plot_look_around(iso_context *ctx, const struct iso_plot_space *space, iso_plot_scenery *scenery);
 
-/* The rows from which on a support would have to pull, by the column `pressure`: at most ISO_PLOT_MARKS of them. */
+/* The rows at which contact is lost: `pressure` falls to 0, or becomes negative (the support would have to pull). At
+ * most ISO_PLOT_MARKS; returns how many. */
 int iso_plot_losses(const iso_record *rows, size_t lost[ISO_PLOT_MARKS]);
 
-/* Whether the path is so long and narrow that it wants a wide panel, and a scale of its own across. */
+/* Whether the path is so long and narrow that it gets a wide panel, with a larger scale across it. */
 bool iso_plot_is_narrow(const iso_plot_scenery *scenery);
 
 /* The two views. A narrow path has one, in a wide box. */
 void iso_plot_view(FILE *script, const iso_plot_box *box, const iso_plot_scenery *scenery, bool from_above);
 
-/* How high the higher of the two is, in parts of their width. */
+/* The height of the higher of the two views, as a part of its width. */
 double iso_plot_view_shape(const iso_plot_scenery *scenery);
 
 /* The entries of their key, into text. */

@@ -104,7 +104,7 @@ static void measure(iso_plot_scenery *s)
     }
 }
 
-/* From the start to the place that is farthest from it, without its height. */
+/* The horizontal direction from the start to the place that is farthest from it. */
 static bool find_far(const iso_plot_scenery *s, double direction[3])
 {
     double most = 0;
@@ -129,30 +129,32 @@ static void turn_to(iso_plot_scenery *s, const double right[3])
 static void name_views(iso_plot_scenery *s, bool axes)
 {
     const bool level_plane = s->plane && s->level && s->normal;
-    s->from_above = s->vertical   ? "the way of the ball, seen from above"
-                    : level_plane ? "the way of the ball, seen along the normal of the plane"
-                                  : "the way of the ball, seen along axis 3 of space";
-    s->from_side = s->vertical ? "seen from the side" : axes ? "seen along axis 2 of space" : "seen across axis 3";
-    s->right_name = axes ? "axis 1" : s->vertical ? "horizontal" : "across axis 3";
-    s->away_name = axes ? "axis 2" : s->vertical ? "horizontal" : "across axis 3";
+    s->from_above = s->vertical   ? "the path of the ball, seen from above"
+                    : level_plane ? "the path of the ball, seen along the normal of the plane"
+                                  : "the path of the ball, seen along axis 3 of space";
+    s->from_side = s->vertical ? "seen from the side"
+                   : axes      ? "seen along axis 2 of space"
+                               : "seen at a right angle to axis 3";
+    s->right_name = axes ? "axis 1" : s->vertical ? "horizontal" : "at a right angle to axis 3";
+    s->away_name = axes ? "axis 2" : s->vertical ? "horizontal" : "at a right angle to axis 3";
     if (level_plane && !s->vertical) s->right_name = s->away_name = "in the plane";
     s->up_name = !s->vertical ? "axis 3" : axes ? "height (axis 3)" : "height";
 }
 
-/* Whether the way lies nearly in one upright plane, which is then seen from the front. */
+/* Whether the path lies nearly in one upright plane: the view from the side then looks at it from the front. */
 static bool is_flat(const iso_plot_scenery *s)
 {
     return s->high[0] - s->low[0] > FLAT * (s->high[1] - s->low[1]);
 }
 
-/* Whether the way has one height. */
+/* Whether the whole path has the same height. */
 static bool is_even(const iso_plot_scenery *s)
 {
     return s->high[2] - s->low[2] <= ALIKE * fmax(s->high[0] - s->low[0], s->high[1] - s->low[1]);
 }
 
-/* Along the way, if it is narrow, on a sphere if it is flat. Else nothing changes. */
-static void follow_way(iso_plot_scenery *s)
+/* Turns `right` along the path: on a plane if the path is narrow, on a sphere if it is flat. Else nothing changes. */
+static void follow_path(iso_plot_scenery *s)
 {
     iso_plot_scenery turned = *s;
     double right[3];
@@ -162,13 +164,13 @@ static void follow_way(iso_plot_scenery *s)
     *s = turned;
     name_views(s, false);
     if (!s->plane) return;
-    s->from_above = s->vertical ? "the way of the ball, seen from above; across on a larger scale"
-                    : s->normal ? "the way of the ball, along the normal of the plane; across on a larger scale"
-                                : "the way of the ball, along axis 3 of space; across on a larger scale";
-    s->right_name = "along the way", s->away_name = "across";
+    s->from_above = s->vertical ? "the path of the ball, seen from above; the scale across it is larger"
+                    : s->normal ? "the path of the ball, along the normal of the plane; the scale across it is larger"
+                                : "the path of the ball, along axis 3 of space; the scale across it is larger";
+    s->right_name = "along the path", s->away_name = "across";
 }
 
-/* To the right: down the slope of a plane, along a narrow way, else axis 1 of space, or what is nearest to it. */
+/* To the right: down the slope of a plane, along a narrow path, else along axis 1 of space, or nearest to it. */
 static void choose_directions(iso_plot_scenery *s, const double normal[3], bool known)
 {
     static const double axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -187,7 +189,7 @@ static void choose_directions(iso_plot_scenery *s, const double normal[3], bool 
     turn_to(s, right);
     s->level = s->plane && (known || is_even(s));
     name_views(s, upright);
-    follow_way(s);
+    follow_path(s);
 }
 
 bool iso_plot_is_narrow(const iso_plot_scenery *s)

@@ -1,6 +1,6 @@
 /* plot_trajectory.c - the picture of one trajectory: a sheet of panels, in rows of two.
  *
- * Square panels come first: the way in space, the spheres. Charts follow. A square that would stand alone has charts
+ * Square panels come first: the path in space, the spheres. Charts follow. A square that would stand alone has charts
  * on its right, and a chart that would stand alone is as wide as the sheet: no part of the sheet is empty.
  */
 #include <float.h>
@@ -211,7 +211,8 @@ static void put_energies(const sheet *s, const iso_plot_box *box)
                                             .marks = s->losses});
 }
 
-/* mu grows without bound where the pressure falls to 0: its axis ends at 3 times its median there. */
+/* mu grows without bound where the pressure falls to 0: then its axis ends at about 3 times its usual size. 0: all of
+ * mu is drawn. */
 static double top_of_mu(const iso_record *r, int mu)
 {
     const size_t rows = iso_record_rows(r);
@@ -260,15 +261,15 @@ static void put_chart(const sheet *s, chart which, int left, int right, int top,
     if (which == CLOCKS) put_clocks(s, &box);
     if (which == DRIFT)
         iso_plot_differences(s->f, s->plot->drift, 0,
-                             &(iso_plot_chart){beside_key, "drift of integrals, relative", ""});
+                             &(iso_plot_chart){beside_key, "relative drift of the integrals", ""});
 }
 
-/* "integrals: all keep their values, up to rounding: h 3e-16, ..." */
+/* "integrals hold up to rounding; largest relative drift: h 3e-16, ..." */
 static void put_noise(const sheet *s)
 {
     const iso_record *r = s->plot->drift;
     char text[400];
-    int used = snprintf(text, sizeof text, "integrals keep their values up to rounding, relative: ");
+    int used = snprintf(text, sizeof text, "integrals hold up to rounding; largest relative drift: ");
     for (size_t c = 1; c < iso_record_columns(r); c++) {
         double largest = 0;
         for (size_t i = 0; i < iso_record_rows(r); i++) largest = fmax(largest, iso_record_const_row(r, i)[c]);

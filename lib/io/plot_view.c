@@ -1,4 +1,5 @@
-/* plot_view.c - the way of the ball from above and from the side: support, path, ball at the start and at the end. */
+/* plot_view.c - the path of the ball from above and from the side, with the support, and the ball at the start and at
+ * the end. */
 #include <math.h>
 #include <stdio.h>
 
@@ -6,9 +7,9 @@
 #include "io/gnuplot_impl.h"
 #include "io/plot_impl.h"
 
-#define JOINED 0.6    /* rows farther apart than this, as seen from the centre of the sphere, are no path: dots */
-#define OUTLINE 0.1   /* so near the outline of the support, as a part of its radius, nothing is hidden */
-#define FLATTEST 0.45 /* height of a view, of its width, and the other way round, at least */
+#define JOINED 0.6    /* radians: rows farther apart, seen from the centre of the sphere, are drawn as dots */
+#define OUTLINE 0.1   /* nothing is hidden this near the outline of the support; part of its radius */
+#define FLATTEST 0.45 /* least height of a view as a part of its width, and least width as a part of its height */
 #define MARGIN 0.06
 
 typedef struct view {
@@ -30,7 +31,7 @@ static view make_view(const iso_plot_scenery *s, bool from_above)
                   .narrow = iso_plot_is_narrow(s)};
 }
 
-/* Places of a narrow way count from its start. */
+/* The places of a narrow path are counted from its start. */
 static void project(const view *v, const double place[3], double at[2])
 {
     const iso_plot_scenery *s = v->s;
@@ -39,7 +40,7 @@ static void project(const view *v, const double place[3], double at[2])
     at[1] = dot(place, v->along) - (v->narrow ? dot(origin, v->along) : 0);
 }
 
-/* Whether the support hides the place: a sphere on whose outside it is, or that is inside the ball. */
+/* Whether the support hides the place: only a sphere on whose outside the ball rolls, or that is inside the ball. */
 static bool is_solid(const iso_plot_scenery *s)
 {
     if (s->support == 0 || s->ball == 0) return false;
@@ -145,7 +146,7 @@ static void put_balls(FILE *f, const view *v)
                "back fc rgb " ISO_PLOT_FAR_BLUE " fs transparent solid 0.35 border lc rgb '#606060'");
 }
 
-/* Where contact is lost in the last row, that sign says more. */
+/* Not if contact is lost in the last row: that sign says more. */
 static bool shows_end(const iso_plot_scenery *s)
 {
     return s->losses == 0 || s->lost[s->losses - 1] != iso_record_rows(s->rows) - 1;
@@ -236,7 +237,7 @@ static void put_lines(FILE *f, const char *with, bool both)
     fprintf(f, ", $way1 w %s lw 1.6 lc rgb " ISO_PLOT_BLUE "\nset size noratio; unset grid\n", with);
 }
 
-/* Whether the way of the contact is drawn beside that of the centre: on a plane they are the same from above. */
+/* Whether the paths of contact and centre are both drawn: on a plane they are the same from above. */
 static bool shows_contact(const iso_plot_scenery *s)
 {
     return s->centre >= 0 && s->contact >= 0 && !s->plane;

@@ -51,11 +51,11 @@ typedef struct iso_effect_column {
     const char *name;          /* of the group                                                                      */
     const char *const *column; /* the names of its columns                                                          */
     int count;
-    iso_dimension dimension;   /* of its numbers ...                                                                */
-    int length;                /* ... times the ball's radius to this power                                         */
-    const char *checked_as;    /* `check` reports "<this> flow"; NULL: it is not compared                           */
-    const char *sized_by;      /* the group whose size errors are measured by as well; NULL: its own size alone     */
-    bool moves;                /* on a plane it goes on from where the ball was                                     */
+    iso_dimension dimension; /* of its numbers ...                                                                */
+    int length;              /* ... times the ball's radius to this power                                         */
+    const char *checked_as;  /* `check` reports "<this> flow"; NULL: it is not compared                           */
+    const char *sized_by;    /* the group whose size errors are measured by as well; NULL: its own size alone     */
+    bool moves;              /* on a plane it goes on from where the ball was                                     */
 } iso_effect_column;
 
 /* States that an effect adds: one group is one number or vector. */
@@ -86,14 +86,14 @@ typedef struct iso_effect {
     const char *name, *doc;
 
     /* --- what it means --- */
-    bool observes;            /* it changes nothing in the motion: it only adds states or columns                   */
-    bool ball_only;           /* an observer whose states or columns only backend ball has                          */
-    const char *breaks;       /* why no isomorphism survives it; NULL: it has an image, or it observes              */
-    bool needs_D;             /* it needs D = m b^2                                                                 */
-    bool needs_radius;        /* its columns are lengths or forces                                                  */
-    bool twists;              /* the contact is not rigid: (omega,n) is free                                        */
-    bool clocks;              /* it asks for the clocks as columns, and for nothing else                            */
-    bool is_level;            /* its potential is the energy level of the point: no force on the point              */
+    bool observes;      /* it changes nothing in the motion: it only adds states or columns                   */
+    bool ball_only;     /* an observer whose states or columns only backend ball has                          */
+    const char *breaks; /* why no isomorphism survives it; NULL: it has an image, or it observes              */
+    bool needs_D;       /* it needs D = m b^2                                                                 */
+    bool needs_radius;  /* its columns are lengths or forces                                                  */
+    bool twists;        /* the contact is not rigid: (omega,n) is free                                        */
+    bool clocks;        /* it asks for the clocks as columns, and for nothing else                            */
+    bool is_level;      /* its potential is the energy level of the point: no force on the point              */
     iso_work (*work)(const iso_problem *f);                    /* NULL: unknown; for an observer: none            */
     bool (*keeps)(const iso_problem *f, iso_further integral); /* NULL: it keeps none; an observer: all           */
     const char *(*no_frequencies)(const iso_problem *f);       /* why n(t) is not quasi-periodic; NULL: it may be */
@@ -105,8 +105,8 @@ typedef struct iso_effect {
      * whether the scene has the key. Errors: ISO_BAD_INPUT about the key, or the effect's name. */
     iso_status (*complete)(iso_context *ctx, const iso_params *p, int model, double number[],
                            bool (*given)(const void *scene, const char *key), const void *scene);
-    /* Computes numbers that were not given (`initially` is NaN) from those of other effects, which stand before it in
-     * the list and are checked. */
+    /* Computes numbers that were not given (`initially` is NaN) from those of other effects. These stand before this
+     * one in the list and are already checked. */
     void (*fill)(iso_effects *effects);
     /* What else must hold. n: the normal at the start. Errors: ISO_BAD_INPUT about a number's or the effect's name.
      */
@@ -127,8 +127,8 @@ typedef struct iso_effect {
     void (*torque)(const iso_problem *f, const double y[], double T[3]);
 
     /* --- its states --- */
-    const iso_effect_state *states;                 /* ended by a row without a name; NULL: none                    */
-    const char *states_doc;                         /* why they are there                                           */
+    const iso_effect_state *states; /* ended by a row without a name; NULL: none                    */
+    const char *states_doc;         /* why they are there                                           */
     void (*begin)(const iso_problem *f,
                   double y[]); /* at the start                                                 */
     void (*size)(const iso_problem *f, const double y[],
@@ -189,7 +189,7 @@ ISO_API iso_status iso_effects_check(iso_context *ctx, const iso_params *params,
  * only presses the ball down. */
 ISO_API bool iso_effects_on_level_plane(const iso_params *params, const double normal[3], const iso_effects *effects);
 
-/* The upward vertical at the start, in body axes: 3 numbers, meant if gravity is on. */
+/* The upward vertical at the start, in body axes: 3 numbers. Without gravity they mean nothing. */
 const double *iso_effects_up(const iso_effects *effects);
 
 /* The effects carried from the caller's units to own ones (power -1), or back (power 1). */

@@ -5,8 +5,8 @@
  *
  * On a sphere no displacement has to be integrated: the contact is at a R n, the centre at (a+b) R n.
  *
- * The axes of space are those in which the quaternion at time 0 is given. Without one, axis 3 of space is the upward
- * vertical if there is gravity; otherwise the axes of space are the body's at time 0.
+ * The quaternion at time 0 fixes the axes of space. If it is not given, axis 3 of space is the upward vertical, or,
+ * without gravity, the axes of space are the body's at time 0.
  */
 #include <math.h>
 

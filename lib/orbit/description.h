@@ -30,9 +30,9 @@ ISO_API iso_status iso_record_params(iso_context *ctx, const iso_record *record,
 /* The effects of the lines, `up` and `quaternion` as at time 0. Errors: ISO_BAD_INPUT about "effects". */
 ISO_API iso_status iso_record_effects(iso_context *ctx, const iso_record *record, iso_effects *effects);
 
-/* The upward vertical in axes of space, which it does not leave: R(Q) u, by the lines `attitude.quaternion` and
- * `gravity.up`, or by the columns q0..3 and e1..3 of the first row. False: the record does not tell it, or a line is
- * damaged. */
+/* The upward vertical in axes of space, where it is constant: R(Q) u, by the lines `attitude.quaternion` (Q) and
+ * `gravity.up` (u), or by the columns q0..3 and e1..3 of the first row. False: the record does not tell it, or a line
+ * is damaged. */
 ISO_API bool iso_record_up(iso_context *ctx, const iso_record *record, double up[3]);
 
 /* The coupling that the lines state, by eps or by h; false: they do not, or *status says what is wrong with them. */

@@ -34,7 +34,7 @@ static bool has_beginning(const energies *e, iso_effect_id id)
     return has;
 }
 
-/* Observers that cannot begin are left out: the motion does not need them. */
+/* Effects that act on nothing are left out if the record lacks their columns: the motion does not need them. */
 static void leave_out_observers(energies *e)
 {
     for (iso_effect_id id = 0; id < ISO_EFFECTS; id++)

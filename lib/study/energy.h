@@ -15,9 +15,9 @@ ISO_C_BEGIN
  *     kinetic = (1/2)(omega, J omega) - (D/2)(omega,n)^2, the second term for a ball that twists
  *     potential                                            (kinetic and potential only where there is a potential)
  *
- * in the units of the record. *energies is NULL, with ISO_OK, where the energy is not known: on a plane with gravity
- * it needs the height, which are the columns of `attitude`.
- * Errors: ISO_BAD_INPUT (no ball's columns, a row that is no state), ISO_NUMERICAL, ISO_NO_MEMORY. */
+ * in the units of the record. If the energy is not known, *energies is NULL and the status ISO_OK. It is not known on
+ * a plane with gravity if the columns of `attitude` are missing: the energy needs the height.
+ * Errors: ISO_BAD_INPUT (no columns of a ball, a row that is no state), ISO_NUMERICAL, ISO_NO_MEMORY. */
 ISO_API iso_status iso_record_energies(iso_context *ctx, const iso_params *params, const iso_record *record,
                                        iso_record **energies);
 

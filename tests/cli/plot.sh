@@ -1,6 +1,6 @@
 #!/bin/sh
-# plot.sh ISOROLL - pictures of trajectories: the way in space, where contact is lost, what the file does not tell,
-# any two columns. gnuplot is replaced by a script that keeps what it is told; the last part takes the real one.
+# plot.sh ISOROLL - pictures of trajectories: the path in space, where contact is lost, what the file does not tell,
+# any two columns. gnuplot is replaced by a script that keeps its input; the last part takes the real one.
 . "$(dirname "$0")/lib.sh"
 mkdir bin
 cat >bin/gnuplot <<END
@@ -12,7 +12,7 @@ chmod +x bin/gnuplot
 real_path=$PATH
 PATH=$work/bin:$PATH
 
-# draw ARGUMENT...: a picture; what gnuplot is told is in `script`
+# draw ARGUMENT...: a picture; gnuplot's commands are in `script`
 draw() {
     rm -f script
     run 0 plot "$@" -o picture.svg
@@ -61,7 +61,7 @@ same() {
 bowl=$source/examples/10_bowl/scene.yaml
 run 0 run "$bowl" --t-end 8 --step 0.02 -o bowl.csv
 draw bowl.csv
-tells "bowl" "the way of the ball, seen from above" "seen from the side" "height \\050axis 3\\051" \
+tells "bowl" "the path of the ball, seen from above" "seen from the side" "height \\050axis 3\\051" \
     "energy h" "pressure" "mu " "up to rounding" \
     "where it touched the support"
 tells_not "bowl" "contact lost" '$difference' "or less than"
@@ -72,7 +72,7 @@ block way1 2 >a && columns_of bowl.csv centre1 centre3 >b && same "from the side
 block touch1 2 >a && columns_of bowl.csv contact1 contact3 >b && same "the contact from the side"
 cp picture.svg kept.svg
 
-# the same motion in other axes of space, as files had them before: seen from above and from the side all the same
+# the same motion in other axes of space, as older files have them: the views are still from above and from the side
 sed 's/attitude: {}/attitude: {quaternion: [1, 0, 0, 0]}/' "$bowl" >turned.yaml
 run 0 run turned.yaml --t-end 8 --step 0.02 -o turned.csv
 block way1 1 >above
@@ -84,7 +84,7 @@ block way1 2 | awk '{ print $2, 0 }' >a && same "heights do not depend on the ax
 awk '{ print $1 ^ 2 + $2 ^ 2, 0 }' above >b
 block way1 1 | awk '{ print $1 ^ 2 + $2 ^ 2, 0 }' >a && same "nor do distances from the vertical"
 
-# a file of another program: the centre alone. Nothing is called up, and no support is assumed
+# a file of another program: the centre alone. No direction is called up, and no support is assumed
 { echo "t,omega1,omega2,omega3,n1,n2,n3,centre1,centre2,centre3"; columns_of bowl.csv t omega1 omega2 omega3 n1 n2 n3 \
     centre1 centre2 centre3 | tr ' ' ','; } >foreign.csv
 draw foreign.csv --k 1.1 --J 1.18e-4,1.26e-4,1.34e-4
@@ -110,7 +110,7 @@ tells "a support that pulls" "title 'contact lost'" "title 'end'"
 # --- on a plane
 run 0 run "$source/examples/01_bowling_ball/lane.yaml" --t-end 30 -o lane.csv
 draw lane.csv
-tells "lane" "across on a larger scale" "along the way" "where it touched the support"
+tells "lane" "the scale across it is larger" "along the path" "where it touched the support"
 tells_not "lane" "seen from the side"
 at_most "the height of a ball on a level lane is its radius" "$(columns_of lane.csv centre3 | awk '
     { d = $1 - 0.108585; if (d < 0) d = -d; if (d > worst) worst = d } END { print worst + 0 }')" 1e-12

@@ -1,6 +1,6 @@
 #!/bin/sh
-# view.sh ISOROLL - isoroll view without a browser: sizes, what a page may not contain, messages. view_page.sh has the
-# browser.
+# view.sh ISOROLL - isoroll view without a browser: sizes, what a page may not contain, messages. view_page.sh tests
+# pages in a browser.
 . "$(dirname "$0")/lib.sh"
 scene -1 "1, 2, 5" "0.8, 0.1, -0.6" "0.6, 0, 0.8" 30 0.1 >scene.yaml
 

@@ -1,5 +1,5 @@
-/* test_plot_space.c - pictures of a way in space: the frame of the views, what is marked, what is not assumed; ticks.
- * The library's private functions are asked, and gnuplot is replaced by a script that keeps what it is told. */
+/* test_plot_space.c - pictures of a path in space: the frame of the views, what is marked, what is not assumed;
+ * ticks. Private functions of the library are tested. gnuplot is replaced by a script that keeps its input. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +21,7 @@ static void path_of(char path[300], const char *name)
     snprintf(path, 300, "%s/%s", folder, name);
 }
 
-/* What the next pictures tell gnuplot comes into `script` by read_script. */
+/* Puts the false gnuplot in front of the true one. read_script() reads what it was given. */
 static void replace_gnuplot(void)
 {
     char path[300], search[9000];
@@ -138,7 +138,7 @@ static void test_frames(void)
     gsl_test(!s.level || !(off_frame(&s, tilted) <= 1e-15) || strstr(s.from_above, "above"),
              "up not known: the plane's normal");
     iso_record_free(r);
-    /* the way of the contact alone does not tell the normal */
+    /* the path of the contact alone does not tell the normal */
     iso_record *contact = make_plane(100, tilted, steep, 0.1), *place;
     if (iso_record_create(ctx, 3, all_names + CONTACT, &place) != ISO_OK) exit(1);
     for (size_t i = 0; i < 100; i++) {
@@ -152,16 +152,17 @@ static void test_frames(void)
     iso_record_free(place);
     r = make_plane(100, axis_3, along, 0.1);
     s = look(r, axis_3, true);
-    gsl_test(!s.level || !iso_plot_is_narrow(&s) || !strstr(s.from_above, "larger scale"), "a narrow way says so");
+    gsl_test(!s.level || !iso_plot_is_narrow(&s) || !strstr(s.from_above, "scale across it is larger"),
+             "a narrow path says so");
     iso_record_free(r);
     r = make_plane(100, axis_3, along, 5);
     s = look(r, axis_3, true);
-    gsl_test(iso_plot_is_narrow(&s) || strstr(s.from_above, "larger scale"), "a wide way does not");
+    gsl_test(iso_plot_is_narrow(&s) || strstr(s.from_above, "scale across it is larger"), "a wide path does not");
     iso_record_free(r);
     iso_random_free(random);
 }
 
-/* A support that is none is not drawn: places that are not all equally far from 0; a centre alone. */
+/* No support is drawn if the places are not all equally far from 0, or if only the centre is known. */
 static void test_unknown_support(void)
 {
     iso_record *r = make_sphere(50);

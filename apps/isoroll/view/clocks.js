@@ -1,4 +1,4 @@
-// clocks.js - the three clocks: which one runs evenly, what each shows, and how fast the others go.
+// clocks.js - the three clocks: which one runs evenly, what each shows, and how fast the others run.
 
 const clockWords = {
   t: ["t", "the ball’s time"],
@@ -8,7 +8,7 @@ const clockWords = {
 
 const raised = (n) => [...String(n)].map((d) => (d === "-" ? "⁻" : d === "." ? "·" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[d])).join("");
 
-// A number with so many significant digits, without zeros at its end.
+// A number with `count` significant digits, without zeros at its end.
 const digits = (x, count = 6) => {
   if (!Number.isFinite(x)) return "–";
   if (x === 0) return "0";
@@ -76,7 +76,7 @@ const clocks = {
     this.measure(orbit);
   },
 
-  // How far each clock goes; which button is chosen.
+  // How much each clock gains over the orbit; which button is chosen.
   measure(orbit) {
     const last = orbit.count - 1;
     this.spans = Object.fromEntries(orbit.clocks.map((name) => [name, orbit[name][last] - orbit[name][0]]));
@@ -101,7 +101,7 @@ const clocks = {
     }
   },
 
-  // The pace of a clock where the normal is n, against its mean.
+  // The pace of a clock where the normal is n: its rate by the even clock, divided by the mean of that rate.
   pace(name, n) {
     return ((motion.rate(name, n) / motion.rate(this.even, n)) * this.spans[this.even]) / this.spans[name];
   },

@@ -51,7 +51,7 @@ const controls = {
     if (this.pictures) for (const picture of this.pictures) picture.setOrbit(orbit, moments);
     if (sections) sections.setOrbit(orbit);
     numbers.build(orbit);
-    // a natural speed: the ball turns by about 1.5 radians in a second
+    // speed 1×: the ball turns by about 1.5 radians in a second; the whole takes 8 to 240 seconds
     const last = orbit.count - 1,
       turns = orbit.omega.reduce((sum, w, i) => (i ? sum + Math.hypot(...w) * (orbit.t[i] - orbit.t[i - 1]) : 0), 0);
     this.seconds = Math.min(240, Math.max(8, (turns * Math.max(1, Math.abs(body.k))) / 1.5));
@@ -90,7 +90,7 @@ const controls = {
     this.dirty = false;
     this.draw();
   },
-  // Slow computers draw what moves with fewer pixels, and all of them when it stands still.
+  // Slow computers draw with fewer pixels while things move, and with all pixels when they stand still.
   adapt(milliseconds) {
     const since = milliseconds - this.before;
     this.before = milliseconds;
@@ -298,7 +298,7 @@ const controls = {
     else {
       element("trouble").hidden = false;
       element("trouble").textContent =
-        "This browser has no WebGL, which draws the pictures in space. Clocks and numbers work without it.";
+        "This browser has no WebGL, so the pictures in space are missing. Clocks and numbers work without it.";
       element("models").hidden = true;
       element("picture").hidden = true;
     }

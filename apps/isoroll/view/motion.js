@@ -1,5 +1,5 @@
 // motion.js - where everything is at any time of any clock: cubic curves through the rows, with the slopes that the
-// equations of motion give. At the rows they are exact.
+// equations of motion give. At the rows they have the numbers of the rows.
 
 // The cubic with values a, b and slopes c, d (times the length of the interval) at u = 0 and 1.
 function cubic(a, b, c, d, u) {
@@ -32,7 +32,7 @@ function forceAt(gamma) {
   return times(cross(gamma, Jg), ((2 * page.eps) / body.k) * q ** (-1 - 1 / body.k));
 }
 
-// The slope from the rows beside row i: with effects, omega and M have none that is known here.
+// The slope of omega or M from the rows beside row i. With effects the page does not know their equations.
 function difference(o, name, i) {
   const a = Math.max(0, i - 1),
     b = Math.min(o.count - 1, i + 1);
@@ -64,7 +64,7 @@ function interval(column, x) {
   return low;
 }
 
-// The part u of interval i at which a clock shows x: its cubic is growing, so halving and Newton's steps find it.
+// The part u of interval i, 0 to 1, at which a clock shows x. The cubic grows: halving and Newton's steps find u.
 function partAt(o, clock, i, x) {
   const c = o[clock],
     h = o.t[i + 1] - o.t[i],
@@ -90,7 +90,7 @@ function partAt(o, clock, i, x) {
 }
 
 const motion = {
-  // Everything at the time x of a clock, which is brought into the range of the rows.
+  // Everything at the time at which a clock shows x. Beyond the rows: the first or the last row.
   at(o, clock, x) {
     const column = o[clock],
       i = interval(column, x);

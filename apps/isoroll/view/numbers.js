@@ -1,10 +1,10 @@
-// numbers.js - the words and numbers under the pictures. Texts of files come in by textContent alone.
+// numbers.js - the words and numbers of the page. Texts of files are set only by textContent.
 
 const numbers = {
   // A unit from its dimension: J^(a + b/(2k)) / time^c, where J stands for the unit of moments of inertia.
   unitOf([a, b, c]) {
     const power = a + b / (2 * body.k),
-      up = (x) => (x === 1 ? "" : raised(+x.toPrecision(3)));
+      up = (x) => (x === 1 ? "" : Number.isInteger(x) ? raised(x) : `^${+x.toPrecision(3)}`);
     const J = Math.abs(power) < 1e-12 ? "" : `J${up(power)}`;
     if (c === 0) return J || "1";
     return c > 0 ? `${J || "1"}/time${up(c)}` : `${J ? J + "·" : ""}time${up(-c)}`;
@@ -62,8 +62,8 @@ const numbers = {
       this.differences.push([cells[1], orbit.column[name]]);
     }
     document.getElementById("difference-words").textContent =
-      "Each model was integrated by itself, from its own equations, then carried to the other by the map. " +
-      "Lengths of differences of unit vectors: 0.01 would be half a degree.";
+      "Each model was integrated by itself, by its own equations, and carried to the other by the map. " +
+      "The numbers are lengths of differences of unit vectors: 0.01 means about half a degree.";
   },
 
   buildState(orbit) {
@@ -85,7 +85,7 @@ const numbers = {
     this.extras = [];
     for (const [name, words, of] of [
       ["pressure", "pressure", "force"],
-      ["mu", "friction needed", "1"],
+      ["mu", "mu needed", "1"],
       ["friction", "friction", "force"],
       ["lambda", "twist torque", "torque"],
     ])
@@ -120,7 +120,7 @@ const numbers = {
     id("lead").textContent = page.alone
       ? `A ball with three moments of inertia rolls ${where}${falls} without slipping${twists}.`
       : `Left, a ball rolls ${where} without slipping or twisting. Right, a point moves on a sphere. ` +
-        "Both follow the same curve: only their clocks differ.";
+        "The isomorphism carries one path to the other; only the clocks differ.";
     id("left-words").textContent = {
       plane: "rolls on a plane",
       outside: "rolls on the outside of a sphere",
@@ -165,12 +165,18 @@ const numbers = {
     const list = [...page.notes],
       { rows } = page;
     if (page.alone) list.unshift(`There is no point: ${page.alone}.`);
-    if (rows && rows.every > 1) list.push(`One row of each ${rows.every} is here: ${orbit.count} of ${rows.total}.`);
+    if (rows && rows.every > 1)
+      list.push(`The page has 1 row of every ${rows.every}: ${orbit.count} of ${rows.total}.`);
     else if (rows && rows.between > 0)
-      list.push(`${rows.total} rows of the scene, and ${rows.between} between each two of them.`);
-    else if (rows) list.push(`All ${rows.total} rows are here.`);
+      list.push(`The page has the scene’s ${rows.total} rows, and ${rows.between} more after each but the last.`);
+    else if (rows) list.push(`The page has all ${rows.total} rows.`);
     list.push("Between rows the motion is interpolated by cubic curves with the slopes of the equations of motion.");
-    list.push("J is the unit of moments of inertia (mass·length²). Units are those of the file.");
+    list.push(`${page.alone ? "ω and n" : "ω, n, M and γ"} are in the ball’s axes, the contact is in axes of space.`);
+    if (page.integrals.length)
+      list.push("Drift: change of an integral since the first row, divided by the size of its terms.");
+    list.push("Units are those of the file. J stands for the unit of the moments of inertia (mass·length²).");
+    if (orbit.tau)
+      list.push(`Units: t: time; τ: ${this.unitOf([1, -1, -1])}; s: ${this.unitOf([-2, 1, -1])}.`);
     return list;
   },
 
@@ -195,8 +201,8 @@ const numbers = {
         put("right-legend", [
           [
             null,
-            `V from ${digits(potential.least, 3)} (dark: deep, fast) to ${digits(potential.most, 3)}` +
-              (potential.logarithmic ? ", logarithmic" : ""),
+            `V from ${digits(potential.least, 3)} (dark: the point is fast) to ${digits(potential.most, 3)}` +
+              ` ${this.unitOf([4, -2, 2])}${potential.logarithmic ? ", logarithmic" : ""}`,
             "scale",
           ],
         ]);

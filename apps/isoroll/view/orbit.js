@@ -105,8 +105,8 @@ function orbitOf(packed) {
   return o;
 }
 
-// The direction that points up in the pictures, in space axes: against gravity, else such that the ball begins on
-// top of its support, or at the bottom of a bowl.
+// The direction that points up in the pictures, in space axes. On a plane it is the normal: a slope is drawn level.
+// With gravity it is the upward vertical. Else the ball begins on top of its sphere, or at the bottom of a bowl.
 function upOf(orbit) {
   const n = turned(orbit.q[0], orbit.n[0]);
   if (page.effects.gravity) {

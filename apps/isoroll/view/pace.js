@@ -1,4 +1,4 @@
-// pace.js - the curves over the slider: how fast the other clocks run while one runs evenly. Where there is only t,
+// pace.js - the curves above the slider: how fast the other clocks run while one runs evenly. If t is the only clock:
 // how high the ball is, or how fast it turns.
 
 const pace = {
@@ -25,7 +25,7 @@ const pace = {
     document.getElementById("pace-words").textContent = !this.relative
       ? this.lines[0].words
       : `${clockWords[clocks.even][0]} runs evenly. The curves: how fast ${symbols} ` +
-        `${others.length > 1 ? "run" : "runs"} meanwhile, against the mean.`;
+        `${others.length > 1 ? "run" : "runs"} meanwhile; ×1 is the mean pace.`;
   },
 
   height(orbit) {
@@ -33,10 +33,11 @@ const pace = {
     if (page.effects.gravity && body.kind !== "plane")
       return {
         name: "t",
-        words: "The curve: how high the centre of the ball is.",
+        words: "The curve: the height of the ball’s centre above the sphere’s centre, in units of length.",
         value: (now) => dot(turned(now.q, now.n), up) * (body.A + body.b),
       };
-    return { name: "t", words: "The curve: how fast the ball turns, |ω|.", value: (now) => Math.hypot(...now.omega) };
+    const words = "The curve: how fast the ball turns, |ω| in radians/time.";
+    return { name: "t", words, value: (now) => Math.hypot(...now.omega) };
   },
 
   // From times and values to pixels.
@@ -86,7 +87,7 @@ const pace = {
     return image;
   },
 
-  // A broken line at the mean pace, and the largest and least.
+  // A broken line at the mean pace ×1, and the numbers of the largest and the least pace.
   mean(g, left, right, y) {
     const precise = this.most - this.low > 0.1 ? 3 : 5,
       isFar = (value) => Math.abs(y(value) - y(1)) > 15;

@@ -141,7 +141,7 @@ const sections = !page.section
         });
       }
 
-      // The last crossing before the present, as a ring that shrinks.
+      // The last twelve crossings before the present, as rings. The newest ring is the largest.
       function live(g, plot, frame, now) {
         const passed = crossings.filter((one) => one.t <= now.t);
         passed.slice(-12).forEach((one, j, list) => {
@@ -224,7 +224,7 @@ const sections = !page.section
             crossings.push({ t: now.t, l: Math.atan2(-gamma[c], gamma[b]), x: M[a] / Math.hypot(...M) });
           }
           document.getElementById("orbit-words").textContent =
-            `The rings: where it crosses while it runs here, ${crossings.length} times of many.`;
+            `Rings mark where this orbit crosses while it runs here: ${crossings.length} crossings.`;
         },
         crossings: () => crossings,
         draw(now) {

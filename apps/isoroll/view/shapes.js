@@ -170,7 +170,7 @@ function plane(size, spacing) {
   return mesh;
 }
 
-// The way behind the present: a ribbon that lies on a surface and fades with its length, in units of `scale`.
+// The trail: the path up to the present, a ribbon on a surface that fades with its length, in units of `scale`.
 // `at(moment)` gives its points, `normal(moment)` the surface's normal there. Only its bright part is drawn.
 function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = {}) {
   const count = moments.length,
@@ -230,7 +230,7 @@ function ribbon(moments, at, normal, width, colour, scale, { hidden = false } = 
   return mesh;
 }
 
-// The whole way, as a pale line.
+// The whole path, as a pale line.
 function whole(moments, at, lift) {
   const each = Math.ceil(moments.length / 4000),
     points = moments.filter((_, i) => i % each === 0).map((m) => three(times(at(m), lift)));

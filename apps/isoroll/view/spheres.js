@@ -19,7 +19,7 @@ const camera = {
 };
 
 // Whether the browser has WebGL, and whether a graphics card or the processor draws. The processor draws edges that
-// are not smoothed, and more pixels when everything stands still.
+// are not smoothed, and draws more pixels when everything stands still.
 const graphics = (() => {
   const canvas = document.createElement("canvas"),
     gl = canvas.getContext("webgl") || canvas.getContext("experimental-webgl");
@@ -265,7 +265,7 @@ class BallPicture extends Picture {
     }
   }
 
-  // The plane goes with the ball; its rules stay where they are.
+  // The drawn part of the plane goes with the ball; its lines stay where they are.
   showPlane(now) {
     const { middle, right, ahead } = this.support.material.uniforms;
     this.support.quaternion.copy(this.flat);
@@ -319,7 +319,7 @@ class PointPicture extends Picture {
   }
 }
 
-// The numbers with which heightOf (shapes.js) gives 0 at `least` and 1 at `most`. V is measured in its largest size.
+// The uniforms with which heightOf (shapes.js) gives 0 at V = least and 1 at V = most. V is divided by `size`.
 function levelsOf(least, most, logarithmic) {
   const { field } = page.effects,
     size = Math.max(Math.abs(least), Math.abs(most)),
@@ -335,7 +335,7 @@ function levelsOf(least, most, logarithmic) {
   return levels;
 }
 
-// The potential on the sphere, as heights from 0 (deepest) to 1, by its logarithm where it spans more than 4 to 1.
+// The potential on the sphere, as heights from 0 (deepest) to 1; by its logarithm if V < 0 and its ratio is above 4.
 const potential = (() => {
   if (page.alone || !(page.eps !== null) || page.eps === 0) return {};
   let least = Infinity,
