@@ -161,7 +161,7 @@ void iso_plot_curves(FILE *f, const iso_plot_panel *p)
         fputs(curve->name ? "title " : "notitle", f);
         if (curve->name) iso_gnuplot_text(f, curve->name, 60);
     }
-    if (p->marks && p->count < 3) fputs(", NaN with lines " ISO_PLOT_LOST_LINE " title 'contact lost'", f);
+    if (p->marks && p->count < 3) fprintf(f, ", NaN with lines " ISO_PLOT_LOST_LINE " title '%s'", p->marked);
     fputs("\nset autoscale; unset y2tics; unset y2label; unset label; unset arrow; set size noratio\n", f);
 }
 

@@ -99,7 +99,8 @@ typedef struct iso_plot_panel {
     const char *title;  /* on the left above; NULL: none */
     double top[2];      /* the left and the right axis are cut off there; 0: as far as the curves go */
     const size_t *mark; /* rows at which contact is lost ... */
-    int marks;          /* ... how many, at most ISO_PLOT_MARKS */
+    int marks;          /* ... how many, at most ISO_PLOT_MARKS ... */
+    const char *marked; /* ... and what they are called */
     bool equal;         /* one unit is equally long on both axes */
 } iso_plot_panel;
 
@@ -131,6 +132,10 @@ iso_status iso_plot_look_around(iso_context *ctx, const struct iso_plot_space *s
 /* The rows at which contact is lost: `pressure` falls to 0, or becomes negative (the support would have to pull). At
  * most ISO_PLOT_MARKS; returns how many. */
 int iso_plot_losses(const iso_record *rows, size_t lost[ISO_PLOT_MARKS]);
+
+/* What they are called: "contact lost" if the rows end there, else "pressure 0", as of a ball that is held on both
+ * sides. NULL: there are none. */
+const char *iso_plot_loss_name(const iso_record *rows, const size_t lost[], int losses);
 
 /* Whether the path is so long and narrow that it gets a wide panel, with a larger scale across it. */
 bool iso_plot_is_narrow(const iso_plot_scenery *scenery);

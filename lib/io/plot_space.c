@@ -205,7 +205,7 @@ int iso_plot_losses(const iso_record *r, size_t lost[ISO_PLOT_MARKS])
     const int column = iso_record_find(r, "pressure");
     double largest = 0;
     int count = 0;
-    bool pressed = true;
+    bool pressed = iso_record_rows(r) == 1; /* a start under a pull is no loss */
     for (size_t i = 0; column >= 0 && i < iso_record_rows(r); i++)
         largest = fmax(largest, fabs(iso_record_const_row(r, i)[column]));
     for (size_t i = 0; column >= 0 && i < iso_record_rows(r); i++) {
@@ -214,6 +214,12 @@ int iso_plot_losses(const iso_record *r, size_t lost[ISO_PLOT_MARKS])
         pressed = now;
     }
     return count;
+}
+
+const char *iso_plot_loss_name(const iso_record *r, const size_t lost[], int losses)
+{
+    if (losses == 0) return NULL;
+    return lost[losses - 1] + 1 == iso_record_rows(r) ? "contact lost" : "pressure 0";
 }
 
 /* --- all -------------------------------------------------------------------------------------------------------- */

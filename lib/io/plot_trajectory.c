@@ -208,7 +208,8 @@ static void put_energies(const sheet *s, const iso_plot_box *box)
                                             .curve = curve,
 
                                             .mark = s->lost,
-                                            .marks = s->losses});
+                                            .marks = s->losses,
+                                            .marked = iso_plot_loss_name(s->plot->ball, s->lost, s->losses)});
 }
 
 /* mu grows without bound where the pressure falls to 0: then its axis ends at about 3 times its usual size. 0: all of
@@ -238,7 +239,8 @@ static void put_pressure(const sheet *s, const iso_plot_box *box)
                                             .curve = curve,
                                             .top = {0, mu < 0 ? 0 : top_of_mu(r, mu)},
                                             .mark = s->lost,
-                                            .marks = s->losses});
+                                            .marks = s->losses,
+                                            .marked = iso_plot_loss_name(s->plot->ball, s->lost, s->losses)});
 }
 
 static void put_clocks(const sheet *s, const iso_plot_box *box)

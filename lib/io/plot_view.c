@@ -268,12 +268,13 @@ void iso_plot_view(FILE *f, const iso_plot_box *box, const iso_plot_scenery *s, 
 
 void iso_plot_view_key(const iso_plot_scenery *s, char text[static 512])
 {
+    const char *lost = iso_plot_loss_name(s->rows, s->lost, s->losses);
     snprintf(text, 512,
              "NaN w l lw 1.8 lc rgb " ISO_PLOT_BLUE " title '%s'%s"
              ", NaN w p " ISO_PLOT_START " lc rgb 'black' title 'start'"
-             "%s%s",
+             "%s%s%s%s",
              s->centre >= 0 ? "centre" : "contact",
              shows_contact(s) ? ", NaN w l lw 1.2 lc rgb " ISO_PLOT_VERMILLION " title 'contact'" : "",
              shows_end(s) ? ", NaN w p " ISO_PLOT_END " lc rgb 'black' title 'end'" : "",
-             s->losses ? ", NaN w p " ISO_PLOT_LOST " title 'contact lost'" : "");
+             lost ? ", NaN w p " ISO_PLOT_LOST " title '" : "", lost ? lost : "", lost ? "'" : "");
 }

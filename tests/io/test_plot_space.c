@@ -260,8 +260,8 @@ static void test_marks(void)
     const iso_plot_orbit plot = {.title = "marks", .space = &space};
     gsl_test((int)draw(&plot), "%s", iso_context_message(ctx));
     read_script();
-    gsl_test(!strstr(script, "title 'contact lost'") || !strstr(script, "front point " ISO_PLOT_LOST),
-             "lost at row 100");
+    gsl_test(!strstr(script, "title 'pressure 0'") || !strstr(script, "front point " ISO_PLOT_LOST),
+             "no pressure at row 100, and rows behind it");
     gsl_test(!strstr(script, "title 'end'"), "and there is an end");
     for (size_t i = 0; i < 150; i++) iso_record_row(r, i)[PRESSURE] = i < 149 ? 1 : 0;
     gsl_test((int)draw(&plot), "%s", iso_context_message(ctx));
