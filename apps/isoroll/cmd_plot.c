@@ -120,12 +120,10 @@ static bool names_two(const char *columns, char name[2][NAME])
 static iso_status read_two(iso_context *ctx, const options *o, iso_record **file)
 {
     const bool passes = strstr(o->from.columns, "-") != NULL, once = strcmp(o->from.file, "-") == 0;
-    char words[400];
-    iso_status status = iso_trajectory_read(ctx, o->from.file, passes ? o->from.columns : NULL, file);
+    const iso_status status = iso_trajectory_read(ctx, o->from.file, passes ? o->from.columns : NULL, file);
     if (status == ISO_OK || passes || once) return status;
-    snprintf(words, sizeof words, "%s", iso_context_message(ctx));
     if (iso_trajectory_read(ctx, o->from.file, o->from.columns, file) == ISO_OK) return ISO_OK;
-    return iso_context_fail(ctx, status, "", "%s", words);
+    return iso_trajectory_read(ctx, o->from.file, NULL, file); /* once more, for its words */
 }
 
 static iso_status find_column(iso_context *ctx, const iso_record *r, const char *name)
