@@ -55,7 +55,7 @@ typedef struct view_page {
     size_t total, every; /* rows of the file or scene; each `every`-th of them is here  */
     size_t between;      /* rows put between two of the scene's                         */
     iso_record *drifts;  /* a column for each integral, rows as above; NULL: none       */
-    iso_record *apart;   /* n and gamma by the point's own equations; NULL: none        */
+    iso_record *apart;   /* apart_n, apart_gamma: how far the two runs differ; NULL: one run */
     view_integral integral[2 * ISO_MAX_INTEGRALS];
     int integrals;
     view_section *section; /* NULL: none */
@@ -69,7 +69,8 @@ void view_note(view_page *page, const char *format, ...) __attribute__((format(p
 
 /* --- parts ------------------------------------------------------------------------------------------------------ */
 
-/* The orbit of a scene. Errors: those of iso_run. */
+/* The orbit of a scene. The ball's columns are those of the ball's run, M and gamma those of the point's own; where
+ * there is no such run they are those of the ball, carried across. Errors: those of iso_run. */
 iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *page);
 
 /* A trajectory file. Errors: ISO_BAD_INPUT names the missing column or the row; those of the library. */

@@ -6,6 +6,9 @@
 #include "scene_options.h"
 #include "view.h"
 
+/* Two runs whose unit vectors differ by more are no longer the same orbit. */
+#define PARTED 1e-3
+
 /* Rows of a run. */
 typedef struct collector {
     iso_context *ctx;
@@ -143,32 +146,70 @@ static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_pag
 
 /* --- the two models --------------------------------------------------------------------------------------------- */
 
-/* The ball by its own equations, with its attitude, and the point that belongs to it. */
+/* The ball by its own equations, with its attitude; with `twin` also the point that belongs to it. */
+static iso_status run_with(iso_context *ctx, iso_scene *scene, bool twin, view_page *page, double **times,
+                           size_t *count)
+{
+    scene->as = twin ? ISO_SHOW_BOTH : ISO_SHOW_BALL;
+    choose_columns(scene, twin);
+    const iso_status status = choose_rows(ctx, scene, page);
+    if (status != ISO_OK) return status;
+    free(*times);
+    *times = times_of(scene, page, count);
+    if (!*times) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the times");
+    return run_at(ctx, scene, *times, *count, page, &page->rows);
+}
+
+/* The ball and its point, or the ball alone where it has none. */
 static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *page, double **times, size_t *count)
 {
     iso_scene scene = *asked;
     iso_status status = iso_effects_set(ctx, &scene.effects, "attitude", NULL, 0, NULL);
     scene.backend = ISO_BACKEND_BALL;
-    scene.as = ISO_SHOW_BOTH;
-    choose_columns(&scene, true);
-    if (status == ISO_OK) status = choose_rows(ctx, &scene, page);
-    if (status == ISO_NOT_MAPPED && scene.start.model == ISO_BALL) {
-        snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
-        scene.as = ISO_SHOW_BALL;
-        choose_columns(&scene, false);
-        status = choose_rows(ctx, &scene, page);
-    }
-    if (status != ISO_OK) return status;
-    *times = times_of(&scene, page, count);
-    if (!*times) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the times");
-    return run_at(ctx, &scene, *times, *count, page, &page->rows);
+    if (status == ISO_OK) status = run_with(ctx, &scene, true, page, times, count);
+    if (status != ISO_NOT_MAPPED || scene.start.model != ISO_BALL) return status;
+    snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
+    page->notes = 0;
+    return run_with(ctx, &scene, false, page, times, count);
 }
 
-/* The same orbit by the point's own equations: n and gamma. */
+static double distance(const double a[3], const double b[3])
+{
+    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+/* Puts the columns M and gamma of the point's own run into the rows of the page, and how far n and gamma of the two
+ * runs differ into page->apart. Says from when on they differ by more than PARTED. */
+static iso_status compare(iso_context *ctx, view_page *page, const iso_record *own)
+{
+    static const char *const names[] = {"apart_n", "apart_gamma"};
+    const char *clock = iso_clock_name(page->clock);
+    bool parted = false;
+    iso_status status = iso_record_create(ctx, 2, names, &page->apart);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(page->rows); i++) {
+        double *to, *row = iso_record_row(page->rows, i);
+        double *gamma = row + iso_record_find(page->rows, "gamma1"), *M = row + iso_record_find(page->rows, "M1");
+        status = iso_record_append(ctx, page->apart, &to);
+        if (status != ISO_OK) break;
+        to[0] = distance(view_vector(page->rows, i, "n1"), view_vector(own, i, "n1"));
+        to[1] = distance(gamma, view_vector(own, i, "gamma1"));
+        memcpy(gamma, view_vector(own, i, "gamma1"), 3 * sizeof *gamma);
+        memcpy(M, view_vector(own, i, "M1"), 3 * sizeof *M);
+        if (parted || !(fmax(to[0], to[1]) > PARTED)) continue;
+        parted = true;
+        view_note(page,
+                  "From %s = %.6g on the two computations part: this orbit is chaotic, or the time is too long.",
+                  clock, row[iso_record_find(page->rows, clock)]);
+    }
+    return status;
+}
+
+/* The same orbit by the point's own equations. */
 static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page *page, const double times[],
                             size_t count)
 {
-    static const char *const names[] = {"n1", "n2", "n3", "gamma1", "gamma2", "gamma3"};
+    static const char *const names[] = {"n1", "n2", "n3", "M1", "M2", "M3", "gamma1", "gamma2", "gamma3"};
+    iso_record *own = NULL;
     iso_scene scene = *asked;
     scene.backend = ISO_BACKEND_POINT;
     scene.as = ISO_SHOW_BOTH;
@@ -176,11 +217,25 @@ static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page 
     scene.effects = iso_effects_acting(&asked->effects);
     scene.columns = sizeof names / sizeof *names;
     for (size_t i = 0; i < scene.columns; i++) snprintf(scene.column[i], ISO_NAME_SIZE, "%s", names[i]);
-    const iso_status status = run_at(ctx, &scene, times, count, NULL, &page->apart);
-    if (status == ISO_OK || status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
+    iso_status status = run_at(ctx, &scene, times, count, NULL, &own);
+    if (status == ISO_OK) {
+        status = compare(ctx, page, own);
+        iso_record_free(own);
+        return status;
+    }
+    if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
     view_note(page, "The point was not integrated by itself: %s. It is the ball, carried across.",
               iso_context_message(ctx));
     return ISO_OK;
+}
+
+/* The ball's run may have ended before the last of the times, where contact is lost: the point's shall end there. */
+static size_t end_of(const view_page *page, double times[])
+{
+    const size_t count = iso_record_rows(page->rows);
+    const int clock = iso_record_find(page->rows, iso_clock_name(page->clock));
+    if (clock >= 0) times[count - 1] = iso_record_const_row(page->rows, count - 1)[clock];
+    return count;
 }
 
 iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *page)
@@ -194,6 +249,7 @@ iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *pa
     if (status == ISO_OK && !*page->alone) {
         iso_record_get_numbers(ctx, page->rows, "h", 1, &page->h, &status);
         iso_record_get_numbers(ctx, page->rows, "eps", 1, &page->eps, &status);
+        count = end_of(page, times);
         status = run_point(ctx, scene, page, times, count);
     }
     free(times);

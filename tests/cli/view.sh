@@ -142,8 +142,17 @@ time: {end: 3, step: 0.1}
 effects: {gravity: {mgb: -0.7, up: [0, 0.6, 0.8]}}
 END
 run 0 view bowl.yaml -o bowl.html
+sed 's/step: 0.1/step: 0.0005/' bowl.yaml >many.yaml # more rows than a page has
+run 0 view many.yaml -o many.html
+check "of 6001 rows, too" grep -q '"alone":"[^"]*gravity.*"total":6001,"every":2,' many.html
 check "the page says why there is no point" grep -q '"alone":"[^"]*gravity' bowl.html
 "$isoroll" run bowl.yaml -o bowl.csv
 run 0 view bowl.csv -o bowl2.html
 check "so does that of its trajectory" grep -q '"alone":"[^"]*gravity' bowl2.html
+
+# --- the two computations of a chaotic scene part, and M and gamma are of one orbit
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1000 0.1 >chaos.yaml
+run 0 view chaos.yaml -o chaos.html
+check "the page says from when on they part" grep -q '"notes":\["From t = [0-9.]* on the two computations part' chaos.html
+check_not "a page of a short orbit does not" grep -q '"From t = ' page.html
 finish

@@ -165,6 +165,20 @@ def scenes(browser):
         quiet(page, name)
 
 
+def parted(browser):
+    """A chaotic orbit: its two computations part, and M and gamma stay those of one of them: (M, gamma) = 0."""
+    write("chaos.yaml", f"{SCENES['outside'][0]}\ninitial: {{{START}}}\ntime: {{end: 1000, step: 0.1}}\n")
+    run("view", "chaos.yaml", "-o", "chaos.html")
+    page = browser.open(os.path.join(work, "chaos.html"), media=still)
+    worst = 0
+    for i in range(40):
+        now = page.evaluate(f"isoroll.seek({25 * i + 25}.05)")
+        worst = max(worst, abs(sum(a * b for a, b in zip(now["M"], now["gamma"]))) / math.hypot(*now["M"]))
+    check("chaos: M is at a right angle to gamma, also between rows", worst <= 1e-4, worst)  # rows turn by 0.3
+    text = page.evaluate("document.getElementById('difference-words').textContent")
+    check("chaos: the page says from when on the computations part", "From t = " in text, text)
+
+
 # --- trajectories -------------------------------------------------------------------------------------------------
 
 def trajectories(browser):
@@ -325,7 +339,7 @@ def without_webgl():
 
 
 with chromium.Browser() as one:
-    for part in (scenes, trajectories, section, keyboard, sizes, hostile):
+    for part in (scenes, parted, trajectories, section, keyboard, sizes, hostile):
         part(one)
 without_webgl()
 print("PASS the end")

@@ -63,7 +63,8 @@ const numbers = {
     }
     document.getElementById("difference-words").textContent =
       "Each model was integrated by itself, from its own equations, then carried to the other by the map. " +
-      "Lengths of differences of unit vectors: 0.01 would be half a degree.";
+      "Lengths of differences of unit vectors: 0.01 would be half a degree. " +
+      page.notes.filter((note) => note.includes("the two computations part")).join(" ");
   },
 
   buildState(orbit) {
