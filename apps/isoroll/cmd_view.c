@@ -97,6 +97,7 @@ static iso_status make(iso_context *ctx, const options *o, file_kind kind, view_
     iso_status status = kind == SECTION      ? view_of_section(ctx, &o->from, page)
                         : kind == TRAJECTORY ? view_of_trajectory(ctx, &o->from, page)
                                              : of_scene(ctx, o, page);
+    if (status == ISO_OK && page->rows) view_note_turn(page);
     if (status == ISO_OK && page->rows) status = view_numbers(ctx, page);
     if (status == ISO_OK && o->output) status = view_write(ctx, o->output, page);
     if (status == ISO_OK && o->frames.folder) status = view_write_frames(ctx, &o->frames, page);

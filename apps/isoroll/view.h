@@ -95,6 +95,14 @@ iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t column
 /* Three numbers of a row by the name of the first of adjacent columns; NULL: there is no such column. */
 const double *view_vector(const iso_record *r, size_t row, const char *name);
 
+/* The largest turn, in radians, of the ball, of n or of gamma from one row to the next, of rows with t and omega. The
+ * ball turns by |omega| dt, n by at most |k| times that. */
+double view_largest_turn(const iso_record *r, double k);
+
+/* Adds a note where rows of the page turn so far that cubic curves between them are seen to be wrong: their error is
+ * turn^4/384. From one radian on they are a guess. */
+void view_note_turn(view_page *page);
+
 /* --- output ----------------------------------------------------------------------------------------------------- */
 
 /* Whether this build has what a page needs. Errors: ISO_BAD_ARGUMENT: it was built without three.js. */

@@ -82,22 +82,6 @@ static void choose_columns(iso_scene *scene, bool twin)
     }
 }
 
-/* The largest turn of the ball, of n or of gamma from one row to the next. */
-static double largest_turn(const iso_record *r, double k)
-{
-    const int t = iso_record_find(r, "t");
-    double most = 0;
-    for (size_t i = 1; i < iso_record_rows(r); i++) {
-        const double *omega = view_vector(r, i, "omega1"), *before = view_vector(r, i - 1, "gamma1"),
-                     *now = view_vector(r, i, "gamma1");
-        const double dt = fabs(iso_record_const_row(r, i)[t] - iso_record_const_row(r, i - 1)[t]);
-        const double turn = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]) * dt;
-        most = fmax(most, turn * fmax(1, fabs(k)));
-        if (now) most = fmax(most, hypot(hypot(now[0] - before[0], now[1] - before[1]), now[2] - before[2]));
-    }
-    return most;
-}
-
 /* --- times ------------------------------------------------------------------------------------------------------ */
 
 /* The times of the page: the scene's rows, or each `every`-th of them and the last, or `between` more after each. In
@@ -137,7 +121,7 @@ static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_pag
     if (page->every > 1 || page->total < 2) return ISO_OK;
     const iso_status status = run_at(ctx, scene, NULL, 0, NULL, &rough);
     if (status != ISO_OK) return status;
-    const double pieces = ceil(largest_turn(rough, scene->params.k) / VIEW_TURN);
+    const double pieces = ceil(view_largest_turn(rough, scene->params.k) / VIEW_TURN);
     const double most = floor((double)(VIEW_MOST_ROWS - 1) / (double)(page->total - 1));
     page->between = (size_t)fmax(fmin(pieces, most), 1) - 1;
     iso_record_free(rough);

@@ -155,4 +155,11 @@ scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1000 0.1 >chaos.yaml
 run 0 view chaos.yaml -o chaos.html
 check "the page says from when on they part" grep -q '"notes":\["From t = [0-9.]* on the two computations part' chaos.html
 check_not "a page of a short orbit does not" grep -q '"From t = ' page.html
+
+# --- rows that are far apart
+check_not "rows of a scene turn little" grep -q 'Rows turn by' page.html
+"$isoroll" run scene.yaml --step 3 -o far.csv
+run 0 view far.csv -o far.html
+check "the page says that the motion between rows is a guess" \
+    grep -q '"Rows turn by up to [0-9]* degrees: between them the motion is a guess."' far.html
 finish
