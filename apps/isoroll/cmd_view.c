@@ -121,8 +121,10 @@ static int run(iso_context *ctx, const void *options_given)
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     status = make(ctx, o, kind, &page);
     iso_context_set_monitor(ctx, NULL, NULL);
+    const bool no_orbit = page.no_orbit;
     view_page_free(&page);
-    return finish(ctx, status);
+    const int result = finish(ctx, status);
+    return result == EXIT_DONE && no_orbit ? EXIT_SOME_FAILED : result;
 }
 
 static const options defaults = {.from = FILE_OPTIONS_UNSET, .frames = {.fps = 25, .seconds = 10}};

@@ -59,6 +59,7 @@ typedef struct view_page {
     view_integral integral[2 * ISO_MAX_INTEGRALS];
     int integrals;
     view_section *section; /* NULL: none */
+    bool no_orbit;         /* rows of a trajectory do not follow the equations: a note says so */
 } view_page;
 
 view_page view_page_empty(const char *title, const char *kind);
@@ -80,8 +81,14 @@ iso_status view_of_trajectory(iso_context *ctx, const file_options *from, view_p
 iso_status view_of_section(iso_context *ctx, const file_options *from, view_page *page);
 
 /* Adds to `rows`, which have a clock and the states of one model, the columns they lack: the other model (not where
- * page->alone says why there is none), the clocks, q, contact and centre. params, effects and alone are read. */
-iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **complete);
+ * page->alone says why there is none), the clocks, q, contact and centre. params, effects and alone are read. worst
+ * says which row the orbit through the row before it misses most. */
+typedef struct view_miss {
+    size_t row; /* from 0                                                                         */
+    double by;  /* |difference| of n, or of omega against the largest |omega|; 0: none is missed  */
+} view_miss;
+iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **complete,
+                         view_miss *worst);
 
 /* The integrals that hold for page->rows, and their drifts. */
 iso_status view_numbers(iso_context *ctx, view_page *page);

@@ -162,4 +162,19 @@ check_not "rows of a scene turn little" grep -q 'Rows turn by' page.html
 run 0 view far.csv -o far.html
 check "the page says that the motion between rows is a guess" \
     grep -q '"Rows turn by up to [0-9]* degrees: between them the motion is a guess."' far.html
+
+# --- rows that are no orbit: there is a page, and words; exit status as of convert
+cat >wrong.csv <<END
+t,omega1,omega2,omega3,n1,n2,n3
+0,0,1,0,1,0,0
+1,0,0.3,0,0,0,1
+2,0,0,7,0,1,0
+END
+run 1 view wrong.csv --k=-1 --J=1,2,5 -o wrong.html
+check "words" grep -q "wrong.csv: rows are no orbit: the row at t = [12] is missed by 1" err
+check "words on the page" grep -q '"Rows are no orbit: the row at t = [12] is missed by 1' wrong.html
+awk -F, '/^-?[0-9]/ && ++n == 50 { sub(/^[^,]*/, "0.5") ; kept = $0; exit } END { print kept }' ball.csv >row
+awk 'NR == FNR { wrong = $0; next } /^0.5,/ { $0 = wrong } { print }' row ball.csv >a.csv # another moment's state
+run 1 view a.csv -o a.html
+check "one wrong row among others" grep -q "rows are no orbit" err
 finish
