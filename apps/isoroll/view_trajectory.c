@@ -6,6 +6,8 @@
 #include "report.h"
 #include "view.h"
 
+#define LOST 1e-9 /* a pressure below this part of the largest is 0, as for plots */
+
 /* --- what the file must have ------------------------------------------------------------------------------------ */
 
 static bool has_all(const iso_record *r, const char *const names[], const char **missing)
@@ -134,6 +136,26 @@ static void tell_miss(const char *file, view_page *page, const view_miss *worst)
         file, clock, time, worst->by);
 }
 
+/* Where a run has lost contact, its last row, or of times that run backwards the first of the page, has pressure 0. The
+ * page looks for notes that begin with "contact is lost", and says that it is lost at the end. */
+static void tell_loss(view_page *page)
+{
+    const int pressure = iso_record_find(page->rows, "pressure");
+    const size_t last = iso_record_rows(page->rows) - 1;
+    const int time = iso_record_find(page->rows, iso_clock_name(page->clock));
+    double largest = 0;
+    if (pressure < 0) return;
+    for (size_t i = 0; i <= last; i++) largest = fmax(largest, fabs(iso_record_const_row(page->rows, i)[pressure]));
+    for (size_t i = 0; i <= last; i += last) {
+        const double *row = iso_record_const_row(page->rows, i);
+        if (row[pressure] > LOST * largest) continue;
+        if (i == last)
+            view_note(page, "contact is lost at %s = %.6g", iso_clock_name(page->clock), row[time]);
+        else
+            view_note(page, "Before %s = %.6g there is no contact.", iso_clock_name(page->clock), row[time]);
+    }
+}
+
 static iso_status of_record(iso_context *ctx, const file_options *from, iso_record *in, view_page *page)
 {
     iso_record *thin = NULL;
@@ -146,6 +168,7 @@ static iso_status of_record(iso_context *ctx, const file_options *from, iso_reco
     if (status == ISO_OK) find_twin(page, thin);
     if (status == ISO_OK) status = view_complete(ctx, page, thin, &page->rows, &worst);
     if (status == ISO_OK) tell_miss(from->file, page, &worst);
+    if (status == ISO_OK) tell_loss(page);
     if (status == ISO_OK) find_energy(page);
     iso_record_free(thin);
     return status;

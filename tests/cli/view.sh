@@ -177,4 +177,9 @@ awk -F, '/^-?[0-9]/ && ++n == 50 { sub(/^[^,]*/, "0.5") ; kept = $0; exit } END 
 awk 'NR == FNR { wrong = $0; next } /^0.5,/ { $0 = wrong } { print }' row ball.csv >a.csv # another moment's state
 run 1 view a.csv -o a.html
 check "one wrong row among others" grep -q "rows are no orbit" err
+
+# --- loss of contact
+"$isoroll" run "$source/examples/09_off_the_top/scene.yaml" -o off.csv 2>/dev/null
+run 0 view off.csv -o off.html
+check "the page of its trajectory says that contact is lost" grep -q '"contact is lost at t = 0.79' off.html
 finish

@@ -84,6 +84,7 @@ const numbers = {
       if (name === "contact" || orbit[name])
         this.states.push([this.row(table, [symbol, "", "", "", name === "M" ? M : of]), name]);
     this.extras = [];
+    this.needed = orbit.column.mu; // grows without bound where contact is lost
     for (const [name, words, of] of [
       ["pressure", "pressure", "force"],
       ["mu", "friction needed", "1"],
@@ -100,7 +101,7 @@ const numbers = {
     for (const [cell, column] of this.differences) cell.textContent = this.small(at(column));
     for (const [cells, name] of this.states)
       for (let i = 0; i < 3; i++) cells[i + 1].textContent = now[name][i].toFixed(4).replace("-", "−");
-    for (const [cell, column] of this.extras) cell.textContent = digits(at(column));
+    for (const [cell, column] of this.extras) cell.textContent = at(column) > 1e9 && column === this.needed ? "∞" : digits(at(column));
   },
 
   // --- what does not change ---
