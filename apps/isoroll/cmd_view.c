@@ -156,7 +156,10 @@ const command command_view = {
         "runs evenly, t, tau or s: the other model then hurries and waits. Of a scene each model is integrated by "
         "itself, and the page tells how far they differ. What a trajectory lacks (clocks, how the ball stands) is "
         "computed from row to row. Of a section choose a crossing: its orbit runs.\n\n"
-        "More than 5000 rows are thinned out, and the page says so. A scene with few rows gets more between them.",
+        "More than 5000 rows are thinned out, and the page says so. A scene with few rows gets more between them. "
+        "Where rows are far apart, the page says how wrong the motion between them is.\n\n"
+        "If the rows of a trajectory are no orbit of the stated equations, there is a page, a message and exit "
+        "status 1.",
     .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html",
     .run = run,
 };
