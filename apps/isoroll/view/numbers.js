@@ -101,7 +101,10 @@ const numbers = {
     for (const [cell, column] of this.differences) cell.textContent = this.small(at(column));
     for (const [cells, name] of this.states)
       for (let i = 0; i < 3; i++) cells[i + 1].textContent = now[name][i].toFixed(4).replace("-", "−");
-    for (const [cell, column] of this.extras) cell.textContent = at(column) > 1e9 && column === this.needed ? "∞" : digits(at(column));
+    for (const [cell, column] of this.extras) {
+      const none = column === this.needed && at(column) > 1e9; // no friction is enough
+      cell.textContent = none ? "∞" : digits(at(column));
+    }
   },
 
   // --- what does not change ---
