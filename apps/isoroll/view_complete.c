@@ -2,8 +2,8 @@
  * and how the ball stands by short orbits (see view.h).
  *
  * A short orbit begins at a row and gives the clocks, q, contact and centre at the next SEGMENT rows, where another
- * one begins. So these columns stay with the file's own rows, also on chaotic orbits. Where it misses a row of the file
- * by more than MISSED, the next one begins at the row before. If that one, too, misses the row, the rows are no orbit.
+ * one begins. So these columns stay with the file's own rows, also on chaotic orbits. Where it misses a row of the
+ * file by more than MISSED, the next one begins at the row before. If that one, too, misses it, the rows are no orbit.
  */
 #include <math.h>
 #include <string.h>
@@ -136,8 +136,8 @@ static double missed_by(const completion *c, size_t i, const iso_sample *sample)
     return fmax(off, distance(n, sample->ball + 3));
 }
 
-/* The bound: MISSED, or more where the file says so: a hundred times the tolerance with which it was made, ten times
- * the tolerance of its rows. */
+/* The bound: MISSED, or more where the file says so: a hundred times the tolerance with which it was made, ten
+ * times the tolerance of its rows. */
 static void find_bound(completion *c)
 {
     double tolerance = 0;

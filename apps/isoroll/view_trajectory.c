@@ -136,8 +136,8 @@ static void tell_miss(const char *file, view_page *page, const view_miss *worst)
         file, clock, time, worst->by);
 }
 
-/* Where a run has lost contact, its last row, or of times that run backwards the first of the page, has pressure 0. The
- * page looks for notes that begin with "contact is lost", and says that it is lost at the end. */
+/* Where a run has lost contact, its last row, or of times that run backwards the first of the page, has pressure 0.
+ * The page looks for notes that begin with "contact is lost", and says that it is lost at the end. */
 static void tell_loss(view_page *page)
 {
     const int pressure = iso_record_find(page->rows, "pressure");
