@@ -3,7 +3,7 @@
  *
  * A short orbit begins at a row and gives the clocks, q, contact and centre at the next SEGMENT rows, where another
  * one begins. So these columns stay with the file's own rows, also on chaotic orbits. Where it misses a row of the
- * file by more than MISSED, the next one begins at the row before. If that one, too, misses it, the rows are no orbit.
+ * file by more than MISSED, the next one begins at the row before. If that one, too, misses it, they are no orbit.
  */
 #include <math.h>
 #include <string.h>
@@ -128,7 +128,7 @@ static double distance(const double a[3], const double b[3])
     return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-/* How far the short orbit is from row `i` of the file: |difference| of n, and of omega against the largest |omega|. */
+/* How far the short orbit is from row `i` of the file: |difference| of n, and of omega against the largest. */
 static double missed_by(const completion *c, size_t i, const iso_sample *sample)
 {
     const double *omega = view_vector(c->out, i, "omega1"), *n = view_vector(c->out, i, "n1");
