@@ -98,6 +98,7 @@ static iso_status make(iso_context *ctx, const options *o, file_kind kind, view_
     iso_status status = kind == SECTION      ? view_of_section(ctx, &o->from, page)
                         : kind == TRAJECTORY ? view_of_trajectory(ctx, &o->from, page)
                                              : of_scene(ctx, o, page);
+    if (status == ISO_OK && page->rows) view_note_turn(page);
     if (status == ISO_OK && page->rows) status = view_numbers(ctx, page);
     if (status == ISO_OK && o->output) status = view_write(ctx, o->output, page);
     if (status == ISO_OK && o->frames.folder) status = view_write_frames(ctx, &o->frames, page);
@@ -121,8 +122,10 @@ static int run(iso_context *ctx, const void *options_given)
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     status = make(ctx, o, kind, &page);
     iso_context_set_monitor(ctx, NULL, NULL);
+    const bool no_orbit = page.no_orbit;
     view_page_free(&page);
-    return finish(ctx, status);
+    const int result = finish(ctx, status);
+    return result == EXIT_DONE && no_orbit ? EXIT_SOME_FAILED : result;
 }
 
 static const options defaults = {.from = FILE_OPTIONS_UNSET, .frames = {.fps = 25, .seconds = 10}};
@@ -156,7 +159,10 @@ const command command_view = {
         "other model) are computed from row to row. In the page of a section, choose a crossing: its orbit runs "
         "from the first crossing on.\n\n"
         "Of more than 5000 rows, the page has only every second, third, ... row, and says so. A scene with large "
-        "steps gets more rows between its own.\n\n"
+        "steps gets more rows between its own. Where rows are far apart, the page says how wrong the motion between "
+        "them is.\n\n"
+        "If the rows of a trajectory are no orbit of the stated equations, there is a page, a message and exit "
+        "status 1.\n\n"
         "--frames draws pictures of 1280 x 720 pixels with Chromium, without a window; -o is then not needed.",
     .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html",
     .run = run,

@@ -57,10 +57,11 @@ typedef struct view_page {
     size_t total, every; /* rows of the file or scene; each `every`-th of them is here  */
     size_t between;      /* rows put between two of the scene's                         */
     iso_record *drifts;  /* a column for each integral, rows as above; NULL: none       */
-    iso_record *apart;   /* n and gamma by the point's own equations; NULL: none        */
+    iso_record *apart;   /* apart_n, apart_gamma: how far the two runs differ; NULL: one run */
     view_integral integral[2 * ISO_MAX_INTEGRALS];
     int integrals;
     view_section *section; /* NULL: none */
+    bool no_orbit;         /* rows of a trajectory do not follow the equations: a note says so */
 } view_page;
 
 view_page view_page_empty(const char *title, const char *kind);
@@ -74,7 +75,8 @@ void view_note(view_page *page, const char *format, ...) __attribute__((format(p
 
 /* --- parts ------------------------------------------------------------------------------------------------------ */
 
-/* The orbit of a scene. Errors: those of iso_run. */
+/* The orbit of a scene. The ball's columns are those of the ball's run, M and gamma those of the point's own; where
+ * there is no such run they are those of the ball, carried across. Errors: those of iso_run. */
 iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *page);
 
 /* A trajectory file. Errors: ISO_BAD_INPUT names the missing column or the row; those of the library. */
@@ -85,8 +87,13 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
 
 /* `rows` have a clock and the states of one model. *complete also has the columns that they lack: the other model
  * (not if page->alone says why there is none), the clocks, q, contact and centre. Of `page` it reads params, effects
- * and alone. */
-iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **complete);
+ * and alone. *worst: the row that the orbit through the row before it misses most. */
+typedef struct view_miss {
+    size_t row; /* from 0                                                                         */
+    double by;  /* |difference| of n, or of omega against the largest |omega|; 0: none is missed  */
+} view_miss;
+iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **complete,
+                         view_miss *worst);
 
 /* The integrals that hold for page->rows, and their drifts. */
 iso_status view_numbers(iso_context *ctx, view_page *page);
@@ -99,6 +106,14 @@ iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t column
 
 /* The three numbers of a vector in a row; `name` is its first column. NULL: there is no such column. */
 const double *view_vector(const iso_record *r, size_t row, const char *name);
+
+/* The largest turn, in radians, of the ball, of n or of gamma from one row to the next, of rows with t and omega. The
+ * ball turns by |omega| dt, n by at most |k| times that. */
+double view_largest_turn(const iso_record *r, double k);
+
+/* Adds a note where rows of the page turn so far that cubic curves between them are seen to be wrong: their error is
+ * turn^4/384. From one radian on they are a guess. */
+void view_note_turn(view_page *page);
 
 /* --- output ----------------------------------------------------------------------------------------------------- */
 

@@ -2,13 +2,18 @@
  * map (18); the clocks and the attitude come from short orbits.
  *
  * A short orbit begins at a row and gives the clocks, q, contact and centre at the next SEGMENT rows. There the next
- * one begins. So these columns stay close to the file's own rows, also on chaotic orbits.
+ * one begins. So these columns stay close to the file's own rows, also on chaotic orbits. Where a short orbit misses a
+ * row of the file by more than MISSED, the next one begins at the row before. If that one misses it too, the rows are
+ * no orbit.
  */
 #include <math.h>
 #include <string.h>
 
 #include "map/state.h"
 #include "view.h"
+
+/* An orbit misses a row if it is farther from it. */
+#define MISSED 1e-3
 
 enum { SEGMENT = 16, MOST_COLUMNS = ISO_TRAJECTORY_COLUMNS };
 
@@ -27,6 +32,8 @@ typedef struct completion {
     double begun[ISO_CLOCKS]; /* clocks where this short orbit began     */
     double shift[3];          /* on a plane: the contact there           */
     double q[4];              /* attitude there                          */
+    double bound, speed;      /* a row is missed by more; largest |omega| */
+    view_miss *worst;
 } completion;
 
 static bool has(const iso_record *r, const char *name)
@@ -117,6 +124,34 @@ static iso_status fill(completion *c, iso_orbit *orbit, size_t first, size_t i, 
     return ISO_OK;
 }
 
+static double distance(const double a[3], const double b[3])
+{
+    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+/* How far the short orbit is from row `i` of the file: |difference| of n, and of omega against the largest. */
+static double missed_by(const completion *c, size_t i, const iso_sample *sample)
+{
+    const double *omega = view_vector(c->out, i, "omega1"), *n = view_vector(c->out, i, "n1");
+    const double off = c->speed > 0 ? distance(omega, sample->ball) / c->speed : 0;
+    return fmax(off, distance(n, sample->ball + 3));
+}
+
+/* The bound: MISSED, or more where the file says so: a hundred times the tolerance with which it was made, ten
+ * times the tolerance of its rows. */
+static void find_bound(completion *c)
+{
+    double tolerance = 0;
+    iso_status unused = ISO_OK;
+    iso_record_get_numbers(c->ctx, c->in, "tolerance", 1, &tolerance, &unused);
+    const double row = iso_record_row_tolerance(c->in);
+    c->bound = fmax(MISSED, fmax(100 * tolerance, row > ISO_ROW_TOLERANCE ? 10 * row : 0));
+    for (size_t i = 0; i < iso_record_rows(c->out); i++) {
+        const double *w = view_vector(c->out, i, "omega1");
+        c->speed = fmax(c->speed, hypot(hypot(w[0], w[1]), w[2]));
+    }
+}
+
 /* The next orbit begins where this one is now. */
 static void go_on(completion *c, const iso_sample *now)
 {
@@ -126,27 +161,48 @@ static void go_on(completion *c, const iso_sample *now)
         c->shift[a] += iso_sample_get(now, attitude_names[CONTACT + a]);
 }
 
+/* The rows after `first` by the orbit that begins there; *last: the row where the next one begins. */
+static iso_status follow(completion *c, iso_orbit *orbit, size_t first, size_t *last)
+{
+    const size_t rows = iso_record_rows(c->in);
+    iso_sample now, before;
+    iso_status status = fill(c, orbit, first, first, &before);
+    for (size_t i = first + 1; status == ISO_OK && i <= first + SEGMENT && i < rows; i++) {
+        status = fill(c, orbit, first, i, &now);
+        if (status != ISO_OK) return status;
+        const double miss = missed_by(c, i, &now);
+        if (!(miss <= c->bound) && i > first + 1) break;
+        if (!(miss <= c->bound) && !(miss <= c->worst->by)) *c->worst = (view_miss){i, miss};
+        before = now;
+        *last = i;
+        if (!(miss <= c->bound)) break;
+    }
+    if (status == ISO_OK) go_on(c, &before);
+    return status;
+}
+
 static iso_status complete(completion *c)
 {
     const size_t rows = iso_record_rows(c->in);
     iso_status status = create(c);
     for (size_t i = 0; status == ISO_OK && i < rows; i++) status = copy_row(c, i);
-    for (size_t first = 0; status == ISO_OK && first < rows; first += SEGMENT) {
+    if (status == ISO_OK) find_bound(c);
+    for (size_t first = 0, last; status == ISO_OK && first + 1 < rows; first = last) {
         iso_orbit *orbit;
-        iso_sample sample;
+        last = first + 1;
         status = begin(c, first, &orbit);
         if (status != ISO_OK) break;
-        for (size_t i = first; status == ISO_OK && i <= first + SEGMENT && i < rows; i++)
-            status = fill(c, orbit, first, i, &sample);
-        if (status == ISO_OK) go_on(c, &sample);
+        status = follow(c, orbit, first, &last);
         iso_orbit_free(orbit);
     }
     return status;
 }
 
-iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **made)
+iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **made,
+                         view_miss *worst)
 {
-    completion c = {.ctx = ctx, .page = page, .in = rows, .twin = !*page->alone};
+    completion c = {.ctx = ctx, .page = page, .in = rows, .twin = !*page->alone, .worst = worst};
+    *worst = (view_miss){0, 0};
     c.model = has(rows, "omega1") && has(rows, "n1") ? ISO_BALL : ISO_POINT;
     c.clock = has(rows, "t") ? ISO_CLOCK_T : ISO_CLOCK_S;
     const iso_status status = complete(&c);

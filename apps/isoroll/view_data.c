@@ -1,7 +1,6 @@
 /* view_data.c - the data of a page as JSON (see view_data.h). */
 #include "view_data.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -115,31 +114,11 @@ static json_t *integrals_of(const view_page *page)
     return list;
 }
 
-/* |difference| of three adjacent columns of both records, as one more column. */
-static void put_apart(json_t *columns, const view_page *page, const char *key, const char *name)
-{
-    const size_t rows = iso_record_rows(page->rows);
-    double *apart = json_allocate(rows * sizeof *apart + 1);
-    for (size_t i = 0; apart && i < rows; i++) {
-        const double *a = view_vector(page->rows, i, name), *b = view_vector(page->apart, i, name);
-        apart[i] = hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-    }
-    if (apart) json_object_set_new(columns, key, packed(rows, apart));
-    free(apart);
-}
-
 static json_t *rows_of(const view_page *page)
 {
     json_t *columns = columns_of(page->rows);
     if (page->drifts) json_object_update_new(columns, columns_of(page->drifts));
-    if (page->apart) {
-        put_apart(columns, page, "apart_n", "n1");
-        put_apart(columns, page, "apart_gamma", "gamma1");
-        for (size_t i = 0; i < iso_record_columns(page->apart); i++) {
-            const char *name = iso_record_name(page->apart, i);
-            if (name[0] == 'M' || name[0] == 'g') json_object_set_new(columns, name, column_of(page->apart, i));
-        }
-    }
+    if (page->apart) json_object_update_new(columns, columns_of(page->apart));
     json_t *o = json_object();
     json_object_set_new(o, "count", json_integer((json_int_t)iso_record_rows(page->rows)));
     json_object_set_new(o, "total", json_integer((json_int_t)page->total));

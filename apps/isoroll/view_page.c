@@ -64,3 +64,29 @@ const double *view_vector(const iso_record *r, size_t row, const char *name)
     const int column = iso_record_find(r, name);
     return column < 0 ? NULL : iso_record_const_row(r, row) + column;
 }
+
+double view_largest_turn(const iso_record *r, double k)
+{
+    const int t = iso_record_find(r, "t");
+    double most = 0;
+    for (size_t i = 1; t >= 0 && i < iso_record_rows(r); i++) {
+        const double *before = view_vector(r, i - 1, "gamma1"), *now = view_vector(r, i, "gamma1");
+        const double dt = fabs(iso_record_const_row(r, i)[t] - iso_record_const_row(r, i - 1)[t]);
+        for (size_t j = i - 1; j <= i; j++) {
+            const double *omega = view_vector(r, j, "omega1");
+            most = fmax(most, hypot(hypot(omega[0], omega[1]), omega[2]) * dt * fmax(1, fabs(k)));
+        }
+        if (now) most = fmax(most, hypot(hypot(now[0] - before[0], now[1] - before[1]), now[2] - before[2]));
+    }
+    return most;
+}
+
+void view_note_turn(view_page *page)
+{
+    const double turn = view_largest_turn(page->rows, page->params.k), degrees = turn * 180 / acos(-1);
+    if (turn > 1)
+        view_note(page, "Rows turn by up to %.0f degrees: between them the motion is a guess.", degrees);
+    else if (turn > 2 * VIEW_TURN)
+        view_note(page, "Rows turn by up to %.0f degrees: between them the motion is off by about %.0e radians.",
+                  degrees, pow(turn, 4) / 384);
+}

@@ -6,6 +6,9 @@
 #include "scene_options.h"
 #include "view.h"
 
+/* Two runs whose unit vectors differ by more are no longer the same orbit. */
+#define PARTED 1e-3
+
 /* Rows of a run. */
 typedef struct collector {
     iso_context *ctx;
@@ -79,22 +82,6 @@ static void choose_columns(iso_scene *scene, bool twin)
     }
 }
 
-/* The largest turn of the ball, of n or of gamma from one row to the next. */
-static double largest_turn(const iso_record *r, double k)
-{
-    const int t = iso_record_find(r, "t");
-    double most = 0;
-    for (size_t i = 1; i < iso_record_rows(r); i++) {
-        const double *omega = view_vector(r, i, "omega1"), *before = view_vector(r, i - 1, "gamma1"),
-                     *now = view_vector(r, i, "gamma1");
-        const double dt = fabs(iso_record_const_row(r, i)[t] - iso_record_const_row(r, i - 1)[t]);
-        const double turn = sqrt(omega[0] * omega[0] + omega[1] * omega[1] + omega[2] * omega[2]) * dt;
-        most = fmax(most, turn * fmax(1, fabs(k)));
-        if (now) most = fmax(most, hypot(hypot(now[0] - before[0], now[1] - before[1]), now[2] - before[2]));
-    }
-    return most;
-}
-
 /* --- times ------------------------------------------------------------------------------------------------------ */
 
 /* The times of the page, growing: those of each `every`-th row of the scene and of the last row. After each but the
@@ -134,7 +121,7 @@ static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_pag
     if (page->every > 1 || page->total < 2) return ISO_OK;
     const iso_status status = run_at(ctx, scene, NULL, 0, NULL, &rough);
     if (status != ISO_OK) return status;
-    const double pieces = ceil(largest_turn(rough, scene->params.k) / VIEW_TURN);
+    const double pieces = ceil(view_largest_turn(rough, scene->params.k) / VIEW_TURN);
     const double most = floor((double)(VIEW_MOST_ROWS - 1) / (double)(page->total - 1));
     page->between = (size_t)fmax(fmin(pieces, most), 1) - 1;
     iso_record_free(rough);
@@ -143,33 +130,71 @@ static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_pag
 
 /* --- the two models --------------------------------------------------------------------------------------------- */
 
-/* The ball by its own equations, with its attitude, and its point by the map. */
+/* The ball by its own equations, with its attitude; with `twin` also the point that belongs to it. */
+static iso_status run_with(iso_context *ctx, iso_scene *scene, bool twin, view_page *page, double **times,
+                           size_t *count)
+{
+    scene->as = twin ? ISO_SHOW_BOTH : ISO_SHOW_BALL;
+    choose_columns(scene, twin);
+    const iso_status status = choose_rows(ctx, scene, page);
+    if (status != ISO_OK) return status;
+    free(*times);
+    *times = times_of(scene, page, count);
+    if (!*times) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the times");
+    return run_at(ctx, scene, *times, *count, page, &page->rows);
+}
+
+/* The ball and its point, or the ball alone where it has none. */
 static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *page, double **times, size_t *count)
 {
     iso_scene scene = *asked;
     iso_status status = iso_effects_set(ctx, &scene.effects, "attitude", NULL, 0, NULL);
     scene.backend = ISO_BACKEND_BALL;
-    scene.as = ISO_SHOW_BOTH;
-    choose_columns(&scene, true);
-    if (status == ISO_OK) status = choose_rows(ctx, &scene, page);
-    if (status == ISO_NOT_MAPPED && scene.start.model == ISO_BALL) {
-        page->effects = scene.effects;
-        if (!view_is_broken(page)) snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
-        scene.as = ISO_SHOW_BALL;
-        choose_columns(&scene, false);
-        status = choose_rows(ctx, &scene, page);
-    }
-    if (status != ISO_OK) return status;
-    *times = times_of(&scene, page, count);
-    if (!*times) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the times");
-    return run_at(ctx, &scene, *times, *count, page, &page->rows);
+    if (status == ISO_OK) status = run_with(ctx, &scene, true, page, times, count);
+    if (status != ISO_NOT_MAPPED || scene.start.model != ISO_BALL) return status;
+    page->effects = scene.effects;
+    page->notes = 0;
+    if (!view_is_broken(page)) snprintf(page->alone, sizeof page->alone, "%s", iso_context_message(ctx));
+    return run_with(ctx, &scene, false, page, times, count);
 }
 
-/* The same orbit by the point's own equations; n comes from the map. */
+static double distance(const double a[3], const double b[3])
+{
+    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+/* Puts the columns M and gamma of the point's own run into the rows of the page, and how far n and gamma of the two
+ * runs differ into page->apart. Says from when on they differ by more than PARTED. */
+static iso_status compare(iso_context *ctx, view_page *page, const iso_record *own)
+{
+    static const char *const names[] = {"apart_n", "apart_gamma"};
+    const char *clock = iso_clock_name(page->clock);
+    bool parted = false;
+    iso_status status = iso_record_create(ctx, 2, names, &page->apart);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(page->rows); i++) {
+        double *to, *row = iso_record_row(page->rows, i);
+        double *gamma = row + iso_record_find(page->rows, "gamma1"), *M = row + iso_record_find(page->rows, "M1");
+        status = iso_record_append(ctx, page->apart, &to);
+        if (status != ISO_OK) break;
+        to[0] = distance(view_vector(page->rows, i, "n1"), view_vector(own, i, "n1"));
+        to[1] = distance(gamma, view_vector(own, i, "gamma1"));
+        memcpy(gamma, view_vector(own, i, "gamma1"), 3 * sizeof *gamma);
+        memcpy(M, view_vector(own, i, "M1"), 3 * sizeof *M);
+        if (parted || !(fmax(to[0], to[1]) > PARTED)) continue;
+        parted = true;
+        view_note(page,
+                  "From %s = %.6g on the two computations part: this orbit is chaotic, or the time is too long.",
+                  clock, row[iso_record_find(page->rows, clock)]);
+    }
+    return status;
+}
+
+/* The same orbit by the point's own equations. */
 static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page *page, const double times[],
                             size_t count)
 {
-    static const char *const names[] = {"n1", "n2", "n3", "gamma1", "gamma2", "gamma3"};
+    static const char *const names[] = {"n1", "n2", "n3", "M1", "M2", "M3", "gamma1", "gamma2", "gamma3"};
+    iso_record *own = NULL;
     iso_scene scene = *asked;
     scene.backend = ISO_BACKEND_POINT;
     scene.as = ISO_SHOW_BOTH;
@@ -177,11 +202,25 @@ static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page 
     scene.effects = iso_effects_acting(&asked->effects);
     scene.columns = sizeof names / sizeof *names;
     for (size_t i = 0; i < scene.columns; i++) snprintf(scene.column[i], ISO_NAME_SIZE, "%s", names[i]);
-    const iso_status status = run_at(ctx, &scene, times, count, NULL, &page->apart);
-    if (status == ISO_OK || status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
+    iso_status status = run_at(ctx, &scene, times, count, NULL, &own);
+    if (status == ISO_OK) {
+        status = compare(ctx, page, own);
+        iso_record_free(own);
+        return status;
+    }
+    if (status == ISO_STOPPED || status == ISO_NO_MEMORY) return status;
     view_note(page, "The point was not integrated by itself: %s. It is computed from the ball, by the map.",
               iso_context_message(ctx));
     return ISO_OK;
+}
+
+/* The ball's run may have ended before the last of the times, where contact is lost: the point's shall end there. */
+static size_t end_of(const view_page *page, double times[])
+{
+    const size_t count = iso_record_rows(page->rows);
+    const int clock = iso_record_find(page->rows, iso_clock_name(page->clock));
+    if (clock >= 0) times[count - 1] = iso_record_const_row(page->rows, count - 1)[clock];
+    return count;
 }
 
 iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *page)
@@ -195,6 +234,7 @@ iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *pa
     if (status == ISO_OK && !*page->alone) {
         iso_record_get_numbers(ctx, page->rows, "h", 1, &page->h, &status);
         iso_record_get_numbers(ctx, page->rows, "eps", 1, &page->eps, &status);
+        count = end_of(page, times);
         status = run_point(ctx, scene, page, times, count);
     }
     free(times);

@@ -3,7 +3,10 @@
 #include <string.h>
 
 #include "map/state.h"
+#include "report.h"
 #include "view.h"
+
+#define LOST 1e-9 /* a pressure below this part of the largest is 0, as for plots */
 
 /* --- what the file must have ------------------------------------------------------------------------------------ */
 
@@ -114,16 +117,54 @@ static void find_energy(view_page *page)
     page->eps = iso_coupling(&page->params, page->h);
 }
 
+/* Says, here and on the page, that rows do not follow the equations. */
+static void tell_miss(const char *file, view_page *page, const view_miss *worst)
+{
+    const char *clock = iso_clock_name(page->clock);
+    if (worst->by == 0) return;
+    const double time = iso_record_const_row(page->rows, worst->row)[iso_record_find(page->rows, clock)];
+    page->no_orbit = true;
+    view_note(page, "Rows are no orbit: the row at %s = %.6g is missed by %.2g by the orbit through the row before.",
+              clock, time, worst->by);
+    complain(
+        "%s: rows are no orbit: the row at %s = %.10g is missed by %.2g by the orbit through the row before: "
+        "they do not solve the equations that the file or the options state (k, J, clock), or have too few digits",
+        file, clock, time, worst->by);
+}
+
+/* Where a run has lost contact, its last row, or of times that run backwards the first of the page, has pressure 0.
+ * The page looks for notes that begin with "contact is lost", and says that it is lost at the end. */
+static void tell_loss(view_page *page)
+{
+    const int pressure = iso_record_find(page->rows, "pressure");
+    const size_t last = iso_record_rows(page->rows) - 1;
+    const int time = iso_record_find(page->rows, iso_clock_name(page->clock));
+    double largest = 0;
+    if (pressure < 0) return;
+    for (size_t i = 0; i <= last; i++) largest = fmax(largest, fabs(iso_record_const_row(page->rows, i)[pressure]));
+    for (size_t i = 0; i <= last; i += last) {
+        const double *row = iso_record_const_row(page->rows, i);
+        if (row[pressure] > LOST * largest) continue;
+        if (i == last)
+            view_note(page, "contact is lost at %s = %.6g", iso_clock_name(page->clock), row[time]);
+        else
+            view_note(page, "Before %s = %.6g there is no contact.", iso_clock_name(page->clock), row[time]);
+    }
+}
+
 static iso_status of_record(iso_context *ctx, const file_options *from, iso_record *in, view_page *page)
 {
     iso_record *thin = NULL;
+    view_miss worst;
     iso_status status = parameters_of_file(ctx, from, in, &page->params);
     if (status == ISO_OK) status = check_columns(ctx, in, &page->clock);
     if (status == ISO_OK) status = iso_record_effects(ctx, in, &page->effects);
     if (status == ISO_OK) status = read_energy(ctx, in, page);
     if (status == ISO_OK) status = thin_out(ctx, in, page, &thin);
     if (status == ISO_OK) find_twin(page, thin);
-    if (status == ISO_OK) status = view_complete(ctx, page, thin, &page->rows);
+    if (status == ISO_OK) status = view_complete(ctx, page, thin, &page->rows, &worst);
+    if (status == ISO_OK) tell_miss(from->file, page, &worst);
+    if (status == ISO_OK) tell_loss(page);
     if (status == ISO_OK) find_energy(page);
     iso_record_free(thin);
     return status;

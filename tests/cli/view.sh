@@ -142,8 +142,44 @@ time: {end: 3, step: 0.1}
 effects: {gravity: {mgb: -0.7, up: [0, 0.6, 0.8]}}
 END
 run 0 view bowl.yaml -o bowl.html
+sed 's/step: 0.1/step: 0.0005/' bowl.yaml >many.yaml # more rows than a page has
+run 0 view many.yaml -o many.html
+check "of 6001 rows, too" grep -q '"alone":"[^"]*gravity.*"total":6001,"every":2,' many.html
 check "the page says why there is no point" grep -q '"alone":"[^"]*gravity' bowl.html
 "$isoroll" run bowl.yaml -o bowl.csv
 run 0 view bowl.csv -o bowl2.html
 check "so does that of its trajectory" grep -q '"alone":"[^"]*gravity' bowl2.html
+
+# --- the two computations of a chaotic scene part, and M and gamma are of one orbit
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1000 0.1 >chaos.yaml
+run 0 view chaos.yaml -o chaos.html
+check "the page says from when on they part" grep -q '"notes":\["From t = [0-9.]* on the two computations part' chaos.html
+check_not "a page of a short orbit does not" grep -q '"From t = ' page.html
+
+# --- rows that are far apart
+check_not "rows of a scene turn little" grep -q 'Rows turn by' page.html
+"$isoroll" run scene.yaml --step 3 -o far.csv
+run 0 view far.csv -o far.html
+check "the page says that the motion between rows is a guess" \
+    grep -q '"Rows turn by up to [0-9]* degrees: between them the motion is a guess."' far.html
+
+# --- rows that are no orbit: there is a page, and words; exit status as of convert
+cat >wrong.csv <<END
+t,omega1,omega2,omega3,n1,n2,n3
+0,0,1,0,1,0,0
+1,0,0.3,0,0,0,1
+2,0,0,7,0,1,0
+END
+run 1 view wrong.csv --k=-1 --J=1,2,5 -o wrong.html
+check "words" grep -q "wrong.csv: rows are no orbit: the row at t = [12] is missed by 1" err
+check "words on the page" grep -q '"Rows are no orbit: the row at t = [12] is missed by 1' wrong.html
+awk -F, '/^-?[0-9]/ && ++n == 50 { sub(/^[^,]*/, "0.5") ; kept = $0; exit } END { print kept }' ball.csv >row
+awk 'NR == FNR { wrong = $0; next } /^0.5,/ { $0 = wrong } { print }' row ball.csv >a.csv # another moment's state
+run 1 view a.csv -o a.html
+check "one wrong row among others" grep -q "rows are no orbit" err
+
+# --- loss of contact
+"$isoroll" run "$source/examples/09_off_the_top/scene.yaml" -o off.csv 2>/dev/null
+run 0 view off.csv -o off.html
+check "the page of its trajectory says that contact is lost" grep -q '"contact is lost at t = 0.79' off.html
 finish

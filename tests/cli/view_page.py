@@ -165,6 +165,20 @@ def scenes(browser):
         quiet(page, name)
 
 
+def parted(browser):
+    """A chaotic orbit: its two computations part, and M and gamma stay those of one of them: (M, gamma) = 0."""
+    write("chaos.yaml", f"{SCENES['outside'][0]}\ninitial: {{{START}}}\ntime: {{end: 1000, step: 0.1}}\n")
+    run("view", "chaos.yaml", "-o", "chaos.html")
+    page = browser.open(os.path.join(work, "chaos.html"), media=still)
+    worst = 0
+    for i in range(40):
+        now = page.evaluate(f"isoroll.seek({25 * i + 25}.05)")
+        worst = max(worst, abs(sum(a * b for a, b in zip(now["M"], now["gamma"]))) / math.hypot(*now["M"]))
+    check("chaos: M is at a right angle to gamma, also between rows", worst <= 1e-4, worst)  # rows turn by 0.3
+    text = page.evaluate("document.getElementById('difference-words').textContent")
+    check("chaos: the page says from when on the computations part", "From t = " in text, text)
+
+
 # --- trajectories -------------------------------------------------------------------------------------------------
 
 def trajectories(browser):
@@ -185,6 +199,15 @@ def trajectories(browser):
         worst = max((abs(now[clock] / last[clock] - 1) for clock in ("tau", "s") if clock in last), default=0)
         check(f"trajectory {name}: the other clocks at the end", worst <= 1e-9, worst)
         quiet(page, "trajectory " + name)
+    run("run", f"{source}/examples/09_off_the_top/scene.yaml", "-o", "off.csv")
+    run("view", "off.csv", "-o", "off.html")
+    page = browser.open(os.path.join(work, "off.html"), media=still)
+    page.key("End")
+    page.frame()
+    text = page.evaluate("document.getElementById('left-words').textContent")
+    check("off the top: contact is lost at the end", text.endswith("contact is lost at the end"), text)
+    text = page.evaluate("document.getElementById('state').textContent")
+    check("off the top: no bound of friction is enough there", "friction needed∞" in text, text)
     run("run", "shell.yaml", "--step", "3e-4", "-o", "many.csv")
     run("view", "many.csv", "-o", "many.html")
     page = browser.open(os.path.join(work, "many.html"))
@@ -325,7 +348,7 @@ def without_webgl():
 
 
 with chromium.Browser() as one:
-    for part in (scenes, trajectories, section, keyboard, sizes, hostile):
+    for part in (scenes, parted, trajectories, section, keyboard, sizes, hostile):
         part(one)
 without_webgl()
 print("PASS the end")

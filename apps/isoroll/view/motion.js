@@ -39,6 +39,11 @@ function difference(o, name, i) {
   return times(plus(o[name][b], times(o[name][a], -1)), 1 / (o.t[b] - o.t[a]));
 }
 
+// ds/dt for the slopes of the point. Rows at times t have the point's own: where a chaotic orbit's two runs have
+// parted, it is not the ball's. Rows at times s have the ball's dt/ds.
+const ownRate = (o, i) =>
+  page.clock === "s" ? slope.s(o, i) : physics.sRate(dot(o.gamma[i], o.gamma[i].map((v, j) => v * body.J[j])));
+
 // Slopes by t at row i.
 const slope = {
   t: () => 1,
@@ -46,9 +51,9 @@ const slope = {
   s: (o, i) => physics.sRate(physics.q(o.n[i])),
   n: (o, i) => times(cross(o.n[i], o.omega[i]), body.k),
   q: (o, i) => spin(o.q[i], o.omega[i]),
-  gamma: (o, i) => times(cross(o.gamma[i], o.M[i]), slope.s(o, i)),
+  gamma: (o, i) => times(cross(o.gamma[i], o.M[i]), ownRate(o, i)),
   omega: (o, i) => (free ? omegaRate(o.n[i], o.omega[i]) : difference(o, "omega", i)),
-  M: (o, i) => (free ? times(forceAt(o.gamma[i]), slope.s(o, i)) : difference(o, "M", i)),
+  M: (o, i) => (free ? times(forceAt(o.gamma[i]), ownRate(o, i)) : difference(o, "M", i)),
   contact: (o, i) => times(turned(o.q[i], cross(o.omega[i], o.n[i])), body.b), // on a plane
 };
 

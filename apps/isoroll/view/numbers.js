@@ -63,7 +63,8 @@ const numbers = {
     }
     document.getElementById("difference-words").textContent =
       "Each model was integrated by itself, by its own equations, and carried to the other by the map. " +
-      "The numbers are lengths of differences of unit vectors: 0.01 means about half a degree.";
+      "The numbers are lengths of differences of unit vectors: 0.01 means about half a degree. " +
+      page.notes.filter((note) => note.includes("the two computations part")).join(" ");
   },
 
   buildState(orbit) {
@@ -83,6 +84,7 @@ const numbers = {
       if (name === "contact" || orbit[name])
         this.states.push([this.row(table, [symbol, "", "", "", name === "M" ? M : of]), name]);
     this.extras = [];
+    this.needed = orbit.column.mu; // grows without bound where contact is lost
     for (const [name, words, of] of [
       ["pressure", "pressure", "force"],
       ["mu", "mu needed", "1"],
@@ -99,7 +101,10 @@ const numbers = {
     for (const [cell, column] of this.differences) cell.textContent = this.small(at(column));
     for (const [cells, name] of this.states)
       for (let i = 0; i < 3; i++) cells[i + 1].textContent = now[name][i].toFixed(4).replace("-", "−");
-    for (const [cell, column] of this.extras) cell.textContent = digits(at(column));
+    for (const [cell, column] of this.extras) {
+      const none = column === this.needed && at(column) > 1e9; // no friction is enough
+      cell.textContent = none ? "∞" : digits(at(column));
+    }
   },
 
   // --- what does not change ---
