@@ -16,6 +16,7 @@ enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 13 /* of a row: t tau 
 /* The turn of the ball, n or gamma from row to row, about: of few orbits each has more and closer rows. */
 #define ORBIT_TURN 0.15
 #define LONG_ORBIT_TURN 0.3
+#define MOST_ORBIT 9007199254740992.0 /* 2^53: doubles hold all whole numbers up to it */
 
 typedef struct builder {
     iso_context *ctx;
@@ -52,6 +53,21 @@ static iso_status check(builder *b)
         return iso_context_fail(b->ctx, ISO_BAD_INPUT, "",
                                 "l and x do not determine these orbits (there are effects, or no line '# eps'): "
                                 "write the file with the states, by 'isoroll section --as ball'");
+    return ISO_OK;
+}
+
+/* Numbers of orbits are whole; l and x are drawn. */
+static iso_status check_rows(const builder *b)
+{
+    for (size_t i = 0; i < iso_record_rows(b->in); i++) {
+        const double *row = iso_record_const_row(b->in, i), orbit = row[b->orbit];
+        if (!(orbit >= 0 && orbit <= MOST_ORBIT && orbit == floor(orbit)))
+            return iso_context_fail(b->ctx, ISO_BAD_INPUT, "",
+                                    "row %zu: expected a whole number of 0 or more for orbit, found %.17g", i + 1,
+                                    orbit);
+        if (!isfinite(row[b->l]) || !isfinite(row[b->x]))
+            return iso_context_fail(b->ctx, ISO_BAD_INPUT, "", "row %zu: expected finite numbers for l and x", i + 1);
+    }
     return ISO_OK;
 }
 
@@ -211,6 +227,7 @@ static iso_status of_record(iso_context *ctx, const file_options *from, iso_reco
     builder b = {.ctx = ctx, .page = page, .in = in};
     iso_status status = read_lines(ctx, from, in, page);
     if (status == ISO_OK) status = check(&b);
+    if (status == ISO_OK) status = check_rows(&b);
     if (status != ISO_OK) return status;
     page->section->orbits = count_orbits(&b);
     status = keep_crossings(&b);
