@@ -85,23 +85,26 @@ static size_t count_orbits(const builder *b)
     return count;
 }
 
-/* The first crossings of each orbit, as many as there is room for. */
+/* The first crossings of each orbit, as many orbits and crossings as there is room for. */
 static iso_status keep_crossings(builder *b)
 {
     view_section *s = b->page->section;
-    const size_t each = VIEW_MOST_CROSSINGS / s->orbits > 0 ? VIEW_MOST_CROSSINGS / s->orbits : 1;
+    const size_t orbits = s->orbits < VIEW_MOST_ORBITS ? s->orbits : VIEW_MOST_ORBITS;
+    const size_t each = VIEW_MOST_CROSSINGS / orbits;
     iso_status status = iso_record_create(b->ctx, 3, (const char *const[]){"orbit", "l", "x"}, &s->crossings);
-    size_t first = 0, most = 0;
+    size_t first = 0, most = 0, orbit = 0;
     double *row;
     s->total = iso_record_rows(b->in);
     for (size_t i = 0; status == ISO_OK && i < s->total; i++) {
         const double *from = iso_record_const_row(b->in, i);
-        if (orbit_of(b, i) != orbit_of(b, first)) first = i;
+        if (orbit_of(b, i) != orbit_of(b, first)) first = i, orbit++;
+        if (orbit == orbits) break;
         if (i - first + 1 > most) most = i - first + 1;
         if (i - first >= each) continue;
         status = iso_record_append(b->ctx, s->crossings, &row);
         if (status == ISO_OK) row[0] = from[b->orbit], row[1] = from[b->l], row[2] = from[b->x];
     }
+    if (orbits < s->orbits) view_note(b->page, "The section shows the first %zu of %zu orbits.", orbits, s->orbits);
     if (most > each)
         view_note(b->page, "Of each orbit the section shows the first %zu of %zu crossings.", each, most);
     return status;
