@@ -121,6 +121,7 @@ static int run(iso_context *ctx, const void *options_given)
     status = make(ctx, o, kind, &page);
     iso_context_set_monitor(ctx, NULL, NULL);
     view_page_free(&page);
+    if (status == ISO_STOPPED) complain("interrupted: %s", iso_context_message(ctx));
     return finish(ctx, status);
 }
 
@@ -154,6 +155,7 @@ const command command_view = {
         "itself, and the page tells how far they differ. What a trajectory lacks (clocks, how the ball stands) is "
         "computed from row to row. Of a section choose a crossing: its orbit runs.\n\n"
         "More than 5000 rows are thinned out, and the page says so. A scene with few rows gets more between them.",
+    .exits = "1: interrupted",
     .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html",
     .run = run,
 };

@@ -185,6 +185,8 @@ const controls = {
   writeFrames(first, count, all) {
     const [from, to] = this.range(),
       out = document.createElement("pre");
+    out.id = "frames";
+    out.append("\n");
     for (let i = first; i < first + count; i++) {
       this.seek(from + (to - from) * (all > 1 ? i / (all - 1) : 0));
       out.append(`\nframe ${i} ${this.compose(1280, 720).toDataURL("image/png")}\n`);
