@@ -215,17 +215,12 @@ const controls = {
       this.changed();
     });
     element("picture").addEventListener("click", () => this.savePicture());
-    const frames =
-      body.kind === "plane"
-        ? [
-            ["follow", "beside the ball"],
-            ["ball", "the ball itself"],
-          ]
-        : [
-            ["room", "the room"],
-            ["follow", "beside the ball"],
-            ["ball", "the ball itself"],
-          ];
+    const frames = [
+      ["follow", "beside the ball"],
+      ["ball", "the ball itself"],
+    ];
+    if (body.large && !body.flat) frames.push(["room", "the room"]);
+    else if (!body.flat) frames.unshift(["room", "the room"]);
     for (const [value, words] of frames) element("frame").append(new Option(words, value));
     element("frame").addEventListener("change", (e) => {
       if (this.pictures) this.pictures[0].from = e.target.value;
