@@ -124,6 +124,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_context_set_monitor(ctx, NULL, NULL);
     const bool no_orbit = page.no_orbit;
     view_page_free(&page);
+    if (status == ISO_STOPPED) complain("interrupted: %s", iso_context_message(ctx));
     const int result = finish(ctx, status);
     return result == EXIT_DONE && no_orbit ? EXIT_SOME_FAILED : result;
 }
@@ -164,6 +165,7 @@ const command command_view = {
         "If the rows of a trajectory are no orbit of the stated equations, there is a page, a message and exit "
         "status 1.\n\n"
         "--frames draws pictures of 1280 x 720 pixels with Chromium, without a window; -o is then not needed.",
+    .exits = "1: interrupted, or the rows of a trajectory are no orbit (the page is there)",
     .example = "isoroll view scene.yaml -o page.html\nisoroll view section.csv -o section.html",
     .run = run,
 };

@@ -17,8 +17,9 @@
 
 /* Bounds that keep a page below 3 MB. In base64 a number takes 10.7 bytes. */
 enum {
-    VIEW_MOST_ROWS = 5000,      /* of the orbit that is played; of more, each second, third, ... is kept     */
-    VIEW_MOST_CROSSINGS = 20000 /* of a section                                                             */
+    VIEW_MOST_ROWS = 5000,       /* of the orbit that is played; of more, each second, third, ... is kept     */
+    VIEW_MOST_CROSSINGS = 20000, /* of a section                                                             */
+    VIEW_MOST_ORBITS = 10000     /* of a section; so each has two crossings or more                           */
 };
 #define VIEW_MOST_NUMBERS 140000.0 /* of all orbits of a section */
 

@@ -1,9 +1,11 @@
 /* view_frames.c - pictures of a page, drawn by a Chromium without a window (see view.h).
  *
  * Chromium opens the page with a fragment #frames=FIRST,COUNT,ALL. The page draws these pictures while it loads and
- * writes each into its text as a line "frame NUMBER data:image/png;base64,...", which --dump-dom prints. One run draws
- * BATCH pictures, so memory stays small. No port is opened and nothing is loaded from a network.
+ * writes each into <pre id="frames"> as a line "frame NUMBER data:image/png;base64,...", which --dump-dom prints. Texts
+ * of files come before it, and have no "<" there: they cannot forge a picture. One run draws BATCH pictures, so memory
+ * stays small. No port is opened and nothing is loaded from a network.
  */
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -105,22 +107,55 @@ static iso_status write_picture(iso_context *ctx, const char *folder, unsigned l
     return iso_output_close(ctx, out, true);
 }
 
-/* Writes the frames that Chromium printed. */
-static iso_status take_frames(iso_context *ctx, FILE *from, const char *folder, size_t *taken)
+/* The picture in a line "frame NUMBER data:...", in base64; NULL: it is no such line. */
+static const char *picture_in(const char *line, unsigned long number)
 {
-    static const char start[] = "frame ", kind[] = "data:image/png;base64,";
+    char start[64];
+    const int length = snprintf(start, sizeof start, "frame %lu data:image/png;base64,", number);
+    return strncmp(line, start, (size_t)length) == 0 ? line + length : NULL;
+}
+
+/* Takes the frames from `first` on, at most `count`, out of what Chromium printed. */
+static iso_status take_frames(iso_context *ctx, FILE *from, const char *folder, size_t first, size_t count,
+                              size_t *taken)
+{
     char *line = NULL;
     size_t room = 0;
+    bool begun = false;
     iso_status status = ISO_OK;
-    while (status == ISO_OK && getline(&line, &room, from) >= 0) {
-        char *at = strstr(line, start), *end;
-        if (!at || at[strlen(start)] < '0' || at[strlen(start)] > '9') continue;
-        const unsigned long number = strtoul(at + strlen(start), &end, 10);
-        if (strncmp(end, " ", 1) != 0 || strncmp(end + 1, kind, strlen(kind)) != 0) continue;
-        status = write_picture(ctx, folder, number, end + 1 + strlen(kind));
+    while (status == ISO_OK && *taken < count && getline(&line, &room, from) >= 0) {
+        const char *base64 = begun ? picture_in(line, first + *taken) : NULL;
+        begun = begun || strstr(line, "<pre id=\"frames\">");
+        if (!base64) continue;
+        status = write_picture(ctx, folder, first + *taken, base64);
         *taken += status == ISO_OK;
     }
     free(line);
+    return status;
+}
+
+/* The number in frameNUMBER.png; 0: the name is another. */
+static unsigned long number_of(const char *name)
+{
+    char *end;
+    if (strncmp(name, "frame", 5) != 0 || name[5] < '0' || name[5] > '9') return 0;
+    const unsigned long number = strtoul(name + 5, &end, 10);
+    return strcmp(end, ".png") == 0 ? number : 0;
+}
+
+/* Older pictures beyond the last new one would become part of the film. */
+static iso_status check_folder(iso_context *ctx, const char *folder, size_t all)
+{
+    iso_status status = ISO_OK;
+    DIR *list = opendir(folder);
+    if (!list) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", folder, strerror(errno));
+    for (const struct dirent *one; status == ISO_OK && (one = readdir(list));)
+        if (number_of(one->d_name) > all)
+            status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
+                                      "--frames: '%s' has %s of an older film, and this one has %zu pictures: empty "
+                                      "the folder, or name another",
+                                      folder, one->d_name, all);
+    closedir(list);
     return status;
 }
 
@@ -138,25 +173,33 @@ static void address_of(const char *path, size_t first, size_t count, size_t all,
     snprintf(to + used, size - used, "#frames=%zu,%zu,%zu", first, count, all);
 }
 
+/* Draws the pictures from `first` on. */
+static iso_status draw_batch(iso_context *ctx, const char *folder, const char *address, size_t first, size_t count)
+{
+    size_t taken = 0;
+    FILE *out = tmpfile();
+    if (!out) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open a temporary file: %s", strerror(errno));
+    iso_status status = run_chromium(ctx, address, out);
+    if (status == ISO_OK) status = take_frames(ctx, out, folder, first, count, &taken);
+    fclose(out);
+    if (status != ISO_OK) return status;
+    if (interrupted()) /* Ctrl-C ends Chromium too */
+        return iso_context_fail(ctx, ISO_STOPPED, "", "%zu pictures were drawn", first + taken);
+    if (taken < count)
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
+                                "--frames: Chromium drew only %zu of the frames %zu to %zu", taken, first + 1,
+                                first + count);
+    return ISO_OK;
+}
+
 static iso_status draw(iso_context *ctx, const view_frames *f, const char *page, size_t all)
 {
     char address[3 * PATH_MAX + 128];
     iso_status status = ISO_OK;
     for (size_t first = 0; status == ISO_OK && first < all; first += BATCH) {
         const size_t count = all - first < BATCH ? all - first : BATCH;
-        size_t taken = 0;
-        FILE *out = tmpfile();
-        if (!out)
-            return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open a temporary file: %s", strerror(errno));
         address_of(page, first, count, all, address, sizeof address);
-        status = run_chromium(ctx, address, out);
-        if (status == ISO_OK) status = take_frames(ctx, out, f->folder, &taken);
-        fclose(out);
-        if (status == ISO_OK && taken < count)
-            status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
-                                      "--frames: Chromium drew only %zu of the frames %zu to %zu", taken, first + 1,
-                                      first + count);
-        if (status == ISO_OK && interrupted()) status = iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
+        status = draw_batch(ctx, f->folder, address, first, count);
         progress_show((double)(first + count) / (double)all);
     }
     return status;
@@ -174,8 +217,10 @@ iso_status view_write_frames(iso_context *ctx, const view_frames *f, const view_
                                 strerror(errno));
     if (!realpath(f->folder, folder))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", f->folder, strerror(errno));
+    iso_status status = check_folder(ctx, f->folder, (size_t)all);
+    if (status != ISO_OK) return status;
     snprintf(path, sizeof path, "%s/.isoroll-%ld.html", folder, (long)getpid());
-    iso_status status = view_write(ctx, path, page);
+    status = view_write(ctx, path, page);
     if (status != ISO_OK) return status;
     status = draw(ctx, f, path, (size_t)all);
     unlink(path);

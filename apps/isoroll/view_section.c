@@ -17,6 +17,7 @@ enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 13 /* of a row: t tau 
  * rows, farther apart. */
 #define ORBIT_TURN 0.15
 #define LONG_ORBIT_TURN 0.3
+#define MOST_ORBIT 9007199254740992.0 /* 2^53: doubles hold all whole numbers up to it */
 
 typedef struct builder {
     iso_context *ctx;
@@ -56,6 +57,21 @@ static iso_status check(builder *b)
     return ISO_OK;
 }
 
+/* Numbers of orbits are whole; l and x are drawn. */
+static iso_status check_rows(const builder *b)
+{
+    for (size_t i = 0; i < iso_record_rows(b->in); i++) {
+        const double *row = iso_record_const_row(b->in, i), orbit = row[b->orbit];
+        if (!(orbit >= 0 && orbit <= MOST_ORBIT && orbit == floor(orbit)))
+            return iso_context_fail(b->ctx, ISO_BAD_INPUT, "",
+                                    "row %zu: expected a whole number of 0 or more for orbit, found %.17g", i + 1,
+                                    orbit);
+        if (!isfinite(row[b->l]) || !isfinite(row[b->x]))
+            return iso_context_fail(b->ctx, ISO_BAD_INPUT, "", "row %zu: expected finite numbers for l and x", i + 1);
+    }
+    return ISO_OK;
+}
+
 /* --- crossings -------------------------------------------------------------------------------------------------- */
 
 static size_t orbit_of(const builder *b, size_t row)
@@ -70,23 +86,26 @@ static size_t count_orbits(const builder *b)
     return count;
 }
 
-/* The first crossings of each orbit, as many as there is room for. */
+/* The first crossings of each orbit, as many orbits and crossings as there is room for. */
 static iso_status keep_crossings(builder *b)
 {
     view_section *s = b->page->section;
-    const size_t each = VIEW_MOST_CROSSINGS / s->orbits > 0 ? VIEW_MOST_CROSSINGS / s->orbits : 1;
+    const size_t orbits = s->orbits < VIEW_MOST_ORBITS ? s->orbits : VIEW_MOST_ORBITS;
+    const size_t each = VIEW_MOST_CROSSINGS / orbits;
     iso_status status = iso_record_create(b->ctx, 3, (const char *const[]){"orbit", "l", "x"}, &s->crossings);
-    size_t first = 0, most = 0;
+    size_t first = 0, most = 0, orbit = 0;
     double *row;
     s->total = iso_record_rows(b->in);
     for (size_t i = 0; status == ISO_OK && i < s->total; i++) {
         const double *from = iso_record_const_row(b->in, i);
-        if (orbit_of(b, i) != orbit_of(b, first)) first = i;
+        if (orbit_of(b, i) != orbit_of(b, first)) first = i, orbit++;
+        if (orbit == orbits) break;
         if (i - first + 1 > most) most = i - first + 1;
         if (i - first >= each) continue;
         status = iso_record_append(b->ctx, s->crossings, &row);
         if (status == ISO_OK) row[0] = from[b->orbit], row[1] = from[b->l], row[2] = from[b->x];
     }
+    if (orbits < s->orbits) view_note(b->page, "The section shows the first %zu of %zu orbits.", orbits, s->orbits);
     if (most > each)
         view_note(b->page, "Of each orbit the section shows at most the first %zu crossings; the file has up to %zu.",
                   each, most);
@@ -210,6 +229,7 @@ static iso_status of_record(iso_context *ctx, const file_options *from, iso_reco
     builder b = {.ctx = ctx, .page = page, .in = in};
     iso_status status = read_lines(ctx, from, in, page);
     if (status == ISO_OK) status = check(&b);
+    if (status == ISO_OK) status = check_rows(&b);
     if (status != ISO_OK) return status;
     page->section->orbits = count_orbits(&b);
     status = keep_crossings(&b);

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 
 enum { MOST_COLUMNS = 64, MOST_NUMBERS = 16, TEXT = 1024 };
+/* Of rows times columns. Unwritten rows take no room in a file: a small file can promise more than memory holds. */
+#define MOST_VALUES 1e8
 
 /* A dataset: rows x columns, columns 1, 3 or 4. */
 typedef struct dataset {
@@ -20,7 +22,7 @@ typedef struct reading {
     iso_context *ctx;
     hid_t file;
     dataset set[MOST_COLUMNS];
-    size_t sets;
+    size_t sets, columns; /* columns: of all datasets, also of those without a place in `set` */
     iso_record *record;
 } reading;
 
@@ -83,14 +85,15 @@ static void add_set(reading *r, hid_t group, const char *name)
     const int rank = H5Sget_simple_extent_ndims(space);
     if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space, size, NULL);
     H5Sclose(space);
-    dataset *d = &r->set[r->sets];
-    if (r->sets == MOST_COLUMNS || size[0] == 0 || size[1] > 4 || strlen(name) + 2 > sizeof d->name) {
+    const bool fits = size[0] > 0 && size[1] > 0 && size[1] <= 4 && strlen(name) + 2 <= ISO_NAME_SIZE;
+    if (fits) r->columns += (size_t)size[1];
+    if (!fits || r->columns > MOST_COLUMNS) {
         H5Dclose(id);
         return;
     }
+    dataset *d = &r->set[r->sets++];
     *d = (dataset){.id = id, .rows = (size_t)size[0], .columns = (size_t)size[1]};
     memcpy(d->name, name, strlen(name) + 1);
-    r->sets++;
 }
 
 static void find_sets(reading *r)
@@ -115,7 +118,7 @@ static iso_status name_columns(reading *r)
     const char *names[MOST_COLUMNS];
     size_t count = 0;
     for (size_t i = 0; i < r->sets; i++)
-        for (size_t j = 0; j < r->set[i].columns && count < MOST_COLUMNS; j++, count++) {
+        for (size_t j = 0; j < r->set[i].columns; j++, count++) {
             const dataset *d = &r->set[i];
             if (d->columns == 1)
                 snprintf(text[count], sizeof text[count], "%s", d->name);
@@ -146,11 +149,23 @@ static iso_status read_rows(const reading *r)
 
 /* --- the file --------------------------------------------------------------------------------------------------- */
 
+/* Whether the datasets are few and short enough for a record. */
+static iso_status check_sizes(const reading *r)
+{
+    if (r->columns > MOST_COLUMNS)
+        return iso_context_fail(r->ctx, ISO_BAD_INPUT, "", "more than %d columns", MOST_COLUMNS);
+    if (r->sets == 0) return iso_context_fail(r->ctx, ISO_BAD_INPUT, "", "no dataset of a section");
+    if ((double)r->set[0].rows * (double)r->columns > MOST_VALUES)
+        return iso_context_fail(r->ctx, ISO_BAD_INPUT, "", "%zu rows of %zu columns are more than %g numbers",
+                                r->set[0].rows, r->columns, MOST_VALUES);
+    return ISO_OK;
+}
+
 static iso_status read_file(reading *r)
 {
     find_sets(r);
-    if (r->sets == 0) return iso_context_fail(r->ctx, ISO_BAD_INPUT, "", "no dataset of a section");
-    iso_status status = name_columns(r);
+    iso_status status = check_sizes(r);
+    if (status == ISO_OK) status = name_columns(r);
     if (status == ISO_OK) status = read_attributes(r);
     if (status == ISO_OK) status = read_rows(r);
     for (size_t i = 0; i < r->sets; i++) H5Dclose(r->set[i].id);

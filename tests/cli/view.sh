@@ -46,6 +46,11 @@ fi
 run 0 view section.csv -o section.html
 check "a section" grep -q '"kind":"section"' section.html
 at_most "a page of a section" "$(bytes section.html)" 3000000
+awk -F, '/^#/ || !/^[0-9]/ { print; next } { row = $0; sub(/^[^,]*/, "", row); rows[n++] = row }
+    END { for (i = 0; i < 30000; i++) printf "%.0f%s\n", i + 9e15, rows[i % n] }' section.csv >orbits.csv
+run 0 view orbits.csv -o orbits.html
+at_most "a page of 30000 orbits of one crossing" "$(bytes orbits.html)" 3000000
+check "the page says how many orbits it shows" grep -q "The section shows the first 10000 of 30000 orbits." orbits.html
 for file in "$source"/examples/*/scene.yaml; do
     run 0 view "$file" -o example.html
     at_most "a page of $file" "$(bytes example.html)" 3000000
@@ -114,6 +119,10 @@ sed '/^# eps/d; /^# h:/d' section.csv >b.csv
 refuses 3 "'isoroll section --as ball'" view b.csv -o b.html
 sed '20s/,.*/,x/' section.csv >b.csv
 refuses 3 "b.csv:20:" view b.csv -o b.html
+for number in 3.5 -3 1e+30; do
+    sed "20s/^[0-9]*/$number/" section.csv >b.csv
+    refuses 3 "b.csv: row 3: expected a whole number of 0 or more for orbit, found $number" view b.csv -o b.html
+done
 check_not "no page of bad input" test -e b.html
 
 if "$isoroll" section scene.yaml --starts 30 --crossings 300 --quiet -o section.h5 2>/dev/null; then
@@ -121,6 +130,23 @@ if "$isoroll" section scene.yaml --starts 30 --crossings 300 --quiet -o section.
     check "a section in HDF5 gives the same page" test "$(sed 's/section.h5/section.csv/' section5.html | cksum)" = "$(cksum <section.html)"
     printf 'x' >broken.h5
     refuses 3 "broken.h5: this is not an HDF5 file" view broken.h5 -o b.html
+    if has python3 "HDF5 of too many rows and columns"; then
+        rows=$(grep -c '^[0-9]' section.csv)
+        python3 -c "import struct, sys
+at, to = (struct.pack('<Q', int(rows)) for rows in ($rows, 1e12))
+sys.stdout.buffer.write(open('section.h5', 'rb').read().replace(at, to))" >sparse.h5
+        refuses 3 "sparse.h5: 1000000000000 rows of 7 columns are more than 1e+08 numbers" view sparse.h5 -o b.html
+        if python3 -c "import h5py" 2>/dev/null; then
+            python3 -c "import h5py
+with h5py.File('wide.h5', 'w') as f:
+    f.attrs['format'] = 'isoroll section 1'
+    for i in range(64):
+        f['section/z%02d' % i] = [[1e99] * 4] * 2048"
+            refuses 3 "wide.h5: more than 64 columns" view wide.h5 -o b.html
+        else
+            skip "HDF5 of too many columns" "python3-h5py is not installed"
+        fi
+    fi
 fi
 refuses 3 "the last time is 0" view - -o b.html <<END
 reduced: {k: 1, J: [1, 2, 3]}

@@ -179,6 +179,36 @@ def parted(browser):
     check("chaos: the page says from when on the computations part", "From t = " in text, text)
 
 
+# --- numbers, slopes, very large spheres ---
+
+def extremes(browser):
+    def opened(name, text):
+        write(name + ".yaml", text)
+        run("view", name + ".yaml", "-o", name + ".html")
+        return browser.open(os.path.join(work, name + ".html"), media=still)
+    page = opened("slow", "reduced: {k: -1, J: [1, 2, 5]}\ninitial: {normal: [0.6, 0, 0.8], "
+                  "angular_velocity: [8.0e-7, 1.0e-7, -6.0e-7]}\ntime: {end: 3.0e+7, step: 1.0e+5}\n")
+    cells = page.evaluate("[...document.querySelectorAll('#state td')].map((e) => e.textContent)")
+    check("small numbers have digits", "8·10⁻⁷" in cells and not any("0.0000" == c for c in cells[:3]), cells)
+    ball = "ball: {mass: 2, radius: 0.5, inertia: [0.1, 0.15, 0.2]}\nsurface: {kind: plane}\n"
+    page = opened("slope", ball + f"initial: {{{START}}}\ntime: {{end: 2, step: 0.1}}\n"
+                  "effects: {gravity: {g: 9.8, up: [0, 0.6, 0.8]}}\n")
+    found = page.evaluate("""dot(upOf(controls.orbit), turned(controls.orbit.q[0], controls.orbit.n[0]))""")
+    check("a slope is drawn with its angle", abs(found - (0.48 * 0.6 + 0.8 * 0.8)) < 1e-9, found)
+    for k in (1.0000001, 0.99, 1.001):
+        page = opened("large", f"reduced: {{k: {k}, J: [1, 2, 5]}}\ninitial: {{{START}}}\n"
+                      "time: {end: 20, step: 0.2}\n")
+        check(f"k = {k}: begins beside the ball", page.evaluate("document.getElementById('frame').value") == "follow")
+        ball = page.evaluate("""(() => { const ball = controls.pictures[0];
+            ball.show(controls.now, controls.trail()); ball.draw();
+            const at = ball.ball.getWorldPosition(new THREE.Vector3()).project(ball.eye);
+            return [at.x, at.y, Math.abs(at.z)]; })()""")
+        check(f"k = {k}: the ball is in the middle", max(map(abs, ball[:2])) < 1e-6 and ball[2] < 1, ball)
+        found = colours(page, "ball")
+        check(f"k = {k}: the ball is not blank", found > 200, found)
+        quiet(page, f"k = {k}")
+
+
 # --- trajectories -------------------------------------------------------------------------------------------------
 
 def trajectories(browser):
@@ -348,7 +378,7 @@ def without_webgl():
 
 
 with chromium.Browser() as one:
-    for part in (scenes, parted, trajectories, section, keyboard, sizes, hostile):
+    for part in (scenes, parted, extremes, trajectories, section, keyboard, sizes, hostile):
         part(one)
 without_webgl()
 print("PASS the end")

@@ -21,6 +21,9 @@ const digits = (x, count = 6) => {
   return text.replace(/^-/, "−");
 };
 
+// A component of a vector that moves: four decimals, or four digits where the vector is large or small.
+const steady = (x, size) => (size >= 0.1 && size < 1e4 ? x.toFixed(4).replace("-", "−") : digits(x, 4));
+
 // For a clock that runs: a fixed number of decimals, so that digits do not jump.
 const reading = (x, span) => {
   const decimals = Math.min(8, Math.max(0, 4 - Math.floor(Math.log10(span || 1))));
@@ -96,7 +99,7 @@ const clocks = {
       tile.own.rate.textContent =
         name === this.even
           ? "runs evenly"
-          : `${pace > 1.02 ? "hurries" : pace < 0.98 ? "waits" : "keeps pace"} ×${pace.toFixed(2)}`;
+          : `${pace > 1.02 ? "hurries" : pace < 0.98 ? "waits" : "keeps pace"} ×${pace >= 0.1 && pace < 1e4 ? pace.toFixed(2) : digits(pace, 2)}`;
       tile.own.rate.classList.toggle("even", name === this.even);
     }
   },

@@ -185,6 +185,8 @@ const controls = {
   writeFrames(first, count, all) {
     const [from, to] = this.range(),
       out = document.createElement("pre");
+    out.id = "frames";
+    out.append("\n");
     for (let i = first; i < first + count; i++) {
       this.seek(from + (to - from) * (all > 1 ? i / (all - 1) : 0));
       out.append(`\nframe ${i} ${this.compose(1280, 720).toDataURL("image/png")}\n`);
@@ -213,17 +215,12 @@ const controls = {
       this.changed();
     });
     element("picture").addEventListener("click", () => this.savePicture());
-    const frames =
-      body.kind === "plane"
-        ? [
-            ["follow", "beside the ball"],
-            ["ball", "the ball itself"],
-          ]
-        : [
-            ["room", "the room"],
-            ["follow", "beside the ball"],
-            ["ball", "the ball itself"],
-          ];
+    const frames = [
+      ["follow", "beside the ball"],
+      ["ball", "the ball itself"],
+    ];
+    if (body.large && !body.flat) frames.push(["room", "the room"]);
+    else if (!body.flat) frames.unshift(["room", "the room"]);
     for (const [value, words] of frames) element("frame").append(new Option(words, value));
     element("frame").addEventListener("change", (e) => {
       if (this.pictures) this.pictures[0].from = e.target.value;

@@ -100,7 +100,7 @@ const numbers = {
     for (const [cell, column] of this.integrals) cell.textContent = this.small(at(column));
     for (const [cell, column] of this.differences) cell.textContent = this.small(at(column));
     for (const [cells, name] of this.states)
-      for (let i = 0; i < 3; i++) cells[i + 1].textContent = now[name][i].toFixed(4).replace("-", "−");
+      for (let i = 0; i < 3; i++) cells[i + 1].textContent = steady(now[name][i], Math.hypot(...now[name]));
     for (const [cell, column] of this.extras) {
       const none = column === this.needed && at(column) > 1e9; // no friction is enough
       cell.textContent = none ? "∞" : digits(at(column));

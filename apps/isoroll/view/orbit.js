@@ -36,14 +36,17 @@ const body = (() => {
   const { k, J } = page,
     B = page.radius > 0 ? page.radius : 1;
   const kind = k === 1 ? "plane" : k < 0 ? "shell" : k < 1 ? "outside" : "inside";
-  const b = kind === "inside" || kind === "shell" ? -B : B;
+  const b = kind === "inside" || kind === "shell" ? -B : B,
+    A = kind === "plane" ? Infinity : B * Math.abs(k / (1 - k));
   return {
     k,
     J,
     B,
     b,
     kind,
-    A: kind === "plane" ? Infinity : B * Math.abs(k / (1 - k)),
+    A,
+    flat: A > 300 * B, // beside the ball the sphere looks like a plane, and is drawn so
+    large: kind !== "plane" && A > 30 * B, // in a picture of the whole sphere the ball would be a dot
     detJ: J[0] * J[1] * J[2],
     reduced: !(page.radius > 0),
   };
@@ -105,14 +108,13 @@ function orbitOf(packed) {
   return o;
 }
 
-// The direction that points up in the pictures, in space axes. On a plane it is the normal: a slope is drawn level.
-// With gravity it is the upward vertical. Else the ball begins on top of its sphere, or at the bottom of a bowl.
+// The direction that points up in the pictures, in space axes. With gravity it is the upward vertical, so that a slope
+// is seen. Else the ball begins on top of its support, or at the bottom of a bowl.
 function upOf(orbit) {
   const n = turned(orbit.q[0], orbit.n[0]);
   if (page.effects.gravity) {
     const e = orbit.e ? orbit.e[0] : page.effects.gravity.up;
-    const up = turned(orbit.q[0], e);
-    return body.kind === "plane" ? n : up;
+    return unit(turned(orbit.q[0], e));
   }
   return body.kind === "inside" ? times(n, -1) : n;
 }

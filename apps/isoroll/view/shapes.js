@@ -94,8 +94,8 @@ void main() {
 }`;
 
 // A sphere; colours a and b (and c between them) and line by name in the theme. levels: the uniforms of heightOf.
-function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, levels = {} } = {}) {
-  const geometry = new THREE.SphereBufferGeometry(radius, 56, 36);
+function sphere(radius, pattern, names, { side = THREE.FrontSide, opacity = 1, levels = {}, finer = 1 } = {}) {
+  const geometry = new THREE.SphereBufferGeometry(radius, 56 * finer, 36 * finer);
   const uniforms = {
     a: { value: 0 },
     b: { value: 0 },

@@ -139,7 +139,7 @@ class BallPicture extends Picture {
   constructor(canvas) {
     super(canvas, 1);
     const { A, B, kind } = body;
-    this.size = kind === "plane" ? 2.3 * B : kind === "outside" ? A + 2 * B : kind === "inside" ? A : 2 * B - A;
+    this.size = body.flat ? 2.3 * B : kind === "outside" ? A + 2 * B : kind === "inside" ? A : 2 * B - A;
     this.distance = 4.05 * this.size;
     this.eye.near = this.distance / 200;
     this.eye.far = this.distance * 30;
@@ -149,17 +149,18 @@ class BallPicture extends Picture {
     this.buildBall();
     this.bead = this.add(this.world, bead(0.045 * Math.min(B, this.size / 2), colours.curve));
     this.middle = new THREE.Vector3();
-    this.from = kind === "plane" ? "follow" : "room";
+    this.origin = [0, 0, 0]; // of what is drawn: near the contact where the sphere is very large
+    this.from = body.flat || body.large ? "follow" : "room";
   }
 
   buildSupport() {
     const { A, B, kind } = body,
       names = { a: "ground", b: "ground", c: "ground", line: "rule" };
-    if (kind === "plane") this.support = this.add(this.world, plane(16 * B, B));
+    if (body.flat) this.support = this.add(this.world, plane(16 * B, B));
     else
       this.support = this.add(
         this.world,
-        sphere(A, 1, names, { side: kind === "inside" ? THREE.BackSide : THREE.FrontSide }),
+        sphere(A, 1, names, { side: kind === "inside" ? THREE.BackSide : THREE.FrontSide, finer: body.large ? 8 : 1 }),
       );
   }
 
@@ -180,7 +181,8 @@ class BallPicture extends Picture {
     const B = body.B,
       thin = Math.min(0.026 * B, 0.014 * this.size),
       wide = 0.011 * this.size,
-      plane = body.kind === "plane";
+      plane = body.flat;
+    if (body.flat && body.kind !== "plane") this.origin = moments[0].contact;
     for (const old of this.ribbons || []) {
       old.parent.remove(old);
       old.geometry.dispose();
@@ -200,7 +202,7 @@ class BallPicture extends Picture {
     const space = (hidden) =>
       ribbon(
         moments,
-        (m) => m.contact,
+        (m) => this.drawn(m.contact),
         (m) => times(m.normal, body.kind === "inside" ? -1 : 1),
         wide,
         colours.support,
@@ -216,17 +218,14 @@ class BallPicture extends Picture {
       ),
       this.add(
         this.world,
-        whole(moments, (m) => m.contact, body.kind === "plane" ? 1 : body.kind === "inside" ? 0.998 : 1.002),
+        whole(moments, (m) => this.drawn(m.contact), plane ? 1 : body.kind === "inside" ? 0.998 : 1.002),
       ),
     ];
     if (body.kind !== "shell") this.ribbons.push(this.add(this.ball, trace(true)));
     if (!plane) this.ribbons.push(this.add(this.world, space(true)));
     const up = upOf(orbit);
     this.upright = new THREE.Quaternion().setFromUnitVectors(three(up), new THREE.Vector3(0, 1, 0));
-    this.flat =
-      plane &&
-      new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), three(turned(orbit.q[0], orbit.n[0])));
-    if (body.kind === "inside" && page.effects.gravity) this.openBowl(moments, up);
+    if (body.kind === "inside" && !plane && page.effects.gravity) this.openBowl(moments, up);
     this.recolour();
   }
 
@@ -246,33 +245,40 @@ class BallPicture extends Picture {
     camera.elevation = camera.home.elevation = 0.6;
   }
 
+  drawn(place) {
+    return place.map((x, i) => x - this.origin[i]);
+  }
+
   show(now, trail) {
-    this.ball.position.copy(three(now.centre));
+    const centre = three(this.drawn(now.centre));
+    this.ball.position.copy(centre);
     this.ball.quaternion.copy(turn(now.q));
-    this.bead.position.copy(three(now.contact));
-    if (this.flat) this.showPlane(now);
+    this.bead.position.copy(three(this.drawn(now.contact)));
+    if (body.flat) this.showPlane(now);
     for (const strip of this.ribbons) strip.show(now.row, trail);
     this.world.quaternion.copy(this.upright);
     this.world.position.set(0, 0, 0);
     this.target.copy(this.middle);
     this.near = this.from === "room" ? 0 : 4.05 * (body.kind === "shell" ? 1.2 : 2.2) * body.B;
-    if (this.from === "follow") this.target.copy(three(now.centre).applyQuaternion(this.upright));
+    this.eye.near = (this.near || this.distance) / 200;
+    if (this.from === "follow") this.target.copy(centre.clone().applyQuaternion(this.upright));
     if (this.from === "ball") {
       const back = bodyUp.clone().multiply(turn(inverse(now.q)));
       this.target.set(0, 0, 0);
       this.world.quaternion.copy(back);
-      this.world.position.copy(three(now.centre).applyQuaternion(back).negate());
+      this.world.position.copy(centre.clone().applyQuaternion(back).negate());
     }
   }
 
   // The drawn part of the plane goes with the ball; its lines stay where they are.
   showPlane(now) {
-    const { middle, right, ahead } = this.support.material.uniforms;
-    this.support.quaternion.copy(this.flat);
-    this.support.position.copy(three(now.contact));
-    middle.value.copy(three(now.contact));
-    right.value.set(1, 0, 0).applyQuaternion(this.flat);
-    ahead.value.set(0, 1, 0).applyQuaternion(this.flat);
+    const { middle, right, ahead } = this.support.material.uniforms,
+      contact = three(this.drawn(now.contact));
+    const flat = this.support.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), three(now.normal));
+    this.support.position.copy(contact);
+    middle.value.copy(contact);
+    right.value.set(1, 0, 0).applyQuaternion(flat);
+    ahead.value.set(0, 1, 0).applyQuaternion(flat);
   }
 }
 
