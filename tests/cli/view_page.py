@@ -237,7 +237,7 @@ def trajectories(browser):
     text = page.evaluate("document.getElementById('left-words').textContent")
     check("off the top: contact is lost at the end", text.endswith("contact is lost at the end"), text)
     text = page.evaluate("document.getElementById('state').textContent")
-    check("off the top: no bound of friction is enough there", "friction needed∞" in text, text)
+    check("off the top: no bound of friction is enough there", "mu needed∞" in text, text)
     run("run", "shell.yaml", "--step", "3e-4", "-o", "many.csv")
     run("view", "many.csv", "-o", "many.html")
     page = browser.open(os.path.join(work, "many.html"))
