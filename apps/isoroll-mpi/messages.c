@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "io/sweep_store.h"
+#include "progress.h"
 #include "ranks.h"
 
 enum { TAG = 18, WORDS = 1024 };
@@ -22,13 +23,6 @@ size_t ranks_message_size(const iso_sweep *sweep)
     const iso_sweep_rows shape = {.columns = head->columns};
     const size_t rows = iso_sweep_rows_bytes(&shape, head->chunk);
     return sizeof(message_head) + (rows > WORDS ? rows : WORDS);
-}
-
-double ranks_now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 void ranks_pause(double *seconds)
@@ -58,10 +52,10 @@ static void send(ranks *r, message_head head, size_t length)
 
 void ranks_send(ranks *r, size_t c, const iso_sweep_rows *rows)
 {
-    const double begun = ranks_now();
+    const double begun = wall_seconds();
     send(r, (message_head){.chunk = c}, iso_sweep_rows_pack(rows, r->bytes + sizeof(message_head)));
     r->times[SENDS]++;
-    r->times[SEND_SECONDS] += ranks_now() - begun;
+    r->times[SEND_SECONDS] += wall_seconds() - begun;
 }
 
 void ranks_send_end(ranks *r, iso_status status, const char *words)
@@ -112,7 +106,7 @@ static bool take_message(ranks *r, int *left)
     int there, length;
     MPI_Iprobe(MPI_ANY_SOURCE, TAG, r->comm, &there, &about);
     if (!there) return false;
-    const double begun = ranks_now();
+    const double begun = wall_seconds();
     MPI_Get_count(&about, MPI_BYTE, &length);
     MPI_Recv(r->bytes, length, MPI_BYTE, about.MPI_SOURCE, TAG, r->comm, MPI_STATUS_IGNORE);
     memcpy(&head, r->bytes, sizeof head);
@@ -125,7 +119,7 @@ static bool take_message(ranks *r, int *left)
     }
     r->times[WRITES]++;
     r->times[BYTES] += length;
-    r->times[WRITE_SECONDS] += ranks_now() - begun;
+    r->times[WRITE_SECONDS] += wall_seconds() - begun;
     return true;
 }
 

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "progress.h"
+
 /* --- meeting ---------------------------------------------------------------------------------------------------- */
 
 void ranks_meet(ranks *r)
@@ -92,11 +94,11 @@ static bool fetch(void *data, size_t *c)
 {
     ranks *r = data;
     pthread_mutex_lock(&r->lock);
-    const double begun = ranks_now();
+    const double begun = wall_seconds();
     if (interrupted()) ranks_stop(r);
     const int64_t number = change_counter(r, 1, MPI_SUM);
     r->times[FETCHES]++;
-    r->times[FETCH_SECONDS] += ranks_now() - begun;
+    r->times[FETCH_SECONDS] += wall_seconds() - begun;
     pthread_mutex_unlock(&r->lock);
     if (number >= (int64_t)r->count) return false;
     *c = chunk_of(r, (uint64_t)number);

@@ -63,8 +63,6 @@ void ranks_wait(MPI_Request *request);
 /* Sleeps: longer each time, up to a millisecond. *seconds begins as 0. */
 void ranks_pause(double *seconds);
 
-double ranks_now(void);
-
 /* rank 0: takes messages until every other rank has ended. */
 void *ranks_listen(void *r);
 

@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 
 #include "io/sweep_file.h"
 #include "io/sweep_store.h"
@@ -100,18 +99,11 @@ typedef struct work {
     double begun;
 } work;
 
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static void show(const work *w)
 {
     const double done = (double)iso_sweep_journal_done(w->journal),
                  all = (double)iso_sweep_journal_wanted(w->journal);
-    const double fresh = done - (double)w->before, left = (now() - w->begun) * (all - done) / fresh;
+    const double fresh = done - (double)w->before, left = (wall_seconds() - w->begun) * (all - done) / fresh;
     char words[32] = "";
     if (fresh > 0 && left < 120)
         snprintf(words, sizeof words, "%.0f s left", left);
@@ -169,7 +161,7 @@ static int compute(iso_context *ctx, const options *o, const sweep_team *team, c
 {
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     char of[32];
-    work w = {.journal = journal, .chunks = iso_sweep_chunks(head), .begun = now()};
+    work w = {.journal = journal, .chunks = iso_sweep_chunks(head), .begun = wall_seconds()};
     const iso_sweep_source source = {next_chunk, take_chunk, &w};
     w.before = iso_sweep_journal_done(journal);
     stop_before_limit();

@@ -9,7 +9,7 @@
 
 enum { WIDTH = 40, WORDS = 30 };
 
-static double now(void)
+double wall_seconds(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
@@ -21,8 +21,8 @@ static bool drawn;
 void progress_with(double part, const char *words)
 {
     static double start = -1, last;
-    if (start < 0) start = now();
-    const double time = now();
+    if (start < 0) start = wall_seconds();
+    const double time = wall_seconds();
     if (time - start < 1 || time - last < 0.1 || !isatty(STDERR_FILENO)) return;
     last = time;
     const char *no_color = getenv("NO_COLOR"); /* counts only if it is not empty */

@@ -14,4 +14,7 @@ void progress_told(double part, void *unused);
 /* Takes the bar away. */
 void progress_end(void);
 
+/* Seconds on the wall, from any beginning. */
+double wall_seconds(void);
+
 #endif
