@@ -43,13 +43,17 @@ static bool ends_with(const char *text, const char *end)
     return length > n && strcmp(text + length - n, end) == 0;
 }
 
+static bool is_regular(const char *path)
+{
+    struct stat about;
+    return stat(path, &about) == 0 && S_ISREG(about.st_mode);
+}
+
 /* The first bytes of the file; "" if it cannot be read: the reader of the file will say so. */
 static void read_beginning(const char *path, char *text, size_t size)
 {
     const bool standard = strcmp(path, "-") == 0;
-    struct stat about;
-    const bool regular =
-        standard || (stat(path, &about) == 0 && S_ISREG(about.st_mode)); /* a pipe can be read only once */
+    const bool regular = standard || is_regular(path); /* a pipe can be read only once */
     const int file = standard ? STDIN_FILENO : regular ? open(path, O_RDONLY | O_CLOEXEC) : -1;
     const ssize_t got = file >= 0 ? pread(file, text, size - 1, 0) : 0;
     text[got > 0 ? got : 0] = '\0';
@@ -83,6 +87,16 @@ static const char *short_name(const char *path)
 
 /* --- the page --------------------------------------------------------------------------------------------------- */
 
+/* A pipe has no ending, and its beginning cannot be looked at: it is read as a scene. */
+static iso_status blame_pipe(iso_context *ctx, const char *path, iso_status status)
+{
+    char words[2048];
+    if (status != ISO_BAD_INPUT || strcmp(path, "-") == 0 || access(path, F_OK) != 0 || is_regular(path))
+        return status;
+    snprintf(words, sizeof words, "%s", iso_context_message(ctx));
+    return iso_context_fail(ctx, status, "", "%s (a pipe is read as a scene: give a pipe of rows as -)", words);
+}
+
 static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
 {
     iso_scene scene = {.places = 0};
@@ -90,7 +104,7 @@ static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
     const char *name = strcmp(o->from.file, "-") == 0 ? "<stdin>" : o->from.file;
     if (status == ISO_OK) status = iso_scene_check_times(ctx, &scene);
     if (status == ISO_OK) status = view_of_scene(ctx, &scene, page);
-    return iso_scene_blame(ctx, &scene, name, status);
+    return blame_pipe(ctx, o->from.file, iso_scene_blame(ctx, &scene, name, status));
 }
 
 static iso_status make(iso_context *ctx, const options *o, file_kind kind, view_page *page)

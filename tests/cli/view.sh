@@ -154,6 +154,12 @@ initial: {normal: [0, 0, 1], angular_velocity: [1, 0, 0]}
 time: {end: 0, step: 1}
 END
 
+mkfifo pipe
+cat section.csv >pipe &
+refuses 3 "(a pipe is read as a scene: give a pipe of rows as -)" view pipe -o b.html
+cat scene.yaml >pipe &
+run 0 view pipe -o pipe.html
+
 # --- times that run backwards, and repeat
 "$isoroll" run scene.yaml --t-end -3 -o back.csv
 run 0 view back.csv -o back.html

@@ -180,7 +180,7 @@ class BallPicture extends Picture {
   setOrbit(orbit, moments) {
     const B = body.B,
       thin = Math.min(0.026 * B, 0.014 * this.size),
-      wide = 0.011 * this.size,
+      wide = 0.011 * (body.large ? 3 * B : this.size),
       plane = body.flat;
     if (body.flat && body.kind !== "plane") this.origin = moments[0].contact;
     for (const old of this.ribbons || []) {
