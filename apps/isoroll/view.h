@@ -108,6 +108,9 @@ iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t column
 /* The three numbers of a vector in a row; `name` is its first column. NULL: there is no such column. */
 const double *view_vector(const iso_record *r, size_t row, const char *name);
 
+/* |a - b|. */
+double view_distance(const double a[3], const double b[3]);
+
 /* The largest turn, in radians, of the ball, of n or of gamma from one row to the next, of rows with t and omega. The
  * ball turns by |omega| dt, n by at most |k| times that. */
 double view_largest_turn(const iso_record *r, double k);

@@ -124,17 +124,12 @@ static iso_status fill(completion *c, iso_orbit *orbit, size_t first, size_t i, 
     return ISO_OK;
 }
 
-static double distance(const double a[3], const double b[3])
-{
-    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-}
-
 /* How far the short orbit is from row `i` of the file: |difference| of n, and of omega against the largest. */
 static double missed_by(const completion *c, size_t i, const iso_sample *sample)
 {
     const double *omega = view_vector(c->out, i, "omega1"), *n = view_vector(c->out, i, "n1");
-    const double off = c->speed > 0 ? distance(omega, sample->ball) / c->speed : 0;
-    return fmax(off, distance(n, sample->ball + 3));
+    const double off = c->speed > 0 ? view_distance(omega, sample->ball) / c->speed : 0;
+    return fmax(off, view_distance(n, sample->ball + 3));
 }
 
 /* The bound: MISSED, or more where the file says so: a hundred times the tolerance with which it was made, ten

@@ -65,6 +65,11 @@ const double *view_vector(const iso_record *r, size_t row, const char *name)
     return column < 0 ? NULL : iso_record_const_row(r, row) + column;
 }
 
+double view_distance(const double a[3], const double b[3])
+{
+    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
 double view_largest_turn(const iso_record *r, double k)
 {
     const int t = iso_record_find(r, "t");
@@ -76,7 +81,7 @@ double view_largest_turn(const iso_record *r, double k)
             const double *omega = view_vector(r, j, "omega1");
             most = fmax(most, hypot(hypot(omega[0], omega[1]), omega[2]) * dt * fmax(1, fabs(k)));
         }
-        if (now) most = fmax(most, hypot(hypot(now[0] - before[0], now[1] - before[1]), now[2] - before[2]));
+        if (now) most = fmax(most, view_distance(now, before));
     }
     return most;
 }

@@ -158,11 +158,6 @@ static iso_status run_ball(iso_context *ctx, const iso_scene *asked, view_page *
     return run_with(ctx, &scene, false, page, times, count);
 }
 
-static double distance(const double a[3], const double b[3])
-{
-    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-}
-
 /* Puts the columns M and gamma of the point's own run into the rows of the page, and how far n and gamma of the two
  * runs differ into page->apart. Says from when on they differ by more than PARTED. */
 static iso_status compare(iso_context *ctx, view_page *page, const iso_record *own)
@@ -176,8 +171,8 @@ static iso_status compare(iso_context *ctx, view_page *page, const iso_record *o
         double *gamma = row + iso_record_find(page->rows, "gamma1"), *M = row + iso_record_find(page->rows, "M1");
         status = iso_record_append(ctx, page->apart, &to);
         if (status != ISO_OK) break;
-        to[0] = distance(view_vector(page->rows, i, "n1"), view_vector(own, i, "n1"));
-        to[1] = distance(gamma, view_vector(own, i, "gamma1"));
+        to[0] = view_distance(view_vector(page->rows, i, "n1"), view_vector(own, i, "n1"));
+        to[1] = view_distance(gamma, view_vector(own, i, "gamma1"));
         memcpy(gamma, view_vector(own, i, "gamma1"), 3 * sizeof *gamma);
         memcpy(M, view_vector(own, i, "M1"), 3 * sizeof *M);
         if (parted || !(fmax(to[0], to[1]) > PARTED)) continue;
