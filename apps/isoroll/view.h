@@ -71,6 +71,10 @@ void view_page_free(view_page *page);
 /* Whether an effect breaks the isomorphism; if so, page->alone gets the words. Reads page->effects. */
 bool view_is_broken(view_page *page);
 
+/* page->h and page->eps by the lines of the file; NAN without such a line. Reads page->params. Errors: ISO_BAD_INPUT
+ * about a line that is no number. */
+iso_status view_read_energy(iso_context *ctx, const iso_record *r, view_page *page);
+
 /* Adds a line that the page shows. */
 void view_note(view_page *page, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -37,6 +37,15 @@ bool view_is_broken(view_page *page)
     return breaking != NULL;
 }
 
+iso_status view_read_energy(iso_context *ctx, const iso_record *r, view_page *page)
+{
+    iso_status status = ISO_OK;
+    if (!iso_record_get_numbers(ctx, r, "h", 1, &page->h, &status) && status == ISO_OK) page->h = NAN;
+    if (status != ISO_OK) return status;
+    if (!iso_record_coupling(ctx, r, &page->params, &page->eps, &status) && status == ISO_OK) page->eps = NAN;
+    return status;
+}
+
 void view_note(view_page *page, const char *format, ...)
 {
     va_list arguments;

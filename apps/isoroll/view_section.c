@@ -218,10 +218,7 @@ static iso_status read_lines(iso_context *ctx, const file_options *from, iso_rec
     if (status == ISO_OK) status = iso_record_effects(ctx, in, &page->effects);
     if (status != ISO_OK) return status;
     view_is_broken(page);
-    if (!iso_record_get_numbers(ctx, in, "h", 1, &page->h, &status) && status == ISO_OK) page->h = NAN;
-    if (status == ISO_OK && !iso_record_coupling(ctx, in, &page->params, &page->eps, &status) && status == ISO_OK)
-        page->eps = NAN;
-    return status;
+    return view_read_energy(ctx, in, page);
 }
 
 static iso_status of_record(iso_context *ctx, const file_options *from, iso_record *in, view_page *page)

@@ -91,16 +91,6 @@ static void find_twin(view_page *page, const iso_record *r)
         snprintf(page->alone, sizeof page->alone, "a ball at rest has no point");
 }
 
-/* h and eps by the lines of the file; NAN without such a line. */
-static iso_status read_energy(iso_context *ctx, const iso_record *r, view_page *page)
-{
-    iso_status status = ISO_OK;
-    if (!iso_record_get_numbers(ctx, r, "h", 1, &page->h, &status) && status == ISO_OK) page->h = NAN;
-    if (status != ISO_OK) return status;
-    if (!iso_record_coupling(ctx, r, &page->params, &page->eps, &status) && status == ISO_OK) page->eps = NAN;
-    return status;
-}
-
 /* If the file does not state h and eps: from its first row, if the ball is free. */
 static void find_energy(view_page *page)
 {
@@ -159,7 +149,7 @@ static iso_status of_record(iso_context *ctx, const file_options *from, iso_reco
     iso_status status = parameters_of_file(ctx, from, in, &page->params);
     if (status == ISO_OK) status = check_columns(ctx, in, &page->clock);
     if (status == ISO_OK) status = iso_record_effects(ctx, in, &page->effects);
-    if (status == ISO_OK) status = read_energy(ctx, in, page);
+    if (status == ISO_OK) status = view_read_energy(ctx, in, page);
     if (status == ISO_OK) status = thin_out(ctx, in, page, &thin);
     if (status == ISO_OK) find_twin(page, thin);
     if (status == ISO_OK) status = view_complete(ctx, page, thin, &page->rows, &worst);
