@@ -116,9 +116,8 @@ static iso_status choose_rows(iso_context *ctx, const iso_scene *scene, view_pag
     if (page->total < 2)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "end", "a page needs motion: the last time is 0");
     page->every = (page->total + VIEW_MOST_ROWS - 2) / (VIEW_MOST_ROWS - 1);
-    if (page->every < 1) page->every = 1;
     page->between = 0;
-    if (page->every > 1 || page->total < 2) return ISO_OK;
+    if (page->every > 1) return ISO_OK;
     const iso_status status = run_at(ctx, scene, NULL, 0, NULL, &rough);
     if (status != ISO_OK) return status;
     const double pieces = ceil(view_largest_turn(rough, scene->params.k) / VIEW_TURN);
