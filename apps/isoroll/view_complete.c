@@ -48,9 +48,7 @@ static iso_status create(completion *c)
     size_t count = 0;
     for (int i = 0; i < iso_columns_count(); i++) {
         const char *name = iso_column_name(i);
-        const bool of_point =
-            i == ISO_CLOCK_TAU || i == ISO_CLOCK_S || (i >= ISO_COLUMN_POINT && i < ISO_COLUMN_EFFECTS);
-        bool wanted = i >= ISO_COLUMN_EFFECTS ? has(c->in, name) : !of_point || c->twin;
+        bool wanted = i >= ISO_COLUMN_EFFECTS ? has(c->in, name) : !view_is_of_point(i) || c->twin;
         for (int a = 0; a < ATTITUDE; a++) wanted = wanted || strcmp(name, attitude_names[a]) == 0;
         if (wanted) names[count++] = name;
     }

@@ -55,6 +55,12 @@ void view_note(view_page *page, const char *format, ...)
     va_end(arguments);
 }
 
+bool view_is_of_point(int column)
+{
+    return column == ISO_CLOCK_TAU || column == ISO_CLOCK_S ||
+           (column >= ISO_COLUMN_POINT && column < ISO_COLUMN_EFFECTS);
+}
+
 iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t columns, const char *const names[],
                             iso_record **made)
 {

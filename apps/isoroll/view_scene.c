@@ -72,11 +72,9 @@ static void choose_columns(iso_scene *scene, bool twin)
 {
     scene->columns = 0;
     for (int c = 0; c < iso_columns_count() && scene->columns < ISO_MAX_COLUMNS; c++) {
-        const bool of_twin =
-            c == ISO_CLOCK_TAU || c == ISO_CLOCK_S || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
         iso_effect_id effect = ISO_EFFECTS;
         if (c >= ISO_COLUMN_EFFECTS) iso_effect_column_name(c - ISO_COLUMN_EFFECTS, &effect, NULL, NULL);
-        if ((of_twin && !twin) || (effect != ISO_EFFECTS && !scene->effects.on[effect])) continue;
+        if ((view_is_of_point(c) && !twin) || (effect != ISO_EFFECTS && !scene->effects.on[effect])) continue;
         if (effect == ISO_ATTITUDE && strncmp(iso_column_name(c), "trace", 5) == 0) continue; /* -b n */
         snprintf(scene->column[scene->columns++], ISO_NAME_SIZE, "%s", iso_column_name(c));
     }
