@@ -95,14 +95,7 @@ static iso_status begin(completion *c, size_t row, iso_orbit **orbit)
     if (status == ISO_OK && row > 0 && !has(c->in, "q0"))
         status = iso_effects_set(c->ctx, &effects, "attitude", "quaternion", 4, c->q);
     if (status != ISO_OK) return status;
-    iso_orbit_options o = iso_orbit_defaults(&start);
-    effects.on[ISO_ATTITUDE] = true;
-    o.effects = &effects;
-    o.backend = ISO_BACKEND_BALL;
-    o.clock = c->clock;
-    o.shown = c->twin ? ISO_SHOW_BOTH : ISO_SHOW_BALL;
-    for (int i = 0; c->twin && i < ISO_CLOCKS; i++) o.with_clock[i] = true;
-    return iso_orbit_create(c->ctx, &c->page->params, &start, &o, orbit);
+    return view_orbit(c->ctx, c->page, &start, &effects, c->clock, orbit);
 }
 
 /* Puts into row `i` what the short orbit gives at its time. */

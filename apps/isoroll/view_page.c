@@ -61,6 +61,20 @@ bool view_is_of_point(int column)
            (column >= ISO_COLUMN_POINT && column < ISO_COLUMN_EFFECTS);
 }
 
+iso_status view_orbit(iso_context *ctx, const view_page *page, const iso_start *start, iso_effects *effects,
+                      iso_clock clock, iso_orbit **orbit)
+{
+    const bool twin = !*page->alone;
+    iso_orbit_options o = iso_orbit_defaults(start);
+    effects->on[ISO_ATTITUDE] = true;
+    o.effects = effects;
+    o.backend = ISO_BACKEND_BALL;
+    o.clock = clock;
+    o.shown = twin ? ISO_SHOW_BOTH : ISO_SHOW_BALL;
+    for (int i = 0; twin && i < ISO_CLOCKS; i++) o.with_clock[i] = true;
+    return iso_orbit_create(ctx, &page->params, start, &o, orbit);
+}
+
 iso_status view_record_like(iso_context *ctx, const iso_record *r, size_t columns, const char *const names[],
                             iso_record **made)
 {

@@ -172,15 +172,7 @@ static iso_status run_orbit(const builder *b, size_t row, iso_record **to)
     iso_orbit *orbit = NULL;
     iso_effects effects = b->page->effects;
     iso_status status = start_of(b, row, &start, &effects);
-    if (status == ISO_OK) status = iso_effects_set(b->ctx, &effects, "attitude", NULL, 0, NULL);
-    if (status != ISO_OK) return status;
-    iso_orbit_options o = iso_orbit_defaults(&start);
-    o.effects = &effects;
-    o.backend = ISO_BACKEND_BALL;
-    o.clock = ISO_CLOCK_T;
-    o.shown = *b->page->alone ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
-    for (int i = 0; !*b->page->alone && i < ISO_CLOCKS; i++) o.with_clock[i] = true;
-    status = iso_orbit_create(b->ctx, &b->page->params, &start, &o, &orbit);
+    if (status == ISO_OK) status = view_orbit(b->ctx, b->page, &start, &effects, ISO_CLOCK_T, &orbit);
     if (status == ISO_OK) status = iso_record_create(b->ctx, columns_of(b->page, names), names, to);
     if (status == ISO_OK)
         status = follow(b, orbit, step_of(b->page, &start, b->rows < 400 ? LONG_ORBIT_TURN : ORBIT_TURN), *to);
