@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "scene_options.h"
@@ -43,17 +42,11 @@ static bool ends_with(const char *text, const char *end)
     return length > n && strcmp(text + length - n, end) == 0;
 }
 
-static bool is_regular(const char *path)
-{
-    struct stat about;
-    return stat(path, &about) == 0 && S_ISREG(about.st_mode);
-}
-
 /* The first bytes of the file; "" if it cannot be read: the reader of the file will say so. */
 static void read_beginning(const char *path, char *text, size_t size)
 {
     const bool standard = strcmp(path, "-") == 0;
-    const bool regular = standard || is_regular(path); /* a pipe can be read only once */
+    const bool regular = standard || is_regular(path);
     const int file = standard ? STDIN_FILENO : regular ? open(path, O_RDONLY | O_CLOEXEC) : -1;
     const ssize_t got = file >= 0 ? pread(file, text, size - 1, 0) : 0;
     text[got > 0 ? got : 0] = '\0';

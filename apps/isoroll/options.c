@@ -213,6 +213,12 @@ static options_result set_file(const command *c, int argc, char **argv, bool hel
 
 /* --- files ------------------------------------------------------------------------------------------------------ */
 
+bool is_regular(const char *path)
+{
+    struct stat s;
+    return stat(path, &s) == 0 && S_ISREG(s.st_mode);
+}
+
 /* Whether two paths (NULL: none, "-": the standard stream that is given) name the same regular file. */
 static bool same_file(const char *a, const char *b, const char *stream)
 {

@@ -64,6 +64,9 @@ bool set_digits(void *at, const char *text);    /* int, 1 to 17, or ISO_HEXADECI
 /* A whole number from 0 on, as set_whole and set_count read it, as an int: 1e9 if it is larger. */
 int as_int(double whole);
 
+/* Whether `path` names a regular file. Of a pipe nothing may be read to see what it is: it can be read only once. */
+bool is_regular(const char *path);
+
 /* Lists of words. */
 const char *method_word(int i);
 const char *backend_word(int i);

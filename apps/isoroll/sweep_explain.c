@@ -6,10 +6,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 
 #include "io/sweep_file.h"
+#include "options.h"
 #include "study/sweep.h"
 
 /* Places of the sweep at which points are computed, how many of each, and for how long at most. A chaotic share is
@@ -21,8 +21,7 @@ bool is_sweep(const char *path)
 {
     static const size_t most = 1 << 20;
     bool found = false;
-    struct stat s; /* what a pipe holds can be read once */
-    FILE *file = stat(path, &s) == 0 && S_ISREG(s.st_mode) ? fopen(path, "r") : NULL;
+    FILE *file = is_regular(path) ? fopen(path, "r") : NULL;
     char *text = file ? malloc(most) : NULL;
     if (text) found = iso_sweep_is_one(text, fread(text, 1, most, file));
     free(text);

@@ -5,10 +5,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "io/plot.h"
 #include "io/sweep_store.h"
+#include "options.h"
 
 enum { MOST_AXES = 16, NAME = 2 * ISO_NAME_SIZE + 2 };
 
@@ -49,9 +49,7 @@ bool is_sweep_result(const char *path)
 {
     iso_context *ctx = iso_context_create();
     iso_sweep_reader *reader = NULL;
-    struct stat s; /* what a pipe holds can be read once */
-    const bool found =
-        ctx && stat(path, &s) == 0 && S_ISREG(s.st_mode) && iso_sweep_reader_open(ctx, path, &reader) == ISO_OK;
+    const bool found = ctx && is_regular(path) && iso_sweep_reader_open(ctx, path, &reader) == ISO_OK;
     iso_sweep_reader_close(reader);
     iso_context_free(ctx);
     return found;
