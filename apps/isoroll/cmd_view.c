@@ -36,12 +36,6 @@ static iso_status make_seekable(iso_context *ctx)
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '<stdin>': %s", strerror(error));
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-    const size_t length = strlen(text), n = strlen(end);
-    return length > n && strcmp(text + length - n, end) == 0;
-}
-
 /* The first bytes of the file; "" if it cannot be read: the reader of the file will say so. */
 static void read_beginning(const char *path, char *text, size_t size)
 {

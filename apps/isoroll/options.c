@@ -219,6 +219,12 @@ bool is_regular(const char *path)
     return stat(path, &s) == 0 && S_ISREG(s.st_mode);
 }
 
+bool ends_with(const char *path, const char *ending)
+{
+    const size_t length = strlen(path), n = strlen(ending);
+    return length > n && strcmp(path + length - n, ending) == 0;
+}
+
 /* Whether two paths (NULL: none, "-": the standard stream that is given) name the same regular file. */
 static bool same_file(const char *a, const char *b, const char *stream)
 {

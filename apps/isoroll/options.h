@@ -67,6 +67,9 @@ int as_int(double whole);
 /* Whether `path` names a regular file. Of a pipe nothing may be read to see what it is: it can be read only once. */
 bool is_regular(const char *path);
 
+/* Whether a path ends in `ending`, in these letters, and has more before it. */
+bool ends_with(const char *path, const char *ending);
+
 /* Lists of words. */
 const char *method_word(int i);
 const char *backend_word(int i);

@@ -86,8 +86,7 @@ static iso_status read_lines(reading *r)
 iso_status view_section_read(iso_context *ctx, const char *path, iso_record **record)
 {
     const bool standard = strcmp(path, "-") == 0;
-    const size_t length = strlen(path);
-    if (length > 3 && strcmp(path + length - 3, ".h5") == 0) return view_section_read_hdf5(ctx, path, record);
+    if (ends_with(path, ".h5")) return view_section_read_hdf5(ctx, path, record);
     reading r = {.ctx = ctx, .name = standard ? "<stdin>" : path, .file = standard ? stdin : fopen(path, "r")};
     *record = NULL;
     if (!r.file) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));
