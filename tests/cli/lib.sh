@@ -180,6 +180,24 @@ time: {end: $5, step: $6}
 END
 }
 
+# sweep_of_all: a sweep of scene.yaml, two points, with all quantities until a time
+sweep_of_all() {
+    cat <<'END'
+scene: scene.yaml
+vary:
+  k: [0.5, -0.75]
+  start: [[0.4, 0.3]]
+measure:
+  state: {as: both}
+  frequencies: {}
+  splitting: {digits: double}
+  rotations: {}
+  backends: {}
+  error: {tolerance: 1.0e-10}
+until: {time: 400}
+END
+}
+
 # The book of the hard cases, as shared/hard.h keeps it, for scripts that begin with hard_topic TITLE.
 hard_topic() {
     topic=$1

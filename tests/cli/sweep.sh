@@ -99,20 +99,7 @@ equal() {
         exit !(a == "nan" ? b == "nan" || b == "null" : a ~ number && b ~ number && a + 0 == b + 0) }' ||
         fail "$1: $2 is not $3"
 }
-cat >each.yaml <<'END'
-scene: scene.yaml
-vary:
-  k: [0.5, -0.75]
-  start: [[0.4, 0.3]]
-measure:
-  state: {as: both}
-  frequencies: {}
-  splitting: {digits: double}
-  rotations: {}
-  backends: {}
-  error: {tolerance: 1.0e-10}
-until: {time: 400}
-END
+sweep_of_all >each.yaml
 cat >turns.yaml <<'END'
 scene: scene.yaml
 vary: {k: [0.5, -0.75], l: 0.4, x: 0.3}
