@@ -166,7 +166,7 @@ static void wrong_exponents(void)
     found_out(iso_measure_flow, &scene, options_of(10000), 0.1);
     found_out(iso_measure_returns, &scene, options_of(10000), 0.2);
     if (tests_length(0, 1) == 0) return;
-    found_out(iso_measure_flow, &scene, options_of(1000000), 0.01);
+    found_out(iso_measure_flow, &scene, options_of(250000), 0.01);
     found_out(iso_measure_returns, &scene, options_of(100000), 0.1);
 }
 
@@ -229,7 +229,7 @@ static void seeds(test_of *test)
 static void calibration(test_of *test)
 {
     const iso_scene scene = scene_of(-0.5, 1, 2, 5);
-    const int runs = tests_length(20, 200), most = tests_length(3, 9);
+    const int runs = tests_length(20, 100), most = tests_length(3, 6);
     int low = 0;
     for (int i = 0; i < runs; i++) {
         iso_measure_options o = options_of(1024);
