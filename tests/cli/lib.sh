@@ -27,6 +27,11 @@ length() {
     if [ "${ISO_TEST_LENGTH-}" = full ]; then echo "$2"; else echo "$1"; fi
 }
 
+# slow N: N, or a fifth of it if sanitizers make the programs slow: times of runs that are to take a while
+slow() {
+    if [ "${ISO_SANITIZE-0}" = 1 ]; then echo $(($1 / 5)); else echo "$1"; fi
+}
+
 # skip NAME REASON: this cannot be tried on this machine. run.sh repeats these lines at its end.
 skip() {
     skipped=$((skipped + 1))

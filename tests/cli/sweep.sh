@@ -334,11 +334,11 @@ else
 fi
 
 # --- a full disk, and a journal that is cut short or damaged
-cat >long.yaml <<'END'
+cat >long.yaml <<END
 scene: scene.yaml
 vary: {k: {from: 0.3, to: 0.9, count: 60}}
 measure: {state: {}}
-until: {time: 10000}
+until: {time: $(slow 10000)}
 chunk: 1
 END
 run 0 sweep long.yaml -o long.$h5
