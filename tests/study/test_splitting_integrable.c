@@ -57,7 +57,7 @@ int main(void)
     iso_splitting s;
     check(ctx, ISO_SPLITTING_DOUBLE, tests_length(10, MOST), full, 1e-14, "64 bits");
     if (iso_splitting_at(ctx, NAN, (double[3]){1, 2, 3}, ISO_SPLITTING_QUAD, &s) != ISO_BAD_ARGUMENT)
-        check(ctx, ISO_SPLITTING_QUAD, tests_length(1, MOST / 2), false, 1e-26, "128 bits");
+        check(ctx, ISO_SPLITTING_QUAD, tests_length(1, MOST / 4), false, 1e-26, "128 bits");
     iso_context_free(ctx);
     return gsl_test_summary();
 }

@@ -14,6 +14,7 @@
 #include "length.h"
 #include "study/chaos.h"
 #include "study/compare.h"
+#include "study/splitting.h"
 #include "study/sweep.h"
 
 static iso_context *ctx;
@@ -55,6 +56,7 @@ static void ask(iso_sweep_plan *plan, const char *name)
     wish->topic = topic(name);
     const iso_sweep_setting *s = iso_sweep_topics()[wish->topic]->settings;
     for (int i = 0; s && s[i].name; i++) wish->setting[i] = s[i].usual;
+    if (strcmp(name, "splitting") == 0) wish->setting[0] = ISO_SPLITTING_DOUBLE; /* 128 bits take long */
 }
 
 static iso_sweep_plan plan_of(double turns, double time, size_t chunk)
