@@ -250,8 +250,8 @@ iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const doub
     double unit[3];
     copy(y + 3, unit, 3);
     const double size = largest(y), length = norm(unit);
-    const double exact = hypot(hypot(unit[0], unit[1]), unit[2]); /* where squares do not fit a double */
     const bool is_near = fabs(length - 1) <= tolerance;
+    const double exact = is_near ? 1 : hypot(hypot(unit[0], unit[1]), unit[2]); /* squares may not fit a double */
     if (isfinite(exact) && exact > 0 && !is_near) return refuse_length(ctx, model, exact, tolerance);
     if (is_near) scale(unit, 1 / length);
     const double along = size > 0 ? y[0] / size * unit[0] + y[1] / size * unit[1] + y[2] / size * unit[2] : 0;
