@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "base/number.h"
 #include "base/place_impl.h"
@@ -253,11 +254,25 @@ static iso_status read_row(const csv *c, double row[])
     return ISO_OK;
 }
 
+/* Whether every field of the line is nan. */
+static bool is_nan_row(const csv *c)
+{
+    char *rest = c->line;
+    size_t fields = 0;
+    for (; rest && *rest; fields++) {
+        const field f = next_field(c->format.separator, &rest);
+        if (f.length != 3 || strncasecmp(f.text, "nan", 3) != 0) return false;
+    }
+    return fields == c->format.fields;
+}
+
 static iso_status csv_next(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more)
 {
     csv *c = r->data;
     c->ctx = ctx;
-    const iso_status status = next_data(c, more);
+    iso_status status = next_data(c, more);
+    for (; status == ISO_OK && *more && !c->row && r->passes && is_nan_row(c); r->passed++)
+        status = next_data(c, more);
     r->line = c->number;
     if (status != ISO_OK || !*more) return status;
     if (!c->row) return read_row(c, row);
