@@ -26,22 +26,25 @@ static bool print_residuals(const iso_residuals *r, double bound)
     return failed;
 }
 
-/* Checks the rows one after the other, as they are read. */
+/* Checks the rows one after the other, as they are read. A mistake in the first one is told before what the header
+ * lacks. */
 static iso_status check_rows(iso_context *ctx, const options *o, iso_trajectory_reader *in, iso_residuals *residuals)
 {
     double row[ISO_TRAJECTORY_COLUMNS];
     iso_params params;
     iso_checking *checking = NULL;
-    bool more = true;
+    iso_record *const header = iso_trajectory_header(in);
+    bool more;
     size_t passed = 0;
-    iso_status status = parameters_of_file(ctx, &o->from, iso_trajectory_header(in), &params);
+    iso_status status = iso_trajectory_next(ctx, in, row, &more);
+    if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, header, &params);
     if (status == ISO_OK)
-        status = iso_checking_create(ctx, &params, iso_trajectory_header(in),
-                                     isnan(o->tolerance) ? 1e-13 : o->tolerance, &checking);
-    while (status == ISO_OK && (status = iso_trajectory_next(ctx, in, row, &more)) == ISO_OK) {
+        status = iso_checking_create(ctx, &params, header, isnan(o->tolerance) ? 1e-13 : o->tolerance, &checking);
+    while (status == ISO_OK) {
         for (; passed < iso_trajectory_passed(in); passed++) iso_checking_pass(checking);
         if (!more) break;
         status = iso_checking_put(checking, row);
+        if (status == ISO_OK) status = iso_trajectory_next(ctx, in, row, &more);
     }
     if (status == ISO_OK) status = iso_checking_end(checking, residuals);
     iso_checking_free(checking);
