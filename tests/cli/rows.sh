@@ -28,6 +28,15 @@ awk '/^[0-9]/ && ++n % 1000 == 0 { print "# note: " n; print ""; print " " } { p
 run 0 convert --quiet --to point odd.csv
 check "lines of #, empty lines, CRLF" cmp out wanted.csv
 
+# --- the closed solution at even steps: the same states as at each time alone, to rounding
+for k in -1 1; do
+    sed "s/k: -1/k: $k/" scene.yaml >closed.yaml
+    run 0 run closed.yaml --backend exact --as both -o even.csv
+    rows even.csv | cut -d, -f1 >times
+    run 0 run closed.yaml --backend exact --as both --times times -o alone.csv
+    at_most "k = $k: even steps" "$(difference even.csv alone.csv)" 1e-13
+done
+
 # --- mistakes far behind the first block
 line=$(($(grep -n '^t,' ball.csv | cut -d: -f1) + count - 100))
 # spoil SED: that line is changed
