@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "io/section_file.h"
 #include "view_section.h"
 
 enum { MOST_COLUMNS = 64 };
@@ -87,7 +88,11 @@ iso_status view_section_read(iso_context *ctx, const char *path, iso_record **re
 {
     const bool standard = strcmp(path, "-") == 0;
     const size_t length = strlen(path);
-    if (length > 3 && strcmp(path + length - 3, ".h5") == 0) return view_section_read_hdf5(ctx, path, record);
+    if (length > 3 && strcmp(path + length - 3, ".h5") == 0) {
+        const iso_status status = iso_section_file_read_hdf5(ctx, path, record);
+        const bool named = status == ISO_OK || status == ISO_BAD_ARGUMENT;
+        return named ? status : name_the_file(ctx, path, status);
+    }
     reading r = {.ctx = ctx, .name = standard ? "<stdin>" : path, .file = standard ? stdin : fopen(path, "r")};
     *record = NULL;
     if (!r.file) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));

@@ -123,12 +123,14 @@ static iso_status find_sets(iso_context *ctx, iso_trajectory_reader *r)
 
 static iso_status hdf5_open(iso_context *ctx, iso_trajectory_reader *r, const char *columns)
 {
+    iso_status status = iso_hdf5_load(ctx);
+    if (status != ISO_OK) return status;
     iso_hdf5_store *s = r->data = iso_hdf5_store_create();
     if (!s) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
     if (columns)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns",
                                 "--columns is for text: in HDF5 the datasets have names");
-    iso_status status = iso_record_create(ctx, 0, NULL, &r->header);
+    status = iso_record_create(ctx, 0, NULL, &r->header);
     if (status != ISO_OK) return status;
     if (access(r->path, R_OK) != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", r->path, strerror(errno));
@@ -196,6 +198,7 @@ static iso_status hdf5_next(iso_context *ctx, iso_trajectory_reader *r, double r
 
 static void hdf5_close(iso_trajectory_reader *r)
 {
+    if (!r->data) return;
     H5E_BEGIN_TRY
     {
         iso_hdf5_store_free(r->data);
