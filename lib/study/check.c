@@ -225,6 +225,7 @@ static void add(const checker *c, const iso_residuals *found, iso_residuals *all
 
 iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals)
 {
+    ISO_DEFAULT_ARITHMETIC;
     const checker *c = &checking->all;
     *residuals = (iso_residuals){.rows = c->rows + c->passed, .passed = c->passed};
     if (c->rows == 0)
@@ -269,6 +270,7 @@ iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const
 iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
                      iso_residuals *residuals)
 {
+    ISO_DEFAULT_ARITHMETIC;
     iso_checking *c;
     *residuals = (iso_residuals){.rows = 0};
     iso_status status = iso_checking_create(ctx, params, record, tolerance, &c);

@@ -64,7 +64,7 @@ static void become(const char *command, const row *r, bool one)
 static cost measure(const char *command, const row *r, bool one)
 {
     struct rusage used;
-    int ended;
+    int ended = 0;
     const double begin = bench_wall_milliseconds();
     const pid_t child = fork();
     if (child == 0) become(command, r, one);
