@@ -29,10 +29,18 @@ if(ISO_HDF5)
   endforeach()
 endif()
 
-# The serial vector and the dense matrix and solver are part of the cvode and arkode libraries.
-set(ISO_DEPENDENCIES SUNDIALS::cvode SUNDIALS::arkode GSL::gsl PkgConfig::isoroll_yaml Threads::Threads m)
+# HDF5 is not linked: it is loaded when the first .h5 file is opened (io/hdf5_library_impl.h). Here is its name.
 if(ISO_HDF5 AND isoroll_hdf5_FOUND)
-  list(APPEND ISO_DEPENDENCIES PkgConfig::isoroll_hdf5)
+  list(FILTER isoroll_hdf5_LINK_LIBRARIES INCLUDE REGEX "libhdf5[^/]*$")
+  list(GET isoroll_hdf5_LINK_LIBRARIES 0 ISO_HDF5_FILE)
+  execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${ISO_HDF5_FILE} OUTPUT_VARIABLE ISO_HDF5_SONAME ERROR_QUIET)
+  string(REGEX MATCH "SONAME +[^\n ]+" ISO_HDF5_SONAME "${ISO_HDF5_SONAME}")
+  string(REGEX REPLACE "SONAME +" "" ISO_HDF5_SONAME "${ISO_HDF5_SONAME}")
+endif()
+
+# The serial vector and the dense matrix and solver are part of the cvode and arkode libraries.
+set(ISO_DEPENDENCIES SUNDIALS::cvode SUNDIALS::arkode GSL::gsl PkgConfig::isoroll_yaml Threads::Threads m ${CMAKE_DL_LIBS})
+if(ISO_HDF5 AND isoroll_hdf5_FOUND AND ISO_HDF5_SONAME)
   set(ISO_HDF5_PC ${isoroll_hdf5_MODULE_NAME})
 endif()
 set(ISO_SUNDIALS_LIBS "-lsundials_cvode -lsundials_arkode") # the same for isoroll.pc: SUNDIALS has no .pc file

@@ -14,7 +14,9 @@ typedef struct options {
 static bool print_residuals(const iso_residuals *r, double bound)
 {
     bool failed = false;
-    printf("%zu rows\n%-18s %10s %9s  %s\n", r->rows, "residual", "worst", "at row", "of");
+    printf("%zu rows", r->rows);
+    if (r->passed > 0) printf(", %zu of nan passed over", r->passed);
+    printf("\n%-18s %10s %9s  %s\n", "residual", "worst", "at row", "of");
     for (int i = 0; i < r->count; i++) {
         const iso_residual *x = &r->residual[i];
         const bool bad = !isnan(bound) && !(x->worst <= bound);
@@ -24,22 +26,47 @@ static bool print_residuals(const iso_residuals *r, double bound)
     return failed;
 }
 
+/* Checks the rows one after the other, as they are read. A mistake in the first one is told before what the header
+ * lacks. */
+static iso_status check_rows(iso_context *ctx, const options *o, iso_trajectory_reader *in, iso_residuals *residuals)
+{
+    double row[ISO_TRAJECTORY_COLUMNS];
+    iso_params params;
+    iso_checking *checking = NULL;
+    iso_record *const header = iso_trajectory_header(in);
+    bool more;
+    size_t passed = 0;
+    iso_status status = iso_trajectory_next(ctx, in, row, &more);
+    if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, header, &params);
+    if (status == ISO_OK)
+        status = iso_checking_create(ctx, &params, header, isnan(o->tolerance) ? 1e-13 : o->tolerance, &checking);
+    while (status == ISO_OK) {
+        for (; passed < iso_trajectory_passed(in); passed++) iso_checking_pass(checking);
+        if (!more) break;
+        status = iso_checking_put(checking, row);
+        if (status == ISO_OK) status = iso_trajectory_next(ctx, in, row, &more);
+    }
+    if (status == ISO_OK) status = iso_checking_end(checking, residuals);
+    iso_checking_free(checking);
+    return status;
+}
+
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
-    iso_record *record = NULL;
-    iso_params params;
+    iso_trajectory_reader *in = NULL;
     iso_residuals residuals;
     bool failed = false;
-    iso_status status = iso_trajectory_read(ctx, o->from.file, o->from.columns, &record);
-    if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, record, &params);
-    if (status == ISO_OK)
-        status = iso_check(ctx, &params, record, isnan(o->tolerance) ? 1e-13 : o->tolerance, &residuals);
+    iso_status status = iso_trajectory_reader_open(ctx, o->from.file, o->from.columns, &in);
+    if (status == ISO_OK) {
+        iso_trajectory_pass_nan(in);
+        status = check_rows(ctx, o, in, &residuals);
+    }
+    iso_trajectory_reader_close(in);
     if (status == ISO_OK)
         failed = print_residuals(&residuals, o->bound);
     else if (status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
         status = name_the_file(ctx, o->from.file, status);
-    iso_record_free(record);
     if (failed) complain("%s: a residual is above %g", o->from.file, o->bound);
     return status == ISO_OK && failed ? EXIT_SOME_FAILED : finish(ctx, status);
 }
@@ -64,7 +91,9 @@ const command command_check = {
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
     .description = "Prints residuals: of constraints, of integrals, and of every column. Residuals are relative. The "
-                   "residual 'flow' integrates each row to the time of the next row and compares.",
+                   "residual 'flow' integrates each row to the time of the next row and compares. Rows are read one "
+                   "after the other, in constant memory.\n\nRows of nan, which convert writes, are passed over and "
+                   "counted.",
     .example = "isoroll check trajectory.csv --max 1e-9",
     .exits = "1: a residual is larger than --max",
     .run = run,

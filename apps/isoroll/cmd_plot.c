@@ -116,14 +116,24 @@ static bool names_two(const char *columns, char name[2][NAME])
     return count == 2;
 }
 
+/* Reads a file, and says how many rows of nan it passes over. */
+static iso_status read_good(iso_context *ctx, const options *o, const char *columns, iso_record **file)
+{
+    size_t passed;
+    const iso_status status = iso_trajectory_read_good(ctx, o->from.file, columns, file, &passed);
+    if (status != ISO_OK || passed == 0) return status;
+    complain("%s: %zu rows of nan were passed over", name_of(o), passed);
+    return ISO_OK;
+}
+
 /* Reads the file by its own names of columns. If it has none, or if --columns has a "-", by those of --columns. */
 static iso_status read_two(iso_context *ctx, const options *o, iso_record **file)
 {
     const bool passes = strstr(o->from.columns, "-") != NULL, once = strcmp(o->from.file, "-") == 0;
-    const iso_status status = iso_trajectory_read(ctx, o->from.file, passes ? o->from.columns : NULL, file);
+    const iso_status status = read_good(ctx, o, passes ? o->from.columns : NULL, file);
     if (status == ISO_OK || passes || once) return status;
-    if (iso_trajectory_read(ctx, o->from.file, o->from.columns, file) == ISO_OK) return ISO_OK;
-    return iso_trajectory_read(ctx, o->from.file, NULL, file); /* once more, for its words */
+    if (read_good(ctx, o, o->from.columns, file) == ISO_OK) return ISO_OK;
+    return read_good(ctx, o, NULL, file); /* once more, for its words */
 }
 
 static iso_status find_column(iso_context *ctx, const iso_record *r, const char *name)
@@ -163,7 +173,7 @@ static iso_status draw_file(iso_context *ctx, const options *o)
 {
     parts p = {NULL, NULL, NULL, NULL, NULL};
     iso_params params;
-    iso_status status = iso_trajectory_read(ctx, o->from.file, o->from.columns, &p.file);
+    iso_status status = read_good(ctx, o, o->from.columns, &p.file);
     if (status == ISO_OK) status = parameters_of_file(ctx, &o->from, p.file, &params);
     if (status == ISO_OK) status = draw(ctx, o, &params, &p);
     iso_record_free(p.file);

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "io/section_file.h"
 #include "scene_options.h"
 #include "view_section.h"
 
@@ -55,7 +56,7 @@ static file_kind kind_of(const file_options *from)
     char text[64];
     read_beginning(from->file, text, sizeof text);
     if (strncmp(text, "# isoroll section ", 18) == 0) return SECTION;
-    if (ends_with(from->file, ".h5") && view_section_is_hdf5(from->file)) return SECTION;
+    if (ends_with(from->file, ".h5") && iso_section_file_is_hdf5(from->file)) return SECTION;
     if (strncmp(text, "# isoroll trajectory ", 21) == 0) return TRAJECTORY;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
         if (ends_with(from->file, endings[i])) return TRAJECTORY;

@@ -8,10 +8,4 @@
  * with line and column), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 iso_status view_section_read(iso_context *ctx, const char *path, iso_record **record);
 
-/* Whether a file is HDF5 and holds a section. */
-bool view_section_is_hdf5(const char *path);
-
-/* Reads a section file that is HDF5. Errors: as above; ISO_BAD_ARGUMENT: this build has no HDF5. */
-iso_status view_section_read_hdf5(iso_context *ctx, const char *path, iso_record **record);
-
 #endif

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/number.h"
+#include "io/section_file.h"
 #include "view_section.h"
 
 enum { MOST_COLUMNS = 64 };
@@ -86,7 +87,11 @@ static iso_status read_lines(reading *r)
 iso_status view_section_read(iso_context *ctx, const char *path, iso_record **record)
 {
     const bool standard = strcmp(path, "-") == 0;
-    if (ends_with(path, ".h5")) return view_section_read_hdf5(ctx, path, record);
+    if (ends_with(path, ".h5")) {
+        const iso_status status = iso_section_file_read_hdf5(ctx, path, record);
+        const bool named = status == ISO_OK || status == ISO_BAD_ARGUMENT;
+        return named ? status : name_the_file(ctx, path, status);
+    }
     reading r = {.ctx = ctx, .name = standard ? "<stdin>" : path, .file = standard ? stdin : fopen(path, "r")};
     *record = NULL;
     if (!r.file) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", path, strerror(errno));

@@ -41,7 +41,8 @@ int iso_number_print_as(char text[ISO_NUMBER_SIZE], double value, int digits)
     static const char plain[] = "0123456789abcdefpx+-";
     char local[ISO_NUMBER_SIZE + MB_LEN_MAX];
     const int length = print(local, sizeof local, digits, value);
-    const bool pointed = memchr(local, '.', (size_t)length) != NULL;
+    const bool pointed =
+        (length > 2 && (local[1] == '.' || local[2] == '.')) || memchr(local, '.', (size_t)length) != NULL;
     const size_t before = pointed ? 0 : strspn(local, plain);
     const size_t mark = pointed || !isfinite(value) ? 0 : strcspn(local + before, plain);
     if (mark > 0) return snprintf(text, ISO_NUMBER_SIZE, "%.*s.%s", (int)before, local, local + before + mark);

@@ -12,6 +12,7 @@
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
 #include "exact/form_impl.h"
+#include "exact/walk_impl.h"
 #include "model/effect.h"
 
 static const iso_form *const forms[] = {&iso_form_rest, &iso_form_revolution, &iso_form_separated, NULL};
@@ -273,7 +274,6 @@ iso_status iso_exact_at(iso_context *ctx, const iso_exact *x, iso_clock clock, d
 
 /* --- grids ------------------------------------------------------------------------------------------------------ */
 
-enum { TRAIL = 8 };
 static const double POOR = 1e-3; /* a guess that is wrong by more, about in radians, is of no use */
 
 /* The next value after `count` even steps, by their differences. */
@@ -287,30 +287,37 @@ static real extrapolate(const real value[], int count)
     return sum;
 }
 
+iso_status iso_exact_walk_to(iso_context *ctx, const iso_exact *x, iso_exact_walk *w, iso_clock clock, double time,
+                             double point[ISO_STATE], double clocks[ISO_CLOCKS])
+{
+    ISO_DEFAULT_ARITHMETIC;
+    const iso_status status = check_time(ctx, x, clock, time);
+    if (status != ISO_OK) return status;
+    if (w->known > 0 && !(fabs(time - w->time) <= w->longest * x->moment[clock])) w->known = 0;
+    const real even = time / x->form->rate(x->data, clock);
+    const real guess = w->known == ISO_EXACT_TRAIL ? even + extrapolate(w->trail, ISO_EXACT_TRAIL) : NAN;
+    form_place p = {.along = guess};
+    find(x, clock, time, &p);
+    hand_over(x, &p, point, clocks);
+    if (isnan(p.along) || fabsl(guess - p.along) > POOR)
+        w->known = 0; /* the end of a separatrix, or steps that are not even */
+    if (w->known == ISO_EXACT_TRAIL) memmove(w->trail, w->trail + 1, (size_t)--w->known * sizeof *w->trail);
+    w->trail[w->known++] = p.along - even;
+    w->time = time;
+    return check_place(ctx, x, &p);
+}
+
 iso_status iso_exact_grid(iso_context *ctx, const iso_exact *x, iso_clock clock, double start, double step,
                           size_t count, double points[], double clocks[])
 {
     ISO_DEFAULT_ARITHMETIC;
-    real trail[TRAIL];
-    int known = 0;
+    iso_exact_walk walk = {.longest = INFINITY};
     iso_status status = check_time(ctx, x, clock, start);
     if (status == ISO_OK && count > 0) status = check_time(ctx, x, clock, start + (double)(count - 1) * step);
-    if (status != ISO_OK) return status;
-    for (size_t i = 0; i < count; i++) {
-        const double time = start + (double)i * step;
-        const real even = time / x->form->rate(x->data, clock);
-        const real guess = known == TRAIL ? even + extrapolate(trail, TRAIL) : NAN;
-        form_place p = {.along = guess};
-        find(x, clock, time, &p);
-        hand_over(x, &p, points + ISO_STATE * i, clocks ? clocks + ISO_CLOCKS * i : NULL);
-        status = check_place(ctx, x, &p);
-        if (status != ISO_OK) return status;
-        if (isnan(p.along) || fabsl(guess - p.along) > POOR)
-            known = 0; /* the end of a separatrix, or steps too long */
-        if (known == TRAIL) memmove(trail, trail + 1, (size_t)--known * sizeof *trail);
-        trail[known++] = p.along - even;
-    }
-    return ISO_OK;
+    for (size_t i = 0; status == ISO_OK && i < count; i++)
+        status = iso_exact_walk_to(ctx, x, &walk, clock, start + (double)i * step, points + ISO_STATE * i,
+                                   clocks ? clocks + ISO_CLOCKS * i : NULL);
+    return status;
 }
 
 /* --- angles ----------------------------------------------------------------------------------------------------- */

@@ -1,20 +1,113 @@
-/* csv_writer.c - writes trajectories as text: into a temporary file, which is renamed when it is complete. */
+/* csv_writer.c - writes trajectories as text: into a temporary file, which is renamed when it is complete.
+ *
+ * Rows are collected in blocks. A crew of threads prints them, and the caller writes the text of one block after the
+ * other. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/number.h"
+#include "io/crew_impl.h"
 #include "io/output.h"
 #include "io/trajectory_impl.h"
 #include "orbit/scene.h"
 
+/* Rows of a block. A block holds LEAST rows at first, later a quarter of the rows before it, at most MOST: whoever
+ * reads the other end of a pipe waits for that many rows at most. */
+enum { BLOCKS = 8, LEAST = 32, MOST = 512 };
+
+typedef struct block {
+    iso_crew_task task;
+    size_t columns, rows;
+    int digits;
+    double *row;
+    char *text;
+    size_t length;
+} block;
+
+typedef struct csv {
+    iso_output *out;
+    iso_crew *crew;
+    bool seen; /* the file is a terminal: each row is shown at once */
+    block block[BLOCKS];
+    int first, count; /* blocks that are printed, or wait for it; the one behind them is being filled */
+    size_t rows;      /* given to blocks so far */
+} csv;
+
+/* --- blocks ----------------------------------------------------------------------------------------------------- */
+
+static void print_block(void *data)
+{
+    block *b = data;
+    char *end = b->text;
+    for (size_t i = 0; i < b->rows * b->columns; i++) {
+        if (isnan(b->row[i]))
+            memcpy(end, "nan", 3), end += 3;
+        else
+            end += iso_number_print_as(end, b->row[i], b->digits);
+        *end++ = (i + 1) % b->columns > 0 ? ',' : '\n';
+    }
+    b->length = (size_t)(end - b->text);
+}
+
+/* Room for the rows of the block that is being filled. */
+static bool has_room(block *b, size_t columns)
+{
+    if (b->row && b->text) return true;
+    b->task = (iso_crew_task){.work = print_block, .data = b};
+    b->columns = columns;
+    if (!b->row) b->row = malloc(MOST * columns * sizeof *b->row);
+    if (!b->text) b->text = malloc(MOST * columns * ISO_NUMBER_SIZE);
+    return b->row && b->text;
+}
+
+/* Writes the first block. */
+static void write_block(csv *c)
+{
+    block *b = &c->block[c->first];
+    iso_crew_finish(c->crew, &b->task);
+    fwrite(b->text, 1, b->length, iso_output_stream(c->out));
+    b->rows = 0;
+    c->first = (c->first + 1) % BLOCKS;
+    c->count--;
+}
+
+/* Writes what is printed; with `all`, all rows. */
+static void write_blocks(csv *c, bool all)
+{
+    block *filled = &c->block[(c->first + c->count) % BLOCKS];
+    const int most = all ? 0 : iso_crew_size(c->crew) > 0 ? 2 * iso_crew_size(c->crew) : 0;
+    if (filled->rows > 0) iso_crew_give(c->crew, &filled->task), c->count++;
+    while (c->count > most || (c->count > 0 && iso_crew_is_done(c->crew, &c->block[c->first].task))) write_block(c);
+}
+
+/* Whether the block is full. */
+static bool is_full(const csv *c, const block *b)
+{
+    const size_t quarter = (c->rows - b->rows) / 4;
+    return c->seen || b->rows >= (quarter < LEAST ? LEAST : quarter > MOST ? MOST : quarter);
+}
+
+/* Rows must stand before what is written next. */
+static FILE *stream_behind_rows(csv *c)
+{
+    write_blocks(c, true);
+    return iso_output_stream(c->out);
+}
+
+/* --- the file --------------------------------------------------------------------------------------------------- */
+
 static iso_status csv_open(iso_context *ctx, iso_trajectory_writer *w, const char *path)
 {
-    iso_output *out = NULL;
-    const iso_status status = iso_output_open(ctx, path, &out);
-    w->data = out;
-    if (status == ISO_OK) w->name = iso_output_name(out);
-    return status;
+    csv *c = w->data = calloc(1, sizeof *c);
+    if (c) c->crew = iso_crew_create();
+    if (!c || !c->crew) return free(c), iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write a trajectory");
+    const iso_status status = iso_output_open(ctx, path, &c->out);
+    if (status != ISO_OK) return iso_crew_free(c->crew), free(c), status;
+    w->name = iso_output_name(c->out);
+    c->seen = isatty(fileno(iso_output_stream(c->out))) == 1;
+    return ISO_OK;
 }
 
 /* Whether reading the line back gives the same key and value. */
@@ -32,14 +125,16 @@ static iso_status csv_line(iso_context *ctx, iso_trajectory_writer *w, const cha
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
                                 "'%s' cannot be a line '# key: value': a key has no colon, and both are one line",
                                 key);
-    fprintf(iso_output_stream(w->data), *value ? "# %s: %s\n" : "# %s:\n", key, value);
-    return iso_output_check(ctx, w->data);
+    csv *c = w->data;
+    fprintf(stream_behind_rows(c), *value ? "# %s: %s\n" : "# %s:\n", key, value);
+    return iso_output_check(ctx, c->out);
 }
 
 static iso_status csv_header(iso_context *ctx, iso_trajectory_writer *w, const iso_record *header)
 {
     const char *key, *value;
-    FILE *file = iso_output_stream(w->data);
+    csv *c = w->data;
+    FILE *file = iso_output_stream(c->out);
     iso_status status = ISO_OK;
     for (size_t i = 0; iso_record_line(header, i, &key, &value); i++)
         if (!is_line(key, value)) return csv_line(ctx, w, key, value);
@@ -49,28 +144,31 @@ static iso_status csv_header(iso_context *ctx, iso_trajectory_writer *w, const i
     for (size_t i = 0; i < iso_record_columns(header); i++)
         fprintf(file, i ? ",%s" : "%s", iso_record_name(header, i));
     fputc('\n', file);
-    return status == ISO_OK ? iso_output_check(ctx, w->data) : status;
+    return status == ISO_OK ? iso_output_check(ctx, c->out) : status;
 }
 
 static iso_status csv_row(iso_context *ctx, iso_trajectory_writer *w, const double row[])
 {
-    char text[ISO_TRAJECTORY_COLUMNS * ISO_NUMBER_SIZE];
+    csv *c = w->data;
+    block *b = &c->block[(c->first + c->count) % BLOCKS];
     const size_t columns = iso_record_columns(w->header);
-    size_t used = 0;
-    for (size_t i = 0; i < columns; i++) {
-        if (isnan(row[i]))
-            memcpy(text + used, "nan", 3), used += 3;
-        else
-            used += (size_t)iso_number_print_as(text + used, row[i], w->digits);
-        text[used++] = i + 1 < columns ? ',' : '\n';
-    }
-    fwrite(text, 1, used, iso_output_stream(w->data));
-    return iso_output_check(ctx, w->data);
+    if (!has_room(b, columns)) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for rows of '%s'", w->name);
+    b->digits = w->digits;
+    memcpy(b->row + b->rows++ * columns, row, columns * sizeof *row);
+    c->rows++;
+    if (is_full(c, b)) write_blocks(c, c->seen);
+    return iso_output_check(ctx, c->out);
 }
 
 static iso_status csv_close(iso_context *ctx, iso_trajectory_writer *w, bool keep)
 {
-    return iso_output_close(ctx, w->data, keep);
+    csv *c = w->data;
+    stream_behind_rows(c);
+    const iso_status status = iso_output_close(ctx, c->out, keep);
+    iso_crew_free(c->crew);
+    for (int i = 0; i < BLOCKS; i++) free(c->block[i].row), free(c->block[i].text);
+    free(c);
+    return status;
 }
 
 const iso_trajectory_writing iso_csv_writing = {csv_open, csv_header, csv_row, csv_line, csv_close};

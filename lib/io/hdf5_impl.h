@@ -14,8 +14,7 @@
 #ifndef ISO_IO_HDF5_IMPL_H
 #define ISO_IO_HDF5_IMPL_H
 
-#include <hdf5.h>
-
+#include "io/hdf5_library_impl.h"
 #include "io/replacement_impl.h"
 #include "io/trajectory_impl.h"
 #include "orbit/scene.h"

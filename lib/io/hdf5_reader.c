@@ -123,12 +123,14 @@ static iso_status find_sets(iso_context *ctx, iso_trajectory_reader *r)
 
 static iso_status hdf5_open(iso_context *ctx, iso_trajectory_reader *r, const char *columns)
 {
+    iso_status status = iso_hdf5_load(ctx);
+    if (status != ISO_OK) return status;
     iso_hdf5_store *s = r->data = iso_hdf5_store_create();
     if (!s) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
     if (columns)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns",
                                 "--columns is for text: in HDF5 the datasets have names");
-    iso_status status = iso_record_create(ctx, 0, NULL, &r->header);
+    status = iso_record_create(ctx, 0, NULL, &r->header);
     if (status != ISO_OK) return status;
     if (access(r->path, R_OK) != 0)
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", r->path, strerror(errno));
@@ -161,14 +163,31 @@ static iso_status read_block(iso_context *ctx, iso_trajectory_reader *r)
     return good ? ISO_OK : iso_hdf5_trouble(ctx, "read", r->name);
 }
 
-static iso_status hdf5_next(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more)
+/* The next row as it stands. */
+static iso_status take_row(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more)
 {
     iso_hdf5_store *s = r->data;
-    iso_status status = s->next == s->filled ? read_block(ctx, r) : ISO_OK;
+    const iso_status status = s->next == s->filled ? read_block(ctx, r) : ISO_OK;
     *more = status == ISO_OK && s->next < s->filled;
     if (!*more) return status;
     memcpy(row, s->block + s->next++ * s->columns, s->columns * sizeof *row);
     r->line++;
+    return ISO_OK;
+}
+
+static bool is_nan_row(const double row[], size_t columns)
+{
+    for (size_t i = 0; i < columns; i++)
+        if (!isnan(row[i])) return false;
+    return true;
+}
+
+static iso_status hdf5_next(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more)
+{
+    const iso_hdf5_store *s = r->data;
+    iso_status status = take_row(ctx, r, row, more);
+    for (; *more && r->passes && is_nan_row(row, s->columns); r->passed++) status = take_row(ctx, r, row, more);
+    if (!*more) return status;
     for (size_t i = 0; i < s->columns; i++)
         if (!isfinite(row[i]))
             return iso_context_placed(ctx, iso_context_fail(ctx, ISO_BAD_INPUT, "",
@@ -179,6 +198,7 @@ static iso_status hdf5_next(iso_context *ctx, iso_trajectory_reader *r, double r
 
 static void hdf5_close(iso_trajectory_reader *r)
 {
+    if (!r->data) return;
     H5E_BEGIN_TRY
     {
         iso_hdf5_store_free(r->data);

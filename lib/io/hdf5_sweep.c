@@ -165,13 +165,15 @@ static iso_status abandon(iso_context *ctx, iso_sweep_hdf5 *f, iso_status status
 static iso_status hdf5_create(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_share share,
                               void **file)
 {
+    iso_status status = iso_hdf5_load(ctx);
+    if (status != ISO_OK) return status;
     iso_sweep_hdf5 *f = iso_sweep_hdf5_create(head->columns);
     if (!f) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path);
     if (!iso_sweep_hdf5_has_room(f))
         return abandon(ctx, f, iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path));
     f->points = iso_sweep_share_points(head, share);
     f->part = !iso_sweep_share_is_all(share);
-    const iso_status status = open_target(ctx, f, path);
+    status = open_target(ctx, f, path);
     if (status != ISO_OK) return abandon(ctx, f, status);
     bool good;
     H5E_BEGIN_TRY

@@ -116,6 +116,9 @@ static iso_status hdf5_open(iso_context *ctx, const char *path, iso_sweep_begin 
 {
     iso_sweep_hdf5 *f = NULL;
     bool good;
+    const iso_status status = iso_hdf5_load(ctx);
+    *file = NULL;
+    if (status != ISO_OK) return status;
     H5E_BEGIN_TRY
     {
         good = open_file(begin, path, &f);

@@ -7,9 +7,11 @@
 
 static iso_status hdf5_create(iso_context *ctx, iso_trajectory_writer *w, const char *path)
 {
+    iso_status status = iso_hdf5_load(ctx);
+    if (status != ISO_OK) return status;
     iso_hdf5_store *s = w->data = iso_hdf5_store_create();
     if (!s) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path);
-    iso_status status = iso_replacement_open(ctx, path, &s->replacement, &s->descriptor);
+    status = iso_replacement_open(ctx, path, &s->replacement, &s->descriptor);
     if (status == ISO_OK) {
         w->name = s->replacement.target;
         H5E_BEGIN_TRY

@@ -76,12 +76,24 @@ size_t iso_trajectory_line(const iso_trajectory_reader *r)
     return r->line;
 }
 
+void iso_trajectory_pass_nan(iso_trajectory_reader *r)
+{
+    r->passes = true;
+}
+
+size_t iso_trajectory_passed(const iso_trajectory_reader *r)
+{
+    return r->passed;
+}
+
 const char *iso_trajectory_ignored(const iso_trajectory_reader *r)
 {
     return *r->ignored ? r->ignored : NULL;
 }
 
-iso_status iso_trajectory_read(iso_context *ctx, const char *path, const char *columns, iso_record **record)
+/* passed NULL: rows of nan are refused. */
+static iso_status read_whole(iso_context *ctx, const char *path, const char *columns, iso_record **record,
+                             size_t *passed)
 {
     double row[ISO_TRAJECTORY_COLUMNS], *to;
     iso_trajectory_reader *r;
@@ -89,14 +101,27 @@ iso_status iso_trajectory_read(iso_context *ctx, const char *path, const char *c
     *record = NULL;
     iso_status status = iso_trajectory_reader_open(ctx, path, columns, &r);
     if (status != ISO_OK) return status;
+    r->passes = passed != NULL;
     while ((status = iso_trajectory_next(ctx, r, row, &more)) == ISO_OK && more) {
         status = iso_record_append(ctx, r->header, &to);
         if (status != ISO_OK) break;
         memcpy(to, row, iso_record_columns(r->header) * sizeof *to);
     }
+    if (passed) *passed = r->passed;
     if (status == ISO_OK) *record = r->header, r->header = NULL;
     iso_trajectory_reader_close(r);
     return status;
+}
+
+iso_status iso_trajectory_read(iso_context *ctx, const char *path, const char *columns, iso_record **record)
+{
+    return read_whole(ctx, path, columns, record, NULL);
+}
+
+iso_status iso_trajectory_read_good(iso_context *ctx, const char *path, const char *columns, iso_record **record,
+                                    size_t *passed)
+{
+    return read_whole(ctx, path, columns, record, passed);
 }
 
 /* --- writing ---------------------------------------------------------------------------------------------------- */

@@ -28,6 +28,11 @@ ISO_C_BEGIN
  * Errors: ISO_BAD_INPUT, ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
 ISO_API iso_status iso_trajectory_read(iso_context *ctx, const char *path, const char *columns, iso_record **record);
 
+/* The same, but rows that are nan in every column, as `convert` writes them for rows that cannot be converted, are
+ * passed over; *passed is how many. */
+ISO_API iso_status iso_trajectory_read_good(iso_context *ctx, const char *path, const char *columns,
+                                            iso_record **record, size_t *passed);
+
 /* Writes a whole record. Errors: those of the writer below. */
 ISO_API iso_status iso_trajectory_write(iso_context *ctx, const char *path, const iso_record *record);
 
@@ -57,6 +62,13 @@ ISO_API iso_record *iso_trajectory_header(iso_trajectory_reader *reader);
  * Errors: ISO_BAD_INPUT, a row that is none: the next call goes on behind it; ISO_FILE_TROUBLE, ISO_NO_MEMORY;
  * ISO_STOPPED when a signal comes while a pipe is waited for and the context's monitor says so. */
 ISO_API iso_status iso_trajectory_next(iso_context *ctx, iso_trajectory_reader *reader, double row[], bool *more);
+
+/* From now on rows that are nan in every column are passed over; otherwise they are ISO_BAD_INPUT, as are rows that
+ * are nan in some columns. */
+ISO_API void iso_trajectory_pass_nan(iso_trajectory_reader *reader);
+
+/* How many rows were passed over so far. */
+ISO_API size_t iso_trajectory_passed(const iso_trajectory_reader *reader);
 
 /* The line of the file at which the row read last stands (HDF5: the row's number). */
 ISO_API size_t iso_trajectory_line(const iso_trajectory_reader *reader);

@@ -4,8 +4,8 @@
 
 #include "io/trajectory.h"
 
-#define ISO_TRAJECTORY_KIND    "trajectory"
-#define ISO_TRAJECTORY_MAGIC   "# isoroll " ISO_TRAJECTORY_KIND " "
+#define ISO_TRAJECTORY_KIND "trajectory"
+#define ISO_TRAJECTORY_MAGIC "# isoroll " ISO_TRAJECTORY_KIND " "
 #define ISO_TRAJECTORY_VERSION "1"
 
 /* How a kind of file is read and written, in two halves; reader->data and writer->data are their own. */
@@ -30,8 +30,10 @@ struct iso_trajectory_reader {
     const iso_trajectory_reading *format;
     const char *path, *name; /* name: what messages call it              */
     iso_record *header;
-    size_t line; /* of the row read last                     */
+    size_t line;       /* of the row read last                     */
     char ignored[512]; /* "": nothing                              */
+    bool passes;       /* over rows of nan, which are counted      */
+    size_t passed;
     void *data;
 };
 

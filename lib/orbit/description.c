@@ -206,14 +206,13 @@ static iso_status turn_number(iso_context *ctx, const double row[], const iso_re
     return ISO_OK;
 }
 
-static iso_status turn_effects(iso_context *ctx, const iso_record *r, size_t row, iso_effects *effects)
+static iso_status turn_effects(iso_context *ctx, const iso_record *r, const double row[], iso_effects *effects)
 {
     iso_status status = ISO_OK;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; effects->on[e] && n && n->name; n++)
             if (status == ISO_OK && n->turns_with)
-                status = turn_number(ctx, iso_record_const_row(r, row), r, iso_effect_list[e], n,
-                                     iso_effect_values(effects, e, n));
+                status = turn_number(ctx, row, r, iso_effect_list[e], n, iso_effect_values(effects, e, n));
     return status;
 }
 
@@ -250,8 +249,8 @@ iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const doub
     double unit[3];
     copy(y + 3, unit, 3);
     const double size = largest(y), length = norm(unit);
-    const double exact = hypot(hypot(unit[0], unit[1]), unit[2]); /* where squares do not fit a double */
     const bool is_near = fabs(length - 1) <= tolerance;
+    const double exact = is_near ? 1 : hypot(hypot(unit[0], unit[1]), unit[2]); /* squares may not fit a double */
     if (isfinite(exact) && exact > 0 && !is_near) return refuse_length(ctx, model, exact, tolerance);
     if (is_near) scale(unit, 1 / length);
     const double along = size > 0 ? y[0] / size * unit[0] + y[1] / size * unit[1] + y[2] / size * unit[2] : 0;
@@ -262,8 +261,8 @@ iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, const doub
     return refuse_spin(ctx, model, along, tolerance);
 }
 
-iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_model_kind model,
-                            size_t row, iso_start *start, iso_effects *effects)
+iso_status iso_record_start_at(iso_context *ctx, const iso_record *r, const iso_params *p, iso_model_kind model,
+                               const double row[], iso_start *start, iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
     int columns[ISO_STATE];
@@ -271,11 +270,17 @@ iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_par
     iso_status status = iso_record_find_state(ctx, r, model, columns);
     if (status == ISO_OK) status = turn_effects(ctx, r, row, effects);
     if (status != ISO_OK) return status;
-    for (int i = 0; i < ISO_STATE; i++) y[i] = iso_record_const_row(r, row)[columns[i]];
+    for (int i = 0; i < ISO_STATE; i++) y[i] = row[columns[i]];
     const bool states_eps = model == ISO_POINT && iso_record_coupling(ctx, r, p, &eps, &status);
     if (status != ISO_OK) return status;
-    status = iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, iso_effects_twist(effects),
-                                iso_record_row_tolerance(r), start);
+    return iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, iso_effects_twist(effects),
+                              iso_record_row_tolerance(r), start);
+}
+
+iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_model_kind model,
+                            size_t row, iso_start *start, iso_effects *effects)
+{
+    const iso_status status = iso_record_start_at(ctx, r, p, model, iso_record_const_row(r, row), start, effects);
     if (status == ISO_OK) return ISO_OK;
     return iso_context_fail(ctx, status, "", "row %zu: %s", row + 1, iso_context_message(ctx));
 }

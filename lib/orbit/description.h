@@ -57,6 +57,11 @@ ISO_API iso_status iso_start_from_row(iso_context *ctx, iso_model_kind model, co
 ISO_API iso_status iso_record_start(iso_context *ctx, const iso_record *record, const iso_params *params,
                                     iso_model_kind model, size_t row, iso_start *start, iso_effects *effects);
 
+/* The same of a row that is not in the record: `row` has as many numbers as the record has columns. Messages do not
+ * give its place. */
+iso_status iso_record_start_at(iso_context *ctx, const iso_record *record, const iso_params *params,
+                               iso_model_kind model, const double row[], iso_start *start, iso_effects *effects);
+
 ISO_C_END
 
 #endif

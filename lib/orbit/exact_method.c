@@ -6,32 +6,43 @@
  */
 #include <math.h>
 
+#include <stdlib.h>
+
 #include "base/finite_impl.h"
 #include "base/vec3_impl.h"
+#include "exact/walk_impl.h"
 #include "method/integrator_impl.h"
 #include "orbit/orbit_impl.h"
 
+typedef struct closed {
+    iso_exact *exact; /* made from the state at the start, see start() */
+    bool even;        /* times follow each other in even steps         */
+    iso_exact_walk walk;
+} closed;
+
 static iso_status create(iso_integrator *it)
 {
-    it->data = NULL; /* it is made from the state at the start, see start() */
-    return ISO_OK;
+    it->data = calloc(1, sizeof(closed));
+    return it->data ? ISO_OK : iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for a closed solution");
 }
 
 static void release(iso_integrator *it)
 {
-    iso_exact_free(it->data);
+    closed *c = it->data;
+    if (c) iso_exact_free(c->exact);
+    free(c);
 }
 
 static iso_status start(iso_integrator *it)
 {
     const iso_model *m = &it->model;
+    closed *c = it->data;
     bool clocks[ISO_CLOCKS] = {false};
-    iso_exact *exact;
     clocks[m->clock] = true;
     for (int i = 0; i < m->clocks; i++) clocks[m->clock_of[i]] = true;
-    release(it);
-    const iso_status status = iso_exact_create(it->ctx, &m->problem, it->y0, clocks, &exact);
-    it->data = exact;
+    iso_exact_free(c->exact);
+    *c = (closed){.walk.longest = ISO_EXACT_SHORT};
+    const iso_status status = iso_exact_create(it->ctx, &m->problem, it->y0, clocks, &c->exact);
     if (status != ISO_BAD_ARGUMENT) return status;
     return iso_context_fail(it->ctx, status, iso_context_about(it->ctx), "%s: take backend point",
                             iso_context_message(it->ctx));
@@ -40,9 +51,11 @@ static iso_status start(iso_integrator *it)
 static iso_status at(iso_integrator *it, double t, double y[])
 {
     const iso_model *m = &it->model;
+    closed *c = it->data;
     double state[ISO_MAX_STATE], clocks[ISO_CLOCKS];
     it->statistics.states++;
-    const iso_status status = iso_exact_at(it->ctx, it->data, m->clock, t, state, clocks);
+    const iso_status status = c->even ? iso_exact_walk_to(it->ctx, c->exact, &c->walk, m->clock, t, state, clocks)
+                                      : iso_exact_at(it->ctx, c->exact, m->clock, t, state, clocks);
     if (status != ISO_OK) return status;
     for (int i = 0; i < m->clocks; i++) state[m->moving + i] = clocks[m->clock_of[i]];
     if (!all_finite(state, m->dim)) return iso_integrator_stopped(it, "the closed solution is not finite");
@@ -85,7 +98,19 @@ const iso_method iso_method_exact = {.name = "exact",
                                      .at = at,
                                      .free = release};
 
-const iso_exact *iso_orbit_exact(const iso_orbit *o)
+static closed *closed_of(const iso_orbit *o)
 {
     return o->options.backend == ISO_BACKEND_EXACT ? o->integrator->data : NULL;
+}
+
+const iso_exact *iso_orbit_exact(const iso_orbit *o)
+{
+    const closed *c = closed_of(o);
+    return c ? c->exact : NULL;
+}
+
+void iso_orbit_expect_even_times(iso_orbit *o)
+{
+    closed *c = closed_of(o);
+    if (c) c->even = true;
 }

@@ -89,6 +89,11 @@ ISO_API iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
  * a result that does not fit a double, or lost its digits). */
 ISO_API iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
 
+/* Says that the times to come follow each other in even steps. The closed solution then takes less time where steps
+ * are short, and its states depend on the times before, by roundings. It is never wrong to say so. Other backends take
+ * no notice. */
+ISO_API void iso_orbit_expect_even_times(iso_orbit *orbit);
+
 /* The first zero of g(sample) after `from`, not after `to`; see iso_integrator_event. direction as there. The sample
  * that g sees has no time (NaN) in the options' clock, only the clocks carried. Errors: as iso_orbit_at, and
  * ISO_NUMERICAL when g is not finite. */

@@ -19,7 +19,7 @@ typedef struct iso_residual {
 } iso_residual;
 
 typedef struct iso_residuals {
-    size_t rows;
+    size_t rows, passed; /* all rows, and those of nan, which were passed over */
     int count;
     iso_residual residual[ISO_MAX_RESIDUALS];
 } iso_residuals;
@@ -39,6 +39,32 @@ typedef struct iso_residuals {
  * ISO_NOT_MAPPED (a point with H not 0 in the times of a ball), ISO_NUMERICAL, ISO_NO_MEMORY. */
 ISO_API iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
                              iso_residuals *residuals);
+
+/* --- row by row ---------------------------------------------------------------------------------------------------
+ *
+ *     iso_checking_create(ctx, &params, header, 1e-13, &c);
+ *     while (next(row)) status = iso_checking_put(c, row);
+ *     status = iso_checking_end(c, &residuals);
+ *     iso_checking_free(c);
+ *
+ * The same as iso_check, in constant memory. Where two rows are near each other, two-point Taylor quadrature
+ * (method/two_point.h) finds the rows that are worst, and these alone are integrated. */
+typedef struct iso_checking iso_checking;
+
+/* header: columns, lines and row tolerance; it and params must outlive the check. Errors: those of iso_check about
+ * columns and lines; *checking is then NULL. */
+ISO_API iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const iso_record *header,
+                                       double tolerance, iso_checking **checking);
+ISO_API void iso_checking_free(iso_checking *checking);
+
+/* The next row: as many numbers as the header has columns. Errors: those of iso_check. */
+ISO_API iso_status iso_checking_put(iso_checking *checking, const double row[]);
+
+/* Call this in the place of a row of nan: it is counted, and the flow goes from the row before to the one behind. */
+ISO_API void iso_checking_pass(iso_checking *checking);
+
+/* After the last row. Errors: ISO_BAD_INPUT, if there was none. */
+ISO_API iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals);
 
 /* The drifts of the integrals that hold, row by row, as a new record. The first column is the model's first clock, or
  * "row", the row's number. The others ("h", "F_shell", ...) are |I(row) - I(first row)| / size; for a constraint its

@@ -44,9 +44,9 @@ static iso_orbit_options orbit_options(const iso_scene *scene, const int columns
     ball = ball || iso_effects_ball_only(effects); /* to see where contact is lost */
     o.effects = effects;
     o.shown = ball && point ? ISO_SHOW_BOTH
-             : ball        ? ISO_SHOW_BALL
-             : point       ? ISO_SHOW_POINT
-                           : (iso_shown)scene->start.model;
+              : ball        ? ISO_SHOW_BALL
+              : point       ? ISO_SHOW_POINT
+                            : (iso_shown)scene->start.model;
     o.gamma_alone = point && !M;
     o.backend = scene->backend;
     o.method = iso_method_find(scene->method);
@@ -358,6 +358,7 @@ static iso_status open_orbit(runner *r)
     if (status != ISO_OK) return status;
     r->result->backend = iso_orbit_backend(r->orbit);
     r->result->method = iso_orbit_method(r->orbit);
+    if (!r->options.times) iso_orbit_expect_even_times(r->orbit);
     return iso_orbit_check_time(r->orbit, r->farthest);
 }
 

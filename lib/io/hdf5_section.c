@@ -1,11 +1,12 @@
-/* view_section_hdf5.c - reads a section file that is HDF5 into a record (lib/doc/formats.md, section 5). */
-#include "view_section.h"
+/* hdf5_section.c - reads a section file that is HDF5 into a record (lib/doc/formats.md, section 5). */
+#include "io/section_file.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-#ifdef ISO_HDF5
-#include <hdf5.h>
-#include <stdlib.h>
+#include "io/hdf5_library_impl.h"
+#include "orbit/scene.h"
 
 enum { MOST_COLUMNS = 64, MOST_NUMBERS = 16, TEXT = 1024 };
 /* Of rows times columns. Unwritten rows take no room in a file: a small file can promise more than memory holds. */
@@ -172,9 +173,10 @@ static iso_status read_file(reading *r)
     return status;
 }
 
-bool view_section_is_hdf5(const char *path)
+bool iso_section_file_is_hdf5(const char *path)
 {
     char text[TEXT] = "";
+    if (!iso_hdf5_is_there()) return false;
     H5dont_atexit();
     H5E_BEGIN_TRY
     {
@@ -187,10 +189,12 @@ bool view_section_is_hdf5(const char *path)
     return strncmp(text, "isoroll section ", 16) == 0;
 }
 
-iso_status view_section_read_hdf5(iso_context *ctx, const char *path, iso_record **record)
+iso_status iso_section_file_read_hdf5(iso_context *ctx, const char *path, iso_record **record)
 {
     reading r = {.ctx = ctx};
-    iso_status status = ISO_OK;
+    iso_status status = iso_hdf5_load(ctx);
+    *record = NULL;
+    if (status != ISO_OK) return status;
     H5E_BEGIN_TRY
     {
         r.file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -202,21 +206,5 @@ iso_status view_section_read_hdf5(iso_context *ctx, const char *path, iso_record
     if (status == ISO_OK) return ISO_OK;
     iso_record_free(r.record);
     *record = NULL;
-    return name_the_file(ctx, path, status);
+    return status;
 }
-
-#else
-
-bool view_section_is_hdf5(const char *path)
-{
-    (void)path;
-    return false;
-}
-
-iso_status view_section_read_hdf5(iso_context *ctx, const char *path, iso_record **record)
-{
-    *record = NULL;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': this build has no HDF5 (.h5), use CSV", path);
-}
-
-#endif

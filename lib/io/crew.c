@@ -1,0 +1,124 @@
+/* crew.c - a queue of tasks under a lock, and the threads that work it off (crew_impl.h). */
+#include "io/crew_impl.h"
+
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+
+#include "base/arithmetic_impl.h"
+#include "orbit/pool_impl.h"
+
+enum { MOST = 3 };
+
+struct iso_crew {
+    pthread_mutex_t lock;
+    pthread_cond_t given, done; /* a task waits, or the crew ends; a task is done */
+    iso_crew_task *first, *last;
+    int size, started;
+    bool tried, ends; /* tried: to start the threads */
+    pthread_t thread[MOST];
+};
+
+iso_crew *iso_crew_create(void)
+{
+    iso_crew *c = calloc(1, sizeof *c);
+    if (!c) return NULL;
+    pthread_mutex_init(&c->lock, NULL);
+    pthread_cond_init(&c->given, NULL);
+    pthread_cond_init(&c->done, NULL);
+    c->size = (int)iso_pool_threads(0, MOST, 1) - 1;
+    return c;
+}
+
+int iso_crew_size(const iso_crew *c)
+{
+    return c->size;
+}
+
+/* Works off the first task that waits. The lock is held before and after. */
+static void work_off(iso_crew *c)
+{
+    iso_crew_task *task = c->first;
+    c->first = task->next;
+    if (!c->first) c->last = NULL;
+    task->state = ISO_TASK_RUNS;
+    pthread_mutex_unlock(&c->lock);
+    task->work(task->data);
+    pthread_mutex_lock(&c->lock);
+    task->state = ISO_TASK_DONE;
+    pthread_cond_broadcast(&c->done);
+}
+
+static void *attend(void *crew)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_crew *c = crew;
+    pthread_mutex_lock(&c->lock);
+    while (!c->ends)
+        if (c->first)
+            work_off(c);
+        else
+            pthread_cond_wait(&c->given, &c->lock);
+    pthread_mutex_unlock(&c->lock);
+    return NULL;
+}
+
+/* Signals go to the caller's thread: it waits in read(), which a signal must end. */
+static void start(iso_crew *c)
+{
+    sigset_t all, before;
+    c->tried = true;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    while (c->started < c->size && pthread_create(&c->thread[c->started], NULL, attend, c) == 0) c->started++;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+}
+
+void iso_crew_free(iso_crew *c)
+{
+    if (!c) return;
+    pthread_mutex_lock(&c->lock);
+    c->ends = true;
+    pthread_cond_broadcast(&c->given);
+    pthread_mutex_unlock(&c->lock);
+    for (int i = 0; i < c->started; i++) pthread_join(c->thread[i], NULL);
+    pthread_cond_destroy(&c->given);
+    pthread_cond_destroy(&c->done);
+    pthread_mutex_destroy(&c->lock);
+    free(c);
+}
+
+void iso_crew_give(iso_crew *c, iso_crew_task *task)
+{
+    if (!c->tried) start(c);
+    pthread_mutex_lock(&c->lock);
+    task->state = ISO_TASK_WAITS;
+    task->next = NULL;
+    if (c->last)
+        c->last->next = task;
+    else
+        c->first = task;
+    c->last = task;
+    pthread_cond_signal(&c->given);
+    pthread_mutex_unlock(&c->lock);
+}
+
+void iso_crew_finish(iso_crew *c, iso_crew_task *task)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    pthread_mutex_lock(&c->lock);
+    while (task->state != ISO_TASK_DONE)
+        if (c->first)
+            work_off(c);
+        else
+            pthread_cond_wait(&c->done, &c->lock);
+    pthread_mutex_unlock(&c->lock);
+}
+
+bool iso_crew_is_done(iso_crew *c, const iso_crew_task *task)
+{
+    pthread_mutex_lock(&c->lock);
+    const bool done = task->state == ISO_TASK_DONE;
+    pthread_mutex_unlock(&c->lock);
+    return done;
+}

@@ -1,0 +1,66 @@
+/* csv_impl.h - what reading a trajectory from text is made of.
+ *
+ *     csv_reader.c   the header: lines of #, the names of the columns
+ *     csv_lines.c    the lines of the file, in blocks; rows are read ahead by other threads
+ *     csv_row.c      the numbers of one line
+ */
+#ifndef ISO_IO_CSV_IMPL_H
+#define ISO_IO_CSV_IMPL_H
+
+#include <locale.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/context.h"
+
+enum { ISO_LONGEST_LINE = 1 << 16, ISO_MOST_FIELDS = 1024 };
+
+/* --- csv_row.c -------------------------------------------------------------------------------------------------- */
+
+/* How a row is read. */
+typedef struct iso_csv_format {
+    char separator;                /* ',', ';', or ' ' for blanks                                       */
+    size_t fields, columns;        /* columns: of the record                                            */
+    short column[ISO_MOST_FIELDS]; /* of the record, for each field of the file; -1: passed over        */
+    locale_t plain;                /* the C locale                                                      */
+} iso_csv_format;
+
+/* What is wrong with a row. */
+typedef enum iso_csv_wrong { ISO_CSV_GOOD, ISO_CSV_FEW, ISO_CSV_MANY, ISO_CSV_NO_NUMBER } iso_csv_wrong;
+
+typedef struct iso_csv_mistake {
+    char *at;     /* the character at which it is seen                   */
+    size_t found; /* the number of the field, which is that of good ones */
+} iso_csv_mistake;
+
+/* Reads the numbers of a line, which ends with '\0'. It writes e in the place of d in exponents. */
+iso_csv_wrong iso_csv_read_row(const iso_csv_format *format, char *line, double row[], iso_csv_mistake *mistake);
+
+static inline bool iso_is_blank(char x)
+{
+    return x == ' ' || x == '\t';
+}
+
+/* --- csv_lines.c ------------------------------------------------------------------------------------------------ */
+
+typedef struct iso_csv_lines iso_csv_lines;
+
+typedef struct iso_csv_line {
+    char *text;        /* without its end                                                                  */
+    size_t length;     /* of the text, which may hold '\0' and has one behind it; not set with a row       */
+    const double *row; /* its numbers; NULL: the line is no row, has a mistake, or was not read ahead      */
+    bool too_long;     /* ISO_LONGEST_LINE or more: the text is a part of it                               */
+} iso_csv_line;
+
+/* Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. name: what messages call the file; it must outlive the lines. */
+iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *name, iso_csv_lines **lines);
+void iso_csv_lines_close(iso_csv_lines *lines);
+
+/* Lines that are not yet in memory are read as rows from now on, ahead. The format must outlive the lines. */
+void iso_csv_lines_read_rows(iso_csv_lines *lines, const iso_csv_format *format);
+
+/* The next line; it is valid until the next call. *more false: there is none. Errors: ISO_FILE_TROUBLE; ISO_STOPPED,
+ * if a signal comes while a pipe is waited for and the monitor of ctx says so. */
+iso_status iso_csv_lines_next(iso_context *ctx, iso_csv_lines *lines, iso_csv_line *line, bool *more);
+
+#endif

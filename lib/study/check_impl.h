@@ -1,0 +1,120 @@
+/* check_impl.h - what a check is made of. check.c is the top and calls the other three, which do not call each other
+ * but for check_flow.c -> check_effects.c; all call the notes of check_note.c.
+ *
+ *     check.c             rows come in, residuals go out
+ *     check_integrals.c   constraints and integrals at each row
+ *     check_flow.c        from each row to the next: state and clocks
+ *     check_effects.c     the same for the columns of effects
+ */
+#ifndef ISO_STUDY_CHECK_IMPL_H
+#define ISO_STUDY_CHECK_IMPL_H
+
+#include "method/two_point.h"
+#include "orbit/description.h"
+#include "orbit/orbit_impl.h"
+#include "study/check.h"
+
+
+typedef struct checker checker;
+
+/* The integrals that hold for a model, and the value each should have. */
+typedef struct expectations {
+    const iso_system *system;
+    const iso_orbit *first;
+    iso_problem problem; /* with which integrals are computed */
+    int count;
+    const iso_integral *integral[ISO_MAX_INTEGRALS];
+    double value[ISO_MAX_INTEGRALS];
+} expectations;
+
+/* One of the two models, as the rows have it. */
+typedef struct checked_model {
+    iso_model_kind kind;
+    bool there;
+    const iso_system *system;
+    int first;    /* its first column, in a trajectory           */
+    int clock;    /* that is followed; -1: the record has none   */
+    bool has_eps; /* the lines state eps, for a point            */
+    double eps;
+    iso_orbit *orbit; /* of the first row */
+    expectations expect;
+    /* quadrature from row to row; NULL: each row is integrated */
+    iso_orbit *way;
+    iso_two_point *quadrature;
+    double seen, seen_clock[ISO_CLOCKS]; /* the largest it found, of the intervals that were integrated */
+    iso_residuals found;
+} checked_model;
+
+struct checker {
+    iso_context *ctx;
+    const iso_params *params;
+    const iso_record *record; /* its names, lines and row tolerance; no rows */
+    iso_effects effects;
+    double tolerance;
+    int columns[ISO_TRAJECTORY_COLUMNS]; /* of the record, -1: not there           */
+    size_t width;                        /* of a row                               */
+    size_t rows, passed, number,
+        before;              /* rows so far; passed over; the number of the row in hand, and of the last */
+    double *last;            /* that row                               */
+    double span[ISO_CLOCKS]; /* largest |clock| so far                 */
+    iso_units units;         /* for the map                            */
+    checked_model model[2];
+    iso_residuals map;
+};
+
+/* --- check.c ---------------------------------------------------------------------------------------------------- */
+
+/* Reads the names and lines of the record, chooses effects, finds the models. Errors: those of iso_check. */
+iso_status iso_checker_begin(checker *c);
+
+/* Notes a value of the residual `name`, and makes the residual at its first value. A NaN counts as infinite. */
+void iso_checker_note(iso_residuals *found, const char *name, const char *what, double value, size_t row);
+
+/* A number of the row in the column of a trajectory. */
+static inline double iso_checker_at(const checker *c, const double row[], int column)
+{
+    return row[c->columns[column]];
+}
+
+void iso_checker_state(const checker *c, const checked_model *m, const double row[], double y[ISO_STATE]);
+
+/* The columns of the row as a sample; NaN for columns that are missing. */
+void iso_checker_sample(const checker *c, const double row[], iso_sample *sample);
+
+/* The effects of a model's orbit. A point shows nothing that belongs to the ball alone, and its level follows from
+ * each row if eps is known. */
+iso_effects iso_checker_effects(const checker *c, iso_model_kind kind);
+
+double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE]);
+
+/* --- check_integrals.c ------------------------------------------------------------------------------------------ */
+
+/* The first row gives the values. */
+void iso_checker_expect(const checker *c, checked_model *m, const double first[]);
+
+void iso_checker_integrals(const checker *c, checked_model *m, const double row[]);
+
+/* The integral less its expected value, relative to the size of its terms, at a state of iso_checker_own. */
+double iso_checker_drift(const expectations *e, int i, const double own[]);
+void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE]);
+
+/* --- check_flow.c ----------------------------------------------------------------------------------------------- */
+
+/* At the first row. Errors: ISO_NO_MEMORY. */
+iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double first[]);
+
+/* From the last row to this one. Errors: those of iso_check. */
+iso_status iso_checker_flow(checker *c, checked_model *m, const double row[]);
+
+/* --- check_effects.c -------------------------------------------------------------------------------------------- */
+
+/* Of the effects of the lines, and of those whose columns are there, keeps the observers that can be checked. */
+void iso_checker_choose_observers(checker *c);
+
+/* Whether any column of an effect is checked. */
+bool iso_checker_has_effects(const checker *c);
+
+/* Compares the columns of effects in a row with the flow from the last row, relative to the group's largest. */
+void iso_checker_effects_flow(checker *c, iso_residuals *found, const iso_sample *flow, const double row[]);
+
+#endif

@@ -1,0 +1,57 @@
+/* check_integrals.c - constraints and integrals at each row, in the units of the first one (check_impl.h). */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/check_impl.h"
+
+void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE])
+{
+    iso_sample sample;
+    iso_checker_sample(c, row, &sample);
+    iso_orbit_state_of(e->first, e->system, &sample, own);
+}
+
+double iso_checker_drift(const expectations *e, int i, const double own[])
+{
+    double size;
+    const double value = e->integral[i]->value(&e->problem, own, &size);
+    return value == e->value[i] ? 0 : (value - e->value[i]) / size;
+}
+
+/* An integral should keep the value of the first row. There are two exceptions: a constraint has its own exact value;
+ * and where the record has a ball's columns or clocks, H of the point must be 0, or the level that it states. */
+void iso_checker_expect(const checker *c, checked_model *m, const double first[])
+{
+    expectations *e = &m->expect;
+    const iso_units *units = iso_orbit_units(m->orbit);
+    const double level = iso_effects_level(&c->effects) / iso_unit(units, iso_level_dimension());
+    const double claimed = iso_effects_have_level(&c->effects) ? iso_coupling(&units->own, level) : 0;
+    const bool twin = c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || c->model[ISO_BALL].there;
+    double own[ISO_MAX_STATE];
+    e->system = m->system;
+    e->first = m->orbit;
+    e->problem = iso_orbit_model(m->orbit)->problem;
+    e->problem.eps = m->orbit->eps;
+    e->count = iso_integrals_holding(e->system, &iso_orbit_model(m->orbit)->problem, e->integral, ISO_MAX_INTEGRALS);
+    iso_checker_own(c, e, first, own);
+    for (int i = 0; i < e->count; i++) {
+        double size;
+        const bool on_level = twin && strcmp(e->integral[i]->name, "H") == 0;
+        e->value[i] = e->integral[i]->known == ISO_ONE ? 1 : on_level ? claimed : 0;
+        if (e->integral[i]->known == ISO_ANY_VALUE && !on_level)
+            e->value[i] = e->integral[i]->value(&e->problem, own, &size);
+    }
+}
+
+void iso_checker_integrals(const checker *c, checked_model *m, const double row[])
+{
+    char name[sizeof m->found.residual[0].name];
+    double own[ISO_MAX_STATE];
+    const expectations *e = &m->expect;
+    iso_checker_own(c, e, row, own);
+    for (int i = 0; i < e->count; i++) {
+        snprintf(name, sizeof name, "%s %s", e->system->name, e->integral[i]->name);
+        iso_checker_note(&m->found, name, e->integral[i]->doc, iso_checker_drift(e, i, own), c->number);
+    }
+}

@@ -1,0 +1,136 @@
+#!/bin/sh
+# rows.sh ISOROLL - long trajectories: rows are read and printed in blocks, on several threads. What comes out does not
+# depend on the blocks; mistakes keep their places. `check` finds one wrong number among rows that are near each
+# other; it and `plot` pass over rows of nan.
+. "$(dirname "$0")/lib.sh"
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" "$(length 60 1000)" 0.01 >scene.yaml
+for as in ball point both; do run 0 run scene.yaml --as "$as" -o "$as.csv"; done
+count=$(rows ball.csv | wc -l)
+
+# --- one thread or several, a file or a pipe, in pieces of any size
+run 0 convert --quiet --to point ball.csv -o wanted.csv
+if has taskset "one processor"; then
+    taskset -c 0 "$isoroll" convert --quiet --to point ball.csv -o alone.csv
+    check "one processor: the same bytes" cmp alone.csv wanted.csv
+    taskset -c 0 "$isoroll" run scene.yaml --as ball -o alone.csv
+    check "one processor: the same bytes of run" cmp alone.csv ball.csv
+fi
+for size in 1 7 4096; do
+    head -n 300 ball.csv | dd bs=$size 2>/dev/null | "$isoroll" convert --quiet --to point >piped.csv
+    head -n 300 ball.csv | "$isoroll" convert --quiet --to point >whole.csv
+    check "pieces of $size" cmp piped.csv whole.csv
+done
+"$isoroll" convert --quiet --to point <ball.csv | "$isoroll" convert --quiet --to ball | rows /dev/stdin | wc -l >lines
+check "all rows go through two pipes" test "$(cat lines)" -eq "$count"
+printf %s "$(cat ball.csv)" | "$isoroll" convert --quiet --to point >unended.csv # without the last newline
+check "no newline at the end" cmp unended.csv wanted.csv
+awk '/^[0-9]/ && ++n % 1000 == 0 { print "# note: " n; print ""; print " " } { print }' ball.csv | sed 's/$/\r/' >odd.csv
+run 0 convert --quiet --to point odd.csv
+check "lines of #, empty lines, CRLF" cmp out wanted.csv
+
+# --- the closed solution at even steps: the same states as at each time alone, to rounding
+for k in -1 1; do
+    sed "s/k: -1/k: $k/" scene.yaml >closed.yaml
+    run 0 run closed.yaml --backend exact --as both -o even.csv
+    rows even.csv | cut -d, -f1 >times
+    run 0 run closed.yaml --backend exact --as both --times times -o alone.csv
+    at_most "k = $k: even steps" "$(difference even.csv alone.csv)" 1e-13
+done
+
+# --- mistakes far behind the first block
+line=$(($(grep -n '^t,' ball.csv | cut -d: -f1) + count - 100))
+# spoil SED: that line is changed
+spoil() {
+    sed "${line}$1" ball.csv >bad.csv
+}
+# at COLUMN WORDS: it is refused there by both readers
+at() {
+    refuses 3 "bad.csv:$line:$1: $2" check bad.csv
+    run 1 convert --quiet --to point bad.csv
+    check "$2: is named" grep -F -q "bad.csv:$line:$1: $2" err
+    check "$2: one row is marked" test "$(grep -c '^nan,nan' out)" -eq 1
+    check "$2: the others" test "$(rows out | wc -l)" -eq "$(rows wanted.csv | wc -l)"
+}
+spoil 's/,/;/'
+at 1 "expected a finite number for t"
+spoil 's/,/,inf,/'
+at "$(sed -n "${line}p" ball.csv | awk -F, '{ print length($1) + 2 }')" "expected a finite number for omega1"
+spoil 's/,[^,]*$//'
+at "$(sed -n "${line}p" bad.csv | wc -c)" "expected 7 numbers, one for each column, found 6"
+spoil 's/$/,1/'
+at "$(($(sed -n "${line}p" ball.csv | wc -c) + 1))" "expected 7 numbers, one for each column, found more than 7"
+{ head -n $((line - 1)) ball.csv && head -c 200000 /dev/zero | tr '\0' 1 && echo && tail -n +$((line + 1)) ball.csv; } >bad.csv
+at 1 "this line is longer than 64 KiB"
+{ head -n $((line - 1)) ball.csv && printf '1,\0002\n' && tail -n +$((line + 1)) ball.csv; } >bad.csv
+at 3 "a NUL byte"
+
+# --- check: the same residuals by quadrature as by integration; one number of one row is found
+for as in ball point both; do
+    run 0 check --max 1e-13 "$as.csv"
+    silent
+    "$isoroll" check --max 1e-13 <"$as.csv" >piped
+    check "$as: from a pipe" cmp piped out
+done
+row=$((count / 2))
+# finds FILE COLUMN FACTOR BOUND RESIDUAL...: that number of the row in the middle is multiplied
+finds() {
+    awk -F, -v OFS=, -v CONVFMT=%.17g -v c="$2" -v f="$3" -v row=$row \
+        '/^[0-9]/ && ++n == row { $c *= f } { print }' "$1.csv" >damaged.csv
+    what="$1, column $2 times $3"
+    run 1 check --max "$4" damaged.csv
+    shift 4
+    for residual; do
+        check "$what: $residual" grep -q "^$residual  .*ABOVE THE BOUND" out
+        check "$what: $residual: the row" grep -Eq "^$residual  *[0-9.e-]* *($row|$((row + 1))) " out
+    done
+}
+for c in 2 3 4 5 6 7; do finds ball $c 1.0000000001 1e-12 "ball flow"; done
+for c in 2 3 4 5 6 7; do finds point $c 1.0000000001 1e-12 "point flow"; done
+finds ball 1 1.0000000001 1e-13 "ball flow"
+finds point 1 1.0000000001 1e-13 "point flow"
+finds both 1 1.0000000001 1e-12 "ball flow" "clock tau" "clock s"
+finds both 2 1.0000000001 1e-12 "clock tau"
+finds both 3 1.0000000001 1e-12 "point flow" "clock t" "clock tau"
+finds both 10 1.0000000001 1e-12 "point flow" map
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ { $3 *= 1.000001 } { print }' both.csv >damaged.csv
+run 1 check --max 1e-12 damaged.csv
+check "s runs fast" grep -q '^clock s  .*ABOVE THE BOUND' out
+sed 's/^# J: 1.39/# J: 1.38/' ball.csv >damaged.csv
+run 1 check --max 1e-9 damaged.csv
+check "wrong J" grep -q '^ball flow  .*ABOVE THE BOUND' out
+# two damages: the smaller one does not hide the larger one
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ { n++; if (n == 100) $6 += 1e-6; if (n == 200) $6 += 3e-6; if (n == 300) $6 += 1e-6 } { print }' \
+    ball.csv >damaged.csv
+run 1 check --max 1e-9 damaged.csv
+check "the worst of three" grep -Eq '^ball flow  *[0-9.e-]* *(200|201) ' out
+# rows of an attitude: integrated, as ever
+{ cat scene.yaml && echo "effects: {attitude: {}}"; } | sed 's/end: [0-9]*/end: 2/' >attitude.yaml
+run 0 run attitude.yaml -o attitude.csv
+run 0 check --max 1e-11 attitude.csv
+check "attitude" grep -q '^q flow ' out
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ && ++n == 100 { $8 += 1e-6 } { print }' attitude.csv >damaged.csv
+run 1 check --max 1e-9 damaged.csv
+
+# --- rows of nan
+awk -F, -v OFS=, '/^[0-9]/ && (++n == 50 || n == 51 || n == 3000) { $3 = "x" } { print }' ball.csv >bad.csv
+run 1 convert --quiet --to point bad.csv -o marked.csv
+check "three marks" test "$(grep -c '^nan' marked.csv)" -eq 3
+run 0 check --max 1e-11 marked.csv
+check "check passes over them" grep -qx "$count rows, 3 of nan passed over" out
+silent
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ { n++; if (n == 48) $5 *= 1.000001 } { print }' marked.csv >damaged.csv
+run 1 check --max 1e-9 damaged.csv
+check "rows keep their numbers" grep -Eq '^point [|]gamma[|]  *[0-9.e-]* *48 ' out
+sed 's/^nan,nan/nan,1/' marked.csv >damaged.csv
+run 3 check damaged.csv
+says "expected a finite number for s, not 'nan'"
+awk '/^[0-9]/ { gsub(/[^,]+/, "nan") } { print }' ball.csv >damaged.csv
+refuses 3 "all rows of the trajectory are nan" check damaged.csv
+if has gnuplot "plot of rows of nan"; then
+    run 0 plot marked.csv -o marked.svg
+    says "3 rows of nan were passed over"
+    run 0 plot marked.csv --columns s,gamma3 -o marked.svg
+    says "3 rows of nan were passed over"
+fi
+refuses 3 "expected a finite number for s, not 'nan'" convert --strict --to ball marked.csv -o none.csv
+finish
