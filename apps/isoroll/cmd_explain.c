@@ -114,6 +114,7 @@ static void explain_states(const iso_scene *scene, const iso_orbit *orbit, const
     const iso_model *m = iso_orbit_model(orbit);
     printf("%s: backend %s, %d states, in the clock %s\n", iso_orbit_exact(orbit) ? "evaluated" : "integrated",
            iso_backend_name((int)iso_orbit_backend(orbit)), m->dim, iso_clock_name(m->clock));
+    printf("  backend: %s\n", iso_scene_why_backend(scene, orbit));
     for (int i = 0, first = 0; i < m->dim; i++) { /* states with the same reason share a line */
         const char *reason = reason_of(m, i);
         if (i + 1 < m->dim && strcmp(reason, reason_of(m, i + 1)) == 0) continue;

@@ -24,7 +24,7 @@ static void list_backends(void)
         [ISO_BACKEND_BALL] = "integrates the ball (9)",
         [ISO_BACKEND_POINT] = "integrates the point (24)",
         [ISO_BACKEND_AUTO] =
-            "chooses: the model of the start; the ball if an effect needs it; the model that the method is for",
+            "chooses: the cheapest for the rows of a free orbit; the ball if an effect needs it (see explain)",
         [ISO_BACKEND_EXACT] = "evaluates the closed solution, where there is one; every time costs the same",
     };
     for (int i = 0; iso_backend_name(i); i++) printf("  %-22s %s\n", iso_backend_name(i), docs[i]);

@@ -62,6 +62,7 @@ void iso_integrator_free(iso_integrator *it)
 {
     if (!it) return;
     it->method->free(it);
+    iso_past_forget(it);
     iso_dense_free(it->dense);
     free(it);
 }
@@ -74,6 +75,8 @@ static iso_status set_out(iso_integrator *it, int direction)
     it->resting = false;
     it->left = (iso_instant){0, 0};
     it->h = 0;
+    it->number = it->method_number = 0;
+    it->method_direction = direction;
     copy(it->y0, it->at_left, it->model.dim);
     copy(it->y0, it->at_right, it->model.dim);
     return direction == 0 ? ISO_OK : it->method->start(it);
@@ -85,6 +88,7 @@ iso_status iso_integrator_start(iso_integrator *it, const double y0[])
     double f[ISO_MAX_STATE];
     it->statistics = (iso_statistics){0};
     copy(y0, it->y0, it->model.dim);
+    iso_past_forget(it);
     set_out(it, 0);
     if (!iso_integrator_rhs(it, y0, f))
         return iso_context_fail(it->ctx, ISO_BAD_ARGUMENT, "", "the equations of motion are not finite at the start");
@@ -115,13 +119,16 @@ static const char *find_end(const iso_integrator *it, const double y[])
     return why;
 }
 
-iso_status iso_integrator_advance(iso_integrator *it)
+/* The current step becomes the next one, which the method takes. */
+static iso_status take_next_step(iso_integrator *it)
 {
     double y[ISO_MAX_STATE], h = 0;
+    iso_past *past = iso_past_of(it, it->direction);
+    const bool is_new = it->number == past->steps;
     if (!iso_context_goes_on(it->ctx)) return iso_context_fail(it->ctx, ISO_STOPPED, "", "stopped on request");
     if (it->stopped) return iso_integrator_stopped(it, "it has failed before");
     it->stopped = true; /* until the step has succeeded: a method that has failed cannot go on from where it stands */
-    if (it->options.max_steps > 0 && it->statistics.steps >= it->options.max_steps)
+    if (is_new && it->options.max_steps > 0 && it->statistics.steps >= it->options.max_steps)
         return iso_integrator_stopped(it, "more steps than allowed");
     copy(it->at_right, y, it->model.dim);
     const iso_status status = take_step(it, y, &h);
@@ -132,12 +139,33 @@ iso_status iso_integrator_advance(iso_integrator *it)
     if (fabs(h) <= 64 * DBL_EPSILON * fabs(it->left.head))
         return iso_integrator_stopped(it, "steps shrink to nothing");
     it->stopped = false;
-    it->statistics.steps++;
     it->left = iso_instant_later(it->left, it->h);
     it->h = h;
     copy(it->at_right, it->at_left, it->model.dim);
     copy(y, it->at_right, it->model.dim);
+    it->method_number = ++it->number;
+    if (!is_new) return ISO_OK;
+    it->statistics.steps++;
+    past->steps++;
+    iso_past_keep(it);
     return ISO_OK;
+}
+
+/* Brings the method to the current step, from the start. */
+static iso_status fetch_method(iso_integrator *it)
+{
+    const long number = it->number;
+    iso_status status = set_out(it, it->direction);
+    while (status == ISO_OK && it->number < number) status = take_next_step(it);
+    return status;
+}
+
+iso_status iso_integrator_advance(iso_integrator *it)
+{
+    if (iso_past_next(it)) return ISO_OK;
+    const bool there = it->method_number == it->number && it->method_direction == it->direction;
+    const iso_status status = there ? ISO_OK : fetch_method(it);
+    return status == ISO_OK ? take_next_step(it) : status;
 }
 
 /* For methods with `at`: the current step begins at t, and has no length yet. */
@@ -165,13 +193,19 @@ static double since_end(const iso_integrator *it, double t)
     return iso_instant_since(iso_instant_later(it->left, it->h), t);
 }
 
+/* Whether t lies in the current step, or is to be reached by new steps. */
+static bool is_ahead(iso_integrator *it, int direction, double t)
+{
+    if (direction != it->direction || direction * iso_integrator_since(it, t) < 0) return false;
+    return it->number == iso_past_of(it, direction)->steps || direction * since_end(it, t) <= 0;
+}
+
 iso_status iso_integrator_reach(iso_integrator *it, int direction, double t)
 {
     iso_status status = ISO_OK;
     if (it->method->at) return jump(it, direction, t);
     it->called = true;
-    if (direction != it->direction || it->direction * iso_integrator_since(it, t) < 0)
-        status = set_out(it, direction);
+    if (!is_ahead(it, direction, t) && !iso_past_recall(it, direction, t)) status = set_out(it, direction);
     while (status == ISO_OK && it->direction * since_end(it, t) > 0) status = iso_integrator_advance(it);
     return status;
 }

@@ -27,6 +27,14 @@ static inline double iso_instant_since(iso_instant a, double t)
     return (t - a.head) - a.tail;
 }
 
+/* What is kept of the steps taken in one direction (past.c). */
+typedef struct iso_past {
+    char *places;       /* ends of steps */
+    size_t count, room; /* places kept, and how many there is room for */
+    long first, stride; /* place i is the end of step first + i stride, counted from 1 */
+    long steps;         /* taken so far */
+} iso_past;
+
 struct iso_integrator {
     iso_context *ctx;
     const iso_method *method;
@@ -42,9 +50,15 @@ struct iso_integrator {
     iso_instant left;         /* the current step runs from here ...                                  */
     double h;                 /* ... by this signed length                                            */
     double at_left[ISO_MAX_STATE], at_right[ISO_MAX_STATE];
+    long number; /* of the current step, counted from 1; 0: none yet                      */
 
-    void *data;         /* the method's own                                                           */
-    iso_dense *dense;   /* reaches times within a step; NULL where the method does                    */
+    iso_past past[2];     /* forwards, backwards                                        */
+    int method_direction; /* where the method itself stands: it can go on from the      */
+    long method_number;   /* right end of this step in this direction                   */
+    size_t saved;         /* bytes of method.save, set by method.create                 */
+
+    void *data;       /* the method's own                                                           */
+    iso_dense *dense; /* reaches times within a step; NULL where the method does                    */
 };
 
 /* The contract of iso_method.step: y holds the state at the end of the last step, after `start` that at time 0.
@@ -71,11 +85,11 @@ double iso_integrator_first_step(iso_integrator *it, int order);
 /* Whether steps can be held to a tolerance. Errors: ISO_BAD_ARGUMENT about "tolerance". */
 iso_status iso_tolerance_check(iso_context *ctx, double tolerance);
 
-/* Takes one step. */
+/* Goes on to the next step: a new one, or one taken before. */
 iso_status iso_integrator_advance(iso_integrator *it);
 
-/* Takes steps in `direction` until t lies within the current one; begins again from 0 when t lies behind it. With a
- * method that has `at`, the current step begins at t. */
+/* Goes to the step in `direction` in which t lies: from the current step, from the nearest place kept, or from 0.
+ * With a method that has `at`, the current step begins at t. */
 iso_status iso_integrator_reach(iso_integrator *it, int direction, double t);
 
 /* t minus the time of the step's left end: exact but for the last bit. */
@@ -83,6 +97,22 @@ double iso_integrator_since(const iso_integrator *it, double t);
 
 /* The state at dt from the step's left end: an end of the step, or dense output. */
 iso_status iso_integrator_within(iso_integrator *it, double dt, double y[]);
+
+static inline iso_past *iso_past_of(iso_integrator *it, int direction)
+{
+    return &it->past[direction < 0];
+}
+
+/* past.c: keeps the end of the current step, if there is memory; forgets all places. */
+void iso_past_keep(iso_integrator *it);
+void iso_past_forget(iso_integrator *it);
+
+/* past.c: goes to the step in which t lies, or to one before it that is nearer than the current one. False: none is
+ * kept, and the current step lies behind t. */
+bool iso_past_recall(iso_integrator *it, int direction, double t);
+
+/* past.c: goes to the next step without the method, where it is kept. */
+bool iso_past_next(iso_integrator *it);
 
 /* dense.c: from at_left by dt, |dt| <= |h|, at the integrator's tolerance. Created into it->dense. */
 iso_status iso_dense_create(iso_integrator *it);

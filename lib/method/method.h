@@ -42,6 +42,7 @@ typedef struct iso_method_options {
     bool no_projection;
     double time_unit;  /* times in messages are multiplied by it; 0: 1                                 */
     long max_steps;    /* 0: no bound; else ISO_NUMERICAL when more are needed, from the start on      */
+    size_t memory;     /* bytes in which the ends of steps are kept, for each direction; 0: none is    */
 } iso_method_options;
 
 typedef struct iso_statistics {
@@ -89,6 +90,10 @@ typedef struct iso_method {
     /* The state at any time t but 0, without steps; NULL: by steps. With it iso_integrator_start calls `start` once,
      * and only a search for events calls `step`. */
     iso_status (*at)(iso_integrator *it, double t, double y[]);
+    /* Writes all that the next step depends on, it->saved bytes (set by `create`); goes back to it, and gives the state
+     * there in y. NULL: the method has a history that cannot be had. See past.c. */
+    void (*save)(const iso_integrator *it, void *to);
+    void (*recall)(iso_integrator *it, const void *from, double y[]);
     void (*free)(iso_integrator *it);
 } iso_method;
 
@@ -131,7 +136,9 @@ void iso_integrator_free(iso_integrator *it);
  * method with `at` knows no orbit that begins there. */
 iso_status iso_integrator_start(iso_integrator *it, const double y0[]);
 
-/* The state at time t, before or after 0. Cheap when times run away from 0; turning back starts again from 0.
+/* The state at time t, before or after 0, the same bits in whatever order times are asked. Cheap when times run away
+ * from 0, and where options.memory holds the ends of steps: a time passed before then takes one step, or a few, or
+ * dense output. Else turning back starts again from 0. Steps that are taken again do not count.
  * Errors: ISO_NUMERICAL with method, reason and the last good time; y is then not written. */
 iso_status iso_integrator_at(iso_integrator *it, double t, double y[]);
 

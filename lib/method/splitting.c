@@ -256,6 +256,8 @@ static double choose_step(iso_integrator *it, bool clocks)
     return fabs(way) / fmax(RADIANS, n);
 }
 
+enum { SAVED_NUMBERS = 2 };
+
 /* --- the method ------------------------------------------------------------------------------------------------ */
 
 static void release(iso_integrator *it)
@@ -270,6 +272,7 @@ static iso_status create(iso_integrator *it)
     if (!d) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for %s", it->method->name);
     d->clocks = m->clock != ISO_CLOCK_S;
     for (int c = 0; c < m->clocks; c++) d->clocks = d->clocks || m->clock_of[c] != ISO_CLOCK_S;
+    it->saved = (SAVED_NUMBERS + 2 * (size_t)m->dim) * sizeof(double);
     return ISO_OK;
 }
 
@@ -359,10 +362,36 @@ static iso_status dense(iso_integrator *it, double dt, double y[])
     return ISO_OK;
 }
 
+/* What the next step depends on: the state with its rest, the length of steps, and how many until it is restored. */
+static void save(const iso_integrator *it, void *to)
+{
+    const splitting *d = it->data;
+    const size_t bytes = (size_t)it->model.dim * sizeof(double);
+    const double numbers[SAVED_NUMBERS] = {d->until_restored, d->step};
+    char *next = to;
+    memcpy(next, numbers, sizeof numbers);
+    memcpy(next += sizeof numbers, it->at_right, bytes);
+    memcpy(next + bytes, d->rest, bytes);
+}
+
+static void recall(iso_integrator *it, const void *from, double y[])
+{
+    splitting *d = it->data;
+    const size_t bytes = (size_t)it->model.dim * sizeof(double);
+    double numbers[SAVED_NUMBERS];
+    const char *next = from;
+    memcpy(numbers, next, sizeof numbers);
+    memcpy(y, next += sizeof numbers, bytes);
+    memcpy(d->rest, next + bytes, bytes);
+    d->until_restored = (int)numbers[0];
+    d->step = numbers[1];
+    plan(&tables[it->method->variant], it->direction * d->step, &d->whole);
+}
+
 #define SPLITTING                                                                                                    \
     .family = "splitting", .own_equations = true, .system = &iso_system_point,                                       \
-    .system_why = "only its equations split into flows that are known exactly", .steps_in_s = true,         \
-    .fixed = true, .create = create, .start = start, .step = step, .dense = dense, .free = release
+    .system_why = "only its equations split into flows that are known exactly", .steps_in_s = true, .fixed = true,   \
+    .create = create, .start = start, .step = step, .dense = dense, .save = save, .recall = recall, .free = release
 
 const iso_method iso_method_strang = {
     .name = "strang", .order = 2, .variant = STRANG, .doc = "Strang's splitting", SPLITTING};

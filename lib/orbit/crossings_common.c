@@ -34,6 +34,7 @@ iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, 
     how.effects = of->effects;
     how.backend = way.backend;
     how.tolerance = o->tolerance;
+    how.memory = 0; /* it only goes on */
     how.clock = way.backend == ISO_BACKEND_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
     if (o->kind == ISO_SECTION_CLOCK) how.clock = o->clock;
     for (iso_clock k = 0; k < ISO_CLOCKS; k++) how.with_clock[k] = way.clocks;

@@ -69,8 +69,10 @@ static iso_status set_up(iso_orbit *o, const iso_params *p, const iso_start *sta
     iso_status status = iso_orbit_prepare(o, p, start, y);
     if (status != ISO_OK) return status;
     const iso_orbit_options *opt = &o->options;
-    const iso_method_options m = {
-        .tolerance = opt->tolerance, .time_unit = o->unit_clock[opt->clock], .max_steps = opt->max_steps};
+    const iso_method_options m = {.tolerance = opt->tolerance,
+                                  .time_unit = o->unit_clock[opt->clock],
+                                  .max_steps = opt->max_steps,
+                                  .memory = opt->memory};
     status = iso_integrator_create(o->ctx, opt->method, &o->model, &m, &o->integrator);
     return status == ISO_OK ? iso_integrator_start(o->integrator, y) : status;
 }

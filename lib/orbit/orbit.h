@@ -34,16 +34,21 @@ typedef struct iso_orbit_options {
     iso_shown shown;             /* the models filled into samples, not ISO_SHOW_START                        */
     bool gamma_alone;            /* of the point gamma is filled in, which always fits a double, but not M    */
     bool with_clock[ISO_CLOCKS]; /* other clocks filled into samples                                       */
+    size_t memory;               /* bytes, at most, in which it keeps the ends of its steps, for each
+                                    direction of time; 0: none, for times that only run on (iso_orbit_at)  */
 } iso_orbit_options;
 
+#define ISO_ORBIT_MEMORY ((size_t)1 << 23) /* 8 MB: 28000 turns of a free ball by taylor at 1e-12 */
+
 /* Backend and clock of the start's own model, which is also shown; method auto, tolerance 1e-12, no
- * bound on the steps. */
+ * bound on the steps; ends of steps in ISO_ORBIT_MEMORY bytes. */
 static inline iso_orbit_options iso_orbit_defaults(const iso_start *start)
 {
     iso_orbit_options o = ISO_ALL_ZERO;
     o.size = sizeof o;
     o.backend = ISO_BACKEND_AUTO;
     o.tolerance = 1e-12;
+    o.memory = ISO_ORBIT_MEMORY;
     o.clock = start->model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     o.shown = start->model == ISO_BALL ? ISO_SHOW_BALL : ISO_SHOW_POINT;
     return o;
@@ -81,10 +86,16 @@ ISO_API void iso_orbit_free(iso_orbit *orbit);
  * than 1e6 times in which a stiff motion dies away. Errors: ISO_BAD_ARGUMENT about "end" or "method". */
 ISO_API iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
 
-/* The orbit at `time` of the options' clock, in any order, before or after the start. Cheap when times run away from
- * the start; one that lies steps behind the last is found from the start again. A ball that resistance brings to rest
- * slows down to 1e-290 of its own unit of speed, then stands still. Backwards, where resistance drives it, it is
- * followed until it turns 1e4 times as fast as at the start.
+/* The orbit at `time` of the options' clock, before or after the start. A time gives the same bits in whatever order
+ * times are asked. Cheap when times run away from the start. A time passed before is found from an end of a step that
+ * is kept (options.memory), in microseconds:
+ * - taylor and splittings keep every fourth, and take up to 4 steps again. taylor needs 24 bytes for it, and 8 for each
+ *   number of the state and of three clocks: a free ball at 1e-12 takes 300 bytes a turn. Where memory is full, ends lie 8,
+ *   16, ... steps apart.
+ * - Other methods keep every one, and when memory is full forget the older half. Earlier times, and with bdf all, are
+ *   found from the start again.
+ * A ball that resistance brings to rest slows down to 1e-290 of its own unit of speed, then stands still. Backwards,
+ * where resistance drives it, it is followed until it turns 1e4 times as fast as at the start.
  * Errors: ISO_BAD_ARGUMENT (a time that iso_orbit_check_time refuses), ISO_NUMERICAL (what stopped, and where; or
  * a result that does not fit a double, or lost its digits). */
 ISO_API iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);

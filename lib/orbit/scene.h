@@ -22,7 +22,7 @@ typedef enum iso_model_kind { ISO_BALL, ISO_POINT } iso_model_kind;
 typedef enum iso_backend {
     ISO_BACKEND_BALL,
     ISO_BACKEND_POINT,
-    ISO_BACKEND_AUTO, /* chosen by start, effects and method */
+    ISO_BACKEND_AUTO, /* chosen by start, effects and method; for a scene also by its rows */
     ISO_BACKEND_EXACT
 } iso_backend;
 

@@ -12,6 +12,7 @@
 #include "base/options_impl.h"
 #include "base/version.h"
 #include "orbit/description.h"
+#include "study/backend_impl.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
@@ -59,7 +60,8 @@ iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int c
 {
     iso_effects effects;
     const iso_orbit_options o = orbit_options(scene, columns, count, &effects);
-    return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
+    const iso_questions q = {.rows = iso_scene_rows(scene), .farthest = scene->end};
+    return iso_backend_open(ctx, scene, &o, &q, orbit);
 }
 
 /* --- a run ------------------------------------------------------------------------------------------------------ */
@@ -127,8 +129,8 @@ static iso_status give_header(const runner *r)
 
 /* --- times ------------------------------------------------------------------------------------------------------ */
 
-/* An orbit is followed away from its start. For a time that lies behind, it begins at the start again. So the order
- * of the work is: times after the start, then those before it; on each side the nearer times come first. */
+/* The orbit is followed away from its start, and keeps no ends of steps. For a time that lies behind, it begins at the
+ * start again. So the order of the work is: times after the start, then those before it; on each side the nearer times come first. */
 static int by_work(const void *first, const void *second)
 {
     const asked_time *a = first, *b = second;
@@ -232,6 +234,17 @@ static void say_lost(runner *r, int side, double time)
     say(r, ISO_NOTE_LOST, words);
 }
 
+/* The orbit at `time`. If `auto` has taken another model than the start's, the row of the start has the numbers given,
+ * not those that went to the other model and back. */
+static iso_status follow_to(runner *r, double time, iso_sample *sample)
+{
+    const iso_status status = iso_orbit_at(r->orbit, time, sample);
+    const bool given = time == 0 && r->scene->backend == ISO_BACKEND_AUTO && r->scene->start.model == ISO_BALL;
+    if (status == ISO_OK && given && r->result->backend != ISO_BACKEND_BALL && r->how.shown != ISO_SHOW_POINT)
+        memcpy(sample->ball, r->scene->start.y, sizeof sample->ball);
+    return status;
+}
+
 /* The sample at `time`. If contact is lost on the way there, it is the sample of that moment; for all later calls
  * beyond that moment *row is false: they have no sample. */
 static iso_status find_sample(runner *r, double time, iso_sample *sample, bool *row)
@@ -239,7 +252,7 @@ static iso_status find_sample(runner *r, double time, iso_sample *sample, bool *
     const int side = time < 0;
     bool *lost = &r->result->lost[side];
     *row = true;
-    if (!r->pressed || fabs(time) <= fabs(r->safe_to[side])) return iso_orbit_at(r->orbit, time, sample);
+    if (!r->pressed || fabs(time) <= fabs(r->safe_to[side])) return follow_to(r, time, sample);
     *row = !*lost;
     if (*lost) return ISO_OK;
     const iso_status status = iso_orbit_lost_contact(r->orbit, r->safe_to[side], time, lost, sample);
@@ -353,10 +366,12 @@ static iso_status check(runner *r)
 static iso_status open_orbit(runner *r)
 {
     r->how = orbit_options(r->scene, r->columns, r->count, &r->effects);
+    r->how.memory = 0; /* times are put in order */
     r->result->clock = r->how.clock;
-    iso_status status = iso_orbit_create(r->ctx, &r->scene->params, &r->scene->start, &r->how, &r->orbit);
+    const iso_questions q = {.rows = r->result->asked, .farthest = r->farthest, .by_steps = r->options.errors};
+    iso_status status = iso_backend_open(r->ctx, r->scene, &r->how, &q, &r->orbit);
     if (status != ISO_OK) return status;
-    r->result->backend = iso_orbit_backend(r->orbit);
+    r->result->backend = r->how.backend = iso_orbit_backend(r->orbit);
     r->result->method = iso_orbit_method(r->orbit);
     if (!r->options.times) iso_orbit_expect_even_times(r->orbit);
     return iso_orbit_check_time(r->orbit, r->farthest);

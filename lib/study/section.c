@@ -162,6 +162,7 @@ static iso_status open_orbit(iso_section_walk *w)
     o.clock = w->model[0] == ISO_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
     o.shown = w->models == 2 ? ISO_SHOW_BOTH : (iso_shown)w->model[0];
     o.tolerance = w->options.tolerance;
+    o.memory = 0; /* it only goes on */
     for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = mapped;
     iso_status status = iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit);
     w->clocks = status == ISO_OK && iso_orbit_has_twin(w->orbit);

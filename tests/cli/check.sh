@@ -143,7 +143,8 @@ refuses 3 "--k K" check bare.csv
 # --- explain
 run 0 explain scene.yaml
 silent
-for words in "k = -1, J = 1.3999999999999999" "Neumann's problem" "backend ball, 6 states, in the clock t" "  omega1 omega2 omega3   angular velocity" \
+for words in "k = -1, J = 1.3999999999999999" "Neumann's problem" "backend point, 6 states, in the clock t" \
+    "  M1 M2 M3               momentum" "as exact" \
     "method taylor" "energy of the ball h = 0.7374375" "11 rows to t = 10, columns t omega1" "integrals that hold" "F_shell" \
     "integrals that do not hold" "cost of a right-hand side: "; do
     check "explain: $words" grep -F -q -e "$words" out

@@ -70,9 +70,21 @@ for t in 0 1 2 5 7 10; do
     rows ball.csv | grep "^$t," >b
     check "the row t = $t has the same bits whatever else is asked" cmp a b
 done
-run 0 run scene.yaml --step 0.01 --t-end 300
+run 0 run scene.yaml --backend point -o by_point.csv # `auto` takes the point for few rows, the ball for many
+rows by_point.csv | grep "^7," >b
+rows ball.csv | grep "^7," >a
+check "auto takes the point for 11 rows" cmp a b
+check "and says so in the file" grep -qx "# backend: point" ball.csv
+run 0 run scene.yaml --step 0.01
+check "auto takes the ball for 1001 rows" grep -qx "# backend: ball" out
+run 0 run scene.yaml --tol 1e-13
+check "and for a fine tolerance" grep -qx "# backend: ball" out
+run 0 run scene.yaml --t-end 1e5 --step 1e4
+check "auto takes the closed solution for few and far rows" grep -qx "# backend: exact" out
+run 0 explain scene.yaml --t-end 1e5 --step 1e4
+check "explain says why" grep -q "few and far" out
+run 0 run scene.yaml --step 0.01 --t-end 300 --backend point
 rows out | grep "^7," >a
-rows ball.csv | grep "^7," >b
 check "the row t = 7 has the same bits in a longer, finer run" cmp a b
 echo 7 | "$isoroll" run scene.yaml --times - | rows /dev/stdin >a
 check "times from standard input" cmp a b
@@ -162,7 +174,7 @@ done <methods
 run 0 run scene.yaml --method dormand
 check "a beginning is enough" grep -qx '# method: dormand_prince_7_4_5' out
 run 0 run scene.yaml --method auto --verbose
-check "--verbose says how it went" grep -q "^isoroll: 11 rows; backend ball, method taylor: " err
+check "--verbose says how it went" grep -q "^isoroll: 11 rows; backend point, method taylor: " err
 check "--verbose changes nothing in the file" cmp out ball.csv
 
 # estimate WHAT: the error of WHAT that the last run has told

@@ -113,7 +113,7 @@ run 0 sweep turns.yaml -o turns.csv
 for point in 0 1; do
     run 0 sweep each.yaml --point $point
     cp out point.yaml
-    run 0 run point.yaml --as both --t-end 400 -o run.csv
+    run 0 run point.yaml --as both --t-end 400 --backend point -o run.csv # as auto for one row
     for name in t s omega1 n3 M2 gamma1; do
         equal "state $name" "$(cell each.csv $point state_$name)" "$(tail -n 1 run.csv | cut -d, -f"$(columns run.csv |
             tr , '\n' | grep -nx $name | cut -d: -f1)")"

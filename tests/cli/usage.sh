@@ -140,9 +140,9 @@ interrupted() {
 if has timeout "interruptions"; then
     for signal in INT TERM; do
         [ $signal != INT ] || interruptible "SIGINT" || continue
-        interrupted "$signal" 1 scene.yaml --t-end 1e8 --step 100
+        interrupted "$signal" 1 scene.yaml --t-end 1e8 --step 100 --backend ball
         check "some rows" test "$(rows stop/stopped.csv | wc -l)" -gt 2
-        interrupted "$signal" 1 scene.yaml --t-end 1e10 --step 1e10 # in the middle of a row
+        interrupted "$signal" 1 scene.yaml --t-end 1e10 --step 1e10 --backend ball # in the middle of a row
         # without something to save it just ends
         sleep 2 | timeout -k 30 -s "$signal" 0.2 "$isoroll" convert --to point - >out 2>err
         check "convert ends" test $? -eq 124

@@ -11,6 +11,8 @@ typedef struct iso_taylor_code {
     iso_status (*start)(iso_integrator *it);
     iso_status (*step)(iso_integrator *it, double y[], double *h);
     iso_status (*dense)(iso_integrator *it, double dt, double y[]);
+    void (*save)(const iso_integrator *it, void *to);
+    void (*recall)(iso_integrator *it, const void *from, double y[]);
 } iso_taylor_code;
 
 extern const iso_taylor_code iso_taylor_plain, iso_taylor_avx2, iso_taylor_extended, iso_taylor_quad;

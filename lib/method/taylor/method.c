@@ -64,6 +64,16 @@ static iso_status dense(iso_integrator *it, double dt, double y[])
     return code_of(it)->dense(it, dt, y);
 }
 
+static void save(const iso_integrator *it, void *to)
+{
+    code_of(it)->save(it, to);
+}
+
+static void recall(iso_integrator *it, const void *from, double y[])
+{
+    code_of(it)->recall(it, from, y);
+}
+
 static void release(iso_integrator *it)
 {
     free(it->data);
@@ -87,7 +97,7 @@ static iso_suits suits(const iso_model *m)
 
 #define TAYLOR                                                                                                       \
     .family = "isoroll", .own_equations = true, .projects = true, .fixed = true, .start = start, .step = step,       \
-    .dense = dense, .free = release
+    .dense = dense, .save = save, .recall = recall, .free = release
 
 const iso_method iso_method_taylor = {.name = "taylor",
                                       .doc = "Taylor series by recurrences, order 6-28 from the tolerance",

@@ -16,6 +16,7 @@ static iso_status create(iso_integrator *it)
     if (!own) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for %s", it->method->name);
     set_shape(&own->T, &it->model, it->options.tolerance);
     own->T.unprojected = it->options.no_projection;
+    it->saved = offsetof(state, own) + (size_t)(it->model.moving - ISO_STATE) * sizeof(real);
     return ISO_OK;
 }
 
@@ -59,4 +60,18 @@ static iso_status dense(iso_integrator *it, double dt, double y[])
     single *own = it->data;
     state s;
     return arrive_at(it, solve_for_time(&own->T, dt, own->length * (dt / it->h)), NULL, &s, y);
+}
+
+/* A step is made of the state at its left end, and of nothing else. */
+static void save(const iso_integrator *it, void *to)
+{
+    const single *own = it->data;
+    memcpy(to, &own->T.now, it->saved);
+}
+
+static void recall(iso_integrator *it, const void *from, double y[])
+{
+    single *own = it->data;
+    memcpy(&own->T.now, from, it->saved);
+    store(&own->T, 0, &own->T.now, y);
 }

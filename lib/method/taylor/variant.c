@@ -127,18 +127,18 @@ static bool runs_here(void)
 #endif
 
 #if IS(PLAIN)
-const iso_taylor_code iso_taylor_plain = {create, start, step, dense};
+const iso_taylor_code iso_taylor_plain = {create, start, step, dense, save, recall};
 #elif IS(AVX2)
-const iso_taylor_code iso_taylor_avx2 = {create, start, step, dense};
+const iso_taylor_code iso_taylor_avx2 = {create, start, step, dense, save, recall};
 
 bool iso_taylor_has_avx2(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 }
 #elif IS(EXTENDED)
-const iso_taylor_code iso_taylor_extended = {create, start, step, dense};
+const iso_taylor_code iso_taylor_extended = {create, start, step, dense, save, recall};
 #elif IS(QUAD)
-const iso_taylor_code iso_taylor_quad = {create, start, step, dense};
+const iso_taylor_code iso_taylor_quad = {create, start, step, dense, save, recall};
 #elif IS(LANES_PLAIN)
 const iso_lane_code iso_lanes_plain = LANE_CODE("plain");
 #elif IS(LANES_AVX2)

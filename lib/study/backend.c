@@ -1,0 +1,102 @@
+/* backend.c - which backend `auto` takes for a scene: the cheapest for its rows and its tolerance.
+ *
+ * Measured for a free ball by tests/bench/backends.c (lib/doc/performance.md), in microseconds on one machine, for a
+ * radian of the way of n and for a row:
+ *
+ *                  radian    row
+ *     ball         2         0.2
+ *     point        0.85      0.5     k = -1;   1.7 and 0.4 for other k from 1/8 to 2;   as the ball beyond
+ *     exact        0         2.5     and 200 to 800 at the start
+ *
+ * At tolerance 1e-12 the point's error at t = 1000 is as a rule a fourth of the ball's or less. At 1e-15, where both
+ * are as exact as they can be, it is twice the ball's. The closed solution is more exact than both.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/vec3_impl.h"
+#include "model/effects_impl.h"
+#include "study/backend_impl.h"
+#include "study/run.h"
+
+#define FINEST_OF_POINT 1e-12 /* a tolerance: below it the ball is more exact */
+#define LEAST_K 0.5           /* below it its errors are as large as the ball's, some larger */
+#define MOST_K 2
+
+enum { FAR = 2000, RADIANS_PER_FAR_ROW = 5, ROWS_PER_RADIAN = 2 };
+
+typedef struct choice {
+    iso_backend backend;
+    const char *why;
+} choice;
+
+/* n turns at rate |k omega|, gamma at |M|. */
+static double radians_to(const iso_scene *scene, double time)
+{
+    const double rate = norm(scene->start.y);
+    return fabs(time) * rate * (scene->start.model == ISO_BALL ? fabs(scene->params.k) : 1);
+}
+
+static choice choose(const iso_scene *scene, const iso_effects *effects, const iso_questions *q)
+{
+    const double radians = radians_to(scene, q->farthest), rows = (double)q->rows, k = fabs(scene->params.k);
+    if (scene->backend != ISO_BACKEND_AUTO) return (choice){scene->backend, "asked for by name"};
+    if (strcmp(scene->method, "auto") != 0)
+        return (choice){ISO_BACKEND_AUTO, "a method is given: the model that it is for, or that of the start"};
+    if (!iso_effects_none(effects))
+        return (choice){ISO_BACKEND_AUTO, "effects act: the ball where they need it, else the model of the start"};
+    if (!q->by_steps && radians >= FAR && rows * RADIANS_PER_FAR_ROW <= radians)
+        return (choice){ISO_BACKEND_EXACT, "the rows are few and far: the closed solution needs no steps"};
+    if (scene->start.model != ISO_BALL) return (choice){ISO_BACKEND_AUTO, "the model of the start"};
+    if (scene->tolerance < FINEST_OF_POINT)
+        return (choice){ISO_BACKEND_AUTO, "the model of the start: at tolerances below 1e-12 it is the most exact"};
+    if (!(k >= LEAST_K && k <= MOST_K))
+        return (choice){ISO_BACKEND_AUTO, "the model of the start: the point is not cheaper for this k"};
+    if (rows > ROWS_PER_RADIAN * radians)
+        return (choice){ISO_BACKEND_AUTO, "the model of the start: it is the cheapest for many rows in a turn"};
+    return (choice){ISO_BACKEND_POINT, "the cheapest for at most 12 rows in a turn, and as exact"};
+}
+
+/* The closed solution may refuse a far time. */
+static iso_status try_orbit(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
+                            const iso_questions *q, iso_orbit **orbit)
+{
+    iso_sample sample;
+    iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, how, orbit);
+    if (status != ISO_OK || how->backend != ISO_BACKEND_EXACT) return status;
+    status = iso_orbit_at(*orbit, q->farthest, &sample);
+    if (status == ISO_OK) return status;
+    iso_orbit_free(*orbit);
+    *orbit = NULL;
+    return status;
+}
+
+iso_status iso_backend_open(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
+                            const iso_questions *q, iso_orbit **orbit)
+{
+    iso_orbit_options o = *how;
+    iso_questions asked = *q;
+    if (o.backend != ISO_BACKEND_AUTO) return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
+    for (;;) {
+        o.backend = choose(scene, o.effects, &asked).backend;
+        const iso_status status = try_orbit(ctx, scene, &o, &asked, orbit);
+        if (status == ISO_OK || status == ISO_NO_MEMORY || o.backend == ISO_BACKEND_AUTO) return status;
+        if (o.backend == ISO_BACKEND_POINT) break;
+        asked.by_steps = true;
+    }
+    o.backend = ISO_BACKEND_AUTO;
+    return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
+}
+
+const char *iso_scene_why_backend(const iso_scene *scene, const iso_orbit *orbit)
+{
+    const iso_backend taken = iso_orbit_backend(orbit);
+    const iso_effects effects = iso_orbit_effects(orbit);
+    iso_questions q = {.rows = iso_scene_rows(scene), .farthest = scene->end};
+    choice c = choose(scene, &effects, &q);
+    q.by_steps = true;
+    if (c.backend == ISO_BACKEND_EXACT && taken != c.backend) c = choose(scene, &effects, &q);
+    if (c.backend == ISO_BACKEND_POINT && taken != c.backend)
+        return "the model of the start: the point cannot be had";
+    return c.why;
+}
