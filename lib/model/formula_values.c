@@ -3,6 +3,7 @@
 #define ROOT sqrt
 #define POW pow
 #define FMA fma
+#define ABS fabs
 #define LANES 1
 #define ROUND_POWERS_ONCE /* splittings add up a rounding error of each kick, without end */
 

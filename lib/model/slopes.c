@@ -9,6 +9,7 @@
 #define ROOT sqrt
 #define POW pow
 #define FMA fma
+#define ABS fabs
 #define LANES 4
 
 enum { KEPT = 4 }; /* two more than the highest order, 1, and 0 */
@@ -30,10 +31,10 @@ static void call_system(series *S, const iso_model *m)
     if (m->system == &iso_system_ball) {
         set_ball_recurrences(S, iso_effects_twist(&f->effects), f->motion.lines > 0 ? &f->motion : NULL, NULL);
     } else if (m->system == &iso_system_point_t) {
-        set_recurrences(S, (recurrences){{point_p}});
+        set_recurrences(S, 1, (recurrences){{point_p}});
     } else {
         S->formula = f->energy_formula.lines > 0 ? &f->energy_formula : NULL;
-        set_recurrences(S, (recurrences){{point_24, S->formula ? point_24_effects : NULL}});
+        set_recurrences(S, 1, (recurrences){{point_24, S->formula ? point_24_effects : NULL}});
     }
 }
 

@@ -1,24 +1,59 @@
-/* crew_impl.h - solves the jobs of lanes_impl.h, LANES side by side. A lane whose job ends takes the next one. */
+/* crew_impl.h - solves the jobs of lanes_impl.h, LANES side by side in each of CREWS crews. A lane whose job ends takes
+ * the next one. The crews go step by step together: their series are computed in turns (expand_together). */
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
 #include "method/taylor/crossing_impl.h"
 #include "method/taylor/lanes_impl.h"
 
-enum { MOST_PARTS = 4096 }; /* of a step, in the search for crossings */
+enum {
+    CREWS = 2,
+    MOST_PARTS = 4096 /* of a step, in the search for crossings */
+};
+
+/* Times are doubles, whatever the numbers of the series. */
+typedef double doubles __attribute__((vector_size(LANES * sizeof(double))));
+typedef __typeof__((doubles){0} < (doubles){0}) double_mask;
+
+static inline doubles doubles_of(real a)
+{
+    doubles b;
+    for (int i = 0; i < LANES; i++) b[i] = (double)LANE(a, i);
+    return b;
+}
+
+static inline doubles size_of(doubles a)
+{
+    return (doubles)((double_mask)a & ~(double_mask)(-0.0 - (doubles){0}));
+}
+
+static inline bool holds_somewhere(double_mask m)
+{
+    int64_t found = 0;
+    for (int i = 0; i < LANES; i++) found |= m[i];
+    return found != 0;
+}
+
+/* The jobs that no lane has taken yet. */
+typedef struct queue {
+    iso_lane_job *const *next;
+    size_t waiting;
+} queue;
 
 typedef struct crew {
     iso_lane_job *job[LANES]; /* NULL: the lane has no job; it goes on with its last orbit, and nothing is stored */
-    iso_instant left[LANES];  /* the time at the step's left end */
-    double row[LANES];        /* the time of the next row */
-    bool fresh[LANES];        /* its first deviations are not set yet  */
-    long seen[LANES];         /* crossings in this step ...                                  */
-    long known[LANES];        /* ... of these, the number that an earlier call has stored    */
-    double since[LANES];      /* distance of the variable since the last crossing            */
+    doubles head, tail;       /* the time at the step's left end, as iso_instant                           */
+    doubles row;              /* the time of the next row, or infinite in the orbit's direction            */
+    doubles steps;            /* since the last row                                                        */
+    doubles since, longest;   /* distance of the variable since the last crossing, and the largest possible one;
+                                 infinite where rows are asked for */
+    bool fresh[LANES];        /* its first deviations are not set yet                                      */
+    long seen[LANES];         /* crossings in this step ...                                                */
+    long known[LANES];        /* ... of these, the number that an earlier call has stored                  */
     real direction, zeros;
+    bool ended;     /* a lane has stored its last row, or has an error */
     bool crossings; /* jobs ask for crossings, of `axis` */
     int axis;
-    iso_lane_job *const *next; /* jobs still to be taken */
-    size_t waiting;
+    queue *jobs;
     const iso_lane_options *options;
     state after; /* at the end of the step */
     form T;      /* last: solve() clears all before it, set_shape() this */
@@ -45,7 +80,7 @@ static void save(crew *c, int lane)
     const iso_lane_job *job = c->job[lane];
     saved_lane *s = job->saved;
     if (!s) return;
-    *s = (saved_lane){true, c->left[lane], c->seen[lane], c->since[lane], {{0}}, {0}};
+    *s = (saved_lane){true, {c->head[lane], c->tail[lane]}, c->seen[lane], c->since[lane], {{0}}, {0}};
     for (int i = 0; i < CHANNELS; i++) {
         const real *now = (const real *)channel_now(c, i);
         for (size_t j = 0; j < sizeof(state) / sizeof(real); j++) s->now[i][j] = LANE(now[j], lane);
@@ -57,7 +92,8 @@ static bool recall(crew *c, int lane)
 {
     const saved_lane *s = c->job[lane]->saved;
     if (!s || !s->there) return false;
-    c->left[lane] = s->left, c->known[lane] = s->known, c->since[lane] = s->since;
+    c->head[lane] = s->left.head, c->tail[lane] = s->left.tail;
+    c->known[lane] = s->known, c->since[lane] = s->since;
     for (int i = 0; i < CHANNELS; i++) {
         real *now = (real *)channel_now(c, i);
         for (size_t j = 0; j < sizeof(state) / sizeof(real); j++) LANE(now[j], lane) = s->now[i][j];
@@ -71,28 +107,38 @@ static bool recall(crew *c, int lane)
 static void next_row(crew *c, int lane)
 {
     const iso_lane_job *job = c->job[lane];
-    if (job->time && job->done < job->rows) c->row[lane] = job->time[job->done] / job->unit;
+    const bool wanted = job && job->time && job->done < job->rows && !job->error;
+    c->row[lane] = wanted ? job->time[job->done] / job->unit : INFINITY * (double)LANE(c->direction, lane);
 }
 
 /* Gives the lane the next job that asks for any rows. */
 static void start_next(crew *c, int lane)
 {
     c->job[lane] = NULL;
-    while (c->waiting > 0 && !c->job[lane]) {
-        iso_lane_job *job = *c->next++;
-        c->waiting--;
+    while (c->jobs->waiting > 0 && !c->job[lane]) {
+        iso_lane_job *job = *c->jobs->next++;
+        c->jobs->waiting--;
         job->done = 0, job->steps = 0, job->last = 0, job->error = NULL;
         if (job->rows > 0) c->job[lane] = job;
     }
     const iso_lane_job *job = c->job[lane];
-    if (!job) return;
-    c->left[lane] = (iso_instant){0, 0};
-    c->since[lane] = 0, c->known[lane] = 0;
-    LANE(c->direction, lane) = job->time && job->time[job->rows - 1] < 0 ? -1 : 1;
-    LANE(c->zeros, lane) = job->zeros;
+    if (job) {
+        c->head[lane] = c->tail[lane] = c->steps[lane] = 0;
+        c->since[lane] = 0, c->known[lane] = 0, c->longest[lane] = c->crossings ? 2 * job->longest : INFINITY;
+        LANE(c->direction, lane) = job->time && job->time[job->rows - 1] < 0 ? -1 : 1;
+        LANE(c->zeros, lane) = job->zeros;
+        start_orbit(&c->T, lane, job->model, job->start);
+        c->fresh[lane] = !recall(c, lane);
+    }
     next_row(c, lane);
-    start_orbit(&c->T, lane, job->model, job->start);
-    c->fresh[lane] = !recall(c, lane);
+}
+
+static void end_job(crew *c, int lane, const char *error)
+{
+    iso_lane_job *job = c->job[lane];
+    job->error = error;
+    job->steps = (long)c->steps[lane];
+    c->ended = true;
 }
 
 /* --- what is stored --------------------------------------------------------------------------------------------- */
@@ -116,7 +162,8 @@ static void store_event(crew *c, int lane, const state *s, const look *l)
     double y[ISO_MAX_STATE];
     store(T, lane, s, y);
     if (!all_finite(y, T->shape.dim)) {
-        job->error = "the series diverges";
+        job->last = c->head[lane];
+        end_job(c, lane, "the series diverges");
         return;
     }
     if (job->states) memcpy(job->states + job->done * job->stride, y, (size_t)T->shape.dim * sizeof *y);
@@ -125,6 +172,8 @@ static void store_event(crew *c, int lane, const state *s, const look *l)
         if (CHANNELS > 1) store_look(T, lane, s, l, &job->event[job->done]);
     }
     job->done++;
+    if (job->event || c->crossings) c->steps[lane] = 0;
+    if (job->done == job->rows) end_job(c, lane, NULL);
 }
 
 /* Stores the state at x of the series (gained: see state_at) in the lanes that are due. */
@@ -146,45 +195,37 @@ static void store_crossings(crew *c, real x, const bool due[])
     integrate_clocks(&c->T, x, gained);
     for (int i = 0; i < LANES; i++)
         if (due[i])
-            c->job[i]->passed[c->job[i]->done] = c->left[i].head + (c->left[i].tail + (double)LANE(gained[clock], i));
+            c->job[i]->passed[c->job[i]->done] = c->head[i] + (c->tail[i] + (double)LANE(gained[clock], i));
     store_events(c, x, gained, due);
-    for (int i = 0; i < LANES; i++)
-        if (due[i]) c->job[i]->steps = 0;
 }
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-/* Whether a lane's next row lies within its step of dt. *target: the time from the step's left end to the row, or
- * 0. */
-static bool row_is_due(const crew *c, int lane, double dt, double *target)
+/* Which lanes have their next row within the step of dt. *target: the time from the step's left end to the row; 0 in
+ * other lanes. */
+static bool rows_are_due(const crew *c, real dt, bool due[LANES], real *target)
 {
-    const iso_lane_job *job = c->job[lane];
-    *target = 0;
-    if (!job || job->error || job->done == job->rows) return false;
-    const double ahead = iso_instant_since(c->left[lane], c->row[lane]);
-    if (!(dt > 0 ? ahead <= dt : ahead >= dt)) return false;
-    *target = ahead;
+    const doubles ahead = (c->row - c->head) - c->tail, step = doubles_of(dt), forwards = doubles_of(c->direction);
+    const double_mask found = forwards * ahead <= forwards * step;
+    if (!holds_somewhere(found)) return false;
+    real to = zero;
+    for (int i = 0; i < LANES; i++) {
+        due[i] = found[i] != 0;
+        LANE(to, i) = due[i] ? ahead[i] : 0;
+    }
+    *target = to;
     return true;
 }
 
 /* Stores all rows within the step. Each pass takes the next row of every lane that has one. */
 static void find_rows(crew *c, real length, real dt)
 {
-    for (;;) {
-        bool due[LANES], found = false;
-        real target = zero;
-        for (int i = 0; i < LANES; i++) {
-            double ahead;
-            due[i] = row_is_due(c, i, (double)LANE(dt, i), &ahead);
-            LANE(target, i) = ahead;
-            found |= due[i];
-        }
-        if (!found) return;
+    bool due[LANES];
+    real target = zero;
+    while (rows_are_due(c, dt, due, &target)) {
         store_events(c, solve_for_time(&c->T, target, length * (target / dt)), NULL, due);
-        for (int i = 0; i < LANES; i++) {
-            if (due[i] && !c->job[i]->error) next_row(c, i);
-            if (due[i] && c->job[i]->event) c->job[i]->steps = 0;
-        }
+        for (int i = 0; i < LANES; i++)
+            if (due[i]) next_row(c, i);
     }
 }
 
@@ -224,9 +265,10 @@ static void find_crossings(crew *c, real length)
     const form *T = &c->T;
     real parts;
     const int most = find_parts(c, length, &parts);
+    for (int i = 0; i < LANES; i++) c->seen[i] = 0;
     real a = zero, at_a = T->now.n[c->axis];
     for (int i = 0; i < LANES; i++)
-        if (c->job[i] && c->job[i]->on_section && c->left[i].head == 0) LANE(at_a, i) = 0;
+        if (c->job[i] && c->job[i]->on_section && c->head[i] == 0) LANE(at_a, i) = 0;
     for (int part = 1; part <= most; part++) {
         const mask last = parts <= spread((NUMBER)part);
         const real b = choose(last, length, length * ((NUMBER)part / parts));
@@ -248,39 +290,53 @@ static void find_crossings(crew *c, real length)
 /* --- steps ------------------------------------------------------------------------------------------------------ */
 
 /* 0 in a lane whose state is finite, else NaN. */
-static real check(const state *s)
+static real check(const form *T, const state *s)
 {
     real sum = zero;
     for (int i = 0; i < 3; i++) sum += s->n[i] + s->w[i];
-    for (int i = 0; i < ISO_MOST_EFFECT_STATES; i++) sum += s->own[i];
-    for (int i = 0; i < ISO_CLOCKS; i++) sum += s->clock[i];
+    for (int i = 0; i < T->shape.moving - ISO_STATE; i++) sum += s->own[i];
+    for (int i = 0; i < T->shape.clocks; i++) sum += s->clock[T->shape.clock_of[i]];
     return sum - sum;
 }
 
-/* Ends the step of a lane, of dt in the model's clock and of x in the variable of the series. */
-static void end_step(crew *c, int lane, double dt, double x)
+/* Ends the job of a lane that could not take its step of dt in the model's clock and of x in the variable of the
+ * series. before: the time at its beginning. */
+static void judge(crew *c, int lane, double before, double dt, double x)
 {
     iso_lane_job *job = c->job[lane];
-    if (!job) return;
-    const double before = c->left[lane].head;
-    if (job->done == job->rows) save(c, lane); /* the next part begins with this step */
-    c->left[lane] = iso_instant_later(c->left[lane], dt);
-    c->since[lane] += x;
-    c->known[lane] = 0;
-    job->last = isfinite(dt) && !job->error ? c->left[lane].head : before;
-    job->steps++;
-    if (job->done < job->rows && !job->error) {
-        if (!isfinite(dt))
-            job->error = "the series diverges";
-        else if (fabs(dt) <= 64 * DBL_EPSILON * fabs(before))
-            job->error = "steps shrink to nothing";
-        else if (c->options->max_steps > 0 && job->steps >= c->options->max_steps)
-            job->error = "more steps than allowed";
-        else if (c->crossings && c->since[lane] > 2 * job->longest)
-            job->error = "the orbit lies in the section and does not cross it";
-        else if (c->crossings && fabs(x) * job->zeros > MOST_PARTS)
-            job->error = "crossings can lie too close together to be told apart";
-    }
+    if (!job || job->error || job->done == job->rows) return;
+    const char *error = NULL;
+    if (!isfinite(dt))
+        error = "the series diverges";
+    else if (fabs(dt) <= 64 * DBL_EPSILON * fabs(before))
+        error = "steps shrink to nothing";
+    else if (c->options->max_steps > 0 && c->steps[lane] >= (double)c->options->max_steps)
+        error = "more steps than allowed";
+    else if (c->since[lane] > c->longest[lane])
+        error = "the orbit lies in the section and does not cross it";
+    else if (c->crossings && fabs(x) * job->zeros > MOST_PARTS)
+        error = "crossings can lie too close together to be told apart";
+    job->last = isfinite(dt) ? c->head[lane] : before;
+    if (error) end_job(c, lane, error);
+}
+
+/* Goes to the right end of the step: of dt in the model's clock, NaN where it failed, and of x in the variable of the
+ * series. */
+static void move_on(crew *c, real dt, real x)
+{
+    const doubles step = doubles_of(dt), way = doubles_of(x), before = c->head;
+    const double most = c->options->max_steps > 0 ? (double)c->options->max_steps : INFINITY;
+    const doubles sum = before + step, part = sum - before, lost = (before - (sum - part)) + (step - part);
+    const doubles tail = c->tail + lost; /* as iso_instant_later */
+    c->head = sum + tail;
+    c->tail = tail - (c->head - sum);
+    c->since += way;
+    c->steps += 1;
+    for (int i = 0; i < LANES; i++) c->known[i] = 0;
+    const double_mask good = (size_of(step) < INFINITY) & (size_of(step) > 64 * DBL_EPSILON * size_of(before)) &
+                             (c->steps < most) & (c->since <= c->longest) &
+                             (size_of(way * doubles_of(c->zeros)) <= MOST_PARTS);
+    for (int i = 0; holds_somewhere(~good) && i < LANES; i++) judge(c, i, before[i], step[i], way[i]);
 }
 
 static bool busy(const crew *c)
@@ -303,49 +359,80 @@ static void find_fresh_deviations(crew *c)
     }
 }
 
-/* One step in all lanes. A lane whose job is done takes the next job. */
-static void step_together(crew *c)
+/* Gives new jobs to the lanes whose job has ended. */
+static void replace_ended(crew *c)
+{
+    for (int i = 0; i < LANES; i++)
+        if (c->job[i] && (c->job[i]->done == c->job[i]->rows || c->job[i]->error)) start_next(c, i);
+    c->ended = false;
+}
+
+/* The step of a crew, when its series are there. */
+static void take_step(crew *c)
 {
     form *T = &c->T;
-    find_fresh_deviations(c);
-    begin(T);
-    expand(&T->S);
     real gained[ISO_CLOCKS];
     const real length = choose_step(T, c->direction, gained), dt = gained[T->shape.clock];
     if (!c->crossings) find_rows(c, length, dt);
     find_state(T, length, gained, &c->after);
-    for (int i = 0; i < LANES; i++) c->seen[i] = 0;
     if (c->crossings) find_crossings(c, length);
-    const real step = dt + check(&c->after);
-    for (int i = 0; i < LANES; i++) end_step(c, i, (double)LANE(step, i), (double)LANE(length, i));
+    for (int i = 0; c->ended && i < LANES; i++) /* the next part of an orbit begins with this step */
+        if (c->job[i] && c->job[i]->done == c->job[i]->rows) save(c, i);
+    move_on(c, dt + check(T, &c->after), length);
     if (CHANNELS > 1) end_deviations(T, length, &c->after);
-    T->now = c->after;
+    copy_state(T, &T->now, &c->after);
+    if (c->ended) replace_ended(c);
+}
+
+/* One step of the crews that have jobs. Gives their number. */
+static int step_together(crew *const crews[CREWS])
+{
+    crew *at_work[CREWS];
+    series *S[CREWS];
+    int count = 0;
+    for (int i = 0; i < CREWS; i++)
+        if (busy(crews[i])) at_work[count] = crews[i], S[count++] = &crews[i]->T.S;
+    for (int i = 0; i < count; i++) {
+        find_fresh_deviations(at_work[i]);
+        begin(&at_work[i]->T);
+    }
+    if (count > 0) expand_together(S, count);
+    for (int i = 0; i < count; i++) take_step(at_work[i]);
+    return count;
+}
+
+static void start_crew(crew *c, queue *jobs, const iso_lane_job *first, const iso_lane_options *options)
+{
+    memset(c, 0, offsetof(crew, T));
+    set_shape(&c->T, first->model, options->tolerance);
     for (int i = 0; i < LANES; i++)
-        if (c->job[i] && (c->job[i]->done == c->job[i]->rows || c->job[i]->error)) start_next(c, i);
+        start_orbit(&c->T, i, first->model, first->start); /* a lane without a job needs numbers, too */
+    c->direction = spread(1);
+    c->options = options;
+    c->crossings = !first->time;
+    c->axis = first->axis;
+    c->jobs = jobs;
+    for (int i = 0; i < LANES; i++) start_next(c, i);
+}
+
+/* Stopped between two steps. */
+static void save_all(crew *c)
+{
+    for (int i = 0; i < LANES; i++)
+        if (c->job[i]) c->seen[i] = 0, save(c, i);
 }
 
 static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_options *options)
 {
-    crew *c = aligned_alloc(64, (sizeof *c + 63) / 64 * 64);
-    if (!c) return false;
+    const size_t size = (sizeof(crew) + 63) / 64 * 64;
+    char *room = aligned_alloc(64, CREWS * size);
+    if (!room) return false;
+    queue waiting = {jobs, count};
+    crew *crews[CREWS];
+    for (int i = 0; i < CREWS; i++) start_crew(crews[i] = (crew *)(room + (size_t)i * size), &waiting, jobs[0], options);
     bool going_on = true;
-    memset(c, 0, offsetof(crew, T));
-    set_shape(&c->T, jobs[0]->model, options->tolerance);
-    for (int i = 0; i < LANES; i++)
-        start_orbit(&c->T, i, jobs[0]->model, jobs[0]->start); /* a lane without a job needs numbers, too */
-    c->direction = spread(1);
-    c->options = options;
-    c->crossings = !jobs[0]->time;
-    c->axis = jobs[0]->axis;
-    c->next = jobs;
-    c->waiting = count;
-    for (int i = 0; i < LANES; i++) start_next(c, i);
-    while (busy(c) && going_on) {
-        step_together(c);
-        going_on = !options->go_on || options->go_on(options->data);
-    }
-    for (int i = 0; i < LANES; i++)
-        if (c->job[i]) c->seen[i] = 0, save(c, i); /* stopped between two steps */
-    free(c);
+    while (going_on && step_together(crews) > 0) going_on = !options->go_on || options->go_on(options->data);
+    for (int i = 0; i < CREWS; i++) save_all(crews[i]);
+    free(room);
     return going_on;
 }

@@ -113,6 +113,13 @@ static void restore_deviation(const form *T, const state *s, state *d)
     if (!T->loaded) keep_level_of_ball(T, s, d);
 }
 
+static inline void rate(const vector a[], const real count[], int order, real x, real out[3])
+{
+    vector p = nought;
+    for (int n = order; n >= 1; n--) p = plus(times(x, p), times(count[n], a[n]));
+    for (int i = 0; i < 3; i++) out[i] = AT(p, i);
+}
+
 /* --- along the flow --------------------------------------------------------------------------------------------- */
 
 static inline void second_rate(const vector a[], const real count[], int order, real x, real out[3])

@@ -334,7 +334,7 @@ static void start_orbit(form *T, int lane, const iso_model *m, const double y[])
  * corrections. States of effects that no equation moves stay as they are. */
 static real find_state(const form *T, real x, const real gained[], state *s)
 {
-    if (s != &T->now) *s = T->now;
+    if (s != &T->now) copy_state(T, s, &T->now);
     state_at(T, x, gained, s);
     return restore(T, s);
 }

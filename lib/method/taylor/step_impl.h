@@ -1,8 +1,8 @@
 /* step_impl.h - evaluates a series at a time, and chooses the length of a step. */
 #include "method/taylor/form_impl.h"
 
-/* The value of a vector's series at x (`value`), its derivative (`rate`), and the value of a number's series
- * (`number`). */
+/* The value of a vector's series at x (`value`), with its derivative (`value_and_rate`), and the value of a number's
+ * series (`number`). */
 static inline void value(const vector a[], int order, real x, real out[3])
 {
     vector p = nought;
@@ -10,11 +10,15 @@ static inline void value(const vector a[], int order, real x, real out[3])
     for (int i = 0; i < 3; i++) out[i] = AT(p, i);
 }
 
-static inline void rate(const vector a[], const real count[], int order, real x, real out[3])
+static inline void value_and_rate(const vector a[], const real count[], int order, real x, real out[3], real rate[3])
 {
-    vector p = nought;
-    for (int n = order; n >= 1; n--) p = plus(times(x, p), times(count[n], a[n]));
-    for (int i = 0; i < 3; i++) out[i] = AT(p, i);
+    vector p = nought, dp = nought;
+    for (int n = order; n >= 1; n--) {
+        p = plus(times(x, p), a[n]);
+        dp = plus(times(x, dp), times(count[n], a[n]));
+    }
+    p = plus(times(x, p), a[0]);
+    for (int i = 0; i < 3; i++) out[i] = AT(p, i), rate[i] = AT(dp, i);
 }
 
 static inline real number(const real a[], int order, real x)
@@ -22,6 +26,12 @@ static inline real number(const real a[], int order, real x)
     real p = zero;
     for (int n = order; n >= 0; n--) p = p * x + a[n];
     return p;
+}
+
+/* *to = *from, without the states of effects that the model does not have. */
+static inline void copy_state(const form *T, state *to, const state *from)
+{
+    memcpy(to, from, offsetof(state, own) + (size_t)(T->shape.moving - ISO_STATE) * sizeof(real));
 }
 
 static void store(const form *T, int lane, const state *s, double y[])
@@ -78,11 +88,12 @@ static inline void channel_at(const form *T, int c, real x, state *s)
 {
     const series *S = &T->S;
     const vector *n = S->n + place(c, 0);
-    value(n, S->order + T->is_point, x, s->n); /* gamma has one more coefficient, for gamma' */
-    if (T->is_point)
-        rate(n, S->count, S->order + 1, x, s->w);
-    else
+    if (T->is_point) {
+        value_and_rate(n, S->count, S->order + 1, x, s->n, s->w); /* one more coefficient, for gamma' */
+    } else {
+        value(n, S->order, x, s->n);
         value(S->w + place(c, 0), S->order, x, s->w);
+    }
     for (int i = 0; i < T->motion.states; i++) {
         const int first = T->motion.state[i].node * ROOM + place(c, 0), at = T->motion.state[i].at - ISO_STATE;
         if (T->motion.state[i].is_vector)

@@ -10,6 +10,7 @@
 #define ROOT sqrt
 #define POW pow
 #define FMA fma
+#define ABS fabs
 #define EPSILON DBL_EPSILON
 #define FINER 1
 #define FINEST_ORDER 28

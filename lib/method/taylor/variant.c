@@ -50,6 +50,7 @@
 #define ROOT sqrtl
 #define POW powl
 #define FMA fmal
+#define ABS fabsl
 #define SIN sinl
 #define COS cosl
 #define ATAN2 atan2l
@@ -63,6 +64,7 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define ROOT sqrtf128
 #define POW powf128
 #define FMA fmaf128
+#define ABS fabsf128
 #define SIN sinf128
 #define COS cosf128
 #define ATAN2 atan2f128
@@ -75,6 +77,7 @@ __extension__ typedef _Float128 number_of_128_bits;
 #define ROOT sqrt
 #define POW pow
 #define FMA fma
+#define ABS fabs
 #define EPSILON DBL_EPSILON
 #define FINER 1
 #define FINEST_ORDER 28

@@ -5,7 +5,7 @@
  * is the plain value. A rate sets coefficient n + 1 of its state.
  */
 #include "model/formula.h"
-#include "model/series/products_impl.h"
+#include "model/series/pairs_impl.h"
 
 /* Where the coefficients are, and where results go. Coefficient n of scalar (or vector) i in channel c is at
  * [i kept + place(c, n)]. */

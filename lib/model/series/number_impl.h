@@ -1,6 +1,6 @@
 /* number_impl.h - the numbers that power series are made of.
  *
- * Included with NUMBER, a kind of number, ROOT, POW and FMA of it, and LANES, how many orbits are computed side
+ * Included with NUMBER, a kind of number, ROOT, POW, FMA and ABS of it, and LANES, how many orbits are computed side
  * by side. A `real` is one NUMBER of each orbit, a `mask` one decision for each, a `vector` three reals. With PACKED
  * (one orbit only) the three share a register of four. No operation mixes lanes: what an orbit gets does not depend
  * on its neighbours.
@@ -15,6 +15,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -94,7 +95,11 @@ static inline real larger(real a, real b)
 
 static inline real magnitude(real a)
 {
-    return larger(a, -a);
+#if LANES == 1
+    return ABS(a);
+#else
+    return (real)((mask)a & ~(mask)spread((NUMBER)-0.0));
+#endif
 }
 
 static inline real root(real a)
@@ -118,18 +123,26 @@ static inline real half_power(real a, int twice)
     return twice < 0 ? 1 / power : power;
 }
 
-/* a^p for a > 0. Most powers are halves of small integers, and those of all lanes the same. */
+/* Whether p is the same half of a small integer in all lanes, as most powers are. */
+static inline bool is_half(real p, int *twice)
+{
+    const NUMBER first = LANE(p, 0);
+    const bool small = first >= -4 && first <= 4;
+    *twice = small ? (int)(2 * first) : 0;
+    return !any(p != spread((NUMBER)*twice / 2));
+}
+
+/* a^p for a > 0 */
 static inline real raised(real a, real p)
 {
 #ifdef ROUND_POWERS_ONCE /* by the C library: slower */
     for (int i = 0; i < LANES; i++) LANE(a, i) = POW(LANE(a, i), LANE(p, i));
     return a;
 #endif
-    const NUMBER first = LANE(p, 0);
-    const bool small = first >= -4 && first <= 4;
-    const int twice = small ? (int)(2 * first) : 0;
+    int twice;
+    const bool half_in_all = is_half(p, &twice);
     real result = half_power(a, twice);
-    if (!any(p != spread((NUMBER)twice / 2))) return result;
+    if (half_in_all) return result;
     for (int i = 0; i < LANES; i++) {
         const NUMBER own = LANE(p, i);
         if (own == (NUMBER)twice / 2) continue;

@@ -19,7 +19,7 @@ typedef struct series series;
 typedef void recurrence(series *S, int c, int n); /* coefficient n in channel c */
 
 struct series {
-    int order, terms;
+    int order, terms, together; /* together: how many coefficients a call of the terms gives, 1 or 2 */
     recurrence *term[TERMS];
     const iso_formula *formula; /* of the effects: of the ball's motion, or of the point's image; NULL: none */
     /* what distinguishes one orbit's equations from another's */
@@ -162,13 +162,18 @@ static inline void late_effects(series *S, int c, int n)
 
 /* --- the point: n = gamma, second order ------------------------------------------------------------------------- */
 
-/* q = (gamma, J gamma) */
-static inline void point_q(series *S, int c, int n)
+/* q = (gamma, J gamma), from the squares of gamma */
+static inline void set_q(series *S, int c, int n, vector squared)
 {
     const int i = place(c, n);
-    S->base[i] = total(by(S->J, squares(S->n, c, n)));
+    S->base[i] = total(by(S->J, squared));
     S->slope[i] = S->count[n] * S->base[i];
     if (i == 0) S->over_base = 1 / S->base[0];
+}
+
+static inline void point_q(series *S, int c, int n)
+{
+    set_q(S, c, n, squares(S->n, c, n));
 }
 
 /* b^p of the base */
@@ -184,12 +189,18 @@ static inline void accelerate(series *S, int c, int n, vector f)
     S->n[i + 2] = times(S->inverse[n + 1] * S->inverse[n + 2], f);
 }
 
-/* in s, k = -1: gamma'' = 2 a q gamma - (a J + 2 H) gamma,  a = -2 eps; neumann_c = a J + 2 H */
+/* in s, k = -1: gamma'' = 2 a q gamma - (a J + 2 H) gamma,  a = -2 eps; neumann_c = a J + 2 H. Gives coefficients n
+ * and n + 1, see pairs_impl.h. */
 static inline void neumann(series *S, int c, int n)
 {
-    const int i = place(c, n);
-    point_q(S, c, n);
-    accelerate(S, c, n, minus(times(2 * S->coupling, scaled(S->base, S->n, c, n)), by(S->neumann_c, S->n[i])));
+    const vector_pair square = squares_pair(S->n, c, n);
+    set_q(S, c, n, square.now);
+    set_q(S, c, n + 1, plus(square.next, componentwise_ends(S->n, S->n, c, n + 1)));
+    vector_pair pull = scaled_pair(S->base, S->n, c, n);
+    pull.next = plus(pull.next, scaled_ends(S->base, S->n, c, n + 1));
+    const real twice = 2 * S->coupling;
+    accelerate(S, c, n, minus(times(twice, pull.now), by(S->neumann_c, S->n[place(c, n)])));
+    accelerate(S, c, n + 1, minus(times(twice, pull.next), by(S->neumann_c, S->n[place(c, n + 1)])));
 }
 
 /* in s: gamma'' = c gamma by components, c_i = a (1-k) q^(alpha+1) - a q^alpha J_i - 2 H,
@@ -218,17 +229,49 @@ static inline void point_effects(series *S, int c, int n)
     accelerate(S, c, n, minus(plus(componentwise(S->x, S->n, c, n), scaled(S->r, S->n, c, n)), S->dV[i]));
 }
 
-/* in t, on H = 0: gamma_tt = (1 + 1/(2k)) r gamma_t + B ((1-k) q^2 - q J_i) gamma_i,  r = q_t/q, B = 2 h k/det J */
+/* in t, on H = 0: x_i = B ((1-k) q^2 - q J_i), of a coefficient of q and of q^2 */
+static inline vector push_of(const series *S, real q, real square)
+{
+    const real falling = (1 - S->k) * square;
+    vector x = nought;
+    for (int i = 0; i < 3; i++) AT(x, i) = S->coupling * (falling - AT(S->J, i) * q);
+    return x;
+}
+
+/* r = q_t/q; divided: coefficient n of the product q r, without the terms of q_0 */
+static inline void set_r(series *S, int c, int n, real divided)
+{
+    const int i = place(c, n);
+    if (is_deviation(c)) divided += S->base[place(c, 0)] * S->r[n];
+    S->r[i] = (S->slope[i + 1] - divided) * S->over_base;
+}
+
+/* gamma_tt = (1 + 1/(2k)) r gamma_t + x gamma. Gives coefficients n and n + 1, see pairs_impl.h. The second one needs
+ * gamma_t = w, q and r from the first one, but only in the ends of sums. */
 static inline void point_t(series *S, int c, int n)
 {
     const int i = place(c, n);
     if (n == 0) point_q(S, c, 0);
-    point_q(S, c, n + 1);
+    const vector_pair square = squares_pair(S->n, c, n + 1);
+    set_q(S, c, n + 1, square.now);
+    pair q_square = square_pair(S->base, c, n);
+    q_square.next += product_ends(S->base, S->base, c, n + 1);
+    S->x[i] = push_of(S, S->base[i], q_square.now);
+    S->x[i + 1] = push_of(S, S->base[i + 1], q_square.next);
+    vector_pair push = componentwise_pair(S->x, S->n, c, n);
+    push.next = plus(push.next, componentwise_ends(S->x, S->n, c, n + 1));
+
+    const pair divided = product_pair(S->base + 1, S->r, c, n - 1);
+    set_r(S, c, n, divided.now);
     S->w[i] = times(S->count[n + 1], S->n[i + 1]);
-    S->r[i] = quotient(S->slope[i + 1], S->base, S->over_base, S->r, c, n);
-    const real falling = S->coupling * (1 - S->k) * product(S->base, S->base, c, n);
-    for (int j = 0; j < 3; j++) AT(S->x[i], j) = falling - S->coupling * AT(S->J, j) * S->base[i];
-    accelerate(S, c, n, plus(componentwise(S->x, S->n, c, n), times(S->alpha, scaled(S->r, S->w, c, n))));
+    const vector_pair drag = scaled_pair(S->r, S->w, c, n);
+    accelerate(S, c, n, plus(push.now, times(S->alpha, drag.now)));
+
+    set_q(S, c, n + 2, plus(square.next, componentwise_ends(S->n, S->n, c, n + 2)));
+    set_r(S, c, n + 1, divided.next + product_ends(S->base + 1, S->r, c, n));
+    S->w[i + 1] = times(S->count[n + 2], S->n[i + 2]);
+    const vector rest = scaled_ends(S->r, S->w, c, n + 1);
+    accelerate(S, c, n + 1, plus(push.next, times(S->alpha, plus(drag.next, rest))));
 }
 
 /* in t, on H = 0, w = p (point_t.c): p' = r (p^2 c - (c,p) p),  gamma' = k r q gamma x p,  c = gamma x J gamma; r =
@@ -271,23 +314,31 @@ static inline void point_24_effects(series *S, int c, int n)
     S->w[i + 1] = plus(S->w[i + 1], times(S->inverse[n + 1], cross(S->n, S->dV, c, n)));
 }
 
+/* Series with the same terms and order, in turns: while one waits for a result, the processor computes another. */
+static inline void expand_together(series *const S[], int count)
+{
+    for (int n = 0; n < S[0]->order; n += S[0]->together)
+        for (int i = 0; i < S[0]->terms; i++)
+            for (int j = 0; j < count; j++)
+                for (int c = 0; c < CHANNELS; c++) S[j]->term[i](S[j], c, n);
+}
+
 static inline void expand(series *S)
 {
-    for (int n = 0; n < S->order; n++)
-        for (int i = 0; i < S->terms; i++)
-            for (int c = 0; c < CHANNELS; c++) S->term[i](S, c, n);
+    expand_together(&S, 1);
 }
 
 /* --- what both uses set up -------------------------------------------------------------------------------------- */
 
-/* Sets the terms, in this order; NULL stands for none. The list has room for TERMS: a longer one does not compile. */
+/* Sets the terms, in this order; NULL stands for none. A call of each gives `together` coefficients, 1 or 2. The list
+ * has room for TERMS: a longer one does not compile. */
 typedef struct recurrences {
     recurrence *term[TERMS];
 } recurrences;
 
-static inline void set_recurrences(series *S, recurrences list)
+static inline void set_recurrences(series *S, int together, recurrences list)
 {
-    S->terms = 0;
+    S->terms = 0, S->together = together;
     for (int i = 0; i < TERMS; i++)
         if (list.term[i]) S->term[S->terms++] = list.term[i];
 }
@@ -297,7 +348,7 @@ static inline void set_ball_recurrences(series *S, bool twists, const iso_formul
 {
     const bool effective = formula && formula->lines > 0;
     S->formula = effective ? formula : NULL;
-    set_recurrences(S, (recurrences){{
+    set_recurrences(S, 1, (recurrences){{
                            twists ? twisting_ball : ball,
                            effective ? effects : NULL,
                            twists                          ? twisting
