@@ -180,6 +180,8 @@ static iso_status jump(iso_integrator *it, int direction, double t)
     it->stopped = false;
     it->left = (iso_instant){t, 0};
     it->h = 0;
+    it->number = it->method_number = iso_past_of(it, direction)->steps; /* such methods go on from anywhere */
+    it->method_direction = direction;
     copy(y, it->at_left, it->model.dim);
     copy(y, it->at_right, it->model.dim);
     return ISO_OK;

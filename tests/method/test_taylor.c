@@ -89,6 +89,8 @@ static void states(const effects_case *c, laws_worst *worst)
 static void check_order(const iso_method *m, const iso_system *system, iso_clock clock, double k, int order)
 {
     enum { ORBITS = 64 };
+    const bool neumann = k == -1 && clock == ISO_CLOCK_S;
+    const int lowest = neumann ? 8 : 4; /* of tolerance 1: see order_for in form_impl.h */
     const int steps = order == 6 ? 96 : order == 10 ? (k == -1 ? 22 : 36) : 30; /* errors above rounding */
     const double finer = m == extended ? 1e4 : 1, length = 6;
     double logarithm[2] = {0, 0};
@@ -99,7 +101,7 @@ static void check_order(const iso_method *m, const iso_system *system, iso_clock
         orbit_solve(&o, extended, &finest, length * o.unit, expected);
         for (int j = 0; j < 2; j++) {
             const double h = length * o.unit / (steps << j);
-            const iso_method_options options = {.tolerance = finer * pow(10, (4 - order) / 1.6), .fixed_step = h};
+            const iso_method_options options = {.tolerance = finer * pow(10, (lowest - order) / 1.6), .fixed_step = h};
             orbit_solve(&o, m, &options, length * o.unit, y);
             logarithm[j] += log2(orbit_error(&o, y, expected)) / ORBITS;
         }
@@ -390,7 +392,8 @@ int main(void)
     for (int order = 6; order <= 10; order += 4) {
         for (int i = 0; i < ORBIT_K; i++) {
             check_order(taylor, &iso_system_ball, ISO_CLOCK_T, orbit_k[i], order);
-            if (order == 6 || orbit_k[i] < 0) /* singularities of q near by hide the others */
+            /* for k > 0 the singularities of q near by hide the others; Neumann's problem has no order below 10 */
+            if (order == 6 ? orbit_k[i] != -1 : orbit_k[i] < 0)
                 check_order(taylor, &iso_system_point, ISO_CLOCK_S, orbit_k[i], order);
             if (orbit_k[i] != -1) check_order(taylor, &iso_system_point, ISO_CLOCK_T, orbit_k[i], order);
         }
