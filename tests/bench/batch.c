@@ -1,9 +1,10 @@
 /* bench_batch - how many orbits a second can be computed: one by one, and many side by side (iso_batch_run).
  *
- *     bench_batch [K] [REPETITIONS]
+ *     bench_batch [K] [REPETITIONS] [lanes]
  *
  * The orbits are 1000 balls with J = (1.4, 2.1, 3.0) and random starts of the energy h = 0.81, to t = 100. K is the
- * geometry number (default -1). The fastest of REPETITIONS runs counts.
+ * geometry number (default -1). The fastest of REPETITIONS runs counts. `lanes`: only many side by side, on one
+ * thread. tests/bench/lanes.sh compares two builds by it.
  *
  * How to read the output. There is a block for rk8pd, for taylor (both one orbit after the other), for iso_batch_run
  * on one thread with each kind of vectors of this processor, and for iso_batch_run on all threads.
@@ -24,7 +25,7 @@
 #include "map/state.h"
 #include "orbit/batch.h"
 
-enum { ORBITS = 1000, LOOSEST = 8, TIGHTEST = 13 };
+enum { ORBITS = 1000, LOOSEST = 6, TIGHTEST = 13 };
 
 static iso_params params;
 static iso_start starts[ORBITS];
@@ -131,10 +132,11 @@ int main(int argc, char **argv)
     way ways[MOST] = {{"rk8pd", "rk8pd", ISO_BACKEND_BALL, -1},
                       {"taylor, ball", "taylor", ISO_BACKEND_BALL, -1},
                       {"taylor, point", "taylor", ISO_BACKEND_POINT, -1}};
-    int count = 3;
+    const bool only_lanes = argc > 3 && strcmp(argv[3], "lanes") == 0;
+    int count = only_lanes ? 0 : 3;
     for (int i = 0; iso_batch_vectors(i, NULL) && count < MOST - 1; i++)
         ways[count++] = (way){iso_batch_vectors(i, NULL), iso_batch_vectors(i, NULL), ISO_BACKEND_AUTO, 1};
-    ways[count++] = (way){"widest, all threads", NULL, ISO_BACKEND_AUTO, 0};
+    if (!only_lanes) ways[count++] = (way){"widest, all threads", NULL, ISO_BACKEND_AUTO, 0};
     make_starts(ctx, argc > 1 ? atof(argv[1]) : -1);
     one_by_one(ctx, "taylor_extended", 1e-15, ISO_BACKEND_BALL, truth);
     printf("%-24s %5s%9s%9s%9s%10s\n", "way", "tol", "50 %", "95 %", "99 %", "orbits/s");
