@@ -32,10 +32,14 @@ endif()
 # HDF5 is not linked: it is loaded when the first .h5 file is opened (io/hdf5_library_impl.h). Here is its name.
 if(ISO_HDF5 AND isoroll_hdf5_FOUND)
   list(FILTER isoroll_hdf5_LINK_LIBRARIES INCLUDE REGEX "libhdf5[^/]*$")
-  list(GET isoroll_hdf5_LINK_LIBRARIES 0 ISO_HDF5_FILE)
+  set(ISO_HDF5_FILE NOTFOUND ${isoroll_hdf5_LINK_LIBRARIES})
+  list(GET ISO_HDF5_FILE -1 ISO_HDF5_FILE)
   execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${ISO_HDF5_FILE} OUTPUT_VARIABLE ISO_HDF5_SONAME ERROR_QUIET)
   string(REGEX MATCH "SONAME +[^\n ]+" ISO_HDF5_SONAME "${ISO_HDF5_SONAME}")
   string(REGEX REPLACE "SONAME +" "" ISO_HDF5_SONAME "${ISO_HDF5_SONAME}")
+  if(NOT ISO_HDF5_SONAME)
+    message(WARNING "HDF5 is left out: objdump does not tell the name of its library")
+  endif()
 endif()
 
 # The serial vector and the dense matrix and solver are part of the cvode and arkode libraries.

@@ -181,9 +181,9 @@ const command command_run = {
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
     .description =
-        "The times of --t-end, --step and --times are those of the scene's model: t of a ball, s of a point. A row "
-        "does not depend on which other times are asked for; of the closed solution, at times of --step, by "
-        "roundings alone.\n\n"
+        "The times of --t-end, --step and --times are those of the scene's model: t of a ball, s of a point. With "
+        "a backend by name, a row does not depend on which other times are asked for; of the closed solution, at "
+        "times of --step, by roundings alone. Backend auto may take another backend for other times.\n\n"
         "Backend exact is the closed solution, where there is one ('isoroll explain' says so). Every time costs the "
         "same, near or far. It takes no method and no tolerance.\n\n"
         "--verbose computes the orbit a second time, with smaller steps, and tells the largest error of the rows. "

@@ -4,8 +4,8 @@
  *     for (...) iso_exact_walk_to(ctx, exact, &walk, clock, time, point, clocks);
  *
  * Where steps are short, the places before extrapolate to a guess of the next one, and Newton's method needs fewer
- * steps from there. The states are those of iso_exact_at to rounding. Times may be uneven: the guess is then poor, and
- * forgotten.
+ * steps from there. The states are those of iso_exact_at to rounding. Times may be uneven: the guess is then poor,
+ * and forgotten.
  */
 #ifndef ISO_EXACT_WALK_IMPL_H
 #define ISO_EXACT_WALK_IMPL_H

@@ -194,6 +194,8 @@ static iso_status next_block(iso_context *ctx, iso_csv_lines *c)
     while (status == ISO_OK && !c->ended && has_room(c) && (c->count == 0 || is_ready(c))) status = add_block(ctx, c);
     if (status == ISO_OK && c->count == 0 && c->error != 0)
         status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", c->name, strerror(c->error));
+    if (status == ISO_OK && c->count == 0 && !c->ended) /* not even one block could be made */
+        status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", c->name);
     if (status == ISO_OK && c->count > 0) iso_crew_finish(c->crew, &c->ring[c->first]->task);
     return status;
 }

@@ -13,8 +13,8 @@
 #include "io/trajectory_impl.h"
 #include "orbit/scene.h"
 
-/* Rows of a block. A block holds LEAST rows at first, later a quarter of the rows before it, at most MOST: whoever
- * reads the other end of a pipe waits for that many rows at most. */
+/* Rows of a block. A block holds LEAST rows at first, later a quarter of the rows before it, at most MOST.
+ * Whoever reads the other end of a pipe waits for the rows of a few blocks. */
 enum { BLOCKS = 8, LEAST = 32, MOST = 512 };
 
 typedef struct block {

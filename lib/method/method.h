@@ -90,8 +90,8 @@ typedef struct iso_method {
     /* The state at any time t but 0, without steps; NULL: by steps. With it iso_integrator_start calls `start` once,
      * and only a search for events calls `step`. */
     iso_status (*at)(iso_integrator *it, double t, double y[]);
-    /* Writes all that the next step depends on, it->saved bytes (set by `create`); goes back to it, and gives the state
-     * there in y. NULL: the method has a history that cannot be had. See past.c. */
+    /* Writes all that the next step depends on, it->saved bytes (set by `create`); goes back to it, and gives the
+     * state there in y. NULL: the method has a history that cannot be had. See past.c. */
     void (*save)(const iso_integrator *it, void *to);
     void (*recall)(iso_integrator *it, const void *from, double y[]);
     void (*free)(iso_integrator *it);

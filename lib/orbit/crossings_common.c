@@ -85,9 +85,9 @@ static double fastest(const iso_params *p, double eps, int axis)
 }
 
 /* The number of parts in a unit of the variable of the series, so that gamma_a has at most one zero in each. A zero
- * shows by the signs of n_a at the ends of a part. In s, a part of length x is short enough if W x <= pi, by Sturm. In
- * t, let r = ds/dt ~ q^(1+1/(2k)) and Omega = W r. Lyapunov's inequality 4 < (s2 - s1) int W^2 ds between two zeros
- * gives
+ * shows by the signs of n_a at the ends of a part. In s, a part of length x is short enough if W x <= pi, by Sturm.
+ * In t, let r = ds/dt ~ q^(1+1/(2k)) and Omega = W r. Lyapunov's inequality 4 < (s2 - s1) int W^2 ds between two
+ * zeros gives
  *
  *     4 < int r dt int (Omega^2/r) dt <= Omega_max^2 x^2 (rho + 1)^2/(4 rho),    rho = r_max/r_min in the part
  *
@@ -140,8 +140,8 @@ void iso_crossings_point(const iso_params *p, iso_model_kind model, const double
     }
 }
 
-/* By the directions of M and gamma, also of a ball: so both models agree about a start. gamma_a oscillates at the rate
- * of about |M|. So gamma_a'/|M| has the size of gamma_a. */
+/* By the directions of M and gamma, also of a ball: so both models agree about a start. gamma_a oscillates at the
+ * rate of about |M|. So gamma_a'/|M| has the size of gamma_a. */
 bool iso_crossings_on_section(const iso_params *p, iso_model_kind model, const double y[ISO_STATE], int axis,
                               bool *upwards)
 {

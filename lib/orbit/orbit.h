@@ -89,9 +89,9 @@ ISO_API iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
 /* The orbit at `time` of the options' clock, before or after the start. A time gives the same bits in whatever order
  * times are asked. Cheap when times run away from the start. A time passed before is found from an end of a step that
  * is kept (options.memory), in microseconds:
- * - taylor and splittings keep every fourth, and take up to 4 steps again. taylor needs 24 bytes for it, and 8 for each
- *   number of the state and of three clocks: a free ball at 1e-12 takes 300 bytes a turn. Where memory is full, ends lie 8,
- *   16, ... steps apart.
+ * - taylor and splittings keep every fourth, and take up to 4 steps again. taylor needs 24 bytes for it, and 8 for
+ * each   number of the state and of three clocks: a free ball at 1e-12 takes 300 bytes a turn. Where memory is full,
+ * ends lie 8,   16, ... steps apart.
  * - Other methods keep every one, and when memory is full forget the older half. Earlier times, and with bdf all, are
  *   found from the start again.
  * A ball that resistance brings to rest slows down to 1e-290 of its own unit of speed, then stands still. Backwards,
@@ -101,8 +101,8 @@ ISO_API iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
 ISO_API iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
 
 /* Says that the times to come follow each other in even steps. The closed solution then takes less time where steps
- * are short, and its states depend on the times before, by roundings. It is never wrong to say so. Other backends take
- * no notice. */
+ * are short, and its states depend on the times before, by roundings. It is never wrong to say so. Other backends
+ * take no notice. */
 ISO_API void iso_orbit_expect_even_times(iso_orbit *orbit);
 
 /* The first zero of g(sample) after `from`, not after `to`; see iso_integrator_event. direction as there. The sample

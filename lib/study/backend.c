@@ -14,7 +14,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 #include "study/backend_impl.h"
 #include "study/run.h"
@@ -33,7 +32,7 @@ typedef struct choice {
 /* n turns at rate |k omega|, gamma at |M|. */
 static double radians_to(const iso_scene *scene, double time)
 {
-    const double rate = norm(scene->start.y);
+    const double *y = scene->start.y, rate = hypot(hypot(y[0], y[1]), y[2]); /* y^2 may overflow */
     return fabs(time) * rate * (scene->start.model == ISO_BALL ? fabs(scene->params.k) : 1);
 }
 

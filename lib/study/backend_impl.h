@@ -11,8 +11,8 @@ typedef struct iso_questions {
     bool by_steps;   /* the closed solution will not do            */
 } iso_questions;
 
-/* The orbit, as `how` says. ISO_BACKEND_AUTO there is the cheapest backend for the questions. If it has no such orbit,
- * it is what iso_orbit_create takes for ISO_BACKEND_AUTO. Errors: those of iso_orbit_create. */
+/* The orbit, as `how` says. ISO_BACKEND_AUTO there is the cheapest backend for the questions. If it has no such
+ * orbit, it is what iso_orbit_create takes for ISO_BACKEND_AUTO. Errors: those of iso_orbit_create. */
 iso_status iso_backend_open(iso_context *ctx, const iso_scene *scene, const iso_orbit_options *how,
                             const iso_questions *questions, iso_orbit **orbit);
 

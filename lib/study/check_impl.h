@@ -1,5 +1,5 @@
-/* check_impl.h - what a check is made of. check.c is the top and calls the other three, which do not call each other
- * but for check_flow.c -> check_effects.c; all call the notes of check_note.c.
+/* check_impl.h - what a check is made of. check.c is the top and calls the other three. Of these, check_flow.c calls
+ * check_effects.c. All call the notes of check.c.
  *
  *     check.c             rows come in, residuals go out
  *     check_integrals.c   constraints and integrals at each row

@@ -129,8 +129,9 @@ static iso_status give_header(const runner *r)
 
 /* --- times ------------------------------------------------------------------------------------------------------ */
 
-/* The orbit is followed away from its start, and keeps no ends of steps. For a time that lies behind, it begins at the
- * start again. So the order of the work is: times after the start, then those before it; on each side the nearer times come first. */
+/* The orbit is followed away from its start, and keeps no ends of steps. For a time that lies behind, it begins at
+ * the start again. So the order of the work is: times after the start, then those before it; on each side the nearer
+ * times come first. */
 static int by_work(const void *first, const void *second)
 {
     const asked_time *a = first, *b = second;
@@ -234,8 +235,8 @@ static void say_lost(runner *r, int side, double time)
     say(r, ISO_NOTE_LOST, words);
 }
 
-/* The orbit at `time`. If `auto` has taken another model than the start's, the row of the start has the numbers given,
- * not those that went to the other model and back. */
+/* The orbit at `time`. If `auto` has taken another model than the start's, the row of the start has the numbers
+ * given, not those that went to the other model and back. */
 static iso_status follow_to(runner *r, double time, iso_sample *sample)
 {
     const iso_status status = iso_orbit_at(r->orbit, time, sample);
@@ -368,7 +369,7 @@ static iso_status open_orbit(runner *r)
     r->how = orbit_options(r->scene, r->columns, r->count, &r->effects);
     r->how.memory = 0; /* times are put in order */
     r->result->clock = r->how.clock;
-    const iso_questions q = {.rows = r->result->asked, .farthest = r->farthest, .by_steps = r->options.errors};
+    const iso_questions q = {.rows = r->result->asked, .farthest = r->farthest};
     iso_status status = iso_backend_open(r->ctx, r->scene, &r->how, &q, &r->orbit);
     if (status != ISO_OK) return status;
     r->result->backend = r->how.backend = iso_orbit_backend(r->orbit);

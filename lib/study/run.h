@@ -19,8 +19,8 @@ ISO_C_BEGIN
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
-/* The orbit that fills these columns (iso_scene_columns) and computes nothing else. The backend `auto` is the cheapest
- * for the rows and the tolerance of the scene. Errors: those of iso_orbit_create. */
+/* The orbit that fills these columns (iso_scene_columns) and computes nothing else. The backend `auto` is the
+ * cheapest for the rows and the tolerance of the scene. Errors: those of iso_orbit_create. */
 ISO_API iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int columns[], int count,
                                    iso_orbit **orbit);
 

@@ -2,8 +2,8 @@
  *
  *     cmake -S . -B .build/release && cmake --build .build/release -j 2 && .build/release/tests/bench_anytime
  *
- * The ball is the shell k = -1, J = (1.4, 2.1, 3.0), tolerance 1e-12, and is asked for 2000 times up to t = 1000. Each
- * pass does this with the ends of steps kept (iso_orbit_options.memory) and without, one after the other. Passes
+ * The ball is the shell k = -1, J = (1.4, 2.1, 3.0), tolerance 1e-12, and is asked for 2000 times up to t = 1000.
+ * Each pass does this with the ends of steps kept (iso_orbit_options.memory) and without, one after the other. Passes
  * alternate; the table has the medians of their processor times.
  *
  * How to read the output. One row for each way to find the orbit: microseconds for a question without memory and with

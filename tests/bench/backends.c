@@ -2,13 +2,13 @@
  *
  *     cmake -S . -B .build/release && cmake --build .build/release -j 2 && .build/release/tests/bench_backends
  *
- * For each k there are 9 random starts of a ball with J = (1.4, 2.1, 3.0), and 9 with random J up to max J/min J = 10.
- * Each is followed to t = 1000 by method taylor. The reference is taylor_extended by the ball.
+ * For each k there are 9 random starts of a ball with J = (1.4, 2.1, 3.0), and 9 with random J up to max J/min J =
+ * 10. Each is followed to t = 1000 by method taylor. The reference is taylor_extended by the ball.
  *
  * How to read the output. `time` is the processor time of the ball divided by that of the point, to t = 1000, with 1,
- * 1000, 2000 and 10000 rows; n turns by about one radian in a time of 1, and passes of the two alternate. `error` is the largest error of (omega, n) at t = 1000 in
- * units of their size: the medians by the ball and by the point, and the median and the largest of the ratios
- * point/ball, at tolerances 1e-12 and 1e-15.
+ * 1000, 2000 and 10000 rows; n turns by about one radian in a time of 1, and passes of the two alternate. `error` is
+ * the largest error of (omega, n) at t = 1000 in units of their size: the medians by the ball and by the point, and
+ * the median and the largest of the ratios point/ball, at tolerances 1e-12 and 1e-15.
  */
 #include <math.h>
 #include <stdio.h>

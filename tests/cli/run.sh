@@ -257,4 +257,10 @@ scene -0.61 "1e-6, 1, 1" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 100 10 >thin.yaml
 run 4 run thin.yaml --backend point --method adams --tol 1e-12
 check "lost energy is said" grep -q "^isoroll: adams has lost the energy" err
 run 0 run thin.yaml --backend ball --method adams --tol 1e-12
+# far rows: --verbose tells the error of the rows that are written, and changes none
+run 0 run scene.yaml --t-end 10000 --step 1000
+cp out far.csv
+check "few and far rows come from the closed solution" grep -q "^# backend: exact" far.csv
+run 0 run scene.yaml --t-end 10000 --step 1000 --verbose
+check "--verbose changes no row" cmp out far.csv
 finish

@@ -1,4 +1,5 @@
-/* test_past.c - a time gives the same bits in whatever order times are asked, and costs little if it was passed before. */
+/* test_past.c - a time gives the same bits in whatever order times are asked, and costs little if it was passed
+ * before. */
 #include <string.h>
 
 #include "length.h"
@@ -125,7 +126,8 @@ static void effects_in_any_order(const effects_case *c, laws_worst *worst)
 
 /* --- what it costs ---------------------------------------------------------------------------------------------- */
 
-/* A time passed before takes up to four steps of taylor, and where memory is short, as many as two places lie apart. */
+/* A time passed before takes up to four steps of taylor, and where memory is short, as many as two places lie apart.
+ * */
 static void check_work(size_t memory, long most)
 {
     const orbit o = orbit_sample(ctx, &iso_system_ball, -1, orbit_J, 3);

@@ -1,12 +1,12 @@
-/* crew_impl.h - solves the jobs of lanes_impl.h, LANES side by side in each of CREWS crews. A lane whose job ends takes
- * the next one. The crews go step by step together: their series are computed in turns (expand_together). */
+/* crew_impl.h - solves the jobs of lanes_impl.h, LANES side by side in each of CREWS crews. A lane whose job ends
+ * takes the next one. The crews go step by step together: their series are computed in turns (expand_together). */
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
 #include "method/taylor/crossing_impl.h"
 #include "method/taylor/lanes_impl.h"
 
 enum {
-    CREWS = 2,
+    CREWS = CHANNELS > 1 ? 1 : 2, /* the coefficients of two with deviations do not fit the fast memory */
     MOST_PARTS = 4096 /* of a step, in the search for crossings */
 };
 

@@ -9,9 +9,9 @@
  *     point    (dw,n) + (w,dn) = 0,      (w,dw) = f(q) (J n,dn) - (dV,dn),    w = gamma', |w|^2 = F(q) - 2 V, f = F'
  *
  * The square of its length is |dn|^2 + |dw|^2/|w|^2, plus the same of the unit vectors of effects that act. A ball on
- * which a potential acts can come to rest; for it |w|^2 is that of the start plus what the potential can give. Before it
- * is measured, the part along the flow is taken away: d - f (d,f)/(f,f), f the derivative of the state. A deviation
- * that has become long is divided by its length, and the logarithm of this length is kept.
+ * which a potential acts can come to rest; for it |w|^2 is that of the start plus what the potential can give.
+ * Before it is measured, the part along the flow is taken away: d - f (d,f)/(f,f), f the derivative of the state. A
+ * deviation that has become long is divided by its length, and the logarithm of this length is kept.
  */
 #include "method/taylor/restore_impl.h"
 
@@ -191,8 +191,8 @@ static void flow_now(form *T, state *flow)
     T->S.order = order;
 }
 
-/* Takes the change of a loaded ball's energy out of d, where the energy is kept: along w, by a central difference of the
- * energy. Later on the equations keep it out. */
+/* Takes the change of a loaded ball's energy out of d, where the energy is kept: along w, by a central difference of
+ * the energy. Later on the equations keep it out. */
 static void start_on_level(const form *T, state *d)
 {
     for (int lane = 0; lane < LANES; lane++) {

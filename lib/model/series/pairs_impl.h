@@ -1,7 +1,7 @@
 /* pairs_impl.h - coefficients n and n + 1 of a product together.
  *
- * A second-order equation a'' = f(a) gives coefficients n + 2 and n + 3 of a from n and n + 1 of f, which need those up
- * to n + 1 of a. So the sums of two coefficients run side by side: each number that is loaded serves both, and the
+ * A second-order equation a'' = f(a) gives coefficients n + 2 and n + 3 of a from n and n + 1 of f, which need those
+ * up to n + 1 of a. So the sums of two coefficients run side by side: each number that is loaded serves both, and the
  * processor adds both at a time. One by one they take 1.2 to 1.5 times as long.
  *
  * Of (a b)_(n+1) a pair has all but the ends a_0 b_(n+1) + a_(n+1) b_0. These are added when they are known.
