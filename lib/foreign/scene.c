@@ -104,7 +104,7 @@ static iso_status set_number(iso_context *ctx, iso_scene *scene, const char *key
         scene->step = x;
     iso_scene_forget_place(scene, "end"); /* of end and step, a wrong one may be due to the other */
     iso_scene_forget_place(scene, "step");
-    return iso_scene_check_times(ctx, scene);
+    return ISO_OK; /* the two together are checked by a run: they are set one after the other */
 }
 
 static iso_status set_columns(iso_context *ctx, iso_scene *scene, const char *value)
