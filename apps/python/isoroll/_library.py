@@ -5,7 +5,6 @@ Only functions with plain arguments are used (lib/foreign/foreign.h); no struct 
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import os
 import signal
@@ -132,29 +131,40 @@ lib = _declare(_load())
 # Python runs the handler that stands there during a call. It notes the signal, and the library stops.
 
 _signals: list = []
+try:  # the same functions without the enums of `signal`, which take longer than a short call
+    from _signal import getsignal as _getsignal, signal as _setsignal
+except ImportError:
+    from signal import getsignal as _getsignal, signal as _setsignal
+_SIGINT = int(signal.SIGINT)
+_MAIN = threading.main_thread().ident
 
 
 @ctypes.CFUNCTYPE(c_bool, c_void_p)
 def _go_on(_unused: object) -> bool:
-    return not _signals or threading.current_thread() is not threading.main_thread()
+    return not _signals or threading.get_ident() != _MAIN
 
 
-@contextlib.contextmanager
-def interruptible() -> Iterator[None]:
+def _note(number: int, frame: Any) -> None:
+    _signals.append((number, frame))
+
+
+class interruptible:
     """Ctrl-C ends a call of the library: it raises what it does elsewhere, KeyboardInterrupt as a rule."""
-    handler = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or not callable(handler):
-        yield
-        return
-    signal.signal(signal.SIGINT, lambda number, frame: _signals.append((number, frame)))
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, handler)
-        if _signals:
-            last = _signals[-1]
-            _signals.clear()
-            handler(*last)
+
+    __slots__ = ("handler",)
+
+    def __enter__(self) -> None:
+        self.handler = _getsignal(_SIGINT) if threading.get_ident() == _MAIN else None
+        if callable(self.handler):
+            _setsignal(_SIGINT, _note)
+
+    def __exit__(self, *_unused: Any) -> None:
+        if callable(self.handler):
+            _setsignal(_SIGINT, self.handler)
+            if _signals:
+                last = _signals[-1]
+                _signals.clear()
+                self.handler(*last)
 
 
 # --- objects of the library, and contexts ----------------------------------------------------------------------------
@@ -197,9 +207,26 @@ class _Context(Owned):
         self._monitor = Monitor(self.pointer)
 
 
+class Notes:
+    """Room for the notes of a call; tell() makes warnings of them."""
+
+    _ROOM = 2048
+
+    def __init__(self) -> None:
+        self.buffer = _thread.notes
+        self.arguments = (self.buffer, self._ROOM)
+
+    def tell(self) -> None:
+        if self.buffer[0] == b"\0":
+            return
+        for line in self.buffer.value.decode("utf-8", "replace").split("\n"):
+            warnings.warn(line, _errors.IsorollWarning, stacklevel=3)
+
+
 class _OfThread(threading.local):
     def __init__(self) -> None:
         self.context = _Context()
+        self.notes = ctypes.create_string_buffer(Notes._ROOM)
 
 
 def check(status: int, context: int) -> None:
@@ -215,15 +242,3 @@ _thread = _OfThread()
 def context() -> int:
     """The context of this thread."""
     return _thread.context.pointer
-
-
-class Notes:
-    """Room for the notes of a call; tell() makes warnings of them."""
-
-    def __init__(self) -> None:
-        self.buffer = ctypes.create_string_buffer(2048)
-        self.arguments = (self.buffer, len(self.buffer))
-
-    def tell(self) -> None:
-        for line in filter(None, self.buffer.value.decode("utf-8", "replace").split("\n")):
-            warnings.warn(line, _errors.IsorollWarning, stacklevel=3)

@@ -18,7 +18,7 @@ _ERRORS = ("ball", "point", "t", "tau", "s")
 
 
 def _times(times: ArrayLike) -> NDArray[np.float64]:
-    return np.ascontiguousarray(times, dtype=np.float64)
+    return np.asarray(times, dtype=np.float64, order="C")
 
 
 class Run(Table):
@@ -99,7 +99,7 @@ class Orbit(Owned):
         shape (3,). The numbers do not depend on the other times, nor on earlier calls.
         """
         asked, notes = _times(times), Notes()
-        array = np.empty(np.shape(times) + (len(self.columns),))
+        array = np.empty(asked.shape + (len(self.columns),))
         with self._lock, interruptible():
             status = lib.iso_foreign_orbit_at(self.pointer, asked.ctypes.data, asked.size, array.ctypes.data,
                                               *notes.arguments)

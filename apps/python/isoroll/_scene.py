@@ -70,6 +70,9 @@ class Scene(Owned):
         self._own(new.value, lib.iso_foreign_scene_free)
         for key, value in changes.items():
             self._set(key, value)
+        numbers = (c_int * _MOST_COLUMNS)()
+        count = lib.iso_foreign_scene_columns(self.pointer, numbers)
+        self._columns = tuple(lib.iso_column_name(c).decode() for c in numbers[:count])
 
     def _set(self, key: str, value: Any) -> None:
         if value is None:
@@ -122,9 +125,7 @@ class Scene(Owned):
     @property
     def columns(self) -> Tuple[str, ...]:
         """The columns that its rows have."""
-        numbers = (c_int * _MOST_COLUMNS)()
-        count = lib.iso_foreign_scene_columns(self.pointer, numbers)
-        return tuple(lib.iso_column_name(c).decode() for c in numbers[:count])
+        return self._columns
 
     def __repr__(self) -> str:
         return f"<isoroll.Scene {self._word('name')}: {self.model}, k = {self.k:g}, J = {self.J.tolist()}>"
