@@ -1,15 +1,25 @@
 /* batch.c - many orbits into one table: the scene's columns alone, in an array of the caller's. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "foreign/foreign_impl.h"
 #include "orbit/batch.h"
+#include "orbit/pool_impl.h"
 
-/* Samples have all columns, so they take more room than the table. They are made for as many orbits at a time as fit
- * in MOST_BYTES, but for at least LEAST_ORBITS, which keep all threads busy. An orbit's numbers do not depend on it. */
-static const size_t MOST_BYTES = (size_t)1 << 29, LEAST_ORBITS = 2048;
+/* Samples have all columns, so they take more room than the table. A thread makes them for a chunk of orbits at a time,
+ * in a buffer that should stay in the cache, then copies the columns that are wanted. Fewer orbits than LEAST would
+ * leave lanes empty. An orbit's numbers do not depend on the chunk. */
+enum { LEAST = 64, MOST = 256, LANES = 8 };
+static const size_t BUFFER = (size_t)1 << 22;
+
+/* The samples of a thread. */
+typedef struct buffer {
+    atomic_flag taken;
+    iso_sample *sample;
+} buffer;
 
 typedef struct work {
     iso_context *ctx;
@@ -21,10 +31,14 @@ typedef struct work {
     iso_batch_orbit *orbit;
     iso_params *params; /* NULL: those of the scenes */
     iso_start *start;   /* likewise                  */
-    iso_sample *sample;
-    iso_status *status; /* of the orbits of one part */
-    size_t part;
+    iso_status *status;
+    double *table;
+    size_t chunk, threads;
+    buffer *buffers; /* one for each thread */
 } work;
+
+/* The status of an orbit that no thread has taken. */
+static const iso_status UNTOUCHED = (iso_status)-1;
 
 static const iso_scene *scene_of(const work *w, size_t i)
 {
@@ -88,10 +102,9 @@ static void choose_options(work *w, int threads, const char *vectors)
 
 static iso_status number_failure(iso_context *ctx, size_t i, iso_status status)
 {
-    char words[512], about[ISO_NAME_SIZE];
-    const char *text = iso_context_message(ctx);
-    strncpy(words, text, sizeof words - 1)[sizeof words - 1] = '\0';
-    strncpy(about, iso_context_about(ctx), sizeof about - 1)[sizeof about - 1] = '\0';
+    char words[1024], about[ISO_NAME_SIZE];
+    snprintf(words, sizeof words, "%s", iso_context_message(ctx));
+    snprintf(about, sizeof about, "%s", iso_context_about(ctx));
     return iso_context_fail(ctx, status, about, "orbit %zu: %s", i, words);
 }
 
@@ -129,67 +142,98 @@ static iso_status make_starts(work *w, const double start[])
 
 static iso_status make_orbits(work *w)
 {
-    const size_t each = (w->rows ? w->rows : 1) * sizeof *w->sample, fits = MOST_BYTES / each;
-    w->part = fits > LEAST_ORBITS ? fits : LEAST_ORBITS;
-    if (w->part > w->count) w->part = w->count;
     w->orbit = calloc(w->count, sizeof *w->orbit);
-    w->status = calloc(w->part, sizeof *w->status);
-    w->sample = malloc(w->part * each);
-    if (!w->orbit || !w->status || !w->sample)
+    w->status = malloc(w->count * sizeof *w->status);
+    if (!w->orbit || !w->status)
         return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", w->count);
     for (size_t i = 0; i < w->count; i++) {
         const iso_scene *s = scene_of(w, i);
         w->orbit[i] = (iso_batch_orbit){w->params ? &w->params[i] : &s->params, w->start ? &w->start[i] : &s->start,
                                         &s->effects};
+        w->status[i] = UNTOUCHED;
     }
     return ISO_OK;
 }
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
-static void take_columns(const work *w, size_t first, size_t count, double table[])
+/* The numbers of a sample stand in the order of the columns. */
+_Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double), "a sample is an array of its columns");
+
+static void take_columns(const work *w, const iso_sample sample[], size_t first, size_t count)
 {
-    double *to = table + first * w->rows * (size_t)w->width;
-    for (size_t i = 0; i < count * w->rows; i++)
-        for (int c = 0; c < w->width; c++) *to++ = iso_sample_column(&w->sample[i], w->columns[c]);
+    const double *from = (const double *)sample;
+    double *to = w->table + first * w->rows * (size_t)w->width;
+    for (size_t i = 0; i < count * w->rows; i++, from += ISO_TRAJECTORY_COLUMNS)
+        for (int c = 0; c < w->width; c++) *to++ = from[w->columns[c]];
 }
 
-/* The library has numbered the orbits of a part from 0: their numbers in the whole stand in the message. */
-static iso_status renumber(const work *w, size_t first, iso_status status)
+/* Rows of orbits that no thread has taken before a stop. */
+static void blank_untouched(const work *w)
 {
-    const char *words = iso_context_message(w->ctx), *reason = strstr(words, ": ");
-    size_t i = 0;
-    while (i < w->part && w->status[i] == ISO_OK) i++;
-    if (first == 0 || i == w->part || strncmp(words, "orbit ", 6) != 0 || !reason) return status;
-    char copy[512];
-    strncpy(copy, reason + 2, sizeof copy - 1)[sizeof copy - 1] = '\0';
-    return iso_context_fail(w->ctx, status, "", "orbit %zu: %s", first + i, copy);
-}
-
-/* An error of all orbits, or a stop, ends the work; that of one orbit does not. */
-static bool ends(const work *w, size_t count, iso_status status)
-{
-    size_t i = 0;
-    while (i < count && w->status[i] == ISO_OK) i++;
-    return status == ISO_STOPPED || status == ISO_NO_MEMORY || (status != ISO_OK && i == count);
-}
-
-static iso_status run_parts(work *w, double table[], int32_t statuses[])
-{
-    iso_status answer = ISO_OK;
-    for (size_t first = 0; first < w->count; first += w->part) {
-        const size_t count = w->count - first < w->part ? w->count - first : w->part;
-        if (answer != ISO_OK && !iso_context_goes_on(w->ctx))
-            return iso_context_fail(w->ctx, ISO_STOPPED, "", "stopped on request");
-        memset(w->status, 0, w->part * sizeof *w->status);
-        const iso_status status =
-            iso_batch_run(w->ctx, w->orbit + first, count, &w->how, w->times, w->rows, w->sample, w->status);
-        if (ends(w, count, status)) return status;
-        if (answer == ISO_OK && status != ISO_OK) answer = renumber(w, first, status);
-        take_columns(w, first, count, table);
-        for (size_t i = 0; statuses && i < count; i++) statuses[first + i] = (int32_t)w->status[i];
+    const size_t each = w->rows * (size_t)w->width;
+    for (size_t i = 0; i < w->count; i++) {
+        if (w->status[i] != UNTOUCHED) continue;
+        w->status[i] = ISO_STOPPED;
+        for (size_t j = 0; j < each; j++) w->table[i * each + j] = NAN;
     }
-    return answer;
+}
+
+/* Notes the first failure of a chunk, whose message begins with the number of the orbit in the chunk. */
+static void note_failure(iso_pool_worker *worker, const work *w, size_t first, size_t count)
+{
+    size_t i = first;
+    while (i < first + count && w->status[i] == ISO_OK) i++;
+    if (i == first + count) return;
+    char copy[1024];
+    const char *words = iso_context_message(worker->ctx), *reason = strstr(words, ": ");
+    snprintf(copy, sizeof copy, "%s", strncmp(words, "orbit ", 6) == 0 && reason ? reason + 2 : words);
+    iso_context_fail(worker->ctx, w->status[i], iso_context_about(worker->ctx), "%s", copy);
+    iso_pool_note(worker, i, w->status[i]);
+}
+
+static buffer *take_buffer(const work *w)
+{
+    size_t i = 0;
+    while (atomic_flag_test_and_set(&w->buffers[i].taken)) i = (i + 1) % w->threads;
+    return &w->buffers[i];
+}
+
+static bool solve_chunk(iso_pool_worker *worker, void *data, size_t first, size_t count)
+{
+    const work *w = data;
+    buffer *b = take_buffer(w);
+    if (!b->sample) b->sample = malloc(w->chunk * w->rows * sizeof *b->sample + 1);
+    const bool memory = b->sample != NULL;
+    iso_status status = ISO_NO_MEMORY;
+    if (memory)
+        status = iso_batch_run(worker->ctx, w->orbit + first, count, &w->how, w->times, w->rows, b->sample,
+                               w->status + first);
+    if (status != ISO_NO_MEMORY) {
+        take_columns(w, b->sample, first, count);
+        if (status != ISO_OK) note_failure(worker, w, first, count);
+    }
+    atomic_flag_clear(&b->taken);
+    return status != ISO_NO_MEMORY;
+}
+
+static iso_status solve_all(work *w, int threads)
+{
+    /* without orbits: only looks at the options and times */
+    iso_status status = iso_batch_run(w->ctx, w->orbit, 0, &w->how, w->times, w->rows, NULL, w->status);
+    if (status != ISO_OK) return status;
+    const size_t fits = BUFFER / ((w->rows + 1) * sizeof(iso_sample));
+    w->chunk = fits < LEAST ? LEAST : fits > MOST ? MOST : fits;
+    w->threads = iso_pool_threads(threads, w->count, LANES);
+    w->how.threads = 1;
+    w->buffers = calloc(w->threads, sizeof *w->buffers);
+    if (!w->buffers) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for a batch");
+    iso_pool pool = {.count = w->count, .chunk = w->chunk, .solve = solve_chunk, .data = w};
+    status = iso_pool_run(w->ctx, &pool, w->threads, w->status);
+    blank_untouched(w);
+    for (size_t i = 0; i < w->threads; i++) free(w->buffers[i].sample);
+    free(w->buffers);
+    return status;
 }
 
 iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const scene[], size_t scenes, size_t count,
@@ -197,7 +241,8 @@ iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const sc
                              size_t rows, int threads, const char *vectors, double table[], int32_t status[])
 {
     ISO_DEFAULT_ARITHMETIC;
-    work w = {.ctx = ctx, .scene = scene, .scenes = scenes, .count = count, .rows = rows, .times = times};
+    work w = {
+        .ctx = ctx, .scene = scene, .scenes = scenes, .count = count, .rows = rows, .times = times, .table = table};
     if (scenes == 0 || (scenes != 1 && scenes != count))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scenes",
                                 "%zu scenes for %zu orbits: give one, or one for each", scenes, count);
@@ -209,11 +254,12 @@ iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const sc
     if (answer == ISO_OK) answer = make_params(&w, k, J);
     if (answer == ISO_OK) answer = make_starts(&w, start);
     if (answer == ISO_OK) answer = make_orbits(&w);
-    if (answer == ISO_OK) answer = run_parts(&w, table, status);
+    if (answer == ISO_OK) answer = solve_all(&w, threads);
+    for (size_t i = 0; status && w.status && i < count; i++)
+        status[i] = w.status[i] == UNTOUCHED ? ISO_OK : (int32_t)w.status[i];
     free(w.params);
     free(w.start);
     free(w.orbit);
     free(w.status);
-    free(w.sample);
     return answer;
 }
