@@ -25,6 +25,8 @@ class Files(Case):
             self.same(again.array, table.array)
             self.assertEqual(again.columns, table.columns)
             self.assertEqual(dict(again.lines), dict(table.lines))
+        with open(self.path("b.csv"), encoding="utf-8") as file:
+            self.assertIn("0x1.", file.read())
         isoroll.write(table, self.path("d.csv"), digits=3)
         self.near(isoroll.read(self.path("d.csv")).n, table.n, 0.5e-3)
 

@@ -177,8 +177,10 @@ class Batches(Case):
         self.same(isoroll.batch(scenes[0], [2, 4], k=k, J=J, start=first, as_="both").array, table.array)
         self.assertEqual(table.gamma.shape, (3, 2, 3))
         self.assertEqual(table.orbit(1)["M"].shape, (2, 3))
-        one = isoroll.batch(scenes[0], [2, 4], J=J[0], k=k)
-        self.assertEqual(one.array.shape, (3, 2, 7))
+        self.same(isoroll.batch(scenes[0], [2, 4], J=J[0], k=k).array,
+                  isoroll.batch([{**scenes[0], "reduced": {"k": k[i], "J": J[0]}} for i in range(3)], [2, 4]).array)
+        self.same(isoroll.batch(scenes[0], [2, 4], J=J).array,
+                  isoroll.batch([{**scenes[0], "reduced": {"k": k[0], "J": J[i]}} for i in range(3)], [2, 4]).array)
 
     def test_points(self):
         scene = example("07_neumann_point")
