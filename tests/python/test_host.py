@@ -85,8 +85,8 @@ class Threads(Case):
         self.assertEqual(wrong, [])
 
     def test_python_goes_on_meanwhile(self):
-        """While another thread is in a call of the library. If the call kept Python's lock, this thread would run only
-        when the library asks whether to go on, ten times a second."""
+        """While another thread is in a call of the library. If the call kept Python's lock, this thread would run
+        only when the library asks whether to go on, ten times a second."""
         done = threading.Event()
         thread = threading.Thread(target=lambda: (isoroll.run(WILD, end=1e5, step=1e4, backend="ball"), done.set()))
         thread.start()

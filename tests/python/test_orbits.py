@@ -26,13 +26,9 @@ class Runs(Case):
                     self.same_files(self.path("command.csv"), self.path("python.csv"))
 
     def test_backends_and_methods(self):
-        for how in ({"backend": "exact"}, {"backend": "point"}, {"method": "cvode", "tolerance": 1e-8},
+        for how in ({"backend": "exact"}, {"backend": "point"}, {"method": "adams", "tolerance": 1e-8},
                     {"method": "rk8pd"}):
-            try:
-                isoroll.Scene(BALL, **how)
-            except isoroll.BadArgument:
-                how = {**how, "method": "adams"}
-            options = [word for key, value in how.items() for word in (f"--{key}".replace("tolerance", "tol"), str(value))]
+            options = [f"--{key}={value}".replace("tolerance", "tol") for key, value in how.items()]
             with self.subTest(**how):
                 self.command("run", BALL, "-o", "command.csv", *options)
                 isoroll.write(isoroll.run(BALL, **how), self.path("python.csv"))
@@ -124,7 +120,8 @@ class Orbits(Case):
     def test_slices_that_are_not_contiguous(self):
         orbit, times = isoroll.orbit(BALL), np.linspace(0, 10, 21)
         self.same(orbit.at(times[::2]).array, orbit.at(times).array[::2])
-        self.same(orbit.at(times.reshape(3, 7).T).array, orbit.at(times).array.reshape(3, 7, 7).transpose(1, 0, 2).copy())
+        wanted = orbit.at(times).array.reshape(3, 7, 7).transpose(1, 0, 2).copy()
+        self.same(orbit.at(times.reshape(3, 7).T).array, wanted)
         self.same(orbit.at(list(range(5))).array, orbit.at(np.arange(5)).array)
 
     def test_energy_and_lines(self):

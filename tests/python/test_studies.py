@@ -90,7 +90,7 @@ class Verdicts(Case):
     def test_refused(self):
         self.refuses(isoroll.BadArgument, "turns is 0", isoroll.chaos, WILD, turns=0)
         self.refuses(isoroll.BadInput, "", isoroll.chaos, example("10_bowl"))
-        self.refuses(isoroll.NotMapped, "", isoroll.chaos, example("11_rubber_and_marble", "scene.yaml"), models="point")
+        self.refuses(isoroll.NotMapped, "", isoroll.chaos, example("11_rubber_and_marble"), models="point")
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ _OBJECT = POINTER(c_void_p)  # where a new object goes
 _NAMES = {"darwin": "libisoroll.0.dylib", "win32": "isoroll.dll"}
 NAME = _NAMES.get(sys.platform, "libisoroll.so.0")
 
-# --- the functions: name, result, arguments --------------------------------------------------------------------------
+# --- the functions: name, result, arguments -------------------------------------------------------------------------
 
 _NOTES = (c_char_p, c_size_t)
 _TABLE = {
@@ -74,7 +74,7 @@ _TABLE = {
     "iso_foreign_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,
 }
 
-# --- finding the library ---------------------------------------------------------------------------------------------
+# --- finding the library --------------------------------------------------------------------------------------------
 
 
 def _candidates() -> Iterator[str]:
@@ -126,7 +126,7 @@ def _declare(library: ctypes.CDLL) -> ctypes.CDLL:
 
 lib = _declare(_load())
 
-# --- Ctrl-C ----------------------------------------------------------------------------------------------------------
+# --- Ctrl-C ---------------------------------------------------------------------------------------------------------
 # While the library computes, Python cannot run its signal handlers. The library asks _go_on ten times a second; in it
 # Python runs the handler that stands there during a call. It notes the signal, and the library stops.
 
@@ -156,6 +156,7 @@ class interruptible:
     def __enter__(self) -> None:
         self.handler = _getsignal(_SIGINT) if threading.get_ident() == _MAIN else None
         if callable(self.handler):
+            _signals.clear()
             _setsignal(_SIGINT, _note)
 
     def __exit__(self, *_unused: Any) -> None:
@@ -167,7 +168,7 @@ class interruptible:
                 self.handler(*last)
 
 
-# --- objects of the library, and contexts ----------------------------------------------------------------------------
+# --- objects of the library, and contexts ---------------------------------------------------------------------------
 
 
 class Owned:

@@ -184,7 +184,7 @@ def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k:
 
     scenes    one scene, or a list of them that agree in columns, backend, tolerance and the model of the start
     times     shape (rows,): away from 0, in one direction
-    k, J      shape (orbits,) and (orbits, 3), or one for all: in place of the scene's. Then the ball is a reduced one.
+    k, J      shape (orbits,) and (orbits, 3), or one for all: in place of the scene's; the ball is then reduced
     start     shape (orbits, 6): omega, n (of a point M, gamma), in place of the scene's
     threads   0: one for each processor
     vectors   "avx512", "avx2", "plain"; None: the widest of this processor

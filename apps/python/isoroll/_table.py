@@ -88,7 +88,7 @@ class Table:
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """A column (...,) or a vector (..., 3) by its name; a view."""
         if not isinstance(name, str):
-            raise TypeError(f"a table is asked for a column by its name, not by {name!r}: table.array has the numbers")
+            raise TypeError(f"a table has columns by their names, not by {name!r}: table.array has the numbers")
         if name in self.columns:
             return self.array[..., self.columns.index(name)]
         parts = VECTORS.get(name, ())
