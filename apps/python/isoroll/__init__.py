@@ -19,7 +19,7 @@ from ._orbit import Batch, Orbit, Run, batch, orbit, run
 from ._scene import Scene
 from ._study import Chaos, Section, Share, chaos, section
 from ._table import Table, trajectory
-from ._version import __version__
+from ._version import __version__ as __version__
 
 #: the version of the library that runs
 library_version: str = _lib.iso_version().decode()

@@ -75,12 +75,11 @@ class LibraryError(ImportError):
 
 
 #: in the order of iso_status; 0 is ISO_OK
-STATUS = (None, BadArgument, BadInput, NotMapped, NumericalFailure, Stopped, FileTrouble, NoMemory, ClosedPipe)
+STATUS = (IsorollError, BadArgument, BadInput, NotMapped, NumericalFailure, Stopped, FileTrouble, NoMemory, ClosedPipe)
 
 
 def make(status: int, message: str, about: str) -> IsorollError:
     """The exception of a status."""
-    kind = STATUS[status] if 0 < status < len(STATUS) else IsorollError
-    error = kind(message)
+    error = STATUS[status if 0 < status < len(STATUS) else 0](message)
     error.about = about
     return error

@@ -12,7 +12,7 @@ import sys
 import threading
 import warnings
 from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_long, c_size_t, c_uint64, c_void_p
-from typing import Any, Iterator, Optional
+from typing import Any, Iterator, List, Optional, Tuple
 
 from . import _errors
 from ._version import __version__
@@ -130,18 +130,20 @@ lib = _declare(_load())
 # While the library computes, Python cannot run its signal handlers. The library asks _go_on ten times a second; in it
 # Python runs the handler that stands there during a call. It notes the signal, and the library stops.
 
-_signals: list = []
+_signals: List[Tuple[int, Any]] = []
 try:  # the same functions without the enums of `signal`, which take longer than a short call
-    from _signal import getsignal as _getsignal, signal as _setsignal
+    from _signal import getsignal as _getsignal, signal as _setsignal  # type: ignore[import]
 except ImportError:
     from signal import getsignal as _getsignal, signal as _setsignal
 _SIGINT = int(signal.SIGINT)
 _MAIN = threading.main_thread().ident
 
 
-@ctypes.CFUNCTYPE(c_bool, c_void_p)
-def _go_on(_unused: object) -> bool:
+def _goes_on(_unused: object) -> bool:
     return not _signals or threading.get_ident() != _MAIN
+
+
+_go_on = ctypes.CFUNCTYPE(c_bool, c_void_p)(_goes_on)
 
 
 def _note(number: int, frame: Any) -> None:
@@ -242,4 +244,4 @@ _thread = _OfThread()
 
 def context() -> int:
     """The context of this thread."""
-    return _thread.context.pointer
+    return _thread.context.pointer or 0

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
 from ._library import Monitor, Notes, Owned, check, context, interruptible, lib
-from ._scene import Scene, SceneLike, as_scene, is_many
+from ._scene import Scene, SceneLike, as_scene, as_scenes
 from ._table import Table, from_record
 
 _ERRORS = ("ball", "point", "t", "tau", "s")
@@ -46,14 +46,13 @@ def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, errors: bool = F
         status = lib.iso_foreign_run(ctx, chosen.pointer, None if asked is None else asked.ctypes.data,
                                      0 if asked is None else asked.size, None if found is None else found.ctypes.data,
                                      byref(new), *notes.arguments)
-    table = from_record(new.value)
-    if status != 0:
-        try:
-            check(status, ctx)
-        except _errors.IsorollError as error:
-            error.partial = table
-            raise
+    try:
+        check(status, ctx)
+    except _errors.IsorollError as error:
+        error.partial = from_record(new.value) if new.value else None
+        raise
     notes.tell()
+    table = from_record(new.value)
     result = Run(table.array, table.columns, table.lines, record=table._record)
     if found is not None:
         result.errors = dict(zip(_ERRORS, found.tolist()))
@@ -113,17 +112,17 @@ class Orbit(Owned):
     @property
     def energy(self) -> float:
         """The energy h of the ball, mass length^2 / time^2."""
-        return self._number(lib.iso_orbit_energy)
+        return float(self._number(lib.iso_orbit_energy))
 
     @property
     def coupling(self) -> float:
         """The coupling eps of the point."""
-        return self._number(lib.iso_orbit_coupling)
+        return float(self._number(lib.iso_orbit_coupling))
 
     @property
     def has_twin(self) -> bool:
         """Whether the orbit has both models."""
-        return self._number(lib.iso_orbit_has_twin)
+        return bool(self._number(lib.iso_orbit_has_twin))
 
     def __repr__(self) -> str:
         return f"<isoroll.Orbit of {self.scene!r}>"
@@ -194,7 +193,7 @@ def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k:
     """
     if on_error not in ("raise", "keep"):
         raise _errors.BadArgument(f"on_error is '{on_error}', it must be 'raise' or 'keep'")
-    chosen = [as_scene(scene, changes) for scene in scenes] if is_many(scenes) else [as_scene(scenes, changes)]
+    chosen = as_scenes(scenes, changes)
     if not chosen:
         raise _errors.BadArgument("there are no scenes")
     count = _count([len(chosen), _orbits_of("k", k, 1), _orbits_of("J", J, 3), _orbits_of("start", start, 6)])

@@ -6,7 +6,7 @@ import json
 import os
 import re
 from ctypes import byref, c_double, c_int, c_void_p
-from typing import Any, Iterable, Mapping, Tuple, Union
+from typing import Any, Iterable, List, Mapping, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,7 +90,8 @@ class Scene(Owned):
         return np.array(values[:count])
 
     def _word(self, key: str) -> str:
-        return lib.iso_foreign_scene_word(self.pointer, key.encode()).decode("utf-8", "replace")
+        word: bytes = lib.iso_foreign_scene_word(self.pointer, key.encode())
+        return word.decode("utf-8", "replace")
 
     @property
     def model(self) -> str:
@@ -138,6 +139,8 @@ def as_scene(source: SceneLike, changes: Mapping[str, Any]) -> Scene:
     return Scene(source, **changes)
 
 
-def is_many(source: Any) -> bool:
-    """Whether it is several scenes."""
-    return isinstance(source, Iterable) and not isinstance(source, (Scene, str, os.PathLike, Mapping))
+def as_scenes(source: Union[SceneLike, Iterable[SceneLike]], changes: Mapping[str, Any]) -> List[Scene]:
+    """One scene, or several."""
+    if isinstance(source, (Scene, str, os.PathLike, Mapping)):
+        return [as_scene(source, changes)]
+    return [as_scene(scene, changes) for scene in source]

@@ -45,6 +45,13 @@ class Section(Table):
     point: Optional[Table] = None
 
 
+def _section(record: c_void_p, point: c_void_p) -> Section:
+    table = from_record(record.value, "section")
+    result = Section(table.array, table.columns, table.lines, kind="section", record=table._record)
+    result.point = from_record(point.value, "section") if point.value else None
+    return result
+
+
 def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: int = 0,
             at: Optional[ArrayLike] = None, axis: Optional[int] = None, event: Optional[Tuple[str, float]] = None,
             models: str = "auto", states: Optional[str] = None, tolerance: Optional[float] = None,
@@ -72,24 +79,19 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
             event[0].encode() if event else None, float(event[1]) if event else 0.0, models.encode(),
             states.encode() if states else None, np.nan if tolerance is None else float(tolerance), threads,
             byref(new), byref(point), *notes.arguments)
-    table, twin = from_record(new.value, "section"), from_record(point.value, "section")
-    result = None
-    if table is not None:
-        result = Section(table.array, table.columns, table.lines, kind="section", record=table._record)
-        result.point = twin
     try:
         check(status, ctx)
     except _errors.IsorollError as error:
-        error.partial = result
+        error.partial = _section(new, point) if new.value else None
         raise
     notes.tell()
-    return result
+    return _section(new, point)
 
 
 class Share(NamedTuple):
     """The orbits spread over the section. share: that of the chaotic ones; low, high: its interval of 95 %."""
 
-    count: int
+    orbits: int
     chaotic: int
     regular: int
     undecided: int
@@ -118,7 +120,7 @@ class Chaos:
         self.verdict = str(self.verdicts[0])
         self.share: Optional[Share] = None
         if "share" in self.lines:
-            numbers = [float(self.lines[key]) for key in Share._fields]
+            numbers = [float(self.lines[key]) for key in ("count", *Share._fields[1:])]
             self.share = Share(*(int(x) for x in numbers[:5]), *numbers[5:])
 
     def __repr__(self) -> str:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import ctypes
 from ctypes import byref, c_char_p, c_double, c_void_p
 from types import MappingProxyType
-from typing import Any, Dict, Iterable, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +18,10 @@ VECTORS = {name: tuple(f"{name}{i}" for i in range(1, 4))
 VECTORS["q"] = ("q0", "q1", "q2", "q3")
 
 
+def _decoded(text: c_char_p) -> str:
+    return (text.value or b"").decode("utf-8", "replace")
+
+
 class Record(Owned):
     """A record of the library. Arrays that view its rows keep it alive; the last one frees it."""
 
@@ -30,9 +33,10 @@ class Record(Owned):
                      for c in range(lib.iso_record_columns(self.pointer)))
 
     def lines(self) -> Mapping[str, str]:
-        key, value, found = c_char_p(), c_char_p(), {}
+        key, value = c_char_p(), c_char_p()
+        found: Dict[str, str] = {}
         while lib.iso_record_line(self.pointer, len(found), byref(key), byref(value)):
-            found[key.value.decode("utf-8", "replace")] = value.value.decode("utf-8", "replace")
+            found[_decoded(key)] = _decoded(value)
         return MappingProxyType(found)
 
     def array(self) -> NDArray[np.float64]:
@@ -63,7 +67,7 @@ class Table:
         self.array = array
         self.columns: Tuple[str, ...] = tuple(columns)
         self.kind = kind
-        self._lines = MappingProxyType(dict(lines or {}))
+        self._lines: Mapping[str, str] = MappingProxyType(dict(lines or {}))
         self._record = record
 
     @property
@@ -137,10 +141,10 @@ class Table:
         return f"<isoroll.Table {self.array.shape}: {', '.join(self.columns)}>"
 
 
-def from_record(pointer: Optional[int], kind: str = "trajectory") -> Optional[Table]:
-    """The table of a new record, which it takes over; None for NULL."""
+def from_record(pointer: Optional[int], kind: str = "trajectory") -> Table:
+    """The table of a new record, which it takes over."""
     if not pointer:
-        return None
+        raise _errors.IsorollError("the library gave no record")
     record = Record(pointer)
     return Table(record.array(), record.columns(), record.lines(), kind=kind, record=record)
 
@@ -155,7 +159,7 @@ def as_record(table: Table) -> Record:
     names = (c_char_p * len(table.columns))(*(name.encode() for name in table.columns))
     new, ctx = c_void_p(), context()
     check(lib.iso_record_create(ctx, len(names), names, byref(new)), ctx)
-    record = Record(new.value)
+    record = Record(new.value or 0)
     for key, value in table.lines.items():
         check(lib.iso_record_set(ctx, record.pointer, key.encode(), value.encode()), ctx)
     check(lib.iso_foreign_record_append(ctx, record.pointer, len(array), array.ctypes.data), ctx)
@@ -176,8 +180,8 @@ def trajectory(columns: Mapping[str, ArrayLike], **lines: Union[str, ArrayLike])
 
     >>> isoroll.convert(isoroll.trajectory({"t": t, "omega": w, "n": n}, k=1, J=[1, 2, 5]), "point")
     """
-    names: list = []
-    parts: list = []
+    names: List[str] = []
+    parts: List[NDArray[np.float64]] = []
     for name, values in columns.items():
         array = np.asarray(values, dtype=np.float64)
         group: Iterable[str] = VECTORS[name] if name in VECTORS and array.ndim == 2 else (name,)
