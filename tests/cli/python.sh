@@ -27,6 +27,10 @@ for file in "$source"/tests/python/test_*.py; do
     [ "$status" -eq 0 ] && [ "${ran:-0}" -gt 0 ] || { fail "$name"; cat err >&2; }
 done
 
+# --- a library that the loader finds by itself
+check "found by its name" env -u ISOROLL_LIBRARY LD_LIBRARY_PATH="$ISO_BUILD" PYTHONPATH="$source/apps/python" \
+    "$python" -c "import isoroll"
+
 # --- the code of its README, in a folder with a scene
 cp "$source/examples/15_two_spheres/scene.yaml" .
 sed -n '/^```python/,/^```$/{/^```/d;p;}' "$source/apps/python/README.md" >readme.py
