@@ -44,6 +44,8 @@ class Errors(Case):
         scene = example("11_rubber_and_marble")
         for call in (isoroll.run, isoroll.orbit):  # with the place of `twist` in the file
             self.refuses(isoroll.NotMapped, f"{scene}:14:10: 'twist' breaks", call, scene, as_="point")
+        self.refuses(isoroll.BadArgument, "zero byte", isoroll.run, BALL + "\0x")
+        self.refuses(isoroll.BadArgument, "zero byte", isoroll.run, BALL, method="taylor\0x")
         with self.assertRaises(TypeError):
             isoroll.run(3)
         with self.assertRaises(TypeError):

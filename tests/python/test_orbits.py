@@ -210,7 +210,9 @@ class Batches(Case):
         refuse("k has shape (2, 2)", k=np.ones((2, 2)))
         refuse("[2, 3] orbits", k=[1, 2], J=np.ones((3, 3)))
         refuse("away from 0", times=[2, 1])
-        refuse("not in [0, 1024]", threads=-1)
+        for bad in (-1, 1025, 2**32 + 1, 1.5, np.nan, "two"):
+            refuse("threads is", threads=bad)
+        self.same(isoroll.batch(WILD, [1.0], threads=np.int64(1)).array, isoroll.batch(WILD, [1.0]).array)
         refuse("no vectors 'x'", vectors="x")
         refuse("backend exact", backend="exact")
         refuse("by method taylor, not 'rk8pd'", method="rk8pd")

@@ -75,7 +75,8 @@ class LibraryError(ImportError):
 
 
 #: in the order of iso_status; 0 is ISO_OK
-STATUS = (IsorollError, BadArgument, BadInput, NotMapped, NumericalFailure, Stopped, FileTrouble, NoMemory, ClosedPipe)
+STATUS = (IsorollError, BadArgument, BadInput, NotMapped, NumericalFailure, Stopped, FileTrouble, NoMemory,
+          ClosedPipe)
 
 
 def make(status: int, message: str, about: str) -> IsorollError:

@@ -9,7 +9,7 @@ from typing import Dict, List, Optional, Sequence, Union
 import numpy as np
 
 from . import _errors
-from ._library import Notes, check, context, interruptible, lib
+from ._library import Notes, check, context, encoded, interruptible, lib, whole
 from ._table import Table, as_record, from_record
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -53,7 +53,7 @@ def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) ->
         columns = ",".join(columns)
     ctx, new, notes = context(), c_void_p(), Notes()
     with interruptible():
-        status = lib.iso_foreign_read(ctx, os.fsencode(name), None if columns is None else columns.encode(),
+        status = lib.iso_foreign_read(ctx, encoded(name), None if columns is None else encoded(columns),
                                       byref(new), *notes.arguments)
     check(status, ctx)
     notes.tell()
@@ -68,12 +68,10 @@ def write(table: Table, path: PathLike, *, digits: Union[int, str] = 17) -> None
     A number that is not finite is refused.
     """
     ctx, record = context(), as_record(table)
-    number = 0 if digits == "hex" else int(digits)
-    if digits != "hex" and not 1 <= number <= 17:
-        raise _errors.BadArgument(f"digits is {digits}, it must be from 1 to 17, or 'hex'")
+    number = 0 if digits == "hex" else whole("digits", digits, 1, 17)
     kind = "section" if table.kind == "section" else "trajectory"
     with interruptible():
-        status = lib.iso_foreign_write(ctx, os.fsencode(path), record.pointer, number, kind.encode())
+        status = lib.iso_foreign_write(ctx, encoded(path), record.pointer, number, kind.encode())
     check(status, ctx)
 
 
@@ -90,7 +88,8 @@ def convert(table: Table, to: str, *, tolerance: float = 1e-14, row_tolerance: f
     """
     ctx, record, new, notes = context(), as_record(table), c_void_p(), Notes()
     with interruptible():
-        status = lib.iso_foreign_convert(ctx, record.pointer, to.encode(), tolerance, row_tolerance, shift_J,
+        status = lib.iso_foreign_convert(ctx, record.pointer, encoded(to), float(tolerance), float(row_tolerance),
+                                         bool(shift_J),
                                          byref(new), *notes.arguments)
     check(status, ctx)
     notes.tell()

@@ -232,6 +232,25 @@ class _OfThread(threading.local):
         self.notes = ctypes.create_string_buffer(Notes._ROOM)
 
 
+def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
+    """A whole number for C, which would take another one for what it has no room for."""
+    try:
+        number = int(value)
+    except (TypeError, ValueError, OverflowError):
+        number = least - 1
+    if number != value or not least <= number <= most:
+        raise _errors.BadArgument(f"{name} is {value}, it must be a whole number from {least} to {most}")
+    return number
+
+
+def encoded(text: Any) -> bytes:
+    """A text or a path for C, which would end it at a zero."""
+    code = os.fsencode(text)
+    if b"\0" in code:
+        raise _errors.BadArgument(f"{text!r} has a zero byte in it")
+    return code
+
+
 def check(status: int, context: int) -> None:
     """Raises what the status means, in the words of the context."""
     if status != 0:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
-from ._library import Monitor, Notes, Owned, check, context, interruptible, lib
+from ._library import Monitor, Notes, Owned, check, context, encoded, interruptible, lib, whole
 from ._scene import Scene, SceneLike, as_scene, as_scenes
 from ._table import Table, from_record
 
@@ -205,7 +205,8 @@ def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k:
     with interruptible():
         status = lib.iso_foreign_batch(ctx, pointers, len(chosen), count,
                                        *(None if a is None else a.ctypes.data for a in arrays), asked.ctypes.data,
-                                       asked.size, threads, None if vectors is None else vectors.encode(),
+                                       asked.size, whole("threads", threads, 0, 1024),
+                                       None if vectors is None else encoded(vectors),
                                        array.ctypes.data, statuses.ctypes.data)
     result = Batch(array, columns, kind="batch")
     result.status = statuses

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _errors
-from ._library import Owned, check, context, lib
+from ._library import Owned, check, context, encoded, lib
 
 SceneLike = Union["Scene", str, "os.PathLike[str]", Mapping[str, Any]]
 
@@ -63,7 +63,7 @@ class Scene(Owned):
             text = source.encode()
             status = lib.iso_foreign_scene_parse(ctx, b"<text>", text, len(text), byref(new))
         elif isinstance(source, (str, os.PathLike)):
-            status = lib.iso_foreign_scene_read(ctx, os.fsencode(source), byref(new))
+            status = lib.iso_foreign_scene_read(ctx, encoded(source), byref(new))
         else:
             raise TypeError(f"a scene is a path, a text, a dict or a Scene, not {type(source).__name__}")
         check(status, ctx)
@@ -82,7 +82,7 @@ class Scene(Owned):
         if not isinstance(value, str):
             value = ",".join(value) if key == "columns" else repr(float(value))
         ctx = context()
-        check(lib.iso_foreign_scene_set(ctx, self.pointer, key.rstrip("_").encode(), value.encode()), ctx)
+        check(lib.iso_foreign_scene_set(ctx, self.pointer, key.rstrip("_").encode(), encoded(value)), ctx)
 
     def _numbers(self, key: str) -> NDArray[np.float64]:
         values = (c_double * 6)()

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
-from ._library import Notes, check, context, interruptible, lib
+from ._library import Notes, check, context, encoded, interruptible, lib, whole
 from ._scene import SceneLike, as_scene
 from ._table import Table, from_record
 
@@ -27,12 +27,6 @@ def _points(at: Optional[ArrayLike]) -> NDArray[np.float64]:
     if points.ndim > 2 or points.shape[-1] != 2:
         raise _errors.BadArgument(f"at has shape {points.shape}, it must be (starts, 2): l, x")
     return points.reshape(-1, 2)
-
-
-def _whole(name: str, value: int, least: int) -> int:
-    if int(value) != value or not least <= value < 2**63:
-        raise _errors.BadArgument(f"{name} is {value}, it must be a whole number from {least} on")
-    return int(value)
 
 
 class Section(Table):
@@ -74,11 +68,11 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
         raise _errors.BadArgument("axis or event, not both")
     with interruptible():
         status = lib.iso_foreign_section(
-            ctx, chosen.pointer, _whole("crossings", crossings, 1), _whole("starts", starts, 0),
-            _whole("seed", seed, 0), points.ctypes.data, len(points), _axis(axis),
-            event[0].encode() if event else None, float(event[1]) if event else 0.0, models.encode(),
-            states.encode() if states else None, np.nan if tolerance is None else float(tolerance), threads,
-            byref(new), byref(point), *notes.arguments)
+            ctx, chosen.pointer, whole("crossings", crossings, 1), whole("starts", starts, 0),
+            whole("seed", seed, 0), points.ctypes.data, len(points), _axis(axis),
+            encoded(event[0]) if event else None, float(event[1]) if event else 0.0, encoded(models),
+            encoded(states) if states else None, np.nan if tolerance is None else float(tolerance),
+            whole("threads", threads, 0, 1024), byref(new), byref(point), *notes.arguments)
     try:
         check(status, ctx)
     except _errors.IsorollError as error:
@@ -137,9 +131,9 @@ def chaos(scene: SceneLike, *, turns: int = 3000, starts: int = 0, seed: int = 0
     chosen, ctx, new, trace, points = as_scene(scene, {}), context(), c_void_p(), (c_void_p * 2)(), _points(at)
     with interruptible():
         status = lib.iso_foreign_chaos(
-            ctx, chosen.pointer, _whole("turns", turns, 1), _whole("starts", starts, 0), _whole("seed", seed, 0),
-            points.ctypes.data, len(points), _axis(axis), models.encode(),
-            np.nan if tolerance is None else float(tolerance), threads, byref(new), trace)
+            ctx, chosen.pointer, whole("turns", turns, 1), whole("starts", starts, 0), whole("seed", seed, 0),
+            points.ctypes.data, len(points), _axis(axis), encoded(models),
+            np.nan if tolerance is None else float(tolerance), whole("threads", threads, 0, 1024), byref(new), trace)
     check(status, ctx)
     traces = {name: from_record(pointer) for name, pointer in zip(("ball", "point"), trace) if pointer}
     return Chaos(from_record(new.value), traces)
