@@ -97,7 +97,8 @@ ISO_API void iso_foreign_orbit_free(iso_foreign_orbit *orbit);
 ISO_API iso_context *iso_foreign_orbit_context(const iso_foreign_orbit *orbit);
 ISO_API const iso_orbit *iso_foreign_orbit_inside(const iso_foreign_orbit *orbit);
 
-/* The rows at these times, in any order: t for a ball's scene, s for a point's. The same numbers as in a run.
+/* The rows at these times, in any order: t for a ball's scene, s for a point's. The numbers are those of a run by the
+ * same backend; if the scene leaves it to auto, it is the one that suits the scene's own times (iso_orbit_backend).
  * Errors: those of iso_orbit_at; ISO_BAD_ARGUMENT about "times" (not finite); ISO_NUMERICAL about "reactions" when
  * contact is lost before one of the times: then there is no row. After an error nothing is known of the table. */
 ISO_API iso_status iso_foreign_orbit_at(iso_foreign_orbit *orbit, const double times[], size_t count, double table[],

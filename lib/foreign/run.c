@@ -80,6 +80,7 @@ struct iso_foreign_orbit {
     iso_scene scene;
     iso_orbit *orbit;
     int columns[ISO_MAX_COLUMNS], count;
+    bool starts_as_given; /* the row at time 0 has the numbers of the start, as in a run by auto */
 };
 
 void iso_foreign_orbit_free(iso_foreign_orbit *o)
@@ -107,6 +108,8 @@ iso_status iso_foreign_orbit_create(iso_context *ctx, const iso_foreign_scene *s
     iso_status status = iso_scene_check_columns(o->ctx, &o->scene);
     if (status == ISO_OK) status = iso_scene_orbit(o->ctx, &o->scene, o->columns, o->count, &o->orbit);
     if (status == ISO_OK) {
+        o->starts_as_given = o->scene.backend == ISO_BACKEND_AUTO && o->scene.start.model == ISO_BALL;
+        o->scene.backend = iso_orbit_backend(o->orbit); /* auto may depend on the rows that are asked for */
         *orbit = o;
         return ISO_OK;
     }
@@ -155,6 +158,8 @@ static iso_status fill_row(iso_foreign_orbit *o, double time, double row[])
     iso_sample sample;
     if (!iso_context_goes_on(o->ctx)) return iso_context_fail(o->ctx, ISO_STOPPED, "", "stopped on request");
     const iso_status status = iso_orbit_at(o->orbit, time, &sample);
+    if (status == ISO_OK && time == 0 && o->starts_as_given && !isnan(sample.ball[0]))
+        memcpy(sample.ball, o->scene.start.y, sizeof sample.ball);
     for (int c = 0; status == ISO_OK && c < o->count; c++) row[c] = iso_sample_column(&sample, o->columns[c]);
     return status;
 }

@@ -98,7 +98,7 @@ class Orbits(Case):
     def test_any_order_equals_a_run(self):
         for scene in SCENES:
             table = isoroll.run(scene, end=10)
-            orbit = isoroll.orbit(scene)
+            orbit = isoroll.orbit(scene, end=10)
             clock = table.array[:, table.columns.index("t" if "t" in table else "s")]
             order = np.random.default_rng(2).permutation(len(clock))
             with self.subTest(scene=scene):
@@ -132,8 +132,18 @@ class Orbits(Case):
         self.assertTrue(orbit.has_twin)
         self.assertFalse(isoroll.orbit(example("11_rubber_and_marble")).has_twin)
         table = orbit.at([1, 2, 3])
-        self.assertEqual(dict(table.lines), dict(isoroll.run(BALL).lines))
-        self.same(isoroll.convert(table, "point").gamma, isoroll.convert(isoroll.run(BALL, [1, 2, 3]), "point").gamma)
+        again = isoroll.run(BALL, [1, 2, 3], backend=orbit.backend)
+        self.assertEqual(dict(table.lines), dict(again.lines))
+        self.same(isoroll.convert(table, "point").gamma, isoroll.convert(again, "point").gamma)
+
+    def test_backends(self):
+        for backend in ("ball", "point", "exact"):
+            orbit = isoroll.orbit(BALL, backend=backend)
+            self.assertEqual(orbit.backend, backend)
+            times = [3.0, 0.0, -1.0, 2.0]
+            self.same(orbit.at(times).array, isoroll.run(BALL, times, backend=backend).array)
+        orbit = isoroll.orbit(BALL)
+        self.same(orbit.at(0).array[1:], orbit.scene.start)  # as given, whatever backend auto takes
 
     def test_times_that_are_none(self):
         orbit = isoroll.orbit(BALL)

@@ -60,6 +60,8 @@ _TABLE = {
     "iso_foreign_orbit_context": (c_void_p, c_void_p),
     "iso_foreign_orbit_inside": (c_void_p, c_void_p),
     "iso_foreign_orbit_at": (c_int, c_void_p, c_void_p, c_size_t, c_void_p) + _NOTES,
+    "iso_orbit_backend": (c_int, c_void_p),
+    "iso_backend_name": (c_char_p, c_int),
     "iso_orbit_energy": (c_double, c_void_p),
     "iso_orbit_coupling": (c_double, c_void_p),
     "iso_orbit_has_twin": (c_bool, c_void_p),

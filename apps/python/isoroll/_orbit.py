@@ -62,14 +62,15 @@ def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, errors: bool = F
 class _OfOrbit(Table):
     """A table of an orbit. Its lines are those of a run; they are made when they are asked for."""
 
-    def __init__(self, array: NDArray[np.float64], scene: Scene) -> None:
-        super().__init__(array, scene.columns)
-        self._scene: Optional[Scene] = scene
+    def __init__(self, array: NDArray[np.float64], orbit: Orbit) -> None:
+        super().__init__(array, orbit.columns)
+        self._scene: Optional[Scene] = orbit.scene
+        self._backend = orbit.backend
 
     @property
     def lines(self) -> Mapping[str, str]:
         if not self._lines and self._scene is not None:
-            self._lines = run(self._scene, [0.0]).lines
+            self._lines = run(self._scene, [0.0], backend=self._backend).lines
         return self._lines
 
     def __getstate__(self) -> Dict[str, Any]:
@@ -95,7 +96,8 @@ class Orbit(Owned):
         """The rows at these times: t of a ball's scene, s of a point's.
 
         times  any shape, any order. Returns a table of shape (*times.shape, columns): for one time table["n"] has
-        shape (3,). The numbers do not depend on the other times, nor on earlier calls.
+        shape (3,). The numbers do not depend on the other times, nor on earlier calls. They are those of a run by
+        the same backend, to the bit.
         """
         asked, notes = _times(times), Notes()
         array = np.empty(asked.shape + (len(self.columns),))
@@ -104,10 +106,16 @@ class Orbit(Owned):
                                               *notes.arguments)
             check(status, self._context)
         notes.tell()
-        return _OfOrbit(array, self.scene)
+        return _OfOrbit(array, self)
 
     def _number(self, function: Any) -> Any:
         return function(lib.iso_foreign_orbit_inside(self.pointer))
+
+    @property
+    def backend(self) -> str:
+        """What finds the orbit: "ball", "point" or "exact"."""
+        name: bytes = lib.iso_backend_name(self._number(lib.iso_orbit_backend))
+        return name.decode()
 
     @property
     def energy(self) -> float:
