@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "batches.h"
+#include "foreign/foreign.h"
 #include "hard.h"
 #include "io/scene_file.h"
 #include "io/trajectory.h"
@@ -178,6 +179,44 @@ static iso_status study(const hard_road *way)
     return status;
 }
 
+/* The calls for other languages: those that hold memory beside what they call. */
+static iso_status call_foreign(const hard_road *way)
+{
+    iso_foreign_scene *scene = NULL;
+    iso_foreign_orbit *one = NULL;
+    iso_record *ball = NULL, *point = NULL, *twin = NULL, *chaos = NULL;
+    char notes[80];
+    double table[4 * 7];
+    (void)way;
+    digits = 0;
+    iso_status status = iso_foreign_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
+    if (status == ISO_OK) status = iso_foreign_run(ctx, scene, NULL, 0, NULL, &ball, notes, sizeof notes);
+    if (status == ISO_OK) status = iso_foreign_convert(ctx, ball, "point", 1e-12, 1e-5, false, &point, notes, 80);
+    if (status == ISO_OK) digits = iso_record_row(point, 4)[2];
+    iso_record_free(point);
+    point = NULL;
+    if (status == ISO_OK) status = iso_foreign_orbit_create(ctx, scene, &one);
+    if (status == ISO_OK) status = iso_foreign_orbit_at(one, (double[]){2, 1, -1}, 3, table, notes, sizeof notes);
+    if (status != ISO_OK && one) /* it has the words */
+        iso_context_fail(ctx, status, "", "%s", iso_context_message(iso_foreign_orbit_context(one)));
+    digits += table[0];
+    if (status == ISO_OK)
+        status = iso_foreign_batch(ctx, (const iso_foreign_scene *[]){scene}, 1, 4, (double[]){1, 2, 3, 4}, NULL,
+                                   NULL, (double[]){1}, 1, 1, NULL, table, NULL);
+    if (status == ISO_OK)
+        status = iso_foreign_section(ctx, scene, 2, 1, 0, NULL, 0, -1, NULL, 0, NULL, NULL, NAN, 1, &point, &twin,
+                                     notes, sizeof notes);
+    if (status == ISO_OK) status = iso_foreign_chaos(ctx, scene, 4, 1, 0, NULL, 0, -1, NULL, NAN, 1, &chaos, NULL);
+    digits = status == ISO_OK ? digits + table[27] + iso_record_row(twin, 3)[6] : 0;
+    iso_record_free(ball);
+    iso_record_free(point);
+    iso_record_free(twin);
+    iso_record_free(chaos);
+    iso_foreign_orbit_free(one);
+    iso_foreign_scene_free(scene);
+    return status;
+}
+
 static iso_status find_frequencies(const hard_road *way)
 {
     static iso_frequencies f;
@@ -310,6 +349,7 @@ int main(void)
     starve("batch, one thread", run_batch, &hard_way[0], 100);
     starve("batch, two threads", run_batch, NULL, 60);
     starve("compare, write, read, convert, check", study, NULL, 150);
+    starve("calls for other languages", call_foreign, NULL, 200);
     starve("frequencies", find_frequencies, &hard_way[0], 60);
     starve("frequencies, estimated", find_frequencies, NULL, 30);
     starve("error", find_error, NULL, 60);

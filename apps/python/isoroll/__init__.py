@@ -1,0 +1,30 @@
+"""isoroll: the rubber Chaplygin ball on a sphere, and its twin, a point on a sphere.
+
+    import isoroll
+    table = isoroll.run("scene.yaml")                 # table.t (rows,), table.omega (rows, 3), table.n (rows, 3)
+    orbit = isoroll.orbit("scene.yaml", as_="both")
+    orbit.at([0, 10, 5]).gamma                        # (3, 3): the point at three times
+    isoroll.write(isoroll.convert(table, "point"), "point.csv")
+
+Numbers are NumPy arrays that view the library's memory, or that the library has filled: none is a copy. Units are the
+scene's, angles are radians, vectors are in the ball's principal axes. A failure raises an IsorollError with the words
+of the library. All functions can be called by several threads at the same time; they compute side by side.
+"""
+
+from ._errors import (BadArgument, BadInput, ClosedPipe, FileTrouble, IsorollError, IsorollWarning, LibraryError,
+                      NoMemory, NotMapped, NumericalFailure, Stopped)
+from ._files import convert, read, write
+from ._library import lib as _lib
+from ._orbit import Batch, Orbit, Run, batch, orbit, run
+from ._scene import Scene
+from ._study import Chaos, Section, Share, chaos, section
+from ._table import Table, trajectory
+from ._version import __version__ as __version__
+
+#: the version of the library that runs
+library_version: str = _lib.iso_version().decode()
+
+__all__ = ["BadArgument", "BadInput", "Batch", "Chaos", "ClosedPipe", "FileTrouble", "IsorollError", "IsorollWarning",
+           "LibraryError", "NoMemory", "NotMapped", "NumericalFailure", "Orbit", "Run", "Scene", "Section", "Share",
+           "Stopped", "Table", "batch", "chaos", "convert", "library_version", "orbit", "read", "run", "section",
+           "trajectory", "write"]

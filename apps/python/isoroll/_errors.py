@@ -1,0 +1,86 @@
+"""Exceptions: one for each status of the library (lib/base/status.h), with the library's words."""
+
+from __future__ import annotations
+
+from typing import Optional
+
+
+class IsorollError(Exception):
+    """A call of the library failed. str() gives its words.
+
+    status   the name of the status in C, such as "ISO_BAD_INPUT"
+    about    the quantity that the failure is about, such as "normal"; "" if there is none
+    partial  what was computed before the failure (a Table), or None
+    """
+
+    status = "ISO_OK"
+    about = ""
+    partial: Optional[object] = None
+
+
+class BadArgument(IsorollError, ValueError):
+    """A call with numbers or names that it does not take."""
+
+    status = "ISO_BAD_ARGUMENT"
+
+
+class BadInput(IsorollError, ValueError):
+    """A scene or a file says something that cannot be."""
+
+    status = "ISO_BAD_INPUT"
+
+
+class NotMapped(IsorollError, ValueError):
+    """Outside of the isomorphism: the other model has no such orbit."""
+
+    status = "ISO_NOT_MAPPED"
+
+
+class NumericalFailure(IsorollError, ArithmeticError):
+    """The integration stopped, or a result is not finite."""
+
+    status = "ISO_NUMERICAL"
+
+
+class Stopped(IsorollError):
+    """Stopped on request."""
+
+    status = "ISO_STOPPED"
+
+
+class FileTrouble(IsorollError, OSError):
+    """A file cannot be opened, read, written or renamed."""
+
+    status = "ISO_FILE_TROUBLE"
+
+
+class NoMemory(IsorollError, MemoryError):
+    """There is no memory."""
+
+    status = "ISO_NO_MEMORY"
+
+
+class ClosedPipe(FileTrouble):
+    """The reader of what is written has gone."""
+
+    status = "ISO_CLOSED_PIPE"
+
+
+class IsorollWarning(UserWarning):
+    """The call went well, but there is something to know: contact is lost, a column is passed over, ..."""
+
+
+class LibraryError(ImportError):
+    """The shared library libisoroll is not found, or is of another version than this package."""
+
+
+#: in the order of iso_status; 0 is ISO_OK
+STATUS = (IsorollError, BadArgument, BadInput, NotMapped, NumericalFailure, Stopped, FileTrouble, NoMemory,
+          ClosedPipe)
+
+
+def make(status: int, message: str, about: str) -> IsorollError:
+    """The exception of a status."""
+    error = STATUS[status if 0 < status < len(STATUS) else 0](message)
+    error.about = about
+    return error

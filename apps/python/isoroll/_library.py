@@ -1,0 +1,268 @@
+"""The shared library: where it is, which functions of it are used, and how a call is made.
+
+Only functions with plain arguments are used (lib/foreign/foreign.h); no struct of C is known here.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import sys
+import threading
+import warnings
+from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_long, c_size_t, c_uint64, c_void_p
+from typing import Any, Iterator, List, Optional, Tuple
+
+from . import _errors
+from ._version import __version__
+
+ABI = 1  # ISO_FOREIGN_ABI of lib/foreign/foreign.h
+_OBJECT = POINTER(c_void_p)  # where a new object goes
+
+_NAMES = {"darwin": "libisoroll.0.dylib", "win32": "isoroll.dll"}
+NAME = _NAMES.get(sys.platform, "libisoroll.so.0")
+
+# --- the functions: name, result, arguments -------------------------------------------------------------------------
+
+_NOTES = (c_char_p, c_size_t)
+_TABLE = {
+    "iso_version": (c_char_p,),
+    "iso_foreign_abi": (c_int,),
+    "iso_context_create": (c_void_p,),
+    "iso_context_free": (None, c_void_p),
+    "iso_context_message": (c_char_p, c_void_p),
+    "iso_context_about": (c_char_p, c_void_p),
+    "iso_foreign_monitor_create": (c_int, c_void_p, c_double, c_void_p, c_void_p, _OBJECT),
+    "iso_foreign_monitor_free": (None, c_void_p),
+    "iso_column_name": (c_char_p, c_int),
+    "iso_verdict_name": (c_char_p, c_int),
+    "iso_record_create": (c_int, c_void_p, c_size_t, POINTER(c_char_p), _OBJECT),
+    "iso_record_free": (None, c_void_p),
+    "iso_record_columns": (c_size_t, c_void_p),
+    "iso_record_rows": (c_size_t, c_void_p),
+    "iso_record_name": (c_char_p, c_void_p, c_size_t),
+    "iso_record_row": (c_void_p, c_void_p, c_size_t),
+    "iso_record_line": (c_bool, c_void_p, c_size_t, POINTER(c_char_p), POINTER(c_char_p)),
+    "iso_record_set": (c_int, c_void_p, c_void_p, c_char_p, c_char_p),
+    "iso_foreign_record_append": (c_int, c_void_p, c_void_p, c_size_t, c_void_p),
+    "iso_foreign_scene_read": (c_int, c_void_p, c_char_p, _OBJECT),
+    "iso_foreign_scene_parse": (c_int, c_void_p, c_char_p, c_char_p, c_size_t, _OBJECT),
+    "iso_foreign_scene_copy": (c_int, c_void_p, c_void_p, _OBJECT),
+    "iso_foreign_scene_free": (None, c_void_p),
+    "iso_foreign_scene_set": (c_int, c_void_p, c_void_p, c_char_p, c_char_p),
+    "iso_foreign_scene_numbers": (c_int, c_void_p, c_char_p, POINTER(c_double)),
+    "iso_foreign_scene_word": (c_char_p, c_void_p, c_char_p),
+    "iso_foreign_scene_columns": (c_int, c_void_p, POINTER(c_int)),
+    "iso_foreign_run": (c_int, c_void_p, c_void_p, c_void_p, c_size_t, c_void_p, _OBJECT) + _NOTES,
+    "iso_foreign_orbit_create": (c_int, c_void_p, c_void_p, _OBJECT),
+    "iso_foreign_orbit_free": (None, c_void_p),
+    "iso_foreign_orbit_context": (c_void_p, c_void_p),
+    "iso_foreign_orbit_inside": (c_void_p, c_void_p),
+    "iso_foreign_orbit_at": (c_int, c_void_p, c_void_p, c_size_t, c_void_p) + _NOTES,
+    "iso_orbit_backend": (c_int, c_void_p),
+    "iso_backend_name": (c_char_p, c_int),
+    "iso_orbit_energy": (c_double, c_void_p),
+    "iso_orbit_coupling": (c_double, c_void_p),
+    "iso_orbit_has_twin": (c_bool, c_void_p),
+    "iso_foreign_batch": (c_int, c_void_p, POINTER(c_void_p), c_size_t, c_size_t, c_void_p, c_void_p, c_void_p,
+                          c_void_p, c_size_t, c_int, c_char_p, c_void_p, c_void_p),
+    "iso_foreign_section": (c_int, c_void_p, c_void_p, c_size_t, c_size_t, c_uint64, c_void_p, c_size_t, c_int,
+                            c_char_p, c_double, c_char_p, c_char_p, c_double, c_int, _OBJECT, _OBJECT) + _NOTES,
+    "iso_foreign_chaos": (c_int, c_void_p, c_void_p, c_long, c_size_t, c_uint64, c_void_p, c_size_t, c_int,
+                          c_char_p, c_double, c_int, _OBJECT, _OBJECT),
+    "iso_foreign_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
+    "iso_foreign_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),
+    "iso_foreign_convert": (c_int, c_void_p, c_void_p, c_char_p, c_double, c_double, c_bool, _OBJECT) + _NOTES,
+}
+
+# --- finding the library --------------------------------------------------------------------------------------------
+
+
+def _candidates() -> Iterator[str]:
+    """Names and paths to try. The loader knows the usual folders, LD_LIBRARY_PATH and ld.so.conf."""
+    yield NAME
+    for prefix in (sys.prefix, "/usr/local", os.path.expanduser("~/.local")):
+        yield os.path.join(prefix, "lib", NAME)
+
+
+def _load() -> ctypes.CDLL:
+    wanted = os.environ.get("ISOROLL_LIBRARY")
+    reasons = []
+    for name in [wanted] if wanted else _candidates():
+        if os.path.isabs(name) and not wanted and not os.path.exists(name):
+            reasons.append(f"{name}: there is no such file")
+            continue
+        try:
+            return ctypes.CDLL(name)
+        except OSError as error:
+            reasons.append(str(error))
+    how = ("ISOROLL_LIBRARY names this file." if wanted else
+           f"Install isoroll (cmake --install, then ldconfig), or set ISOROLL_LIBRARY to the path of {NAME}.")
+    raise _errors.LibraryError(f"the library of isoroll cannot be loaded. {how} Tried: " + "; ".join(reasons))
+
+
+def _declare(library: ctypes.CDLL) -> ctypes.CDLL:
+    """Types of all functions, after a look at the version."""
+    name = library._name
+    try:
+        library.iso_version.restype = c_char_p
+        version = library.iso_version().decode()
+    except AttributeError:
+        raise _errors.LibraryError(f"{name} is not the library of isoroll: it has no function iso_version") from None
+    if version.split(".")[:2] != __version__.split(".")[:2]:
+        raise _errors.LibraryError(f"{name} is isoroll {version}, and this Python package is {__version__}: "
+                                   "install both from one source")
+    for function, types in _TABLE.items():
+        try:
+            entry = getattr(library, function)
+        except AttributeError:
+            raise _errors.LibraryError(f"{name} (isoroll {version}) has no function {function}, which this Python "
+                                       f"package {__version__} needs: install both from one source") from None
+        entry.restype, entry.argtypes = types[0], types[1:]
+    if library.iso_foreign_abi() != ABI:
+        raise _errors.LibraryError(f"{name} has interface {library.iso_foreign_abi()} for other languages, and this "
+                                   f"Python package knows {ABI}: install both from one source")
+    return library
+
+
+lib = _declare(_load())
+
+# --- Ctrl-C ---------------------------------------------------------------------------------------------------------
+# While the library computes, Python cannot run its signal handlers. The library asks _go_on ten times a second; in it
+# Python runs the handler that stands there during a call. It notes the signal, and the library stops.
+
+_signals: List[Tuple[int, Any]] = []
+try:  # the same functions without the enums of `signal`, which take longer than a short call
+    from _signal import getsignal as _getsignal, signal as _setsignal  # type: ignore[import]
+except ImportError:
+    from signal import getsignal as _getsignal, signal as _setsignal
+_SIGINT = int(signal.SIGINT)
+_MAIN = threading.main_thread().ident
+
+
+def _goes_on(_unused: object) -> bool:
+    return not _signals or threading.get_ident() != _MAIN
+
+
+_go_on = ctypes.CFUNCTYPE(c_bool, c_void_p)(_goes_on)
+
+
+def _note(number: int, frame: Any) -> None:
+    _signals.append((number, frame))
+
+
+class interruptible:
+    """Ctrl-C ends a call of the library: it raises what it does elsewhere, KeyboardInterrupt as a rule."""
+
+    __slots__ = ("handler",)
+
+    def __enter__(self) -> None:
+        self.handler = _getsignal(_SIGINT) if threading.get_ident() == _MAIN else None
+        if callable(self.handler):
+            _signals.clear()
+            _setsignal(_SIGINT, _note)
+
+    def __exit__(self, *_unused: Any) -> None:
+        if callable(self.handler):
+            _setsignal(_SIGINT, self.handler)
+            if _signals:
+                last = _signals[-1]
+                _signals.clear()
+                self.handler(*last)
+
+
+# --- objects of the library, and contexts ---------------------------------------------------------------------------
+
+
+class Owned:
+    """An object of the library. It is freed with this one, and so it cannot be copied."""
+
+    _free: Any = None
+    pointer: Optional[int] = None
+
+    def _own(self, pointer: Optional[int], free: Any) -> None:
+        self.pointer, self._free = pointer, free  # the function is kept: at exit this module may go first
+
+    def __del__(self) -> None:
+        if self.pointer:
+            self._free(self.pointer)
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        raise TypeError(f"a {type(self).__name__} of isoroll lives in the library: it cannot be copied or pickled")
+
+
+class Monitor(Owned):
+    """Lets Ctrl-C stop what is done with a context. Its holder frees the context first."""
+
+    def __init__(self, pointer: int) -> None:
+        new = c_void_p()
+        check(lib.iso_foreign_monitor_create(pointer, 0.1, ctypes.cast(_go_on, c_void_p), None, ctypes.byref(new)),
+              pointer)
+        self._own(new.value, lib.iso_foreign_monitor_free)
+
+
+class _Context(Owned):
+    """A context; it goes when its thread ends."""
+
+    def __init__(self) -> None:
+        self._own(lib.iso_context_create(), lib.iso_context_free)
+        if not self.pointer:
+            raise _errors.NoMemory("no memory for a context")
+        self._monitor = Monitor(self.pointer)
+
+
+class Notes:
+    """Room for the notes of a call; tell() makes warnings of them."""
+
+    _ROOM = 2048
+
+    def __init__(self) -> None:
+        self.buffer = _thread.notes
+        self.arguments = (self.buffer, self._ROOM)
+
+    def tell(self) -> None:
+        if self.buffer[0] == b"\0":
+            return
+        for line in self.buffer.value.decode("utf-8", "replace").split("\n"):
+            warnings.warn(line, _errors.IsorollWarning, stacklevel=3)
+
+
+class _OfThread(threading.local):
+    def __init__(self) -> None:
+        self.context = _Context()
+        self.notes = ctypes.create_string_buffer(Notes._ROOM)
+
+
+def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
+    """A whole number for C, which would take another one for what it has no room for."""
+    try:
+        number = int(value)
+    except (TypeError, ValueError, OverflowError):
+        number = least - 1
+    if number != value or not least <= number <= most:
+        raise _errors.BadArgument(f"{name} is {value}, it must be a whole number from {least} to {most}")
+    return number
+
+
+def encoded(text: Any) -> bytes:
+    """A text or a path for C, which would end it at a zero."""
+    code = os.fsencode(text)
+    if b"\0" in code:
+        raise _errors.BadArgument(f"{text!r} has a zero byte in it")
+    return code
+
+
+def check(status: int, context: int) -> None:
+    """Raises what the status means, in the words of the context."""
+    if status != 0:
+        raise _errors.make(status, lib.iso_context_message(context).decode("utf-8", "replace"),
+                           lib.iso_context_about(context).decode("utf-8", "replace"))
+
+
+_thread = _OfThread()
+
+
+def context() -> int:
+    """The context of this thread."""
+    return _thread.context.pointer or 0

@@ -1,0 +1,228 @@
+"""Runs, orbits, batches."""
+
+from __future__ import annotations
+
+import threading
+from ctypes import byref, c_void_p
+from typing import Any, Dict, Iterable, Mapping, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors
+from ._library import Monitor, Notes, Owned, check, context, encoded, interruptible, lib, whole
+from ._scene import Scene, SceneLike, as_scene, as_scenes
+from ._table import Table, from_record
+
+_ERRORS = ("ball", "point", "t", "tau", "s")
+
+
+def _times(times: ArrayLike) -> NDArray[np.float64]:
+    return np.asarray(times, dtype=np.float64, order="C")
+
+
+class Run(Table):
+    """The table of a run. errors: if asked for, the largest relative errors of its rows, by "ball" (omega, n),
+    "point" (M, gamma), "t", "tau", "s"; NaN where the rows do not show them, or where they are not known."""
+
+    errors: Optional[Dict[str, float]] = None
+
+
+def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, errors: bool = False, **changes: Any) -> Run:
+    """The trajectory of a scene: what `isoroll run` writes, to the bit.
+
+    scene    a path, YAML text, a dict or a Scene
+    times    shape (N,), in any order, t of a ball's scene, s of a point's; without it the scene's own grid
+    errors   also find the largest error of the rows; this takes many times as long
+    changes  backend, method, tolerance, end, step, as_, columns: see Scene
+
+    Returns a table of shape (rows, columns). There are fewer rows than times if the ball loses contact: a warning
+    says when. After a failure, error.partial has the rows before it.
+    """
+    chosen, ctx, new, notes = as_scene(scene, changes), context(), c_void_p(), Notes()
+    asked = None if times is None else np.atleast_1d(_times(times)).ravel()
+    found = np.full(5, np.nan) if errors else None
+    with interruptible():
+        status = lib.iso_foreign_run(ctx, chosen.pointer, None if asked is None else asked.ctypes.data,
+                                     0 if asked is None else asked.size, None if found is None else found.ctypes.data,
+                                     byref(new), *notes.arguments)
+    try:
+        check(status, ctx)
+    except _errors.IsorollError as error:
+        error.partial = from_record(new.value) if new.value else None
+        raise
+    notes.tell()
+    table = from_record(new.value)
+    result = Run(table.array, table.columns, table.lines, record=table._record)
+    if found is not None:
+        result.errors = dict(zip(_ERRORS, found.tolist()))
+    return result
+
+
+class _OfOrbit(Table):
+    """A table of an orbit. Its lines are those of a run; they are made when they are asked for."""
+
+    def __init__(self, array: NDArray[np.float64], orbit: Orbit) -> None:
+        super().__init__(array, orbit.columns)
+        self._scene: Optional[Scene] = orbit.scene
+        self._backend = orbit.backend
+
+    @property
+    def lines(self) -> Mapping[str, str]:
+        if not self._lines and self._scene is not None:
+            self._lines = run(self._scene, [0.0], backend=self._backend).lines
+        return self._lines
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**super().__getstate__(), "_scene": None}
+
+
+class Orbit(Owned):
+    """One orbit, which can be asked for any time, in any order. Threads may share it: one call after the other."""
+
+    def __init__(self, scene: SceneLike, **changes: Any) -> None:
+        self.scene = as_scene(scene, changes)
+        new, ctx = c_void_p(), context()
+        with interruptible():
+            status = lib.iso_foreign_orbit_create(ctx, self.scene.pointer, byref(new))
+        check(status, ctx)
+        self._own(new.value, lib.iso_foreign_orbit_free)
+        self._context = lib.iso_foreign_orbit_context(self.pointer)
+        self._monitor = Monitor(self._context)
+        self._lock = threading.Lock()
+        self.columns = self.scene.columns
+
+    def at(self, times: ArrayLike) -> Table:
+        """The rows at these times: t of a ball's scene, s of a point's.
+
+        times  any shape, any order. Returns a table of shape (*times.shape, columns): for one time table["n"] has
+        shape (3,). The numbers do not depend on the other times, nor on earlier calls. They are those of a run by
+        the same backend, to the bit.
+        """
+        asked, notes = _times(times), Notes()
+        array = np.empty(asked.shape + (len(self.columns),))
+        with self._lock, interruptible():
+            status = lib.iso_foreign_orbit_at(self.pointer, asked.ctypes.data, asked.size, array.ctypes.data,
+                                              *notes.arguments)
+            check(status, self._context)
+        notes.tell()
+        return _OfOrbit(array, self)
+
+    def _number(self, function: Any) -> Any:
+        return function(lib.iso_foreign_orbit_inside(self.pointer))
+
+    @property
+    def backend(self) -> str:
+        """What finds the orbit: "ball", "point" or "exact"."""
+        name: bytes = lib.iso_backend_name(self._number(lib.iso_orbit_backend))
+        return name.decode()
+
+    @property
+    def energy(self) -> float:
+        """The energy h of the ball, mass length^2 / time^2."""
+        return float(self._number(lib.iso_orbit_energy))
+
+    @property
+    def coupling(self) -> float:
+        """The coupling eps of the point."""
+        return float(self._number(lib.iso_orbit_coupling))
+
+    @property
+    def has_twin(self) -> bool:
+        """Whether the orbit has both models."""
+        return bool(self._number(lib.iso_orbit_has_twin))
+
+    def __repr__(self) -> str:
+        return f"<isoroll.Orbit of {self.scene!r}>"
+
+
+def orbit(scene: SceneLike, **changes: Any) -> Orbit:
+    """The orbit of a scene.
+
+    >>> isoroll.orbit("scene.yaml", as_="both").at([0, 10, 5]).gamma        # shape (3, 3)
+    """
+    return Orbit(scene, **changes)
+
+
+class Batch(Table):
+    """The table of a batch: array has shape (orbits, rows, columns); table.n has shape (orbits, rows, 3).
+
+    status   int32, shape (orbits,): 0 for an orbit that went well (lib/base/status.h)
+    failure  the exception of the first orbit that failed, or None
+    """
+
+    status: NDArray[np.int32]
+    failure: Optional[_errors.IsorollError] = None
+
+    def orbit(self, i: int) -> Table:
+        """The rows of one orbit, a view of shape (rows, columns)."""
+        return Table(self.array[i], self.columns)
+
+
+def _count(shapes: Iterable[int]) -> int:
+    counts = {count for count in shapes if count != 1}
+    if len(counts) > 1:
+        raise _errors.BadArgument(f"scenes, k, J and start are of {sorted(counts)} orbits: give one, or one for each")
+    return counts.pop() if counts else 1
+
+
+def _spread(values: Optional[ArrayLike], count: int, width: int) -> Optional[NDArray[np.float64]]:
+    if values is None:
+        return None
+    return np.ascontiguousarray(np.broadcast_to(np.asarray(values, dtype=np.float64).reshape(-1, width),
+                                                (count, width)))
+
+
+def _orbits_of(name: str, values: Optional[ArrayLike], width: int) -> int:
+    if values is None:
+        return 1
+    shape = np.shape(values)
+    right = len(shape) <= 1 if width == 1 else 1 <= len(shape) <= 2 and shape[-1] == width
+    if not right:
+        wanted = "(orbits,)" if width == 1 else f"(orbits, {width})"
+        raise _errors.BadArgument(f"{name} has shape {shape}, it must be {wanted}")
+    return int(np.prod(shape)) // width
+
+
+def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k: Optional[ArrayLike] = None,
+          J: Optional[ArrayLike] = None, start: Optional[ArrayLike] = None, threads: int = 0,
+          vectors: Optional[str] = None, on_error: str = "raise", **changes: Any) -> Batch:
+    """Many orbits at the same times, on all processors, by method taylor in the lanes of vectors.
+
+    scenes    one scene, or a list of them that agree in columns, backend, tolerance and the model of the start
+    times     shape (rows,): away from 0, in one direction
+    k, J      shape (orbits,) and (orbits, 3), or one for all: in place of the scene's; the ball is then reduced
+    start     shape (orbits, 6): omega, n (of a point M, gamma), in place of the scene's
+    threads   0: one for each processor
+    vectors   "avx512", "avx2", "plain"; None: the widest of this processor
+    on_error  "raise"; or "keep": rows that an orbit has not reached are NaN, and batch.status says why
+
+    Returns a table of shape (orbits, rows, columns). An orbit's numbers do not depend on the orbits beside it.
+    """
+    if on_error not in ("raise", "keep"):
+        raise _errors.BadArgument(f"on_error is '{on_error}', it must be 'raise' or 'keep'")
+    chosen = as_scenes(scenes, changes)
+    if not chosen:
+        raise _errors.BadArgument("there are no scenes")
+    count = _count([len(chosen), _orbits_of("k", k, 1), _orbits_of("J", J, 3), _orbits_of("start", start, 6)])
+    asked, columns = np.atleast_1d(_times(times)).ravel(), chosen[0].columns
+    arrays = [_spread(k, count, 1), _spread(J, count, 3), _spread(start, count, 6)]
+    pointers = (c_void_p * len(chosen))(*(scene.pointer for scene in chosen))
+    array, statuses = np.empty((count, asked.size, len(columns))), np.zeros(count, dtype=np.int32)
+    ctx = context()
+    with interruptible():
+        status = lib.iso_foreign_batch(ctx, pointers, len(chosen), count,
+                                       *(None if a is None else a.ctypes.data for a in arrays), asked.ctypes.data,
+                                       asked.size, whole("threads", threads, 0, 1024),
+                                       None if vectors is None else encoded(vectors),
+                                       array.ctypes.data, statuses.ctypes.data)
+    result = Batch(array, columns, kind="batch")
+    result.status = statuses
+    try:
+        check(status, ctx)
+    except _errors.IsorollError as error:
+        if on_error == "raise" or not statuses.any():
+            error.partial = result if statuses.any() else None
+            raise
+        result.failure = error
+    return result

@@ -1,0 +1,139 @@
+"""Studies of all orbits of one energy: sections, chaos."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_void_p
+from typing import Dict, NamedTuple, Optional, Tuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _errors
+from ._library import Notes, check, context, encoded, interruptible, lib, whole
+from ._scene import SceneLike, as_scene
+from ._table import Table, from_record
+
+
+def _axis(axis: Optional[int]) -> int:
+    if axis is None:
+        return -1
+    if axis not in (1, 2, 3):
+        raise _errors.BadArgument(f"axis is {axis}: it must be 1, 2 or 3, or None: the global section")
+    return int(axis) - 1
+
+
+def _points(at: Optional[ArrayLike]) -> NDArray[np.float64]:
+    points = np.ascontiguousarray(np.empty((0, 2)) if at is None else at, dtype=np.float64)
+    if points.ndim > 2 or points.shape[-1] != 2:
+        raise _errors.BadArgument(f"at has shape {points.shape}, it must be (starts, 2): l, x")
+    return points.reshape(-1, 2)
+
+
+class Section(Table):
+    """Crossings, a row each: columns orbit (from 0), crossing (from 1), t, tau, s, l, x, and the states asked for.
+
+    point   the same crossings as the point finds them by itself, with the columns orbit, crossing, t, tau, s, l, x;
+            None unless both models are integrated
+    """
+
+    point: Optional[Table] = None
+
+
+def _section(record: c_void_p, point: c_void_p) -> Section:
+    table = from_record(record.value, "section")
+    result = Section(table.array, table.columns, table.lines, kind="section", record=table._record)
+    result.point = from_record(point.value, "section") if point.value else None
+    return result
+
+
+def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: int = 0,
+            at: Optional[ArrayLike] = None, axis: Optional[int] = None, event: Optional[Tuple[str, float]] = None,
+            models: str = "auto", states: Optional[str] = None, tolerance: Optional[float] = None,
+            threads: int = 0) -> Section:
+    """The Poincare section of a scene: what `isoroll section` writes.
+
+    crossings  of each orbit
+    starts     orbits of the same energy, spread evenly over the section; seed spreads them in another way
+    at         shape (N, 2): (l, x) of further starts
+    axis       1, 2, 3: the section n_axis = 0, increasing; None: the global one
+    event      (column, value) in place of the axis: crossings where the column passes the value upwards
+    models     "ball", "point", "both": those that are integrated, each by itself; "auto": both if the ball has a twin
+    states     "ball", "point", "both": also the states in each row
+
+    l is an angle in (-pi, pi], x is in (-1, 1); both models have the same l and x.
+    """
+    chosen, ctx, new, point, notes = as_scene(scene, {}), context(), c_void_p(), c_void_p(), Notes()
+    points = _points(at)
+    if axis is not None and event is not None:
+        raise _errors.BadArgument("axis or event, not both")
+    with interruptible():
+        status = lib.iso_foreign_section(
+            ctx, chosen.pointer, whole("crossings", crossings, 1), whole("starts", starts, 0),
+            whole("seed", seed, 0), points.ctypes.data, len(points), _axis(axis),
+            encoded(event[0]) if event else None, float(event[1]) if event else 0.0, encoded(models),
+            encoded(states) if states else None, np.nan if tolerance is None else float(tolerance),
+            whole("threads", threads, 0, 1024), byref(new), byref(point), *notes.arguments)
+    try:
+        check(status, ctx)
+    except _errors.IsorollError as error:
+        error.partial = _section(new, point) if new.value else None
+        raise
+    notes.tell()
+    return _section(new, point)
+
+
+class Share(NamedTuple):
+    """The orbits spread over the section. share: that of the chaotic ones; low, high: its interval of 95 %."""
+
+    orbits: int
+    chaotic: int
+    regular: int
+    undecided: int
+    failed: int
+    share: float
+    low: float
+    high: float
+
+
+class Chaos:
+    """Which orbits are chaotic.
+
+    verdict   of the scene's own orbit: "regular", "chaotic" or "undecided"
+    verdicts  of all orbits, shape (orbits,), as words; orbit 0 is the scene's own
+    orbits    a Table with a row for each orbit: orbit, l, x, verdict, disagree, then for each model that was
+              integrated ball_exponent_t, ball_error_t, ball_megno, ball_gali2, ... (lib/foreign/foreign.h)
+    share     a Share, or None without starts
+    trace     {"ball": Table, "point": Table}: the indicators of the scene's own orbit by turns
+    lines     what is known besides: "section", "integral", "failure", ...
+    """
+
+    def __init__(self, orbits: Table, trace: Dict[str, Table]) -> None:
+        self.orbits, self.trace, self.lines = orbits, trace, orbits.lines
+        names = [lib.iso_verdict_name(i).decode() for i in range(4)]
+        self.verdicts = np.array(names)[orbits["verdict"].astype(int)]
+        self.verdict = str(self.verdicts[0])
+        self.share: Optional[Share] = None
+        if "share" in self.lines:
+            numbers = [float(self.lines[key]) for key in ("count", *Share._fields[1:])]
+            self.share = Share(*(int(x) for x in numbers[:5]), *numbers[5:])
+
+    def __repr__(self) -> str:
+        return f"<isoroll.Chaos: {self.verdict}, {len(self.orbits)} orbits, {self.share}>"
+
+
+def chaos(scene: SceneLike, *, turns: int = 3000, starts: int = 0, seed: int = 0, at: Optional[ArrayLike] = None,
+          axis: Optional[int] = None, models: str = "auto", tolerance: Optional[float] = None,
+          threads: int = 0) -> Chaos:
+    """Which orbits are chaotic: exponents, MEGNO, GALI_2 and a verdict, as `isoroll chaos`. Arguments: see section.
+
+    turns  at most, of each orbit. Exponents are per unit of t, tau and s.
+    """
+    chosen, ctx, new, trace, points = as_scene(scene, {}), context(), c_void_p(), (c_void_p * 2)(), _points(at)
+    with interruptible():
+        status = lib.iso_foreign_chaos(
+            ctx, chosen.pointer, whole("turns", turns, 1), whole("starts", starts, 0), whole("seed", seed, 0),
+            points.ctypes.data, len(points), _axis(axis), encoded(models),
+            np.nan if tolerance is None else float(tolerance), whole("threads", threads, 0, 1024), byref(new), trace)
+    check(status, ctx)
+    traces = {name: from_record(pointer) for name, pointer in zip(("ball", "point"), trace) if pointer}
+    return Chaos(from_record(new.value), traces)

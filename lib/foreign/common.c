@@ -1,0 +1,129 @@
+/* common.c - what the calls for other languages share: notes, copied headers, words, and the slow monitor. */
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "foreign/foreign_impl.h"
+
+int iso_foreign_abi(void)
+{
+    return ISO_FOREIGN_ABI;
+}
+
+/* --- notes ------------------------------------------------------------------------------------------------------ */
+
+notes iso_notes_begin(char text[], size_t room)
+{
+    if (room > 0) *text = '\0';
+    return (notes){text, room, 0};
+}
+
+static void put(notes *n, const char *words)
+{
+    for (; *words && n->used + 1 < n->room; words++) n->text[n->used++] = *words;
+    if (n->room > 0) n->text[n->used] = '\0';
+}
+
+void iso_notes_add(notes *n, const char *words)
+{
+    if (n->used > 0) put(n, "\n");
+    put(n, words);
+}
+
+/* --- records ---------------------------------------------------------------------------------------------------- */
+
+static iso_status copy_lines(iso_context *ctx, const iso_record *from, iso_record *to)
+{
+    const char *key, *value;
+    iso_status status = ISO_OK;
+    for (size_t i = 0; status == ISO_OK && iso_record_line(from, i, &key, &value); i++)
+        status = iso_record_set(ctx, to, key, value);
+    return status;
+}
+
+iso_status iso_foreign_copy_header(iso_context *ctx, const iso_record *from, iso_record **record)
+{
+    const size_t columns = iso_record_columns(from);
+    const char **names = calloc(columns + 1, sizeof *names);
+    *record = NULL;
+    if (!names) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a record");
+    for (size_t c = 0; c < columns; c++) names[c] = iso_record_name(from, c);
+    iso_status status = iso_record_create(ctx, columns, names, record);
+    free(names);
+    if (status == ISO_OK) iso_record_set_row_tolerance(*record, iso_record_row_tolerance(from));
+    return status == ISO_OK ? copy_lines(ctx, from, *record) : status;
+}
+
+iso_status iso_foreign_record_append(iso_context *ctx, iso_record *record, size_t count, const double rows[])
+{
+    const size_t columns = iso_record_columns(record);
+    iso_status status = ISO_OK;
+    double *row;
+    for (size_t i = 0; status == ISO_OK && i < count; i++) {
+        status = iso_record_append(ctx, record, &row);
+        if (status == ISO_OK && columns > 0) memcpy(row, rows + i * columns, columns * sizeof *row);
+    }
+    return status;
+}
+
+/* --- words ------------------------------------------------------------------------------------------------------ */
+
+iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*name)(int), const char *word,
+                            int *number)
+{
+    char list[200] = "";
+    if (!word) word = "auto";
+    for (*number = 0; name(*number); ++*number) {
+        if (strcmp(name(*number), word) == 0) return ISO_OK;
+        if (*number > 0) strncat(list, ", ", sizeof list - strlen(list) - 1);
+        strncat(list, name(*number), sizeof list - strlen(list) - 1);
+    }
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s is '%s', it must be one of: %s", key, word, list);
+}
+
+iso_status iso_foreign_shown(iso_context *ctx, const char *key, const char *word, iso_shown *shown)
+{
+    int number;
+    const iso_status status = iso_foreign_word(ctx, key, iso_shown_name, word, &number);
+    *shown = (iso_shown)number;
+    return status;
+}
+
+/* --- the monitor ------------------------------------------------------------------------------------------------ */
+
+struct iso_foreign_monitor {
+    bool (*go_on)(void *data);
+    void *data;
+    double seconds, asked;
+};
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static bool ask_sometimes(void *data)
+{
+    iso_foreign_monitor *m = data;
+    const double time = now();
+    if (time - m->asked < m->seconds) return true;
+    m->asked = time;
+    return m->go_on(m->data);
+}
+
+iso_status iso_foreign_monitor_create(iso_context *ctx, double seconds, bool (*go_on)(void *data), void *data,
+                                      iso_foreign_monitor **monitor)
+{
+    iso_foreign_monitor *m = *monitor = malloc(sizeof *m);
+    if (!m) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a monitor");
+    *m = (iso_foreign_monitor){go_on, data, seconds, now()};
+    iso_context_set_monitor(ctx, ask_sometimes, m);
+    return ISO_OK;
+}
+
+void iso_foreign_monitor_free(iso_foreign_monitor *monitor)
+{
+    free(monitor);
+}

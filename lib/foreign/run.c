@@ -1,0 +1,218 @@
+/* run.c - runs whose rows are kept, and orbits that are asked for arrays of times. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arithmetic_impl.h"
+#include "foreign/foreign_impl.h"
+#include "study/run.h"
+
+/* --- runs ------------------------------------------------------------------------------------------------------- */
+
+/* Where the rows go: to a record, or to a table. */
+typedef struct keeper {
+    iso_context *ctx;
+    iso_record *record;
+    double *table;
+    notes notes;
+} keeper;
+
+static iso_status keep_header(void *data, const iso_record *header)
+{
+    keeper *k = data;
+    return k->table ? ISO_OK : iso_foreign_copy_header(k->ctx, header, &k->record);
+}
+
+static iso_status keep_row(void *data, const double row[], size_t count)
+{
+    keeper *k = data;
+    if (!k->table) return iso_foreign_record_append(k->ctx, k->record, 1, row);
+    memcpy(k->table, row, count * sizeof *row);
+    k->table += count;
+    return ISO_OK;
+}
+
+static void keep_note(void *data, iso_run_note note, const char *words)
+{
+    keeper *k = data;
+    (void)note;
+    iso_notes_add(&k->notes, words);
+}
+
+/* The five errors, NaN where the rows do not show them, or one of the reasons is told. */
+static void tell_errors(const iso_run_result *r, double errors[5], notes *n)
+{
+    char words[320];
+    for (int i = 0; i < 5; i++) errors[i] = NAN;
+    if (r->error_status != ISO_OK) {
+        snprintf(words, sizeof words, "error not known: %s", r->error_words);
+        iso_notes_add(n, words);
+        return;
+    }
+    for (int i = 0; i < 2; i++) errors[i] = r->error.state[i].worst;
+    for (int c = 0; c < ISO_CLOCKS; c++) errors[2 + c] = r->error.clock[c].worst;
+}
+
+iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, const double times[], size_t count,
+                           double errors[5], iso_record **record, char text[], size_t room)
+{
+    keeper kept = {.ctx = ctx, .notes = iso_notes_begin(text, room)};
+    const iso_run_sink sink = {.header = keep_header, .row = keep_row, .note = keep_note, .data = &kept};
+    iso_run_options how = iso_run_defaults();
+    iso_run_result result;
+    const double none = 0;
+    how.times = times || count == 0 ? times : &none;
+    how.count = count;
+    how.errors = errors != NULL;
+    iso_status status = iso_run(ctx, &scene->scene, &how, &sink, &result);
+    if (errors) tell_errors(&result, errors, &kept.notes);
+    if (!kept.record) status = iso_foreign_blame(ctx, scene, status);
+    if (status != ISO_OK && result.rows == 0) iso_record_free(kept.record), kept.record = NULL;
+    *record = kept.record;
+    return status;
+}
+
+/* --- orbits ----------------------------------------------------------------------------------------------------- */
+
+struct iso_foreign_orbit {
+    iso_context *ctx;
+    iso_scene scene;
+    iso_orbit *orbit;
+    int columns[ISO_MAX_COLUMNS], count;
+    bool starts_as_given; /* the row at time 0 has the numbers of the start, as in a run by auto */
+};
+
+void iso_foreign_orbit_free(iso_foreign_orbit *o)
+{
+    if (!o) return;
+    iso_orbit_free(o->orbit);
+    iso_context_free(o->ctx);
+    free(o);
+}
+
+static iso_status no_orbit(iso_context *ctx)
+{
+    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
+}
+
+iso_status iso_foreign_orbit_create(iso_context *ctx, const iso_foreign_scene *scene, iso_foreign_orbit **orbit)
+{
+    iso_foreign_orbit *o = calloc(1, sizeof *o);
+    *orbit = NULL;
+    if (!o) return no_orbit(ctx);
+    o->ctx = iso_context_create();
+    if (!o->ctx) return iso_foreign_orbit_free(o), no_orbit(ctx);
+    o->scene = scene->scene;
+    o->count = iso_scene_columns(&o->scene, o->columns);
+    iso_status status = iso_scene_check_columns(o->ctx, &o->scene);
+    if (status == ISO_OK) status = iso_scene_orbit(o->ctx, &o->scene, o->columns, o->count, &o->orbit);
+    if (status == ISO_OK) {
+        o->starts_as_given = o->scene.backend == ISO_BACKEND_AUTO && o->scene.start.model == ISO_BALL;
+        o->scene.backend = iso_orbit_backend(o->orbit); /* auto may depend on the rows that are asked for */
+        *orbit = o;
+        return ISO_OK;
+    }
+    status = iso_foreign_blame(o->ctx, scene, status);
+    iso_context_fail(ctx, status, iso_context_about(o->ctx), "%s", iso_context_message(o->ctx));
+    iso_foreign_orbit_free(o);
+    return status;
+}
+
+iso_context *iso_foreign_orbit_context(const iso_foreign_orbit *o)
+{
+    return o->ctx;
+}
+
+const iso_orbit *iso_foreign_orbit_inside(const iso_foreign_orbit *o)
+{
+    return o->orbit;
+}
+
+/* --- an orbit at many times ------------------------------------------------------------------------------------- */
+
+/* A time asked for, and its row. */
+typedef struct asked {
+    double time;
+    size_t row;
+} asked;
+
+/* The order of the work: first after the start, then before it, on each side the nearer times first. */
+static int by_work(const void *first, const void *second)
+{
+    const asked *a = first, *b = second;
+    if ((a->time < 0) != (b->time < 0)) return a->time < 0 ? 1 : -1;
+    if (a->time != b->time) return fabs(a->time) > fabs(b->time) ? 1 : -1;
+    return (a->row > b->row) - (a->row < b->row);
+}
+
+static bool in_order(const double times[], size_t count)
+{
+    for (size_t i = 1; i < count; i++)
+        if (by_work(&(asked){times[i - 1], i - 1}, &(asked){times[i], i}) > 0) return false;
+    return true;
+}
+
+static iso_status fill_row(iso_foreign_orbit *o, double time, double row[])
+{
+    iso_sample sample;
+    if (!iso_context_goes_on(o->ctx)) return iso_context_fail(o->ctx, ISO_STOPPED, "", "stopped on request");
+    const iso_status status = iso_orbit_at(o->orbit, time, &sample);
+    if (status == ISO_OK && time == 0 && o->starts_as_given && !isnan(sample.ball[0]))
+        memcpy(sample.ball, o->scene.start.y, sizeof sample.ball);
+    for (int c = 0; status == ISO_OK && c < o->count; c++) row[c] = iso_sample_column(&sample, o->columns[c]);
+    return status;
+}
+
+static iso_status fill_sorted(iso_foreign_orbit *o, const double times[], size_t count, double table[])
+{
+    asked *order = malloc(count * sizeof *order);
+    iso_status status = ISO_OK;
+    if (!order) return no_orbit(o->ctx);
+    for (size_t i = 0; i < count; i++) order[i] = (asked){times[i], i};
+    qsort(order, count, sizeof *order, by_work);
+    for (size_t i = 0; status == ISO_OK && i < count; i++)
+        status = fill_row(o, order[i].time, table + order[i].row * (size_t)o->count);
+    free(order);
+    return status;
+}
+
+/* A ball that can lose contact: a run watches it. Where it has lost it there is no row, which is refused. */
+static iso_status fill_watched(iso_foreign_orbit *o, const double times[], size_t count, double table[], notes *n)
+{
+    keeper kept = {.ctx = o->ctx, .table = table, .notes = *n};
+    const iso_run_sink sink = {.header = keep_header, .row = keep_row, .note = keep_note, .data = &kept};
+    iso_run_options how = iso_run_defaults();
+    iso_run_result r;
+    how.times = times;
+    how.count = count;
+    const iso_status status = iso_run(o->ctx, &o->scene, &how, &sink, &r);
+    *n = kept.notes;
+    if (status != ISO_OK) return status;
+    for (size_t i = 0; i < count; i++) {
+        const int side = times[i] < 0;
+        if (r.lost[side] && fabs(times[i]) > fabs(r.lost_at[side]))
+            return iso_context_fail(o->ctx, ISO_NUMERICAL, "reactions",
+                                    "contact is lost at %.17g: at %.17g the ball is not on its support; "
+                                    "'reactions: {two_sided: true}' goes on",
+                                    r.lost_at[side], times[i]);
+    }
+    return ISO_OK;
+}
+
+iso_status iso_foreign_orbit_at(iso_foreign_orbit *o, const double times[], size_t count, double table[], char text[],
+                                size_t room)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    notes n = iso_notes_begin(text, room);
+    iso_status status = ISO_OK;
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(times[i]))
+            return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "times", "time %zu must be finite, not %g", i,
+                                    times[i]);
+    if (count > 0 && iso_effects_watch_contact(&o->scene.effects)) return fill_watched(o, times, count, table, &n);
+    if (!in_order(times, count)) return fill_sorted(o, times, count, table);
+    for (size_t i = 0; status == ISO_OK && i < count; i++)
+        status = fill_row(o, times[i], table + i * (size_t)o->count);
+    return status;
+}

@@ -1,0 +1,283 @@
+/* test_foreign.c - the calls for other languages (foreign/foreign.h): the same numbers as the calls with structs, to
+ * the bit; words, notes, and a stop in the middle. tests/python tries the same calls from Python. */
+#include "foreign/foreign.h"
+
+#include "orbit/batch.h"
+#include "runs.h"
+
+#define FREE REDUCED("0.5") TIME
+enum { ORBITS = 700, WIDTH = 7 };
+
+static char notes[400];
+
+static iso_foreign_scene *made(const char *text)
+{
+    iso_foreign_scene *scene;
+    if (iso_foreign_scene_parse(ctx, "scene", text, strlen(text), &scene) != ISO_OK) scene_stops(text, ctx);
+    return scene;
+}
+
+static bool about(const char *words)
+{
+    return strcmp(iso_context_about(ctx), words) == 0;
+}
+
+static void check_scenes(void)
+{
+    iso_foreign_scene *scene = made(REDUCED("0.5") TIME "output: {columns: [s, n3]}\n"), *copy, *none;
+    const char *const bad[][2] = {{"backend", "x"},  {"method", "x"},   {"tolerance", "2"}, {"end", "nan"},
+                                  {"step", "0"},     {"as", "neither"}, {"columns", "t,t"}, {"columns", "t,,n1"},
+                                  {"columns", "e1"}, {"colour", "red"}};
+    int columns[ISO_MAX_COLUMNS];
+    double x[6];
+    gsl_test(iso_foreign_scene_copy(ctx, scene, &copy) != ISO_OK, "a copy");
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        gsl_test(iso_foreign_scene_set(ctx, scene, bad[i][0], bad[i][1]) != ISO_BAD_ARGUMENT || !about(bad[i][0]),
+                 "%s = %s is refused: %s", bad[i][0], bad[i][1], iso_context_message(ctx));
+    gsl_test(iso_foreign_scene_columns(scene, columns) != 2 ||
+                 strcmp(iso_foreign_scene_word(scene, "method"), "auto"),
+             "the scene is as it was");
+    gsl_test(iso_foreign_scene_set(ctx, scene, "as", "both") != ISO_OK ||
+                 iso_foreign_scene_columns(scene, columns) != 15 || iso_foreign_scene_columns(copy, columns) != 2,
+             "'as' sets the columns, not those of the copy");
+    gsl_test(iso_foreign_scene_set(ctx, scene, "end", "7.5") != ISO_OK ||
+                 iso_foreign_scene_numbers(scene, "end", x) != 1 || x[0] != 7.5,
+             "a number");
+    gsl_test(iso_foreign_scene_numbers(scene, "J", x) != 3 || x[1] != 2.1, "J");
+    gsl_test(iso_foreign_scene_numbers(scene, "eps", x) != 1 || !isnan(x[0]), "a ball has no eps of its own");
+    gsl_test(iso_foreign_scene_numbers(scene, "mood", x) != 0 || iso_foreign_scene_word(scene, "mood"), "no key");
+    gsl_test(iso_foreign_scene_read(ctx, "absent.yaml", &none) != ISO_FILE_TROUBLE || none, "no file");
+    gsl_test(iso_foreign_scene_parse(ctx, "here", "a: 1", 4, &none) != ISO_BAD_INPUT || none ||
+                 strncmp(iso_context_message(ctx), "here:1:1: ", 10) != 0,
+             "no scene: %s", iso_context_message(ctx));
+    iso_foreign_scene_free(scene);
+    iso_foreign_scene_free(copy);
+    iso_foreign_scene_free(NULL);
+}
+
+/* Rows of the scene by iso_foreign_run and by an orbit, times in two orders. */
+static void check_rows(const char *text)
+{
+    iso_foreign_scene *scene = made(text);
+    const iso_scene with_struct = parse(text);
+    kept *wanted = run(&with_struct, NULL, 0);
+    iso_foreign_orbit *orbit = NULL;
+    iso_record *record = NULL;
+    static double times[MOST], table[MOST * ISO_MAX_COLUMNS];
+    gsl_test(iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes) != ISO_OK || *notes, "it runs");
+    const size_t rows = iso_record_rows(record), columns = iso_record_columns(record),
+                 bytes = columns * sizeof *times;
+    int wrong = rows != wanted->rows || columns != wanted->columns;
+    for (size_t i = 0; i < rows; i++) wrong += memcmp(iso_record_row(record, i), wanted->row[i], bytes) != 0;
+    gsl_test(wrong, "%zu rows are those of iso_run", rows);
+    for (size_t i = 0; i < rows; i++) times[(i * 5 + 1) % rows] = iso_scene_time(&with_struct, i);
+    wrong = iso_foreign_orbit_create(ctx, scene, &orbit) != ISO_OK;
+    for (int twice = 0; twice < 2 && !wrong; twice++) {
+        wrong += iso_foreign_orbit_at(orbit, times, rows, table, notes, sizeof notes) != ISO_OK;
+        for (size_t i = 0; i < rows; i++)
+            wrong += memcmp(table + (i * 5 + 1) % rows * columns, wanted->row[i], bytes) != 0;
+    }
+    gsl_test(wrong, "an orbit has them in any order");
+    iso_foreign_orbit_free(orbit);
+    iso_record_free(record);
+    iso_foreign_scene_free(scene);
+    free(wanted);
+}
+
+/* Contact is lost: the words have no room in few bytes, and an orbit refuses what is beyond. */
+static void check_contact(void)
+{
+    iso_foreign_scene *scene =
+        made(OUTSIDE START "time: {end: 50, step: 1}\neffects: {" GRAVITY ", reactions: {}}\n");
+    iso_foreign_orbit *orbit;
+    iso_record *record;
+    double table[200];
+    char few[8] = "xxxxxxx";
+    gsl_test(iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, few, sizeof few - 1) != ISO_OK || few[6] || few[7],
+             "a note that is cut: '%s'", few);
+    gsl_test(iso_record_rows(record) >= 50, "%zu rows to the loss", iso_record_rows(record));
+    iso_record_free(record);
+    gsl_test(iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, NULL, 0) != ISO_OK, "no room for notes");
+    const double lost = iso_record_row(record, iso_record_rows(record) - 1)[0];
+    gsl_test(iso_foreign_orbit_create(ctx, scene, &orbit) != ISO_OK, "an orbit");
+    gsl_test(iso_foreign_orbit_at(orbit, (double[]){lost / 2}, 1, table, NULL, 0) != ISO_OK || table[0] != lost / 2,
+             "before the loss");
+    gsl_test(iso_foreign_orbit_at(orbit, (double[]){0, 2 * lost}, 2, table, NULL, 0) != ISO_NUMERICAL, "after it");
+    iso_foreign_orbit_free(orbit);
+    iso_record_free(record);
+    iso_foreign_scene_free(scene);
+}
+
+/* --- batches ---------------------------------------------------------------------------------------------------- */
+
+static double k[ORBITS], starts[ORBITS][6], table[ORBITS * 2 * WIDTH];
+static int32_t status[ORBITS];
+static const double times[2] = {1, 3};
+
+static void fill(void)
+{
+    for (int i = 0; i < ORBITS; i++) {
+        k[i] = 0.5 + 0.001 * i;
+        const double y[6] = {cos(i), sin(i), 0, 0, 0, 1};
+        memcpy(starts[i], y, sizeof y);
+    }
+}
+
+static void check_batch(const iso_foreign_scene *const *scene)
+{
+    static iso_params params[ORBITS];
+    static iso_start start[ORBITS];
+    static iso_batch_orbit orbit[ORBITS];
+    static iso_sample sample[ORBITS * 2];
+    iso_batch_options o = iso_batch_defaults();
+    for (int i = 0; i < ORBITS; i++) {
+        iso_params_reduced(ctx, k[i], (double[]){1.4, 2.1, 3.0}, &params[i]);
+        iso_start_ball(ctx, starts[i], starts[i] + 3, ISO_SPIN_REFUSE, &start[i]);
+        orbit[i] = (iso_batch_orbit){&params[i], &start[i], NULL};
+    }
+    int wrong = iso_batch_run(ctx, orbit, ORBITS, &o, times, 2, sample, NULL) != ISO_OK;
+    for (int threads = 1; threads <= 3; threads += 2) {
+        memset(table, 0, sizeof table);
+        wrong += ISO_OK !=
+                 iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, threads, NULL, table, status);
+        for (int i = 0; i < 2 * ORBITS; i++) {
+            wrong += table[i * WIDTH] != sample[i].clock[0];
+            wrong += memcmp(table + i * WIDTH + 1, sample[i].ball, 6 * sizeof *table) != 0;
+        }
+        gsl_test(wrong, "%d threads: the numbers of iso_batch_run", threads);
+    }
+}
+
+static bool stop_later(void *data)
+{
+    return --*(int *)data > 0;
+}
+
+/* A stop leaves rows, or not-a-number and a status that says so. */
+static void check_stop(const iso_foreign_scene *const *scene)
+{
+    const double far[2] = {1, 2000};
+    iso_foreign_monitor *monitor;
+    int left = 3, wrong = 0, stopped = 0;
+    gsl_test(iso_foreign_monitor_create(ctx, 0, stop_later, &left, &monitor) != ISO_OK, "a monitor");
+    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) !=
+                 ISO_STOPPED,
+             "a batch stops");
+    for (int i = 0; i < ORBITS; i++) {
+        const bool whole = !isnan(table[(2 * i + 1) * WIDTH]);
+        stopped += status[i] == ISO_STOPPED;
+        wrong += whole ? status[i] != ISO_OK : status[i] != ISO_STOPPED;
+    }
+    gsl_test(wrong || stopped == 0, "%d of %d orbits are stopped, and say so", stopped, ORBITS);
+    iso_context_set_monitor(ctx, NULL, NULL);
+    iso_foreign_monitor_free(monitor);
+}
+
+static void check_failures(const iso_foreign_scene *const *scene)
+{
+    k[611] = 0;
+    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, NULL, times, 2, 0, NULL, table, status) !=
+                     ISO_BAD_INPUT ||
+                 strncmp(iso_context_message(ctx), "orbit 611: ", 11) != 0 || !about("k"),
+             "no ball: %s", iso_context_message(ctx));
+    starts[600][0] = 1e13, starts[600][1] = 0;
+    starts[650][0] = 1e13, starts[650][1] = 0;
+    const double late[2] = {1, 1e4};
+    const iso_status found =
+        iso_foreign_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], late, 2, 0, NULL, table, status);
+    gsl_test((int32_t)found != status[600] || found == ISO_OK ||
+                 strncmp(iso_context_message(ctx), "orbit 600: ", 11) != 0,
+             "no orbit: %s", iso_context_message(ctx));
+    int wrong = 0;
+    for (int i = 0; i < ORBITS; i++) wrong += (status[i] != ISO_OK) != (i == 600 || i == 650);
+    gsl_test(wrong, "the others are there");
+    gsl_test(iso_foreign_batch(ctx, scene, 2, ORBITS, NULL, NULL, NULL, times, 2, 0, NULL, table, NULL) !=
+                 ISO_BAD_ARGUMENT,
+             "two scenes for %d orbits", ORBITS);
+    gsl_test(iso_foreign_batch(ctx, scene, 1, 0, NULL, NULL, NULL, times, 2, 0, NULL, NULL, NULL) != ISO_OK, "none");
+}
+
+/* --- studies and files ------------------------------------------------------------------------------------------ */
+
+static void check_studies(const iso_foreign_scene *scene)
+{
+    const double at[] = {0.5, 0.2};
+    iso_record *record, *point, *trace[2];
+    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, at, 1, -1, NULL, 0, NULL, "both", NAN, 0, &record, &point,
+                                 notes, sizeof notes) != ISO_OK ||
+                 iso_record_rows(record) != 80 || iso_record_rows(point) != 80,
+             "a section of both models");
+    int wrong = 0;
+    for (size_t i = 0; i < 80; i++)
+        for (int c = 0; c < 7; c++)
+            wrong += !(fabs(iso_record_row(record, i)[c] - iso_record_row(point, i)[c]) <= 1e-7);
+    gsl_test(wrong, "has the same crossings");
+    iso_record_free(record);
+    iso_record_free(point);
+    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, NULL, 0, -1, NULL, 0, "x", NULL, NAN, 0, &record, &point,
+                                 notes, sizeof notes) != ISO_BAD_ARGUMENT ||
+                 record || point || !about("models"),
+             "no model");
+    gsl_test(iso_foreign_chaos(ctx, scene, 50, 2, 0, at, 1, -1, NULL, NAN, 0, &record, trace) != ISO_OK ||
+                 iso_record_rows(record) != 4 || iso_record_columns(record) != 33 || !trace[0] || !trace[1] ||
+                 !iso_record_get(record, "share"),
+             "chaos");
+    iso_record_free(record);
+    for (int m = 0; m < 2; m++) iso_record_free(trace[m]);
+    gsl_test(iso_foreign_chaos(ctx, scene, 0, 0, 0, NULL, 0, -1, NULL, NAN, 0, &record, NULL) != ISO_BAD_ARGUMENT ||
+                 record,
+             "no turns");
+}
+
+static void check_files(const iso_foreign_scene *scene)
+{
+    iso_record *ball, *point = NULL, *read = NULL, *back = NULL;
+    double errors[5] = {0};
+    gsl_test(iso_foreign_run(ctx, scene, NULL, 0, errors, &ball, notes, sizeof notes) != ISO_OK ||
+                 !(errors[0] < 1e-10) || !isnan(errors[1]) || !isnan(errors[2]),
+             "errors of a run: %g", errors[0]);
+    gsl_test(iso_foreign_convert(ctx, ball, "point", 1e-14, 1e-5, false, &point, notes, sizeof notes) != ISO_OK,
+             "there");
+    gsl_test(iso_foreign_write(ctx, "foreign.csv", point, 17, "trajectory") != ISO_OK, "written");
+    gsl_test(iso_foreign_read(ctx, "foreign.csv", NULL, &read, notes, sizeof notes) != ISO_OK || *notes, "read");
+    gsl_test(iso_foreign_convert(ctx, read, "ball", 1e-14, 1e-5, false, &back, notes, sizeof notes) != ISO_OK,
+             "back");
+    remove("foreign.csv");
+    int wrong = 0;
+    for (size_t i = 0; i < iso_record_rows(ball); i++)
+        for (int c = 0; c < WIDTH; c++)
+            wrong += !(fabs(iso_record_row(ball, i)[c] - iso_record_row(back, i)[c]) <= 1e-13);
+    gsl_test(wrong, "the same ball");
+    gsl_test(iso_foreign_write(ctx, "foreign.csv", ball, 18, "trajectory") != ISO_BAD_ARGUMENT, "18 digits");
+    gsl_test(iso_foreign_write(ctx, "foreign.csv", ball, 17, "poem") != ISO_BAD_ARGUMENT, "no kind");
+    iso_record_free(read);
+    gsl_test(iso_foreign_read(ctx, "absent.csv", NULL, &read, notes, sizeof notes) != ISO_FILE_TROUBLE || read,
+             "none");
+    iso_record_free(ball);
+    iso_record_free(point);
+    iso_record_free(back);
+}
+
+int main(void)
+{
+    ctx = iso_context_create();
+    if (!ctx) return 1;
+    gsl_test(iso_foreign_abi() != ISO_FOREIGN_ABI, "the interface has its number");
+    check_scenes();
+    check_rows(FREE);
+    check_rows(REDUCED("-1") "time: {end: -3, step: 0.25}\noutput: {as: both}\n");
+    check_rows(POINT TIME "output: {as: ball}\n");
+    check_rows(OUTSIDE START TIME "effects: {" GRAVITY ", attitude: {}, reactions: {two_sided: true}}\n");
+    check_contact();
+    iso_foreign_scene *scene = made(FREE);
+    const iso_foreign_scene *one = scene;
+    fill();
+    check_batch(&one);
+    check_stop(&one);
+    check_failures(&one);
+    check_studies(scene);
+    check_files(scene);
+    iso_foreign_scene_free(scene);
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}

@@ -1,0 +1,220 @@
+"""What the package does to its process: errors, threads, memory, Ctrl-C, and which library it takes."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+
+import numpy as np
+from shared import BALL, WILD, Case, example, starts
+
+import isoroll
+
+PAGE = os.sysconf("SC_PAGE_SIZE")
+
+
+def resident():
+    """Bytes of this process in memory."""
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[1]) * PAGE
+
+
+class Errors(Case):
+    def test_classes(self):
+        names = {kind.status for kind in (isoroll.BadArgument, isoroll.BadInput, isoroll.NotMapped, isoroll.Stopped,
+                                          isoroll.NumericalFailure, isoroll.FileTrouble, isoroll.NoMemory,
+                                          isoroll.ClosedPipe)}
+        with open(os.path.join(os.environ["ISO_SOURCE"], "lib/base/status.h"), encoding="utf-8") as file:
+            known = {line.split("(")[1].split(",")[0] for line in file if line.strip().startswith("X(ISO_")}
+        self.assertEqual(names | {"ISO_OK"}, known)
+        self.assertIsInstance(isoroll.BadInput("x"), (isoroll.IsorollError, ValueError))
+
+    def test_words_of_scenes(self):
+        self.refuses(isoroll.FileTrouble, "absent.yaml", isoroll.run, "absent.yaml")
+        with open(self.path("scene.yaml"), "w", encoding="utf-8") as file:
+            file.write("reduced: {k: 1, J: [1, 2, 5]}\ninitial: {normal: [0, 0, 2], angular_velocity: [1, 0, 0]}\n"
+                       "time: {end: 1}\n")
+        self.refuses(isoroll.BadInput, "scene.yaml:2:19: normal has length 2", isoroll.run, self.path("scene.yaml"))
+        self.refuses(isoroll.BadInput, "<text>:1:1: unknown key 'a'", isoroll.run, "a: 1\n")
+        self.refuses(isoroll.BadInput, "<dict>:1:", isoroll.run, {"reduced": {"k": float("nan"), "J": [1, 2, 5]}})
+        self.refuses(isoroll.BadArgument, "not object", isoroll.run, {"reduced": {"k": object()}})
+        scene = example("11_rubber_and_marble")
+        for call in (isoroll.run, isoroll.orbit):  # with the place of `twist` in the file
+            self.refuses(isoroll.NotMapped, f"{scene}:14:10: 'twist' breaks", call, scene, as_="point")
+        self.refuses(isoroll.BadArgument, "zero byte", isoroll.run, BALL + "\0x")
+        self.refuses(isoroll.BadArgument, "zero byte", isoroll.run, BALL, method="taylor\0x")
+        with self.assertRaises(TypeError):
+            isoroll.run(3)
+        with self.assertRaises(TypeError):
+            isoroll.run(BALL, tol=3)
+
+    def test_words_of_arguments(self):
+        for key, value in (("backend", "x"), ("method", "x"), ("tolerance", 3), ("step", -1), ("end", np.inf),
+                           ("as_", "x"), ("columns", ["t", "x"]), ("columns", ["t", "t"]), ("columns", ["e1"])):
+            self.refuses(isoroll.BadArgument, "", isoroll.run, BALL, about=key.rstrip("_"), **{key: value})
+        self.refuses(isoroll.BadArgument, "1e8 rows", isoroll.run, BALL, end=1e12)
+        self.refuses(isoroll.BadArgument, "there are no times", isoroll.run, BALL, [])
+
+
+class Threads(Case):
+    def test_same_numbers(self):
+        wanted = isoroll.run(WILD, end=50).array
+        table = isoroll.orbit(WILD)
+        times = np.linspace(0, 50, 7)
+        shared = table.at(times).array
+        wrong = []
+
+        def work():
+            for i in range(20):
+                if not np.array_equal(isoroll.run(WILD, end=50).array, wanted):
+                    wrong.append("run")
+                if not np.array_equal(table.at(times[i % 7]).array, shared[i % 7]):
+                    wrong.append("at")
+                try:
+                    isoroll.run(WILD, method=f"absent{threading.get_ident()}")
+                except isoroll.BadArgument as error:
+                    if str(threading.get_ident()) not in str(error):
+                        wrong.append("words")
+
+        threads = [threading.Thread(target=work) for _ in range(6)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(wrong, [])
+
+    def test_python_goes_on_meanwhile(self):
+        """While another thread is in a call of the library. If the call kept Python's lock, this thread would run
+        only when the library asks whether to go on, ten times a second."""
+        done = threading.Event()
+        thread = threading.Thread(target=lambda: (isoroll.run(WILD, end=1e5, step=1e4, backend="ball"), done.set()))
+        thread.start()
+        start, turns = time.monotonic(), 0
+        while not done.wait(0.001):
+            turns += 1
+        thread.join()
+        asked = 10 * (time.monotonic() - start)
+        self.assertGreater(turns, 2 + 3 * asked)
+
+
+class Memory(Case):
+    def grows(self, work, count):
+        """Bytes that `count` calls leave behind."""
+        for i in range(count // 10):
+            work(i)
+        before = resident()
+        for i in range(count):
+            work(i)
+        return resident() - before
+
+    def test_nothing_is_left(self):
+        orbit, first = isoroll.orbit(BALL, as_="both"), starts(4)
+        small = isoroll.run(BALL, end=1)
+
+        def fails(i):
+            try:
+                isoroll.run(BALL, columns=["t", f"x{i}"])
+            except isoroll.BadArgument:
+                pass
+
+        def in_a_thread(i):
+            thread = threading.Thread(target=isoroll.run, args=(BALL, [float(i)]))
+            thread.start()
+            thread.join()
+
+        for name, count, work in (("run", 10000, lambda i: isoroll.run(BALL, end=1).n),
+                                  ("at", 10000, lambda i: orbit.at([0.1, 0.2])),
+                                  ("orbit", 2000, lambda i: isoroll.orbit(BALL).at(0.1)),
+                                  ("convert", 2000, lambda i: isoroll.convert(small, "point")),
+                                  ("batch", 2000, lambda i: isoroll.batch(BALL, [0.1], start=first, threads=1)),
+                                  ("section", 300, lambda i: isoroll.section(BALL, crossings=2, starts=1, threads=1)),
+                                  ("chaos", 300, lambda i: isoroll.chaos(BALL, turns=2, starts=1, threads=1)),
+                                  ("failure", 10000, fails), ("thread", 300, in_a_thread)):
+            with self.subTest(name):
+                self.assertLess(self.grows(work, count), 2 << 20)
+
+
+class CtrlC(Case):
+    LONG = {"end": 1e8, "step": 1e6, "backend": "ball"}
+
+    def press(self, *calls):
+        for call in calls:
+            timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            with self.assertRaises(KeyboardInterrupt):
+                call()
+            timer.join()
+            self.assertEqual(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+
+    def setUp(self):
+        super().setUp()
+        if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+            self.skipTest("SIGINT is ignored here")
+
+    def test_ends_a_call(self):
+        orbit = isoroll.orbit(BALL, backend="ball")
+        self.press(lambda: isoroll.run(BALL, **self.LONG), lambda: orbit.at(1e8),
+                   lambda: isoroll.batch(WILD, [1e7], start=starts(100)),
+                   lambda: isoroll.section(WILD, crossings=10000000))
+        self.same(isoroll.run(BALL).array, isoroll.run(BALL).array)
+        self.same(orbit.at(1.0).array, isoroll.run(BALL, [1.0], backend="ball").array[0])
+
+    def test_a_handler_of_ones_own(self):
+        seen = []
+        old = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
+        try:
+            timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
+            timer.start()
+            self.refuses(isoroll.Stopped, "stopped on request", isoroll.run, BALL, **self.LONG)
+        finally:
+            signal.signal(signal.SIGINT, old)
+        self.assertEqual(seen, [signal.SIGINT])
+
+
+class Library(Case):
+    def python(self, library, code="import isoroll"):
+        """What an own Python says; it takes this library."""
+        return subprocess.run([sys.executable, "-c", code], env={**os.environ, "ISOROLL_LIBRARY": library},
+                              capture_output=True, text=True, check=False)
+
+    def test_version(self):
+        with open(os.path.join(os.environ["ISO_SOURCE"], "lib/base/version.h"), encoding="utf-8") as file:
+            words = [line.split() for line in file if line.startswith("#define ISO_VERSION_")]
+        numbers = ".".join(word[2] for word in words[:3])
+        self.assertEqual((isoroll.__version__, isoroll.library_version), (numbers, numbers))
+
+    def test_not_found(self):
+        said = self.python("/absent/libisoroll.so.0").stderr
+        for words in ("LibraryError", "/absent/libisoroll.so.0", "ISOROLL_LIBRARY"):
+            self.assertIn(words, said)
+
+    def test_default_names(self):
+        environment = {key: value for key, value in os.environ.items() if key != "ISOROLL_LIBRARY"}
+        code = ("import ctypes\ndef load(name):\n    raise OSError(name + ' is not there')\nctypes.CDLL = load\n"
+                "import isoroll")
+        said = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True,
+                              check=False).stderr
+        for words in ("LibraryError", "Install isoroll", "ldconfig", "libisoroll.so.0 is not there"):
+            self.assertIn(words, said)
+
+    def test_other_libraries(self):
+        self.assertIn("is not the library of isoroll", self.python("libm.so.6").stderr)
+        compiler = os.environ.get("CC", "cc")
+        for code, words in (('const char *iso_version(void) { return "9.9.9"; }', "is isoroll 9.9.9"),
+                            (f'const char *iso_version(void) {{ return "{isoroll.__version__}"; }}',
+                             "has no function iso_foreign_abi")):
+            with open(self.path("other.c"), "w", encoding="utf-8") as file:
+                file.write(code)
+            try:
+                subprocess.run([compiler, "-shared", "-fPIC", self.path("other.c"), "-o", self.path("other.so")],
+                               check=True)
+            except OSError:
+                self.skipTest("there is no C compiler")
+            self.assertIn(words, self.python(self.path("other.so")).stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

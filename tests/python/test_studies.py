@@ -1,0 +1,101 @@
+"""Sections and chaos: rows, verdicts and shares are those of the command."""
+
+import json
+import unittest
+
+import numpy as np
+from shared import BALL, WILD, Case, example
+
+import isoroll
+
+
+class Sections(Case):
+    def test_files_of_the_command(self):
+        for options, named in (([], {}), (["--starts", "4", "--seed", "7"], {"starts": 4, "seed": 7}),
+                               (["--axis", "2", "--model", "ball"], {"axis": 2, "models": "ball"}),
+                               (["--at", "0.5,0.2;1,-0.3", "--as", "both"],
+                                {"at": [[0.5, 0.2], [1, -0.3]], "states": "both"}),
+                               (["--event", "omega1=0.1"], {"event": ("omega1", 0.1)})):
+            self.command("section", WILD, "--crossings", "20", "-o", "command.csv", "--quiet", *options)
+            with self.subTest(**named):
+                try:
+                    table = isoroll.section(WILD, crossings=20, **named)
+                except isoroll.IsorollWarning:  # the section of axis 2 is not global
+                    with self.assertWarns(isoroll.IsorollWarning):
+                        table = isoroll.section(WILD, crossings=20, **named)
+                isoroll.write(table, self.path("python.csv"))
+                self.same_files(self.path("command.csv"), self.path("python.csv"))
+
+    def test_both_models(self):
+        table = isoroll.section(BALL, starts=10, crossings=50)
+        self.near(table.x, table.point.x, 1e-9)
+        self.near(table["l"], table.point["l"], 1e-9)
+        self.near(table.t, table.point.t, 1e-8)
+        for column in ("orbit", "crossing"):
+            self.same(table[column], table.point[column])
+        self.assertEqual((table.point.lines["model"], table.kind), ("point", "section"))
+        self.assertIsNone(isoroll.section(BALL, models="ball", crossings=3).point)
+
+    def test_is_on_the_section(self):
+        table = isoroll.section(WILD, crossings=30, states="both")
+        self.near(table["n3"], 0, 1e-12)
+        self.near(table["gamma3"], 0, 1e-12)
+        self.near(table["M3"] / np.linalg.norm(table.M, axis=1), table.x, 1e-12)
+
+    def test_refused(self):
+        refuse = lambda kind, words, **named: self.refuses(kind, words, isoroll.section, WILD, **named)
+        refuse(isoroll.BadArgument, "axis is 4", axis=4)
+        refuse(isoroll.BadArgument, "no column 'foo'", event=("foo", 1))
+        refuse(isoroll.BadArgument, "only once", event=("t", 1))
+        refuse(isoroll.BadArgument, "not both", event=("n3", 0), axis=1)
+        refuse(isoroll.BadArgument, "crossings is 0", crossings=0)
+        refuse(isoroll.BadArgument, "starts is 1.5", starts=1.5)
+        refuse(isoroll.BadArgument, "seed is -1", seed=-1)
+        refuse(isoroll.BadArgument, "", event=("n1", np.nan))
+        refuse(isoroll.BadArgument, "", tolerance=2)
+        refuse(isoroll.BadInput, "", at=[[np.nan, 0]])
+        refuse(isoroll.BadArgument, "shape (3,)", at=[1, 2, 3])
+        refuse(isoroll.BadArgument, "must be one of", models="neither")
+        refuse(isoroll.BadInput, "", at=[[0, 2]])
+        self.refuses(isoroll.BadInput, "", isoroll.section, example("10_bowl"))
+
+
+class Verdicts(Case):
+    def test_are_those_of_the_command(self):
+        for scene in (WILD, BALL):
+            command = json.loads(self.command("chaos", scene, "--starts", "12", "--turns", "1500", "--json"))
+            found = isoroll.chaos(scene, starts=12, turns=1500)
+            with self.subTest(scene=scene):
+                self.assertEqual(found.verdict, command["ball"]["verdict"])
+                self.assertEqual(found.share.chaotic, command["share"]["chaotic_starts"])
+                self.assertEqual(found.share.undecided, command["share"]["undecided_starts"])
+                self.assertEqual((found.share.low, found.share.high),
+                                 (command["share"]["low"], command["share"]["high"]))
+                self.assertEqual(found.orbits["ball_exponent_t"][0], command["ball"]["exponent"]["t"])
+                self.assertEqual(found.orbits["point_megno"][0], command["point"]["megno"])
+                spread = found.verdicts[1:]
+                self.assertEqual(int(np.sum(spread == "chaotic")), found.share.chaotic)
+                self.assertEqual(len(found.orbits), 13)
+
+    def test_k_minus_one_has_no_chaos(self):
+        found = isoroll.chaos(BALL, starts=12, turns=1500)
+        self.assertEqual(found.share.chaotic, 0)
+        self.assertIn("integral", found.lines)
+        self.assertNotIn("integral", isoroll.chaos(WILD, turns=10).lines)
+
+    def test_trace(self):
+        found = isoroll.chaos(WILD, turns=300, models="ball")
+        self.assertEqual(list(found.trace), ["ball"])
+        self.assertEqual(found.trace["ball"].columns, ("turn", "t", "growth", "megno", "mean", "gali2"))
+        self.assertEqual(found.trace["ball"]["turn"][0], 1)
+        self.assertIsNone(found.share)
+        self.assertNotIn("point_megno", found.orbits)
+
+    def test_refused(self):
+        self.refuses(isoroll.BadArgument, "turns is 0", isoroll.chaos, WILD, turns=0)
+        self.refuses(isoroll.BadInput, "", isoroll.chaos, example("10_bowl"))
+        self.refuses(isoroll.NotMapped, "", isoroll.chaos, example("11_rubber_and_marble"), models="point")
+
+
+if __name__ == "__main__":
+    unittest.main()
