@@ -1,19 +1,21 @@
 #!/bin/sh
-# run.sh [--all] - runs the tests, with all their set-up: installs missing packages, builds in .build/.
+# run.sh [--all | --threads | --valgrind] - runs the tests, with all their set-up: installs missing packages, builds in
+# .build/.
 #
 #     sh tests/run.sh         gcc: every test, at short length
 #     sh tests/run.sh --all   gcc: every test, at full length; then clang: the unit tests, at full length; then
 #                             AddressSanitizer and UndefinedBehaviorSanitizer (gcc): every test, at short length
+#     sh tests/run.sh --threads    ThreadSanitizer (gcc): the tests of what runs in threads, at short length
+#     sh tests/run.sh --valgrind   valgrind: quick unit tests of every floor, at short length
 #
 # Warnings are errors. What the lengths are: tests/README.md.
 set -eu
 cd "$(dirname "$0")/.."
-all=
-if [ "${1-}" = --all ]; then
-    all=yes
-    shift
-fi
-[ $# -eq 0 ] || { echo "usage: sh tests/run.sh [--all]" >&2; exit 2; }
+what=
+case ${1-} in
+--all | --threads | --valgrind) what=$1 && shift ;;
+esac
+[ $# -eq 0 ] || { echo "usage: sh tests/run.sh [--all | --threads | --valgrind]" >&2; exit 2; }
 sh .ci/packages.sh tests
 jobs=$(nproc 2>/dev/null || echo 2)
 rounds= # the rounds that were run
@@ -34,12 +36,28 @@ round() {
     rounds="$rounds${rounds:+, }$name ($length)"
 }
 
+threaded='batch|batch_failures|crossings|chaos|sweep|section_run|indicators|hard_machine|sweep_files|section'
+quick='number|version|params|model|integrals|formula|effect_rows|rest|map|reduction|poisson|needs|refusal'
+quick="$quick|two_point|separation|coordinates|orbit|attitude|convert|off_level|analogue"
+quick="$quick|spectrum|scene|trajectory|sweep_file|plot"
 mkdir -p .build
 left_out=
-if [ -z "$all" ]; then
+case $what in
+'')
     round gcc short '' -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release
     left_out="full length, clang, sanitizers (sh tests/run.sh --all)"
-else
+    ;;
+--threads) # not `cost`, which measures time
+    round threads short "-R ^(cli_)?($threaded)\$" -DCMAKE_C_COMPILER=gcc -DISO_SANITIZE=thread
+    left_out="all that has no threads"
+    ;;
+--valgrind)
+    command -v valgrind >/dev/null || { echo "valgrind is not installed" >&2; exit 1; }
+    round valgrind short "-R ^($quick)\$" -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release \
+        "-DCMAKE_CROSSCOMPILING_EMULATOR=valgrind;-q;--error-exitcode=9;--leak-check=full"
+    left_out="tests that take long in valgrind, or need long double (it has 64 bits): study, run"
+    ;;
+--all)
     round gcc full '' -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release
     if command -v clang >/dev/null; then
         round clang full '-L unit' -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Release
@@ -47,5 +65,6 @@ else
         left_out="clang (not installed)"
     fi
     round sanitize short '' -DCMAKE_C_COMPILER=gcc -DCMAKE_BUILD_TYPE=Release -DISO_SANITIZE=ON
-fi
+    ;;
+esac
 echo "=== run: $rounds; left out: ${left_out:-nothing}"

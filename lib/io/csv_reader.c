@@ -14,6 +14,8 @@
 #include "io/trajectory_impl.h"
 #include "orbit/scene.h"
 
+enum { MOST_KEYS = 4096 };
+
 typedef struct csv {
     iso_context *ctx;
     iso_trajectory_reader *r;
@@ -76,6 +78,7 @@ static field trim(char *text, size_t length)
 static iso_status read_key_line(csv *c)
 {
     char *colon = strchr(c->line, ':'), quoted[ISO_QUOTE_SIZE];
+    const char *last_key, *last_value;
     if (!colon) snprintf(c->comment, sizeof c->comment, "%s", c->line + 1);
     if (!colon) return ISO_OK;
     const field key = trim(c->line + 1, (size_t)(colon - c->line - 1)), value = trim(colon + 1, strlen(colon + 1));
@@ -83,6 +86,8 @@ static iso_status read_key_line(csv *c)
     key.text[key.length] = value.text[value.length] = '\0';
     if (iso_record_get(c->r->header, key.text) && c->format.fields == 0)
         return fail(c, key.text, "duplicate key ", iso_text_quote(quoted, key.text, key.length));
+    if (iso_record_line(c->r->header, MOST_KEYS - 1, &last_key, &last_value))
+        return fail(c, key.text, "more than 4096 lines '# key: value': is this a trajectory file?", "");
     return iso_record_set(c->ctx, c->r->header, key.text, value.text);
 }
 

@@ -40,6 +40,10 @@ if "$isoroll" view absent -o - 2>&1 | grep -q "built without three.js"; then
     sed -i "/^isoroll view/d" tasks
     skip "view" "isoroll was built without three.js"
 fi
+if ! has gnuplot "pictures"; then
+    grep -v -e '--plot' tasks >kept
+    mv kept tasks
+fi
 while read -r command; do
     checks=$((checks + 1))
     case $command in isoroll*) run_it="$isoroll ${command#isoroll}" ;; *) run_it=$command ;; esac

@@ -35,8 +35,10 @@ run 0 check --max 1e-9 point.csv
 run 0 check --max 1e-9 --scene "$folder/scene.yaml" "$folder/orbit.txt"
 run 0 convert --to ball --max-defect 1e-4 --k=-1 --J 6,4,2 --eps 0.5 --columns -,s,gamma1,gamma2,gamma3,M1,M2,M3 "$folder/leapfrog.csv" -o ball.csv
 run 0 check --max 1e-3 ball.csv
-run 0 plot --scene "$folder/scene.yaml" "$folder/orbit.txt" -o orbit.svg
-check "a picture" grep -q '</svg>' orbit.svg
+if has gnuplot "a picture"; then
+    run 0 plot --scene "$folder/scene.yaml" "$folder/orbit.txt" -o orbit.svg
+    check "a picture" grep -q '</svg>' orbit.svg
+fi
 refuses 2 "-o FILE is missing" plot "$folder/orbit.txt"
 refuses 2 ".svg, .png or .pdf" plot "$folder/orbit.txt" -o orbit.bmp
 finish

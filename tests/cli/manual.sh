@@ -127,8 +127,8 @@ sed -n 's/^    \$ isoroll \([^|>]*\)\( [|>].*\)*$/\1/p' "$readme" >lines
 check "apps/README.md: commands" test "$(wc -l <lines)" -ge "$(wc -l <commands)"
 while read -r line; do
     case $line in
-    *" -o "*.svg) command -v gnuplot >/dev/null || continue ;;
     "sweep "*) line="$line --shard 1/20" ;; # all its points take minutes
+    *.svg* | *.png*) command -v gnuplot >/dev/null || continue ;;
     "view "*) ! "$isoroll" view absent -o - 2>&1 | grep -q "built without three.js" || continue ;;
     esac
     # shellcheck disable=SC2086 # a list

@@ -124,9 +124,15 @@ static iso_method method_of(const iso_taylor_code *code)
 
 static void check_processors(void)
 {
+    const iso_method plain = method_of(&iso_taylor_plain);
+#if defined(__x86_64__) /* elsewhere the library has no code for AVX2 */
     const bool both = iso_taylor_has_avx2();
+    const iso_method avx2 = both ? method_of(&iso_taylor_avx2) : plain;
+#else
+    const bool both = false;
+    const iso_method avx2 = plain;
+#endif
     if (!both) printf("no AVX2 here: only the plain code is tested\n");
-    const iso_method plain = method_of(&iso_taylor_plain), avx2 = both ? method_of(&iso_taylor_avx2) : plain;
     for (int i = 0; i < 2 * ORBIT_K; i++) {
         const orbit o = orbit_sample(ctx, iso_systems[i % 2], orbit_k[i / 2], orbit_J, 5 + (unsigned long)i);
         const double t = 10 * 2 * M_PI * o.unit;

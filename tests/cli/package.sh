@@ -1,0 +1,83 @@
+#!/bin/sh
+# package.sh ISOROLL - the Debian packages: which files and which dependencies they have. tests/package.sh installs them.
+. "$(dirname "$0")/lib.sh"
+if ! command -v dpkg-deb >/dev/null || ! command -v dpkg-shlibdeps >/dev/null; then
+    skip "Debian packages" "dpkg-deb or dpkg-shlibdeps (dpkg-dev) is not installed"
+    checks=1
+    finish
+    exit
+fi
+: "${ISO_BUILD:?}"
+
+# cpack FOLDER: makes the packages in a folder
+make_packages() {
+    cpack --config "$ISO_BUILD/CPackConfig.cmake" -B "$PWD/$1" >log 2>&1 || { cp log err; fail "cpack"; }
+}
+make_packages first
+version=$("$isoroll" --version | sed 's/[^0-9]*\([0-9.]*\).*/\1/;q')-1
+machine=$(dpkg --print-architecture)
+
+# --- files: each package has its own, no file is in two
+packages="isoroll libisoroll0 libisoroll-dev"
+[ ! -x "$ISO_BUILD/isoroll-mpi" ] || packages="$packages isoroll-mpi"
+for package in $packages; do
+    deb=first/${package}_${version}_$machine.deb
+    check "there is $deb" test -s "$deb"
+    dpkg-deb -c "$deb" | sed 's/ -> .*//; s/.* \.\//\//' | grep -v '/$' >"$package.files"
+    dpkg-deb -f "$deb" >"$package.control"
+    for file in copyright changelog.gz changelog.Debian.gz; do
+        check "$package: $file" grep -qx "/usr/share/doc/$package/$file" "$package.files"
+    done
+    check "$package: files of root" test -z "$(dpkg-deb -c "$deb" | awk '$2 != "root/root"')"
+    check "$package: all in /usr" test -z "$(grep -v '^/usr/' "$package.files")"
+    check "$package: a maintainer" grep -q '^Maintainer: .* <.*@.*>$' "$package.control"
+done
+check "no more packages" test "$(ls first/*.deb | wc -l)" -eq "$(echo "$packages" | wc -w)"
+check "no file is in two packages" test -z "$(cat ./*.files | sort | uniq -d)"
+"$isoroll" --help | sed -n 's/^  \([a-z]*\)  *\[*[A-Z]*\]*  *[a-z].*/\1/p' | grep -v '^isoroll$' >commands
+check "there are commands" test "$(wc -l <commands)" -ge 10
+for command in $(cat commands); do
+    check "man page of $command" grep -qx "/usr/share/man/man1/isoroll-$command.1.gz" isoroll.files
+done
+for file in bin/isoroll share/man/man1/isoroll.1.gz share/bash-completion/completions/isoroll share/doc/isoroll/README.md \
+    share/zsh/site-functions/_isoroll share/doc/isoroll/examples/15_two_spheres/scene.yaml share/doc/isoroll/apps/demo.sh; do
+    check "isoroll has $file" grep -qx "/usr/$file" isoroll.files
+done
+check "libisoroll0 has a library" grep -q '/libisoroll\.so\.0$' libisoroll0.files
+check "and nothing but that and its documents" test -z "$(grep -v '/libisoroll\.so\.0\|/usr/share/doc/' libisoroll0.files)"
+for file in 'include/isoroll/isoroll\.h' 'lib.*/libisoroll\.so' 'lib.*/libisoroll\.a' 'lib.*/isoroll\.pc' \
+    'lib.*/isorollConfig\.cmake'; do
+    check "libisoroll-dev has $file" grep -qx "/usr/$file" libisoroll-dev.files
+done
+check_not "no private header" grep -q '_impl\.h' libisoroll-dev.files
+
+# --- dependencies
+for library in libc6 libgsl libyaml libsundials-cvode libsundials-arkode; do
+    check "isoroll needs $library" grep -q "^Depends: .*$library" isoroll.control
+    check "libisoroll0 needs $library" grep -q "^Depends: .*$library" libisoroll0.control
+done
+check_not "libisoroll0 needs no jansson" grep -q jansson libisoroll0.control
+check_not "isoroll needs no MPI" grep -qi mpi isoroll.control
+check "isoroll recommends gnuplot" grep -q '^Recommends: .*gnuplot' isoroll.control
+check "libisoroll-dev needs its library" grep -q "^Depends: libisoroll0 (= $version)" libisoroll-dev.control
+dpkg-deb -e "first/libisoroll0_${version}_$machine.deb" control
+check "dpkg learns the library" grep -q '^libisoroll 0 libisoroll0 (>= ' control/shlibs
+check "ldconfig runs" grep -q ldconfig control/triggers
+
+# --- the packaged command runs, and the demo beside it
+dpkg-deb -x "first/isoroll_${version}_$machine.deb" there
+check "the packaged command runs" there/usr/bin/isoroll --version
+if [ "$(length short full)" = full ] && has gnuplot "the packaged demo"; then
+    check "the packaged demo runs" env PATH="$PWD/there/usr/bin:$PATH" sh there/usr/share/doc/isoroll/apps/demo.sh
+    check "three pictures" test "$(ls isoroll-demo/*.svg | wc -l)" -eq 3
+fi
+
+# --- the same sources make the same packages
+if [ "$(length short full)" = full ]; then
+    make_packages second
+    for package in $packages; do
+        check "$package: the same bytes again" cmp "first/${package}_${version}_$machine.deb" \
+            "second/${package}_${version}_$machine.deb"
+    done
+fi
+finish
