@@ -65,10 +65,11 @@ at 1 "this line is longer than 64 KiB"
 at 3 "a NUL byte"
 
 # --- check: the same residuals by quadrature as by integration; one number of one row is found
+residual=$(length 1e-13 1e-12) # times near 1000 are rounded to 1e-13
 for as in ball point both; do
-    run 0 check --max 1e-13 "$as.csv"
+    run 0 check --max "$residual" "$as.csv"
     silent
-    "$isoroll" check --max 1e-13 <"$as.csv" >piped
+    "$isoroll" check --max "$residual" <"$as.csv" >piped
     check "$as: from a pipe" cmp piped out
 done
 row=$((count / 2))
