@@ -1,6 +1,6 @@
 /* csv_lines.c - the lines of a text file, read in blocks of whole lines.
  *
- * Each block is read by one call of read() and given to a crew of threads, which reads the rows in it. The caller
+ * Each block is read by one call of read() and given to a few threads, which read the rows in it. The caller
  * takes the lines in their order. What is no plain row (a line of #, an empty line, a mistake) the threads leave to
  * the caller, who alone makes messages. Blocks are read ahead only where no call would wait: a row that comes through
  * a slow pipe is there at once. */
@@ -13,14 +13,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/crew_impl.h"
 #include "io/csv_impl.h"
+#include "io/tasks_impl.h"
 #include "io/text_impl.h"
 
 enum { BLOCKS = 8, MOST_ROWS = 4096 }; /* MOST_ROWS: lines of a block that are read ahead */
 
 typedef struct block {
-    iso_crew_task task;
+    iso_task task;
     const iso_csv_format *format;
     char *text;         /* 2 ISO_LONGEST_LINE + 1 characters */
     size_t length, at;  /* of whole lines; where the next one begins that was not read ahead */
@@ -36,7 +36,7 @@ struct iso_csv_lines {
     const char *name;
     bool ready, ended; /* ready: a regular file, which never lets one wait */
     int error;         /* errno of read(): told behind the lines before it */
-    iso_crew *crew;
+    iso_tasks *tasks;
     const iso_csv_format *format; /* NULL: rows are not yet read ahead */
     block *ring[BLOCKS];
     int first, count; /* blocks that hold lines: count from first on */
@@ -86,7 +86,7 @@ static block *create_block(void)
 {
     block *b = calloc(1, sizeof *b);
     if (!b) return NULL;
-    b->task = (iso_crew_task){.work = read_block, .data = b};
+    b->task = (iso_task){.work = read_block, .data = b};
     b->text = malloc(2 * ISO_LONGEST_LINE + 1);
     b->row = malloc((ISO_LONGEST_LINE + ISO_MOST_FIELDS) * sizeof *b->row);
     if (b->text && b->row) return b;
@@ -166,14 +166,14 @@ static iso_status add_block(iso_context *ctx, iso_csv_lines *c)
     if (status != ISO_OK || b->length == 0) return status;
     c->count++;
     b->format = c->format;
-    if (c->format && !b->too_long && !memchr(b->text, '\0', b->length)) iso_crew_give(c->crew, &b->task);
+    if (c->format && !b->too_long && !memchr(b->text, '\0', b->length)) iso_tasks_give(c->tasks, &b->task);
     return ISO_OK;
 }
 
 /* How many blocks may be in work: some for each thread. */
 static int depth(const iso_csv_lines *c)
 {
-    const int size = iso_crew_size(c->crew);
+    const int size = iso_tasks_size(c->tasks);
     return c->format && size > 0 ? 2 * size + 2 : 1;
 }
 
@@ -196,7 +196,7 @@ static iso_status next_block(iso_context *ctx, iso_csv_lines *c)
         status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", c->name, strerror(c->error));
     if (status == ISO_OK && c->count == 0 && !c->ended) /* not even one block could be made */
         status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", c->name);
-    if (status == ISO_OK && c->count > 0) iso_crew_finish(c->crew, &c->ring[c->first]->task);
+    if (status == ISO_OK && c->count > 0) iso_tasks_finish(c->tasks, &c->ring[c->first]->task);
     return status;
 }
 
@@ -247,8 +247,8 @@ void iso_csv_lines_read_rows(iso_csv_lines *c, const iso_csv_format *format)
 void iso_csv_lines_close(iso_csv_lines *c)
 {
     if (!c) return;
-    for (int i = 0; i < c->count; i++) iso_crew_finish(c->crew, &c->ring[(c->first + i) % BLOCKS]->task);
-    iso_crew_free(c->crew);
+    for (int i = 0; i < c->count; i++) iso_tasks_finish(c->tasks, &c->ring[(c->first + i) % BLOCKS]->task);
+    iso_tasks_free(c->tasks);
     for (int i = 0; i < BLOCKS; i++) free_block(c->ring[i]);
     if (c->file) iso_text_close(c->file);
     free(c->tail);
@@ -261,9 +261,9 @@ iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *na
     iso_csv_lines *c = *lines = calloc(1, sizeof *c);
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", name);
     c->name = name;
-    c->crew = iso_crew_create();
+    c->tasks = iso_tasks_create();
     c->tail = malloc(2 * ISO_LONGEST_LINE);
-    if (!c->crew || !c->tail || !has_room(c))
+    if (!c->tasks || !c->tail || !has_room(c))
         return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", name);
     c->file = iso_text_open(ctx, path);
     if (!c->file) return ISO_FILE_TROUBLE;

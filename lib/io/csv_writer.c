@@ -1,24 +1,26 @@
 /* csv_writer.c - writes trajectories as text: into a temporary file, which is renamed when it is complete.
  *
- * Rows are collected in blocks. A crew of threads prints them, and the caller writes the text of one block after the
+ * Rows are collected in blocks. A few threads print them, and the caller writes the text of one block after the
  * other. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/number.h"
-#include "io/crew_impl.h"
 #include "io/output.h"
+#include "io/tasks_impl.h"
 #include "io/trajectory_impl.h"
 #include "orbit/scene.h"
 
-/* Rows of a block. A block holds LEAST rows at first, later a quarter of the rows before it, at most MOST.
- * Whoever reads the other end of a pipe waits for the rows of a few blocks. */
+/* Rows of a block. A block holds LEAST rows at first, later a quarter of the rows before it, at most MOST. */
 enum { BLOCKS = 8, LEAST = 32, MOST = 512 };
 
+#define PATIENCE 0.1 /* seconds: rows that come slowly are not held back longer, so that a reader sees them */
+
 typedef struct block {
-    iso_crew_task task;
+    iso_task task;
     size_t columns, rows;
     int digits;
     double *row;
@@ -28,11 +30,12 @@ typedef struct block {
 
 typedef struct csv {
     iso_output *out;
-    iso_crew *crew;
+    iso_tasks *tasks;
     bool seen; /* the file is a terminal: each row is shown at once */
     block block[BLOCKS];
     int first, count; /* blocks that are printed, or wait for it; the one behind them is being filled */
     size_t rows;      /* given to blocks so far */
+    double shown;     /* when all rows were last written, in seconds */
 } csv;
 
 /* --- blocks ----------------------------------------------------------------------------------------------------- */
@@ -55,7 +58,7 @@ static void print_block(void *data)
 static bool has_room(block *b, size_t columns)
 {
     if (b->row && b->text) return true;
-    b->task = (iso_crew_task){.work = print_block, .data = b};
+    b->task = (iso_task){.work = print_block, .data = b};
     b->columns = columns;
     if (!b->row) b->row = malloc(MOST * columns * sizeof *b->row);
     if (!b->text) b->text = malloc(MOST * columns * ISO_NUMBER_SIZE);
@@ -66,7 +69,7 @@ static bool has_room(block *b, size_t columns)
 static void write_block(csv *c)
 {
     block *b = &c->block[c->first];
-    iso_crew_finish(c->crew, &b->task);
+    iso_tasks_finish(c->tasks, &b->task);
     fwrite(b->text, 1, b->length, iso_output_stream(c->out));
     b->rows = 0;
     c->first = (c->first + 1) % BLOCKS;
@@ -77,9 +80,9 @@ static void write_block(csv *c)
 static void write_blocks(csv *c, bool all)
 {
     block *filled = &c->block[(c->first + c->count) % BLOCKS];
-    const int most = all ? 0 : iso_crew_size(c->crew) > 0 ? 2 * iso_crew_size(c->crew) : 0;
-    if (filled->rows > 0) iso_crew_give(c->crew, &filled->task), c->count++;
-    while (c->count > most || (c->count > 0 && iso_crew_is_done(c->crew, &c->block[c->first].task))) write_block(c);
+    const int most = all ? 0 : iso_tasks_size(c->tasks) > 0 ? 2 * iso_tasks_size(c->tasks) : 0;
+    if (filled->rows > 0) iso_tasks_give(c->tasks, &filled->task), c->count++;
+    while (c->count > most || (c->count > 0 && iso_tasks_is_done(c->tasks, &c->block[c->first].task))) write_block(c);
 }
 
 /* Whether the block is full. */
@@ -87,6 +90,23 @@ static bool is_full(const csv *c, const block *b)
 {
     const size_t quarter = (c->rows - b->rows) / 4;
     return c->seen || b->rows >= (quarter < LEAST ? LEAST : quarter > MOST ? MOST : quarter);
+}
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Writes all rows, if the last time is long ago. */
+static void show_soon(csv *c)
+{
+    const double time = now();
+    if (time - c->shown < PATIENCE) return;
+    write_blocks(c, true);
+    fflush(iso_output_stream(c->out));
+    c->shown = time;
 }
 
 /* Rows must stand before what is written next. */
@@ -101,11 +121,12 @@ static FILE *stream_behind_rows(csv *c)
 static iso_status csv_open(iso_context *ctx, iso_trajectory_writer *w, const char *path)
 {
     csv *c = w->data = calloc(1, sizeof *c);
-    if (c) c->crew = iso_crew_create();
-    if (!c || !c->crew) return free(c), iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write a trajectory");
+    if (c) c->tasks = iso_tasks_create();
+    if (!c || !c->tasks) return free(c), iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write a trajectory");
     const iso_status status = iso_output_open(ctx, path, &c->out);
-    if (status != ISO_OK) return iso_crew_free(c->crew), free(c), status;
+    if (status != ISO_OK) return iso_tasks_free(c->tasks), free(c), status;
     w->name = iso_output_name(c->out);
+    c->shown = now();
     c->seen = isatty(fileno(iso_output_stream(c->out))) == 1;
     return ISO_OK;
 }
@@ -157,6 +178,7 @@ static iso_status csv_row(iso_context *ctx, iso_trajectory_writer *w, const doub
     memcpy(b->row + b->rows++ * columns, row, columns * sizeof *row);
     c->rows++;
     if (is_full(c, b)) write_blocks(c, c->seen);
+    show_soon(c);
     return iso_output_check(ctx, c->out);
 }
 
@@ -165,7 +187,7 @@ static iso_status csv_close(iso_context *ctx, iso_trajectory_writer *w, bool kee
     csv *c = w->data;
     stream_behind_rows(c);
     const iso_status status = iso_output_close(ctx, c->out, keep);
-    iso_crew_free(c->crew);
+    iso_tasks_free(c->tasks);
     for (int i = 0; i < BLOCKS; i++) free(c->block[i].row), free(c->block[i].text);
     free(c);
     return status;

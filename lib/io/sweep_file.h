@@ -52,7 +52,7 @@ ISO_API void iso_sweep_file_free(iso_sweep_file *file);
 ISO_API const iso_sweep_plan *iso_sweep_file_plan(const iso_sweep_file *file);
 
 /* What varies, in words, such as "k: 61 values from -3 to 3"; false past the last. */
-enum { ISO_SWEEP_WORDS = 160 };
+enum { ISO_SWEEP_WORDS = 176 };
 ISO_API bool iso_sweep_axis_words(const iso_sweep_file *file, int i, char words[ISO_SWEEP_WORDS]);
 
 /* The scene of point i as text: that of the scene's file with the numbers of the point in it. It reads back as the

@@ -4,8 +4,8 @@
 
 #include "io/trajectory.h"
 
-#define ISO_TRAJECTORY_KIND "trajectory"
-#define ISO_TRAJECTORY_MAGIC "# isoroll " ISO_TRAJECTORY_KIND " "
+#define ISO_TRAJECTORY_KIND    "trajectory"
+#define ISO_TRAJECTORY_MAGIC   "# isoroll " ISO_TRAJECTORY_KIND " "
 #define ISO_TRAJECTORY_VERSION "1"
 
 /* How a kind of file is read and written, in two halves; reader->data and writer->data are their own. */
@@ -28,11 +28,11 @@ extern const iso_trajectory_writing iso_csv_writing, iso_hdf5_writing; /* of HDF
 
 struct iso_trajectory_reader {
     const iso_trajectory_reading *format;
-    const char *path, *name; /* name: what messages call it              */
+    const char *path, *name; /* name: what messages call it */
     iso_record *header;
-    size_t line;       /* of the row read last                     */
-    char ignored[512]; /* "": nothing                              */
-    bool passes;       /* over rows of nan, which are counted      */
+    size_t line;       /* of the row read last */
+    char ignored[512]; /* "": nothing */
+    bool passes;       /* over rows of nan, which are counted */
     size_t passed;
     void *data;
 };
@@ -44,7 +44,7 @@ iso_status iso_trajectory_name_columns(iso_context *ctx, iso_trajectory_reader *
 struct iso_trajectory_writer {
     const iso_trajectory_writing *format;
     const char *name;   /* what messages call it */
-    const char *kind;   /* of the file: ISO_TRAJECTORY_KIND, or another kind, such as "section"         */
+    const char *kind;   /* of the file: ISO_TRAJECTORY_KIND, or another kind, such as "section" */
     iso_record *header; /* names of the columns, no rows; NULL before it is written */
     size_t rows;
     int digits;

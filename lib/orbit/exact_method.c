@@ -5,7 +5,6 @@
  * state changes by half its size.
  */
 #include <math.h>
-
 #include <stdlib.h>
 
 #include "base/finite_impl.h"

@@ -89,11 +89,12 @@ ISO_API iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
 /* The orbit at `time` of the options' clock, before or after the start. A time gives the same bits in whatever order
  * times are asked. Cheap when times run away from the start. A time passed before is found from an end of a step that
  * is kept (options.memory), in microseconds:
- * - taylor and splittings keep every fourth, and take up to 4 steps again. taylor needs 24 bytes for it, and 8 for
- * each   number of the state and of three clocks: a free ball at 1e-12 takes 300 bytes a turn. Where memory is full,
- * ends lie 8,   16, ... steps apart.
- * - Other methods keep every one, and when memory is full forget the older half. Earlier times, and with bdf all, are
- *   found from the start again.
+ * - taylor and splittings keep every fourth end, and take up to 4 steps again. taylor needs 24 bytes for an end, and
+ *   8 for each number of the state and of three clocks: a free ball at 1e-12 takes 300 bytes a turn. When memory is
+ *   full, they keep every eighth, then every sixteenth, and so on.
+ * - Other methods keep every end. When memory is full, they forget the older half.
+ * - bdf keeps nothing, nor does any method with memory for fewer than 16 ends.
+ * A time before the first end that is kept is found from the start again.
  * A ball that resistance brings to rest slows down to 1e-290 of its own unit of speed, then stands still. Backwards,
  * where resistance drives it, it is followed until it turns 1e4 times as fast as at the start.
  * Errors: ISO_BAD_ARGUMENT (a time that iso_orbit_check_time refuses), ISO_NUMERICAL (what stopped, and where; or

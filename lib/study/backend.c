@@ -36,7 +36,8 @@ static double radians_to(const iso_scene *scene, double time)
     return fabs(time) * rate * (scene->start.model == ISO_BALL ? fabs(scene->params.k) : 1);
 }
 
-static choice choose(const iso_scene *scene, const iso_effects *effects, const iso_questions *q)
+/* closed: the closed solution may be taken */
+static choice choose(const iso_scene *scene, const iso_effects *effects, const iso_questions *q, bool closed)
 {
     const double radians = radians_to(scene, q->farthest), rows = (double)q->rows, k = fabs(scene->params.k);
     if (scene->backend != ISO_BACKEND_AUTO) return (choice){scene->backend, "asked for by name"};
@@ -44,7 +45,7 @@ static choice choose(const iso_scene *scene, const iso_effects *effects, const i
         return (choice){ISO_BACKEND_AUTO, "a method is given: the model that it is for, or that of the start"};
     if (!iso_effects_none(effects))
         return (choice){ISO_BACKEND_AUTO, "effects act: the ball where they need it, else the model of the start"};
-    if (!q->by_steps && radians >= FAR && rows * RADIANS_PER_FAR_ROW <= radians)
+    if (closed && radians >= FAR && rows * RADIANS_PER_FAR_ROW <= radians)
         return (choice){ISO_BACKEND_EXACT, "the rows are few and far: the closed solution needs no steps"};
     if (scene->start.model != ISO_BALL) return (choice){ISO_BACKEND_AUTO, "the model of the start"};
     if (scene->tolerance < FINEST_OF_POINT)
@@ -74,27 +75,25 @@ iso_status iso_backend_open(iso_context *ctx, const iso_scene *scene, const iso_
                             const iso_questions *q, iso_orbit **orbit)
 {
     iso_orbit_options o = *how;
-    iso_questions asked = *q;
     if (o.backend != ISO_BACKEND_AUTO) return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
-    for (;;) {
-        o.backend = choose(scene, o.effects, &asked).backend;
-        const iso_status status = try_orbit(ctx, scene, &o, &asked, orbit);
-        if (status == ISO_OK || status == ISO_NO_MEMORY || o.backend == ISO_BACKEND_AUTO) return status;
-        if (o.backend == ISO_BACKEND_POINT) break;
-        asked.by_steps = true;
+    const iso_backend first = choose(scene, o.effects, q, true).backend;
+    const iso_backend in_turn[] = {first, choose(scene, o.effects, q, false).backend, ISO_BACKEND_AUTO};
+    iso_status status = ISO_NUMERICAL;
+    for (int i = first == ISO_BACKEND_EXACT ? 0 : 1; i < 3; i++) {
+        o.backend = in_turn[i];
+        status = try_orbit(ctx, scene, &o, q, orbit);
+        if (status == ISO_OK || status == ISO_NO_MEMORY || o.backend == ISO_BACKEND_AUTO) break;
     }
-    o.backend = ISO_BACKEND_AUTO;
-    return iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
+    return status;
 }
 
 const char *iso_scene_why_backend(const iso_scene *scene, const iso_orbit *orbit)
 {
     const iso_backend taken = iso_orbit_backend(orbit);
     const iso_effects effects = iso_orbit_effects(orbit);
-    iso_questions q = {.rows = iso_scene_rows(scene), .farthest = scene->end};
-    choice c = choose(scene, &effects, &q);
-    q.by_steps = true;
-    if (c.backend == ISO_BACKEND_EXACT && taken != c.backend) c = choose(scene, &effects, &q);
+    const iso_questions q = {.rows = iso_scene_rows(scene), .farthest = scene->end};
+    choice c = choose(scene, &effects, &q, true);
+    if (c.backend == ISO_BACKEND_EXACT && taken != c.backend) c = choose(scene, &effects, &q, false);
     if (c.backend == ISO_BACKEND_POINT && taken != c.backend)
         return "the model of the start: the point cannot be had";
     return c.why;

@@ -6,9 +6,8 @@
 
 /* What an orbit is asked for. */
 typedef struct iso_questions {
-    size_t rows;     /* this many times, ...                       */
-    double farthest; /* ... this one the farthest, caller's units  */
-    bool by_steps;   /* the closed solution will not do            */
+    size_t rows;     /* this many times, ...                      */
+    double farthest; /* ... this one the farthest, caller's units */
 } iso_questions;
 
 /* The orbit, as `how` says. ISO_BACKEND_AUTO there is the cheapest backend for the questions. If it has no such

@@ -7,7 +7,7 @@
 
 enum {
     CREWS = CHANNELS > 1 ? 1 : 2, /* the coefficients of two with deviations do not fit the fast memory */
-    MOST_PARTS = 4096 /* of a step, in the search for crossings */
+    MOST_PARTS = 4096             /* of a step, in the search for crossings */
 };
 
 /* Times are doubles, whatever the numbers of the series. */
@@ -194,8 +194,7 @@ static void store_crossings(crew *c, real x, const bool due[])
     const iso_clock clock = c->T.shape.clock;
     integrate_clocks(&c->T, x, gained);
     for (int i = 0; i < LANES; i++)
-        if (due[i])
-            c->job[i]->passed[c->job[i]->done] = c->head[i] + (c->tail[i] + (double)LANE(gained[clock], i));
+        if (due[i]) c->job[i]->passed[c->job[i]->done] = c->head[i] + (c->tail[i] + (double)LANE(gained[clock], i));
     store_events(c, x, gained, due);
 }
 
@@ -429,7 +428,10 @@ static bool solve(iso_lane_job *const jobs[], size_t count, const iso_lane_optio
     if (!room) return false;
     queue waiting = {jobs, count};
     crew *crews[CREWS];
-    for (int i = 0; i < CREWS; i++) start_crew(crews[i] = (crew *)(room + (size_t)i * size), &waiting, jobs[0], options);
+    for (int i = 0; i < CREWS; i++) {
+        crews[i] = (crew *)(room + (size_t)i * size);
+        start_crew(crews[i], &waiting, jobs[0], options);
+    }
     bool going_on = true;
     while (going_on && step_together(crews) > 0) going_on = !options->go_on || options->go_on(options->data);
     for (int i = 0; i < CREWS; i++) save_all(crews[i]);

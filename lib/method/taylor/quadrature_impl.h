@@ -67,10 +67,8 @@ static inline void values_at_nodes(const quadrature *rule, const real b[], int o
 static inline real integral_of_power(const quadrature *rule, const real value[NODES], real p, real x, real *doubt)
 {
     real sum = zero, c[2] = {zero, zero};
-    int twice;
-    const bool half = is_half(p, &twice);
     for (int i = 0; i < NODES; i++) {
-        const real f = half ? half_power(value[i], twice) : raised(value[i], p);
+        const real f = raised(value[i], p);
         sum += rule->weight[i] * f;
         c[0] += rule->last[0][i] * f;
         c[1] += rule->last[1][i] * f;

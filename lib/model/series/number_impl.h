@@ -14,8 +14,8 @@
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>
-#include <stdint.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -123,32 +123,28 @@ static inline real half_power(real a, int twice)
     return twice < 0 ? 1 / power : power;
 }
 
-/* Whether p is the same half of a small integer in all lanes, as most powers are. */
-static inline bool is_half(real p, int *twice)
+/* Twice p, if p is half of an integer from -8 to 8. Otherwise 0. */
+static inline int twice_of(NUMBER p)
 {
-    const NUMBER first = LANE(p, 0);
-    const bool small = first >= -4 && first <= 4;
-    *twice = small ? (int)(2 * first) : 0;
-    return !any(p != spread((NUMBER)*twice / 2));
+    const int twice = p >= -4 && p <= 4 ? (int)(2 * p) : 0;
+    return (NUMBER)twice == 2 * p ? twice : 0;
 }
 
-/* a^p for a > 0 */
+/* a^p for a > 0. Most powers are the same half of a small integer in all lanes. */
 static inline real raised(real a, real p)
 {
 #ifdef ROUND_POWERS_ONCE /* by the C library: slower */
     for (int i = 0; i < LANES; i++) LANE(a, i) = POW(LANE(a, i), LANE(p, i));
     return a;
 #endif
-    int twice;
-    const bool half_in_all = is_half(p, &twice);
-    real result = half_power(a, twice);
-    if (half_in_all) return result;
-    for (int i = 0; i < LANES; i++) {
+    const int first = twice_of(LANE(p, 0));
+    real result = half_power(a, first);
+    for (int i = 0; i < LANES && any(2 * p != spread((NUMBER)first)); i++) {
         const NUMBER own = LANE(p, i);
-        if (own == (NUMBER)twice / 2) continue;
-        const bool half = own >= -4 && own <= 4 && (NUMBER)(int)(2 * own) == 2 * own;
-        const real alone = half_power(a, half ? (int)(2 * own) : 0);
-        LANE(result, i) = half ? LANE(alone, i) : POW(LANE(a, i), own);
+        const int twice = twice_of(own);
+        if (twice == first && 2 * own == (NUMBER)first) continue;
+        const real alone = half_power(a, twice);
+        LANE(result, i) = (NUMBER)twice == 2 * own ? LANE(alone, i) : POW(LANE(a, i), own);
     }
     return result;
 }

@@ -17,10 +17,10 @@ typedef struct vector_pair {
     vector now, next;
 } vector_pair;
 
-/* a, in a register: two sums need it, and compilers like to load it for each. */
+/* a, in a register: two sums need it, and gcc likes to load it for each. */
 static inline real held(real a)
 {
-#if LANES > 1 && defined __x86_64__
+#if LANES > 1 && defined __x86_64__ && !defined __clang__
     __asm__("" : "+v"(a));
 #endif
     return a;

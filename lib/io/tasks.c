@@ -1,5 +1,5 @@
-/* crew.c - a queue of tasks under a lock, and the threads that work it off (crew_impl.h). */
-#include "io/crew_impl.h"
+/* tasks.c - a queue of tasks under a lock, and the threads that work it off (tasks_impl.h). */
+#include "io/tasks_impl.h"
 
 #include <pthread.h>
 #include <signal.h>
@@ -10,18 +10,18 @@
 
 enum { MOST = 3 };
 
-struct iso_crew {
+struct iso_tasks {
     pthread_mutex_t lock;
-    pthread_cond_t given, done; /* a task waits, or the crew ends; a task is done */
-    iso_crew_task *first, *last;
+    pthread_cond_t given, done; /* a task waits, or all end; a task is done */
+    iso_task *first, *last;
     int size, started;
     bool tried, ends; /* tried: to start the threads */
     pthread_t thread[MOST];
 };
 
-iso_crew *iso_crew_create(void)
+iso_tasks *iso_tasks_create(void)
 {
-    iso_crew *c = calloc(1, sizeof *c);
+    iso_tasks *c = calloc(1, sizeof *c);
     if (!c) return NULL;
     pthread_mutex_init(&c->lock, NULL);
     pthread_cond_init(&c->given, NULL);
@@ -30,15 +30,15 @@ iso_crew *iso_crew_create(void)
     return c;
 }
 
-int iso_crew_size(const iso_crew *c)
+int iso_tasks_size(const iso_tasks *c)
 {
     return c->size;
 }
 
 /* Works off the first task that waits. The lock is held before and after. */
-static void work_off(iso_crew *c)
+static void work_off(iso_tasks *c)
 {
-    iso_crew_task *task = c->first;
+    iso_task *task = c->first;
     c->first = task->next;
     if (!c->first) c->last = NULL;
     task->state = ISO_TASK_RUNS;
@@ -49,10 +49,10 @@ static void work_off(iso_crew *c)
     pthread_cond_broadcast(&c->done);
 }
 
-static void *attend(void *crew)
+static void *attend(void *tasks)
 {
     ISO_DEFAULT_ARITHMETIC;
-    iso_crew *c = crew;
+    iso_tasks *c = tasks;
     pthread_mutex_lock(&c->lock);
     while (!c->ends)
         if (c->first)
@@ -64,7 +64,7 @@ static void *attend(void *crew)
 }
 
 /* Signals go to the caller's thread: it waits in read(), which a signal must end. */
-static void start(iso_crew *c)
+static void start(iso_tasks *c)
 {
     sigset_t all, before;
     c->tried = true;
@@ -74,7 +74,7 @@ static void start(iso_crew *c)
     pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
-void iso_crew_free(iso_crew *c)
+void iso_tasks_free(iso_tasks *c)
 {
     if (!c) return;
     pthread_mutex_lock(&c->lock);
@@ -88,7 +88,7 @@ void iso_crew_free(iso_crew *c)
     free(c);
 }
 
-void iso_crew_give(iso_crew *c, iso_crew_task *task)
+void iso_tasks_give(iso_tasks *c, iso_task *task)
 {
     if (!c->tried) start(c);
     pthread_mutex_lock(&c->lock);
@@ -103,7 +103,7 @@ void iso_crew_give(iso_crew *c, iso_crew_task *task)
     pthread_mutex_unlock(&c->lock);
 }
 
-void iso_crew_finish(iso_crew *c, iso_crew_task *task)
+void iso_tasks_finish(iso_tasks *c, iso_task *task)
 {
     ISO_DEFAULT_ARITHMETIC;
     pthread_mutex_lock(&c->lock);
@@ -115,7 +115,7 @@ void iso_crew_finish(iso_crew *c, iso_crew_task *task)
     pthread_mutex_unlock(&c->lock);
 }
 
-bool iso_crew_is_done(iso_crew *c, const iso_crew_task *task)
+bool iso_tasks_is_done(iso_tasks *c, const iso_task *task)
 {
     pthread_mutex_lock(&c->lock);
     const bool done = task->state == ISO_TASK_DONE;
