@@ -13,6 +13,18 @@
 #include "method/methods_impl.h"
 #include "method/sundials_vector_impl.h"
 
+#if SUNDIALS_VERSION_MAJOR < 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR < 1) /* the former names */
+#define ARKodeFree                  ERKStepFree
+#define ARKodeSetUserData           ERKStepSetUserData
+#define ARKodeWFtolerances          ERKStepWFtolerances
+#define ARKodeSetPostprocessStepFn  ERKStepSetPostprocessStepFn
+#define ARKodeSetFixedStep          ERKStepSetFixedStep
+#define ARKodeGetReturnFlagName     ERKStepGetReturnFlagName
+#define ARKodeGetNumErrTestFails    ERKStepGetNumErrTestFails
+#define ARKodeEvolve                ERKStepEvolve
+#define ARKodeGetLastStep           ERKStepGetLastStep
+#endif
+
 typedef struct arkode {
     void *memory;
     N_Vector y;
@@ -29,7 +41,7 @@ static void release(iso_integrator *it)
 {
     arkode *a = it->data;
     if (!a) return;
-    if (a->memory) ERKStepFree(&a->memory);
+    if (a->memory) ARKodeFree(&a->memory);
     if (a->y) N_VDestroy(a->y);
     free(a);
 }
@@ -44,10 +56,10 @@ static iso_status create(iso_integrator *it)
     a->memory = ERKStepCreate(iso_sundials_rhs, 0, a->y, sun);
     if (!a->memory) return iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "no memory for ARKODE");
     ISO_SUN_QUIET(ERKStepSetErrHandlerFn, a->memory);
-    int failed = ERKStepSetUserData(a->memory, it);
+    int failed = ARKodeSetUserData(a->memory, it);
     if (!failed) failed = ERKStepSetTableNum(a->memory, (ARKODE_ERKTableID)it->method->variant);
-    if (!failed) failed = ERKStepWFtolerances(a->memory, iso_sundials_weights);
-    if (!failed) failed = ERKStepSetPostprocessStepFn(a->memory, after_step);
+    if (!failed) failed = ARKodeWFtolerances(a->memory, iso_sundials_weights);
+    if (!failed) failed = ARKodeSetPostprocessStepFn(a->memory, after_step);
     return failed ? iso_context_fail(it->ctx, ISO_NO_MEMORY, "", "ARKODE cannot be set up (%d)", failed) : ISO_OK;
 }
 
@@ -59,8 +71,8 @@ static iso_status start(iso_integrator *it)
     copy(it->at_right, N_VGetArrayPointer(a->y), it->model.dim);
     int failed = ERKStepReInit(a->memory, iso_sundials_rhs, 0, a->y);
     if (!failed && it->options.fixed_step > 0)
-        failed = ERKStepSetFixedStep(a->memory, it->direction * it->options.fixed_step);
-    return failed ? iso_sundials_stopped(it, ERKStepGetReturnFlagName(failed)) : ISO_OK;
+        failed = ARKodeSetFixedStep(a->memory, it->direction * it->options.fixed_step);
+    return failed ? iso_sundials_stopped(it, ARKodeGetReturnFlagName(failed)) : ISO_OK;
 }
 
 static iso_status step(iso_integrator *it, double y[], double *h)
@@ -68,13 +80,13 @@ static iso_status step(iso_integrator *it, double y[], double *h)
     arkode *a = it->data;
     sunrealtype t;
     long before = 0, after = 0;
-    ERKStepGetNumErrTestFails(a->memory, &before);
+    ARKodeGetNumErrTestFails(a->memory, &before);
     const int flag =
-        ERKStepEvolve(a->memory, it->direction, a->y, &t, ARK_ONE_STEP); /* the time only tells the direction */
-    ERKStepGetNumErrTestFails(a->memory, &after);
+        ARKodeEvolve(a->memory, it->direction, a->y, &t, ARK_ONE_STEP); /* the time only tells the direction */
+    ARKodeGetNumErrTestFails(a->memory, &after);
     it->statistics.rejected += after - before;
-    if (flag < 0) return iso_sundials_stopped(it, ERKStepGetReturnFlagName(flag));
-    ERKStepGetLastStep(a->memory, h);
+    if (flag < 0) return iso_sundials_stopped(it, ARKodeGetReturnFlagName(flag));
+    ARKodeGetLastStep(a->memory, h);
     copy(N_VGetArrayPointer(a->y), y, it->model.dim);
     return ISO_OK;
 }

@@ -16,7 +16,7 @@ typedef __typeof__((doubles){0} < (doubles){0}) double_mask;
 
 static inline doubles doubles_of(real a)
 {
-    doubles b;
+    doubles b = {0};
     for (int i = 0; i < LANES; i++) b[i] = (double)LANE(a, i);
     return b;
 }
