@@ -83,6 +83,9 @@ bool iso_hdf5_is_there(void);
 #define H5Lexists iso_hdf5.H5Lexists
 #define H5Lget_name_by_idx iso_hdf5.H5Lget_name_by_idx
 #define H5Oget_info2 iso_hdf5.H5Oget_info2
+#if !H5_VERSION_GE(1, 12, 0) /* what H5Oget_info2 fills has this name since */
+#define H5O_info1_t H5O_info_t
+#endif
 #define H5Pclose iso_hdf5.H5Pclose
 #define H5Pcreate iso_hdf5.H5Pcreate
 #define H5Pset_alloc_time iso_hdf5.H5Pset_alloc_time

@@ -52,7 +52,7 @@ static iso_status read_attributes(iso_context *ctx, iso_trajectory_reader *r, hi
 {
     char key[256];
     iso_status status = ISO_OK;
-    H5O_info_t info;
+    H5O_info1_t info;
     if (H5Oget_info2(file, &info, H5O_INFO_NUM_ATTRS) < 0) return iso_hdf5_trouble(ctx, "read", r->name);
     for (hsize_t i = 0; status == ISO_OK && i < info.num_attrs; i++) {
         const ssize_t length =

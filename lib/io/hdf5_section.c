@@ -62,7 +62,7 @@ static iso_status read_attribute(const reading *r, hid_t attribute, const char *
 
 static iso_status read_attributes(const reading *r)
 {
-    H5O_info_t info;
+    H5O_info1_t info;
     char key[256];
     iso_status status = ISO_OK;
     if (H5Oget_info2(r->file, &info, H5O_INFO_NUM_ATTRS) < 0) return ISO_OK;

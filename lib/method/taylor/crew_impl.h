@@ -16,9 +16,11 @@ typedef __typeof__((doubles){0} < (doubles){0}) double_mask;
 
 static inline doubles doubles_of(real a)
 {
-    doubles b = {0};
-    for (int i = 0; i < LANES; i++) b[i] = (double)LANE(a, i);
-    return b;
+#if LANES == 1
+    return (doubles){(double)a};
+#else
+    return __builtin_convertvector(a, doubles);
+#endif
 }
 
 static inline doubles size_of(doubles a)
