@@ -62,6 +62,15 @@ start=$(date +%s)
 done_inside "isoroll runs" 'cd /tmp && isoroll run /usr/share/doc/isoroll/examples/15_two_spheres/scene.yaml \
     -o ball.csv && isoroll plot ball.csv -o ball.png && test -s ball.png'
 echo "a trajectory and a picture of it: $(($(date +%s) - start)) s"
+start=$(date +%s)
+done_inside "apt installs the package for Python" \
+    'apt-get install -y -qq ./debs/libisoroll0_*.deb ./debs/python3-isoroll_*.deb'
+echo "apt-get install ./libisoroll0_*.deb ./python3-isoroll_*.deb: $(($(date +%s) - start)) s"
+start=$(date +%s)
+done_inside "a Python array of it" "cd /tmp && python3 -c 'import isoroll
+n = isoroll.read(\"ball.csv\").n
+assert n.shape[1] == 3 and abs((n * n).sum(1) - 1).max() < 1e-12'"
+echo "a Python array of it: $(($(date +%s) - start)) s"
 done_inside "all packages, and what programs need" \
     'apt-get install -y -qq ./debs/*.deb gcc libc6-dev pkg-config man-db libsundials-dev cmake make'
 

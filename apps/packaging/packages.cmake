@@ -4,6 +4,7 @@
 #     isoroll-mpi      sweeps on the ranks of MPI, if it was built
 #     libisoroll0      the shared library
 #     libisoroll-dev   headers, the static library, files for CMake and pkg-config
+#     python3-isoroll  apps/python, for the Python of Debian
 #
 # The names are those of the components of installation in ../../CMakeLists.txt. finish.cmake adds what only packages
 # have. With -DCMAKE_INSTALL_PREFIX=/usr the libraries go where Debian has them (/usr/lib/x86_64-linux-gnu), with any
@@ -42,6 +43,10 @@ package(isoroll science "rubber ball rolling on a sphere, and its twin, a point"
 package(libisoroll0 libs "rubber ball rolling on a sphere - library" "${words}\n This package has the shared library.")
 package(libisoroll-dev libdevel "rubber ball rolling on a sphere - development" "${words}\n\
  This package has what programs in C are compiled with.")
+package(python3-isoroll python "rubber ball rolling on a sphere - Python 3" "${words}\n\
+ This package has isoroll for Python and NumPy.")
+install(DIRECTORY apps/python/isoroll DESTINATION lib/python3/dist-packages COMPONENT python3-isoroll EXCLUDE_FROM_ALL
+        FILES_MATCHING PATTERN *.py PATTERN py.typed PATTERN __pycache__ EXCLUDE)
 if(MPI_C_FOUND)
   package(isoroll-mpi science "rubber ball rolling on a sphere - sweeps by MPI" "${words}\n\
  This package has isoroll-mpi, for sweeps on many machines.")
@@ -56,6 +61,12 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_LIBISOROLL0_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/triggers) # ldconfig
 set(CPACK_DEBIAN_LIBISOROLL-DEV_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON3-ISOROLL_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON3-ISOROLL_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PYTHON3-ISOROLL_PACKAGE_DEPENDS "libisoroll0 ${same}, python3, python3-numpy")
+set(CPACK_DEBIAN_PYTHON3-ISOROLL_PACKAGE_RECOMMENDS python3-matplotlib) # the example
+set(CPACK_DEBIAN_PYTHON3-ISOROLL_PACKAGE_CONTROL_EXTRA # compile the modules, and remove what was compiled
+  "${CMAKE_CURRENT_LIST_DIR}/python3/postinst;${CMAKE_CURRENT_LIST_DIR}/python3/prerm")
 # pkg-config reads gsl.pc and yaml-0.1.pc to tell the flags of compilation; static programs are linked with all of them
 set(CPACK_DEBIAN_LIBISOROLL-DEV_PACKAGE_DEPENDS "libisoroll0 ${same}, libgsl-dev, libyaml-dev")
 if(ISO_HDF5_PC)

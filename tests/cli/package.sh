@@ -16,12 +16,16 @@ make_packages() {
 make_packages first
 version=$("$isoroll" --version | sed 's/[^0-9]*\([0-9.]*\).*/\1/;q')-1
 machine=$(dpkg --print-architecture)
+# deb_of PACKAGE: the name of its file
+deb_of() {
+    case $1 in python3-*) echo "${1}_${version}_all.deb" ;; *) echo "${1}_${version}_$machine.deb" ;; esac
+}
 
 # --- files: each package has its own, no file is in two
-packages="isoroll libisoroll0 libisoroll-dev"
+packages="isoroll libisoroll0 libisoroll-dev python3-isoroll"
 [ ! -x "$ISO_BUILD/isoroll-mpi" ] || packages="$packages isoroll-mpi"
 for package in $packages; do
-    deb=first/${package}_${version}_$machine.deb
+    deb=first/$(deb_of "$package")
     check "there is $deb" test -s "$deb"
     dpkg-deb -c "$deb" | sed 's/ -> .*//; s/.* \.\//\//' | grep -v '/$' >"$package.files"
     dpkg-deb -f "$deb" >"$package.control"
@@ -49,6 +53,10 @@ for file in 'include/isoroll/isoroll\.h' 'lib.*/libisoroll\.so' 'lib.*/libisorol
     'lib.*/isorollConfig\.cmake'; do
     check "libisoroll-dev has $file" grep -qx "/usr/$file" libisoroll-dev.files
 done
+for file in __init__.py _library.py py.typed; do
+    check "python3-isoroll has $file" grep -qx "/usr/lib/python3/dist-packages/isoroll/$file" python3-isoroll.files
+done
+check_not "nothing compiled" grep -q pycache python3-isoroll.files
 check_not "no private header" grep -q '_impl\.h' libisoroll-dev.files
 
 # --- dependencies
@@ -60,6 +68,9 @@ check_not "libisoroll0 needs no jansson" grep -q jansson libisoroll0.control
 check_not "isoroll needs no MPI" grep -qi mpi isoroll.control
 check "isoroll recommends gnuplot" grep -q '^Recommends: .*gnuplot' isoroll.control
 check "libisoroll-dev needs its library" grep -q "^Depends: libisoroll0 (= $version)" libisoroll-dev.control
+check "python3-isoroll needs its library" grep -q "^Depends: libisoroll0 (= $version), .*numpy" python3-isoroll.control
+dpkg-deb -e "first/python3-isoroll_${version}_all.deb" python3
+check "what was compiled is removed" test -x python3/prerm -a -x python3/postinst
 dpkg-deb -e "first/libisoroll0_${version}_$machine.deb" control
 check "dpkg learns the library" grep -q '^libisoroll 0 libisoroll0 (>= ' control/shlibs
 check "ldconfig runs" grep -q ldconfig control/triggers
@@ -76,8 +87,8 @@ fi
 if [ "$(length short full)" = full ]; then
     make_packages second
     for package in $packages; do
-        check "$package: the same bytes again" cmp "first/${package}_${version}_$machine.deb" \
-            "second/${package}_${version}_$machine.deb"
+        deb=$(deb_of "$package")
+        check "$package: the same bytes again" cmp "first/$deb" "second/$deb"
     done
 fi
 finish
