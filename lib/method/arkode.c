@@ -13,18 +13,6 @@
 #include "method/methods_impl.h"
 #include "method/sundials_vector_impl.h"
 
-#if SUNDIALS_VERSION_MAJOR < 7 || (SUNDIALS_VERSION_MAJOR == 7 && SUNDIALS_VERSION_MINOR < 1) /* the former names */
-#define ARKodeFree                  ERKStepFree
-#define ARKodeSetUserData           ERKStepSetUserData
-#define ARKodeWFtolerances          ERKStepWFtolerances
-#define ARKodeSetPostprocessStepFn  ERKStepSetPostprocessStepFn
-#define ARKodeSetFixedStep          ERKStepSetFixedStep
-#define ARKodeGetReturnFlagName     ERKStepGetReturnFlagName
-#define ARKodeGetNumErrTestFails    ERKStepGetNumErrTestFails
-#define ARKodeEvolve                ERKStepEvolve
-#define ARKodeGetLastStep           ERKStepGetLastStep
-#endif
-
 typedef struct arkode {
     void *memory;
     N_Vector y;
