@@ -182,8 +182,8 @@ const command command_run = {
     .file = offsetof(options, scene.file),
     .description =
         "The times of --t-end, --step and --times are those of the scene's model: t of a ball, s of a point. With "
-        "a backend by name, a row does not depend on which other times are asked for; of the closed solution, at "
-        "times of --step, by roundings alone. Backend auto may take another backend for other times.\n\n"
+        "a backend by name, a row does not depend on the other times. Backend exact is an exception: with --step the "
+        "other times can change its last digits. Backend auto may take another backend for other times.\n\n"
         "Backend exact is the closed solution, where there is one ('isoroll explain' says so). Every time costs the "
         "same, near or far. It takes no method and no tolerance.\n\n"
         "--verbose computes the orbit a second time, with smaller steps, and tells the largest error of the rows. "

@@ -63,9 +63,9 @@ ISO_API void iso_foreign_scene_free(iso_foreign_scene *scene);
 ISO_API iso_status iso_foreign_scene_set(iso_context *ctx, iso_foreign_scene *scene, const char *key,
                                          const char *value);
 
-/* The numbers of a key: "k" 1, "J" 3, "D" 1 (0: not known), "start" 6 (omega, n; or M, gamma), "eps" 1 (NaN: that of
- * H = 0, or a ball's scene), "end" 1, "step" 1 (0: a hundredth of |end|), "tolerance" 1. Gives how many; 0: there is
- * no such key. */
+/* Reads the numbers of a key and returns how many there are; 0: no such key. "k" 1; "J" 3; "D" 1 (0: not known);
+ * "start" 6 (omega, n; or M, gamma); "eps" 1 (NaN: the scene is a ball's, or a point's on the level H = 0);
+ * "end" 1; "step" 1 (0: a hundredth of |end|); "tolerance" 1. */
 ISO_API int iso_foreign_scene_numbers(const iso_foreign_scene *scene, const char *key, double values[6]);
 
 /* The word of a key: "model" (of the start), "backend", "method", "as", "name"; NULL: there is no such key. */
@@ -115,8 +115,9 @@ ISO_API iso_status iso_foreign_orbit_at(iso_foreign_orbit *orbit, const double t
  * threads: 0: one for each processor. vectors: NULL: the widest.
  * status[] (may be NULL) has an iso_status for each orbit. Rows that an orbit has not reached are NaN.
  * Gives ISO_OK, or the status of the first orbit that failed; its number (from 0) and reason are in the message.
- * Errors of all: those of iso_batch_run; ISO_BAD_ARGUMENT about "scenes" (they do not agree, or contact could be
- * lost: `reactions` without two_sided, which only a run watches); a k, J or start that is none. */
+ * Errors of the whole call: those of iso_batch_run; ISO_BAD_ARGUMENT about "scenes": they do not agree, or a ball
+ * could lose contact (reactions without two_sided: only a run watches this). A k, J or start that makes no sense
+ * is ISO_BAD_ARGUMENT, too. */
 ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const scene[], size_t scenes,
                                      size_t count, const double k[], const double J[], const double start[],
                                      const double times[], size_t rows, int threads, const char *vectors,

@@ -1,9 +1,9 @@
 /* csv_lines.c - the lines of a text file, read in blocks of whole lines.
  *
  * Each block is read by one call of read() and given to a few threads, which read the rows in it. The caller
- * takes the lines in their order. What is no plain row (a line of #, an empty line, a mistake) the threads leave to
- * the caller, who alone makes messages. Blocks are read ahead only where no call would wait: a row that comes through
- * a slow pipe is there at once. */
+ * takes the lines in their order. Lines that are not plain rows (#, empty, wrong) are left to the caller, which
+ * alone writes messages. A block is read ahead only if read() would not wait, so a row from a slow pipe is passed
+ * on at once. */
 #include <errno.h>
 #include <poll.h>
 #include <stdint.h>
@@ -23,7 +23,7 @@ typedef struct block {
     iso_task task;
     const iso_csv_format *format;
     char *text;         /* 2 ISO_LONGEST_LINE + 1 characters */
-    size_t length, at;  /* of whole lines; where the next one begins that was not read ahead */
+    size_t length, at;  /* of whole lines; start of the first line that was not read ahead */
     bool too_long;      /* it is a part of one line                                          */
     size_t known, next; /* lines that were read ahead; the next of these to be taken        */
     uint32_t begin[MOST_ROWS], size[MOST_ROWS]; /* size: with '\r' */

@@ -12,7 +12,7 @@ iso_hdf5_library iso_hdf5;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static char trouble[256]; /* "": the table is full */
 
-/* A name's address, whatever it is the name of. */
+/* Finds the address of a function or a variable of the library. */
 static void find(void *library, const char *name, void *pointer)
 {
     void *const address = library ? dlsym(library, name) : NULL;

@@ -91,7 +91,7 @@ typedef struct iso_method {
      * and only a search for events calls `step`. */
     iso_status (*at)(iso_integrator *it, double t, double y[]);
     /* Writes all that the next step depends on, it->saved bytes (set by `create`); goes back to it, and gives the
-     * state there in y. NULL: the method has a history that cannot be had. See past.c. */
+     * state there in y. NULL: the method has a history that cannot be saved. See past.c. */
     void (*save)(const iso_integrator *it, void *to);
     void (*recall)(iso_integrator *it, const void *from, double y[]);
     void (*free)(iso_integrator *it);

@@ -81,7 +81,7 @@ static bool make_room(const iso_integrator *it, iso_past *p)
 void iso_past_keep(iso_integrator *it)
 {
     iso_past *p = iso_past_of(it, it->direction);
-    const bool stale = can_save(it) && it->resting; /* what rests has left the method behind */
+    const bool stale = can_save(it) && it->resting; /* at rest no steps are taken: the method's state is old */
     if (it->options.memory == 0 || stale || (!can_save(it) && it->method->dense)) return;
     if (p->stride == 0) p->first = p->stride = can_save(it) ? 4 : 1; /* see the head of this file */
     if (it->number != p->first + (long)p->count * p->stride || !make_room(it, p)) return;

@@ -34,8 +34,8 @@ typedef struct iso_orbit_options {
     iso_shown shown;             /* the models filled into samples, not ISO_SHOW_START                        */
     bool gamma_alone;            /* of the point gamma is filled in, which always fits a double, but not M    */
     bool with_clock[ISO_CLOCKS]; /* other clocks filled into samples                                       */
-    size_t memory;               /* bytes, at most, in which it keeps the ends of its steps, for each
-                                    direction of time; 0: none, for times that only run on (iso_orbit_at)  */
+    size_t memory;               /* bytes for the ends of its steps, at most, for each direction of time;
+                                    0: keeps none, enough if times only move away from 0 (iso_orbit_at)    */
 } iso_orbit_options;
 
 #define ISO_ORBIT_MEMORY ((size_t)1 << 23) /* 8 MB: 28000 turns of a free ball by taylor at 1e-12 */
@@ -86,9 +86,9 @@ ISO_API void iso_orbit_free(iso_orbit *orbit);
  * than 1e6 times in which a stiff motion dies away. Errors: ISO_BAD_ARGUMENT about "end" or "method". */
 ISO_API iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
 
-/* The orbit at `time` of the options' clock, before or after the start. A time gives the same bits in whatever order
- * times are asked. Cheap when times run away from the start. A time passed before is found from an end of a step that
- * is kept (options.memory), in microseconds:
+/* The orbit at `time` of the options' clock, before or after the start. The order of the calls does not change a
+ * bit. Times that move away from the start are cheap. An earlier time is found in microseconds from a step's end
+ * that was kept (options.memory):
  * - taylor and splittings keep every fourth end, and take up to 4 steps again. taylor needs 24 bytes for an end, and
  *   8 for each number of the state and of three clocks: a free ball at 1e-12 takes 300 bytes a turn. When memory is
  *   full, they keep every eighth, then every sixteenth, and so on.
@@ -101,9 +101,8 @@ ISO_API iso_status iso_orbit_check_time(const iso_orbit *orbit, double time);
  * a result that does not fit a double, or lost its digits). */
 ISO_API iso_status iso_orbit_at(iso_orbit *orbit, double time, iso_sample *sample);
 
-/* Says that the times to come follow each other in even steps. The closed solution then takes less time where steps
- * are short, and its states depend on the times before, by roundings. It is never wrong to say so. Other backends
- * take no notice. */
+/* Tells the orbit that the next times have equal steps. The closed solution is then faster if steps are short, but
+ * its last digits depend on the times before. Uneven times still give right states. Other backends ignore this. */
 ISO_API void iso_orbit_expect_even_times(iso_orbit *orbit);
 
 /* The first zero of g(sample) after `from`, not after `to`; see iso_integrator_event. direction as there. The sample

@@ -1,7 +1,7 @@
 /* backend.c - which backend `auto` takes for a scene: the cheapest for its rows and its tolerance.
  *
  * Measured for a free ball by tests/bench/backends.c (lib/doc/performance.md), in microseconds on one machine, for a
- * radian of the way of n and for a row:
+ * radian by which n turns and for a row:
  *
  *                  radian    row
  *     ball         2         0.2
@@ -95,6 +95,6 @@ const char *iso_scene_why_backend(const iso_scene *scene, const iso_orbit *orbit
     choice c = choose(scene, &effects, &q, true);
     if (c.backend == ISO_BACKEND_EXACT && taken != c.backend) c = choose(scene, &effects, &q, false);
     if (c.backend == ISO_BACKEND_POINT && taken != c.backend)
-        return "the model of the start: the point cannot be had";
+        return "the model of the start: this orbit has no point that can be integrated";
     return c.why;
 }

@@ -8,7 +8,7 @@ echo 'int main(void) { return 0; }' >empty.c
 if "$cc" -m32 empty.c -o empty 2>/dev/null; then
     check_not "32 bits are refused" cmake -S "$source" -B narrow -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS=-m32
     cmake -S "$source" -B narrow -DCMAKE_C_COMPILER="$cc" -DCMAKE_C_FLAGS=-m32 >out 2>err
-    check "and it says why" grep -q "isoroll needs a processor and a compiler of 64 bits" err
+    check "and it says why" grep -q "isoroll needs a 64-bit processor and compiler" err
 else
     skip "32 bits" "$cc cannot compile for them here"
 fi

@@ -6,9 +6,9 @@
     orbit.at([0, 10, 5]).gamma                        # (3, 3): the point at three times
     isoroll.write(isoroll.convert(table, "point"), "point.csv")
 
-Numbers are NumPy arrays that view the library's memory, or that the library has filled: none is a copy. Units are the
-scene's, angles are radians, vectors are in the ball's principal axes. A failure raises an IsorollError with the words
-of the library. All functions can be called by several threads at the same time; they compute side by side.
+No array is copied: each is a view of the library's memory, or the library has filled it. Units are the scene's, and
+angles are radians. omega, n, e, trace and N are in the ball's principal axes; contact and centre are in axes of space
+(lib/doc/formats.md, section 4). A failure raises an IsorollError with the library's message. All functions can be called by several threads at the same time; they compute side by side.
 """
 
 from ._errors import (BadArgument, BadInput, ClosedPipe, FileTrouble, IsorollError, IsorollWarning, LibraryError,

@@ -129,8 +129,8 @@ def _declare(library: ctypes.CDLL) -> ctypes.CDLL:
 lib = _declare(_load())
 
 # --- Ctrl-C ---------------------------------------------------------------------------------------------------------
-# While the library computes, Python cannot run its signal handlers. The library asks _go_on ten times a second; in it
-# Python runs the handler that stands there during a call. It notes the signal, and the library stops.
+# While the library computes, Python cannot run its signal handlers. So the library calls _go_on ten times a second. In
+# this call Python can run the handler, which is _note during a call: it keeps the signal. The library then stops.
 
 _signals: List[Tuple[int, Any]] = []
 try:  # the same functions without the enums of `signal`, which take longer than a short call
@@ -153,7 +153,7 @@ def _note(number: int, frame: Any) -> None:
 
 
 class interruptible:
-    """Ctrl-C ends a call of the library: it raises what it does elsewhere, KeyboardInterrupt as a rule."""
+    """Lets Ctrl-C end a call of the library. The user's handler then runs; usually it raises KeyboardInterrupt."""
 
     __slots__ = ("handler",)
 
@@ -235,7 +235,7 @@ class _OfThread(threading.local):
 
 
 def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
-    """A whole number for C, which would take another one for what it has no room for."""
+    """A whole number that fits the C type. ctypes would cut a larger one without a message."""
     try:
         number = int(value)
     except (TypeError, ValueError, OverflowError):
@@ -246,7 +246,7 @@ def whole(name: str, value: Any, least: int, most: int = 2**63 - 1) -> int:
 
 
 def encoded(text: Any) -> bytes:
-    """A text or a path for C, which would end it at a zero."""
+    """A text or a path as bytes. C ends a text at a zero byte, so a zero byte is refused."""
     code = os.fsencode(text)
     if b"\0" in code:
         raise _errors.BadArgument(f"{text!r} has a zero byte in it")

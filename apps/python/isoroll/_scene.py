@@ -45,7 +45,7 @@ class Scene(Owned):
 
     source   the path of a YAML file; a str with a newline: YAML text; a dict of its sections; another Scene
     changes  backend, method, tolerance, end, step, as_ ("ball", "point", "both"), columns (a list of names):
-             as the options of the command, they stand before what the scene says
+             they override the scene, like the options of the command
 
     >>> isoroll.Scene({"reduced": {"k": -1, "J": [1, 2, 5]},
     ...                "initial": {"normal": [0.36, 0.48, 0.8], "angular_velocity": [0.8, -0.6, 0]},

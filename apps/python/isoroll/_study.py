@@ -53,7 +53,7 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
     """The Poincare section of a scene: what `isoroll section` writes.
 
     crossings  of each orbit
-    starts     orbits of the same energy, spread evenly over the section; seed spreads them in another way
+    starts     orbits of the same energy, spread evenly over the section; seed: another choice of them
     at         shape (N, 2): (l, x) of further starts
     axis       1, 2, 3: the section n_axis = 0, increasing; None: the global one
     event      (column, value) in place of the axis: crossings where the column passes the value upwards
@@ -83,7 +83,7 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
 
 
 class Share(NamedTuple):
-    """The orbits spread over the section. share: that of the chaotic ones; low, high: its interval of 95 %."""
+    """The orbits spread over the section. share: the chaotic fraction; low, high: its 95 % confidence interval."""
 
     orbits: int
     chaotic: int

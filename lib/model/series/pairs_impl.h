@@ -4,7 +4,8 @@
  * up to n + 1 of a. So the sums of two coefficients run side by side: each number that is loaded serves both, and the
  * processor adds both at a time. One by one they take 1.2 to 1.5 times as long.
  *
- * Of (a b)_(n+1) a pair has all but the ends a_0 b_(n+1) + a_(n+1) b_0. These are added when they are known.
+ * The pair's `next` is (a b)_(n+1) without its end terms a_0 b_(n+1) and a_(n+1) b_0, which are added later, when
+ * b_(n+1) and a_(n+1) are known.
  * Deviations as in products_impl.h: d(a b) = a db + da b.
  */
 #include "model/series/products_impl.h"
@@ -34,7 +35,7 @@ static inline vector held_vector(vector a)
 
 /* --- of one channel --------------------------------------------------------------------------------------------- */
 
-/* n = -1: no now, no next */
+/* n = -1: both sums are 0 */
 static inline pair product_pair_of(const real a[], const real b[], int n)
 {
     pair s = {zero, zero};
