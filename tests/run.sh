@@ -36,10 +36,10 @@ round() {
     rounds="$rounds${rounds:+, }$name ($length)"
 }
 
-threaded='batch|batch_failures|crossings|chaos|sweep|section_run|indicators|hard_machine|sweep_files|section'
+threaded='foreign|batch|batch_failures|crossings|chaos|sweep|section_run|indicators|hard_machine|sweep_files|section'
 quick='number|version|params|model|integrals|formula|effect_rows|rest|map|reduction|poisson|needs|refusal'
 quick="$quick|two_point|separation|coordinates|orbit|attitude|convert|off_level|analogue"
-quick="$quick|spectrum|scene|trajectory|sweep_file|plot"
+quick="$quick|spectrum|scene|trajectory|sweep_file|plot|foreign"
 mkdir -p .build
 left_out=
 case $what in

@@ -78,6 +78,15 @@ check "ldconfig runs" grep -q ldconfig control/triggers
 # --- the packaged command runs, and the demo beside it
 dpkg-deb -x "first/isoroll_${version}_$machine.deb" there
 check "the packaged command runs" there/usr/bin/isoroll --version
+documents=$(cd there/usr/share/doc/isoroll && find . -name '*.md')
+check "there are documents" test "$(echo "$documents" | wc -l)" -ge 8
+for document in $documents; do # links [text](path)
+    folder=there/usr/share/doc/isoroll/$(dirname "$document")
+    for link in $(sed 's/](/\n](/g' "there/usr/share/doc/isoroll/$document" |
+        sed -n 's/^](\([^)#]*\)[^)]*).*/\1/p' | grep -v '^[a-z]*:'); do
+        check "$document: there is $link" test -e "$folder/$link"
+    done
+done
 if [ "$(length short full)" = full ] && has gnuplot "the packaged demo"; then
     check "the packaged demo runs" env PATH="$PWD/there/usr/bin:$PATH" sh there/usr/share/doc/isoroll/apps/demo.sh
     check "three pictures" test "$(ls isoroll-demo/*.svg | wc -l)" -eq 3
