@@ -100,6 +100,11 @@ static bool is_ready(const iso_csv_lines *c)
     return c->ready || poll(&(struct pollfd){.fd = fileno(c->file), .events = POLLIN}, 1, 0) > 0;
 }
 
+static iso_status stopped(iso_context *ctx)
+{
+    return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
+}
+
 /* Reads on, at most ISO_LONGEST_LINE characters. *got 0: the end, or an error, which is kept. */
 static iso_status read_more(iso_context *ctx, iso_csv_lines *c, char *to, size_t *got)
 {
@@ -109,7 +114,7 @@ static iso_status read_more(iso_context *ctx, iso_csv_lines *c, char *to, size_t
         c->ended = n == 0 || errno != EINTR;
         if (n < 0 && c->ended) c->error = errno;
         if (c->ended) return ISO_OK;
-        if (!iso_context_goes_on(ctx)) return iso_context_fail(ctx, ISO_STOPPED, "", "stopped on request");
+        if (!iso_context_goes_on(ctx)) return stopped(ctx);
     }
 }
 
@@ -129,7 +134,7 @@ static iso_status skip_line(iso_context *ctx, iso_csv_lines *c, block *b)
     b->too_long = true;
     b->length = 1;
     while (status == ISO_OK && !c->ended && !end) {
-        status = read_more(ctx, c, rest, &got);
+        status = iso_context_goes_on(ctx) ? read_more(ctx, c, rest, &got) : stopped(ctx); /* it may never end */
         end = memchr(rest, '\n', got);
     }
     if (end) keep_tail(c, end + 1, got - (size_t)(end + 1 - rest));
