@@ -70,4 +70,10 @@ if (ulimit -v 65536) 2>/dev/null && (ulimit -v 65536 && "$isoroll" --version) >/
 else
     skip "little memory" "ulimit -v does not work here, or isoroll needs more to start"
 fi
+# --- a line without end can be interrupted
+if has timeout "a line without end"; then
+    checks=$((checks + 1))
+    timeout -s INT -k 60 1 "$isoroll" check /dev/zero >out 2>err
+    [ $? -ne 137 ] || fail "a line without end: Ctrl-C does not end it"
+fi
 finish
