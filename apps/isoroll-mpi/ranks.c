@@ -1,4 +1,5 @@
 /* ranks.c - the ranks of MPI as the team of a sweep (see ranks.h). */
+#define _GNU_SOURCE /* CPU_COUNT */
 #include "ranks.h"
 
 #include <limits.h>

@@ -1,4 +1,5 @@
 /* sweep_explain.c - tells how many points a sweep has, and measures what they cost here (see sweep_explain.h). */
+#define _GNU_SOURCE /* CPU_COUNT */
 #include "sweep_explain.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* number.c - reads and prints doubles, in any locale (number.h). */
+#define _GNU_SOURCE /* strtod_l, strfromd */
 #include "base/number.h"
 
 #include <limits.h>

@@ -4,6 +4,7 @@
  * takes the lines in their order. Lines that are not plain rows (#, empty, wrong) are left to the caller, which
  * alone writes messages. A block is read ahead only if read() would not wait, so a row from a slow pipe is passed
  * on at once. */
+#define _GNU_SOURCE /* memrchr */
 #include <errno.h>
 #include <poll.h>
 #include <stdint.h>

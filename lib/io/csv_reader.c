@@ -1,5 +1,6 @@
 /* csv_reader.c - reads trajectories from text: files of isoroll and of other programs. csv_writer.c writes them.
  * This file knows the header and the messages, csv_lines.c reads lines, csv_row.c the numbers in them. */
+#define _GNU_SOURCE /* strtod_l */
 #include <ctype.h>
 #include <locale.h>
 #include <math.h>

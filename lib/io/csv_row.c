@@ -1,5 +1,6 @@
 /* csv_row.c - reads the numbers of one line of text. It has no memory of other lines: several threads read rows at
  * the same time. */
+#define _GNU_SOURCE /* strtod_l */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

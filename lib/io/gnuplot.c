@@ -1,6 +1,7 @@
 /* gnuplot.c - runs gnuplot. Its standard input is the script, its standard output the picture, its messages go to a
  * third file. All three are files, not pipes: nothing can block or raise SIGPIPE, and no script contains a file
  * name. */
+#define _GNU_SOURCE /* memmem */
 #include "io/gnuplot_impl.h"
 
 #include <errno.h>

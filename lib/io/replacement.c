@@ -1,4 +1,5 @@
 /* replacement.c - writes a file beside the one it replaces, and renames it when it is complete. */
+#define _GNU_SOURCE /* asprintf */
 #include "io/replacement_impl.h"
 
 #include <errno.h>

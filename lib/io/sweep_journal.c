@@ -5,6 +5,7 @@
  *     record   chunk, length of what follows, checksum; then numbers, statuses, and for each status that is not 0 the
  *              length of a reason and the reason
  */
+#define _GNU_SOURCE /* asprintf */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
 /* pool.c - the threads of batches and crossings: each takes a chunk of the orbits, solves it, and takes the next. */
+#define _GNU_SOURCE /* CPU_COUNT, pthread_timedjoin_np */
 #include "orbit/pool_impl.h"
 
 #include <errno.h>

@@ -1,4 +1,5 @@
 /* follow_curve.c - the curve F(u, value) = 0 of a symmetric periodic orbit: evaluation, corrector, one step. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 
 #include "base/pi_impl.h"

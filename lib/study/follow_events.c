@@ -1,4 +1,5 @@
 /* follow_events.c - what happens to a followed orbit between two points of its curve, and exactly where. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,6 +4,7 @@
  * value of the parameter a little to each side. There it has three zeros where branches are: the orbit itself, in the
  * middle, and two of the new orbit. The first one is taken. Orbits without a symmetry are not found.
  */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdlib.h>
 

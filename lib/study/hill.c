@@ -1,4 +1,5 @@
 /* hill.c - the rotations about the principal axes: Hill's equation over half a turn, in 64 and in 113 bits. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdbool.h>
 

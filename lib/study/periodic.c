@@ -1,5 +1,6 @@
 /* periodic.c - the periodic orbits of a scene's ball, see periodic.h: what is refused, the order of work, the list.
  */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include "study/periodic.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* periodic_grid.c - periodic orbits of any kind: Newton's method on f^p from points spread over the section. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdlib.h>
 

@@ -3,6 +3,7 @@
  * Between the crossings g^(p-1) z and g^p z an orbit passes a line half way if g^p z = S g^(p-1) z. So what stands
  * for the distance from the line is the middle of the two crossings, and its derivative (1 + D g)/2.
  */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

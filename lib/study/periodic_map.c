@@ -4,6 +4,7 @@
  * g z: from the crossing z half a return, to the next crossing downwards, then T: gamma -> -gamma. A start at -gamma,
  * M is a crossing downwards; its next crossings upwards are g z, g^3 z, ...
  */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

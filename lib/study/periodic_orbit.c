@@ -1,5 +1,6 @@
 /* periodic_orbit.c - the list of periodic orbits: which candidates are new, their symmetry, their copies.
  */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* periodic_rotations.c - the rotations about the principal axes: Hill's equation in 64 and 113 bits, and the
  * section's tangent map. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 
 #include "base/pi_impl.h"

@@ -4,6 +4,7 @@
  * with its derivative, closer and closer until between two samples each F_n either has no zero or is monotone. A sign
  * change then holds one zero, a point of an orbit of period n or a divisor of it.
  */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,6 +3,7 @@
  *
  * A symmetric orbit keeps its symmetry: only the coordinate u of its line is sought.
  */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <string.h>
 

@@ -1,4 +1,5 @@
 /* splitting.c - the splitting at one k: x* and m, with errors. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include "study/splitting.h"
 
 #include <math.h>

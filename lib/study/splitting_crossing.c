@@ -2,6 +2,7 @@
  *
  * The part 1/lambda < theta <= 1 is a fundamental domain: its images under g are the whole branch, piece by piece. A
  * piece is held as samples so close together that no turn is missed. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdlib.h>
 

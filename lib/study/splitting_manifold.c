@@ -6,6 +6,7 @@
  *
  * A_j: the derivative of g. As |A_j| ~ lambda, the left side is about the unit matrix. v is fixed, or else theta
  * could be stretched. */
+#define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <string.h>
 

@@ -14,6 +14,7 @@
  *
  * The second table shows the start: milliseconds from the start of a process to its end, median of STARTS.
  */
+#define _GNU_SOURCE /* sched_setaffinity */
 #include <errno.h>
 #include <fcntl.h>
 #include <sched.h>

@@ -33,7 +33,7 @@ if [ "$(length short full)" = full ] && has musl-gcc "musl"; then
     check "there are files" test "$(wc -l <files)" -ge 100
     while read -r file; do
         checks=$((checks + 1))
-        musl-gcc -std=c11 -D_GNU_SOURCE -Werror=implicit-function-declaration -fsyntax-only -I "$source/lib" \
+        musl-gcc -std=c11 -D_DEFAULT_SOURCE -Werror=implicit-function-declaration -fsyntax-only -I "$source/lib" \
             -I musl "$file" 2>err || fail "musl: $file"
     done <files
 fi

@@ -7,6 +7,7 @@
  *     ISO_FAIL_ANY=n         the n-th call alone, theirs counted
  *     ISO_FAIL_COUNT=FILE    gets the number of calls when the program ends
  */
+#define _GNU_SOURCE /* dl_iterate_phdr, RTLD_NEXT */
 #include <dlfcn.h>
 #include <errno.h>
 #include <link.h>

@@ -4,6 +4,7 @@
  * It runs in a folder of its own, with the files below and no gnuplot. What follows a line `<` is standard input and
  * the file `input`. Arguments that name other folders are passed over. Linked with --wrap (CMakeLists.txt): after
  * STEPS steps it looks as if Ctrl-C was pressed. */
+#define _GNU_SOURCE /* memfd_create */
 #include <dirent.h>
 #include <fcntl.h>
 #include <getopt.h>

@@ -1,5 +1,6 @@
 /* mutate.c - half of the fuzzer's changes put another number where one stands: bytes changed at random seldom leave a
  * text that reaches the physics. */
+#define _GNU_SOURCE /* memfd_create */
 #include <ctype.h>
 
 #include "fuzz.h"

@@ -1,4 +1,5 @@
 /* scene.c - bytes as a scene: refused with a place and words, or an orbit all of whose numbers are finite. */
+#define _GNU_SOURCE /* memfd_create */
 #include <math.h>
 
 #include "fuzz.h"

@@ -1,4 +1,5 @@
 /* trajectory.c - bytes as a trajectory file: refused with words, or carried over and checked, with finite numbers. */
+#define _GNU_SOURCE /* memfd_create */
 #include <math.h>
 
 #include "fuzz.h"

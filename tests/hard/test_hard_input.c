@@ -1,5 +1,6 @@
 /* Bad input: what the fuzzers in fuzz/ were fed, and what they found, replayed; and numbers that are none, wherever a
  * number can stand.      test_hard_input KIND FILE...: these files alone, with what they print */
+#define _GNU_SOURCE /* asprintf, memfd_create */
 #include <dirent.h>
 #include <getopt.h>
 #include <gsl/gsl_test.h>

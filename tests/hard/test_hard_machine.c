@@ -1,6 +1,7 @@
 /* The machine under the numbers: threads, and what a host program may have set for itself, its rounding, its
  * subnormal numbers, its traps and its locale. None of it may change a bit of an answer, lib/base/arithmetic_impl.h.
  * */
+#define _GNU_SOURCE /* memmem, feenableexcept */
 #include <fenv.h>
 #include <locale.h>
 #include <pthread.h>

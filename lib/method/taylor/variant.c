@@ -33,6 +33,7 @@
 #define IS_EXTENDED (IS(EXTENDED) || IS(TANGENT_EXTENDED))
 #define IS_TANGENT (ISO_TAYLOR_VARIANT >= VARIANT_TANGENT_PLAIN)
 
+#define _GNU_SOURCE /* functions of _Float128 */
 #include "base/finite_impl.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
