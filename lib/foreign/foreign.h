@@ -76,13 +76,14 @@ ISO_API int iso_foreign_scene_columns(const iso_foreign_scene *scene, int column
 
 /* --- runs and orbits -------------------------------------------------------------------------------------------- */
 
-/* Runs the scene (study/run.h): at `count` times, or, if times is NULL, at the scene's own. The record is what the
- * file of `isoroll run` holds.
+/* Runs the scene (study/run.h). The record is what the file of `isoroll run` holds.
+ * times: `count` of them; t for a ball's scene, s for a point's. NULL with count 0: the scene's own times.
  * errors: NULL, or room for five numbers, the largest errors of (omega, n), (M, gamma), t, tau and s in the rows
  *   (study/error.h); NaN: not shown, or not known. To find them takes many times as long as the rows.
  * Notes: contact is lost, the support pulls, the error is not known.
- * Errors: those of iso_run. After a failure or a stop on the way *record has the rows that were found before. It is
- * NULL only if there is none. */
+ * Errors: those of iso_run; ISO_BAD_ARGUMENT about "times": NULL with another count, or count 0 at a place that is
+ * not NULL. After a failure or a stop on the way *record has the rows that were found before. It is NULL only if
+ * there is none. */
 ISO_API iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, const double times[],
                                    size_t count, double errors[5], iso_record **record, char notes[], size_t room);
 

@@ -61,8 +61,10 @@ iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, con
     const iso_run_sink sink = {.header = keep_header, .row = keep_row, .note = keep_note, .data = &kept};
     iso_run_options how = iso_run_defaults();
     iso_run_result result;
-    const double none = 0;
-    how.times = times || count == 0 ? times : &none;
+    *record = NULL;
+    for (int i = 0; errors && i < 5; i++) errors[i] = NAN;
+    if (!times && count > 0) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "%zu times are at NULL", count);
+    how.times = times;
     how.count = count;
     how.errors = errors != NULL;
     iso_status status = iso_run(ctx, &scene->scene, &how, &sink, &result);

@@ -84,6 +84,22 @@ static void check_rows(const char *text)
     free(wanted);
 }
 
+/* Times that are not there: none at all are the scene's own; a number without a place is refused, and so is a place
+ * without a number. */
+static void check_no_times(void)
+{
+    iso_foreign_scene *scene = made(FREE);
+    iso_record *record = NULL;
+    double errors[5] = {0}, time = 1;
+    gsl_test(iso_foreign_run(ctx, scene, NULL, 3, errors, &record, notes, sizeof notes) != ISO_BAD_ARGUMENT ||
+                 record || !about("times") || !isnan(errors[0]) || *notes,
+             "three times at NULL: %s", iso_context_message(ctx));
+    gsl_test(iso_foreign_run(ctx, scene, &time, 0, NULL, &record, NULL, 0) != ISO_BAD_ARGUMENT || record ||
+                 !about("times"),
+             "no times: %s", iso_context_message(ctx));
+    iso_foreign_scene_free(scene);
+}
+
 /* Contact is lost: the words have no room in few bytes, and an orbit refuses what is beyond. */
 static void check_contact(void)
 {
@@ -268,6 +284,7 @@ int main(void)
     check_rows(REDUCED("-1") "time: {end: -3, step: 0.25}\noutput: {as: both}\n");
     check_rows(POINT TIME "output: {as: ball}\n");
     check_rows(OUTSIDE START TIME "effects: {" GRAVITY ", attitude: {}, reactions: {two_sided: true}}\n");
+    check_no_times();
     check_contact();
     iso_foreign_scene *scene = made(FREE);
     const iso_foreign_scene *one = scene;
