@@ -57,8 +57,9 @@ ISO_API iso_status iso_foreign_scene_parse(iso_context *ctx, const char *name, c
 ISO_API iso_status iso_foreign_scene_copy(iso_context *ctx, const iso_foreign_scene *from, iso_foreign_scene **scene);
 ISO_API void iso_foreign_scene_free(iso_foreign_scene *scene);
 
-/* Changes one key: "backend", "method", "tolerance", "end", "step", "as", or "columns" (names with commas between).
- * "as" also sets the columns, as in a scene file without columns. A run checks "end" and "step" together.
+/* Changes one key: "backend", "method", "tolerance", "end", "step", "as", or "columns" (names with commas between,
+ * one at least). "as" also sets the columns, as in a scene file without columns: set "as" first, then "columns".
+ * A run checks "end" and "step" together.
  * Errors: ISO_BAD_ARGUMENT about the key. The scene is then as it was. */
 ISO_API iso_status iso_foreign_scene_set(iso_context *ctx, iso_foreign_scene *scene, const char *key,
                                          const char *value);

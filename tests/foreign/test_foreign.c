@@ -27,7 +27,7 @@ static void check_scenes(void)
     iso_foreign_scene *scene = made(REDUCED("0.5") TIME "output: {columns: [s, n3]}\n"), *copy, *none;
     const char *const bad[][2] = {{"backend", "x"},  {"method", "x"},   {"tolerance", "2"}, {"end", "nan"},
                                   {"step", "0"},     {"as", "neither"}, {"columns", "t,t"}, {"columns", "t,,n1"},
-                                  {"columns", "e1"}, {"colour", "red"}};
+                                  {"columns", "e1"}, {"columns", ""},   {"colour", "red"}};
     int columns[ISO_MAX_COLUMNS];
     double x[6];
     gsl_test(iso_foreign_scene_copy(ctx, scene, &copy) != ISO_OK, "a copy");
