@@ -35,6 +35,7 @@ typedef struct work {
     double *table;
     size_t chunk, threads;
     buffer *buffers; /* one for each thread */
+    bool began;      /* the call makes sense, and status says how each orbit went */
 } work;
 
 /* The status of an orbit that no thread has taken. */
@@ -168,14 +169,21 @@ static void take_columns(const work *w, const iso_sample sample[], size_t first,
         for (int c = 0; c < w->width; c++) *to++ = from[w->columns[c]];
 }
 
-/* Rows of orbits that no thread has taken before a stop. */
-static void blank_untouched(const work *w)
+static void blank_rows(const work *w, size_t first, size_t count)
 {
     const size_t each = w->rows * (size_t)w->width;
+    for (size_t j = 0; j < count * each; j++) w->table[first * each + j] = NAN;
+}
+
+/* The caller's status. Orbits that no thread has taken have no rows, and the status of the call. A call that makes no
+ * sense leaves table and status as they were. */
+static void tell(const work *w, iso_status answer, int32_t status[])
+{
+    if (!w->began && answer != ISO_NO_MEMORY && answer != ISO_STOPPED) return;
     for (size_t i = 0; i < w->count; i++) {
-        if (w->status[i] != UNTOUCHED) continue;
-        w->status[i] = ISO_STOPPED;
-        for (size_t j = 0; j < each; j++) w->table[i * each + j] = NAN;
+        const bool untouched = !w->began || w->status[i] == UNTOUCHED;
+        if (untouched) blank_rows(w, i, 1);
+        if (status) status[i] = (int32_t)(untouched ? answer : w->status[i]);
     }
 }
 
@@ -204,12 +212,14 @@ static bool solve_chunk(iso_pool_worker *worker, void *data, size_t first, size_
     const work *w = data;
     buffer *b = take_buffer(w);
     if (!b->sample) b->sample = malloc(w->chunk * w->rows * sizeof *b->sample + 1);
-    const bool memory = b->sample != NULL;
     iso_status status = ISO_NO_MEMORY;
-    if (memory)
+    if (b->sample)
         status = iso_batch_run(worker->ctx, w->orbit + first, count, &w->how, w->times, w->rows, b->sample,
                                w->status + first);
-    if (status != ISO_NO_MEMORY) {
+    if (status == ISO_NO_MEMORY) {
+        for (size_t i = first; i < first + count; i++) w->status[i] = status;
+        blank_rows(w, first, count);
+    } else {
         take_columns(w, b->sample, first, count);
         if (status != ISO_OK) note_failure(worker, w, first, count);
     }
@@ -229,8 +239,8 @@ static iso_status solve_all(work *w, int threads)
     w->buffers = calloc(w->threads, sizeof *w->buffers);
     if (!w->buffers) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for a batch");
     iso_pool pool = {.count = w->count, .chunk = w->chunk, .solve = solve_chunk, .data = w};
+    w->began = true;
     status = iso_pool_run(w->ctx, &pool, w->threads, w->status);
-    blank_untouched(w);
     for (size_t i = 0; i < w->threads; i++) free(w->buffers[i].sample);
     free(w->buffers);
     return status;
@@ -255,8 +265,7 @@ iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const sc
     if (answer == ISO_OK) answer = make_starts(&w, start);
     if (answer == ISO_OK) answer = make_orbits(&w);
     if (answer == ISO_OK) answer = solve_all(&w, threads);
-    for (size_t i = 0; status && w.status && i < count; i++)
-        status[i] = w.status[i] == UNTOUCHED ? ISO_OK : (int32_t)w.status[i];
+    tell(&w, answer, status);
     free(w.params);
     free(w.start);
     free(w.orbit);

@@ -185,6 +185,14 @@ static void check_stop(const iso_foreign_scene *const *scene)
         wrong += whole ? status[i] != ISO_OK : status[i] != ISO_STOPPED;
     }
     gsl_test(wrong || stopped == 0, "%d of %d orbits are stopped, and say so", stopped, ORBITS);
+    memset(status, 0, sizeof status);
+    memset(table, 0, sizeof table);
+    left = 1, wrong = 0;
+    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) !=
+                 ISO_STOPPED,
+             "it stops before the first orbit");
+    for (int i = 0; i < ORBITS; i++) wrong += status[i] != ISO_STOPPED || !isnan(table[2 * i * WIDTH]);
+    gsl_test(wrong, "and no orbit has a row");
     iso_context_set_monitor(ctx, NULL, NULL);
     iso_foreign_monitor_free(monitor);
 }
@@ -192,10 +200,13 @@ static void check_stop(const iso_foreign_scene *const *scene)
 static void check_failures(const iso_foreign_scene *const *scene)
 {
     k[611] = 0;
+    status[3] = -7;
+    table[0] = -7;
     gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, NULL, times, 2, 0, NULL, table, status) !=
                      ISO_BAD_INPUT ||
                  strncmp(iso_context_message(ctx), "orbit 611: ", 11) != 0 || !about("k"),
              "no ball: %s", iso_context_message(ctx));
+    gsl_test(status[3] != -7 || table[0] != -7, "and nothing is written");
     starts[600][0] = 1e13, starts[600][1] = 0;
     starts[650][0] = 1e13, starts[650][1] = 0;
     const double late[2] = {1, 1e4};
