@@ -118,9 +118,10 @@ ISO_API iso_status iso_foreign_orbit_at(iso_foreign_orbit *orbit, const double t
  * status[] (may be NULL) has an iso_status for each orbit. Rows that an orbit has not reached are NaN.
  * Gives ISO_OK, or the status of the first orbit that failed; its number (from 0) and reason are in the message.
  * ISO_STOPPED by the monitor and ISO_NO_MEMORY are also the status of every orbit that was not followed therefore.
- * Errors of a call that makes no sense: ISO_BAD_ARGUMENT as iso_batch_run; ISO_BAD_ARGUMENT about "scenes": they do
- * not agree, or a ball could lose contact (reactions without two_sided: only a run watches this); ISO_BAD_INPUT about
- * a k, J or start, with the orbit's number. Such a call leaves table[] and status[] as they were. */
+ * A k, J or start that makes no sense is the failure of that orbit alone.
+ * Errors of a call that makes no sense, which leaves table[] and status[] as they were: ISO_BAD_ARGUMENT as
+ * iso_batch_run; about "scenes": they do not agree, or a ball could lose contact (reactions without two_sided: only
+ * a run watches this). */
 ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const scene[], size_t scenes,
                                      size_t count, const double k[], const double J[], const double start[],
                                      const double times[], size_t rows, int threads, const char *vectors,

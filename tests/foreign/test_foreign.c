@@ -199,14 +199,21 @@ static void check_stop(const iso_foreign_scene *const *scene)
 
 static void check_failures(const iso_foreign_scene *const *scene)
 {
-    k[611] = 0;
-    status[3] = -7;
-    table[0] = -7;
-    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, NULL, times, 2, 0, NULL, table, status) !=
+    int wrong =
+        ISO_OK != iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, NULL);
+    const double before = table[2 * 610 * WIDTH + 1];
+    k[5] = NAN, k[611] = 0, starts[612][5] = 2;
+    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, status) !=
                      ISO_BAD_INPUT ||
-                 strncmp(iso_context_message(ctx), "orbit 611: ", 11) != 0 || !about("k"),
+                 strncmp(iso_context_message(ctx), "orbit 5: ", 9) != 0 || !about("k"),
              "no ball: %s", iso_context_message(ctx));
-    gsl_test(status[3] != -7 || table[0] != -7, "and nothing is written");
+    for (int i = 0; i < ORBITS; i++) {
+        const bool fails = i == 5 || i == 611 || i == 612;
+        for (int j = 0; j < 2 * WIDTH; j++) wrong += fails != isnan(table[2 * i * WIDTH + j]);
+        wrong += status[i] != (fails ? ISO_BAD_INPUT : ISO_OK);
+    }
+    gsl_test(wrong || table[2 * 610 * WIDTH + 1] != before, "and only such orbits fail");
+    starts[612][5] = 1;
     starts[600][0] = 1e13, starts[600][1] = 0;
     starts[650][0] = 1e13, starts[650][1] = 0;
     const double late[2] = {1, 1e4};
@@ -215,11 +222,13 @@ static void check_failures(const iso_foreign_scene *const *scene)
     gsl_test((int32_t)found != status[600] || found == ISO_OK ||
                  strncmp(iso_context_message(ctx), "orbit 600: ", 11) != 0,
              "no orbit: %s", iso_context_message(ctx));
-    int wrong = 0;
+    wrong = 0;
     for (int i = 0; i < ORBITS; i++) wrong += (status[i] != ISO_OK) != (i == 600 || i == 650);
     gsl_test(wrong, "the others are there");
-    gsl_test(iso_foreign_batch(ctx, scene, 2, ORBITS, NULL, NULL, NULL, times, 2, 0, NULL, table, NULL) !=
-                 ISO_BAD_ARGUMENT,
+    status[3] = -7, table[0] = -7;
+    gsl_test(iso_foreign_batch(ctx, scene, 2, ORBITS, NULL, NULL, NULL, times, 2, 0, NULL, table, status) !=
+                     ISO_BAD_ARGUMENT ||
+                 status[3] != -7 || table[0] != -7,
              "two scenes for %d orbits", ORBITS);
     gsl_test(iso_foreign_batch(ctx, scene, 1, 0, NULL, NULL, NULL, times, 2, 0, NULL, NULL, NULL) != ISO_OK, "none");
 }
