@@ -113,7 +113,12 @@ ISO_API iso_status iso_foreign_orbit_at(iso_foreign_orbit *orbit, const double t
  * scene[]: `scenes` of them, 1 for all orbits or `count`. They agree in columns, backend, tolerance and the model of
  *   the start. The method is `taylor`, in lanes: scenes with another one are refused.
  * k, J, start: NULL, or what replaces the scene's: count numbers; 3 count; 6 count (omega, n; or M, gamma). With k or
- *   J the ball is a reduced one (its body is forgotten, D stays), and effects keep their numbers.
+ *   J the ball is a reduced one (its body is forgotten, D stays), and effects keep their numbers. A point's scene that
+ *   states eps keeps it: with another k, J or start its point then has another energy H = M^2/2 - eps
+ *   (gamma, J gamma)^(-1/k), which is not 0 if it was. Without eps in the scene each orbit has its own eps, with H = 0.
+ * times: `rows` of them, away from 0 in one direction: t for a ball's scene, s for a point's.
+ * Units, in any consistent system: k, n and gamma have none; J mass length^2; omega 1/time; t time;
+ *   s (unit of J)^(1/(2k) - 2) time; M 1/(unit of s); eps (unit of J)^4/time^2.
  * threads: 0: one for each processor. vectors: NULL: the widest.
  * status[] (may be NULL) has an iso_status for each orbit. Rows that an orbit has not reached are NaN.
  * Gives ISO_OK, or the status of the first orbit that failed; its number (from 0) and reason are in the message.
@@ -132,18 +137,18 @@ ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *
 /* The Poincare section of a scene (study/section.h).
  * at: l, x of further starts, at_count pairs. axis: 0 to 2, or -1: the global one.
  * event: NULL, or a column; crossings are then where it passes `value` upwards. models: those that are integrated.
- * shown: whose states are in the rows; NULL or "auto": no states. tolerance: NaN: the scene's.
+ * shown: whose states are in the rows; NULL or "auto": no states. tolerance: 1e-15 to 0.1, or 0: the scene's.
  * *record is what the file of `isoroll section` holds. *point (may be NULL): if both models are integrated, the
  *   crossings as the point finds them, with the columns orbit, crossing, t, tau, s, l, x; else NULL.
  * Notes: the section is not global; how many orbits failed, and why; how many orbits of the two models part.
- * Errors: those of iso_section_run. The records then have the rows that were found before, or are NULL. */
+ * Errors: those of iso_section_run; ISO_BAD_ARGUMENT about "models", "as", "event", "tolerance". The records then have the rows that were found before, or are NULL. */
 ISO_API iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene *scene, size_t crossings,
                                        size_t starts, uint64_t seed, const double at[], size_t at_count, int axis,
                                        const char *event, double value, const char *models, const char *shown,
                                        double tolerance, int threads, iso_record **record, iso_record **point,
                                        char notes[], size_t room);
 
-/* Which orbits are chaotic (study/chaos.h); arguments as for sections.
+/* Which orbits are chaotic (study/chaos.h); arguments and tolerance as for sections.
  * *record has a row for each orbit; row 0 is the scene's own. Columns:
  *     orbit l x verdict disagree      l, x: where it starts; NaN: the scene's own. verdict: a number of iso_verdict
  *     ball_verdict ball_status ball_turns ball_per_turn ball_per_turn_error
@@ -153,7 +158,7 @@ ISO_API iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene
  *   high of the orbits spread over the section, integral if a further one is known, failure of the first orbit that
  *   failed.
  * trace[0], trace[1] (trace may be NULL): the indicators of the scene's own orbit by the turns, of ball and point;
- *   NULL: not integrated. Errors: those of iso_chaos_run. */
+ *   NULL: not integrated. Errors: those of iso_chaos_run; ISO_BAD_ARGUMENT about "models", "tolerance". */
 ISO_API iso_status iso_foreign_chaos(iso_context *ctx, const iso_foreign_scene *scene, long turns, size_t starts,
                                      uint64_t seed, const double at[], size_t at_count, int axis, const char *models,
                                      double tolerance, int threads, iso_record **record, iso_record *trace[2]);

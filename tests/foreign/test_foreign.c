@@ -233,14 +233,37 @@ static void check_failures(const iso_foreign_scene *const *scene)
     gsl_test(iso_foreign_batch(ctx, scene, 1, 0, NULL, NULL, NULL, times, 2, 0, NULL, NULL, NULL) != ISO_OK, "none");
 }
 
+/* A point whose start is replaced keeps the eps of the scene, if that states one; else it has its own, with H = 0. */
+static void check_coupling(const char *eps)
+{
+    char text[2][256];
+    iso_foreign_scene *scene[2];
+    const double y[6] = {0.5, 0, 0, 0, 0.6, 0.8};
+    double rows[2][2 * WIDTH];
+    static const char *const initial[] = {"gamma: [0.6, 0, 0.8], M: [0, 2.5, 0]",
+                                          "gamma: [0, 0.6, 0.8], M: [0.5, 0, 0]"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(text[i], sizeof text[i], "point: {k: -1, J: [1.4, 2.1, 3.0]%s}\ninitial: {%s}\n" TIME, eps,
+                 initial[i]);
+        scene[i] = made(text[i]);
+        const iso_foreign_scene *one = scene[i];
+        gsl_test(iso_foreign_batch(ctx, &one, 1, 1, NULL, NULL, i ? NULL : y, times, 2, 1, NULL, rows[i], NULL) !=
+                     ISO_OK,
+                 "a point");
+        iso_foreign_scene_free(scene[i]);
+    }
+    gsl_test(memcmp(rows[0], rows[1], sizeof rows[0]) != 0 || !isfinite(rows[0][3]), "its eps is the scene's '%s'",
+             eps);
+}
+
 /* --- studies and files ------------------------------------------------------------------------------------------ */
 
 static void check_studies(const iso_foreign_scene *scene)
 {
     const double at[] = {0.5, 0.2};
     iso_record *record, *point, *trace[2];
-    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, at, 1, -1, NULL, 0, NULL, "both", NAN, 0, &record, &point,
-                                 notes, sizeof notes) != ISO_OK ||
+    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, at, 1, -1, NULL, 0, NULL, "both", 0, 0, &record, &point, notes,
+                                 sizeof notes) != ISO_OK ||
                  iso_record_rows(record) != 80 || iso_record_rows(point) != 80,
              "a section of both models");
     int wrong = 0;
@@ -250,19 +273,46 @@ static void check_studies(const iso_foreign_scene *scene)
     gsl_test(wrong, "has the same crossings");
     iso_record_free(record);
     iso_record_free(point);
-    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, NULL, 0, -1, NULL, 0, "x", NULL, NAN, 0, &record, &point,
-                                 notes, sizeof notes) != ISO_BAD_ARGUMENT ||
+    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, NULL, 0, -1, NULL, 0, "x", NULL, 0, 0, &record, &point, notes,
+                                 sizeof notes) != ISO_BAD_ARGUMENT ||
                  record || point || !about("models"),
              "no model");
-    gsl_test(iso_foreign_chaos(ctx, scene, 50, 2, 0, at, 1, -1, NULL, NAN, 0, &record, trace) != ISO_OK ||
+    gsl_test(iso_foreign_chaos(ctx, scene, 50, 2, 0, at, 1, -1, NULL, 0, 0, &record, trace) != ISO_OK ||
                  iso_record_rows(record) != 4 || iso_record_columns(record) != 33 || !trace[0] || !trace[1] ||
                  !iso_record_get(record, "share"),
              "chaos");
     iso_record_free(record);
     for (int m = 0; m < 2; m++) iso_record_free(trace[m]);
-    gsl_test(iso_foreign_chaos(ctx, scene, 0, 0, 0, NULL, 0, -1, NULL, NAN, 0, &record, NULL) != ISO_BAD_ARGUMENT ||
+    gsl_test(iso_foreign_chaos(ctx, scene, 0, 0, 0, NULL, 0, -1, NULL, 0, 0, &record, NULL) != ISO_BAD_ARGUMENT ||
                  record,
              "no turns");
+}
+
+/* A tolerance of 0 is the scene's; a number that went wrong is refused, and it is not the scene that is blamed. */
+static void check_tolerances(void)
+{
+    iso_foreign_scene *scene = made(FREE "solver: {tolerance: 1e-9}\n");
+    const double bad[] = {NAN, -1e-9, 1e-16, 0.2, INFINITY};
+    iso_record *record;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        gsl_test(iso_foreign_section(ctx, scene, 5, 0, 0, NULL, 0, -1, NULL, 0, NULL, NULL, bad[i], 1, &record, NULL,
+                                     NULL, 0) != ISO_BAD_ARGUMENT ||
+                     record || !about("tolerance"),
+                 "a section: %s", iso_context_message(ctx));
+        gsl_test(iso_foreign_chaos(ctx, scene, 5, 0, 0, NULL, 0, -1, NULL, bad[i], 1, &record, NULL) !=
+                         ISO_BAD_ARGUMENT ||
+                     record || !about("tolerance"),
+                 "chaos: %s", iso_context_message(ctx));
+    }
+    for (int own = 0; own < 2; own++) {
+        gsl_test(iso_foreign_section(ctx, scene, 5, 0, 0, NULL, 0, -1, NULL, 0, NULL, NULL, own ? 1e-6 : 0, 1,
+                                     &record, NULL, NULL, 0) != ISO_OK ||
+                     strcmp(iso_record_get(record, "tolerance"),
+                            own ? "9.9999999999999995e-07" : "1.0000000000000001e-09"),
+                 "the section says its tolerance");
+        iso_record_free(record);
+    }
+    iso_foreign_scene_free(scene);
 }
 
 static void check_files(const iso_foreign_scene *scene)
@@ -312,7 +362,10 @@ int main(void)
     check_batch(&one);
     check_stop(&one);
     check_failures(&one);
+    check_coupling("");
+    check_coupling(", eps: 3");
     check_studies(scene);
+    check_tolerances();
     check_files(scene);
     iso_foreign_scene_free(scene);
     iso_context_free(ctx);
