@@ -6,7 +6,7 @@
  *
  *     iso_foreign_scene_read(ctx, "scene.yaml", &scene);
  *     iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes);     all rows of the scene
- *     iso_foreign_orbit_create(scene, &orbit);
+ *     iso_foreign_orbit_create(ctx, scene, &orbit);
  *     iso_foreign_orbit_at(orbit, times, 3, table, notes, sizeof notes);            the rows at three times
  *
  * Tables are arrays of doubles, a row after the other; a row has a number for each column of the scene

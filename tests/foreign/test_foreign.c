@@ -2,6 +2,8 @@
  * the bit; words, notes, and a stop in the middle. tests/python tries the same calls from Python. */
 #include "foreign/foreign.h"
 
+#include <unistd.h>
+
 #include "orbit/batch.h"
 #include "runs.h"
 
@@ -82,6 +84,35 @@ static void check_rows(const char *text)
     iso_record_free(record);
     iso_foreign_scene_free(scene);
     free(wanted);
+}
+
+/* The example of foreign.h: its lines as they stand there. */
+static void check_example(void)
+{
+    const double times[3] = {0, 2, 1};
+    double table[3 * WIDTH];
+    iso_foreign_scene *scene = NULL;
+    iso_foreign_orbit *orbit = NULL;
+    iso_record *record = NULL;
+    char folder[] = "foreign-XXXXXX"; /* of its own: another scene.yaml is not ours */
+    const bool there = mkdtemp(folder) && chdir(folder) == 0;
+    FILE *file = there ? fopen("scene.yaml", "w") : NULL;
+    gsl_test(!file, "a file");
+    if (!file) return;
+    fputs(FREE, file);
+    fclose(file);
+    iso_foreign_scene_read(ctx, "scene.yaml", &scene);
+    iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes);
+    iso_foreign_orbit_create(ctx, scene, &orbit);
+    iso_foreign_orbit_at(orbit, times, 3, table, notes, sizeof notes);
+    remove("scene.yaml");
+    gsl_test(chdir("..") != 0 || rmdir(folder) != 0, "and its folder");
+    gsl_test(iso_record_rows(record) != 9 ||
+                 memcmp(table + WIDTH, iso_record_row(record, 8), WIDTH * sizeof *table) != 0,
+             "the example");
+    iso_foreign_orbit_free(orbit);
+    iso_record_free(record);
+    iso_foreign_scene_free(scene);
 }
 
 /* Times that are not there: none at all are the scene's own; a number without a place is refused, and so is a place
@@ -354,6 +385,7 @@ int main(void)
     check_rows(REDUCED("-1") "time: {end: -3, step: 0.25}\noutput: {as: both}\n");
     check_rows(POINT TIME "output: {as: ball}\n");
     check_rows(OUTSIDE START TIME "effects: {" GRAVITY ", attitude: {}, reactions: {two_sided: true}}\n");
+    check_example();
     check_no_times();
     check_contact();
     iso_foreign_scene *scene = made(FREE);
