@@ -97,6 +97,12 @@ iso_status iso_foreign_tolerance(iso_context *ctx, double asked, double *toleran
     return asked == 0 ? ISO_OK : iso_tolerance_check(ctx, asked);
 }
 
+iso_status iso_foreign_count(iso_context *ctx, const char *key, size_t count)
+{
+    if (count <= (uint64_t)1 << 53) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s is %zu, more than 2^53", key, count);
+}
+
 /* --- the monitor ------------------------------------------------------------------------------------------------ */
 
 struct iso_foreign_monitor {

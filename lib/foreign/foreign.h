@@ -141,7 +141,8 @@ ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *
  * *record is what the file of `isoroll section` holds. *point (may be NULL): if both models are integrated, the
  *   crossings as the point finds them, with the columns orbit, crossing, t, tau, s, l, x; else NULL.
  * Notes: the section is not global; how many orbits failed, and why; how many orbits of the two models part.
- * Errors: those of iso_section_run; ISO_BAD_ARGUMENT about "models", "as", "event", "tolerance". The records then have the rows that were found before, or are NULL. */
+ * Errors: those of iso_section_run; ISO_BAD_ARGUMENT about "models", "as", "event", "tolerance", or about
+ * "crossings" or "starts" above 2^53. The records then have the rows that were found before, or are NULL. */
 ISO_API iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene *scene, size_t crossings,
                                        size_t starts, uint64_t seed, const double at[], size_t at_count, int axis,
                                        const char *event, double value, const char *models, const char *shown,
@@ -158,7 +159,8 @@ ISO_API iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene
  *   high of the orbits spread over the section, integral if a further one is known, failure of the first orbit that
  *   failed.
  * trace[0], trace[1] (trace may be NULL): the indicators of the scene's own orbit by the turns, of ball and point;
- *   NULL: not integrated. Errors: those of iso_chaos_run; ISO_BAD_ARGUMENT about "models", "tolerance". */
+ *   NULL: not integrated. Errors: those of iso_chaos_run; ISO_BAD_ARGUMENT about "models", "tolerance", or
+ *   about "starts" above 2^53. */
 ISO_API iso_status iso_foreign_chaos(iso_context *ctx, const iso_foreign_scene *scene, long turns, size_t starts,
                                      uint64_t seed, const double at[], size_t at_count, int axis, const char *models,
                                      double tolerance, int threads, iso_record **record, iso_record *trace[2]);

@@ -39,4 +39,8 @@ iso_status iso_foreign_shown(iso_context *ctx, const char *key, const char *word
  * is a NaN. Errors: ISO_BAD_ARGUMENT about "tolerance". */
 iso_status iso_foreign_tolerance(iso_context *ctx, double asked, double *tolerance);
 
+/* Refuses what is no count, such as a negative number made a size_t: more than 2^53, which tables could not number.
+ * Errors: ISO_BAD_ARGUMENT about `key`. */
+iso_status iso_foreign_count(iso_context *ctx, const char *key, size_t count);
+
 #endif

@@ -100,6 +100,8 @@ iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene *scene,
     o.axis = axis;
     o.threads = threads;
     iso_status status = choose(ctx, &o, event, value, models, shown);
+    if (status == ISO_OK) status = iso_foreign_count(ctx, "crossings", crossings);
+    if (status == ISO_OK) status = iso_foreign_count(ctx, "starts", starts);
     if (status == ISO_OK) status = iso_foreign_tolerance(ctx, tolerance, &o.tolerance);
     const bool called = status == ISO_OK;
     if (called) status = iso_section_run(ctx, &scene->scene, &o, &sink, &r);

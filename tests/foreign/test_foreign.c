@@ -320,7 +320,7 @@ static void check_studies(const iso_foreign_scene *scene)
 }
 
 /* A tolerance of 0 is the scene's; a number that went wrong is refused, and it is not the scene that is blamed. */
-static void check_tolerances(void)
+static void check_numbers(void)
 {
     iso_foreign_scene *scene = made(FREE "solver: {tolerance: 1e-9}\n");
     const double bad[] = {NAN, -1e-9, 1e-16, 0.2, INFINITY};
@@ -334,6 +334,15 @@ static void check_tolerances(void)
                          ISO_BAD_ARGUMENT ||
                      record || !about("tolerance"),
                  "chaos: %s", iso_context_message(ctx));
+    }
+    for (int i = 0; i < 3; i++) { /* -1 in another language */
+        const size_t none = (size_t)-1, crossings = i == 0 ? none : 5, spread = i == 0 ? 0 : none;
+        const iso_status found =
+            i < 2 ? iso_foreign_section(ctx, scene, crossings, spread, 0, NULL, 0, -1, NULL, 0, NULL, NULL, 0, 1,
+                                        &record, NULL, NULL, 0)
+                  : iso_foreign_chaos(ctx, scene, 5, none, 0, NULL, 0, -1, NULL, 0, 1, &record, NULL);
+        gsl_test(found != ISO_BAD_ARGUMENT || record || !about(i == 0 ? "crossings" : "starts"), "no count: %s",
+                 iso_context_message(ctx));
     }
     for (int own = 0; own < 2; own++) {
         gsl_test(iso_foreign_section(ctx, scene, 5, 0, 0, NULL, 0, -1, NULL, 0, NULL, NULL, own ? 1e-6 : 0, 1,
@@ -397,7 +406,7 @@ int main(void)
     check_coupling("");
     check_coupling(", eps: 3");
     check_studies(scene);
-    check_tolerances();
+    check_numbers();
     check_files(scene);
     iso_foreign_scene_free(scene);
     iso_context_free(ctx);
