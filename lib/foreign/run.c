@@ -41,6 +41,11 @@ static void keep_note(void *data, iso_run_note note, const char *words)
     iso_notes_add(&k->notes, words);
 }
 
+static iso_status no_place(iso_context *ctx, size_t count)
+{
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "%zu times are at NULL", count);
+}
+
 /* The five errors, NaN where the rows do not show them, or one of the reasons is told. */
 static void tell_errors(const iso_run_result *r, double errors[5], notes *n)
 {
@@ -185,6 +190,7 @@ iso_status iso_foreign_orbit_at(iso_foreign_orbit *o, const double times[], size
     ISO_DEFAULT_ARITHMETIC;
     notes n = iso_notes_begin(text, room);
     iso_status status = ISO_OK;
+    if (!times && count > 0) return no_place(o->ctx, count);
     for (size_t i = 0; i < count; i++)
         if (!isfinite(times[i]))
             return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "times", "time %zu must be finite, not %g", i,

@@ -128,6 +128,11 @@ static void check_no_times(void)
     gsl_test(iso_foreign_run(ctx, scene, &time, 0, NULL, &record, NULL, 0) != ISO_BAD_ARGUMENT || record ||
                  !about("times"),
              "no times: %s", iso_context_message(ctx));
+    iso_foreign_orbit *orbit;
+    gsl_test(iso_foreign_orbit_create(ctx, scene, &orbit) != ISO_OK, "an orbit");
+    gsl_test(iso_foreign_orbit_at(orbit, NULL, 1, &time, NULL, 0) != ISO_BAD_ARGUMENT, "a time at NULL");
+    gsl_test(iso_foreign_orbit_at(orbit, NULL, 0, NULL, NULL, 0) != ISO_OK, "no time for an orbit");
+    iso_foreign_orbit_free(orbit);
     iso_foreign_scene_free(scene);
 }
 
