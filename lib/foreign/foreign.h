@@ -101,8 +101,9 @@ ISO_API const iso_orbit *iso_foreign_orbit_inside(const iso_foreign_orbit *orbit
 
 /* The rows at these times, in any order: t for a ball's scene, s for a point's. The numbers are those of a run by the
  * same backend; if the scene leaves it to auto, it is the one that suits the scene's own times (iso_orbit_backend).
- * Errors: those of iso_orbit_at; ISO_BAD_ARGUMENT about "times" (not finite, or NULL); ISO_NUMERICAL about "reactions" when
- * contact is lost before one of the times: then there is no row. After an error nothing is known of the table. */
+ * Errors: those of iso_orbit_at; ISO_BAD_ARGUMENT about "times" (not finite, or NULL); ISO_NUMERICAL about
+ * "reactions" when contact is lost before one of the times: then there is no row. After an error nothing is known of
+ * the table. */
 ISO_API iso_status iso_foreign_orbit_at(iso_foreign_orbit *orbit, const double times[], size_t count, double table[],
                                         char notes[], size_t room);
 
@@ -115,8 +116,8 @@ ISO_API iso_status iso_foreign_orbit_at(iso_foreign_orbit *orbit, const double t
  * k, J, start: NULL, or what replaces the scene's: count numbers; 3 count; 6 count (omega, n; or M, gamma). With k or
  *   J the ball is a reduced one (its body is forgotten, D stays), and effects keep their numbers. A scene of a point
  *   that states eps keeps it: with another k, J or start the point then has another energy
- *   H = M^2/2 - eps (gamma, J gamma)^(-1/k), which is not 0 if it was. Without eps in the scene each orbit has the eps
- *   with which its H = 0.
+ *   H = M^2/2 - eps (gamma, J gamma)^(-1/k), which is not 0 if it was. Without eps in the scene each orbit has
+ *   the eps with which its H = 0.
  * times: `rows` of them, away from 0 in one direction: t for a ball's scene, s for a point's.
  * Units, in any consistent system: k, n and gamma have none; J mass length^2; omega 1/time; t time;
  *   s (unit of J)^(1/(2k) - 2) time; M 1/(unit of s); eps (unit of J)^4/time^2.
