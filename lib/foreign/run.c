@@ -69,7 +69,7 @@ iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, con
     iso_run_result result;
     *record = NULL;
     for (int i = 0; errors && i < 5; i++) errors[i] = NAN;
-    if (!times && count > 0) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "%zu times are at NULL", count);
+    if (!times && count > 0) return no_place(ctx, count);
     how.times = times;
     how.count = count;
     how.errors = errors != NULL;
