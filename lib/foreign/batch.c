@@ -25,16 +25,17 @@ typedef struct work {
     iso_context *ctx;
     const iso_foreign_scene *const *scene;
     size_t scenes, count, rows;
-    const double *times;
+    const double *k, *J, *y, *times; /* of k, J, y, the start: NULL: those of the scenes */
     int columns[ISO_MAX_COLUMNS], width;
     iso_batch_options how;
     iso_batch_orbit *orbit;
-    iso_params *params; /* NULL: those of the scenes */
-    iso_start *start;   /* likewise                  */
+    iso_params *params; /* made from k and J, NULL: those of the scenes */
+    iso_start *start;   /* made from y, likewise                        */
     iso_status *status;
     double *table;
     size_t chunk, threads;
     buffer *buffers; /* one for each thread */
+    bool began;      /* the call makes sense, and status says how each orbit went */
 } work;
 
 /* The status of an orbit that no thread has taken. */
@@ -100,51 +101,33 @@ static void choose_options(work *w, int threads, const char *vectors)
 
 /* --- orbits ----------------------------------------------------------------------------------------------------- */
 
-static iso_status number_failure(iso_context *ctx, size_t i, iso_status status)
+/* What replaces numbers of the scene, for orbit i. */
+static iso_status make_params(iso_context *ctx, const work *w, size_t i)
 {
-    char words[1024], about[ISO_NAME_SIZE];
-    snprintf(words, sizeof words, "%s", iso_context_message(ctx));
-    snprintf(about, sizeof about, "%s", iso_context_about(ctx));
-    return iso_context_fail(ctx, status, about, "orbit %zu: %s", i, words);
+    if (!w->params) return ISO_OK;
+    const iso_params *from = &scene_of(w, i)->params;
+    const iso_status status =
+        iso_params_reduced(ctx, w->k ? w->k[i] : from->k, w->J ? w->J + 3 * i : from->J, &w->params[i]);
+    return status == ISO_OK && from->D > 0 ? iso_params_set_D(ctx, from->D, &w->params[i]) : status;
 }
 
-static iso_status make_params(work *w, const double k[], const double J[])
+static iso_status make_start(iso_context *ctx, const work *w, size_t i)
 {
-    if (!k && !J) return ISO_OK;
-    w->params = malloc(w->count * sizeof *w->params);
-    if (!w->params) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for %zu balls", w->count);
-    for (size_t i = 0; i < w->count; i++) {
-        const iso_params *from = &scene_of(w, i)->params;
-        iso_status status = iso_params_reduced(w->ctx, k ? k[i] : from->k, J ? J + 3 * i : from->J, &w->params[i]);
-        if (status == ISO_OK && from->D > 0) status = iso_params_set_D(w->ctx, from->D, &w->params[i]);
-        if (status != ISO_OK) return number_failure(w->ctx, i, status);
-    }
-    return ISO_OK;
+    if (!w->start) return ISO_OK;
+    const iso_scene *s = scene_of(w, i);
+    const double *y = w->y + 6 * i;
+    if (s->start.model == ISO_POINT)
+        return iso_start_point(ctx, y, y + 3, isnan(s->start.eps) ? NULL : &s->start.eps, false, &w->start[i]);
+    return iso_start_ball(ctx, y, y + 3, s->effects.on[ISO_TWIST] ? ISO_SPIN_KEEP : ISO_SPIN_REFUSE, &w->start[i]);
 }
 
-static iso_status make_starts(work *w, const double start[])
-{
-    if (!start) return ISO_OK;
-    w->start = malloc(w->count * sizeof *w->start);
-    if (!w->start) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for %zu starts", w->count);
-    for (size_t i = 0; i < w->count; i++) {
-        const iso_scene *s = scene_of(w, i);
-        const double *y = start + 6 * i;
-        const iso_status status =
-            s->start.model == ISO_BALL
-                ? iso_start_ball(w->ctx, y, y + 3, s->effects.on[ISO_TWIST] ? ISO_SPIN_KEEP : ISO_SPIN_REFUSE,
-                                 &w->start[i])
-                : iso_start_point(w->ctx, y, y + 3, isnan(s->start.eps) ? NULL : &s->start.eps, false, &w->start[i]);
-        if (status != ISO_OK) return number_failure(w->ctx, i, status);
-    }
-    return ISO_OK;
-}
-
-static iso_status make_orbits(work *w)
+static iso_status prepare_orbits(work *w)
 {
     w->orbit = calloc(w->count, sizeof *w->orbit);
     w->status = malloc(w->count * sizeof *w->status);
-    if (!w->orbit || !w->status)
+    if (w->k || w->J) w->params = malloc(w->count * sizeof *w->params);
+    if (w->y) w->start = malloc(w->count * sizeof *w->start);
+    if (!w->orbit || !w->status || ((w->k || w->J) && !w->params) || (w->y && !w->start))
         return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for %zu orbits", w->count);
     for (size_t i = 0; i < w->count; i++) {
         const iso_scene *s = scene_of(w, i);
@@ -160,6 +143,7 @@ static iso_status make_orbits(work *w)
 /* The numbers of a sample stand in the order of the columns. */
 _Static_assert(sizeof(iso_sample) == ISO_TRAJECTORY_COLUMNS * sizeof(double), "a sample is an array of its columns");
 
+/* Orbits from `first` on, whose samples these are. */
 static void take_columns(const work *w, const iso_sample sample[], size_t first, size_t count)
 {
     const double *from = (const double *)sample;
@@ -168,14 +152,21 @@ static void take_columns(const work *w, const iso_sample sample[], size_t first,
         for (int c = 0; c < w->width; c++) *to++ = from[w->columns[c]];
 }
 
-/* Rows of orbits that no thread has taken before a stop. */
-static void blank_untouched(const work *w)
+static void blank_rows(const work *w, size_t first, size_t count)
 {
     const size_t each = w->rows * (size_t)w->width;
+    for (size_t j = 0; j < count * each; j++) w->table[first * each + j] = NAN;
+}
+
+/* The caller's status. Orbits that no thread has taken have no rows, and the status of the call. A call that makes no
+ * sense leaves table and status as they were. */
+static void tell(const work *w, iso_status answer, int32_t status[])
+{
+    if (!w->began && answer != ISO_NO_MEMORY && answer != ISO_STOPPED) return;
     for (size_t i = 0; i < w->count; i++) {
-        if (w->status[i] != UNTOUCHED) continue;
-        w->status[i] = ISO_STOPPED;
-        for (size_t j = 0; j < each; j++) w->table[i * each + j] = NAN;
+        const bool untouched = !w->began || w->status[i] == UNTOUCHED;
+        if (untouched) blank_rows(w, i, 1);
+        if (status) status[i] = (int32_t)(untouched ? answer : w->status[i]);
     }
 }
 
@@ -199,22 +190,53 @@ static buffer *take_buffer(const work *w)
     return &w->buffers[i];
 }
 
+/* Orbits beside each other, all with a ball and a start that make sense. */
+static iso_status solve_row(iso_pool_worker *worker, const work *w, size_t first, size_t count, iso_sample sample[])
+{
+    const iso_status status =
+        iso_batch_run(worker->ctx, w->orbit + first, count, &w->how, w->times, w->rows, sample, w->status + first);
+    if (status == ISO_NO_MEMORY) return status;
+    take_columns(w, sample, first, count);
+    if (status != ISO_OK) note_failure(worker, w, first, count);
+    return ISO_OK;
+}
+
+/* Makes orbit i; one that makes no sense fails, and has no rows. */
+static bool make_orbit(iso_pool_worker *worker, const work *w, size_t i)
+{
+    iso_status status = make_params(worker->ctx, w, i);
+    if (status == ISO_OK) status = make_start(worker->ctx, w, i);
+    if (status == ISO_OK) return true;
+    w->status[i] = status;
+    blank_rows(w, i, 1);
+    iso_pool_note(worker, i, status);
+    return false;
+}
+
+/* Orbits from `first` to before `end`: those that fail part them into rows. ISO_OK, or ISO_NO_MEMORY. */
+static iso_status solve_between(iso_pool_worker *worker, const work *w, size_t first, size_t end, iso_sample sample[])
+{
+    iso_status status = ISO_OK;
+    for (size_t i = first; status == ISO_OK && i <= end; i++) {
+        if (i < end && make_orbit(worker, w, i)) continue;
+        if (i > first) status = solve_row(worker, w, first, i - first, sample);
+        first = i + 1;
+    }
+    return status;
+}
+
 static bool solve_chunk(iso_pool_worker *worker, void *data, size_t first, size_t count)
 {
     const work *w = data;
     buffer *b = take_buffer(w);
     if (!b->sample) b->sample = malloc(w->chunk * w->rows * sizeof *b->sample + 1);
-    const bool memory = b->sample != NULL;
-    iso_status status = ISO_NO_MEMORY;
-    if (memory)
-        status = iso_batch_run(worker->ctx, w->orbit + first, count, &w->how, w->times, w->rows, b->sample,
-                               w->status + first);
-    if (status != ISO_NO_MEMORY) {
-        take_columns(w, b->sample, first, count);
-        if (status != ISO_OK) note_failure(worker, w, first, count);
+    const bool memory = b->sample && solve_between(worker, w, first, first + count, b->sample) == ISO_OK;
+    if (!memory) {
+        for (size_t i = first; i < first + count; i++) w->status[i] = ISO_NO_MEMORY;
+        blank_rows(w, first, count);
     }
     atomic_flag_clear(&b->taken);
-    return status != ISO_NO_MEMORY;
+    return memory;
 }
 
 static iso_status solve_all(work *w, int threads)
@@ -229,8 +251,8 @@ static iso_status solve_all(work *w, int threads)
     w->buffers = calloc(w->threads, sizeof *w->buffers);
     if (!w->buffers) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for a batch");
     iso_pool pool = {.count = w->count, .chunk = w->chunk, .solve = solve_chunk, .data = w};
+    w->began = true;
     status = iso_pool_run(w->ctx, &pool, w->threads, w->status);
-    blank_untouched(w);
     for (size_t i = 0; i < w->threads; i++) free(w->buffers[i].sample);
     free(w->buffers);
     return status;
@@ -241,8 +263,16 @@ iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const sc
                              size_t rows, int threads, const char *vectors, double table[], int32_t status[])
 {
     ISO_DEFAULT_ARITHMETIC;
-    work w = {
-        .ctx = ctx, .scene = scene, .scenes = scenes, .count = count, .rows = rows, .times = times, .table = table};
+    work w = {.ctx = ctx,
+              .scene = scene,
+              .scenes = scenes,
+              .count = count,
+              .rows = rows,
+              .k = k,
+              .J = J,
+              .y = start,
+              .times = times,
+              .table = table};
     if (scenes == 0 || (scenes != 1 && scenes != count))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "scenes",
                                 "%zu scenes for %zu orbits: give one, or one for each", scenes, count);
@@ -251,12 +281,9 @@ iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const sc
     iso_status answer = ISO_OK;
     for (size_t i = 0; answer == ISO_OK && i < scenes; i++) answer = check_scene(&w, i);
     choose_options(&w, threads, vectors);
-    if (answer == ISO_OK) answer = make_params(&w, k, J);
-    if (answer == ISO_OK) answer = make_starts(&w, start);
-    if (answer == ISO_OK) answer = make_orbits(&w);
+    if (answer == ISO_OK) answer = prepare_orbits(&w);
     if (answer == ISO_OK) answer = solve_all(&w, threads);
-    for (size_t i = 0; status && w.status && i < count; i++)
-        status[i] = w.status[i] == UNTOUCHED ? ISO_OK : (int32_t)w.status[i];
+    tell(&w, answer, status);
     free(w.params);
     free(w.start);
     free(w.orbit);

@@ -120,9 +120,10 @@ iso_status iso_foreign_chaos(iso_context *ctx, const iso_foreign_scene *scene, l
     o.at = (const double(*)[2])at;
     o.at_count = at_count;
     o.axis = axis;
-    o.tolerance = tolerance;
     o.threads = threads;
     iso_status status = iso_foreign_shown(ctx, "models", models, &o.models);
+    if (status == ISO_OK) status = iso_foreign_count(ctx, "starts", starts);
+    if (status == ISO_OK) status = iso_foreign_tolerance(ctx, tolerance, &o.tolerance);
     if (status == ISO_OK) status = iso_foreign_blame(ctx, scene, iso_chaos_run(ctx, &scene->scene, &o, &c));
     if (status == ISO_OK) status = put_all(ctx, &scene->scene, c, record);
     for (int m = 0; status == ISO_OK && trace && m < 2; m++) trace[m] = c->trace[m], c->trace[m] = NULL;

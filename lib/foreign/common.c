@@ -1,9 +1,11 @@
 /* common.c - what the calls for other languages share: notes, copied headers, words, and the slow monitor. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
 #include "foreign/foreign_impl.h"
+#include "method/integrator_impl.h"
 
 int iso_foreign_abi(void)
 {
@@ -87,6 +89,18 @@ iso_status iso_foreign_shown(iso_context *ctx, const char *key, const char *word
     const iso_status status = iso_foreign_word(ctx, key, iso_shown_name, word, &number);
     *shown = (iso_shown)number;
     return status;
+}
+
+iso_status iso_foreign_tolerance(iso_context *ctx, double asked, double *tolerance)
+{
+    *tolerance = asked == 0 ? NAN : asked;
+    return asked == 0 ? ISO_OK : iso_tolerance_check(ctx, asked);
+}
+
+iso_status iso_foreign_count(iso_context *ctx, const char *key, size_t count)
+{
+    if (count <= (uint64_t)1 << 53) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s is %zu, more than 2^53", key, count);
 }
 
 /* --- the monitor ------------------------------------------------------------------------------------------------ */

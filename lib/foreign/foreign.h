@@ -6,7 +6,7 @@
  *
  *     iso_foreign_scene_read(ctx, "scene.yaml", &scene);
  *     iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes);     all rows of the scene
- *     iso_foreign_orbit_create(scene, &orbit);
+ *     iso_foreign_orbit_create(ctx, scene, &orbit);
  *     iso_foreign_orbit_at(orbit, times, 3, table, notes, sizeof notes);            the rows at three times
  *
  * Tables are arrays of doubles, a row after the other; a row has a number for each column of the scene
@@ -57,8 +57,9 @@ ISO_API iso_status iso_foreign_scene_parse(iso_context *ctx, const char *name, c
 ISO_API iso_status iso_foreign_scene_copy(iso_context *ctx, const iso_foreign_scene *from, iso_foreign_scene **scene);
 ISO_API void iso_foreign_scene_free(iso_foreign_scene *scene);
 
-/* Changes one key: "backend", "method", "tolerance", "end", "step", "as", or "columns" (names with commas between).
- * "as" also sets the columns, as in a scene file without columns. A run checks "end" and "step" together.
+/* Changes one key: "backend", "method", "tolerance", "end", "step", "as", or "columns" (names with commas between,
+ * one at least). "as" also sets the columns, as in a scene file without columns: set "as" first, then "columns".
+ * A run checks "end" and "step" together.
  * Errors: ISO_BAD_ARGUMENT about the key. The scene is then as it was. */
 ISO_API iso_status iso_foreign_scene_set(iso_context *ctx, iso_foreign_scene *scene, const char *key,
                                          const char *value);
@@ -76,13 +77,14 @@ ISO_API int iso_foreign_scene_columns(const iso_foreign_scene *scene, int column
 
 /* --- runs and orbits -------------------------------------------------------------------------------------------- */
 
-/* Runs the scene (study/run.h): at `count` times, or, if times is NULL, at the scene's own. The record is what the
- * file of `isoroll run` holds.
+/* Runs the scene (study/run.h). The record is what the file of `isoroll run` holds.
+ * times: `count` of them; t for a ball's scene, s for a point's. NULL with count 0: the scene's own times.
  * errors: NULL, or room for five numbers, the largest errors of (omega, n), (M, gamma), t, tau and s in the rows
  *   (study/error.h); NaN: not shown, or not known. To find them takes many times as long as the rows.
  * Notes: contact is lost, the support pulls, the error is not known.
- * Errors: those of iso_run. After a failure or a stop on the way *record has the rows that were found before. It is
- * NULL only if there is none. */
+ * Errors: those of iso_run; ISO_BAD_ARGUMENT about "times": NULL with another count, or count 0 at a place that is
+ * not NULL. After a failure or a stop on the way *record has the rows that were found before. It is NULL only if
+ * there is none. */
 ISO_API iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, const double times[],
                                    size_t count, double errors[5], iso_record **record, char notes[], size_t room);
 
@@ -99,8 +101,9 @@ ISO_API const iso_orbit *iso_foreign_orbit_inside(const iso_foreign_orbit *orbit
 
 /* The rows at these times, in any order: t for a ball's scene, s for a point's. The numbers are those of a run by the
  * same backend; if the scene leaves it to auto, it is the one that suits the scene's own times (iso_orbit_backend).
- * Errors: those of iso_orbit_at; ISO_BAD_ARGUMENT about "times" (not finite); ISO_NUMERICAL about "reactions" when
- * contact is lost before one of the times: then there is no row. After an error nothing is known of the table. */
+ * Errors: those of iso_orbit_at; ISO_BAD_ARGUMENT about "times" (not finite, or NULL); ISO_NUMERICAL about
+ * "reactions" when contact is lost before one of the times: then there is no row. After an error nothing is known of
+ * the table. */
 ISO_API iso_status iso_foreign_orbit_at(iso_foreign_orbit *orbit, const double times[], size_t count, double table[],
                                         char notes[], size_t room);
 
@@ -111,13 +114,21 @@ ISO_API iso_status iso_foreign_orbit_at(iso_foreign_orbit *orbit, const double t
  * scene[]: `scenes` of them, 1 for all orbits or `count`. They agree in columns, backend, tolerance and the model of
  *   the start. The method is `taylor`, in lanes: scenes with another one are refused.
  * k, J, start: NULL, or what replaces the scene's: count numbers; 3 count; 6 count (omega, n; or M, gamma). With k or
- *   J the ball is a reduced one (its body is forgotten, D stays), and effects keep their numbers.
+ *   J the ball is a reduced one (its body is forgotten, D stays), and effects keep their numbers. A scene of a point
+ *   that states eps keeps it: with another k, J or start the point then has another energy
+ *   H = M^2/2 - eps (gamma, J gamma)^(-1/k), which is not 0 if it was. Without eps in the scene each orbit has
+ *   the eps with which its H = 0.
+ * times: `rows` of them, away from 0 in one direction: t for a ball's scene, s for a point's.
+ * Units, in any consistent system: k, n and gamma have none; J mass length^2; omega 1/time; t time;
+ *   s (unit of J)^(1/(2k) - 2) time; M 1/(unit of s); eps (unit of J)^4/time^2.
  * threads: 0: one for each processor. vectors: NULL: the widest.
  * status[] (may be NULL) has an iso_status for each orbit. Rows that an orbit has not reached are NaN.
  * Gives ISO_OK, or the status of the first orbit that failed; its number (from 0) and reason are in the message.
- * Errors of the whole call: those of iso_batch_run; ISO_BAD_ARGUMENT about "scenes": they do not agree, or a ball
- * could lose contact (reactions without two_sided: only a run watches this). A k, J or start that makes no sense
- * is ISO_BAD_ARGUMENT, too. */
+ * ISO_STOPPED by the monitor and ISO_NO_MEMORY are also the status of every orbit that was not followed therefore.
+ * A k, J or start that makes no sense is the failure of that orbit alone.
+ * Errors of a call that makes no sense, which leaves table[] and status[] as they were: ISO_BAD_ARGUMENT as
+ * iso_batch_run; about "scenes": they do not agree, or a ball could lose contact (reactions without two_sided: only
+ * a run watches this). */
 ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *const scene[], size_t scenes,
                                      size_t count, const double k[], const double J[], const double start[],
                                      const double times[], size_t rows, int threads, const char *vectors,
@@ -128,18 +139,19 @@ ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *
 /* The Poincare section of a scene (study/section.h).
  * at: l, x of further starts, at_count pairs. axis: 0 to 2, or -1: the global one.
  * event: NULL, or a column; crossings are then where it passes `value` upwards. models: those that are integrated.
- * shown: whose states are in the rows; NULL or "auto": no states. tolerance: NaN: the scene's.
+ * shown: whose states are in the rows; NULL or "auto": no states. tolerance: 1e-15 to 0.1, or 0: the scene's.
  * *record is what the file of `isoroll section` holds. *point (may be NULL): if both models are integrated, the
  *   crossings as the point finds them, with the columns orbit, crossing, t, tau, s, l, x; else NULL.
  * Notes: the section is not global; how many orbits failed, and why; how many orbits of the two models part.
- * Errors: those of iso_section_run. The records then have the rows that were found before, or are NULL. */
+ * Errors: those of iso_section_run; ISO_BAD_ARGUMENT about "models", "as", "event", "tolerance", or about
+ * "crossings" or "starts" above 2^53. The records then have the rows that were found before, or are NULL. */
 ISO_API iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene *scene, size_t crossings,
                                        size_t starts, uint64_t seed, const double at[], size_t at_count, int axis,
                                        const char *event, double value, const char *models, const char *shown,
                                        double tolerance, int threads, iso_record **record, iso_record **point,
                                        char notes[], size_t room);
 
-/* Which orbits are chaotic (study/chaos.h); arguments as for sections.
+/* Which orbits are chaotic (study/chaos.h); arguments and tolerance as for sections.
  * *record has a row for each orbit; row 0 is the scene's own. Columns:
  *     orbit l x verdict disagree      l, x: where it starts; NaN: the scene's own. verdict: a number of iso_verdict
  *     ball_verdict ball_status ball_turns ball_per_turn ball_per_turn_error
@@ -149,7 +161,8 @@ ISO_API iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene
  *   high of the orbits spread over the section, integral if a further one is known, failure of the first orbit that
  *   failed.
  * trace[0], trace[1] (trace may be NULL): the indicators of the scene's own orbit by the turns, of ball and point;
- *   NULL: not integrated. Errors: those of iso_chaos_run. */
+ *   NULL: not integrated. Errors: those of iso_chaos_run; ISO_BAD_ARGUMENT about "models", "tolerance", or
+ *   about "starts" above 2^53. */
 ISO_API iso_status iso_foreign_chaos(iso_context *ctx, const iso_foreign_scene *scene, long turns, size_t starts,
                                      uint64_t seed, const double at[], size_t at_count, int axis, const char *models,
                                      double tolerance, int threads, iso_record **record, iso_record *trace[2]);

@@ -35,4 +35,12 @@ iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*nam
 /* The number of a word for models to show. */
 iso_status iso_foreign_shown(iso_context *ctx, const char *key, const char *word, iso_shown *shown);
 
+/* The tolerance of a study, whose options have NAN for the scene's: callers write 0, since a number that went wrong
+ * is a NaN. Errors: ISO_BAD_ARGUMENT about "tolerance". */
+iso_status iso_foreign_tolerance(iso_context *ctx, double asked, double *tolerance);
+
+/* Refuses what is no count, such as a negative number made a size_t: more than 2^53, which tables could not number.
+ * Errors: ISO_BAD_ARGUMENT about `key`. */
+iso_status iso_foreign_count(iso_context *ctx, const char *key, size_t count);
+
 #endif

@@ -7,6 +7,7 @@
 #include "base/arithmetic_impl.h"
 #include "foreign/foreign_impl.h"
 #include "study/run.h"
+#include "study/run_times_impl.h"
 
 /* --- runs ------------------------------------------------------------------------------------------------------- */
 
@@ -40,6 +41,11 @@ static void keep_note(void *data, iso_run_note note, const char *words)
     iso_notes_add(&k->notes, words);
 }
 
+static iso_status no_place(iso_context *ctx, size_t count)
+{
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "times", "%zu times are at NULL", count);
+}
+
 /* The five errors, NaN where the rows do not show them, or one of the reasons is told. */
 static void tell_errors(const iso_run_result *r, double errors[5], notes *n)
 {
@@ -61,8 +67,10 @@ iso_status iso_foreign_run(iso_context *ctx, const iso_foreign_scene *scene, con
     const iso_run_sink sink = {.header = keep_header, .row = keep_row, .note = keep_note, .data = &kept};
     iso_run_options how = iso_run_defaults();
     iso_run_result result;
-    const double none = 0;
-    how.times = times || count == 0 ? times : &none;
+    *record = NULL;
+    for (int i = 0; errors && i < 5; i++) errors[i] = NAN;
+    if (!times && count > 0) return no_place(ctx, count);
+    how.times = times;
     how.count = count;
     how.errors = errors != NULL;
     iso_status status = iso_run(ctx, &scene->scene, &how, &sink, &result);
@@ -131,28 +139,6 @@ const iso_orbit *iso_foreign_orbit_inside(const iso_foreign_orbit *o)
 
 /* --- an orbit at many times ------------------------------------------------------------------------------------- */
 
-/* A time asked for, and its row. */
-typedef struct asked {
-    double time;
-    size_t row;
-} asked;
-
-/* The order of the work: first after the start, then before it, on each side the nearer times first. */
-static int by_work(const void *first, const void *second)
-{
-    const asked *a = first, *b = second;
-    if ((a->time < 0) != (b->time < 0)) return a->time < 0 ? 1 : -1;
-    if (a->time != b->time) return fabs(a->time) > fabs(b->time) ? 1 : -1;
-    return (a->row > b->row) - (a->row < b->row);
-}
-
-static bool in_order(const double times[], size_t count)
-{
-    for (size_t i = 1; i < count; i++)
-        if (by_work(&(asked){times[i - 1], i - 1}, &(asked){times[i], i}) > 0) return false;
-    return true;
-}
-
 static iso_status fill_row(iso_foreign_orbit *o, double time, double row[])
 {
     iso_sample sample;
@@ -166,11 +152,9 @@ static iso_status fill_row(iso_foreign_orbit *o, double time, double row[])
 
 static iso_status fill_sorted(iso_foreign_orbit *o, const double times[], size_t count, double table[])
 {
-    asked *order = malloc(count * sizeof *order);
+    iso_asked_time *order = iso_times_sorted(times, count);
     iso_status status = ISO_OK;
     if (!order) return no_orbit(o->ctx);
-    for (size_t i = 0; i < count; i++) order[i] = (asked){times[i], i};
-    qsort(order, count, sizeof *order, by_work);
     for (size_t i = 0; status == ISO_OK && i < count; i++)
         status = fill_row(o, order[i].time, table + order[i].row * (size_t)o->count);
     free(order);
@@ -206,12 +190,13 @@ iso_status iso_foreign_orbit_at(iso_foreign_orbit *o, const double times[], size
     ISO_DEFAULT_ARITHMETIC;
     notes n = iso_notes_begin(text, room);
     iso_status status = ISO_OK;
+    if (!times && count > 0) return no_place(o->ctx, count);
     for (size_t i = 0; i < count; i++)
         if (!isfinite(times[i]))
             return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "times", "time %zu must be finite, not %g", i,
                                     times[i]);
     if (count > 0 && iso_effects_watch_contact(&o->scene.effects)) return fill_watched(o, times, count, table, &n);
-    if (!in_order(times, count)) return fill_sorted(o, times, count, table);
+    if (!iso_times_in_order(times, count)) return fill_sorted(o, times, count, table);
     for (size_t i = 0; status == ISO_OK && i < count; i++)
         status = fill_row(o, times[i], table + i * (size_t)o->count);
     return status;

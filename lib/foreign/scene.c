@@ -109,6 +109,7 @@ static iso_status set_number(iso_context *ctx, iso_scene *scene, const char *key
 
 static iso_status set_columns(iso_context *ctx, iso_scene *scene, const char *value)
 {
+    if (!*value) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns", "there are no columns in the list");
     scene->columns = 0;
     for (const char *at = value; *at; at += *at == ',') {
         const size_t length = strcspn(at, ",");

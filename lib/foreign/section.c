@@ -98,11 +98,14 @@ iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene *scene,
     o.at = (const double(*)[2])at;
     o.at_count = at_count;
     o.axis = axis;
-    o.tolerance = tolerance;
     o.threads = threads;
     iso_status status = choose(ctx, &o, event, value, models, shown);
-    if (status == ISO_OK) status = iso_section_run(ctx, &scene->scene, &o, &sink, &r);
-    if (!k.record) status = iso_foreign_blame(ctx, scene, status);
+    if (status == ISO_OK) status = iso_foreign_count(ctx, "crossings", crossings);
+    if (status == ISO_OK) status = iso_foreign_count(ctx, "starts", starts);
+    if (status == ISO_OK) status = iso_foreign_tolerance(ctx, tolerance, &o.tolerance);
+    const bool called = status == ISO_OK;
+    if (called) status = iso_section_run(ctx, &scene->scene, &o, &sink, &r);
+    if (called && !k.record) status = iso_foreign_blame(ctx, scene, status);
     if (status != ISO_OK && r.rows == 0) {
         iso_record_free(k.record);
         iso_record_free(k.point);

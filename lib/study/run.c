@@ -13,6 +13,7 @@
 #include "base/version.h"
 #include "orbit/description.h"
 #include "study/backend_impl.h"
+#include "study/run_times_impl.h"
 
 /* --- the orbit behind the columns ------------------------------------------------------------------------------- */
 
@@ -66,12 +67,6 @@ iso_status iso_scene_orbit(iso_context *ctx, const iso_scene *scene, const int c
 
 /* --- a run ------------------------------------------------------------------------------------------------------ */
 
-/* A time asked for, and the row of the result that it belongs to. */
-typedef struct asked_time {
-    double time;
-    size_t row;
-} asked_time;
-
 typedef struct runner {
     iso_context *ctx;
     const iso_scene *scene;
@@ -84,7 +79,7 @@ typedef struct runner {
     iso_orbit_options how; /* the orbit's */
     iso_orbit *orbit;
     iso_error_finder *errors; /* NULL: not asked for, or not known */
-    asked_time *order;        /* of the work; NULL: it is that of the times asked for */
+    iso_asked_time *order;    /* of the work; NULL: it is that of the times asked for */
     double farthest;          /* time */
     /* rows found in another order than asked for wait here until all are found */
     double *waiting;
@@ -129,44 +124,24 @@ static iso_status give_header(const runner *r)
 
 /* --- times ------------------------------------------------------------------------------------------------------ */
 
-/* The orbit is followed away from its start, and keeps no ends of steps. For a time that lies behind, it begins at
- * the start again. So the order of the work is: times after the start, then those before it; on each side the nearer
- * times come first. */
-static int by_work(const void *first, const void *second)
-{
-    const asked_time *a = first, *b = second;
-    if ((a->time < 0) != (b->time < 0)) return a->time < 0 ? 1 : -1;
-    if (a->time != b->time) return fabs(a->time) > fabs(b->time) ? 1 : -1;
-    return (a->row > b->row) - (a->row < b->row);
-}
-
-static bool in_order(const iso_run_options *o)
-{
-    for (size_t i = 1; i < o->count; i++)
-        if (by_work(&(asked_time){o->times[i - 1], i - 1}, &(asked_time){o->times[i], i}) > 0) return false;
-    return true;
-}
-
 /* The order of the work, and room for the rows that wait for others. */
 static iso_status sort_times(runner *r)
 {
     const size_t count = r->options.count;
-    if (!r->options.times || in_order(&r->options)) return ISO_OK;
-    r->order = malloc(count * sizeof *r->order);
+    if (!r->options.times || iso_times_in_order(r->options.times, count)) return ISO_OK;
+    r->order = iso_times_sorted(r->options.times, count);
     r->waiting = calloc(count, (size_t)r->count * sizeof *r->waiting);
     r->found = calloc(count, sizeof *r->found);
     if (!r->order || !r->waiting || !r->found)
         return iso_context_fail(r->ctx, ISO_NO_MEMORY, "", "no memory for the rows of %zu times", count);
-    for (size_t i = 0; i < count; i++) r->order[i] = (asked_time){r->options.times[i], i};
-    qsort(r->order, count, sizeof *r->order, by_work);
     return ISO_OK;
 }
 
 /* The i-th in the order of the work. */
-static asked_time time_at(const runner *r, size_t i)
+static iso_asked_time time_at(const runner *r, size_t i)
 {
     if (r->order) return r->order[i];
-    return (asked_time){r->options.times ? r->options.times[i] : iso_scene_time(r->scene, i), i};
+    return (iso_asked_time){r->options.times ? r->options.times[i] : iso_scene_time(r->scene, i), i};
 }
 
 static iso_status check_times(runner *r)
@@ -309,7 +284,7 @@ static iso_status give_row(runner *r, const double row[])
     return status;
 }
 
-static iso_status work_on(runner *r, asked_time asked)
+static iso_status work_on(runner *r, iso_asked_time asked)
 {
     double numbers[ISO_MAX_COLUMNS], *row = r->order ? r->waiting + asked.row * (size_t)r->count : numbers;
     iso_sample sample;

@@ -2,6 +2,8 @@
  * the bit; words, notes, and a stop in the middle. tests/python tries the same calls from Python. */
 #include "foreign/foreign.h"
 
+#include <unistd.h>
+
 #include "orbit/batch.h"
 #include "runs.h"
 
@@ -27,7 +29,7 @@ static void check_scenes(void)
     iso_foreign_scene *scene = made(REDUCED("0.5") TIME "output: {columns: [s, n3]}\n"), *copy, *none;
     const char *const bad[][2] = {{"backend", "x"},  {"method", "x"},   {"tolerance", "2"}, {"end", "nan"},
                                   {"step", "0"},     {"as", "neither"}, {"columns", "t,t"}, {"columns", "t,,n1"},
-                                  {"columns", "e1"}, {"colour", "red"}};
+                                  {"columns", "e1"}, {"columns", ""},   {"colour", "red"}};
     int columns[ISO_MAX_COLUMNS];
     double x[6];
     gsl_test(iso_foreign_scene_copy(ctx, scene, &copy) != ISO_OK, "a copy");
@@ -82,6 +84,56 @@ static void check_rows(const char *text)
     iso_record_free(record);
     iso_foreign_scene_free(scene);
     free(wanted);
+}
+
+/* The example of foreign.h: its lines as they stand there. */
+static void check_example(void)
+{
+    const double times[3] = {0, 2, 1};
+    double table[3 * WIDTH];
+    iso_foreign_scene *scene = NULL;
+    iso_foreign_orbit *orbit = NULL;
+    iso_record *record = NULL;
+    char folder[] = "foreign-XXXXXX"; /* of its own: another scene.yaml is not ours */
+    const bool there = mkdtemp(folder) && chdir(folder) == 0;
+    FILE *file = there ? fopen("scene.yaml", "w") : NULL;
+    gsl_test(!file, "a file");
+    if (!file) return;
+    fputs(FREE, file);
+    fclose(file);
+    iso_foreign_scene_read(ctx, "scene.yaml", &scene);
+    iso_foreign_run(ctx, scene, NULL, 0, NULL, &record, notes, sizeof notes);
+    iso_foreign_orbit_create(ctx, scene, &orbit);
+    iso_foreign_orbit_at(orbit, times, 3, table, notes, sizeof notes);
+    remove("scene.yaml");
+    gsl_test(chdir("..") != 0 || rmdir(folder) != 0, "and its folder");
+    gsl_test(iso_record_rows(record) != 9 ||
+                 memcmp(table + WIDTH, iso_record_row(record, 8), WIDTH * sizeof *table) != 0,
+             "the example");
+    iso_foreign_orbit_free(orbit);
+    iso_record_free(record);
+    iso_foreign_scene_free(scene);
+}
+
+/* Times that are not there: none at all are the scene's own; a number without a place is refused, and so is a place
+ * without a number. */
+static void check_no_times(void)
+{
+    iso_foreign_scene *scene = made(FREE);
+    iso_record *record = NULL;
+    double errors[5] = {0}, time = 1;
+    gsl_test(iso_foreign_run(ctx, scene, NULL, 3, errors, &record, notes, sizeof notes) != ISO_BAD_ARGUMENT ||
+                 record || !about("times") || !isnan(errors[0]) || *notes,
+             "three times at NULL: %s", iso_context_message(ctx));
+    gsl_test(iso_foreign_run(ctx, scene, &time, 0, NULL, &record, NULL, 0) != ISO_BAD_ARGUMENT || record ||
+                 !about("times"),
+             "no times: %s", iso_context_message(ctx));
+    iso_foreign_orbit *orbit;
+    gsl_test(iso_foreign_orbit_create(ctx, scene, &orbit) != ISO_OK, "an orbit");
+    gsl_test(iso_foreign_orbit_at(orbit, NULL, 1, &time, NULL, 0) != ISO_BAD_ARGUMENT, "a time at NULL");
+    gsl_test(iso_foreign_orbit_at(orbit, NULL, 0, NULL, NULL, 0) != ISO_OK, "no time for an orbit");
+    iso_foreign_orbit_free(orbit);
+    iso_foreign_scene_free(scene);
 }
 
 /* Contact is lost: the words have no room in few bytes, and an orbit refuses what is beyond. */
@@ -169,17 +221,35 @@ static void check_stop(const iso_foreign_scene *const *scene)
         wrong += whole ? status[i] != ISO_OK : status[i] != ISO_STOPPED;
     }
     gsl_test(wrong || stopped == 0, "%d of %d orbits are stopped, and say so", stopped, ORBITS);
+    memset(status, 0, sizeof status);
+    memset(table, 0, sizeof table);
+    left = 1, wrong = 0;
+    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, NULL, NULL, starts[0], far, 2, 1, NULL, table, status) !=
+                 ISO_STOPPED,
+             "it stops before the first orbit");
+    for (int i = 0; i < ORBITS; i++) wrong += status[i] != ISO_STOPPED || !isnan(table[2 * i * WIDTH]);
+    gsl_test(wrong, "and no orbit has a row");
     iso_context_set_monitor(ctx, NULL, NULL);
     iso_foreign_monitor_free(monitor);
 }
 
 static void check_failures(const iso_foreign_scene *const *scene)
 {
-    k[611] = 0;
-    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, NULL, times, 2, 0, NULL, table, status) !=
+    int wrong =
+        ISO_OK != iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, NULL);
+    const double before = table[2 * 610 * WIDTH + 1];
+    k[5] = NAN, k[611] = 0, starts[612][5] = 2;
+    gsl_test(iso_foreign_batch(ctx, scene, 1, ORBITS, k, NULL, starts[0], times, 2, 0, NULL, table, status) !=
                      ISO_BAD_INPUT ||
-                 strncmp(iso_context_message(ctx), "orbit 611: ", 11) != 0 || !about("k"),
+                 strncmp(iso_context_message(ctx), "orbit 5: ", 9) != 0 || !about("k"),
              "no ball: %s", iso_context_message(ctx));
+    for (int i = 0; i < ORBITS; i++) {
+        const bool fails = i == 5 || i == 611 || i == 612;
+        for (int j = 0; j < 2 * WIDTH; j++) wrong += fails != isnan(table[2 * i * WIDTH + j]);
+        wrong += status[i] != (fails ? ISO_BAD_INPUT : ISO_OK);
+    }
+    gsl_test(wrong || table[2 * 610 * WIDTH + 1] != before, "and only such orbits fail");
+    starts[612][5] = 1;
     starts[600][0] = 1e13, starts[600][1] = 0;
     starts[650][0] = 1e13, starts[650][1] = 0;
     const double late[2] = {1, 1e4};
@@ -188,13 +258,38 @@ static void check_failures(const iso_foreign_scene *const *scene)
     gsl_test((int32_t)found != status[600] || found == ISO_OK ||
                  strncmp(iso_context_message(ctx), "orbit 600: ", 11) != 0,
              "no orbit: %s", iso_context_message(ctx));
-    int wrong = 0;
+    wrong = 0;
     for (int i = 0; i < ORBITS; i++) wrong += (status[i] != ISO_OK) != (i == 600 || i == 650);
     gsl_test(wrong, "the others are there");
-    gsl_test(iso_foreign_batch(ctx, scene, 2, ORBITS, NULL, NULL, NULL, times, 2, 0, NULL, table, NULL) !=
-                 ISO_BAD_ARGUMENT,
+    status[3] = -7, table[0] = -7;
+    gsl_test(iso_foreign_batch(ctx, scene, 2, ORBITS, NULL, NULL, NULL, times, 2, 0, NULL, table, status) !=
+                     ISO_BAD_ARGUMENT ||
+                 status[3] != -7 || table[0] != -7,
              "two scenes for %d orbits", ORBITS);
     gsl_test(iso_foreign_batch(ctx, scene, 1, 0, NULL, NULL, NULL, times, 2, 0, NULL, NULL, NULL) != ISO_OK, "none");
+}
+
+/* A point whose start is replaced keeps the eps of the scene, if that states one; else it has its own, with H = 0. */
+static void check_coupling(const char *eps)
+{
+    char text[2][256];
+    iso_foreign_scene *scene[2];
+    const double y[6] = {0.5, 0, 0, 0, 0.6, 0.8};
+    double rows[2][2 * WIDTH];
+    static const char *const initial[] = {"gamma: [0.6, 0, 0.8], M: [0, 2.5, 0]",
+                                          "gamma: [0, 0.6, 0.8], M: [0.5, 0, 0]"};
+    for (int i = 0; i < 2; i++) {
+        snprintf(text[i], sizeof text[i], "point: {k: -1, J: [1.4, 2.1, 3.0]%s}\ninitial: {%s}\n" TIME, eps,
+                 initial[i]);
+        scene[i] = made(text[i]);
+        const iso_foreign_scene *one = scene[i];
+        gsl_test(iso_foreign_batch(ctx, &one, 1, 1, NULL, NULL, i ? NULL : y, times, 2, 1, NULL, rows[i], NULL) !=
+                     ISO_OK,
+                 "a point");
+        iso_foreign_scene_free(scene[i]);
+    }
+    gsl_test(memcmp(rows[0], rows[1], sizeof rows[0]) != 0 || !isfinite(rows[0][3]), "its eps is the scene's '%s'",
+             eps);
 }
 
 /* --- studies and files ------------------------------------------------------------------------------------------ */
@@ -203,8 +298,8 @@ static void check_studies(const iso_foreign_scene *scene)
 {
     const double at[] = {0.5, 0.2};
     iso_record *record, *point, *trace[2];
-    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, at, 1, -1, NULL, 0, NULL, "both", NAN, 0, &record, &point,
-                                 notes, sizeof notes) != ISO_OK ||
+    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, at, 1, -1, NULL, 0, NULL, "both", 0, 0, &record, &point, notes,
+                                 sizeof notes) != ISO_OK ||
                  iso_record_rows(record) != 80 || iso_record_rows(point) != 80,
              "a section of both models");
     int wrong = 0;
@@ -214,19 +309,55 @@ static void check_studies(const iso_foreign_scene *scene)
     gsl_test(wrong, "has the same crossings");
     iso_record_free(record);
     iso_record_free(point);
-    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, NULL, 0, -1, NULL, 0, "x", NULL, NAN, 0, &record, &point,
-                                 notes, sizeof notes) != ISO_BAD_ARGUMENT ||
+    gsl_test(iso_foreign_section(ctx, scene, 20, 2, 0, NULL, 0, -1, NULL, 0, "x", NULL, 0, 0, &record, &point, notes,
+                                 sizeof notes) != ISO_BAD_ARGUMENT ||
                  record || point || !about("models"),
              "no model");
-    gsl_test(iso_foreign_chaos(ctx, scene, 50, 2, 0, at, 1, -1, NULL, NAN, 0, &record, trace) != ISO_OK ||
+    gsl_test(iso_foreign_chaos(ctx, scene, 50, 2, 0, at, 1, -1, NULL, 0, 0, &record, trace) != ISO_OK ||
                  iso_record_rows(record) != 4 || iso_record_columns(record) != 33 || !trace[0] || !trace[1] ||
                  !iso_record_get(record, "share"),
              "chaos");
     iso_record_free(record);
     for (int m = 0; m < 2; m++) iso_record_free(trace[m]);
-    gsl_test(iso_foreign_chaos(ctx, scene, 0, 0, 0, NULL, 0, -1, NULL, NAN, 0, &record, NULL) != ISO_BAD_ARGUMENT ||
+    gsl_test(iso_foreign_chaos(ctx, scene, 0, 0, 0, NULL, 0, -1, NULL, 0, 0, &record, NULL) != ISO_BAD_ARGUMENT ||
                  record,
              "no turns");
+}
+
+/* A tolerance of 0 is the scene's; a number that went wrong is refused, and it is not the scene that is blamed. */
+static void check_numbers(void)
+{
+    iso_foreign_scene *scene = made(FREE "solver: {tolerance: 1e-9}\n");
+    const double bad[] = {NAN, -1e-9, 1e-16, 0.2, INFINITY};
+    iso_record *record;
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        gsl_test(iso_foreign_section(ctx, scene, 5, 0, 0, NULL, 0, -1, NULL, 0, NULL, NULL, bad[i], 1, &record, NULL,
+                                     NULL, 0) != ISO_BAD_ARGUMENT ||
+                     record || !about("tolerance"),
+                 "a section: %s", iso_context_message(ctx));
+        gsl_test(iso_foreign_chaos(ctx, scene, 5, 0, 0, NULL, 0, -1, NULL, bad[i], 1, &record, NULL) !=
+                         ISO_BAD_ARGUMENT ||
+                     record || !about("tolerance"),
+                 "chaos: %s", iso_context_message(ctx));
+    }
+    for (int i = 0; i < 3; i++) { /* -1 in another language */
+        const size_t none = (size_t)-1, crossings = i == 0 ? none : 5, spread = i == 0 ? 0 : none;
+        const iso_status found =
+            i < 2 ? iso_foreign_section(ctx, scene, crossings, spread, 0, NULL, 0, -1, NULL, 0, NULL, NULL, 0, 1,
+                                        &record, NULL, NULL, 0)
+                  : iso_foreign_chaos(ctx, scene, 5, none, 0, NULL, 0, -1, NULL, 0, 1, &record, NULL);
+        gsl_test(found != ISO_BAD_ARGUMENT || record || !about(i == 0 ? "crossings" : "starts"), "no count: %s",
+                 iso_context_message(ctx));
+    }
+    for (int own = 0; own < 2; own++) {
+        gsl_test(iso_foreign_section(ctx, scene, 5, 0, 0, NULL, 0, -1, NULL, 0, NULL, NULL, own ? 1e-6 : 0, 1,
+                                     &record, NULL, NULL, 0) != ISO_OK ||
+                     strcmp(iso_record_get(record, "tolerance"),
+                            own ? "9.9999999999999995e-07" : "1.0000000000000001e-09"),
+                 "the section says its tolerance");
+        iso_record_free(record);
+    }
+    iso_foreign_scene_free(scene);
 }
 
 static void check_files(const iso_foreign_scene *scene)
@@ -268,6 +399,8 @@ int main(void)
     check_rows(REDUCED("-1") "time: {end: -3, step: 0.25}\noutput: {as: both}\n");
     check_rows(POINT TIME "output: {as: ball}\n");
     check_rows(OUTSIDE START TIME "effects: {" GRAVITY ", attitude: {}, reactions: {two_sided: true}}\n");
+    check_example();
+    check_no_times();
     check_contact();
     iso_foreign_scene *scene = made(FREE);
     const iso_foreign_scene *one = scene;
@@ -275,7 +408,10 @@ int main(void)
     check_batch(&one);
     check_stop(&one);
     check_failures(&one);
+    check_coupling("");
+    check_coupling(", eps: 3");
     check_studies(scene);
+    check_numbers();
     check_files(scene);
     iso_foreign_scene_free(scene);
     iso_context_free(ctx);

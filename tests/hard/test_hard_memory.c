@@ -135,9 +135,10 @@ static iso_status find_separatrix(const hard_road *way)
     return status;
 }
 
+enum { ROWS = 2 };
+
 static iso_status run_batch(const hard_road *way)
 {
-    enum { ROWS = 2 };
     static iso_sample samples[BATCH_ORBITS * ROWS];
     iso_status one[BATCH_ORBITS];
     iso_batch_options o = iso_batch_defaults();
@@ -204,9 +205,9 @@ static iso_status call_foreign(const hard_road *way)
         status = iso_foreign_batch(ctx, (const iso_foreign_scene *[]){scene}, 1, 4, (double[]){1, 2, 3, 4}, NULL,
                                    NULL, (double[]){1}, 1, 1, NULL, table, NULL);
     if (status == ISO_OK)
-        status = iso_foreign_section(ctx, scene, 2, 1, 0, NULL, 0, -1, NULL, 0, NULL, NULL, NAN, 1, &point, &twin,
+        status = iso_foreign_section(ctx, scene, 2, 1, 0, NULL, 0, -1, NULL, 0, NULL, NULL, 0, 1, &point, &twin,
                                      notes, sizeof notes);
-    if (status == ISO_OK) status = iso_foreign_chaos(ctx, scene, 4, 1, 0, NULL, 0, -1, NULL, NAN, 1, &chaos, NULL);
+    if (status == ISO_OK) status = iso_foreign_chaos(ctx, scene, 4, 1, 0, NULL, 0, -1, NULL, 0, 1, &chaos, NULL);
     digits = status == ISO_OK ? digits + table[27] + iso_record_row(twin, 3)[6] : 0;
     iso_record_free(ball);
     iso_record_free(point);
@@ -215,6 +216,43 @@ static iso_status call_foreign(const hard_road *way)
     iso_foreign_orbit_free(one);
     iso_foreign_scene_free(scene);
     return status;
+}
+
+/* Whether table and status say what has become of each orbit, beginning with numbers that nobody writes. */
+enum { MANY = 300, WIDTH = 7, NOBODY = 12345 };
+
+static iso_status judge_table(iso_status answer, const double table[], const int32_t status[])
+{
+    bool lacking = false;
+    digits = 0;
+    for (int i = 0; i < MANY; i++) {
+        const double *first = table + (size_t)i * ROWS * WIDTH;
+        for (int j = 0; j < ROWS * WIDTH; j++)
+            if (status[i] == ISO_OK ? !isfinite(first[j]) || first[j] == NOBODY : !isnan(first[j]))
+                return iso_context_fail(ctx, ISO_NUMERICAL, "", "orbit %d has status %d and %g", i, status[i],
+                                        first[j]);
+        lacking = lacking || status[i] == ISO_NO_MEMORY;
+        digits += status[i] == ISO_OK ? first[1] : 0;
+    }
+    if (lacking == (answer == ISO_NO_MEMORY)) return answer;
+    return iso_context_fail(ctx, ISO_NUMERICAL, "", "the call gives %d, its orbits another status", answer);
+}
+
+/* way: one thread, which takes two chunks; NULL: two threads. */
+static iso_status fill_table(const hard_road *way)
+{
+    static double table[MANY * ROWS * WIDTH], k[MANY];
+    static int32_t one[MANY];
+    iso_foreign_scene *scene;
+    const iso_status status = iso_foreign_scene_parse(ctx, "scene", closed, strlen(closed), &scene);
+    digits = 0;
+    if (status != ISO_OK) return status;
+    for (int i = 0; i < MANY * ROWS * WIDTH; i++) table[i] = NOBODY;
+    for (int i = 0; i < MANY; i++) one[i] = -7, k[i] = 0.5 + 0.001 * i;
+    const iso_status answer = iso_foreign_batch(ctx, (const iso_foreign_scene *[]){scene}, 1, MANY, k, NULL, NULL,
+                                                (double[]){0.1, 0.2}, ROWS, way ? 1 : 2, NULL, table, one);
+    iso_foreign_scene_free(scene);
+    return judge_table(answer, table, one);
 }
 
 static iso_status find_frequencies(const hard_road *way)
@@ -350,6 +388,8 @@ int main(void)
     starve("batch, two threads", run_batch, NULL, 60);
     starve("compare, write, read, convert, check", study, NULL, 150);
     starve("calls for other languages", call_foreign, NULL, 200);
+    starve("table of a batch, one thread", fill_table, &hard_way[0], 60);
+    starve("table of a batch, two threads", fill_table, NULL, 30);
     starve("frequencies", find_frequencies, &hard_way[0], 60);
     starve("frequencies, estimated", find_frequencies, NULL, 30);
     starve("error", find_error, NULL, 60);
