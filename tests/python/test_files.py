@@ -4,6 +4,8 @@ import copy
 import gc
 import os
 import pickle
+import subprocess
+import sys
 import unittest
 
 import numpy as np
@@ -62,6 +64,15 @@ class Files(Case):
         with self.assertWarnsRegex(isoroll.IsorollWarning, "passed over: .*weight"):
             table = isoroll.read(self.path("a.csv"))
         self.same(table.array, [[0.0, 1.0], [1.0, 2.0]])
+
+    def test_lines_that_are_no_utf_8(self):
+        with open(self.path("a.csv"), "wb") as file:
+            file.write(b"# isoroll trajectory 1\n# \xff: 1\n# \xfe: \xe9\n# \xfd: 3\nt,n1\n0,1\n")
+        code = f"import isoroll; t = isoroll.read({self.path('a.csv')!r}); print(len(t.lines)); " \
+            f"isoroll.write(isoroll.Table(t.array, t.columns, t.lines), {self.path('b.csv')!r})"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+        self.assertEqual(done.stdout, "3\n")
+        self.same_files(self.path("a.csv"), self.path("b.csv"))
 
     def test_refused(self):
         self.refuses(isoroll.FileTrouble, "No such file", isoroll.read, self.path("absent.csv"))
@@ -149,6 +160,37 @@ class Tables(Case):
     def test_columns_in_another_order(self):
         table = isoroll.run(BALL, columns=["n3", "t", "n1", "n2"])
         np.testing.assert_array_equal(table.n, isoroll.run(BALL).n)
+        with self.assertRaisesRegex(ValueError, "read-only"):  # a copy: writing to it would change nothing
+            table.n[0] = 0
+        table["n1"][0] = 7
+        self.assertEqual(table.n[0, 0], 7)
+        gaps = isoroll.Table(np.zeros((4, 6))[:, ::2], ["n1", "n2", "n3"])
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            gaps.rows["n1"][:] = 1
+
+    def test_nothing_is_written_to_nowhere(self):
+        for table in (isoroll.run(BALL), isoroll.orbit(BALL).at([1, 2]), isoroll.batch(BALL, [1])):
+            for name in ("array", "columns", "lines"):
+                with self.assertRaisesRegex(AttributeError, f"'{name}' of a table cannot be replaced"):
+                    setattr(table, name, getattr(table, name))
+            for name in ("t", "n", "omega2", "gamma"):
+                with self.assertRaisesRegex(AttributeError, "is a name of a column"):
+                    setattr(table, name, np.zeros(2))
+            table.label = "mine"
+            table.n[...] = 0.5
+            self.assertTrue((table.array[..., 4:] == 0.5).all())
+
+    def test_arrays_that_do_not_fit(self):
+        table = isoroll.run(BALL)
+        for array in (table.array[:, :4], table.array[0, :2], 1.0, table.array.T, [[1, 2], [3]]):
+            with self.assertRaises(isoroll.BadArgument):
+                isoroll.Table(array, table.columns, table.lines)
+        for bad in (table.array + 1j, np.ma.masked_less(table.array, 0), table.array.astype(str)):
+            with self.assertRaisesRegex(isoroll.BadArgument, "array "):
+                isoroll.Table(bad, table.columns)
+        whole = isoroll.Table([[0, 1], [1, 2]], ["t", "n1"])
+        isoroll.write(whole, self.path("a.csv"))
+        self.same(isoroll.read(self.path("a.csv")).array, [[0.0, 1.0], [1.0, 2.0]])
 
     def test_copies(self):
         table = isoroll.run(BALL)
@@ -165,6 +207,12 @@ class Tables(Case):
         for bad in ({}, {"t": [1, 2], "n": [[1, 2, 3]]}, {"n": [[1, 2]]}, {"n": 1.0}):
             with self.assertRaises(isoroll.BadArgument):
                 isoroll.trajectory(bad) if bad != {"n": 1.0} else isoroll.trajectory({"n": [[1.0], [2.0]]})
+        for bad in ({"t": [1j]}, {"t": np.ma.masked_equal([1.0, 2.0], 2)}, {"t": ["x"]}, {"n": np.ones((2, 3, 1))}):
+            self.refuses(isoroll.BadArgument, "column '", isoroll.trajectory, bad)
+        for columns, lines in (({"t\0x": [1]}, {}), ({"t\nx": [1]}, {}), ({"t": [1]}, {"note": "a\0b"})):
+            self.refuses(isoroll.BadArgument, "end of a line", isoroll.write, isoroll.trajectory(columns, **lines),
+                         self.path("a.csv"))
+        self.assertEqual(isoroll.trajectory({"t": [], "n": np.ones((0, 3))}).n.shape, (0, 3))
         table = isoroll.trajectory({"s": [0, 1], "M1": [1, 2]}, k=1)
         self.assertEqual((table.columns, table.lines["model"]), (("s", "M1"), "point"))
 
