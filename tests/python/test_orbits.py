@@ -57,6 +57,16 @@ output: {as: ball, columns: [n1, t]}
         np.testing.assert_array_equal(scene.J, [1, 2, 5])
         self.near(scene.start, [0.9, -0.3, -0.225, 0.36, 0.48, 0.8], 1e-15)
 
+    def test_order_of_changes(self):
+        wanted = isoroll.run(isoroll.Scene(BALL, as_="both"), columns=["M1", "t"])
+        self.assertEqual(wanted.columns, ("M1", "t"))
+        for changes in ({"as_": "both", "columns": ["M1", "t"]}, {"columns": ["M1", "t"], "as_": "both"}):
+            self.assertEqual(isoroll.Scene(BALL, **changes).columns, wanted.columns)
+            self.same(isoroll.run(BALL, **changes).array, wanted.array)
+            self.same(isoroll.orbit(BALL, **changes).at(wanted.t[:3]).array, wanted.array[:3])
+        for empty in ([], (), ""):
+            self.refuses(isoroll.BadArgument, "empty", isoroll.run, BALL, columns=empty, about="columns")
+
     def test_times_in_any_order(self):
         rng = np.random.default_rng(1)
         times = rng.permutation(np.linspace(-20, 30, 101))

@@ -45,7 +45,7 @@ class Scene(Owned):
 
     source   the path of a YAML file; a str with a newline: YAML text; a dict of its sections; another Scene
     changes  backend, method, tolerance, end, step, as_ ("ball", "point", "both"), columns (a list of names):
-             they override the scene, like the options of the command
+             they override the scene, like the options of the command; columns come last, after those of as_
 
     >>> isoroll.Scene({"reduced": {"k": -1, "J": [1, 2, 5]},
     ...                "initial": {"normal": [0.36, 0.48, 0.8], "angular_velocity": [0.8, -0.6, 0]},
@@ -68,8 +68,8 @@ class Scene(Owned):
             raise TypeError(f"a scene is a path, a text, a dict or a Scene, not {type(source).__name__}")
         check(status, ctx)
         self._own(new.value, lib.iso_foreign_scene_free)
-        for key, value in changes.items():
-            self._set(key, value)
+        for key in sorted(changes, key="columns".__eq__):  # last: as_ sets columns of its own
+            self._set(key, changes[key])
         numbers = (c_int * _MOST_COLUMNS)()
         count = lib.iso_foreign_scene_columns(self.pointer, numbers)
         self._columns = tuple(lib.iso_column_name(c).decode() for c in numbers[:count])
@@ -79,8 +79,14 @@ class Scene(Owned):
             return
         if key not in ("backend", "method", "tolerance", "end", "step", "as_", "columns"):
             raise TypeError(f"'{key}' is no argument: backend, method, tolerance, end, step, as_, columns")
+        if key == "columns" and not isinstance(value, str):
+            value = ",".join(value)
+        if key == "columns" and not value:
+            error = _errors.BadArgument("columns is empty: name at least one, such as t")
+            error.about = key
+            raise error
         if not isinstance(value, str):
-            value = ",".join(value) if key == "columns" else repr(float(value))
+            value = repr(float(value))
         ctx = context()
         check(lib.iso_foreign_scene_set(ctx, self.pointer, key.rstrip("_").encode(), encoded(value)), ctx)
 
