@@ -137,6 +137,26 @@ class Memory(Case):
                 self.assertLess(self.grows(work, count), 2 << 20)
 
 
+    def test_nothing_is_left_by_an_exception_after_the_call(self):
+        table = isoroll.run(BALL, np.linspace(0, 1, 2000))
+        path, words = self.path("a.csv"), ",".join(table.columns)
+        isoroll.write(table, path)
+        with open(path, encoding="utf-8") as file:
+            text = file.read().replace("# isoroll trajectory 1\n", "").replace(words, words.replace("n3", "weight"))
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        other = isoroll.trajectory({"t": table.t, "omega": table.omega, "n": table.n}, k=-1, J=[1, 2, 5.1])
+
+        def warned(call, *arguments):
+            with self.assertRaises(isoroll.IsorollWarning):
+                call(*arguments)
+
+        for name, work in (("read", lambda i: warned(isoroll.read, path)),
+                           ("convert", lambda i: warned(isoroll.convert, other, "point"))):
+            with self.subTest(name):  # each time 100 kB would stay
+                self.assertLess(self.grows(work, 200), 4 << 20)
+
+
 class CtrlC(Case):
     LONG = {"end": 1e8, "step": 1e6, "backend": "ball"}
 
@@ -144,10 +164,11 @@ class CtrlC(Case):
         for call in calls:
             timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
             timer.start()
-            with self.assertRaises(KeyboardInterrupt):
+            with self.assertRaises(KeyboardInterrupt) as caught:
                 call()
             timer.join()
             self.assertEqual(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        return caught.exception
 
     def setUp(self):
         super().setUp()
@@ -161,6 +182,26 @@ class CtrlC(Case):
                    lambda: isoroll.section(WILD, crossings=10000000))
         self.same(isoroll.run(BALL).array, isoroll.run(BALL).array)
         self.same(orbit.at(1.0).array, isoroll.run(BALL, [1.0], backend="ball").array[0])
+
+    def test_what_was_found_is_kept(self):
+        found = self.press(lambda: isoroll.run(BALL, end=1e7, step=0.5, backend="ball")).partial
+        self.assertGreater(len(found), 10)
+        self.same(found.array, isoroll.run(BALL, found.t, backend="ball").array)
+        found = self.press(lambda: isoroll.section(WILD, crossings=10000000)).partial
+        self.assertEqual(found.columns[:2], ("orbit", "crossing"))
+        found = self.press(lambda: isoroll.batch(WILD, [1e7], start=starts(100))).partial
+        self.assertEqual(found.array.shape, (100, 1, 7))
+
+    def test_nothing_is_left(self):
+        before, size = None, 0
+        for _ in range(6):
+            stop = self.press(lambda: isoroll.run(BALL, end=1e7, step=0.2, backend="ball"))
+            if before is None:
+                before = resident()
+                continue
+            size += stop.partial.array.nbytes
+        del stop
+        self.assertLess(resident() - before, size // 2)
 
     def test_a_handler_of_ones_own(self):
         seen = []

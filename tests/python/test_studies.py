@@ -53,6 +53,7 @@ class Sections(Case):
         refuse(isoroll.BadArgument, "seed is -1", seed=-1)
         refuse(isoroll.BadArgument, "", event=("n1", np.nan))
         refuse(isoroll.BadArgument, "", tolerance=2)
+        refuse(isoroll.BadArgument, "tolerance is nan", tolerance=np.nan, about="tolerance")
         refuse(isoroll.BadInput, "", at=[[np.nan, 0]])
         refuse(isoroll.BadArgument, "shape (3,)", at=[1, 2, 3])
         refuse(isoroll.BadArgument, "must be one of", models="neither")
@@ -93,6 +94,7 @@ class Verdicts(Case):
 
     def test_refused(self):
         self.refuses(isoroll.BadArgument, "turns is 0", isoroll.chaos, WILD, turns=0)
+        self.refuses(isoroll.BadArgument, "tolerance is nan", isoroll.chaos, WILD, tolerance=np.nan)
         self.refuses(isoroll.BadInput, "", isoroll.chaos, example("10_bowl"))
         self.refuses(isoroll.NotMapped, "", isoroll.chaos, example("11_rubber_and_marble"), models="point")
 

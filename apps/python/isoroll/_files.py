@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import os
-from ctypes import byref, c_void_p
+from ctypes import byref
 from typing import Dict, List, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _errors
 from ._library import Notes, check, context, encoded, interruptible, lib, whole
-from ._table import Table, as_record, from_record
+from ._table import Table, as_record, from_record, new_record
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -51,13 +51,13 @@ def read(path: PathLike, columns: Optional[Union[str, Sequence[str]]] = None) ->
         return table
     if columns is not None and not isinstance(columns, str):
         columns = ",".join(columns)
-    ctx, new, notes = context(), c_void_p(), Notes()
+    ctx, new, notes = context(), new_record(), Notes()
     with interruptible():
         status = lib.iso_foreign_read(ctx, encoded(name), None if columns is None else encoded(columns),
                                       byref(new), *notes.arguments)
     check(status, ctx)
     notes.tell()
-    return from_record(new.value)
+    return from_record(new)
 
 
 def write(table: Table, path: PathLike, *, digits: Union[int, str] = 17) -> None:
@@ -86,11 +86,11 @@ def convert(table: Table, to: str, *, tolerance: float = 1e-14, row_tolerance: f
     Returns a table with a row for each row: the clock, then omega, n or M, gamma. A warning says if the rows do not
     solve the equations that their lines state.
     """
-    ctx, record, new, notes = context(), as_record(table), c_void_p(), Notes()
+    ctx, record, new, notes = context(), as_record(table), new_record(), Notes()
     with interruptible():
         status = lib.iso_foreign_convert(ctx, record.pointer, encoded(to), float(tolerance), float(row_tolerance),
                                          bool(shift_J),
                                          byref(new), *notes.arguments)
     check(status, ctx)
     notes.tell()
-    return from_record(new.value)
+    return from_record(new)

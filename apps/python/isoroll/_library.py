@@ -12,7 +12,7 @@ import sys
 import threading
 import warnings
 from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_long, c_size_t, c_uint64, c_void_p
-from typing import Any, Iterator, List, Optional, Tuple
+from typing import Any, Callable, Iterator, List, Optional, Tuple
 
 from . import _errors
 from ._version import __version__
@@ -153,9 +153,15 @@ def _note(number: int, frame: Any) -> None:
 
 
 class interruptible:
-    """Lets Ctrl-C end a call of the library. The user's handler then runs; usually it raises KeyboardInterrupt."""
+    """Lets Ctrl-C end a call of the library. The user's handler then runs; usually it raises KeyboardInterrupt.
 
-    __slots__ = ("handler",)
+    found  gives what the call has computed so far, a Table or None: the exception's `partial`
+    """
+
+    __slots__ = ("handler", "found")
+
+    def __init__(self, found: Optional[Callable[[], Any]] = None) -> None:
+        self.found = found
 
     def __enter__(self) -> None:
         self.handler = _getsignal(_SIGINT) if threading.get_ident() == _MAIN else None
@@ -169,7 +175,12 @@ class interruptible:
             if _signals:
                 last = _signals[-1]
                 _signals.clear()
-                self.handler(*last)
+                try:
+                    self.handler(*last)
+                except BaseException as stop:
+                    if self.found is not None:
+                        stop.partial = self.found()  # type: ignore[attr-defined]
+                    raise
 
 
 # --- objects of the library, and contexts ---------------------------------------------------------------------------
@@ -190,6 +201,22 @@ class Owned:
 
     def __reduce_ex__(self, protocol: Any) -> Any:
         raise TypeError(f"a {type(self).__name__} of isoroll lives in the library: it cannot be copied or pickled")
+
+
+class New(c_void_p):
+    """Where a call puts a new object. The object is freed, unless it is taken over: an exception may come first."""
+
+    def __init__(self, free: Any) -> None:
+        super().__init__()
+        self._free = free
+
+    def take(self) -> Optional[int]:
+        pointer, self.value = self.value, None
+        return pointer
+
+    def __del__(self) -> None:
+        if self.value:
+            self._free(self.value)
 
 
 class Monitor(Owned):

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
-from ._library import Monitor, Notes, Owned, check, context, encoded, interruptible, lib, whole
+from ._library import Monitor, New, Notes, Owned, check, context, encoded, interruptible, lib, whole
 from ._scene import Scene, SceneLike, as_scene, as_scenes
-from ._table import Table, from_record
+from ._table import Table, from_record, new_record
 
 _ERRORS = ("ball", "point", "t", "tau", "s")
 
@@ -39,20 +39,24 @@ def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, errors: bool = F
     Returns a table of shape (rows, columns). There are fewer rows than times if the ball loses contact: a warning
     says when. After a failure, error.partial has the rows before it.
     """
-    chosen, ctx, new, notes = as_scene(scene, changes), context(), c_void_p(), Notes()
+    chosen, ctx, new, notes = as_scene(scene, changes), context(), new_record(), Notes()
     asked = None if times is None else np.atleast_1d(_times(times)).ravel()
     found = np.full(5, np.nan) if errors else None
-    with interruptible():
+
+    def so_far() -> Optional[Table]:
+        return from_record(new) if new.value else None
+
+    with interruptible(so_far):
         status = lib.iso_foreign_run(ctx, chosen.pointer, None if asked is None else asked.ctypes.data,
                                      0 if asked is None else asked.size, None if found is None else found.ctypes.data,
                                      byref(new), *notes.arguments)
     try:
         check(status, ctx)
     except _errors.IsorollError as error:
-        error.partial = from_record(new.value) if new.value else None
+        error.partial = so_far()
         raise
     notes.tell()
-    table = from_record(new.value)
+    table = from_record(new)
     result = Run(table.array, table.columns, table.lines, record=table._record)
     if found is not None:
         result.errors = dict(zip(_ERRORS, found.tolist()))
@@ -82,11 +86,11 @@ class Orbit(Owned):
 
     def __init__(self, scene: SceneLike, **changes: Any) -> None:
         self.scene = as_scene(scene, changes)
-        new, ctx = c_void_p(), context()
+        new, ctx = New(lib.iso_foreign_orbit_free), context()
         with interruptible():
             status = lib.iso_foreign_orbit_create(ctx, self.scene.pointer, byref(new))
         check(status, ctx)
-        self._own(new.value, lib.iso_foreign_orbit_free)
+        self._own(new.take(), lib.iso_foreign_orbit_free)
         self._context = lib.iso_foreign_orbit_context(self.pointer)
         self._monitor = Monitor(self._context)
         self._lock = threading.Lock()
@@ -209,15 +213,14 @@ def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k:
     arrays = [_spread(k, count, 1), _spread(J, count, 3), _spread(start, count, 6)]
     pointers = (c_void_p * len(chosen))(*(scene.pointer for scene in chosen))
     array, statuses = np.empty((count, asked.size, len(columns))), np.zeros(count, dtype=np.int32)
-    ctx = context()
-    with interruptible():
+    result, ctx = Batch(array, columns, kind="batch"), context()
+    result.status = statuses
+    with interruptible(lambda: result if statuses.any() else None):
         status = lib.iso_foreign_batch(ctx, pointers, len(chosen), count,
                                        *(None if a is None else a.ctypes.data for a in arrays), asked.ctypes.data,
                                        asked.size, whole("threads", threads, 0, 1024),
                                        None if vectors is None else encoded(vectors),
                                        array.ctypes.data, statuses.ctypes.data)
-    result = Batch(array, columns, kind="batch")
-    result.status = statuses
     try:
         check(status, ctx)
     except _errors.IsorollError as error:

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
-from ._library import Notes, check, context, encoded, interruptible, lib, whole
+from ._library import New, Notes, check, context, encoded, interruptible, lib, whole
 from ._scene import SceneLike, as_scene
-from ._table import Table, from_record
+from ._table import Table, from_record, new_record
 
 
 def _axis(axis: Optional[int]) -> int:
@@ -29,6 +29,23 @@ def _points(at: Optional[ArrayLike]) -> NDArray[np.float64]:
     return points.reshape(-1, 2)
 
 
+def _tolerance(tolerance: Optional[float]) -> float:
+    """For C: NaN means the scene's. As a number of the caller's it is refused, as in run."""
+    if tolerance is None:
+        return float("nan")
+    if np.isnan(float(tolerance)):
+        error = _errors.BadArgument("tolerance is nan")
+        error.about = "tolerance"
+        raise error
+    return float(tolerance)
+
+
+def _taken(pointer: int) -> New:
+    new = new_record()
+    new.value = pointer
+    return new
+
+
 class Section(Table):
     """Crossings, a row each: columns orbit (from 0), crossing (from 1), t, tau, s, l, x, and the states asked for.
 
@@ -39,10 +56,10 @@ class Section(Table):
     point: Optional[Table] = None
 
 
-def _section(record: c_void_p, point: c_void_p) -> Section:
-    table = from_record(record.value, "section")
+def _section(record: New, point: New) -> Section:
+    table = from_record(record, "section")
     result = Section(table.array, table.columns, table.lines, kind="section", record=table._record)
-    result.point = from_record(point.value, "section") if point.value else None
+    result.point = from_record(point, "section") if point.value else None
     return result
 
 
@@ -62,21 +79,25 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
 
     l is an angle in (-pi, pi], x is in (-1, 1); both models have the same l and x.
     """
-    chosen, ctx, new, point, notes = as_scene(scene, {}), context(), c_void_p(), c_void_p(), Notes()
+    chosen, ctx, new, point, notes = as_scene(scene, {}), context(), new_record(), new_record(), Notes()
     points = _points(at)
     if axis is not None and event is not None:
         raise _errors.BadArgument("axis or event, not both")
-    with interruptible():
+
+    def so_far() -> Optional[Section]:
+        return _section(new, point) if new.value else None
+
+    with interruptible(so_far):
         status = lib.iso_foreign_section(
             ctx, chosen.pointer, whole("crossings", crossings, 1), whole("starts", starts, 0),
             whole("seed", seed, 0), points.ctypes.data, len(points), _axis(axis),
             encoded(event[0]) if event else None, float(event[1]) if event else 0.0, encoded(models),
-            encoded(states) if states else None, np.nan if tolerance is None else float(tolerance),
+            encoded(states) if states else None, _tolerance(tolerance),
             whole("threads", threads, 0, 1024), byref(new), byref(point), *notes.arguments)
     try:
         check(status, ctx)
     except _errors.IsorollError as error:
-        error.partial = _section(new, point) if new.value else None
+        error.partial = so_far()
         raise
     notes.tell()
     return _section(new, point)
@@ -128,12 +149,14 @@ def chaos(scene: SceneLike, *, turns: int = 3000, starts: int = 0, seed: int = 0
 
     turns  at most, of each orbit. Exponents are per unit of t, tau and s.
     """
-    chosen, ctx, new, trace, points = as_scene(scene, {}), context(), c_void_p(), (c_void_p * 2)(), _points(at)
-    with interruptible():
-        status = lib.iso_foreign_chaos(
-            ctx, chosen.pointer, whole("turns", turns, 1), whole("starts", starts, 0), whole("seed", seed, 0),
-            points.ctypes.data, len(points), _axis(axis), encoded(models),
-            np.nan if tolerance is None else float(tolerance), whole("threads", threads, 0, 1024), byref(new), trace)
+    chosen, ctx, new, trace, points = as_scene(scene, {}), context(), new_record(), (c_void_p * 2)(), _points(at)
+    try:
+        with interruptible():
+            status = lib.iso_foreign_chaos(
+                ctx, chosen.pointer, whole("turns", turns, 1), whole("starts", starts, 0), whole("seed", seed, 0),
+                points.ctypes.data, len(points), _axis(axis), encoded(models), _tolerance(tolerance),
+                whole("threads", threads, 0, 1024), byref(new), trace)
+    finally:
+        traces = {name: from_record(_taken(pointer)) for name, pointer in zip(("ball", "point"), trace) if pointer}
     check(status, ctx)
-    traces = {name: from_record(pointer) for name, pointer in zip(("ball", "point"), trace) if pointer}
-    return Chaos(from_record(new.value), traces)
+    return Chaos(from_record(new), traces)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ctypes import byref, c_char_p, c_double, c_void_p
+from ctypes import byref, c_char_p, c_double
 from types import MappingProxyType
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
-from ._library import Owned, check, context, lib
+from ._library import New, Owned, check, context, lib
 
 #: vectors by the names of their columns
 VECTORS = {name: tuple(f"{name}{i}" for i in range(1, 4))
@@ -192,11 +192,16 @@ class Table:
         return f"<isoroll.Table {self.array.shape}: {', '.join(self.columns)}>"
 
 
-def from_record(pointer: Optional[int], kind: str = "trajectory") -> Table:
+def new_record() -> New:
+    """Where a call puts a record."""
+    return New(lib.iso_record_free)
+
+
+def from_record(new: New, kind: str = "trajectory") -> Table:
     """The table of a new record, which it takes over."""
-    if not pointer:
+    if not new.value:
         raise _errors.IsorollError("the library gave no record")
-    record = Record(pointer)
+    record = Record(new.take() or 0)
     return Table(record.array(), record.columns(), record.lines(), kind=kind, record=record)
 
 
@@ -217,9 +222,9 @@ def as_record(table: Table) -> Record:
         raise _errors.BadArgument("this table has many orbits: take one of them, table.orbit(i)")
     array = np.ascontiguousarray(np.atleast_2d(table.array), dtype=np.float64)
     names = (c_char_p * len(table.columns))(*(_bytes(name) for name in table.columns))
-    new, ctx = c_void_p(), context()
+    new, ctx = new_record(), context()
     check(lib.iso_record_create(ctx, len(names), names, byref(new)), ctx)
-    record = Record(new.value or 0)
+    record = Record(new.take() or 0)
     for key, value in table.lines.items():
         check(lib.iso_record_set(ctx, record.pointer, _bytes(key), _bytes(value)), ctx)
     check(lib.iso_foreign_record_append(ctx, record.pointer, len(array), array.ctypes.data), ctx)
