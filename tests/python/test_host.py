@@ -203,6 +203,22 @@ class CtrlC(Case):
         del stop
         self.assertLess(resident() - before, size // 2)
 
+    def test_exceptions_of_other_handlers(self):
+        def handler(number, frame):
+            raise TimeoutError("too long")
+
+        old = signal.signal(signal.SIGALRM, handler)
+        try:
+            for call in (lambda: isoroll.run(BALL, **self.LONG), lambda: isoroll.run(WILD, end=2e5, step=1e4)):
+                signal.setitimer(signal.ITIMER_REAL, 0.15)
+                with self.assertRaisesRegex(TimeoutError, "too long") as caught:
+                    call()
+                self.assertLess(len(caught.exception.partial), 100)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, old)
+        self.assertIs(sys.unraisablehook, sys.__unraisablehook__)
+
     def test_a_handler_of_ones_own(self):
         seen = []
         old = signal.signal(signal.SIGINT, lambda number, frame: seen.append(number))
@@ -220,6 +236,12 @@ class Library(Case):
         """What an own Python says; it takes this library."""
         return subprocess.run([sys.executable, "-c", code], env={**os.environ, "ISOROLL_LIBRARY": library},
                               capture_output=True, text=True, check=False)
+
+    def test_python_ends_during_a_call(self):
+        code = (f"import isoroll, threading, time\ndef work():\n    isoroll.run({BALL!r}, end=1e6, step=0.1)\n"
+                "threading.Thread(target=work, daemon=True).start()\ntime.sleep(0.5)")
+        done = self.python(os.environ["ISOROLL_LIBRARY"], code)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_version(self):
         with open(os.path.join(os.environ["ISO_SOURCE"], "lib/base/version.h"), encoding="utf-8") as file:

@@ -25,6 +25,7 @@ class Sections(Case):
                         table = isoroll.section(WILD, crossings=20, **named)
                 isoroll.write(table, self.path("python.csv"))
                 self.same_files(self.path("command.csv"), self.path("python.csv"))
+                self.same(isoroll.read(self.path("command.csv")).array, table.array)
 
     def test_both_models(self):
         table = isoroll.section(BALL, starts=10, crossings=50)

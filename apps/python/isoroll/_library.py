@@ -133,6 +133,7 @@ lib = _declare(_load())
 # this call Python can run the handler, which is _note during a call: it keeps the signal. The library then stops.
 
 _signals: List[Tuple[int, Any]] = []
+_raised: List[BaseException] = []  # by the handler of another signal, such as SIGALRM, in _goes_on: it ends the call
 try:  # the same functions without the enums of `signal`, which take longer than a short call
     from _signal import getsignal as _getsignal, signal as _setsignal  # type: ignore[import]
 except ImportError:
@@ -142,10 +143,27 @@ _MAIN = threading.main_thread().ident
 
 
 def _goes_on(_unused: object) -> bool:
-    return not _signals or threading.get_ident() != _MAIN
+    try:
+        return not (_signals or _raised) or threading.get_ident() != _MAIN
+    except BaseException as error:
+        _raised.append(error)
+        return False
 
 
 _go_on = ctypes.CFUNCTYPE(c_bool, c_void_p)(_goes_on)
+ctypes.pythonapi.Py_IncRef(ctypes.py_object(_go_on))  # for ever: a daemon thread may call it while Python ends
+
+
+def _keep_raised(ignored: Any) -> None:
+    """For sys.unraisablehook: a handler may raise before the first line of _goes_on. ctypes would only print it."""
+    ours = ignored.object is _goes_on or (ignored.object is None and repr(_goes_on) in (ignored.err_msg or ""))
+    if ours and isinstance(ignored.exc_value, BaseException):
+        _raised.append(ignored.exc_value)
+    else:
+        _hook(ignored)
+
+
+_hook: Any = sys.__unraisablehook__  # the host's
 
 
 def _note(number: int, frame: Any) -> None:
@@ -153,34 +171,51 @@ def _note(number: int, frame: Any) -> None:
 
 
 class interruptible:
-    """Lets Ctrl-C end a call of the library. The user's handler then runs; usually it raises KeyboardInterrupt.
+    """Lets Ctrl-C end a call of the library. The user's handler then runs; usually it raises KeyboardInterrupt. An
+    exception by the handler of another signal ends the call as well.
 
     found  gives what the call has computed so far, a Table or None: the exception's `partial`
     """
 
-    __slots__ = ("handler", "found")
+    __slots__ = ("main", "handler", "hook", "found")
 
     def __init__(self, found: Optional[Callable[[], Any]] = None) -> None:
         self.found = found
 
     def __enter__(self) -> None:
-        self.handler = _getsignal(_SIGINT) if threading.get_ident() == _MAIN else None
-        if callable(self.handler):
+        self.main = threading.get_ident() == _MAIN
+        if self.main:
+            global _hook
+            self.handler, self.hook = _getsignal(_SIGINT), sys.unraisablehook
+            if self.hook is not _keep_raised:
+                _hook = self.hook
             _signals.clear()
-            _setsignal(_SIGINT, _note)
+            _raised.clear()
+            sys.unraisablehook = _keep_raised
+            if callable(self.handler):
+                _setsignal(_SIGINT, _note)
 
     def __exit__(self, *_unused: Any) -> None:
+        if not self.main:
+            return
+        sys.unraisablehook = self.hook
         if callable(self.handler):
             _setsignal(_SIGINT, self.handler)
-            if _signals:
-                last = _signals[-1]
-                _signals.clear()
-                try:
-                    self.handler(*last)
-                except BaseException as stop:
-                    if self.found is not None:
-                        stop.partial = self.found()  # type: ignore[attr-defined]
-                    raise
+        if _signals or _raised:
+            self._raise()
+
+    def _raise(self) -> None:
+        signals, raised = _signals[-1:], _raised[:1]
+        _signals.clear()
+        _raised.clear()
+        try:
+            if raised:
+                raise raised[0]
+            self.handler(*signals[0])
+        except BaseException as stop:
+            if self.found is not None:
+                stop.partial = self.found()  # type: ignore[attr-defined]
+            raise
 
 
 # --- objects of the library, and contexts ---------------------------------------------------------------------------
@@ -195,8 +230,8 @@ class Owned:
     def _own(self, pointer: Optional[int], free: Any) -> None:
         self.pointer, self._free = pointer, free  # the function is kept: at exit this module may go first
 
-    def __del__(self) -> None:
-        if self.pointer:
+    def __del__(self, _ends: Any = sys.is_finalizing) -> None:
+        if self.pointer and not _ends():  # while Python ends, a daemon thread may still be in a call with it
             self._free(self.pointer)
 
     def __reduce_ex__(self, protocol: Any) -> Any:
@@ -214,8 +249,8 @@ class New(c_void_p):
         pointer, self.value = self.value, None
         return pointer
 
-    def __del__(self) -> None:
-        if self.value:
+    def __del__(self, _ends: Any = sys.is_finalizing) -> None:
+        if self.value and not _ends():
             self._free(self.value)
 
 
