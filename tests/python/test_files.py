@@ -153,7 +153,7 @@ class Conversion(Case):
         self.refuses(isoroll.BadArgument, "tolerance 2", isoroll.convert, ball, "point", tolerance=2)
         self.refuses(isoroll.BadArgument, "row_tolerance", isoroll.convert, ball, "point", row_tolerance=0)
         bare = isoroll.trajectory({"t": ball.t, "omega": ball.omega, "n": ball.n})
-        self.refuses(isoroll.BadInput, "k", isoroll.convert, bare, "point")
+        self.refuses(isoroll.BadInput, "no line 'k': isoroll.trajectory", isoroll.convert, bare, "point")
         ball.n[5] *= 1.1
         self.refuses(isoroll.BadInput, "row 5: ", isoroll.convert, ball, "point")
         rough = isoroll.run(example("11_rubber_and_marble"))

@@ -51,6 +51,7 @@ _TABLE = {
     "iso_foreign_scene_copy": (c_int, c_void_p, c_void_p, _OBJECT),
     "iso_foreign_scene_free": (None, c_void_p),
     "iso_foreign_scene_set": (c_int, c_void_p, c_void_p, c_char_p, c_char_p),
+    "iso_foreign_scene_replace": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
     "iso_foreign_scene_numbers": (c_int, c_void_p, c_char_p, POINTER(c_double)),
     "iso_foreign_scene_word": (c_char_p, c_void_p, c_char_p),
     "iso_foreign_scene_columns": (c_int, c_void_p, POINTER(c_int)),

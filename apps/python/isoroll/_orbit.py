@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 from ctypes import byref, c_void_p
-from typing import Any, Dict, Iterable, Mapping, Optional, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -128,7 +128,7 @@ class Orbit(Owned):
 
     @property
     def coupling(self) -> float:
-        """The coupling eps of the point."""
+        """The coupling eps of the point, h det(J) / k^2: mass^4 length^8 / time^2."""
         return float(self._number(lib.iso_orbit_coupling))
 
     @property
@@ -149,7 +149,8 @@ def orbit(scene: SceneLike, **changes: Any) -> Orbit:
 
 
 class Batch(Table):
-    """The table of a batch: array has shape (orbits, rows, columns); table.n has shape (orbits, rows, 3).
+    """The table of a batch: array has shape (orbits, rows, columns); table.n has shape (orbits, rows, 3). What differs
+    from orbit to orbit, such as k and J, is in the lines of batch.orbit(i).
 
     status   int32, shape (orbits,): 0 for an orbit that went well (lib/base/status.h)
     failure  the exception of the first orbit that failed, or None
@@ -157,10 +158,27 @@ class Batch(Table):
 
     status: NDArray[np.int32]
     failure: Optional[_errors.IsorollError] = None
+    _origin: Optional[Tuple[List[Scene], List[Optional[NDArray[np.float64]]]]] = None
 
     def orbit(self, i: int) -> Table:
-        """The rows of one orbit, a view of shape (rows, columns)."""
-        return Table(self.array[i], self.columns)
+        """The rows of one orbit, a view of shape (rows, columns), with its k, J, h, eps, effects in the lines."""
+        return Table(self.array[i], self.columns, self._lines_of(range(len(self.array))[i]))
+
+    def _lines_of(self, i: int) -> Dict[str, str]:
+        if self._origin is None:
+            return dict(self.lines)
+        scenes, replaced = self._origin
+        scene, ctx = Scene(scenes[i if len(scenes) > 1 else 0]), context()
+        own = [None if values is None else np.ascontiguousarray(values[i]) for values in replaced]
+        check(lib.iso_foreign_scene_replace(ctx, scene.pointer, *(None if x is None else x.ctypes.data for x in own)),
+              ctx)
+        lines = dict(run(scene, [0.0]).lines)
+        if scene.backend == "auto":
+            del lines["backend"]  # a batch chooses by its own times
+        return lines
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**super().__getstate__(), "_origin": None}
 
 
 def _count(shapes: Iterable[int]) -> int:
@@ -194,12 +212,16 @@ def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k:
     """Many orbits at the same times, on all processors, by method taylor in the lanes of vectors.
 
     scenes    one scene, or a list of them that agree in columns, backend, tolerance and the model of the start
-    times     shape (rows,): away from 0, in one direction
-    k, J      shape (orbits,) and (orbits, 3), or one for all: in place of the scene's; the ball is then reduced
-    start     shape (orbits, 6): omega, n (of a point M, gamma), in place of the scene's
+    times     shape (rows,), t of a ball's scene, s of a point's: away from 0, in one direction
+    k, J      shape (orbits,) and (orbits, 3), or one for all: in place of the scene's; the ball is then reduced. k has
+              no unit, J are the moments about the contact point, mass length^2
+    start     shape (orbits, 6): omega [1/time], n (of a point M, gamma), in place of the scene's
     threads   0: one for each processor
     vectors   "avx512", "avx2", "plain"; None: the widest of this processor
     on_error  "raise"; or "keep": rows that an orbit has not reached are NaN, and batch.status says why
+
+    The eps of a point's scene is kept where k, J or start is replaced: the energy H of the point is then another one.
+    Without eps the scene says H = 0, and eps follows from each start.
 
     Returns a table of shape (orbits, rows, columns). An orbit's numbers do not depend on the orbits beside it.
     """
@@ -214,7 +236,7 @@ def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k:
     pointers = (c_void_p * len(chosen))(*(scene.pointer for scene in chosen))
     array, statuses = np.empty((count, asked.size, len(columns))), np.zeros(count, dtype=np.int32)
     result, ctx = Batch(array, columns, kind="batch"), context()
-    result.status = statuses
+    result.status, result._origin = statuses, (chosen, arrays)
     with interruptible(lambda: result if statuses.any() else None):
         status = lib.iso_foreign_batch(ctx, pointers, len(chosen), count,
                                        *(None if a is None else a.ctypes.data for a in arrays), asked.ctypes.data,

@@ -105,6 +105,11 @@ class Scene(Owned):
         return self._word("model")
 
     @property
+    def backend(self) -> str:
+        """What is to find the orbit: "ball", "point", "exact" or "auto"."""
+        return self._word("backend")
+
+    @property
     def k(self) -> float:
         """The geometry number."""
         return float(self._numbers("k")[0])
