@@ -57,6 +57,20 @@ class Errors(Case):
             self.refuses(isoroll.BadArgument, "", isoroll.run, BALL, about=key.rstrip("_"), **{key: value})
         self.refuses(isoroll.BadArgument, "1e8 rows", isoroll.run, BALL, end=1e12)
         self.refuses(isoroll.BadArgument, "there are no times", isoroll.run, BALL, [])
+        orbit = isoroll.orbit(BALL)
+        for bad in (1j, np.datetime64("2020"), "5", None, 10**400, np.ma.masked_equal([1.0, 2.0], 2), [1, [2]]):
+            self.refuses(isoroll.BadArgument, "times", orbit.at, bad)
+            self.refuses(isoroll.BadArgument, "", isoroll.batch, WILD, [1.0], start=[[1, 0, 0, 0, 0, bad]])
+        self.refuses(isoroll.BadArgument, "end is", isoroll.run, BALL, end=10**400)
+        for event in ((), ("omega1",), "n1", (1, 1)):
+            self.refuses(isoroll.BadArgument, "event is", isoroll.section, WILD, event=event)
+        for kind in (isoroll.Scene, isoroll.Orbit):
+            self.refuses(isoroll.BadArgument, "never made", lambda: kind.__new__(kind).pointer)
+        self.refuses(isoroll.BadArgument, "never made", lambda: isoroll.Scene.__new__(isoroll.Scene).k)
+        self.refuses(isoroll.BadInput, "\U0001f600", isoroll.run, {"\U0001f600": 1})
+        for call in (isoroll.write, isoroll.convert):
+            with self.assertRaisesRegex(TypeError, "a Table is needed"):
+                call(np.zeros((2, 7)), "point")
 
 
 class Threads(Case):

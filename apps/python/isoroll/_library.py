@@ -226,14 +226,20 @@ class Owned:
     """An object of the library. It is freed with this one, and so it cannot be copied."""
 
     _free: Any = None
-    pointer: Optional[int] = None
+    _pointer: Optional[int] = None
+
+    @property
+    def pointer(self) -> int:
+        if not self._pointer:
+            raise _errors.BadArgument(f"this {type(self).__name__} was never made: call isoroll.{type(self).__name__}()")
+        return self._pointer
 
     def _own(self, pointer: Optional[int], free: Any) -> None:
-        self.pointer, self._free = pointer, free  # the function is kept: at exit this module may go first
+        self._pointer, self._free = pointer, free  # the function is kept: at exit this module may go first
 
     def __del__(self, _ends: Any = sys.is_finalizing) -> None:
-        if self.pointer and not _ends():  # while Python ends, a daemon thread may still be in a call with it
-            self._free(self.pointer)
+        if self._pointer and not _ends():  # while Python ends, a daemon thread may still be in a call with it
+            self._free(self._pointer)
 
     def __reduce_ex__(self, protocol: Any) -> Any:
         raise TypeError(f"a {type(self).__name__} of isoroll lives in the library: it cannot be copied or pickled")
@@ -270,7 +276,7 @@ class _Context(Owned):
 
     def __init__(self) -> None:
         self._own(lib.iso_context_create(), lib.iso_context_free)
-        if not self.pointer:
+        if not self._pointer:
             raise _errors.NoMemory("no memory for a context")
         self._monitor = Monitor(self.pointer)
 
@@ -328,4 +334,4 @@ _thread = _OfThread()
 
 def context() -> int:
     """The context of this thread."""
-    return _thread.context.pointer or 0
+    return _thread.context.pointer

@@ -12,13 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 from . import _errors
 from ._library import Monitor, New, Notes, Owned, check, context, encoded, interruptible, lib, whole
 from ._scene import Scene, SceneLike, as_scene, as_scenes
-from ._table import Table, from_record, new_record
+from ._table import Table, doubles, from_record, new_record
 
 _ERRORS = ("ball", "point", "t", "tau", "s")
 
 
 def _times(times: ArrayLike) -> NDArray[np.float64]:
-    return np.asarray(times, dtype=np.float64, order="C")
+    return np.asarray(doubles("times", times), order="C")
 
 
 class Run(Table):
@@ -191,14 +191,14 @@ def _count(shapes: Iterable[int]) -> int:
 def _spread(values: Optional[ArrayLike], count: int, width: int) -> Optional[NDArray[np.float64]]:
     if values is None:
         return None
-    return np.ascontiguousarray(np.broadcast_to(np.asarray(values, dtype=np.float64).reshape(-1, width),
+    return np.ascontiguousarray(np.broadcast_to(doubles("k, J, start", values).reshape(-1, width),
                                                 (count, width)))
 
 
 def _orbits_of(name: str, values: Optional[ArrayLike], width: int) -> int:
     if values is None:
         return 1
-    shape = np.shape(values)
+    shape = doubles(name, values).shape
     right = len(shape) <= 1 if width == 1 else 1 <= len(shape) <= 2 and shape[-1] == width
     if not right:
         wanted = "(orbits,)" if width == 1 else f"(orbits, {width})"

@@ -37,7 +37,7 @@ def _yaml(value: Any) -> str:
 
 
 def _word(text: str) -> str:
-    return text if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", text) else json.dumps(text)
+    return text if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", text) else json.dumps(text, ensure_ascii=False)
 
 
 class Scene(Owned):
@@ -86,7 +86,10 @@ class Scene(Owned):
             error.about = key
             raise error
         if not isinstance(value, str):
-            value = repr(float(value))
+            try:
+                value = repr(float(value))
+            except (TypeError, ValueError, OverflowError) as wrong:
+                raise _errors.BadArgument(f"{key} is {value!r:.60}: {wrong}") from None
         ctx = context()
         check(lib.iso_foreign_scene_set(ctx, self.pointer, key.rstrip("_").encode(), encoded(value)), ctx)
 

@@ -30,7 +30,7 @@ def doubles(what: str, values: Any) -> NDArray[np.float64]:
     """Numbers as float64. Those that have no such form are refused: complex ones, words, masked ones."""
     try:
         array = np.asarray(values)
-    except ValueError as error:
+    except (ValueError, TypeError) as error:
         raise _errors.BadArgument(f"{what}: {error}") from None
     if np.ma.is_masked(values):
         raise _errors.BadArgument(f"{what} has masked numbers: fill them first")
