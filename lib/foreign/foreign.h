@@ -63,8 +63,8 @@ ISO_API void iso_foreign_scene_free(iso_foreign_scene *scene);
 ISO_API iso_status iso_foreign_scene_set(iso_context *ctx, iso_foreign_scene *scene, const char *key,
                                          const char *value);
 
-/* Gives the scene another k, J (three) or start (six: omega, n; or M, gamma); NULL: as it was. The rules and errors are
- * those of iso_foreign_batch. After an error the scene is as it was. */
+/* Gives the scene another k, J (three) or start (six: omega, n; or M, gamma); NULL: as it was. The rules and errors
+ * are those of iso_foreign_batch. After an error the scene is as it was. */
 ISO_API iso_status iso_foreign_scene_replace(iso_context *ctx, iso_foreign_scene *scene, const double *k,
                                              const double J[3], const double start[6]);
 

@@ -167,7 +167,7 @@ def convert(table: Table, to: str, *, tolerance: float = 1e-14, row_tolerance: f
     """
     for key in ("k", "J"):
         if key not in getattr(table, "lines", (key,)):
-            raise _errors.BadInput(f"the table has no line '{key}': isoroll.trajectory(..., k=..., J=...) gives it one")
+            raise _errors.BadInput(f"the table has no line '{key}': isoroll.trajectory(..., k=..., J=...) gives one")
     ctx, record, new, notes = context(), as_record(table), new_record(), Notes()
     with interruptible():
         status = lib.iso_foreign_convert(ctx, record.pointer, encoded(to), float(tolerance), float(row_tolerance),

@@ -130,8 +130,8 @@ def _declare(library: ctypes.CDLL) -> ctypes.CDLL:
 lib = _declare(_load())
 
 # --- Ctrl-C ---------------------------------------------------------------------------------------------------------
-# While the library computes, Python cannot run its signal handlers. So the library calls _go_on ten times a second. In
-# this call Python can run the handler, which is _note during a call: it keeps the signal. The library then stops.
+# While the library computes, Python cannot run its signal handlers. So the library calls _go_on ten times a second.
+# In this call Python can run the handler, which is _note during a call: it keeps the signal. The library then stops.
 
 _signals: List[Tuple[int, Any]] = []
 _raised: List[BaseException] = []  # by the handler of another signal, such as SIGALRM, in _goes_on: it ends the call
@@ -231,7 +231,8 @@ class Owned:
     @property
     def pointer(self) -> int:
         if not self._pointer:
-            raise _errors.BadArgument(f"this {type(self).__name__} was never made: call isoroll.{type(self).__name__}()")
+            name = type(self).__name__
+            raise _errors.BadArgument(f"this {name} was never made: call isoroll.{name}()")
         return self._pointer
 
     def _own(self, pointer: Optional[int], free: Any) -> None:

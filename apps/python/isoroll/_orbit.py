@@ -66,10 +66,13 @@ def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, errors: bool = F
 class _OfOrbit(Table):
     """A table of an orbit. Its lines are those of a run; they are made when they are asked for."""
 
+    _scene: Optional[Scene]
+    _backend: str
+
     def __init__(self, array: NDArray[np.float64], orbit: Orbit) -> None:
-        super().__init__(array, orbit.columns)
-        self._scene: Optional[Scene] = orbit.scene
-        self._backend = orbit.backend
+        # not by Table.__init__, which would take a third of the time of a short call; the array is known to fit
+        self.__dict__.update(_array=array, _columns=orbit.columns, kind="trajectory", _record=None, _lines={},
+                             _scene=orbit.scene, _backend=orbit.backend)
 
     @property
     def lines(self) -> Mapping[str, str]:
@@ -149,8 +152,8 @@ def orbit(scene: SceneLike, **changes: Any) -> Orbit:
 
 
 class Batch(Table):
-    """The table of a batch: array has shape (orbits, rows, columns); table.n has shape (orbits, rows, 3). What differs
-    from orbit to orbit, such as k and J, is in the lines of batch.orbit(i).
+    """The table of a batch: array has shape (orbits, rows, columns); table.n has shape (orbits, rows, 3). What
+    differs from orbit to orbit, such as k and J, is in the lines of batch.orbit(i).
 
     status   int32, shape (orbits,): 0 for an orbit that went well (lib/base/status.h)
     failure  the exception of the first orbit that failed, or None
@@ -213,8 +216,8 @@ def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k:
 
     scenes    one scene, or a list of them that agree in columns, backend, tolerance and the model of the start
     times     shape (rows,), t of a ball's scene, s of a point's: away from 0, in one direction
-    k, J      shape (orbits,) and (orbits, 3), or one for all: in place of the scene's; the ball is then reduced. k has
-              no unit, J are the moments about the contact point, mass length^2
+    k, J      shape (orbits,) and (orbits, 3), or one for all: in place of the scene's; the ball is then reduced.
+              k has no unit; J are the moments about the contact point, mass length^2
     start     shape (orbits, 6): omega [1/time], n (of a point M, gamma), in place of the scene's
     threads   0: one for each processor
     vectors   "avx512", "avx2", "plain"; None: the widest of this processor

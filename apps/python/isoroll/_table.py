@@ -28,6 +28,8 @@ def _decoded(text: c_char_p) -> str:
 
 def doubles(what: str, values: Any) -> NDArray[np.float64]:
     """Numbers as float64. Those that have no such form are refused: complex ones, words, masked ones."""
+    if type(values) is np.ndarray and values.dtype == np.float64:
+        return values
     try:
         array = np.asarray(values)
     except (ValueError, TypeError) as error:
@@ -93,8 +95,8 @@ class Table:
                  kind: str = "trajectory", record: Optional[Record] = None) -> None:
         numbers, names = doubles("array", array), tuple(columns)
         if numbers.ndim == 0 or numbers.shape[-1] != len(names):
-            raise _errors.BadArgument(f"array has shape {numbers.shape}, and there are {len(names)} columns: its last "
-                                      "length must be their number")
+            raise _errors.BadArgument(f"array has shape {numbers.shape}, and there are {len(names)} columns: its "
+                                      "last length must be their number")
         self.__dict__.update(_array=numbers, _columns=names, kind=kind, _record=record,
                              _lines=MappingProxyType(dict(lines or {})))
 
