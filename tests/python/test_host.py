@@ -41,6 +41,12 @@ class Errors(Case):
         self.refuses(isoroll.BadInput, "<text>:1:1: unknown key 'a'", isoroll.run, "a: 1\n")
         self.refuses(isoroll.BadInput, "<dict>:1:", isoroll.run, {"reduced": {"k": float("nan"), "J": [1, 2, 5]}})
         self.refuses(isoroll.BadArgument, "not object", isoroll.run, {"reduced": {"k": object()}})
+        around = {}
+        around["a"] = around
+        for bad in (around, {"reduced": {"k": "\ud800"}}, "a: \ud800\n", {"k": 10**5000}):
+            self.refuses(isoroll.BadArgument, "made into text", isoroll.Scene, bad)
+        masked = {"reduced": {"k": 1, "J": np.ma.masked_equal([1, 2, 5], 5)}}
+        self.refuses(isoroll.BadArgument, "not MaskedArray", isoroll.Scene, masked)
         scene = example("11_rubber_and_marble")
         for call in (isoroll.run, isoroll.orbit):  # with the place of `twist` in the file
             self.refuses(isoroll.NotMapped, f"{scene}:14:10: 'twist' breaks", call, scene, as_="point")

@@ -36,7 +36,7 @@ class Runs(Case):
                 self.same_files(self.path("command.csv"), self.path("python.csv"))
 
     def test_dict_text_and_file_are_one_scene(self):
-        sections = {"reduced": {"k": 0.5, "J": np.array([1.0, 2.0, 5.0])},
+        sections = {"reduced": {"k": np.array(0.5), "J": np.array([1.0, 2.0, 5.0])},
                     "initial": {"normal": (0.36, 0.48, 0.8), "angular_velocity": [0.9, -0.3, -0.225]},
                     "time": {"end": np.float64(7), "step": 0.25}, "effects": {"field": {"linear": [0, 0, 0.1]}},
                     "output": {"as": "ball", "columns": ["n1", "t"]}}

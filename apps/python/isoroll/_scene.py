@@ -31,13 +31,27 @@ def _yaml(value: Any) -> str:
         return str(int(value))
     if isinstance(value, (float, np.floating)):
         return repr(float(value))
-    if isinstance(value, (list, tuple, np.ndarray)):
+    if isinstance(value, np.ndarray) and not np.ma.is_masked(value):
+        return _yaml(value.tolist())
+    if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_yaml(item) for item in value) + "]"
     raise _errors.BadArgument(f"a scene has numbers, words, lists and dicts, not {type(value).__name__}: {value!r}")
 
 
 def _word(text: str) -> str:
     return text if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", text) else json.dumps(text, ensure_ascii=False)
+
+
+def _text(source: Union[str, Mapping[str, Any]]) -> bytes:
+    """The YAML text of a dict, or a text as it is."""
+    try:
+        if isinstance(source, str):
+            return source.encode()
+        return "".join(f"{_word(str(key))}: {_yaml(value)}\n" for key, value in source.items()).encode()
+    except (RecursionError, UnicodeError, ValueError) as error:
+        if isinstance(error, _errors.IsorollError):
+            raise
+        raise _errors.BadArgument(f"the scene cannot be made into text: {error}") from None
 
 
 class Scene(Owned):
@@ -57,10 +71,10 @@ class Scene(Owned):
         if isinstance(source, Scene):
             status = lib.iso_foreign_scene_copy(ctx, source.pointer, byref(new))
         elif isinstance(source, Mapping):
-            text = "".join(f"{_word(str(key))}: {_yaml(value)}\n" for key, value in source.items()).encode()
+            text = _text(source)
             status = lib.iso_foreign_scene_parse(ctx, b"<dict>", text, len(text), byref(new))
         elif isinstance(source, str) and "\n" in source:
-            text = source.encode()
+            text = _text(source)
             status = lib.iso_foreign_scene_parse(ctx, b"<text>", text, len(text), byref(new))
         elif isinstance(source, (str, os.PathLike)):
             status = lib.iso_foreign_scene_read(ctx, encoded(source), byref(new))
