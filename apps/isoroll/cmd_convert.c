@@ -93,17 +93,10 @@ static iso_status filter_rows(filter *f, iso_conversion_summary *summary)
 /* Two lines at the end of the file: how the other clock was computed, and its error. */
 static iso_status write_clock(filter *f, const iso_conversion_summary *s)
 {
-    char key[ISO_NAME_SIZE], text[160];
-    const char *clock = iso_clock_name(s->clock);
-    if (!s->computed) return ISO_OK;
-    snprintf(key, sizeof key, "%s.from", clock);
-    snprintf(text, sizeof text, "the rows, %zu intervals by two-point Taylor quadrature, %zu by integration",
-             s->between, s->integrated);
-    const iso_status status = iso_trajectory_write_line(f->ctx, f->out, key, text);
-    if (status != ISO_OK) return status;
-    snprintf(key, sizeof key, "%s.error", clock);
-    snprintf(text, sizeof text, "%.2g", s->error);
-    return iso_trajectory_write_line(f->ctx, f->out, key, text);
+    char key[2][ISO_NAME_SIZE], text[2][160];
+    if (!iso_conversion_clock_lines(s, key, text)) return ISO_OK;
+    const iso_status status = iso_trajectory_write_line(f->ctx, f->out, key[0], text[0]);
+    return status == ISO_OK ? iso_trajectory_write_line(f->ctx, f->out, key[1], text[1]) : status;
 }
 
 static void report_summary(const filter *f, const iso_conversion_summary *s)
@@ -122,17 +115,9 @@ static void report_summary(const filter *f, const iso_conversion_summary *s)
                  f->name, iso_clock_name(s->clock), s->end, s->error, s->between, s->integrated);
 }
 
-/* The drift that the rows of an orbit may have is the largest of
- * - 1e-5, what six digits make of it; rows of other equations, a thousandth beside the stated ones, drift by more;
- * - a hundred times the tolerance with which the file says it was made;
- * - ten times --row-tolerance, where that is wider than its default: the rows then have few digits. */
 static double largest_drift(const filter *f)
 {
-    double tolerance = 0;
-    iso_status unused;
-    iso_record_get_numbers(f->ctx, iso_trajectory_header(f->in), "tolerance", 1, &tolerance, &unused);
-    const double row = f->o->from.row_tolerance > ISO_ROW_TOLERANCE ? 10 * f->o->from.row_tolerance : 0;
-    return fmax(fmax(1e-5, row), 100 * tolerance);
+    return iso_conversion_largest_drift(f->ctx, iso_trajectory_header(f->in), f->o->from.row_tolerance);
 }
 
 /* Whether all rows could be converted, and follow the equations that the file states. Says why not. */

@@ -1,5 +1,4 @@
 /* file.c - records read from files, written to files, and converted to the other model. */
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -96,29 +95,17 @@ static iso_status stop_at(void *data, size_t line, iso_status why, const char *w
 /* The two lines that `isoroll convert` writes: how the other clock was computed, and its error. */
 static iso_status put_clock(iso_context *ctx, const iso_conversion_summary *s, iso_record *out)
 {
-    char key[ISO_NAME_SIZE], text[160];
-    if (!s->computed) return ISO_OK;
-    snprintf(key, sizeof key, "%s.from", iso_clock_name(s->clock));
-    snprintf(text, sizeof text, "the rows, %zu intervals by two-point Taylor quadrature, %zu by integration",
-             s->between, s->integrated);
-    const iso_status status = iso_record_set(ctx, out, key, text);
-    if (status != ISO_OK) return status;
-    snprintf(key, sizeof key, "%s.error", iso_clock_name(s->clock));
-    snprintf(text, sizeof text, "%.2g", s->error);
-    return iso_record_set(ctx, out, key, text);
+    char key[2][ISO_NAME_SIZE], text[2][160];
+    if (!iso_conversion_clock_lines(s, key, text)) return ISO_OK;
+    const iso_status status = iso_record_set(ctx, out, key[0], text[0]);
+    return status == ISO_OK ? iso_record_set(ctx, out, key[1], text[1]) : status;
 }
 
-/* The same bound as that of `isoroll convert`: 1e-5, which six digits keep; a hundred times the tolerance that the
- * record states; ten times a row tolerance that is wider than usual. */
 static void judge(iso_context *ctx, const iso_record *in, const iso_conversion_summary *s, double row_tolerance,
                   notes *n)
 {
     char words[256];
-    double tolerance = 0;
-    iso_status unused;
-    iso_record_get_numbers(ctx, in, "tolerance", 1, &tolerance, &unused);
-    const double row = row_tolerance > ISO_ROW_TOLERANCE ? 10 * row_tolerance : 0;
-    if (!s->checked || s->drift.value <= fmax(fmax(1e-5, row), 100 * tolerance)) return;
+    if (!s->checked || s->drift.value <= iso_conversion_largest_drift(ctx, in, row_tolerance)) return;
     snprintf(words, sizeof words,
              "row %zu: these rows do not solve the equations that their lines state (k, J, eps, clocks), or have too "
              "few digits: they drift off by %.2g",

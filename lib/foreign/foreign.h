@@ -64,6 +64,11 @@ ISO_API void iso_foreign_scene_free(iso_foreign_scene *scene);
 ISO_API iso_status iso_foreign_scene_set(iso_context *ctx, iso_foreign_scene *scene, const char *key,
                                          const char *value);
 
+/* Gives the scene another k, J (three) or start (six: omega, n; or M, gamma); NULL: as it was. The rules and errors
+ * are those of iso_foreign_batch. After an error the scene is as it was. */
+ISO_API iso_status iso_foreign_scene_replace(iso_context *ctx, iso_foreign_scene *scene, const double *k,
+                                             const double J[3], const double start[6]);
+
 /* Reads the numbers of a key and returns how many there are; 0: no such key. "k" 1; "J" 3; "D" 1 (0: not known);
  * "start" 6 (omega, n; or M, gamma); "eps" 1 (NaN: the scene is a ball's, or a point's on the level H = 0);
  * "end" 1; "step" 1 (0: a hundredth of |end|); "tolerance" 1. */

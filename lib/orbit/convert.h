@@ -104,6 +104,16 @@ ISO_API iso_status iso_conversion_skip(iso_conversion *conversion);
  * for the first one. */
 ISO_API iso_status iso_conversion_end(iso_conversion *conversion, iso_conversion_summary *summary);
 
+/* The drift that the rows of an orbit may have is the largest of
+ * - 1e-5, what six digits make of it; rows of other equations, a thousandth beside the stated ones, drift by more;
+ * - a hundred times the tolerance with which the header says they were made;
+ * - ten times the row tolerance, where that is wider than ISO_ROW_TOLERANCE: the rows then have few digits. */
+ISO_API double iso_conversion_largest_drift(iso_context *ctx, const iso_record *header, double row_tolerance);
+
+/* The two lines that say how the other clock was computed, and its error. False: it was not computed. */
+ISO_API bool iso_conversion_clock_lines(const iso_conversion_summary *summary, char key[2][ISO_NAME_SIZE],
+                                        char value[2][160]);
+
 /* --- whole ------------------------------------------------------------------------------------------------------ */
 
 /* Converts `in` to the model `to`. *out has the clock, then the six columns, and one row for each row of `in`.

@@ -79,3 +79,23 @@ iso_status iso_conversion_describe(iso_conversion *c, double begin, iso_record *
     *header = NULL;
     return status;
 }
+
+double iso_conversion_largest_drift(iso_context *ctx, const iso_record *header, double row_tolerance)
+{
+    double tolerance = 0;
+    iso_status unused;
+    iso_record_get_numbers(ctx, header, "tolerance", 1, &tolerance, &unused);
+    const double row = row_tolerance > ISO_ROW_TOLERANCE ? 10 * row_tolerance : 0;
+    return fmax(fmax(1e-5, row), 100 * tolerance);
+}
+
+bool iso_conversion_clock_lines(const iso_conversion_summary *s, char key[2][ISO_NAME_SIZE], char value[2][160])
+{
+    if (!s->computed) return false;
+    snprintf(key[0], ISO_NAME_SIZE, "%s.from", iso_clock_name(s->clock));
+    snprintf(value[0], 160, "the rows, %zu intervals by two-point Taylor quadrature, %zu by integration", s->between,
+             s->integrated);
+    snprintf(key[1], ISO_NAME_SIZE, "%s.error", iso_clock_name(s->clock));
+    snprintf(value[1], 160, "%.2g", s->error);
+    return true;
+}

@@ -4,6 +4,8 @@ import copy
 import gc
 import os
 import pickle
+import subprocess
+import sys
 import unittest
 
 import numpy as np
@@ -45,6 +47,12 @@ class Files(Case):
         isoroll.write(table, self.path("python.csv"))
         self.same_files(self.path("command.csv"), self.path("python.csv"))
         self.assertEqual(len(table), 80)
+        isoroll.write(table, self.path("hex.csv"), digits="hex")
+        for path in (self.path("hex.csv"), os.fsencode(self.path("hex.csv"))):
+            self.same(isoroll.read(path).array, table.array)
+        self.refuses(isoroll.BadArgument, "CSV only", isoroll.write, table, self.path("s.h5"))
+        isoroll.write(isoroll.section(WILD, crossings=3, states="both"), self.path("both.csv"))
+        self.assertEqual(isoroll.read(self.path("both.csv")).M.shape, (3, 3))
 
     def test_files_of_others(self):
         file = example("14_from_python", "leapfrog.csv")
@@ -63,6 +71,15 @@ class Files(Case):
             table = isoroll.read(self.path("a.csv"))
         self.same(table.array, [[0.0, 1.0], [1.0, 2.0]])
 
+    def test_lines_that_are_no_utf_8(self):
+        with open(self.path("a.csv"), "wb") as file:
+            file.write(b"# isoroll trajectory 1\n# \xff: 1\n# \xfe: \xe9\n# \xfd: 3\nt,n1\n0,1\n")
+        code = f"import isoroll; t = isoroll.read({self.path('a.csv')!r}); print(len(t.lines)); " \
+            f"isoroll.write(isoroll.Table(t.array, t.columns, t.lines), {self.path('b.csv')!r})"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+        self.assertEqual(done.stdout, "3\n")
+        self.same_files(self.path("a.csv"), self.path("b.csv"))
+
     def test_refused(self):
         self.refuses(isoroll.FileTrouble, "No such file", isoroll.read, self.path("absent.csv"))
         self.refuses(isoroll.FileTrouble, "", isoroll.write, isoroll.run(BALL), self.path("no/folder.csv"))
@@ -75,7 +92,27 @@ class Files(Case):
                          digits=digits)
         with open(self.path("s.csv"), "w", encoding="utf-8") as file:
             file.write("# isoroll section 1\norbit,l\n0,1\n0\n")
-        self.refuses(isoroll.BadInput, "s.csv", isoroll.read, self.path("s.csv"))
+        self.refuses(isoroll.BadInput, "s.csv:4:1: expected 2 numbers", isoroll.read, self.path("s.csv"))
+
+    def test_damaged_sections(self):
+        head = b"# isoroll section 1\n# k: 1\norbit,l,x\n"
+        for text, words in ((head + b"0,1,2,0,1,2\n0,3,4,0,5,6\n", ":4:1: expected 3 numbers"),
+                            (head + b"0,1,2\n0,1\n", ":5:1: expected 3 numbers"),
+                            (head + b"0,1,nan\n", ":4:5: expected a finite number for x, not 'nan'"),
+                            (head + b"0,inf,2\n", ":4:3: "), (head + b"0,1_0,2\n", ":4:3: "),
+                            (head + b"0,1e999,2\n", ":4:3: "), (head + b"0,1,2\n#junk\n", ":5:1: "),
+                            (head + b"0,1,2#junk\n", ":4:5: "), (head + b"0,1,\0\n", ":4:5: a NUL byte"),
+                            (head + b"0,1," + b"1" * 70000 + b"\n", ":4:1: this line is longer than 64 KiB"),
+                            (head.replace(b"l,x", b"l,l"), ":3:9: duplicate column 'l'"),
+                            (head.replace(b"l,x", b"l,y"), ":3:9: unknown column 'y'"),
+                            (head.replace(b"on 1", b"on 12"), ":1:1: expected '# isoroll section 1'"),
+                            (b"# isoroll section 1\n", ":1:1: expected a line of column names")):
+            with open(self.path("s.csv"), "wb") as file:
+                file.write(text)
+            self.refuses(isoroll.BadInput, "s.csv" + words, isoroll.read, self.path("s.csv"))
+        with open(self.path("s.csv"), "wb") as file:
+            file.write(head)
+        self.assertEqual(isoroll.read(self.path("s.csv")).array.shape, (0, 3))
 
 
 class Conversion(Case):
@@ -116,7 +153,7 @@ class Conversion(Case):
         self.refuses(isoroll.BadArgument, "tolerance 2", isoroll.convert, ball, "point", tolerance=2)
         self.refuses(isoroll.BadArgument, "row_tolerance", isoroll.convert, ball, "point", row_tolerance=0)
         bare = isoroll.trajectory({"t": ball.t, "omega": ball.omega, "n": ball.n})
-        self.refuses(isoroll.BadInput, "k", isoroll.convert, bare, "point")
+        self.refuses(isoroll.BadInput, "no line 'k': isoroll.trajectory", isoroll.convert, bare, "point")
         ball.n[5] *= 1.1
         self.refuses(isoroll.BadInput, "row 5: ", isoroll.convert, ball, "point")
         rough = isoroll.run(example("11_rubber_and_marble"))
@@ -149,6 +186,37 @@ class Tables(Case):
     def test_columns_in_another_order(self):
         table = isoroll.run(BALL, columns=["n3", "t", "n1", "n2"])
         np.testing.assert_array_equal(table.n, isoroll.run(BALL).n)
+        with self.assertRaisesRegex(ValueError, "read-only"):  # a copy: writing to it would change nothing
+            table.n[0] = 0
+        table["n1"][0] = 7
+        self.assertEqual(table.n[0, 0], 7)
+        gaps = isoroll.Table(np.zeros((4, 6))[:, ::2], ["n1", "n2", "n3"])
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            gaps.rows["n1"][:] = 1
+
+    def test_nothing_is_written_to_nowhere(self):
+        for table in (isoroll.run(BALL), isoroll.orbit(BALL).at([1, 2]), isoroll.batch(BALL, [1])):
+            for name in ("array", "columns", "lines"):
+                with self.assertRaisesRegex(AttributeError, f"'{name}' of a table cannot be replaced"):
+                    setattr(table, name, getattr(table, name))
+            for name in ("t", "n", "omega2", "gamma"):
+                with self.assertRaisesRegex(AttributeError, "is a name of a column"):
+                    setattr(table, name, np.zeros(2))
+            table.label = "mine"
+            table.n[...] = 0.5
+            self.assertTrue((table.array[..., 4:] == 0.5).all())
+
+    def test_arrays_that_do_not_fit(self):
+        table = isoroll.run(BALL)
+        for array in (table.array[:, :4], table.array[0, :2], 1.0, table.array.T, [[1, 2], [3]]):
+            with self.assertRaises(isoroll.BadArgument):
+                isoroll.Table(array, table.columns, table.lines)
+        for bad in (table.array + 1j, np.ma.masked_less(table.array, 0), table.array.astype(str)):
+            with self.assertRaisesRegex(isoroll.BadArgument, "array "):
+                isoroll.Table(bad, table.columns)
+        whole = isoroll.Table([[0, 1], [1, 2]], ["t", "n1"])
+        isoroll.write(whole, self.path("a.csv"))
+        self.same(isoroll.read(self.path("a.csv")).array, [[0.0, 1.0], [1.0, 2.0]])
 
     def test_copies(self):
         table = isoroll.run(BALL)
@@ -165,6 +233,12 @@ class Tables(Case):
         for bad in ({}, {"t": [1, 2], "n": [[1, 2, 3]]}, {"n": [[1, 2]]}, {"n": 1.0}):
             with self.assertRaises(isoroll.BadArgument):
                 isoroll.trajectory(bad) if bad != {"n": 1.0} else isoroll.trajectory({"n": [[1.0], [2.0]]})
+        for bad in ({"t": [1j]}, {"t": np.ma.masked_equal([1.0, 2.0], 2)}, {"t": ["x"]}, {"n": np.ones((2, 3, 1))}):
+            self.refuses(isoroll.BadArgument, "column '", isoroll.trajectory, bad)
+        for columns, lines in (({"t\0x": [1]}, {}), ({"t\nx": [1]}, {}), ({"t": [1]}, {"note": "a\0b"})):
+            self.refuses(isoroll.BadArgument, "end of a line", isoroll.write, isoroll.trajectory(columns, **lines),
+                         self.path("a.csv"))
+        self.assertEqual(isoroll.trajectory({"t": [], "n": np.ones((0, 3))}).n.shape, (0, 3))
         table = isoroll.trajectory({"s": [0, 1], "M1": [1, 2]}, k=1)
         self.assertEqual((table.columns, table.lines["model"]), (("s", "M1"), "point"))
 

@@ -41,6 +41,12 @@ class Errors(Case):
         self.refuses(isoroll.BadInput, "<text>:1:1: unknown key 'a'", isoroll.run, "a: 1\n")
         self.refuses(isoroll.BadInput, "<dict>:1:", isoroll.run, {"reduced": {"k": float("nan"), "J": [1, 2, 5]}})
         self.refuses(isoroll.BadArgument, "not object", isoroll.run, {"reduced": {"k": object()}})
+        around = {}
+        around["a"] = around
+        for bad in (around, {"reduced": {"k": "\ud800"}}, "a: \ud800\n", {"k": 10**5000}):
+            self.refuses(isoroll.BadArgument, "made into text", isoroll.Scene, bad)
+        masked = {"reduced": {"k": 1, "J": np.ma.masked_equal([1, 2, 5], 5)}}
+        self.refuses(isoroll.BadArgument, "not MaskedArray", isoroll.Scene, masked)
         scene = example("11_rubber_and_marble")
         for call in (isoroll.run, isoroll.orbit):  # with the place of `twist` in the file
             self.refuses(isoroll.NotMapped, f"{scene}:14:10: 'twist' breaks", call, scene, as_="point")
@@ -57,6 +63,20 @@ class Errors(Case):
             self.refuses(isoroll.BadArgument, "", isoroll.run, BALL, about=key.rstrip("_"), **{key: value})
         self.refuses(isoroll.BadArgument, "1e8 rows", isoroll.run, BALL, end=1e12)
         self.refuses(isoroll.BadArgument, "there are no times", isoroll.run, BALL, [])
+        orbit = isoroll.orbit(BALL)
+        for bad in (1j, np.datetime64("2020"), "5", None, 10**400, np.ma.masked_equal([1.0, 2.0], 2), [1, [2]]):
+            self.refuses(isoroll.BadArgument, "times", orbit.at, bad)
+            self.refuses(isoroll.BadArgument, "", isoroll.batch, WILD, [1.0], start=[[1, 0, 0, 0, 0, bad]])
+        self.refuses(isoroll.BadArgument, "end is", isoroll.run, BALL, end=10**400)
+        for event in ((), ("omega1",), "n1", (1, 1)):
+            self.refuses(isoroll.BadArgument, "event is", isoroll.section, WILD, event=event)
+        for kind in (isoroll.Scene, isoroll.Orbit):
+            self.refuses(isoroll.BadArgument, "never made", lambda: kind.__new__(kind).pointer)
+        self.refuses(isoroll.BadArgument, "never made", lambda: isoroll.Scene.__new__(isoroll.Scene).k)
+        self.refuses(isoroll.BadInput, "\U0001f600", isoroll.run, {"\U0001f600": 1})
+        for call in (isoroll.write, isoroll.convert):
+            with self.assertRaisesRegex(TypeError, "a Table is needed"):
+                call(np.zeros((2, 7)), "point")
 
 
 class Threads(Case):
@@ -137,6 +157,26 @@ class Memory(Case):
                 self.assertLess(self.grows(work, count), 2 << 20)
 
 
+    def test_nothing_is_left_by_an_exception_after_the_call(self):
+        table = isoroll.run(BALL, np.linspace(0, 1, 2000))
+        path, words = self.path("a.csv"), ",".join(table.columns)
+        isoroll.write(table, path)
+        with open(path, encoding="utf-8") as file:
+            text = file.read().replace("# isoroll trajectory 1\n", "").replace(words, words.replace("n3", "weight"))
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        other = isoroll.trajectory({"t": table.t, "omega": table.omega, "n": table.n}, k=-1, J=[1, 2, 5.1])
+
+        def warned(call, *arguments):
+            with self.assertRaises(isoroll.IsorollWarning):
+                call(*arguments)
+
+        for name, work in (("read", lambda i: warned(isoroll.read, path)),
+                           ("convert", lambda i: warned(isoroll.convert, other, "point"))):
+            with self.subTest(name):  # each time 100 kB would stay
+                self.assertLess(self.grows(work, 200), 4 << 20)
+
+
 class CtrlC(Case):
     LONG = {"end": 1e8, "step": 1e6, "backend": "ball"}
 
@@ -144,10 +184,11 @@ class CtrlC(Case):
         for call in calls:
             timer = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
             timer.start()
-            with self.assertRaises(KeyboardInterrupt):
+            with self.assertRaises(KeyboardInterrupt) as caught:
                 call()
             timer.join()
             self.assertEqual(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        return caught.exception
 
     def setUp(self):
         super().setUp()
@@ -161,6 +202,42 @@ class CtrlC(Case):
                    lambda: isoroll.section(WILD, crossings=10000000))
         self.same(isoroll.run(BALL).array, isoroll.run(BALL).array)
         self.same(orbit.at(1.0).array, isoroll.run(BALL, [1.0], backend="ball").array[0])
+
+    def test_what_was_found_is_kept(self):
+        found = self.press(lambda: isoroll.run(BALL, end=1e7, step=0.5, backend="ball")).partial
+        self.assertGreater(len(found), 10)
+        self.same(found.array, isoroll.run(BALL, found.t, backend="ball").array)
+        found = self.press(lambda: isoroll.section(WILD, crossings=10000000)).partial
+        self.assertEqual(found.columns[:2], ("orbit", "crossing"))
+        found = self.press(lambda: isoroll.batch(WILD, [1e7], start=starts(100))).partial
+        self.assertEqual(found.array.shape, (100, 1, 7))
+
+    def test_nothing_is_left(self):
+        before, size = None, 0
+        for _ in range(6):
+            stop = self.press(lambda: isoroll.run(BALL, end=1e7, step=0.2, backend="ball"))
+            if before is None:
+                before = resident()
+                continue
+            size += stop.partial.array.nbytes
+        del stop
+        self.assertLess(resident() - before, size // 2)
+
+    def test_exceptions_of_other_handlers(self):
+        def handler(number, frame):
+            raise TimeoutError("too long")
+
+        old = signal.signal(signal.SIGALRM, handler)
+        try:
+            for call in (lambda: isoroll.run(BALL, **self.LONG), lambda: isoroll.run(WILD, end=2e5, step=1e4)):
+                signal.setitimer(signal.ITIMER_REAL, 0.15)
+                with self.assertRaisesRegex(TimeoutError, "too long") as caught:
+                    call()
+                self.assertLess(len(caught.exception.partial), 100)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, old)
+        self.assertIs(sys.unraisablehook, sys.__unraisablehook__)
 
     def test_a_handler_of_ones_own(self):
         seen = []
@@ -179,6 +256,12 @@ class Library(Case):
         """What an own Python says; it takes this library."""
         return subprocess.run([sys.executable, "-c", code], env={**os.environ, "ISOROLL_LIBRARY": library},
                               capture_output=True, text=True, check=False)
+
+    def test_python_ends_during_a_call(self):
+        code = (f"import isoroll, threading, time\ndef work():\n    isoroll.run({BALL!r}, end=1e6, step=0.1)\n"
+                "threading.Thread(target=work, daemon=True).start()\ntime.sleep(0.5)")
+        done = self.python(os.environ["ISOROLL_LIBRARY"], code)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_version(self):
         with open(os.path.join(os.environ["ISO_SOURCE"], "lib/base/version.h"), encoding="utf-8") as file:

@@ -1,6 +1,7 @@
 """Runs, orbits and batches: what Python gets is what the command writes and what the library computes."""
 
 import itertools
+import pickle
 import unittest
 import warnings
 
@@ -35,7 +36,7 @@ class Runs(Case):
                 self.same_files(self.path("command.csv"), self.path("python.csv"))
 
     def test_dict_text_and_file_are_one_scene(self):
-        sections = {"reduced": {"k": 0.5, "J": np.array([1.0, 2.0, 5.0])},
+        sections = {"reduced": {"k": np.array(0.5), "J": np.array([1.0, 2.0, 5.0])},
                     "initial": {"normal": (0.36, 0.48, 0.8), "angular_velocity": [0.9, -0.3, -0.225]},
                     "time": {"end": np.float64(7), "step": 0.25}, "effects": {"field": {"linear": [0, 0, 0.1]}},
                     "output": {"as": "ball", "columns": ["n1", "t"]}}
@@ -56,6 +57,16 @@ output: {as: ball, columns: [n1, t]}
         self.assertEqual((scene.model, scene.k, scene.end), ("ball", 0.5, 7))
         np.testing.assert_array_equal(scene.J, [1, 2, 5])
         self.near(scene.start, [0.9, -0.3, -0.225, 0.36, 0.48, 0.8], 1e-15)
+
+    def test_order_of_changes(self):
+        wanted = isoroll.run(isoroll.Scene(BALL, as_="both"), columns=["M1", "t"])
+        self.assertEqual(wanted.columns, ("M1", "t"))
+        for changes in ({"as_": "both", "columns": ["M1", "t"]}, {"columns": ["M1", "t"], "as_": "both"}):
+            self.assertEqual(isoroll.Scene(BALL, **changes).columns, wanted.columns)
+            self.same(isoroll.run(BALL, **changes).array, wanted.array)
+            self.same(isoroll.orbit(BALL, **changes).at(wanted.t[:3]).array, wanted.array[:3])
+        for empty in ([], (), ""):
+            self.refuses(isoroll.BadArgument, "empty", isoroll.run, BALL, columns=empty, about="columns")
 
     def test_times_in_any_order(self):
         rng = np.random.default_rng(1)
@@ -188,6 +199,28 @@ class Batches(Case):
                   isoroll.batch([{**scenes[0], "reduced": {"k": k[i], "J": J[0]}} for i in range(3)], [2, 4]).array)
         self.same(isoroll.batch(scenes[0], [2, 4], J=J).array,
                   isoroll.batch([{**scenes[0], "reduced": {"k": k[0], "J": J[i]}} for i in range(3)], [2, 4]).array)
+
+    def test_an_orbit_by_itself(self):
+        k, first, times = [-1, 0.5, 1.5], starts(3), np.linspace(0, 5, 51)
+        table = isoroll.batch(WILD, times, k=k, start=first)
+        for i in (0, 1, 2, -1):
+            scene = {"reduced": {"k": k[i], "J": [1, 2, 5]}, "time": {"end": 50, "step": 0.5},
+                     "initial": {"normal": first[i, 3:], "angular_velocity": first[i, :3]}}
+            alone, own = isoroll.orbit(scene, backend="ball").at(times), table.orbit(i)
+            self.assertEqual({**own.lines, "backend": "ball"}, dict(alone.lines))
+            self.near(isoroll.convert(own, "point").array, isoroll.convert(alone, "point").array, 1e-8)
+            isoroll.write(own, self.path("a.csv"))
+            self.command("convert", "--to", "point", "a.csv", "-o", "point.csv", "--quiet")
+        with self.assertRaises(IndexError):
+            table.orbit(3)
+        self.assertEqual(dict(pickle.loads(pickle.dumps(table)).orbit(0).lines), {})
+        for name in ("07_neumann_point", "12_neumann_off_level"):
+            point = isoroll.batch(example(name), [0, 0.5, 1], J=[[1, 1.5, 2], [1, 1.5, 2.5]])
+            alone = isoroll.orbit(example(name), backend="point").at([0, 0.5, 1])
+            self.assertEqual({**point.orbit(0).lines, "backend": "point"}, dict(alone.lines))
+            self.near(isoroll.convert(point.orbit(0), "ball").n, isoroll.convert(alone, "ball").n, 1e-9)
+        self.assertEqual(point.orbit(1).J[2], 2.5)
+        self.assertEqual(point.orbit(1).lines["eps"], point.orbit(0).lines["eps"])
 
     def test_points(self):
         scene = example("07_neumann_point")

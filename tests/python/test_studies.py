@@ -1,6 +1,7 @@
 """Sections and chaos: rows, verdicts and shares are those of the command."""
 
 import json
+import pickle
 import unittest
 
 import numpy as np
@@ -25,6 +26,7 @@ class Sections(Case):
                         table = isoroll.section(WILD, crossings=20, **named)
                 isoroll.write(table, self.path("python.csv"))
                 self.same_files(self.path("command.csv"), self.path("python.csv"))
+                self.same(isoroll.read(self.path("command.csv")).array, table.array)
 
     def test_both_models(self):
         table = isoroll.section(BALL, starts=10, crossings=50)
@@ -50,9 +52,13 @@ class Sections(Case):
         refuse(isoroll.BadArgument, "not both", event=("n3", 0), axis=1)
         refuse(isoroll.BadArgument, "crossings is 0", crossings=0)
         refuse(isoroll.BadArgument, "starts is 1.5", starts=1.5)
+        refuse(isoroll.BadArgument, "starts is 4611686018427387904", starts=2**62)
+        refuse(isoroll.BadArgument, "1e9 rows", crossings=2**62)
+        refuse(isoroll.BadArgument, "1e9 rows", crossings=10**6, starts=1000)
         refuse(isoroll.BadArgument, "seed is -1", seed=-1)
         refuse(isoroll.BadArgument, "", event=("n1", np.nan))
         refuse(isoroll.BadArgument, "", tolerance=2)
+        refuse(isoroll.BadArgument, "tolerance is nan", tolerance=np.nan, about="tolerance")
         refuse(isoroll.BadInput, "", at=[[np.nan, 0]])
         refuse(isoroll.BadArgument, "shape (3,)", at=[1, 2, 3])
         refuse(isoroll.BadArgument, "must be one of", models="neither")
@@ -85,6 +91,8 @@ class Verdicts(Case):
 
     def test_trace(self):
         found = isoroll.chaos(WILD, turns=300, models="ball")
+        again = pickle.loads(pickle.dumps(found))
+        self.assertEqual((again.verdict, dict(again.lines)), (found.verdict, dict(found.lines)))
         self.assertEqual(list(found.trace), ["ball"])
         self.assertEqual(found.trace["ball"].columns, ("turn", "t", "growth", "megno", "mean", "gali2"))
         self.assertEqual(found.trace["ball"]["turn"][0], 1)
@@ -93,6 +101,9 @@ class Verdicts(Case):
 
     def test_refused(self):
         self.refuses(isoroll.BadArgument, "turns is 0", isoroll.chaos, WILD, turns=0)
+        self.refuses(isoroll.BadArgument, "starts is", isoroll.chaos, WILD, starts=2**61)
+        self.refuses(isoroll.BadArgument, "turns is", isoroll.chaos, WILD, turns=2**40)
+        self.refuses(isoroll.BadArgument, "tolerance is nan", isoroll.chaos, WILD, tolerance=np.nan)
         self.refuses(isoroll.BadInput, "", isoroll.chaos, example("10_bowl"))
         self.refuses(isoroll.NotMapped, "", isoroll.chaos, example("11_rubber_and_marble"), models="point")
 

@@ -6,9 +6,10 @@
     orbit.at([0, 10, 5]).gamma                        # (3, 3): the point at three times
     isoroll.write(isoroll.convert(table, "point"), "point.csv")
 
-No array is copied: each is a view of the library's memory, or the library has filled it. Units are the scene's, and
-angles are radians. omega, n, e, trace and N are in the ball's principal axes; contact and centre are in axes of space
-(lib/doc/formats.md, section 4). A failure raises an IsorollError with the library's message. All functions can be called by several threads at the same time; they compute side by side.
+Arrays are not copied: each is a view of the library's memory, or the library has filled it. Units are the scene's,
+and angles are radians. omega, n, e, trace and N are in the ball's principal axes; contact and centre are in axes of
+space (lib/doc/formats.md, section 4). A failure raises an IsorollError with the library's message. All functions can
+be called by several threads at the same time; they compute side by side.
 """
 
 from ._errors import (BadArgument, BadInput, ClosedPipe, FileTrouble, IsorollError, IsorollWarning, LibraryError,

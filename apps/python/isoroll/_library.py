@@ -12,7 +12,7 @@ import sys
 import threading
 import warnings
 from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_long, c_size_t, c_uint64, c_void_p
-from typing import Any, Iterator, List, Optional, Tuple
+from typing import Any, Callable, Iterator, List, Optional, Tuple
 
 from . import _errors
 from ._version import __version__
@@ -51,6 +51,7 @@ _TABLE = {
     "iso_foreign_scene_copy": (c_int, c_void_p, c_void_p, _OBJECT),
     "iso_foreign_scene_free": (None, c_void_p),
     "iso_foreign_scene_set": (c_int, c_void_p, c_void_p, c_char_p, c_char_p),
+    "iso_foreign_scene_replace": (c_int, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p),
     "iso_foreign_scene_numbers": (c_int, c_void_p, c_char_p, POINTER(c_double)),
     "iso_foreign_scene_word": (c_char_p, c_void_p, c_char_p),
     "iso_foreign_scene_columns": (c_int, c_void_p, POINTER(c_int)),
@@ -129,10 +130,11 @@ def _declare(library: ctypes.CDLL) -> ctypes.CDLL:
 lib = _declare(_load())
 
 # --- Ctrl-C ---------------------------------------------------------------------------------------------------------
-# While the library computes, Python cannot run its signal handlers. So the library calls _go_on ten times a second. In
-# this call Python can run the handler, which is _note during a call: it keeps the signal. The library then stops.
+# While the library computes, Python cannot run its signal handlers. So the library calls _go_on ten times a second.
+# In this call Python can run the handler, which is _note during a call: it keeps the signal. The library then stops.
 
 _signals: List[Tuple[int, Any]] = []
+_raised: List[BaseException] = []  # by the handler of another signal, such as SIGALRM, in _goes_on: it ends the call
 try:  # the same functions without the enums of `signal`, which take longer than a short call
     from _signal import getsignal as _getsignal, signal as _setsignal  # type: ignore[import]
 except ImportError:
@@ -142,10 +144,27 @@ _MAIN = threading.main_thread().ident
 
 
 def _goes_on(_unused: object) -> bool:
-    return not _signals or threading.get_ident() != _MAIN
+    try:
+        return not (_signals or _raised) or threading.get_ident() != _MAIN
+    except BaseException as error:
+        _raised.append(error)
+        return False
 
 
 _go_on = ctypes.CFUNCTYPE(c_bool, c_void_p)(_goes_on)
+ctypes.pythonapi.Py_IncRef(ctypes.py_object(_go_on))  # for ever: a daemon thread may call it while Python ends
+
+
+def _keep_raised(ignored: Any) -> None:
+    """For sys.unraisablehook: a handler may raise before the first line of _goes_on. ctypes would only print it."""
+    ours = ignored.object is _goes_on or (ignored.object is None and repr(_goes_on) in (ignored.err_msg or ""))
+    if ours and isinstance(ignored.exc_value, BaseException):
+        _raised.append(ignored.exc_value)
+    else:
+        _hook(ignored)
+
+
+_hook: Any = sys.__unraisablehook__  # the host's
 
 
 def _note(number: int, frame: Any) -> None:
@@ -153,23 +172,51 @@ def _note(number: int, frame: Any) -> None:
 
 
 class interruptible:
-    """Lets Ctrl-C end a call of the library. The user's handler then runs; usually it raises KeyboardInterrupt."""
+    """Lets Ctrl-C end a call of the library. The user's handler then runs; usually it raises KeyboardInterrupt. An
+    exception by the handler of another signal ends the call as well.
 
-    __slots__ = ("handler",)
+    found  gives what the call has computed so far, a Table or None: the exception's `partial`
+    """
+
+    __slots__ = ("main", "handler", "hook", "found")
+
+    def __init__(self, found: Optional[Callable[[], Any]] = None) -> None:
+        self.found = found
 
     def __enter__(self) -> None:
-        self.handler = _getsignal(_SIGINT) if threading.get_ident() == _MAIN else None
-        if callable(self.handler):
+        self.main = threading.get_ident() == _MAIN
+        if self.main:
+            global _hook
+            self.handler, self.hook = _getsignal(_SIGINT), sys.unraisablehook
+            if self.hook is not _keep_raised:
+                _hook = self.hook
             _signals.clear()
-            _setsignal(_SIGINT, _note)
+            _raised.clear()
+            sys.unraisablehook = _keep_raised
+            if callable(self.handler):
+                _setsignal(_SIGINT, _note)
 
     def __exit__(self, *_unused: Any) -> None:
+        if not self.main:
+            return
+        sys.unraisablehook = self.hook
         if callable(self.handler):
             _setsignal(_SIGINT, self.handler)
-            if _signals:
-                last = _signals[-1]
-                _signals.clear()
-                self.handler(*last)
+        if _signals or _raised:
+            self._raise()
+
+    def _raise(self) -> None:
+        signals, raised = _signals[-1:], _raised[:1]
+        _signals.clear()
+        _raised.clear()
+        try:
+            if raised:
+                raise raised[0]
+            self.handler(*signals[0])
+        except BaseException as stop:
+            if self.found is not None:
+                stop.partial = self.found()  # type: ignore[attr-defined]
+            raise
 
 
 # --- objects of the library, and contexts ---------------------------------------------------------------------------
@@ -179,17 +226,40 @@ class Owned:
     """An object of the library. It is freed with this one, and so it cannot be copied."""
 
     _free: Any = None
-    pointer: Optional[int] = None
+    _pointer: Optional[int] = None
+
+    @property
+    def pointer(self) -> int:
+        if not self._pointer:
+            name = type(self).__name__
+            raise _errors.BadArgument(f"this {name} was never made: call isoroll.{name}()")
+        return self._pointer
 
     def _own(self, pointer: Optional[int], free: Any) -> None:
-        self.pointer, self._free = pointer, free  # the function is kept: at exit this module may go first
+        self._pointer, self._free = pointer, free  # the function is kept: at exit this module may go first
 
-    def __del__(self) -> None:
-        if self.pointer:
-            self._free(self.pointer)
+    def __del__(self, _ends: Any = sys.is_finalizing) -> None:
+        if self._pointer and not _ends():  # while Python ends, a daemon thread may still be in a call with it
+            self._free(self._pointer)
 
     def __reduce_ex__(self, protocol: Any) -> Any:
         raise TypeError(f"a {type(self).__name__} of isoroll lives in the library: it cannot be copied or pickled")
+
+
+class New(c_void_p):
+    """Where a call puts a new object. The object is freed, unless it is taken over: an exception may come first."""
+
+    def __init__(self, free: Any) -> None:
+        super().__init__()
+        self._free = free
+
+    def take(self) -> Optional[int]:
+        pointer, self.value = self.value, None
+        return pointer
+
+    def __del__(self, _ends: Any = sys.is_finalizing) -> None:
+        if self.value and not _ends():
+            self._free(self.value)
 
 
 class Monitor(Owned):
@@ -207,7 +277,7 @@ class _Context(Owned):
 
     def __init__(self) -> None:
         self._own(lib.iso_context_create(), lib.iso_context_free)
-        if not self.pointer:
+        if not self._pointer:
             raise _errors.NoMemory("no memory for a context")
         self._monitor = Monitor(self.pointer)
 
@@ -265,4 +335,4 @@ _thread = _OfThread()
 
 def context() -> int:
     """The context of this thread."""
-    return _thread.context.pointer or 0
+    return _thread.context.pointer

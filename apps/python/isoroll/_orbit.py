@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import threading
 from ctypes import byref, c_void_p
-from typing import Any, Dict, Iterable, Mapping, Optional, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
-from ._library import Monitor, Notes, Owned, check, context, encoded, interruptible, lib, whole
+from ._library import Monitor, New, Notes, Owned, check, context, encoded, interruptible, lib, whole
 from ._scene import Scene, SceneLike, as_scene, as_scenes
-from ._table import Table, from_record
+from ._table import Table, doubles, from_record, new_record
 
 _ERRORS = ("ball", "point", "t", "tau", "s")
 
 
 def _times(times: ArrayLike) -> NDArray[np.float64]:
-    return np.asarray(times, dtype=np.float64, order="C")
+    return np.asarray(doubles("times", times), order="C")
 
 
 class Run(Table):
@@ -39,20 +39,24 @@ def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, errors: bool = F
     Returns a table of shape (rows, columns). There are fewer rows than times if the ball loses contact: a warning
     says when. After a failure, error.partial has the rows before it.
     """
-    chosen, ctx, new, notes = as_scene(scene, changes), context(), c_void_p(), Notes()
+    chosen, ctx, new, notes = as_scene(scene, changes), context(), new_record(), Notes()
     asked = None if times is None else np.atleast_1d(_times(times)).ravel()
     found = np.full(5, np.nan) if errors else None
-    with interruptible():
+
+    def so_far() -> Optional[Table]:
+        return from_record(new) if new.value else None
+
+    with interruptible(so_far):
         status = lib.iso_foreign_run(ctx, chosen.pointer, None if asked is None else asked.ctypes.data,
                                      0 if asked is None else asked.size, None if found is None else found.ctypes.data,
                                      byref(new), *notes.arguments)
     try:
         check(status, ctx)
     except _errors.IsorollError as error:
-        error.partial = from_record(new.value) if new.value else None
+        error.partial = so_far()
         raise
     notes.tell()
-    table = from_record(new.value)
+    table = from_record(new)
     result = Run(table.array, table.columns, table.lines, record=table._record)
     if found is not None:
         result.errors = dict(zip(_ERRORS, found.tolist()))
@@ -62,10 +66,13 @@ def run(scene: SceneLike, times: Optional[ArrayLike] = None, *, errors: bool = F
 class _OfOrbit(Table):
     """A table of an orbit. Its lines are those of a run; they are made when they are asked for."""
 
+    _scene: Optional[Scene]
+    _backend: str
+
     def __init__(self, array: NDArray[np.float64], orbit: Orbit) -> None:
-        super().__init__(array, orbit.columns)
-        self._scene: Optional[Scene] = orbit.scene
-        self._backend = orbit.backend
+        # not by Table.__init__, which would take a third of the time of a short call; the array is known to fit
+        self.__dict__.update(_array=array, _columns=orbit.columns, kind="trajectory", _record=None, _lines={},
+                             _scene=orbit.scene, _backend=orbit.backend)
 
     @property
     def lines(self) -> Mapping[str, str]:
@@ -82,11 +89,11 @@ class Orbit(Owned):
 
     def __init__(self, scene: SceneLike, **changes: Any) -> None:
         self.scene = as_scene(scene, changes)
-        new, ctx = c_void_p(), context()
+        new, ctx = New(lib.iso_foreign_orbit_free), context()
         with interruptible():
             status = lib.iso_foreign_orbit_create(ctx, self.scene.pointer, byref(new))
         check(status, ctx)
-        self._own(new.value, lib.iso_foreign_orbit_free)
+        self._own(new.take(), lib.iso_foreign_orbit_free)
         self._context = lib.iso_foreign_orbit_context(self.pointer)
         self._monitor = Monitor(self._context)
         self._lock = threading.Lock()
@@ -124,7 +131,7 @@ class Orbit(Owned):
 
     @property
     def coupling(self) -> float:
-        """The coupling eps of the point."""
+        """The coupling eps of the point, h det(J) / k^2: mass^4 length^8 / time^2."""
         return float(self._number(lib.iso_orbit_coupling))
 
     @property
@@ -145,7 +152,8 @@ def orbit(scene: SceneLike, **changes: Any) -> Orbit:
 
 
 class Batch(Table):
-    """The table of a batch: array has shape (orbits, rows, columns); table.n has shape (orbits, rows, 3).
+    """The table of a batch: array has shape (orbits, rows, columns); table.n has shape (orbits, rows, 3). What
+    differs from orbit to orbit, such as k and J, is in the lines of batch.orbit(i).
 
     status   int32, shape (orbits,): 0 for an orbit that went well (lib/base/status.h)
     failure  the exception of the first orbit that failed, or None
@@ -153,10 +161,27 @@ class Batch(Table):
 
     status: NDArray[np.int32]
     failure: Optional[_errors.IsorollError] = None
+    _origin: Optional[Tuple[List[Scene], List[Optional[NDArray[np.float64]]]]] = None
 
     def orbit(self, i: int) -> Table:
-        """The rows of one orbit, a view of shape (rows, columns)."""
-        return Table(self.array[i], self.columns)
+        """The rows of one orbit, a view of shape (rows, columns), with its k, J, h, eps, effects in the lines."""
+        return Table(self.array[i], self.columns, self._lines_of(range(len(self.array))[i]))
+
+    def _lines_of(self, i: int) -> Dict[str, str]:
+        if self._origin is None:
+            return dict(self.lines)
+        scenes, replaced = self._origin
+        scene, ctx = Scene(scenes[i if len(scenes) > 1 else 0]), context()
+        own = [None if values is None else np.ascontiguousarray(values[i]) for values in replaced]
+        check(lib.iso_foreign_scene_replace(ctx, scene.pointer, *(None if x is None else x.ctypes.data for x in own)),
+              ctx)
+        lines = dict(run(scene, [0.0]).lines)
+        if scene.backend == "auto":
+            del lines["backend"]  # a batch chooses by its own times
+        return lines
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**super().__getstate__(), "_origin": None}
 
 
 def _count(shapes: Iterable[int]) -> int:
@@ -169,14 +194,14 @@ def _count(shapes: Iterable[int]) -> int:
 def _spread(values: Optional[ArrayLike], count: int, width: int) -> Optional[NDArray[np.float64]]:
     if values is None:
         return None
-    return np.ascontiguousarray(np.broadcast_to(np.asarray(values, dtype=np.float64).reshape(-1, width),
+    return np.ascontiguousarray(np.broadcast_to(doubles("k, J, start", values).reshape(-1, width),
                                                 (count, width)))
 
 
 def _orbits_of(name: str, values: Optional[ArrayLike], width: int) -> int:
     if values is None:
         return 1
-    shape = np.shape(values)
+    shape = doubles(name, values).shape
     right = len(shape) <= 1 if width == 1 else 1 <= len(shape) <= 2 and shape[-1] == width
     if not right:
         wanted = "(orbits,)" if width == 1 else f"(orbits, {width})"
@@ -190,12 +215,16 @@ def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k:
     """Many orbits at the same times, on all processors, by method taylor in the lanes of vectors.
 
     scenes    one scene, or a list of them that agree in columns, backend, tolerance and the model of the start
-    times     shape (rows,): away from 0, in one direction
-    k, J      shape (orbits,) and (orbits, 3), or one for all: in place of the scene's; the ball is then reduced
-    start     shape (orbits, 6): omega, n (of a point M, gamma), in place of the scene's
+    times     shape (rows,), t of a ball's scene, s of a point's: away from 0, in one direction
+    k, J      shape (orbits,) and (orbits, 3), or one for all: in place of the scene's; the ball is then reduced.
+              k has no unit; J are the moments about the contact point, mass length^2
+    start     shape (orbits, 6): omega [1/time], n (of a point M, gamma), in place of the scene's
     threads   0: one for each processor
     vectors   "avx512", "avx2", "plain"; None: the widest of this processor
     on_error  "raise"; or "keep": rows that an orbit has not reached are NaN, and batch.status says why
+
+    The eps of a point's scene is kept where k, J or start is replaced: the energy H of the point is then another one.
+    Without eps the scene says H = 0, and eps follows from each start.
 
     Returns a table of shape (orbits, rows, columns). An orbit's numbers do not depend on the orbits beside it.
     """
@@ -209,15 +238,14 @@ def batch(scenes: Union[SceneLike, Iterable[SceneLike]], times: ArrayLike, *, k:
     arrays = [_spread(k, count, 1), _spread(J, count, 3), _spread(start, count, 6)]
     pointers = (c_void_p * len(chosen))(*(scene.pointer for scene in chosen))
     array, statuses = np.empty((count, asked.size, len(columns))), np.zeros(count, dtype=np.int32)
-    ctx = context()
-    with interruptible():
+    result, ctx = Batch(array, columns, kind="batch"), context()
+    result.status, result._origin = statuses, (chosen, arrays)
+    with interruptible(lambda: result if statuses.any() else None):
         status = lib.iso_foreign_batch(ctx, pointers, len(chosen), count,
                                        *(None if a is None else a.ctypes.data for a in arrays), asked.ctypes.data,
                                        asked.size, whole("threads", threads, 0, 1024),
                                        None if vectors is None else encoded(vectors),
                                        array.ctypes.data, statuses.ctypes.data)
-    result = Batch(array, columns, kind="batch")
-    result.status = statuses
     try:
         check(status, ctx)
     except _errors.IsorollError as error:

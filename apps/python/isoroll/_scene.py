@@ -31,13 +31,27 @@ def _yaml(value: Any) -> str:
         return str(int(value))
     if isinstance(value, (float, np.floating)):
         return repr(float(value))
-    if isinstance(value, (list, tuple, np.ndarray)):
+    if isinstance(value, np.ndarray) and not np.ma.is_masked(value):
+        return _yaml(value.tolist())
+    if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_yaml(item) for item in value) + "]"
     raise _errors.BadArgument(f"a scene has numbers, words, lists and dicts, not {type(value).__name__}: {value!r}")
 
 
 def _word(text: str) -> str:
-    return text if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", text) else json.dumps(text)
+    return text if re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", text) else json.dumps(text, ensure_ascii=False)
+
+
+def _text(source: Union[str, Mapping[str, Any]]) -> bytes:
+    """The YAML text of a dict, or a text as it is."""
+    try:
+        if isinstance(source, str):
+            return source.encode()
+        return "".join(f"{_word(str(key))}: {_yaml(value)}\n" for key, value in source.items()).encode()
+    except (RecursionError, UnicodeError, ValueError) as error:
+        if isinstance(error, _errors.IsorollError):
+            raise
+        raise _errors.BadArgument(f"the scene cannot be made into text: {error}") from None
 
 
 class Scene(Owned):
@@ -45,7 +59,7 @@ class Scene(Owned):
 
     source   the path of a YAML file; a str with a newline: YAML text; a dict of its sections; another Scene
     changes  backend, method, tolerance, end, step, as_ ("ball", "point", "both"), columns (a list of names):
-             they override the scene, like the options of the command
+             they override the scene, like the options of the command; columns come last, after those of as_
 
     >>> isoroll.Scene({"reduced": {"k": -1, "J": [1, 2, 5]},
     ...                "initial": {"normal": [0.36, 0.48, 0.8], "angular_velocity": [0.8, -0.6, 0]},
@@ -57,10 +71,10 @@ class Scene(Owned):
         if isinstance(source, Scene):
             status = lib.iso_foreign_scene_copy(ctx, source.pointer, byref(new))
         elif isinstance(source, Mapping):
-            text = "".join(f"{_word(str(key))}: {_yaml(value)}\n" for key, value in source.items()).encode()
+            text = _text(source)
             status = lib.iso_foreign_scene_parse(ctx, b"<dict>", text, len(text), byref(new))
         elif isinstance(source, str) and "\n" in source:
-            text = source.encode()
+            text = _text(source)
             status = lib.iso_foreign_scene_parse(ctx, b"<text>", text, len(text), byref(new))
         elif isinstance(source, (str, os.PathLike)):
             status = lib.iso_foreign_scene_read(ctx, encoded(source), byref(new))
@@ -68,8 +82,8 @@ class Scene(Owned):
             raise TypeError(f"a scene is a path, a text, a dict or a Scene, not {type(source).__name__}")
         check(status, ctx)
         self._own(new.value, lib.iso_foreign_scene_free)
-        for key, value in changes.items():
-            self._set(key, value)
+        for key in sorted(changes, key="columns".__eq__):  # last: as_ sets columns of its own
+            self._set(key, changes[key])
         numbers = (c_int * _MOST_COLUMNS)()
         count = lib.iso_foreign_scene_columns(self.pointer, numbers)
         self._columns = tuple(lib.iso_column_name(c).decode() for c in numbers[:count])
@@ -79,8 +93,17 @@ class Scene(Owned):
             return
         if key not in ("backend", "method", "tolerance", "end", "step", "as_", "columns"):
             raise TypeError(f"'{key}' is no argument: backend, method, tolerance, end, step, as_, columns")
+        if key == "columns" and not isinstance(value, str):
+            value = ",".join(value)
+        if key == "columns" and not value:
+            error = _errors.BadArgument("columns is empty: name at least one, such as t")
+            error.about = key
+            raise error
         if not isinstance(value, str):
-            value = ",".join(value) if key == "columns" else repr(float(value))
+            try:
+                value = repr(float(value))
+            except (TypeError, ValueError, OverflowError) as wrong:
+                raise _errors.BadArgument(f"{key} is {value!r:.60}: {wrong}") from None
         ctx = context()
         check(lib.iso_foreign_scene_set(ctx, self.pointer, key.rstrip("_").encode(), encoded(value)), ctx)
 
@@ -97,6 +120,11 @@ class Scene(Owned):
     def model(self) -> str:
         """The model of the start: "ball" or "point"."""
         return self._word("model")
+
+    @property
+    def backend(self) -> str:
+        """What is to find the orbit: "ball", "point", "exact" or "auto"."""
+        return self._word("backend")
 
     @property
     def k(self) -> float:

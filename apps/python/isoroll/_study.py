@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from ctypes import byref, c_void_p
-from typing import Dict, NamedTuple, Optional, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _errors
-from ._library import Notes, check, context, encoded, interruptible, lib, whole
+from ._library import New, Notes, check, context, encoded, interruptible, lib, whole
 from ._scene import SceneLike, as_scene
-from ._table import Table, from_record
+from ._table import Table, doubles, from_record, new_record
+
+
+_MOST_STARTS, _MOST_ROWS = 10**7, 10**9
 
 
 def _axis(axis: Optional[int]) -> int:
@@ -23,10 +26,45 @@ def _axis(axis: Optional[int]) -> int:
 
 
 def _points(at: Optional[ArrayLike]) -> NDArray[np.float64]:
-    points = np.ascontiguousarray(np.empty((0, 2)) if at is None else at, dtype=np.float64)
+    points = np.ascontiguousarray(np.empty((0, 2)) if at is None else doubles("at", at))
     if points.ndim > 2 or points.shape[-1] != 2:
         raise _errors.BadArgument(f"at has shape {points.shape}, it must be (starts, 2): l, x")
     return points.reshape(-1, 2)
+
+
+def _tolerance(tolerance: Optional[float]) -> float:
+    """For C: NaN means the scene's. As a number of the caller's it is refused, as in run."""
+    if tolerance is None:
+        return float("nan")
+    if np.isnan(float(tolerance)):
+        error = _errors.BadArgument("tolerance is nan")
+        error.about = "tolerance"
+        raise error
+    return float(tolerance)
+
+
+def _taken(pointer: int) -> New:
+    new = new_record()
+    new.value = pointer
+    return new
+
+
+def _orbits(starts: int, at: int, rows: int, what: str) -> int:
+    """The number of starts, if the study is not out of reach: a slip of the hand would fill the memory."""
+    number = whole("starts", starts, 0)
+    if number > _MOST_STARTS:
+        raise _errors.BadArgument(f"starts is {number}, it must be a whole number from 0 to {_MOST_STARTS}")
+    if (number + at + 1) * rows > _MOST_ROWS:
+        raise _errors.BadArgument(f"{what} is {rows}: with {number + at + 1} orbits these are more than 1e9 rows")
+    return number
+
+
+def _event(event: Optional[Tuple[str, float]]) -> Tuple[Optional[bytes], float]:
+    if event is None:
+        return None, 0.0
+    if isinstance(event, str) or len(event) != 2 or not isinstance(event[0], str):
+        raise _errors.BadArgument(f"event is {event!r:.60}: it must be (column, value), such as ('n1', 0)")
+    return encoded(event[0]), float(event[1])
 
 
 class Section(Table):
@@ -39,10 +77,10 @@ class Section(Table):
     point: Optional[Table] = None
 
 
-def _section(record: c_void_p, point: c_void_p) -> Section:
-    table = from_record(record.value, "section")
+def _section(record: New, point: New) -> Section:
+    table = from_record(record, "section")
     result = Section(table.array, table.columns, table.lines, kind="section", record=table._record)
-    result.point = from_record(point.value, "section") if point.value else None
+    result.point = from_record(point, "section") if point.value else None
     return result
 
 
@@ -53,7 +91,7 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
     """The Poincare section of a scene: what `isoroll section` writes.
 
     crossings  of each orbit
-    starts     orbits of the same energy, spread evenly over the section; seed: another choice of them
+    starts     orbits of the same energy, spread evenly over the section, up to 10^7; seed: another choice of them
     at         shape (N, 2): (l, x) of further starts
     axis       1, 2, 3: the section n_axis = 0, increasing; None: the global one
     event      (column, value) in place of the axis: crossings where the column passes the value upwards
@@ -62,21 +100,25 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
 
     l is an angle in (-pi, pi], x is in (-1, 1); both models have the same l and x.
     """
-    chosen, ctx, new, point, notes = as_scene(scene, {}), context(), c_void_p(), c_void_p(), Notes()
-    points = _points(at)
+    chosen, ctx, new, point, notes = as_scene(scene, {}), context(), new_record(), new_record(), Notes()
+    points, rows = _points(at), whole("crossings", crossings, 1)
     if axis is not None and event is not None:
         raise _errors.BadArgument("axis or event, not both")
-    with interruptible():
+
+    def so_far() -> Optional[Section]:
+        return _section(new, point) if new.value else None
+
+    with interruptible(so_far):
         status = lib.iso_foreign_section(
-            ctx, chosen.pointer, whole("crossings", crossings, 1), whole("starts", starts, 0),
+            ctx, chosen.pointer, rows, _orbits(starts, len(points), rows, "crossings"),
             whole("seed", seed, 0), points.ctypes.data, len(points), _axis(axis),
-            encoded(event[0]) if event else None, float(event[1]) if event else 0.0, encoded(models),
-            encoded(states) if states else None, np.nan if tolerance is None else float(tolerance),
+            *_event(event), encoded(models),
+            encoded(states) if states else None, _tolerance(tolerance),
             whole("threads", threads, 0, 1024), byref(new), byref(point), *notes.arguments)
     try:
         check(status, ctx)
     except _errors.IsorollError as error:
-        error.partial = _section(new, point) if new.value else None
+        error.partial = so_far()
         raise
     notes.tell()
     return _section(new, point)
@@ -117,6 +159,13 @@ class Chaos:
             numbers = [float(self.lines[key]) for key in ("count", *Share._fields[1:])]
             self.share = Share(*(int(x) for x in numbers[:5]), *numbers[5:])
 
+    def __getstate__(self) -> Dict[str, Any]:
+        return {**self.__dict__, "lines": None}
+
+    def __setstate__(self, state: Dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self.lines = self.orbits.lines
+
     def __repr__(self) -> str:
         return f"<isoroll.Chaos: {self.verdict}, {len(self.orbits)} orbits, {self.share}>"
 
@@ -128,12 +177,15 @@ def chaos(scene: SceneLike, *, turns: int = 3000, starts: int = 0, seed: int = 0
 
     turns  at most, of each orbit. Exponents are per unit of t, tau and s.
     """
-    chosen, ctx, new, trace, points = as_scene(scene, {}), context(), c_void_p(), (c_void_p * 2)(), _points(at)
-    with interruptible():
-        status = lib.iso_foreign_chaos(
-            ctx, chosen.pointer, whole("turns", turns, 1), whole("starts", starts, 0), whole("seed", seed, 0),
-            points.ctypes.data, len(points), _axis(axis), encoded(models),
-            np.nan if tolerance is None else float(tolerance), whole("threads", threads, 0, 1024), byref(new), trace)
+    chosen, ctx, new, trace, points = as_scene(scene, {}), context(), new_record(), (c_void_p * 2)(), _points(at)
+    try:
+        with interruptible():
+            status = lib.iso_foreign_chaos(
+                ctx, chosen.pointer, whole("turns", turns, 1, _MOST_ROWS), _orbits(starts, len(points), 1, "turns"),
+                whole("seed", seed, 0),
+                points.ctypes.data, len(points), _axis(axis), encoded(models), _tolerance(tolerance),
+                whole("threads", threads, 0, 1024), byref(new), trace)
+    finally:
+        traces = {name: from_record(_taken(pointer)) for name, pointer in zip(("ball", "point"), trace) if pointer}
     check(status, ctx)
-    traces = {name: from_record(pointer) for name, pointer in zip(("ball", "point"), trace) if pointer}
-    return Chaos(from_record(new.value), traces)
+    return Chaos(from_record(new), traces)
