@@ -33,11 +33,11 @@ def _points(at: Optional[ArrayLike]) -> NDArray[np.float64]:
 
 
 def _tolerance(tolerance: Optional[float]) -> float:
-    """For C: NaN means the scene's. As a number of the caller's it is refused, as in run."""
+    """For C, where 0 means the scene's. From the caller 0 and nan are refused, as in run."""
     if tolerance is None:
-        return float("nan")
-    if np.isnan(float(tolerance)):
-        error = _errors.BadArgument("tolerance is nan")
+        return 0.0
+    if not float(tolerance) > 0:
+        error = _errors.BadArgument(f"tolerance is {tolerance}, it must be a positive number")
         error.about = "tolerance"
         raise error
     return float(tolerance)
