@@ -105,20 +105,13 @@ static void choose_options(work *w, int threads, const char *vectors)
 static iso_status make_params(iso_context *ctx, const work *w, size_t i)
 {
     if (!w->params) return ISO_OK;
-    const iso_params *from = &scene_of(w, i)->params;
-    const iso_status status =
-        iso_params_reduced(ctx, w->k ? w->k[i] : from->k, w->J ? w->J + 3 * i : from->J, &w->params[i]);
-    return status == ISO_OK && from->D > 0 ? iso_params_set_D(ctx, from->D, &w->params[i]) : status;
+    return iso_foreign_replace_params(ctx, scene_of(w, i), w->k ? w->k + i : NULL, w->J ? w->J + 3 * i : NULL,
+                                      &w->params[i]);
 }
 
 static iso_status make_start(iso_context *ctx, const work *w, size_t i)
 {
-    if (!w->start) return ISO_OK;
-    const iso_scene *s = scene_of(w, i);
-    const double *y = w->y + 6 * i;
-    if (s->start.model == ISO_POINT)
-        return iso_start_point(ctx, y, y + 3, isnan(s->start.eps) ? NULL : &s->start.eps, false, &w->start[i]);
-    return iso_start_ball(ctx, y, y + 3, s->effects.on[ISO_TWIST] ? ISO_SPIN_KEEP : ISO_SPIN_REFUSE, &w->start[i]);
+    return w->start ? iso_foreign_replace_start(ctx, scene_of(w, i), w->y + 6 * i, &w->start[i]) : ISO_OK;
 }
 
 static iso_status prepare_orbits(work *w)

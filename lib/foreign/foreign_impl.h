@@ -43,4 +43,11 @@ iso_status iso_foreign_tolerance(iso_context *ctx, double asked, double *toleran
  * Errors: ISO_BAD_ARGUMENT about `key`. */
 iso_status iso_foreign_count(iso_context *ctx, const char *key, size_t count);
 
+/* The params and the start of a scene with another k, J or start (omega, n; or M, gamma). NULL: the scene's own. The
+ * eps of a point's scene stays. Errors: those of iso_params_reduced, iso_start_ball, iso_start_point. */
+iso_status iso_foreign_replace_params(iso_context *ctx, const iso_scene *scene, const double *k, const double J[3],
+                                      iso_params *params);
+iso_status iso_foreign_replace_start(iso_context *ctx, const iso_scene *scene, const double start[6],
+                                     iso_start *replaced);
+
 #endif

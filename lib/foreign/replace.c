@@ -4,8 +4,8 @@
 #include "base/arithmetic_impl.h"
 #include "foreign/foreign_impl.h"
 
-static iso_status make_params(iso_context *ctx, const iso_scene *s, const double *k, const double J[3],
-                              iso_params *params)
+iso_status iso_foreign_replace_params(iso_context *ctx, const iso_scene *s, const double *k, const double J[3],
+                                      iso_params *params)
 {
     *params = s->params;
     if (!k && !J) return ISO_OK;
@@ -13,7 +13,7 @@ static iso_status make_params(iso_context *ctx, const iso_scene *s, const double
     return status == ISO_OK && s->params.D > 0 ? iso_params_set_D(ctx, s->params.D, params) : status;
 }
 
-static iso_status make_start(iso_context *ctx, const iso_scene *s, const double y[6], iso_start *start)
+iso_status iso_foreign_replace_start(iso_context *ctx, const iso_scene *s, const double y[6], iso_start *start)
 {
     *start = s->start;
     if (!y) return ISO_OK;
@@ -28,8 +28,8 @@ iso_status iso_foreign_scene_replace(iso_context *ctx, iso_foreign_scene *scene,
     ISO_DEFAULT_ARITHMETIC;
     iso_params params;
     iso_start y;
-    iso_status status = make_params(ctx, &scene->scene, k, J, &params);
-    if (status == ISO_OK) status = make_start(ctx, &scene->scene, start, &y);
+    iso_status status = iso_foreign_replace_params(ctx, &scene->scene, k, J, &params);
+    if (status == ISO_OK) status = iso_foreign_replace_start(ctx, &scene->scene, start, &y);
     if (status != ISO_OK) return status;
     scene->scene.params = params;
     scene->scene.start = y;

@@ -32,8 +32,9 @@ for way in "ball adams" "ball rk8pd" "ball bdf" "ball taylor" "point taylor" "po
     hard_hold $(($(steps) - forth + apart)) 0 "$backend" "$method"
     run 0 run scene.yaml --times mixed.txt --backend "$backend" --method "$method" --tol 1e-8
     rows out | sort -g | uniq >mixed.rows
-    check "the order of the file is kept" sh -c "tr ' ' '\n' <mixed.txt | awk '{ printf \"%.17g\n\", \$1 }' >a
-        grep -v '^#' out | tail -n +2 | cut -d, -f1 >b; cmp a b"
+    check "the order of the file is kept" sh -c "tr ' ' '\n' <mixed.txt | sed 's/^-0$/0/' |
+        awk '{ printf \"%.17g\n\", \$1 }' >a
+        grep -v '^#' out | tail -n +2 | cut -d, -f1 | sed 's/^-0$/0/' >b; cmp a b"
     run 0 run scene.yaml --times sorted.txt --backend "$backend" --method "$method" --tol 1e-8
     rows out | sort -g | uniq >sorted.rows
     check "mixed and sorted rows of $way" cmp mixed.rows sorted.rows
