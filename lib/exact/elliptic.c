@@ -55,6 +55,7 @@ real iso_elliptic_inverse(const elliptic *e, real sn, real cn)
     real kc = sqrtl(e->m1), m = 1, y = fabsl(cn / sn);
     int turns = 0;
     if (sn == 0) return cn < 0 ? 2 * ISO_PI_LONG : 0;
+    if (!(kc > 0) || isnan(y)) return NAN; /* m1 too small for a number: the loop would not end */
     for (;;) {
         const real product = m * kc, before = m;
         m += kc;
