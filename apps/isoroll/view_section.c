@@ -120,7 +120,7 @@ static iso_status start_of(const builder *b, size_t row, iso_start *start, iso_e
     const double *r = iso_record_const_row(b->in, row);
     double point[ISO_STATE];
     if (b->states) return iso_record_start(b->ctx, b->in, &page->params, b->model, row, start, effects);
-    iso_section_point(&page->params, page->eps, page->section->axis, r[b->l], r[b->x], point);
+    iso_section_point(iso_free_point(&page->params, page->eps), page->section->axis, r[b->l], r[b->x], point);
     return iso_start_point(b->ctx, point, point + 3, &page->eps, true, start);
 }
 

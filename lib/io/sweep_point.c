@@ -149,7 +149,7 @@ static iso_status chart_of(iso_context *ctx, const iso_sweep_file *f, size_t i, 
         if (a->target != ISO_TO_CHART) continue;
         if (a->values == ISO_FROM_SPREAD) {
             iso_section_spread spread;
-            iso_section_spread_prepare(&spread, own, axis, a->seed);
+            iso_section_spread_prepare(&spread, iso_free_point(own, 1), axis, a->seed);
             iso_section_spread_point(&spread, index[n], &value[0], &value[1]);
         }
         if (a->chart != 1) *l = value[0];
@@ -172,7 +172,7 @@ static iso_status on_section(iso_context *ctx, const iso_sweep_file *f, size_t i
     if (status != ISO_OK) return status;
     const iso_effects acting = iso_orbit_effects(orbit);
     const iso_params *own = &iso_orbit_units(orbit)->own;
-    const int axis = iso_section_axis(own);
+    const int axis = iso_section_axis(iso_free_point(own, 1));
     if (iso_effects_have_level(&acting))
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "a start on the section needs the level H = 0");
     else if (!(iso_orbit_energy(orbit) > 0))

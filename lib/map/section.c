@@ -5,18 +5,23 @@
 
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
+#include "map/section_impl.h"
 
-int iso_section_axis(const iso_params *p)
+int iso_section_axis(iso_point_motion m)
 {
+    const double *J = m.p->J;
+    const bool most = (m.eps < 0) != (m.p->k > 0);
     int axis = 0;
     for (int i = 1; i < 3; i++)
-        if (p->k > 0 ? p->J[i] > p->J[axis] : p->J[i] < p->J[axis]) axis = i;
+        if (most ? J[i] > J[axis] : J[i] < J[axis]) axis = i;
     return axis;
 }
 
-bool iso_section_is_global(const iso_params *p, int axis)
+bool iso_section_is_global(iso_point_motion m, int axis)
 {
-    return p->J[axis] == p->J[iso_section_axis(p)];
+    double W[2];
+    iso_section_bounds(m, axis, W);
+    return W[0] > 0 || m.p->J[axis] == m.p->J[iso_section_axis(m)];
 }
 
 bool iso_section_is_rotation(const double y[ISO_STATE], int axis)
@@ -42,17 +47,28 @@ static double section_q(const iso_params *p, int axis, double l, double *slope)
     return p->J[b] * C * C + p->J[c] * S * S;
 }
 
-double iso_section_momentum(const iso_params *p, double eps, int axis, double l)
+double iso_section_momentum_at(double k, double eps, double energy, double q)
 {
-    double unused;
-    return sqrt(2 * eps) * pow(section_q(p, axis, l, &unused), -1 / (2 * p->k));
+    if (energy == 0) return sqrt(2 * eps) * pow(q, -1 / (2 * k)); /* half the power: it fits a double for more k */
+    return sqrt(2 * fmax(0, energy + eps * pow(q, -1 / k)));
 }
 
-void iso_section_point(const iso_params *p, double eps, int axis, double l, double x, double point[ISO_STATE])
+double iso_section_momentum(iso_point_motion m, int axis, double l)
+{
+    double unused;
+    return iso_section_momentum_at(m.p->k, m.eps, m.energy, section_q(m.p, axis, l, &unused));
+}
+
+bool iso_section_is_open(iso_point_motion m, int axis, double l)
+{
+    return iso_section_momentum(m, axis, l) > 0;
+}
+
+void iso_section_point(iso_point_motion m, int axis, double l, double x, double point[ISO_STATE])
 {
     int b, c;
     sides(axis, &b, &c);
-    const double G = iso_section_momentum(p, eps, axis, l), across = G * sqrt((1 - x) * (1 + x));
+    const double G = iso_section_momentum(m, axis, l), across = G * sqrt((1 - x) * (1 + x));
     double *M = point, *gamma = point + 3;
     M[b] = across * sin(l);
     M[c] = across * cos(l);
@@ -72,15 +88,17 @@ void iso_section_chart(int axis, const double point[ISO_STATE], double *l, doubl
     *x = M[axis] / norm(M);
 }
 
-void iso_section_deviations(const iso_params *p, double eps, int axis, double l, double x, double by_l[ISO_STATE],
+/* G'/G = -(q'/(2 k q)) (2 eps q^(-1/k)/G^2), and this last factor is 1 - 2 E/G^2 */
+void iso_section_deviations(iso_point_motion m, int axis, double l, double x, double by_l[ISO_STATE],
                             double by_x[ISO_STATE])
 {
     int b, c;
     sides(axis, &b, &c);
     double turn, point[ISO_STATE];
-    iso_section_point(p, eps, axis, l, x, point);
-    const double q = section_q(p, axis, l, &turn), stretch = -turn / (2 * p->k * q); /* G'/G */
-    const double G = iso_section_momentum(p, eps, axis, l), root = sqrt((1 - x) * (1 + x));
+    iso_section_point(m, axis, l, x, point);
+    const double q = section_q(m.p, axis, l, &turn), G = iso_section_momentum(m, axis, l);
+    const double stretch = -turn / (2 * m.p->k * q) * (1 - 2 * (m.energy / G) / G);
+    const double root = sqrt((1 - x) * (1 + x));
     by_l[b] = stretch * point[b] + G * root * cos(l);
     by_l[c] = stretch * point[c] - G * root * sin(l);
     by_l[axis] = stretch * point[axis];
@@ -103,13 +121,13 @@ static void flow(const iso_params *p, double eps, const double point[ISO_STATE],
     cross(gamma, M, rate + 3);
 }
 
-void iso_section_slope(const iso_params *p, double eps, int axis, const double point[ISO_STATE],
-                       const double deviation[ISO_STATE], double slope[2])
+void iso_section_slope(iso_point_motion m, int axis, const double point[ISO_STATE], const double deviation[ISO_STATE],
+                       double slope[2])
 {
     int b, c;
     sides(axis, &b, &c);
     double rate[ISO_STATE], d[ISO_STATE];
-    flow(p, eps, point, rate);
+    flow(m.p, m.eps, point, rate);
     const double ahead = deviation[3 + axis] / rate[3 + axis];
     for (int i = 0; i < ISO_STATE; i++) d[i] = deviation[i] - ahead * rate[i];
     const double *M = point, *gamma = point + 3, size = norm(M), x = M[axis] / size;
@@ -118,17 +136,34 @@ void iso_section_slope(const iso_params *p, double eps, int axis, const double p
 }
 
 /* W^2 at q. J_a - (1-k) q is computed as (J_a - q) + k q, which loses no digits at q = J_a for small k. */
-static double frequency_square(const iso_params *p, double eps, int axis, double q)
+static double frequency_square(iso_point_motion m, int axis, double q)
 {
-    return 2 * eps * pow(q, -1 - 1 / p->k) * ((p->J[axis] - q) / p->k + q);
+    const double k = m.p->k;
+    return 2 * m.energy + 2 * m.eps * pow(q, -1 - 1 / k) * ((m.p->J[axis] - q) / k + q);
 }
 
-/* Both bounds come from the ends of [min J, max J]. Between them, W^2 can have an extreme only at q = J_a
- * (1+k)/(1-k). There J_a - (1-k) q = -k J_a, and so W^2 < 0. This bracket is linear in q, so W^2 <= 0 at one of the
- * ends as well. */
-void iso_section_bounds(const iso_params *p, double eps, int axis, double W[2])
+void iso_section_range(iso_point_motion m, double q[2])
 {
-    const double low = frequency_square(p, eps, axis, min3(p->J)), high = frequency_square(p, eps, axis, max3(p->J));
-    W[0] = sqrt(fmax(fmin(low, high), 0));
-    W[1] = sqrt(fmax(low, high));
+    q[0] = min3(m.p->J);
+    q[1] = max3(m.p->J);
+    if (!(m.energy / m.eps < 0)) return;
+    const double border = fmin(fmax(pow(-m.energy / m.eps, -m.p->k), q[0]), q[1]);
+    q[m.eps / m.p->k > 0] = border;
+}
+
+/* The bounds come from the ends of the range of q, and from the one extreme of W^2 that may lie between them: the
+ * derivative of q^(-1-1/k) [J_a - (1-k) q] is 0 at q = J_a (1+k)/(1-k), for every E. */
+void iso_section_bounds(iso_point_motion m, int axis, double W[2])
+{
+    double range[2];
+    iso_section_range(m, range);
+    const double low = frequency_square(m, axis, range[0]), high = frequency_square(m, axis, range[1]);
+    const double between = m.p->J[axis] * (1 + m.p->k) / (1 - m.p->k);
+    double least = fmin(low, high), most = fmax(low, high);
+    if (between > range[0] && between < range[1]) {
+        least = fmin(least, frequency_square(m, axis, between));
+        most = fmax(most, frequency_square(m, axis, between));
+    }
+    W[0] = sqrt(fmax(least, 0));
+    W[1] = sqrt(fmax(most, 0));
 }

@@ -62,7 +62,8 @@ static iso_status check(iso_context *ctx, const iso_crossings_options *o)
 static int axis_of(const iso_crossings *c, size_t i)
 {
     if (c->options.kind != ISO_SECTION_AXIS) return -1;
-    return c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(c->orbits[i].params) : c->options.axis;
+    return c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(c->orbits[i].params, 1))
+                                            : c->options.axis;
 }
 
 iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,

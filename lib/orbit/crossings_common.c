@@ -68,7 +68,7 @@ void iso_crossings_bounds(const iso_orbit *orbit, iso_crossed *o)
     double W[2];
     o->bound[0] = o->bound[1] = NAN;
     if (o->axis < 0 || !is_free || !iso_orbit_has_twin(orbit)) return;
-    iso_section_bounds(&orbit->units.own, orbit->eps, o->axis, W);
+    iso_section_bounds(iso_free_point(&orbit->units.own, orbit->eps), o->axis, W);
     o->bound[0] = 2 * ISO_PI / W[1];
     o->bound[1] = 2 * ISO_PI / W[0];
 }
@@ -96,7 +96,7 @@ static double fastest(const iso_params *p, double eps, int axis)
 double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock variable)
 {
     double W[2];
-    iso_section_bounds(p, eps, axis, W);
+    iso_section_bounds(iso_free_point(p, eps), axis, W);
     if (variable == ISO_CLOCK_S) return W[1] / ISO_PI;
     const double h = iso_energy(p, eps), turn = sqrt(2 * h * p->k * p->k / p->det_J) * (max3(p->J) - min3(p->J));
     return fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(p, eps, axis) / 1.77);
@@ -179,7 +179,7 @@ iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int ax
     double point[ISO_STATE];
     iso_start start = {.model = model, .eps = isnormal(eps) ? eps : (double)NAN};
     const bool ball = model == ISO_BALL;
-    iso_section_point(&units->own, iso_orbit_model(orbit)->problem.eps, axis, l, x, point);
+    iso_section_point(iso_free_point(&units->own, iso_orbit_model(orbit)->problem.eps), axis, l, x, point);
     if (ball)
         iso_point_to_ball(&units->own, point, start.y);
     else

@@ -140,7 +140,7 @@ static void find_slopes(const iso_orbit *orbit, int axis, const double y[], doub
     for (int i = 0; i < ISO_DEVIATIONS; i++) {
         double point[ISO_STATE], deviation[ISO_STATE], slope[2];
         to_point(orbit, y, d[i], point, deviation);
-        iso_section_slope(&orbit->units.own, orbit->eps, axis, point, deviation, slope);
+        iso_section_slope(iso_free_point(&orbit->units.own, orbit->eps), axis, point, deviation, slope);
         for (int j = 0; j < 2; j++) slopes[j][i] = slope[j] * exp(scale[i]);
     }
 }

@@ -66,12 +66,12 @@ static iso_status check_section(const iso_chaos_walk *w)
     const iso_params *own = &iso_orbit_units(w->orbit)->own;
     const int axis = w->out->axis;
     double W[2];
-    if (axis < 0 || iso_section_is_global(own, axis)) return ISO_OK;
-    iso_section_bounds(own, iso_orbit_model(w->orbit)->problem.eps, axis, W);
+    if (axis < 0 || iso_section_is_global(iso_free_point(own, 1), axis)) return ISO_OK;
+    iso_section_bounds(iso_free_point(own, iso_orbit_model(w->orbit)->problem.eps), axis, W);
     if (W[0] > 0) return ISO_OK;
     return iso_context_fail(w->ctx, ISO_BAD_INPUT, "axis",
                             "orbits can stay away from the section n_%d = 0 for ever: take n_%d = 0, which is global",
-                            axis + 1, iso_section_axis(own) + 1);
+                            axis + 1, iso_section_axis(iso_free_point(own, 1)) + 1);
 }
 
 /* --- what a turn is --------------------------------------------------------------------------------------------- */
@@ -90,8 +90,9 @@ static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_ef
         c->turn = 2 * ISO_PI / (fabs(w->scene->params.k) * (pulled ? fmax(speed, units->w) : speed));
         return;
     }
-    c->axis = w->options.axis == ISO_AXIS_AUTO ? iso_section_axis(&units->own) : w->options.axis;
-    if (w->options.starts > 0) iso_section_spread_prepare(&w->spread, &units->own, c->axis, w->options.seed);
+    c->axis = w->options.axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(&units->own, 1)) : w->options.axis;
+    if (w->options.starts > 0)
+        iso_section_spread_prepare(&w->spread, iso_free_point(&units->own, 1), c->axis, w->options.seed);
 }
 
 /* The axis about which a free orbit rotates in the plane n_axis = 0; -1: it does not. */

@@ -20,7 +20,7 @@ bool iso_follow_params(const iso_follow_family *f, double value, iso_params *p)
     if (iso_params_reduced(f->ctx, k, J, &own) != ISO_OK) return false;
     iso_units_choose(&own, 1, &units);
     *p = units.own;
-    return iso_section_axis(p) == f->axis;
+    return iso_section_axis(iso_free_point(p, 1)) == f->axis;
 }
 
 /* Half the orbit, from (u, value) to the line again. */

@@ -145,8 +145,9 @@ static void add_gradients(search *s, const integral_part *part)
     for (uint64_t i = 0; i < PROBES; i++) {
         double l, x, y[ISO_STATE], by[2][ISO_STATE], slope[2];
         iso_section_spread_point(&s->samples.spread, i, &l, &x);
-        iso_section_point(&s->samples.problem.p, s->samples.problem.eps, s->samples.axis, l, x, y);
-        iso_section_deviations(&s->samples.problem.p, s->samples.problem.eps, s->samples.axis, l, x, by[0], by[1]);
+        iso_section_point(iso_free_point(&s->samples.problem.p, s->samples.problem.eps), s->samples.axis, l, x, y);
+        iso_section_deviations(iso_free_point(&s->samples.problem.p, s->samples.problem.eps), s->samples.axis, l, x,
+                               by[0], by[1]);
         for (size_t f = 0; f < part->found; f++) {
             for (int c = 0; c < 2; c++)
                 slope[c] = iso_integral_slope(&part->function[f], y, by[c]) * (c == 1 ? sqrt(1 - x * x) : 1);

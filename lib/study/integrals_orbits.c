@@ -21,8 +21,8 @@ iso_status iso_integral_prepare(iso_context *ctx, const iso_params *p, uint64_t 
     *s = (integral_samples){.orbits = orbits, .rows = orbits * ISO_INTEGRAL_ROWS, .problem = {.eps = 0.5}};
     const iso_status status = iso_params_reduced(ctx, p->k, J, &s->problem.p);
     if (status != ISO_OK) return status;
-    s->axis = iso_section_axis(&s->problem.p);
-    iso_section_spread_prepare(&s->spread, &s->problem.p, s->axis, seed);
+    s->axis = iso_section_axis(iso_free_point(&s->problem.p, 1));
+    iso_section_spread_prepare(&s->spread, iso_free_point(&s->problem.p, 1), s->axis, seed);
     return ISO_OK;
 }
 
@@ -87,7 +87,7 @@ static iso_status follow(iso_context *ctx, const iso_integral_search_options *op
         double l, x;
         iso_section_spread_point(&s->spread, i, &l, &x);
         r->start[i] = (iso_start){.model = ISO_POINT, .eps = NAN};
-        iso_section_point(&s->problem.p, s->problem.eps, s->axis, l, x, r->start[i].y);
+        iso_section_point(iso_free_point(&s->problem.p, s->problem.eps), s->axis, l, x, r->start[i].y);
         r->orbit[i] = (iso_batch_orbit){&s->problem.p, &r->start[i], NULL};
     }
     const iso_status status = choose_times(ctx, options, s, times);

@@ -35,7 +35,7 @@ static const char *const names[FUNCTIONS] = {
 
 static void functions_of_l(const iso_params *p, int axis, double l, double value[OTHERS])
 {
-    value[LN_G] = log(iso_section_momentum(p, 0.5, axis, l)); /* up to a constant */
+    value[LN_G] = log(iso_section_momentum(iso_free_point(p, 0.5), axis, l)); /* up to a constant */
     value[COS_2L] = cos(2 * l);
     value[COS_4L] = cos(4 * l);
 }
@@ -93,15 +93,15 @@ static void draw_block(returner *r, int cloud, uint64_t first, size_t count)
     uint64_t seed;
     iso_section_spread spread;
     iso_measure_shift(r->options, cloud, 1, &seed);
-    iso_section_spread_prepare(&spread, &drawn, r->axis, seed);
+    iso_section_spread_prepare(&spread, iso_free_point(&drawn, 1), r->axis, seed);
     for (size_t i = 0; i < count; i++) {
         double l, x, point[ISO_STATE];
         iso_section_spread_point(&spread, first + i, &l, &x);
-        iso_section_point(p, eps, r->axis, l, x, point);
+        iso_section_point(iso_free_point(p, eps), r->axis, l, x, point);
         r->start[i] = (iso_start){.model = ISO_BALL, .eps = NAN};
         iso_point_to_ball(p, point, r->start[i].y);
         r->orbit[i] = (iso_batch_orbit){p, &r->start[i], r->scene->free ? NULL : &r->scene->effects};
-        r->sharp[i] = log(iso_section_momentum(p, 0.5, r->axis, l));
+        r->sharp[i] = log(iso_section_momentum(iso_free_point(p, 0.5), r->axis, l));
         double value[FUNCTIONS];
         functions(p, r->axis, l, x, 1, value);
         iso_measure_sums_start(&r->sums, r->sharp[i], value);
@@ -204,7 +204,7 @@ static iso_status check_section(returner *r)
     if (r->options->returns < ISO_MEASURE_RETURNS || r->options->returns > 1000000)
         return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "returns", "%d returns are not in [%d, 1e6]",
                                 r->options->returns, ISO_MEASURE_RETURNS);
-    r->axis = axis == ISO_AXIS_AUTO ? iso_section_axis(r->scene->params) : axis;
+    r->axis = axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(r->scene->params, 1)) : axis;
     for (int i = 0; i < ISO_MEASURE_ROWS; i++) r->returns[i] = r->options->returns >> (ISO_MEASURE_ROWS - 1 - i);
     if (r->scene->pulled)
         return iso_context_fail(r->ctx, ISO_NOT_MAPPED, "effects",

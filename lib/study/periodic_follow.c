@@ -351,7 +351,7 @@ static iso_status prepare(iso_context *ctx, const iso_scene *scene, const iso_fo
 {
     *f = (iso_follow_family){.ctx = ctx, .options = iso_follow_defaults(), .base = scene->params};
     const iso_status status = iso_options_take(ctx, "iso_follow_options", &f->options, sizeof f->options, options);
-    f->axis = iso_section_axis(&scene->params);
+    f->axis = iso_section_axis(iso_free_point(&scene->params, 1));
     f->width = f->options.to - f->options.from;
     *own = value_of(&scene->params, f->options.vary);
     return status == ISO_OK ? check(f, *own) : status;

@@ -17,7 +17,8 @@ void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, int threa
 {
     const iso_problem problem = {.p = *own, .eps = 1, .energy = 0};
     const bool with[ISO_CLOCKS] = {true, true, true};
-    *map = (iso_periodic_map){.ctx = ctx, .p = *own, .axis = iso_section_axis(own), .threads = threads, .finer = 1};
+    *map = (iso_periodic_map){
+        .ctx = ctx, .p = *own, .axis = iso_section_axis(iso_free_point(own, 1)), .threads = threads, .finer = 1};
     map->model = iso_model_assemble(&iso_system_point, &problem, ISO_CLOCK_T, with);
     map->zeros = iso_crossings_zeros(own, 1, map->axis, ISO_CLOCK_T);
 }
@@ -60,7 +61,7 @@ static bool make_walk(size_t orbits, size_t each, walk *w)
 static void set_start(const iso_periodic_map *map, walk *w, size_t i, const double z[2], bool over)
 {
     double y[ISO_STATE];
-    iso_section_point(&map->p, 1, map->axis, z[0], z[1], y);
+    iso_section_point(iso_free_point(&map->p, 1), map->axis, z[0], z[1], y);
     for (int j = 3; j < ISO_STATE && over; j++) y[j] = -y[j];
     w->start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
     memcpy(w->start[i].y, y, sizeof y);

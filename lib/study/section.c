@@ -36,16 +36,16 @@ iso_section_nature iso_section_of(const iso_orbit *orbit, int axis)
     const iso_units *units = iso_orbit_units(orbit);
     const iso_effects effects = iso_orbit_effects(orbit);
     const iso_effect *effect = iso_study_not_free(&effects);
-    const int good = iso_section_axis(&units->own);
+    const int good = iso_section_axis(iso_free_point(&units->own, 1));
     iso_section_nature n = {.axis = axis == ISO_AXIS_AUTO ? good : axis};
     double W[2];
     if (effect) {
         name_not_free(effect, &n);
         return n;
     }
-    iso_section_bounds(&units->own, iso_orbit_model(orbit)->problem.eps, n.axis, W);
+    iso_section_bounds(iso_free_point(&units->own, iso_orbit_model(orbit)->problem.eps), n.axis, W);
     const double turn = 2 * ISO_PI * iso_unit(units, iso_clock_dimension(ISO_CLOCK_S));
-    n.global = iso_section_is_global(&units->own, n.axis) || W[0] > 0;
+    n.global = iso_section_is_global(iso_free_point(&units->own, 1), n.axis) || W[0] > 0;
     if (n.global)
         snprintf(n.words, sizeof n.words,
                  "n_%d = 0 is global: every orbit crosses it for ever, except the rotation about axis %d; a return "
@@ -304,11 +304,11 @@ static iso_status set_up(iso_section_walk *w)
     if (status == ISO_OK) status = open_orbit(w);
     if (status == ISO_OK) status = check_losses(w);
     if (status != ISO_OK) return status;
-    if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(&w->scene->params);
+    if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(iso_free_point(&w->scene->params, 1));
     status = check_starts(w);
     if (status != ISO_OK) return status;
     choose_columns(w);
-    iso_section_spread_prepare(&w->spread, &w->scene->params, w->options.axis, w->options.seed);
+    iso_section_spread_prepare(&w->spread, iso_free_point(&w->scene->params, 1), w->options.axis, w->options.seed);
     status = iso_section_make_room(w);
     return status == ISO_OK ? iso_section_open_group(w) : status;
 }

@@ -111,7 +111,7 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], iso_
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "splitting: k = %.15g: give 0.05 <= |k| <= 50", k);
     m->problem.eps = 1;
-    m->axis = iso_section_axis(p);
+    m->axis = iso_section_axis(iso_free_point(p, 1));
     const int b = (m->axis + 1) % 3, c = (m->axis + 2) % 3;
     const bool at_zero = k > 0 ? p->J[c] > p->J[b] : p->J[c] < p->J[b]; /* c is the middle axis */
     m->corner = at_zero ? 0 : WIDE_PI / 2;

@@ -49,7 +49,7 @@ typedef struct counts {
  * square of the distance. */
 static void place(const iso_params *p, size_t count, double at[][2], iso_random *r)
 {
-    const int axis = iso_section_axis(p), b = (axis + 1) % 3, c = (axis + 2) % 3;
+    const int axis = iso_section_axis(iso_free_point(p, 1)), b = (axis + 1) % 3, c = (axis + 2) % 3;
     const double *J = p->J;
     const int middle = (J[b] - J[axis]) * (J[b] - J[c]) < 0 ? b : c;
     for (size_t i = 0; i < count; i++) {
@@ -76,7 +76,7 @@ static void find_truth(iso_context *ctx, const family *f, const iso_chaos *c, lo
     must(ctx, iso_params_reduced(ctx, f->k, f->J, &p), "parameters");
     for (size_t i = 0; i < n; i++) {
         start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
-        iso_section_point(&p, 1, c->axis, c->start[i].l, c->start[i].x, start[i].y);
+        iso_section_point(iso_free_point(&p, 1), c->axis, c->start[i].l, c->start[i].x, start[i].y);
         orbit[i] = (iso_batch_orbit){&p, &start[i], NULL};
         wanted[i] = !(chaotic[i] = false);
     }

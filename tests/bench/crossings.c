@@ -44,14 +44,14 @@ static void make_starts(double k, bool flat)
 {
     static const double J[3] = {1, 2, 5};
     if (iso_params_reduced(ctx, k, J, &params) != ISO_OK) stop();
-    const int axis = iso_section_axis(&params);
+    const int axis = iso_section_axis(iso_free_point(&params, 1));
     iso_section_spread spread;
-    iso_section_spread_prepare(&spread, &params, axis, 1);
+    iso_section_spread_prepare(&spread, iso_free_point(&params, 1), axis, 1);
     for (uint64_t i = 0; i < ORBITS; i++) {
         double l, x, point[ISO_STATE];
         iso_section_spread_point(&spread, i, &l, &x);
         if (flat && i % 2 == 0) x = copysign(1 - pow(10, -3 - (double)(i % 10)), x);
-        iso_section_point(&params, 1, axis, l, x, point);
+        iso_section_point(iso_free_point(&params, 1), axis, l, x, point);
         starts[i] = (iso_start){.model = ISO_POINT, .eps = 1};
         memcpy(starts[i].y, point, sizeof point);
         orbits[i] = (iso_batch_orbit){&params, &starts[i], NULL};
@@ -74,7 +74,7 @@ static double height(const iso_sample *sample, const void *axis)
 
 static double by_events(void)
 {
-    const int axis = iso_section_axis(&params);
+    const int axis = iso_section_axis(iso_free_point(&params, 1));
     const double begin = bench_milliseconds();
     for (int i = 0; i < SLOW_ORBITS; i++) {
         iso_orbit *orbit;
@@ -172,7 +172,7 @@ static double by_hand(double *turns)
 {
     enum { SIZE = 18, SAMPLES = 2000 };
     gsl_odeiv2_system system = {variational, NULL, SIZE, NULL};
-    const int axis = iso_section_axis(&params);
+    const int axis = iso_section_axis(iso_free_point(&params, 1));
     const double begin = bench_milliseconds();
     *turns = 0;
     for (int i = 0; i < SLOW_ORBITS; i++) {

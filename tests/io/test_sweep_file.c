@@ -114,7 +114,7 @@ static void check_section(iso_context *ctx)
         iso_scene s;
         double numbers[16], l, x, M[ISO_STATE];
         if (family->scene(ctx, family->data, i, &s, numbers) != ISO_OK) continue;
-        const int axis = iso_section_axis(&s.params);
+        const int axis = iso_section_axis(iso_free_point(&s.params, 1));
         iso_ball_to_point(&s.params, s.start.y, M);
         iso_section_chart(axis, M, &l, &x);
         const double h = iso_ball_energy(&s.params, s.start.y),

@@ -37,13 +37,13 @@ static void crossing_at(const laws_case *c, int axis, double l, double x, laws_w
     const iso_params *p = &c->problem.p;
     const double eps = c->problem.eps;
     double point[ISO_STATE], ball[ISO_STATE], rate[ISO_STATE], size, l1, x1;
-    iso_section_point(p, eps, axis, l, x, point);
+    iso_section_point(iso_free_point(p, eps), axis, l, x, point);
     const double G = norm(point);
     laws_note(worst, fabs(dot(point, point + 3)), 4 * DBL_EPSILON * G, p, "(M,gamma)");
     laws_note(worst, fabs(norm(point + 3) - 1), 4 * DBL_EPSILON, p, "|gamma|");
     const double H = iso_system_point.energy(&c->problem, point, &size);
     laws_note(worst, fabs(H), 4 * laws_rounding(p) * size, p, "H");
-    laws_note(worst, fabs(G / iso_section_momentum(p, eps, axis, l) - 1), 4 * DBL_EPSILON, p, "G");
+    laws_note(worst, fabs(G / iso_section_momentum(iso_free_point(p, eps), axis, l) - 1), 4 * DBL_EPSILON, p, "G");
     iso_system_point.rhs(&c->problem, point, rate);
     laws_note(worst, fabs(rate[3 + axis] / (G * sqrt((1 - x) * (1 + x))) - 1), 8 * DBL_EPSILON, p, "gamma_a'");
     iso_point_to_ball(p, point, ball);
@@ -68,7 +68,7 @@ typedef struct place_data {
 static void point_of(const void *data, const double chart[], double point[])
 {
     const place_data *d = data;
-    iso_section_point(d->p, d->eps, d->axis, chart[0], chart[1], point);
+    iso_section_point(iso_free_point(d->p, d->eps), d->axis, chart[0], chart[1], point);
 }
 
 /* The deviations against differences; their slopes are the unit vectors, whatever is added along the flow. The step
@@ -79,8 +79,8 @@ static void slopes_at(const laws_case *c, int axis, double l, double x, laws_wor
     const double eps = c->problem.eps;
     const place_data data = {p, eps, axis};
     double point[ISO_STATE], d[2][ISO_STATE], seen[ISO_STATE], rate[ISO_STATE], slope[2];
-    iso_section_point(p, eps, axis, l, x, point);
-    iso_section_deviations(p, eps, axis, l, x, d[0], d[1]);
+    iso_section_point(iso_free_point(p, eps), axis, l, x, point);
+    iso_section_deviations(iso_free_point(p, eps), axis, l, x, d[0], d[1]);
     iso_system_point.rhs(&c->problem, point, rate);
     const double G = norm(point), root = sqrt((1 - x) * (1 + x)), mixed = iso_random_uniform(c->random, -2, 2);
     for (int i = 0; i < 2; i++) {
@@ -92,7 +92,7 @@ static void slopes_at(const laws_case *c, int axis, double l, double x, laws_wor
         laws_note(worst, laws_distance(seen, d[i]), rounding * G * fmax(steep * h, 1), p, i ? "dM/dx" : "dM/dl");
         laws_note(worst, laws_distance(seen + 3, d[i] + 3), 8 * DBL_EPSILON / h, p, i ? "dgamma/dx" : "dgamma/dl");
         for (int j = 0; j < ISO_STATE; j++) d[i][j] += mixed / norm(rate + 3) * rate[j];
-        iso_section_slope(p, eps, axis, point, d[i], slope);
+        iso_section_slope(iso_free_point(p, eps), axis, point, d[i], slope);
         const double slack = 64 * laws_rounding(p) * (1 + fabs(mixed) * norm(rate) / (G * norm(rate + 3))) / root;
         laws_note(worst, fabs(slope[0] - (i == 0)), slack, p, i ? "dl/dx" : "dl/dl");
         laws_note(worst, fabs(slope[1] - (i == 1)), slack, p, i ? "dx/dx" : "dx/dl");
@@ -111,7 +111,7 @@ static void bounds(const laws_case *c, laws_worst *worst)
     const iso_params *p = &c->problem.p;
     for (int axis = 0; axis < 3; axis++) {
         double W[2], least = INFINITY, most = 0;
-        iso_section_bounds(p, c->problem.eps, axis, W);
+        iso_section_bounds(iso_free_point(p, c->problem.eps), axis, W);
         const double low = min3(p->J), ratio = max3(p->J) / low;
         for (int i = 0; i <= SCAN; i++) {
             const double q = low * pow(ratio, (double)i / SCAN);
@@ -125,9 +125,10 @@ static void bounds(const laws_case *c, laws_worst *worst)
                   "inside");
         laws_note(worst, fabs(W[0] * W[0] - fmax(least, 0)), missed * fmax(most, 0), p, "W_min");
         laws_note(worst, fabs(W[1] * W[1] - most), missed * most, p, "W_max");
-        if (iso_section_is_global(p, axis)) laws_note(worst, W[0] > 0 ? 0 : 1, 0.5, p, "global");
+        if (iso_section_is_global(iso_free_point(p, 1), axis)) laws_note(worst, W[0] > 0 ? 0 : 1, 0.5, p, "global");
     }
-    laws_note(worst, iso_section_is_global(p, iso_section_axis(p)) ? 0 : 1, 0.5, p, "axis");
+    laws_note(worst, iso_section_is_global(iso_free_point(p, 1), iso_section_axis(iso_free_point(p, 1))) ? 0 : 1, 0.5,
+              p, "axis");
 }
 
 /* W_min and W_max where W^2 < 0 at a stationary point inside: k = 0.5, J = (1, 2, 5), axis 1: q = 3 */
@@ -136,14 +137,14 @@ static void stationary(void)
     const double J[3] = {1, 2, 5};
     const iso_params p = laws_params(0.5, J);
     double W[2];
-    iso_section_bounds(&p, 1, 0, W);
+    iso_section_bounds(iso_free_point(&p, 1), 0, W);
     gsl_test(W[0] != 0, "W_min of an axis that is not global: %g", W[0]);
     gsl_test_rel(W[1], sqrt(2.0), 4 * DBL_EPSILON, "W_max at q = 1");
-    gsl_test_int(iso_section_axis(&p), 2, "global axis for k > 0");
+    gsl_test_int(iso_section_axis(iso_free_point(&p, 1)), 2, "global axis for k > 0");
     const iso_params shell = laws_params(-0.4, J);
-    gsl_test_int(iso_section_axis(&shell), 0, "global axis for k < 0");
+    gsl_test_int(iso_section_axis(iso_free_point(&shell, 1)), 0, "global axis for k < 0");
     /* axis 3, W^2 = 5 eps q^1.5 (1.4 q - 5): q* = 15/7 is a minimum below 0, and the largest value is at q = 5 */
-    iso_section_bounds(&shell, 1, 2, W);
+    iso_section_bounds(iso_free_point(&shell, 1), 2, W);
     gsl_test_rel(W[1], sqrt(5 * pow(5, 1.5) * 2), 8 * DBL_EPSILON, "W_max at q = 5");
 }
 
@@ -171,7 +172,7 @@ static void areas(void)
             if (v == 0) continue;
             const iso_params p = laws_params(1 / (2.0 * v), list[i]);
             const double closed = 4 * M_PI * sqrt(2 * eps) * pow(Jb * Jc, -v / 2.0) * legendre(v > 0 ? v - 1 : -v, z);
-            gsl_test_rel(iso_section_area(&p, eps, 2), closed, (8 + 4 * abs(v)) * DBL_EPSILON,
+            gsl_test_rel(iso_section_area(iso_free_point(&p, eps), 2), closed, (8 + 4 * abs(v)) * DBL_EPSILON,
                          "area, 1/(2k) = %d, J = %g %g", v, Jb, Jc);
         }
         const double high = fmax(Jb, Jc), modulus = sqrt((high - fmin(Jb, Jc)) / high);
@@ -179,8 +180,10 @@ static void areas(void)
                      K = gsl_sf_ellint_Kcomp(modulus, GSL_PREC_DOUBLE);
         const iso_params plane = laws_params(1, list[i]), shell = laws_params(-1, list[i]);
         /* K of a modulus near 1 is known to 1e-16/(1 - modulus) of ln */
-        gsl_test_rel(iso_section_area(&plane, eps, 2), 8 * K * sqrt(2 * eps / high), 1e-11, "area, k = 1");
-        gsl_test_rel(iso_section_area(&shell, eps, 2), 8 * E * sqrt(2 * eps * high), 1e-14, "area, k = -1");
+        gsl_test_rel(iso_section_area(iso_free_point(&plane, eps), 2), 8 * K * sqrt(2 * eps / high), 1e-11,
+                     "area, k = 1");
+        gsl_test_rel(iso_section_area(iso_free_point(&shell, eps), 2), 8 * E * sqrt(2 * eps * high), 1e-14,
+                     "area, k = -1");
     }
 }
 
@@ -195,8 +198,8 @@ static double part_below(const iso_params *p, int axis, double l)
         sum += (i == 0 || i == STEPS ? 1
                 : i % 2              ? 4
                                      : 2) *
-               iso_section_momentum(p, 1, axis, -M_PI + (l + M_PI) * i / STEPS);
-    return 2 * sum * (l + M_PI) / STEPS / 3 / iso_section_area(p, 1, axis);
+               iso_section_momentum(iso_free_point(p, 1), axis, -M_PI + (l + M_PI) * i / STEPS);
+    return 2 * sum * (l + M_PI) / STEPS / 3 / iso_section_area(iso_free_point(p, 1), axis);
 }
 
 /* Part of a turn between point i and the next one, in the integral of G, is 1/r for every i: the integral is inverted
@@ -207,7 +210,7 @@ static void inversion(void)
     for (size_t i = 0; i < sizeof k / sizeof *k; i++) {
         const iso_params p = laws_params(k[i], J);
         iso_section_spread s;
-        iso_section_spread_prepare(&s, &p, 0, 3);
+        iso_section_spread_prepare(&s, iso_free_point(&p, 1), 0, 3);
         double worst = 0, before = NAN, x_before = NAN;
         for (uint64_t j = 0; j < 200; j++) {
             double l, x;
@@ -247,9 +250,9 @@ static void spread(void)
     for (size_t i = 0; i < 4; i++) {
         const double k[4] = {0.5, -0.4, 0.2, 4};
         const iso_params p = laws_params(k[i], J);
-        const int axis = iso_section_axis(&p);
+        const int axis = iso_section_axis(iso_free_point(&p, 1));
         iso_section_spread s;
-        iso_section_spread_prepare(&s, &p, axis, i);
+        iso_section_spread_prepare(&s, iso_free_point(&p, 1), axis, i);
         for (uint64_t j = 0; j < POINTS; j++) iso_section_spread_point(&s, j, &points[j][0], &points[j][1]);
         const double found = discrepancy(&p, axis, points);
         gsl_test(!(found < 2 * log(POINTS) / POINTS), "discrepancy of %d points, k = %g: %.2g", POINTS, k[i], found);
@@ -262,9 +265,9 @@ static void seeds(void)
     const double J[3] = {1, 2, 5};
     const iso_params p = laws_params(0.5, J);
     iso_section_spread a, b, c;
-    iso_section_spread_prepare(&a, &p, 2, 7);
-    iso_section_spread_prepare(&b, &p, 2, 7);
-    iso_section_spread_prepare(&c, &p, 2, 8);
+    iso_section_spread_prepare(&a, iso_free_point(&p, 1), 2, 7);
+    iso_section_spread_prepare(&b, iso_free_point(&p, 1), 2, 7);
+    iso_section_spread_prepare(&c, iso_free_point(&p, 1), 2, 8);
     double z[3][2];
     iso_section_spread_point(&a, 3, &z[1][0], &z[1][1]);
     iso_section_spread_point(&a, 5, &z[0][0], &z[0][1]);
@@ -286,20 +289,20 @@ static void extremes(void)
         for (int axis = 0; axis < 3; axis++) {
             const iso_params p = laws_params(k[i], J);
             iso_section_spread s;
-            iso_section_spread_prepare(&s, &p, axis, 1);
+            iso_section_spread_prepare(&s, iso_free_point(&p, 1), axis, 1);
             bool good = true;
             int positive = 0;
             for (uint64_t j = 0; j < POINTS; j++) {
                 double l, x, l1, x1, point[ISO_STATE];
                 iso_section_spread_point(&s, j, &l, &x);
-                iso_section_point(&p, 1, axis, l, x, point);
+                iso_section_point(iso_free_point(&p, 1), axis, l, x, point);
                 iso_section_chart(axis, point, &l1, &x1);
                 positive += l > 0;
                 good = good && l > -M_PI && l <= M_PI && fabs(x) < 1 && fabs(l1 - l) < 1e-15 && fabs(x1 - x) < 1e-15;
             }
             double W[2];
-            iso_section_bounds(&p, 1, axis, W);
-            const double area = iso_section_area(&p, 1, axis);
+            iso_section_bounds(iso_free_point(&p, 1), axis, W);
+            const double area = iso_section_area(iso_free_point(&p, 1), axis);
             good = good && abs(positive - POINTS / 2) < 8 && area > 0 && isfinite(area) && isfinite(W[1]);
             gsl_test(!good, "k = %g, J of ratio 1e6, axis %d", k[i], axis + 1);
         }
@@ -359,7 +362,7 @@ static void reference_row(iso_context *ctx, const char *line)
     iso_section_chart(axis, sample.point, &l, &x);
     const double error = fmax(fabs(l - v[14]), fabs(x - v[15])), away = fabs(sample.ball[3 + axis]);
     gsl_test(!(fmax(error, away) < 1e-11 * v[11]), "crossing %.5s: off by %.2g, n_a = %.2g", line, error, away);
-    gsl_test(!iso_section_is_global(&p, axis), "axis of %.5s", line);
+    gsl_test(!iso_section_is_global(iso_free_point(&p, 1), axis), "axis of %.5s", line);
 }
 
 static void reference(void)

@@ -33,7 +33,7 @@ static void prepare(double k, const double J[3])
 {
     problem = (iso_problem){.p = laws_params(k, J), .eps = 1};
     const bool none[ISO_CLOCKS] = {false};
-    axis = iso_section_axis(&problem.p);
+    axis = iso_section_axis(iso_free_point(&problem.p, 1));
     model = iso_model_assemble(&iso_system_point, &problem, ISO_CLOCK_T, none);
     zeros = iso_crossings_zeros(&problem.p, 1, axis, k == -1 ? ISO_CLOCK_S : ISO_CLOCK_T);
 }
@@ -76,7 +76,7 @@ static double distance(const iso_return *a, const iso_return *b)
 static void image(double l, double x, iso_crossing *c)
 {
     iso_start start = {.model = ISO_POINT, .eps = 1};
-    iso_section_point(&problem.p, 1, axis, l, x, start.y);
+    iso_section_point(iso_free_point(&problem.p, 1), axis, l, x, start.y);
     const iso_batch_orbit orbit = {&problem.p, &start, NULL};
     iso_crossings_options o = iso_crossings_defaults();
     iso_crossings *crossings;
@@ -134,8 +134,8 @@ static void check_laws(const iso_return_code *code, double l, double x, worst *w
     const iso_return f = go_from(code, false, l, x);
     const double unit = code->error * size_of(&f);
     const double det = f.slope[0][0].head * f.slope[1][1].head - f.slope[0][1].head * f.slope[1][0].head,
-                 G = iso_section_momentum(&problem.p, 1, axis, l),
-                 G_there = iso_section_momentum(&problem.p, 1, axis, f.to[0].head);
+                 G = iso_section_momentum(iso_free_point(&problem.p, 1), axis, l),
+                 G_there = iso_section_momentum(iso_free_point(&problem.p, 1), axis, f.to[0].head);
     w->determinant = fmax(w->determinant, fabs(det - G / G_there) / (size_of(&f) * size_of(&f)) / 1e-15);
     const iso_return back = go(code, false, (const iso_fine[2]){f.to[0], {-f.to[1].head, -f.to[1].tail}});
     w->reversor = fmax(w->reversor, fabs(apart(back.to[0], (iso_fine){l, 0})) / (unit * size_of(&back)));

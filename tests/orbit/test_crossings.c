@@ -83,7 +83,7 @@ static void note_row(const section_row *r, iso_backend backend, laws_worst *char
     size_t done;
     iso_status status;
     iso_crossings *c = follow(&orbit, 1, &o);
-    gsl_test_int(iso_section_axis(&r->p), r->axis, "%s: its global axis", r->name);
+    gsl_test_int(iso_section_axis(iso_free_point(&r->p, 1)), r->axis, "%s: its global axis", r->name);
     gsl_test_int((int)iso_crossings_go(c, NULL, (size_t)r->crossing, at, NULL, &done, &status), ISO_OK, "%s: %s",
                  r->name, iso_context_message(ctx));
     const iso_crossing *last = &at[r->crossing - 1];
@@ -180,15 +180,15 @@ static void check_reversor(void)
         const iso_params p = laws_params(ks[n % 7], Js[n % 3]);
         iso_section_spread spread;
         double l, x;
-        const int axis = iso_section_axis(&p);
-        iso_section_spread_prepare(&spread, &p, axis, 3);
+        const int axis = iso_section_axis(iso_free_point(&p, 1));
+        iso_section_spread_prepare(&spread, iso_free_point(&p, 1), axis, 3);
         iso_section_spread_point(&spread, (uint64_t)n, &l, &x);
         iso_crossing there, home;
         size_t done;
         iso_status status;
         iso_start start = {.model = ISO_POINT, .eps = 1};
         iso_batch_orbit orbit = {&p, &start, NULL};
-        iso_section_point(&p, 1, axis, l, x, start.y);
+        iso_section_point(iso_free_point(&p, 1), axis, l, x, start.y);
         for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
             iso_crossings_options o = iso_crossings_defaults();
             o.backend = backend;
@@ -198,7 +198,7 @@ static void check_reversor(void)
             iso_crossings_free(c);
             iso_start mirrored = {.model = ISO_POINT, .eps = 1};
             const iso_batch_orbit return_orbit = {&p, &mirrored, NULL};
-            iso_section_point(&p, 1, axis, there.l, -there.x, mirrored.y);
+            iso_section_point(iso_free_point(&p, 1), axis, there.l, -there.x, mirrored.y);
             c = follow(&return_orbit, 1, &o);
             gsl_test(iso_crossings_go(c, NULL, 1, &home, NULL, &done, &status) != ISO_OK, "home: %s",
                      iso_context_message(ctx));
@@ -225,7 +225,7 @@ static void check_start_on_section(void)
             size_t done;
             iso_status status;
             o.backend = backend;
-            iso_section_point(&p, 1, 2, 0.7, 0.2, start.y);
+            iso_section_point(iso_free_point(&p, 1), 2, 0.7, 0.2, start.y);
             start.y[5] = (side - 1) * 3e-10;
             start.eps = NAN;
             iso_crossings *c = follow(&orbit, 1, &o);
@@ -242,7 +242,7 @@ static void check_falling_start(void)
 {
     for (int i = 0; i < 4; i++) {
         const iso_params p = laws_params(i / 2 ? -0.8 : 1, (const double[]){2.05, 2.1, 2});
-        const int axis = iso_section_axis(&p);
+        const int axis = iso_section_axis(iso_free_point(&p, 1));
         iso_start start = {.model = ISO_POINT, .eps = NAN};
         const iso_batch_orbit orbit = {&p, &start, NULL};
         iso_crossings_options o = iso_crossings_defaults();
@@ -251,9 +251,9 @@ static void check_falling_start(void)
         iso_status status;
         double W[2];
         o.backend = i % 2 ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
-        iso_section_point(&p, 1, axis, 0.7, 0.2, start.y);
+        iso_section_point(iso_free_point(&p, 1), axis, 0.7, 0.2, start.y);
         scale(start.y, -1);
-        iso_section_bounds(&p, 1, axis, W);
+        iso_section_bounds(iso_free_point(&p, 1), axis, W);
         iso_crossings *c = follow(&orbit, 1, &o);
         gsl_test_int((int)iso_crossings_go(c, NULL, 2, at, NULL, &done, &status), ISO_OK, "a falling start %d: %s", i,
                      iso_context_message(ctx));

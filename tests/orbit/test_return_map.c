@@ -27,7 +27,7 @@ static size_t done[MOST_ORBITS];
 static void start_at(int i, double l, double x)
 {
     starts[i] = (iso_start){.model = ISO_POINT, .eps = 1};
-    iso_section_point(&params, 1, iso_section_axis(&params), l, x, starts[i].y);
+    iso_section_point(iso_free_point(&params, 1), iso_section_axis(iso_free_point(&params, 1)), l, x, starts[i].y);
     orbits[i] = (iso_batch_orbit){&params, &starts[i], NULL};
 }
 
@@ -35,7 +35,7 @@ static void start_spread(double k, const double J[3], int count)
 {
     iso_section_spread spread;
     params = laws_params(k, J);
-    iso_section_spread_prepare(&spread, &params, iso_section_axis(&params), 5);
+    iso_section_spread_prepare(&spread, iso_free_point(&params, 1), iso_section_axis(iso_free_point(&params, 1)), 5);
     for (int i = 0; i < count; i++) {
         double l, x;
         iso_section_spread_point(&spread, (uint64_t)i, &l, &x);
@@ -77,7 +77,7 @@ static void image(const void *options, const double from[], double to[])
 
 static void check_slope(const iso_crossings_options *o, double l, double x, laws_worst *slopes, laws_worst *areas)
 {
-    const int axis = iso_section_axis(&params);
+    const int axis = iso_section_axis(iso_free_point(&params, 1));
     iso_crossing c;
     start_at(0, l, x);
     go(o, orbits, 1, 1, &c);
@@ -91,7 +91,8 @@ static void check_slope(const iso_crossings_options *o, double l, double x, laws
     }
     const double det = c.slope[0][0] * c.slope[1][1] - c.slope[0][1] * c.slope[1][0];
     const double size = fabs(c.slope[0][0] * c.slope[1][1]) + fabs(c.slope[0][1] * c.slope[1][0]);
-    const double expected = iso_section_momentum(&params, 1, axis, l) / iso_section_momentum(&params, 1, axis, c.l);
+    const double expected = iso_section_momentum(iso_free_point(&params, 1), axis, l) /
+                            iso_section_momentum(iso_free_point(&params, 1), axis, c.l);
     laws_note(areas, fabs(det - expected) / size, 1e-11, &params, "area");
 }
 
@@ -103,7 +104,8 @@ static void check_slopes(void)
         iso_section_spread spread;
         double l, x;
         params = laws_params(ks[n % KS], Js[n % 3]);
-        iso_section_spread_prepare(&spread, &params, iso_section_axis(&params), 7);
+        iso_section_spread_prepare(&spread, iso_free_point(&params, 1), iso_section_axis(iso_free_point(&params, 1)),
+                                   7);
         iso_section_spread_point(&spread, (uint64_t)n, &l, &x);
         for (int v = 0; v < 5; v++)
             for (iso_backend backend = ISO_BACKEND_BALL; backend <= ISO_BACKEND_POINT; backend++) {
@@ -140,7 +142,7 @@ static void check_fixed_points(void)
             go(&o, orbits, 1, 1, &c);
             const double T = rows[r].T[i / 2], trace = c.slope[0][0] + c.slope[1][1];
             gsl_test_abs(trace, T * T - 2, 1e-7 * (T * T + 1), "k = %g, J3 = %g: trace of axis %d", rows[r].k,
-                         rows[r].J[2], (iso_section_axis(&params) + 1 + i / 2) % 3 + 1);
+                         rows[r].J[2], (iso_section_axis(iso_free_point(&params, 1)) + 1 + i / 2) % 3 + 1);
         }
 }
 
@@ -166,7 +168,7 @@ static void check_integrals(void)
     laws_worst worst = {0};
     for (int n = 0; crossing && n < 4; n++) {
         start_spread(n % 2 == 0 ? -1 : 1, Js[0], count);
-        const int axis = iso_section_axis(&params);
+        const int axis = iso_section_axis(iso_free_point(&params, 1));
         const iso_crossings_options o = options_of(n / 2 == 0 ? ISO_BACKEND_BALL : ISO_BACKEND_POINT, NULL, false);
         go(&o, orbits, count, (size_t)each, crossing);
         for (int i = 0; i < count; i++) {
@@ -174,7 +176,7 @@ static void check_integrals(void)
             for (int j = 0; j < each; j++) {
                 double point[ISO_STATE];
                 const iso_crossing *c = &crossing[i * each + j];
-                iso_section_point(&params, 1, axis, c->l, c->x, point);
+                iso_section_point(iso_free_point(&params, 1), axis, c->l, c->x, point);
                 laws_note(&worst, fabs(second_integral(point) - F) / fabs(F), 1e-12, &params, "F");
             }
         }

@@ -128,7 +128,7 @@ static void expectations_of_returns(double k)
     if (!run(iso_measure_returns, &scene, &o, &m)) return;
     double sum[3] = {0};
     for (int i = 0; i < 1000; i++) {
-        const double l = 2 * M_PI * i / 1000, G = iso_section_momentum(&scene.params, 0.5, m.axis, l);
+        const double l = 2 * M_PI * i / 1000, G = iso_section_momentum(iso_free_point(&scene.params, 0.5), m.axis, l);
         sum[0] += G;
         sum[1] += G * log(G);
         sum[2] += G * cos(2 * l);
