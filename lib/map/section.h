@@ -89,8 +89,8 @@ ISO_API double iso_section_momentum(iso_point_motion m, int axis, double l);
  * is about 1e-15 on H = 0 and for |k| >= 1/2, and below 1e-8 for |k| >= 0.05. */
 ISO_API double iso_section_area(iso_point_motion m, int axis);
 
-/* The closest bounds W[0] <= W <= W[1] for all gamma where the point can be. If W^2 is 0 or less anywhere, W[0] is 0; W[1] is
- * above 0. By Sturm's comparison two successive crossings are at least 2 pi/W[1] and at most 2 pi/W[0] apart
+/* The closest bounds W[0] <= W <= W[1] for all gamma where the point can be. If W^2 is 0 or less anywhere, W[0] is
+ * 0. By Sturm's comparison two successive crossings are at least 2 pi/W[1] and at most 2 pi/W[0] apart
  * in s (infinity for W[0] = 0). The bounds are rounded, and an orbit can reach them: allow a rounding error. */
 ISO_API void iso_section_bounds(iso_point_motion m, int axis, double W[2]);
 

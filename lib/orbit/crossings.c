@@ -9,7 +9,6 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
-#include "map/section.h"
 #include "method/integrator_impl.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings_impl.h"
@@ -58,14 +57,6 @@ static iso_status check(iso_context *ctx, const iso_crossings_options *o)
     return check_section(ctx, o);
 }
 
-/* The axis of the section of orbit i; -1: the section is none of ISO_SECTION_AXIS. */
-static int axis_of(const iso_crossings *c, size_t i)
-{
-    if (c->options.kind != ISO_SECTION_AXIS) return -1;
-    return c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(c->orbits[i].params, 1))
-                                            : c->options.axis;
-}
-
 iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[], size_t count,
                                 const iso_crossings_options *options, iso_crossings **crossings)
 {
@@ -83,7 +74,6 @@ iso_status iso_crossings_create(iso_context *ctx, const iso_batch_orbit orbits[]
         return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the crossings of %zu orbits", count);
     }
     *c = (iso_crossings){.ctx = ctx, .orbits = orbits, .count = count, .options = own, .orbit = each};
-    for (size_t i = 0; i < count; i++) each[i].axis = axis_of(c, i);
     *crossings = c;
     return ISO_OK;
 }

@@ -45,7 +45,7 @@ static iso_status begin(iso_crossings *c, size_t i)
     if (status != ISO_OK) return status;
     if (o->alone->rests && c->options.kind != ISO_SECTION_CLOCK)
         return iso_context_fail(o->ctx, ISO_NUMERICAL, "", "the ball rests: it crosses no section");
-    iso_crossings_bounds(o->alone, o);
+    iso_crossings_find_section(c, o->alone, o);
     if (o->axis < 0) return ISO_OK;
     const double *y = state_of(o->alone, &start);
     o->begins_on_it =

@@ -51,37 +51,55 @@ iso_model_kind iso_crossings_model(const iso_orbit *orbit)
 
 /* --- bounds ----------------------------------------------------------------------------------------------------- */
 
-/* Without a potential, an orbit in the plane n_a = 0 stays in it. */
+/* An orbit in the plane n_a = 0 stays in it, unless a potential beyond the level moves it. */
 iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis)
 {
-    if (!iso_section_is_rotation(y, axis) || iso_effects_pull(&orbit->effects)) return ISO_OK;
+    const bool moved = iso_effects_pull(&orbit->effects) && !iso_effects_are_free(&orbit->effects);
+    if (!iso_section_is_rotation(y, axis) || moved) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, "axis",
                             "this orbit is the rotation about axis %d, in the plane n_%d = 0 itself: it is the "
                             "boundary of the section, and never crosses it",
                             axis + 1, axis + 1);
 }
 
-/* Only free orbits obey gamma_a'' = -W^2 gamma_a. */
-void iso_crossings_bounds(const iso_orbit *orbit, iso_crossed *o)
+/* Only where nothing acts but a level, orbits obey gamma_a'' = -W^2 gamma_a. */
+void iso_crossings_find_section(const iso_crossings *c, const iso_orbit *orbit, iso_crossed *o)
 {
-    const bool is_free = !iso_effects_have_level(&orbit->effects) && !iso_effects_beyond_level(&orbit->effects);
+    const iso_point_motion motion = iso_orbit_motion(orbit);
     double W[2];
     o->bound[0] = o->bound[1] = NAN;
-    if (o->axis < 0 || !is_free || !iso_orbit_has_twin(orbit)) return;
-    iso_section_bounds(iso_free_point(&orbit->units.own, orbit->eps), o->axis, W);
+    o->axis = -1;
+    if (c->options.kind != ISO_SECTION_AXIS) return;
+    o->axis = c->options.axis == ISO_AXIS_AUTO ? iso_section_axis(motion) : c->options.axis;
+    if (!iso_effects_are_free(&orbit->effects) || !iso_orbit_has_twin(orbit)) return;
+    iso_section_bounds(motion, o->axis, W);
     o->bound[0] = 2 * ISO_PI / W[1];
     o->bound[1] = 2 * ISO_PI / W[0];
 }
 
-/* The largest Omega^2 = (2 eps k^3/det J^2) q (J_a - (1-k) q) for q between min J and max J. */
-static double fastest(const iso_params *p, double eps, int axis)
+/* The largest Omega^2 = (k^4/det J^2) [ 2 E q^(2+1/k) + (2 eps/k) q (J_a - (1-k) q) ] for q between min J and max J,
+ * as the largest of the first term plus the largest of the second. */
+static double fastest(iso_point_motion m, int axis)
 {
+    const iso_params *p = m.p;
     const double k = p->k, least = min3(p->J), most = max3(p->J), top = p->J[axis] / (2 * (1 - k));
     const double q[3] = {least, most, top > least && top < most ? top : most};
-    double square = 0;
-    for (int i = 0; i < 3; i++)
-        square = fmax(square, 2 * eps / p->det_J * (k * k * k / p->det_J) * q[i] * (p->J[axis] - (1 - k) * q[i]));
-    return sqrt(square);
+    double square = 0, of_level = 0;
+    for (int i = 0; i < 3; i++) {
+        square = fmax(square, 2 * m.eps / p->det_J * (k * k * k / p->det_J) * q[i] * (p->J[axis] - (1 - k) * q[i]));
+        if (m.energy > 0) of_level = fmax(of_level, 2 * m.energy * pow(q[i], 2 + 1 / k) * pow(k * k / p->det_J, 2));
+    }
+    return sqrt(square + of_level);
+}
+
+/* The largest h + E k^2/det J q^(1/k), which is (det J/(2 k^2)) |gamma_t|^2/q^2 */
+static double most_kinetic(iso_point_motion m)
+{
+    const iso_params *p = m.p;
+    double most = 0;
+    if (m.energy == 0) return iso_energy(p, m.eps);
+    for (int i = 0; i < 3; i++) most = fmax(most, iso_energy(p, m.eps + m.energy * pow(p->J[i], 1 / p->k)));
+    return most;
 }
 
 /* The number of parts in a unit of the variable of the series, so that gamma_a has at most one zero in each. A zero
@@ -91,15 +109,17 @@ static double fastest(const iso_params *p, double eps, int axis)
  *
  *     4 < int r dt int (Omega^2/r) dt <= Omega_max^2 x^2 (rho + 1)^2/(4 rho),    rho = r_max/r_min in the part
  *
- * q changes at a rate of |q_t/q| <= B = (J_max - J_min) (2 h k^2/det J)^(1/2). So rho <= e if x B |1 + 1/(2k)| <= 1.
- * Then two zeros are more than 1.77/Omega_max apart. */
-double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock variable)
+ * q changes at a rate of |q_t/q| <= B = (J_max - J_min) (2 h k^2/det J)^(1/2), on a level E with the largest
+ * h + E k^2/det J q^(1/k) in the place of h. So rho <= e if x B |1 + 1/(2k)| <= 1. Then two zeros are more than
+ * 1.77/Omega_max apart. */
+double iso_crossings_zeros(iso_point_motion m, int axis, iso_clock variable)
 {
+    const iso_params *p = m.p;
     double W[2];
-    iso_section_bounds(iso_free_point(p, eps), axis, W);
+    iso_section_bounds(m, axis, W);
     if (variable == ISO_CLOCK_S) return W[1] / ISO_PI;
-    const double h = iso_energy(p, eps), turn = sqrt(2 * h * p->k * p->k / p->det_J) * (max3(p->J) - min3(p->J));
-    return fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(p, eps, axis) / 1.77);
+    const double h = most_kinetic(m), turn = sqrt(2 * h * p->k * p->k / p->det_J) * (max3(p->J) - min3(p->J));
+    return fmax(turn * fabs(1 + 1 / (2 * p->k)), fastest(m, axis) / 1.77);
 }
 
 bool iso_crossings_apart(const double bound[2], bool least, double apart, double s, double tolerance)
@@ -179,7 +199,7 @@ iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int ax
     double point[ISO_STATE];
     iso_start start = {.model = model, .eps = isnormal(eps) ? eps : (double)NAN};
     const bool ball = model == ISO_BALL;
-    iso_section_point(iso_free_point(&units->own, iso_orbit_model(orbit)->problem.eps), axis, l, x, point);
+    iso_section_point(iso_orbit_motion(orbit), axis, l, x, point);
     if (ball)
         iso_point_to_ball(&units->own, point, start.y);
     else

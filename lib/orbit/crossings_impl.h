@@ -23,7 +23,7 @@ typedef struct iso_crossed {
     bool begins_on_it; /* the start lies on the section: it is no crossing                                        */
     bool upwards;      /* ... and n_a increases there: a whole return to the first crossing                  */
     double bound[2];   /* least and largest s between two crossings; NaN: no bounds are known                     */
-    int axis;          /* of ISO_SECTION_AXIS                                                                     */
+    int axis; /* of ISO_SECTION_AXIS; -1: another kind                                                                     */
     iso_status status; /* the failure that ended the orbit, or ISO_OK                                              */
     char *why;         /* the message of this failure                                                             */
     char about[32];
@@ -60,8 +60,8 @@ void iso_crossings_keep(iso_crossings *c, const iso_context *ctx, size_t i, iso_
 iso_status iso_crossings_go_alone(iso_crossings *c, size_t i, size_t each, iso_crossing crossing[],
                                   iso_sample sample[], size_t *done);
 
-/* n_axis has at most one zero within 1/(this number) of `variable`: the clock t or s of an orbit with coupling eps. */
-double iso_crossings_zeros(const iso_params *p, double eps, int axis, iso_clock variable);
+/* n_axis has at most one zero within 1/(this number) of `variable`: the clock t or s. Own units. */
+double iso_crossings_zeros(iso_point_motion m, int axis, iso_clock variable);
 
 /* Whether a state (omega, n) or (M, gamma) of the ball or the point lies on the section: n_a = 0 up to 1e-8 of a
  * radian of its oscillation. Such a start is no crossing, and an event there is not counted. Without this margin ball
@@ -84,11 +84,11 @@ iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, 
 /* The model that an orbit integrates. */
 iso_model_kind iso_crossings_model(const iso_orbit *orbit);
 
-/* Refuses a free orbit that lies in the plane n_axis = 0 itself. */
+/* Refuses an orbit that lies, and stays, in the plane n_axis = 0 itself. */
 iso_status iso_crossings_check_plane(iso_context *ctx, const iso_orbit *orbit, const double y[], int axis);
 
-/* Sets o->bound of an orbit that is prepared; NaN if there are no bounds. */
-void iso_crossings_bounds(const iso_orbit *orbit, iso_crossed *o);
+/* Sets o->axis and o->bound of an orbit that is prepared; NaN if there are no bounds. */
+void iso_crossings_find_section(const iso_crossings *c, const iso_orbit *orbit, iso_crossed *o);
 
 /* Checks the crossing at s against the bounds. Errors: ISO_NUMERICAL. */
 iso_status iso_crossings_hold(iso_context *ctx, const iso_crossings *c, const iso_crossed *o, const iso_orbit *orbit,

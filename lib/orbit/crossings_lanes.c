@@ -44,7 +44,7 @@ static void set_search(struct iso_crossings_lane *lane, const iso_crossed *o)
     iso_lane_job *job = &lane->job;
     job->axis = o->axis;
     const iso_clock variable = iso_lane_clock(&orbit->model);
-    job->zeros = iso_crossings_zeros(p, orbit->eps, o->axis, variable);
+    job->zeros = iso_crossings_zeros(iso_orbit_motion(orbit), o->axis, variable);
     job->longest = o->bound[1];
     if (variable == ISO_CLOCK_S) return;
     job->longest /=
@@ -94,7 +94,7 @@ static iso_status begin(iso_pool_worker *w, const follower *f, size_t i)
     struct iso_crossings_lane *lane = calloc(1, sizeof *lane + f->code->saved);
     if (!lane) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for an orbit");
     iso_status status = prepare(w, c, i, lane);
-    if (status == ISO_OK) iso_crossings_bounds(&lane->orbit, o);
+    if (status == ISO_OK) iso_crossings_find_section(c, &lane->orbit, o);
     if (status != ISO_OK || !suits(c, lane, o)) {
         free(lane);
         return status;
@@ -140,7 +140,7 @@ static void find_slopes(const iso_orbit *orbit, int axis, const double y[], doub
     for (int i = 0; i < ISO_DEVIATIONS; i++) {
         double point[ISO_STATE], deviation[ISO_STATE], slope[2];
         to_point(orbit, y, d[i], point, deviation);
-        iso_section_slope(iso_free_point(&orbit->units.own, orbit->eps), axis, point, deviation, slope);
+        iso_section_slope(iso_orbit_motion(orbit), axis, point, deviation, slope);
         for (int j = 0; j < 2; j++) slopes[j][i] = slope[j] * exp(scale[i]);
     }
 }

@@ -15,6 +15,7 @@
 
 #include "../base/api.h"
 #include "../exact/exact.h"
+#include "../map/section.h"
 #include "../method/method.h"
 #include "scene.h"
 
@@ -144,6 +145,9 @@ ISO_API iso_effects iso_orbit_effects(const iso_orbit *orbit);
  * or 0 where they do not fit). */
 ISO_API double iso_orbit_energy(const iso_orbit *orbit);
 ISO_API double iso_orbit_coupling(const iso_orbit *orbit);
+
+/* The motion of the point, own units: its coupling, and its level H, which is 0 for the point of a free ball. */
+iso_point_motion iso_orbit_motion(const iso_orbit *orbit);
 
 /* An integral of either system at a sample that shows it: its value and the measure of its drift, in own units
  * (times iso_unit(units, integral->dimension) in the caller's). */

@@ -76,6 +76,11 @@ double iso_orbit_coupling(const iso_orbit *o)
     return o->eps == 0 ? 0 : o->eps * iso_unit(&o->units, iso_dimension_eps);
 }
 
+iso_point_motion iso_orbit_motion(const iso_orbit *o)
+{
+    return (iso_point_motion){&o->units.own, o->eps, o->level};
+}
+
 /* --- how it is prepared ----------------------------------------------------------------------------------------- */
 
 bool iso_point_is_better(const iso_params *p)

@@ -20,7 +20,7 @@ void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, int threa
     *map = (iso_periodic_map){
         .ctx = ctx, .p = *own, .axis = iso_section_axis(iso_free_point(own, 1)), .threads = threads, .finer = 1};
     map->model = iso_model_assemble(&iso_system_point, &problem, ISO_CLOCK_T, with);
-    map->zeros = iso_crossings_zeros(own, 1, map->axis, ISO_CLOCK_T);
+    map->zeros = iso_crossings_zeros(iso_free_point(own, 1), map->axis, ISO_CLOCK_T);
 }
 
 /* --- many points ------------------------------------------------------------------------------------------------ */

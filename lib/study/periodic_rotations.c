@@ -25,7 +25,7 @@ static bool ask_section(iso_periodic_work *w, iso_rotation *r, iso_wide *trace)
     const bool own = r->axis == map.axis;
     if (own) {
         map.axis = (map.axis + 1) % 3;
-        map.zeros = iso_crossings_zeros(&map.p, 1, map.axis, ISO_CLOCK_T);
+        map.zeros = iso_crossings_zeros(iso_free_point(&map.p, 1), map.axis, ISO_CLOCK_T);
     }
     const iso_wide z[2] = {r->axis == (map.axis + 1) % 3 ? WIDE_PI / 2 : 0, 0};
     if (!iso_periodic_far(&map, iso_return_code_of(w->options.polish), z, 1, NULL, &found)) return false;

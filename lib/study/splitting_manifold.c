@@ -117,7 +117,7 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], iso_
     m->corner = at_zero ? 0 : WIDE_PI / 2;
     const bool none[ISO_CLOCKS] = {false};
     m->model = iso_model_assemble(&iso_system_point, &m->problem, ISO_CLOCK_T, none);
-    m->zeros = iso_crossings_zeros(p, 1, m->axis, k == -1 ? ISO_CLOCK_S : ISO_CLOCK_T);
+    m->zeros = iso_crossings_zeros(iso_free_point(p, 1), m->axis, k == -1 ? ISO_CLOCK_S : ISO_CLOCK_T);
     return iso_manifold_use(m, &iso_return_extended);
 }
 

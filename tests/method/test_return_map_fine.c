@@ -35,7 +35,7 @@ static void prepare(double k, const double J[3])
     const bool none[ISO_CLOCKS] = {false};
     axis = iso_section_axis(iso_free_point(&problem.p, 1));
     model = iso_model_assemble(&iso_system_point, &problem, ISO_CLOCK_T, none);
-    zeros = iso_crossings_zeros(&problem.p, 1, axis, k == -1 ? ISO_CLOCK_S : ISO_CLOCK_T);
+    zeros = iso_crossings_zeros(iso_free_point(&problem.p, 1), axis, k == -1 ? ISO_CLOCK_S : ISO_CLOCK_T);
 }
 
 static iso_return go(const iso_return_code *code, bool half, const iso_fine from[2])
