@@ -13,6 +13,7 @@ enum { ISO_SWEEP_AXES = 24, ISO_SWEEP_NAMES = 64, ISO_SWEEP_DRAWN = 8 };
 typedef enum iso_axis_target {
     ISO_TO_NUMBER, /* numbers of the draft  */
     ISO_TO_RATIO,  /* J[part] = value J[of] */
+    ISO_TO_LEVEL,  /* iso_scene_on_level    */
     ISO_TO_CHART   /* l, x, or both         */
 } iso_axis_target;
 
@@ -57,7 +58,8 @@ struct iso_sweep_file {
     iso_scene base;      /* of the text as it is */
     int axes;
     iso_sweep_axis axis[ISO_SWEEP_AXES];
-    bool on_section; /* l and x are among them */
+    bool on_section;             /* l and x are among them */
+    const iso_sweep_axis *level; /* NULL: it does not vary */
     size_t samples;
     bool random;
     uint64_t seed;

@@ -138,7 +138,7 @@ static iso_status settle(iso_context *ctx, iso_start *start)
 }
 
 /* l and x of the point. Errors: ISO_BAD_INPUT outside of the chart. */
-static iso_status chart_of(iso_context *ctx, const iso_sweep_file *f, size_t i, const iso_params *own, int axis,
+static iso_status chart_of(iso_context *ctx, const iso_sweep_file *f, size_t i, const iso_orbit *orbit, int axis,
                            double numbers[], double *l, double *x)
 {
     size_t index[ISO_SWEEP_AXES], sample;
@@ -149,14 +149,15 @@ static iso_status chart_of(iso_context *ctx, const iso_sweep_file *f, size_t i, 
         if (a->target != ISO_TO_CHART) continue;
         if (a->values == ISO_FROM_SPREAD) {
             iso_section_spread spread;
-            iso_section_spread_prepare(&spread, iso_free_point(own, 1), axis, a->seed);
+            iso_section_spread_prepare(&spread, iso_orbit_motion(orbit), axis, a->seed);
             iso_section_spread_point(&spread, index[n], &value[0], &value[1]);
         }
         if (a->chart != 1) *l = value[0];
         if (a->chart != 0) *x = value[a->width - 1];
     }
-    if (fabs(*x) < 1) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "x", "x = %g is outside the chart: |x| < 1", *x);
+    if (!(fabs(*x) < 1)) return iso_context_fail(ctx, ISO_BAD_INPUT, "x", "x = %g is outside the chart: |x| < 1", *x);
+    if (iso_section_is_open(iso_orbit_motion(orbit), axis, *l)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "l", "at l = %g the point cannot be on this level", *l);
 }
 
 /* Puts the start on the global section, with the energy that the scene's start has. */
@@ -170,14 +171,10 @@ static iso_status on_section(iso_context *ctx, const iso_sweep_file *f, size_t i
     o.effects = &effects;
     iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
     if (status != ISO_OK) return status;
-    const iso_effects acting = iso_orbit_effects(orbit);
-    const iso_params *own = &iso_orbit_units(orbit)->own;
-    const int axis = iso_section_axis(iso_free_point(own, 1));
-    if (iso_effects_have_level(&acting))
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "eps", "a start on the section needs the level H = 0");
-    else if (!(iso_orbit_energy(orbit) > 0))
+    const int axis = iso_section_axis(iso_orbit_motion(orbit));
+    if (!iso_orbit_has_twin(orbit))
         status = iso_context_fail(ctx, ISO_BAD_INPUT, "angular_velocity", "a start on the section needs motion");
-    if (status == ISO_OK) status = chart_of(ctx, f, i, own, axis, numbers, &l, &x);
+    if (status == ISO_OK) status = chart_of(ctx, f, i, orbit, axis, numbers, &l, &x);
     if (status == ISO_OK) {
         scene->start = iso_section_start(orbit, scene->start.model, axis, l, x);
         scene->start.eps = eps;
@@ -192,9 +189,12 @@ iso_status iso_sweep_point(iso_context *ctx, const void *file, size_t i, iso_sce
     ISO_DEFAULT_ARITHMETIC;
     const iso_sweep_file *f = file;
     iso_draft d = iso_sweep_draft(ctx, f, i, numbers);
-    const iso_status status = iso_draft_make(&d);
+    iso_status status = iso_draft_make(&d);
     if (status != ISO_OK) return status;
     *scene = d.scene;
+    if (f->level) status = iso_scene_on_level(ctx, scene, numbers[f->level->column]);
+    if (status == ISO_OK && f->level && scene->start.model == ISO_POINT) status = settle(ctx, &scene->start);
+    if (status != ISO_OK) return status;
     return f->on_section ? on_section(ctx, f, i, scene, numbers) : ISO_OK;
 }
 
@@ -321,6 +321,9 @@ iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, si
     *text = NULL;
     const iso_status status = iso_sweep_point(ctx, file, i, &scene, numbers);
     if (status != ISO_OK) return status;
+    if (file->level && scene.start.model == ISO_BALL && !iso_effects_have_level(&scene.effects))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "level",
+                                "the ball of level 0 has no effect 'level': take it out of the scene's text");
     patches *p = calloc(1, sizeof *p);
     if (!p) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a scene");
     const iso_draft d = iso_sweep_draft(ctx, file, i, numbers);
@@ -329,9 +332,12 @@ iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, si
     for (int n = 0; n < file->axes; n++) {
         const iso_sweep_axis *a = &file->axis[n];
         const double *at = (const double *)(const void *)((const char *)&d + a->offset);
-        if (a->target != ISO_TO_CHART) add_patch(p, a->node, at - a->part * (a->target == ISO_TO_NUMBER), a->whole);
+        if (a->target == ISO_TO_NUMBER || a->target == ISO_TO_RATIO)
+            add_patch(p, a->node, at - a->part * (a->target == ISO_TO_NUMBER), a->whole);
     }
-    if (file->on_section) add_start(p, &scene);
+    if (file->on_section || (file->level && scene.start.model == ISO_POINT)) add_start(p, &scene);
+    const double c = iso_effects_level(&scene.effects);
+    if (file->level && scene.start.model == ISO_BALL) add_patch(p, file->level->node, &c, 1);
     *text = put_together(p);
     free(p);
     return *text ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a scene");

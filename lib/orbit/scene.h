@@ -42,8 +42,8 @@ ISO_API const char *iso_shown_name(int shown);
 /* Where an orbit starts (its clock at 0), in one of the models. */
 typedef struct iso_start {
     iso_model_kind model; /* of y                                                                        */
-    double y[ISO_STATE]; /* omega [1/time], n; or M, gamma                                               */
-    double eps;          /* coupling of the point's potential (24); NAN: the one with which H = 0, where
+    double y[ISO_STATE];  /* omega [1/time], n; or M, gamma                                               */
+    double eps;           /* coupling of the point's potential (24); NAN: the one with which H = 0, where
                             the point has a free ball; not read for a ball                               */
 } iso_start;
 
@@ -99,6 +99,12 @@ ISO_API void iso_scene_forget_place(iso_scene *scene, const char *key);
 
 /* A scene without a ball: backend and method "auto", tolerance 1e-12, as ISO_SHOW_START (the model of the start). */
 ISO_API iso_scene iso_scene_default(void);
+
+/* Puts the scene on a level of the point's energy, (H/eps) J2^(1/k) (map/level.h); 0 is the free motion. A point keeps
+ * eps, gamma and the direction of M. A ball keeps omega and n, and gets the effect `level`, or loses it.
+ * Errors: ISO_BAD_INPUT: about "level", where the point cannot be at this gamma on this level; about "M" or
+ * "angular_velocity" at rest; about "eps", not above 0; about an effect that acts. Those of iso_orbit_create. */
+ISO_API iso_status iso_scene_on_level(iso_context *ctx, iso_scene *scene, double level);
 
 /* More rows than this in a scene file are a mistake in `step`. */
 #define ISO_MOST_ROWS 1e8

@@ -11,7 +11,6 @@
 #include "base/pi_impl.h"
 #include "base/vec3_impl.h"
 #include "study/chaos_impl.h"
-#include "study/free_impl.h"
 #include "study/frequencies_impl.h"
 #include "study/section_impl.h"
 
@@ -38,11 +37,18 @@ static iso_status check_motion(const iso_chaos_walk *w, const iso_sample *start)
                             iso_model_kind_name((int)w->scene->start.model));
 }
 
-static iso_status check_starts(const iso_chaos_walk *w, const iso_effect *effect)
+static iso_status check_starts(const iso_chaos_walk *w)
 {
-    if (w->options.starts + w->options.at_count == 0 || !effect) return ISO_OK;
-    return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect->name,
-                            "other starts need the section of a free motion on H = 0, without '%s'", effect->name);
+    const iso_chaos_options *o = &w->options;
+    const iso_effect *effect = iso_effects_beyond_level(&w->effects);
+    if (o->starts + o->at_count == 0) return ISO_OK;
+    if (effect)
+        return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect->name,
+                                "other starts need a section where nothing acts but a level, without '%s'",
+                                effect->name);
+    for (size_t i = 0; i < o->at_count; i++)
+        if (iso_section_check_at(w->ctx, w->orbit, w->out->axis, o->at[i]) != ISO_OK) return ISO_BAD_INPUT;
+    return o->starts > 0 ? iso_section_check_open(w->ctx, w->orbit, w->out->axis) : ISO_OK;
 }
 
 static iso_status check_options(const iso_chaos_walk *w)
@@ -63,36 +69,31 @@ static iso_status check_options(const iso_chaos_walk *w)
 /* Errors: ISO_BAD_INPUT about "axis". */
 static iso_status check_section(const iso_chaos_walk *w)
 {
-    const iso_params *own = &iso_orbit_units(w->orbit)->own;
+    const iso_point_motion m = iso_orbit_motion(w->orbit);
     const int axis = w->out->axis;
-    double W[2];
-    if (axis < 0 || iso_section_is_global(iso_free_point(own, 1), axis)) return ISO_OK;
-    iso_section_bounds(iso_free_point(own, iso_orbit_model(w->orbit)->problem.eps), axis, W);
-    if (W[0] > 0) return ISO_OK;
+    if (axis < 0 || iso_section_is_global(m, axis)) return ISO_OK;
     return iso_context_fail(w->ctx, ISO_BAD_INPUT, "axis",
                             "orbits can stay away from the section n_%d = 0 for ever: take n_%d = 0, which is global",
-                            axis + 1, iso_section_axis(iso_free_point(own, 1)) + 1);
+                            axis + 1, iso_section_axis(m) + 1);
 }
 
 /* --- what a turn is --------------------------------------------------------------------------------------------- */
 
-/* A turn: a return to the section; under an effect, the time in which n turns once at the rate |k omega|. */
+/* A turn: a return to the section; under an effect beyond the level, the time in which n turns once at the rate |k omega|. */
 static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_effect *effect)
 {
     iso_chaos *c = w->out;
     const iso_units *units = iso_orbit_units(w->orbit);
     const double speed = w->out->with[ISO_BALL] ? norm(start->ball) : units->w;
     c->turn = NAN;
-    if (!iso_effects_beyond_level(&w->effects)) c->integral = iso_further_integral(w->orbit);
+    if (!effect) c->integral = iso_further_integral(w->orbit);
     if (effect) {
         const bool pulled = iso_effects_pull(&iso_orbit_model(w->orbit)->problem.effects);
         c->axis = -1;
         c->turn = 2 * ISO_PI / (fabs(w->scene->params.k) * (pulled ? fmax(speed, units->w) : speed));
         return;
     }
-    c->axis = w->options.axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(&units->own, 1)) : w->options.axis;
-    if (w->options.starts > 0)
-        iso_section_spread_prepare(&w->spread, iso_free_point(&units->own, 1), c->axis, w->options.seed);
+    c->axis = w->options.axis == ISO_AXIS_AUTO ? iso_section_axis(iso_orbit_motion(w->orbit)) : w->options.axis;
 }
 
 /* The axis about which a free orbit rotates in the plane n_axis = 0; -1: it does not. */
@@ -179,13 +180,16 @@ static iso_status prepare(iso_chaos_walk *w)
     status = open_orbit(w, &start);
     if (status != ISO_OK) return status;
     const iso_effects effects = iso_orbit_effects(w->orbit);
-    const iso_effect *effect = iso_study_not_free(&effects);
+    const iso_effect *effect = iso_effects_beyond_level(&effects);
     status = check_motion(w, &start);
-    if (status == ISO_OK) status = check_starts(w, effect);
     if (status != ISO_OK) return status;
     choose_turn(w, &start, effect);
     status = check_section(w);
+    if (status == ISO_OK) status = check_starts(w);
     if (status != ISO_OK) return status;
+    iso_section_state_level(w->orbit, &w->effects);
+    if (w->options.starts > 0)
+        iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->out->axis, w->options.seed);
     w->out->plane = effect ? -1 : find_plane(w->out->with[ISO_BALL] ? start.ball : start.point);
     w->out->start = calloc(w->options.starts + w->options.at_count + 1, sizeof *w->out->start);
     if (!w->out->start) return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the starts");

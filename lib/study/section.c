@@ -14,43 +14,44 @@
 #include "base/vec3_impl.h"
 #include "base/version.h"
 #include "orbit/description.h"
-#include "study/free_impl.h"
 #include "study/section_impl.h"
 
 /* --- which section is global ------------------------------------------------------------------------------------ */
 
-static void name_not_free(const iso_effect *effect, iso_section_nature *n)
+/* Which orbits cross, on which level, and how long a return takes. */
+static void name_global(const iso_orbit *orbit, iso_section_nature *n)
 {
-    if (strcmp(effect->name, iso_level_name()) == 0)
-        snprintf(n->words, sizeof n->words,
-                 "n_%d = 0 is not known to be global: off the level H = 0 the point can turn back before it reaches "
-                 "the section",
-                 n->axis + 1);
-    else
-        snprintf(n->words, sizeof n->words, "n_%d = 0 is not known to be global: '%s' acts on the ball", n->axis + 1,
-                 effect->name);
+    const iso_units *units = iso_orbit_units(orbit);
+    const iso_point_motion m = iso_orbit_motion(orbit);
+    const double turn = 2 * ISO_PI * iso_unit(units, iso_clock_dimension(ISO_CLOCK_S));
+    const double unit_M = iso_unit(units, iso_system_point.fast_dimension);
+    char level[48] = "", except[48], longest[32] = "or more";
+    double W[2];
+    iso_section_bounds(m, n->axis, W);
+    if (W[0] > 0) snprintf(longest, sizeof longest, "to %.4g", turn / W[0]);
+    snprintf(except, sizeof except, "the rotation about axis %d", n->axis + 1);
+    if (m.energy != 0) {
+        snprintf(level, sizeof level, " on the level H = %.4g", m.energy * unit_M * unit_M);
+        snprintf(except, sizeof except, "those in its plane");
+    }
+    snprintf(n->words, sizeof n->words,
+             "n_%d = 0 is global%s: every orbit crosses it for ever, except %s; a return takes %.4g %s in s",
+             n->axis + 1, level, except, turn / W[1], longest);
 }
 
 iso_section_nature iso_section_of(const iso_orbit *orbit, int axis)
 {
-    const iso_units *units = iso_orbit_units(orbit);
     const iso_effects effects = iso_orbit_effects(orbit);
-    const iso_effect *effect = iso_study_not_free(&effects);
-    const int good = iso_section_axis(iso_free_point(&units->own, 1));
+    const iso_effect *effect = iso_effects_beyond_level(&effects);
+    const iso_point_motion m = iso_orbit_motion(orbit);
+    const int good = iso_section_axis(m);
     iso_section_nature n = {.axis = axis == ISO_AXIS_AUTO ? good : axis};
-    double W[2];
-    if (effect) {
-        name_not_free(effect, &n);
-        return n;
-    }
-    iso_section_bounds(iso_free_point(&units->own, iso_orbit_model(orbit)->problem.eps), n.axis, W);
-    const double turn = 2 * ISO_PI * iso_unit(units, iso_clock_dimension(ISO_CLOCK_S));
-    n.global = iso_section_is_global(iso_free_point(&units->own, 1), n.axis) || W[0] > 0;
+    n.global = !effect && iso_section_is_global(m, n.axis);
     if (n.global)
-        snprintf(n.words, sizeof n.words,
-                 "n_%d = 0 is global: every orbit crosses it for ever, except the rotation about axis %d; a return "
-                 "takes %.4g to %.4g in s",
-                 n.axis + 1, n.axis + 1, turn / W[1], turn / W[0]);
+        name_global(orbit, &n);
+    else if (effect)
+        snprintf(n.words, sizeof n.words, "n_%d = 0 is not known to be global: '%s' acts on the ball", n.axis + 1,
+                 effect->name);
     else
         snprintf(n.words, sizeof n.words, "n_%d = 0 is not global: orbits can stay away from it; n_%d = 0 is global",
                  n.axis + 1, good + 1);
@@ -84,31 +85,21 @@ static iso_status check_losses(const iso_section_walk *w)
                             taking->name);
 }
 
-/* Starts at (l, x) have the energy of the scene on the level H = 0. */
 static iso_status check_starts(const iso_section_walk *w)
 {
     const iso_section_options *o = &w->options;
-    const iso_effect *effect = iso_study_not_free(&w->effects);
+    const iso_effect *effect = iso_effects_beyond_level(&w->effects);
     const char *why = !w->chart ? "an event has no chart"
-                      : effect  ? "the section has a chart only for free motions on H = 0"
+                      : effect  ? "the section has a chart only where nothing acts but a level"
                                 : NULL;
     if (o->starts == 0 && o->at_count == 0) return ISO_OK;
     if (why)
         return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect ? effect->name : "starts",
                                 "no other starts can be given here: %s%s%s", why, effect ? ", without " : "",
                                 effect ? effect->name : "");
-    for (size_t i = 0; i < o->at_count; i++) {
-        const double l = o->at[i][0], x = o->at[i][1];
-        if (isfinite(l) && fabs(x) < 1) continue;
-        if (fabs(x) == 1)
-            return iso_context_fail(w->ctx, ISO_BAD_INPUT, "at",
-                                    "l, x = %g, %g is on the boundary of the chart: it is the rotation about axis "
-                                    "%d, in the plane n_%d = 0, which never crosses the section",
-                                    l, x, o->axis + 1, o->axis + 1);
-        return iso_context_fail(w->ctx, ISO_BAD_INPUT, "at",
-                                "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1", l, x);
-    }
-    return ISO_OK;
+    for (size_t i = 0; i < o->at_count; i++)
+        if (iso_section_check_at(w->ctx, w->orbit, o->axis, o->at[i]) != ISO_OK) return ISO_BAD_INPUT;
+    return o->starts > 0 ? iso_section_check_open(w->ctx, w->orbit, o->axis) : ISO_OK;
 }
 
 static iso_status check_column(const iso_section_walk *w)
@@ -304,11 +295,13 @@ static iso_status set_up(iso_section_walk *w)
     if (status == ISO_OK) status = open_orbit(w);
     if (status == ISO_OK) status = check_losses(w);
     if (status != ISO_OK) return status;
-    if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(iso_free_point(&w->scene->params, 1));
+    if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(iso_orbit_motion(w->orbit));
     status = check_starts(w);
     if (status != ISO_OK) return status;
     choose_columns(w);
-    iso_section_spread_prepare(&w->spread, iso_free_point(&w->scene->params, 1), w->options.axis, w->options.seed);
+    iso_section_state_level(w->orbit, &w->effects);
+    if (w->options.starts > 0)
+        iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->options.axis, w->options.seed);
     status = iso_section_make_room(w);
     return status == ISO_OK ? iso_section_open_group(w) : status;
 }
