@@ -296,7 +296,7 @@ static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const 
 static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
 {
     iso_draft_number list[ISO_SWEEP_NAMES];
-    const bool point = f->draft.scene.start.model == ISO_POINT;
+    const bool point = f->base.start.model == ISO_POINT;
     char needed[ISO_NAME_SIZE];
     if (a->target != ISO_TO_LEVEL) return ISO_OK;
     f->level = a;
@@ -306,7 +306,7 @@ static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_swe
         if (strcmp(list[i].name, needed) == 0) a->node = list[i].value;
     if (!a->node)
         return iso_yaml_fail(&f->yaml, key->start_mark, "'level' needs %s in the scene",
-                             point ? "'eps'" : "the effect: level: {c: 1}; the sweep sets its c");
+                             point ? "'eps'" : "'effects: {level: {c: 1}}', whose c it sets,");
     for (const iso_sweep_axis *b = f->axis; b < f->axis + f->axes; b++)
         if (strcmp(b->name, needed) == 0 && !point)
             return iso_yaml_fail(&f->yaml, key->start_mark, "'level' and '%s' set the same number", needed);

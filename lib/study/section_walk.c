@@ -70,16 +70,15 @@ static iso_status refuse_closed(iso_context *ctx, const iso_orbit *orbit, int ax
     const iso_point_motion m = iso_orbit_motion(orbit);
     const double unit = iso_unit(iso_orbit_units(orbit), iso_system_point.fast_dimension);
     return iso_context_fail(ctx, ISO_BAD_INPUT, about,
-                            "%s of n_%d = 0 the point cannot be on the level H = %.6g: there its potential is not "
-                            "below H",
-                            where, axis + 1, m.energy * unit * unit);
+                            "n_%d = 0 is closed %s on the level H = %.6g: the potential there is not below H",
+                            axis + 1, where, m.energy * unit * unit);
 }
 
 iso_status iso_section_check_open(iso_context *ctx, const iso_orbit *orbit, int axis)
 {
     const iso_point_motion m = iso_orbit_motion(orbit);
     if (iso_section_is_open(m, axis, 0) || iso_section_is_open(m, axis, ISO_PI / 2)) return ISO_OK;
-    return refuse_closed(ctx, orbit, axis, "starts", "anywhere");
+    return refuse_closed(ctx, orbit, axis, "starts", "everywhere");
 }
 
 iso_status iso_section_check_at(iso_context *ctx, const iso_orbit *orbit, int axis, const double at[2])
