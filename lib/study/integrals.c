@@ -74,7 +74,7 @@ static iso_status check_options(iso_context *ctx, iso_integral_search_options *o
 /* Only free motions on H = 0 are searched. */
 static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
 {
-    const iso_effects acting = iso_effects_acting(&scene->effects);
+    const iso_effects acting = iso_scene_acting(scene);
     return iso_study_check_free_start(ctx, scene, &acting, "integrals are sought");
 }
 
