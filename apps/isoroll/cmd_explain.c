@@ -37,13 +37,13 @@ static void explain_effects(const iso_orbit *orbit)
     print_effects(&effects, true);
 }
 
-/* On a level plane gravity changes nothing but the reactions. */
-static void explain_level_plane(const iso_scene *scene, const iso_orbit *orbit)
+/* An effect that observes from this start on: the weight on a level plane. */
+static void explain_idle(const iso_orbit *orbit)
 {
     const iso_effects effects = iso_orbit_effects(orbit);
-    if (iso_effects_on_level_plane(&scene->params, scene->start.y + 3, &effects))
-        printf("  the plane is level: the weight has no torque and only presses the ball; for the motion alone take "
-               "gravity and reactions out\n\n");
+    const iso_effect *idle = iso_effects_idle(&effects);
+    if (idle)
+        printf("  '%s' has no torque here: it only observes, and the motion is that without it\n\n", idle->name);
 }
 
 /* Whether the ball has a twin, and in which potential that point moves. */
@@ -220,7 +220,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (status != ISO_OK) return finish_scene(ctx, &o->scene, &scene, status);
     explain_ball(&scene.params);
     explain_effects(orbit);
-    explain_level_plane(&scene, orbit);
+    explain_idle(orbit);
     explain_map(&scene.params, orbit);
     explain_section(orbit);
     status = explain_exact(ctx, &scene, columns, count);

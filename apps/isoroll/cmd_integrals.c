@@ -18,12 +18,14 @@ typedef struct options {
 static void print_head(const options *o, const iso_scene *scene, const iso_integral_search *r)
 {
     const double *J = scene->params.J;
-    printf("k = %.15g, J = %.15g %.15g %.15g\n"
+    printf("k = %.15g, J = %.15g %.15g %.15g", scene->params.k, J[0], J[1], J[2]);
+    if (r->level != 0) printf("; level (H/eps) J2^(1/k) = %.10g", r->level);
+    printf("\n"
            "%zu orbits of %g turns, %d samples of each; relative error of a sample about %.0e\n"
            "functions h^j M^a gamma^b, |a| + 2 j = degree, |b| <= %d; a value is the variation of a function along\n"
            "orbits by its size: 0 for an integral\n\n"
            "  degree  functions  integrals  further  doubtful   their values up to  smallest other value\n",
-           scene->params.k, J[0], J[1], J[2], r->orbits, o->turns, ISO_INTEGRAL_ROWS, r->delta, r->coefficients);
+           r->orbits, o->turns, ISO_INTEGRAL_ROWS, r->delta, r->coefficients);
 }
 
 static void print_value(int width, double x)
@@ -136,9 +138,9 @@ static bool print_json(const options *o, const iso_scene *scene, const iso_integ
 {
     const iso_params *p = &scene->params;
     return json_print(
-        json_pack("{s:s, s:o, s:[o,o,o], s:i, s:i, s:I, s:o, s:i, s:o, s:o, s:s, s:i, s:b, s:b, s:o, s:o, s:o, s:o}",
+        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:i, s:i, s:I, s:o, s:i, s:o, s:o, s:s, s:i, s:b, s:b, s:o, s:o, s:o, s:o}",
                   "isoroll", iso_version(), "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]),
-                  json_number(p->J[2]), "degree", (int)o->degree, "coefficients", r->coefficients, "orbits",
+                  json_number(p->J[2]), "level", json_number(r->level), "degree", (int)o->degree, "coefficients", r->coefficients, "orbits",
                   (json_int_t)r->orbits, "turns", json_number(o->turns), "samples", ISO_INTEGRAL_ROWS, "within",
                   json_number(o->within), "delta", json_number(r->delta), "verdict",
                   iso_integral_verdict_name(r->verdict), "independent", r->independent, "near", (int)r->near,
@@ -221,11 +223,11 @@ const command command_integrals = {
     .description =
         "Looks for functions of the point's state that are constant along orbits: polynomials in M of degree D or "
         "less, with coefficients that are polynomials in gamma of degree E or less. Of the scene it reads k, J and "
-        "the effects. Orbits start spread evenly over a section and are sampled at many times. The singular values "
+        "the level of the energy: that of a point, or of a ball with the effect level. Orbits start spread evenly over a section and are sampled at many times. The singular values "
         "of the samples tell how little a function of this space can vary along orbits, relative to its own size.\n\n"
         "The table has a line for each degree: how many independent functions there are, how many of them are "
         "integrals, how many are new (not the energy, and not found two degrees lower; products of integrals "
-        "are counted as new), and the smallest value of the others. On the level H = 0 the energy is a "
+        "are counted as new), and the smallest value of the others. On a level the energy is a "
         "constant; it is the one integral of "
         "degree 2 that every ball has.\n\n"
         "Integrals that are known for this k and J are named where they are found. 'undecided': a value lies "
@@ -233,7 +235,7 @@ const command command_integrals = {
         "stopped.",
     .example = "isoroll integrals scene.yaml --degree 4",
     .exits = "1: interrupted\n"
-             "3: bad input: gravity or another effect, or k too near 0\n"
+             "3: bad input: an effect that acts and is no level, or k too near 0\n"
              "4: the computation failed, or no memory",
     .run = run,
 };

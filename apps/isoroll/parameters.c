@@ -25,7 +25,7 @@ static iso_status set_scene(iso_context *ctx, const char *path, iso_record *reco
     iso_scene scene;
     iso_status status = iso_scene_read(ctx, path, &scene);
     if (status != ISO_OK) return status;
-    const iso_effects effects = iso_effects_acting(&scene.effects);
+    const iso_effects effects = iso_scene_acting(&scene);
     const double eps = scene.start.model == ISO_POINT ? scene.start.eps : NAN;
     if (!iso_record_get(record, "k")) status = iso_record_set_numbers(ctx, record, "k", 1, &scene.params.k);
     if (status == ISO_OK && !iso_record_get(record, "J"))

@@ -71,6 +71,9 @@ void view_page_free(view_page *page);
 /* Whether an effect breaks the isomorphism; if so, page->alone gets the words. Reads page->effects. */
 bool view_is_broken(view_page *page);
 
+/* page->effects from the lines of a trajectory; which of them are idle, from its first row. */
+iso_status view_read_effects(iso_context *ctx, const iso_record *r, view_page *page);
+
 /* page->h and page->eps by the lines of the file; NAN without such a line. Reads page->params. Errors: ISO_BAD_INPUT
  * about a line that is no number. */
 iso_status view_read_energy(iso_context *ctx, const iso_record *r, view_page *page);

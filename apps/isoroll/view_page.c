@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "view.h"
 
@@ -26,6 +27,18 @@ void view_page_free(view_page *page)
     iso_record_free(page->drifts);
     iso_record_free(page->apart);
     free_section(page->section);
+}
+
+iso_status view_read_effects(iso_context *ctx, const iso_record *r, view_page *page)
+{
+    iso_start start;
+    const iso_model_kind model = iso_record_find(r, "n1") >= 0 ? ISO_BALL : ISO_POINT;
+    const iso_status status = iso_record_effects(ctx, r, &page->effects);
+    if (status != ISO_OK || iso_record_rows(r) == 0) return status;
+    iso_effects settled = page->effects;
+    if (iso_record_start(ctx, r, &page->params, model, 0, &start, &settled) == ISO_OK)
+        memcpy(page->effects.idle, settled.idle, sizeof settled.idle);
+    return ISO_OK; /* a row that is no start is refused later, with its place */
 }
 
 bool view_is_broken(view_page *page)

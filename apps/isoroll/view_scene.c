@@ -191,7 +191,7 @@ static iso_status run_point(iso_context *ctx, const iso_scene *asked, view_page 
     scene.backend = ISO_BACKEND_POINT;
     scene.as = ISO_SHOW_BOTH;
     snprintf(scene.method, sizeof scene.method, "auto");
-    scene.effects = iso_effects_acting(&asked->effects);
+    scene.effects = iso_scene_acting(asked);
     scene.columns = sizeof names / sizeof *names;
     for (size_t i = 0; i < scene.columns; i++) snprintf(scene.column[i], ISO_NAME_SIZE, "%s", names[i]);
     iso_status status = run_at(ctx, &scene, times, count, NULL, &own);
@@ -222,7 +222,7 @@ iso_status view_of_scene(iso_context *ctx, const iso_scene *scene, view_page *pa
     page->params = scene->params;
     page->clock = scene->start.model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     iso_status status = run_ball(ctx, scene, page, &times, &count);
-    if (status == ISO_OK) status = iso_record_effects(ctx, page->rows, &page->effects);
+    if (status == ISO_OK) status = view_read_effects(ctx, page->rows, page);
     if (status == ISO_OK && !*page->alone) {
         iso_record_get_numbers(ctx, page->rows, "h", 1, &page->h, &status);
         iso_record_get_numbers(ctx, page->rows, "eps", 1, &page->eps, &status);

@@ -148,7 +148,7 @@ static iso_status of_record(iso_context *ctx, const file_options *from, iso_reco
     view_miss worst;
     iso_status status = parameters_of_file(ctx, from, in, &page->params);
     if (status == ISO_OK) status = check_columns(ctx, in, &page->clock);
-    if (status == ISO_OK) status = iso_record_effects(ctx, in, &page->effects);
+    if (status == ISO_OK) status = view_read_effects(ctx, in, page);
     if (status == ISO_OK) status = view_read_energy(ctx, in, page);
     if (status == ISO_OK) status = thin_out(ctx, in, page, &thin);
     if (status == ISO_OK) find_twin(page, thin);

@@ -49,14 +49,11 @@ static iso_status check_numbers(iso_context *ctx, const iso_problem *f, const do
 
 static iso_status check(iso_context *ctx, const iso_problem *f, const double point[ISO_STATE])
 {
-    for (int e = 0; e < ISO_EFFECTS; e++) {
-        const iso_effect *effect = iso_effect_list[e];
-        const bool free = effect->is_level || (effect->observes && !effect->ball_only);
-        if (f->effects.on[e] && !free)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect->name,
-                                    "the closed solution is for a free motion, not one with '%s'", effect->name);
-    }
-    return check_numbers(ctx, f, point);
+    const iso_effect *effect = iso_effects_beyond_level(&f->effects);
+    if (!effect) effect = iso_effects_ball_only(&f->effects);
+    if (!effect) return check_numbers(ctx, f, point);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect->name,
+                            "the closed solution is for a free motion, not one with '%s'", effect->name);
 }
 
 static const iso_form *form_for(const iso_problem *f, const double point[ISO_STATE])

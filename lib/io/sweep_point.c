@@ -163,7 +163,7 @@ static iso_status chart_of(iso_context *ctx, const iso_sweep_file *f, size_t i, 
 /* Puts the start on the global section, with the energy that the scene's start has. */
 static iso_status on_section(iso_context *ctx, const iso_sweep_file *f, size_t i, iso_scene *scene, double numbers[])
 {
-    const iso_effects effects = iso_effects_acting(&scene->effects);
+    const iso_effects effects = iso_scene_acting(scene);
     const double eps = scene->start.eps;
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     iso_orbit *orbit;

@@ -49,13 +49,32 @@ static const iso_effect *next_on(const iso_effects *effects, int *e)
     return *e < ISO_EFFECTS ? iso_effect_list[(*e)++] : NULL;
 }
 
+/* The same, of those that act. */
+static const iso_effect *next_acting(const iso_effects *effects, int *e)
+{
+    while (*e < ISO_EFFECTS && !iso_effect_acts(effects, *e)) ++*e;
+    return *e < ISO_EFFECTS ? iso_effect_list[(*e)++] : NULL;
+}
+
 /* --- what they are ---------------------------------------------------------------------------------------------- */
+
+bool iso_effect_acts(const iso_effects *effects, iso_effect_id id)
+{
+    return effects->on[id] && !effects->idle[id] && !iso_effect_list[id]->observes;
+}
 
 iso_effects iso_effects_acting(const iso_effects *effects)
 {
     iso_effects acting = *effects;
-    for (int e = 0; e < ISO_EFFECTS; e++) acting.on[e] = acting.on[e] && !iso_effect_list[e]->observes;
+    for (int e = 0; e < ISO_EFFECTS; e++) acting.on[e] = iso_effect_acts(effects, e);
     return acting;
+}
+
+const iso_effect *iso_effects_idle(const iso_effects *effects)
+{
+    int e = 0;
+    while (e < ISO_EFFECTS && !(effects->on[e] && effects->idle[e])) e++;
+    return e < ISO_EFFECTS ? iso_effect_list[e] : NULL;
 }
 
 const char *iso_effect_why_broken(const iso_effect *effect)
@@ -69,7 +88,7 @@ const iso_effect *iso_effects_breaking(const iso_effects *effects)
 {
     int e = 0;
     const iso_effect *effect;
-    while ((effect = next_on(effects, &e)) && !iso_effect_why_broken(effect)) {
+    while ((effect = next_acting(effects, &e)) && !iso_effect_why_broken(effect)) {
     }
     return effect;
 }
@@ -120,7 +139,7 @@ const iso_effect *iso_effects_beyond_level(const iso_effects *effects)
 {
     int e = 0;
     const iso_effect *effect;
-    while ((effect = next_on(effects, &e)) && (effect->observes || effect->is_level)) {
+    while ((effect = next_acting(effects, &e)) && effect->is_level) {
     }
     return effect;
 }
@@ -135,7 +154,7 @@ const iso_effect *iso_effects_without_frequencies(const iso_problem *f, const ch
     int e = 0;
     const iso_effect *effect;
     *why = NULL;
-    while (!*why && (effect = next_on(&f->effects, &e)))
+    while (!*why && (effect = next_acting(&f->effects, &e)))
         *why = effect->no_frequencies ? effect->no_frequencies(f) : NULL;
     return *why ? effect : NULL;
 }
@@ -144,7 +163,7 @@ bool iso_effects_have_image(const iso_effects *effects)
 {
     const iso_effect *effect;
     bool found = false;
-    for (int e = 0; (effect = next_on(effects, &e));) found = found || effect->image;
+    for (int e = 0; (effect = next_acting(effects, &e));) found = found || effect->image;
     return found;
 }
 
@@ -152,7 +171,7 @@ bool iso_effects_pull(const iso_effects *effects)
 {
     const iso_effect *effect;
     bool pulls = false;
-    for (int e = 0; (effect = next_on(effects, &e));) pulls = pulls || effect->potential;
+    for (int e = 0; (effect = next_acting(effects, &e));) pulls = pulls || effect->potential;
     return pulls;
 }
 
@@ -160,22 +179,21 @@ bool iso_effects_keep(const iso_problem *f, iso_further integral)
 {
     const iso_effect *effect;
     bool keep = true;
-    for (int e = 0; (effect = next_on(&f->effects, &e));)
-        keep = keep && (effect->observes || (effect->keeps && effect->keeps(f, integral)));
+    for (int e = 0; (effect = next_acting(&f->effects, &e));)
+        keep = keep && effect->keeps && effect->keeps(f, integral);
     return keep;
 }
 
 static iso_work work_of(const iso_problem *f, const iso_effect *effect)
 {
-    if (effect->work) return effect->work(f);
-    return effect->observes ? ISO_WORK_NONE : ISO_WORK_UNKNOWN;
+    return effect->work ? effect->work(f) : ISO_WORK_UNKNOWN;
 }
 
 bool iso_effects_keep_energy(const iso_problem *f)
 {
     const iso_effect *effect;
     bool keep = true;
-    for (int e = 0; (effect = next_on(&f->effects, &e));) keep = keep && work_of(f, effect) == ISO_WORK_NONE;
+    for (int e = 0; (effect = next_acting(&f->effects, &e));) keep = keep && work_of(f, effect) == ISO_WORK_NONE;
     return keep;
 }
 
@@ -183,7 +201,7 @@ const iso_effect *iso_effects_taking_energy(const iso_problem *f)
 {
     int e = 0;
     const iso_effect *effect;
-    while ((effect = next_on(&f->effects, &e)) && work_of(f, effect) != ISO_WORK_LOST) {
+    while ((effect = next_acting(&f->effects, &e)) && work_of(f, effect) != ISO_WORK_LOST) {
     }
     return effect;
 }
@@ -259,20 +277,20 @@ static const char *wrong_states(const iso_problem *f, iso_effect_id e, const iso
 }
 
 /* Adds the lines of one effect. */
-static void record_motion_of(const iso_problem *f, const iso_effect *effect, iso_formula *F)
+static void record_motion_of(const iso_problem *f, iso_effect_id e, iso_formula *F)
 {
     const bool torques = F->torques;
     F->torques = false;
-    if (effect->motion) effect->motion(F, f);
-    if (effect->observes && F->torques) F->wrong = "it observes, and has a torque";
+    if (iso_effect_list[e]->motion) iso_effect_list[e]->motion(F, f);
+    if (!iso_effect_acts(&f->effects, e) && F->torques) F->wrong = "it observes, and has a torque";
     F->torques = F->torques || torques;
 }
 
 void iso_effects_record_motion(const iso_problem *f, bool series, iso_formula *F)
 {
-    const iso_effect *effect;
     iso_formula_begin(F, ISO_FORMULA_MOTION, series);
-    for (int e = 0; (effect = next_on(&f->effects, &e));) record_motion_of(f, effect, F);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (f->effects.on[e]) record_motion_of(f, e, F);
     for (iso_effect_id e = 0; e < ISO_EFFECTS && !F->wrong; e++)
         if (f->effects.on[e]) F->wrong = wrong_states(f, e, F);
     finish_formula(f, F);
@@ -282,7 +300,7 @@ void iso_effects_record_energy(const iso_problem *f, iso_formula *F)
 {
     const iso_effect *effect;
     iso_formula_begin(F, ISO_FORMULA_ENERGY, false);
-    for (int e = 0; (effect = next_on(&f->effects, &e));)
+    for (int e = 0; (effect = next_acting(&f->effects, &e));)
         if (effect->potential) effect->potential(F, f);
     finish_formula(f, F);
 }
@@ -291,7 +309,7 @@ void iso_effects_record_image(const iso_problem *f, iso_formula *F)
 {
     const iso_effect *effect;
     iso_formula_begin(F, ISO_FORMULA_IMAGE, false);
-    for (int e = 0; (effect = next_on(&f->effects, &e));)
+    for (int e = 0; (effect = next_acting(&f->effects, &e));)
         if (effect->image) effect->image(F, f);
     finish_formula(f, F);
 }
@@ -303,7 +321,7 @@ void iso_effects_torque(const iso_problem *f, const double y[], double T[3], dou
     const iso_effect *effect;
     T[0] = T[1] = T[2] = 0;
     if (f->motion.kind == ISO_FORMULA_MOTION && f->motion.lines > 0) iso_formula_rates(&f->motion, &f->p, y, T, dy);
-    for (int e = 0; (effect = next_on(&f->effects, &e));)
+    for (int e = 0; (effect = next_acting(&f->effects, &e));)
         if (effect->torque) effect->torque(f, y, T);
 }
 
@@ -339,7 +357,7 @@ double iso_effects_strength(const iso_problem *f, const double y[])
 {
     const iso_effect *effect;
     double most = 0;
-    for (int e = 0; (effect = next_on(&f->effects, &e));)
+    for (int e = 0; (effect = next_acting(&f->effects, &e));)
         if (effect->strength) most = fmax(most, effect->strength(f, y));
     return most;
 }
@@ -348,7 +366,7 @@ double iso_effects_largest(const iso_problem *f, const double y[])
 {
     const iso_effect *effect;
     double most = 0;
-    for (int e = 0; (effect = next_on(&f->effects, &e));)
+    for (int e = 0; (effect = next_acting(&f->effects, &e));)
         if (effect->range) most = fmax(most, effect->range(f, y));
     return most;
 }
@@ -362,7 +380,7 @@ double iso_effects_stiffness(const iso_problem *f)
 {
     const iso_effect *effect;
     double most = 0;
-    for (int e = 0; (effect = next_on(&f->effects, &e));)
+    for (int e = 0; (effect = next_acting(&f->effects, &e));)
         if (effect->stiffness) most = fmax(most, effect->stiffness(f));
     return most;
 }
@@ -372,7 +390,7 @@ static bool only_resisted(const iso_problem *f)
 {
     const iso_effect *effect;
     bool only = true;
-    for (int e = 0; (effect = next_on(&f->effects, &e));)
+    for (int e = 0; (effect = next_acting(&f->effects, &e));)
         only = only && !effect->potential && work_of(f, effect) != ISO_WORK_UNKNOWN;
     return only && iso_effects_stiffness(f) > 0;
 }
@@ -382,7 +400,7 @@ double iso_effects_moving(const iso_problem *f)
     const iso_effect *effect;
     double least = INFINITY;
     if (!only_resisted(f)) return INFINITY;
-    for (int e = 0; (effect = next_on(&f->effects, &e));)
+    for (int e = 0; (effect = next_acting(&f->effects, &e));)
         if (effect->time_to_rest) least = fmin(least, effect->time_to_rest(f));
     return least;
 }

@@ -6,7 +6,7 @@
  * integral and no isomorphism.
  *
  *     effect              torque MQ on the ball                 states          isomorphism
- *     gravity             mgb e x n                             e (3)           lost
+ *     gravity             mgb e x n                             e (3)           lost, but on a level plane
  *     field               k n x (C n + l)                       none            kept, V + U/G
  *     level               2 c g^(-1/k - 1) n x J^-1 n           none            kept, H = c det J/k^2
  *     twist               -c (omega,n) n, contact not rigid     lambda, stiff   lost
@@ -87,6 +87,8 @@ typedef struct iso_effect {
 
     /* --- what it means --- */
     bool observes;      /* it changes nothing in the motion: it only adds states or columns                   */
+    /* Whether it has no torque from a start with the normal n on: then it observes as well. NULL: never. */
+    bool (*idle)(const iso_params *p, const double n[3], const iso_effects *effects);
     bool ball_only;     /* an observer whose states or columns only backend ball has                          */
     const char *breaks; /* why no isomorphism survives it; NULL: it has an image, or it observes              */
     bool needs_D;       /* it needs D = m b^2                                                                 */
@@ -185,9 +187,9 @@ iso_dimension iso_level_dimension(void);
 ISO_API iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3],
                                      iso_effects *effects);
 
-/* Whether gravity has no torque, up to rounding: on a plane with `up`, a unit vector, along the normal the weight
- * only presses the ball down. */
-ISO_API bool iso_effects_on_level_plane(const iso_params *params, const double normal[3], const iso_effects *effects);
+/* Finds the effects that have no torque from a start with this normal on, up to rounding, and notes them in `idle`:
+ * the weight on a level plane only presses the ball down. Orbits settle their effects themselves. */
+ISO_API void iso_effects_settle(const iso_params *params, const double normal[3], iso_effects *effects);
 
 /* The upward vertical at the start, in body axes: 3 numbers. Without gravity they mean nothing. */
 const double *iso_effects_up(const iso_effects *effects);
@@ -197,8 +199,14 @@ iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *unit
 
 /* --- what they do to the motion --------------------------------------------------------------------------------- */
 
-/* Those that act: without observers. */
+/* Whether an effect that is on changes the motion: it is no observer, and not idle. */
+bool iso_effect_acts(const iso_effects *effects, iso_effect_id id);
+
+/* Those that act, of effects that are settled; of a scene: iso_scene_acting (orbit/scene.h). */
 ISO_API iso_effects iso_effects_acting(const iso_effects *effects);
+
+/* The first effect that is idle; NULL: none. */
+ISO_API const iso_effect *iso_effects_idle(const iso_effects *effects);
 
 /* The first effect that breaks the isomorphism, and why; NULL: none. */
 ISO_API const iso_effect *iso_effects_breaking(const iso_effects *effects);

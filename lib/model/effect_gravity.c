@@ -5,6 +5,9 @@
  * The weight -m g e acts at the centre, b n above the contact. With the signed radius b this holds on all surfaces,
  * and the potential energy is m g (a+b)(n,e) = mgb/(1-k) (n,e). On a plane (k = 1) it is the height of the centre, m
  * g (E,x), with the vertical E in space and the displacement x, which only `attitude` knows.
+ *
+ * On a level plane e = n, now and for ever: e' = e x w is n' = k n x w where k = 1. There the weight has no torque, and
+ * gravity is idle. It has no states either, since n is the vertical.
  */
 #include <float.h>
 #include <math.h>
@@ -22,13 +25,24 @@ static double mgb(const iso_problem *f)
     return f->effects.number[ISO_GRAVITY][MGB];
 }
 
-static const double *vertical(const iso_problem *f, const double y[])
+static bool is_idle(const iso_problem *f)
 {
-    return y + f->at[ISO_GRAVITY];
+    return f->effects.idle[ISO_GRAVITY];
+}
+
+static bool is_state(const iso_problem *f)
+{
+    return !is_idle(f);
+}
+
+const double *iso_vertical(const iso_problem *f, const double y[])
+{
+    return is_idle(f) ? y + 3 : y + f->at[ISO_GRAVITY];
 }
 
 static void motion(iso_formula *F, const iso_problem *f)
 {
+    if (is_idle(f)) return;
     const iso_vector e = vector_state(F, f->at[ISO_GRAVITY]);
     add_torque(F, constant(F, mgb(f)), cross_of(F, e, formula_n(F)));
     set_rate_v(F, e, constant(F, 1), cross_of(F, e, formula_omega(F)));
@@ -85,23 +99,23 @@ static double range(const iso_problem *f, const double y[])
 static double vertical_length(const iso_problem *f, const double y[], double *value_size)
 {
     *value_size = 1;
-    return norm(vertical(f, y));
+    return norm(iso_vertical(f, y));
 }
 
 static double slope_of_plane(const iso_problem *f, const double y[], double *value_size)
 {
     *value_size = 1;
-    return dot(vertical(f, y), y + 3);
+    return dot(iso_vertical(f, y), y + 3);
 }
 
 static void show(const iso_problem *f, const double y[], double columns[])
 {
-    copy(vertical(f, y), columns, 3);
+    copy(iso_vertical(f, y), columns, 3);
 }
 
 static void recall(const iso_problem *f, const double columns[], double y[])
 {
-    copy(columns, y + f->at[ISO_GRAVITY], 3);
+    if (!is_idle(f)) copy(columns, y + f->at[ISO_GRAVITY], 3);
 }
 
 /* --- its numbers ------------------------------------------------------------------------------------------------ */
@@ -111,18 +125,21 @@ const double *iso_effects_up(const iso_effects *e)
     return e->number[ISO_GRAVITY] + UP;
 }
 
-bool iso_effects_on_level_plane(const iso_params *p, const double normal[3], const iso_effects *e)
+/* On a plane, with `up` along the normal. */
+static bool idle(const iso_params *p, const double n[3], const iso_effects *e)
 {
     double e_n[3];
-    cross(iso_effects_up(e), normal, e_n);
-    return e->on[ISO_GRAVITY] && p->k == 1 && norm(e_n) <= 4 * DBL_EPSILON;
+    cross(iso_effects_up(e), n, e_n);
+    return p->k == 1 && norm(e_n) <= 4 * DBL_EPSILON;
 }
 
 static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *e)
 {
+    (void)p;
+    (void)n;
     if (e->number[ISO_GRAVITY][MGB] == 0)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "gravity", "gravity of 0 changes nothing: take it out");
-    if (e->on[ISO_REACTIONS] || !iso_effects_on_level_plane(p, n, e)) return ISO_OK;
+    if (e->on[ISO_REACTIONS] || !e->idle[ISO_GRAVITY]) return ISO_OK;
     return iso_context_fail(
         ctx, ISO_BAD_INPUT, "gravity",
         "on a level plane (up along the normal) gravity has no torque and changes nothing: take it "
@@ -162,7 +179,7 @@ static const iso_effect_column columns[] = {
 };
 
 static const iso_effect_state states[] = {
-    {.name = e_names, .count = 3, .kind = ISO_STATE_UNIT},
+    {.name = e_names, .count = 3, .kind = ISO_STATE_UNIT, .there = is_state},
     {0},
 };
 
@@ -175,6 +192,7 @@ static const iso_integral integrals[] = {
 const iso_effect iso_effect_gravity = {
     .name = "gravity",
     .doc = "weight: torque mgb e x n, potential m g (a+b)(n,e)",
+    .idle = idle,
     .breaks = "its torque depends on the vertical, which turns in the body: it is no potential of n",
     .work = work,
     .no_frequencies = no_frequencies,

@@ -31,7 +31,7 @@ iso_reactions iso_reactions_at(const iso_problem *f, const double y[])
     scale(across, D);
     double normal = -D * (1 - k) * dot(w, w), size = fabs(normal);
     if (f->effects.on[ISO_GRAVITY]) {
-        const double *e = y + f->at[ISO_GRAVITY], mgb = f->effects.number[ISO_GRAVITY][0];
+        const double *e = iso_vertical(f, y), mgb = f->effects.number[ISO_GRAVITY][0];
         add_scaled(across, mgb, e);
         normal += mgb * dot(e, n);
         size += fabs(mgb);

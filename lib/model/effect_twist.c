@@ -118,7 +118,7 @@ static double momentum_up(const iso_problem *f, const double y[], double *value_
 {
     double K[3];
     *value_size = momentum(f, y, K);
-    return dot(K, y + f->at[ISO_GRAVITY]);
+    return dot(K, iso_vertical(f, y));
 }
 
 /* No torque acts, or only the weight's. */
@@ -133,17 +133,15 @@ static bool is_classical(const iso_problem *f)
 
 static bool keeps_square(const iso_problem *f)
 {
-    return is_classical(f) && !f->effects.on[ISO_GRAVITY];
+    return is_classical(f) && !iso_effect_acts(&f->effects, ISO_GRAVITY);
 }
 
 /* (K,n)' = (MQ,n) where k = 1: the torques of potentials are orthogonal to n. */
 static bool keeps_normal(const iso_problem *f)
 {
     bool orthogonal = true;
-    for (int e = 0; e < ISO_EFFECTS; e++) {
-        const iso_effect *effect = iso_effect_list[e];
-        if (f->effects.on[e] && e != ISO_TWIST) orthogonal = orthogonal && (effect->observes || effect->potential);
-    }
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (e != ISO_TWIST && iso_effect_acts(&f->effects, e)) orthogonal = orthogonal && iso_effect_list[e]->potential;
     return f->p.k == 1 && c_of(f) == 0 && orthogonal;
 }
 

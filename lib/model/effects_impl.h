@@ -35,6 +35,9 @@ struct iso_model;
  * equations. Slower: a test holds the two against each other. */
 void iso_model_rhs_of_recurrences(const struct iso_model *m, const double y[], double dy[]);
 
+/* The vertical e of gravity, in axes of the body. */
+const double *iso_vertical(const iso_problem *f, const double y[]);
+
 /* For the rows: states that are there on a plane alone, and what many of them answer. */
 bool iso_is_plane(const iso_problem *f);
 iso_work iso_no_work(const iso_problem *f);

@@ -228,10 +228,19 @@ static iso_status check_equations(iso_context *ctx, const iso_params *p, const i
                             "the equations of '%s' cannot be computed: %s", iso_effect_list[e]->name, F.wrong);
 }
 
+void iso_effects_settle(const iso_params *p, const double normal[3], iso_effects *effects)
+{
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        const iso_effect *effect = iso_effect_list[e];
+        effects->idle[e] = effects->on[e] && effect->idle && effect->idle(p, normal, effects);
+    }
+}
+
 iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double normal[3], iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
     iso_status status = ISO_OK;
+    iso_effects_settle(p, normal, effects);
     for (iso_effect_id e = 0; status == ISO_OK && e < ISO_EFFECTS; e++) {
         const iso_effect *effect = iso_effect_list[e];
         if (!effects->on[e]) continue;

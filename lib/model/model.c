@@ -109,7 +109,7 @@ static void add_states(iso_model *m)
 static const iso_effect *find_without_formula(const iso_model *m)
 {
     for (int e = 0; e < ISO_EFFECTS; e++)
-        if (m->problem.effects.on[e] && m->system == &iso_system_ball && iso_effect_list[e]->torque)
+        if (iso_effect_acts(&m->problem.effects, e) && m->system == &iso_system_ball && iso_effect_list[e]->torque)
             return iso_effect_list[e];
     return NULL;
 }

@@ -19,6 +19,7 @@ enum { ISO_EFFECT_NUMBERS = 12 }; /* the most numbers of one effect */
 
 typedef struct iso_effects {
     bool on[ISO_EFFECTS];
+    bool idle[ISO_EFFECTS]; /* no torque from this start on: it only observes; iso_effects_settle finds it */
     double number[ISO_EFFECTS][ISO_EFFECT_NUMBERS];
 } iso_effects;
 

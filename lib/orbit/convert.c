@@ -32,12 +32,30 @@ static bool is_eps_wrong(iso_conversion *c, const conversion_row *r)
     return r->other_energy && c->good == 1 && ++c->strangers == 3;
 }
 
+/* From the first good row on it is known which effects only observe. Those that break the isomorphism are refused. */
+static iso_status settle_effects(iso_conversion *c, const double row[])
+{
+    iso_start start;
+    iso_effects effects = c->effects;
+    if (c->settled || iso_record_start_at(c->ctx, c->in, c->params, c->from, row, &start, &effects) != ISO_OK)
+        return ISO_OK;
+    const iso_effect *e = iso_effects_breaking(&effects);
+    c->effects = iso_effects_acting(&effects);
+    c->settled = true;
+    if (!e) return ISO_OK;
+    return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "effects",
+                            "this trajectory was made with '%s', which breaks the isomorphism: %s", e->name,
+                            iso_effect_why_broken(e));
+}
+
 iso_status iso_conversion_put(iso_conversion *c, const double row[], size_t line)
 {
     ISO_DEFAULT_ARITHMETIC;
     conversion_row r = {.line = line};
     c->summary.rows++;
-    iso_status status = iso_conversion_read_row(c, row, &r);
+    iso_status status = settle_effects(c, row);
+    if (status != ISO_OK) return status;
+    status = iso_conversion_read_row(c, row, &r);
     if (status != ISO_OK) return is_eps_wrong(c, &r) ? status : iso_conversion_bad(c, line, status);
     c->good++;
     if (!c->begun) status = begin(c, &r);
@@ -67,15 +85,6 @@ iso_status iso_conversion_end(iso_conversion *c, iso_conversion_summary *summary
 
 /* --- beginning and end ------------------------------------------------------------------------------------------ */
 
-static iso_status refuse_effect(const iso_conversion *c)
-{
-    const iso_effect *e = iso_effects_breaking(&c->effects);
-    if (!e) return ISO_OK;
-    return iso_context_fail(c->ctx, ISO_NOT_MAPPED, "effects",
-                            "this trajectory was made with '%s', which breaks the isomorphism: %s", e->name,
-                            e->breaks);
-}
-
 static iso_status find_columns(iso_conversion *c)
 {
     int columns[ISO_STATE];
@@ -96,8 +105,6 @@ static iso_status find_columns(iso_conversion *c)
 static iso_status read_lines(iso_conversion *c)
 {
     iso_status status = iso_record_effects(c->ctx, c->in, &c->effects);
-    if (status == ISO_OK) status = refuse_effect(c);
-    c->effects = iso_effects_acting(&c->effects);
     c->stated_eps = NAN;
     if (status == ISO_OK && c->from == ISO_POINT) {
         double eps;

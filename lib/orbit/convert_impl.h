@@ -31,6 +31,8 @@ struct iso_conversion {
     double stated_eps;            /* by the lines; NAN: not                                              */
     iso_effects effects;          /* of the lines, and the level of a point off H = 0; the caller's units */
 
+    bool settled;                 /* which of them act is known: from the first row on that is a start   */
+
     /* from the first good row on, which has begun the result */
     bool begun;
     iso_status trouble;              /* no memory, or stopped, in the middle of a decision */

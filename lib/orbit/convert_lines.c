@@ -27,8 +27,8 @@ static iso_status describe_energy(const iso_conversion *c, iso_model_kind to, is
                                agrees && named ? NULL : c->first);
 }
 
-/* Lines that do not hold for the result: of the ball's columns, of how a clock was computed. */
-static bool is_left_behind(const char *key)
+/* Lines that do not hold for the result: of effects that only observe, of how a clock was computed. */
+static bool is_left_behind(const iso_conversion *c, const char *key)
 {
     static const char *const keys[] = {"effects", "s.from", "s.error", "t.from", "t.error", "radius"};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
@@ -37,7 +37,7 @@ static bool is_left_behind(const char *key)
         const iso_effect *effect = iso_effect_list[e];
         const size_t length = strlen(effect->name);
         const bool its_line = strncmp(key, effect->name, length) == 0 && key[length] == '.';
-        if (its_line && (effect->observes || effect->is_level)) return true;
+        if (its_line && (!c->effects.on[e] || effect->is_level)) return true;
     }
     return false;
 }
@@ -47,7 +47,7 @@ static iso_status set_lines(const iso_conversion *c, iso_model_kind to, double b
     const char *key, *value, *origin = origin_line[c->own];
     iso_status status = ISO_OK;
     for (size_t i = 0; status == ISO_OK && iso_record_line(c->in, i, &key, &value); i++)
-        if (!is_left_behind(key)) status = iso_record_set(c->ctx, out, key, value);
+        if (!is_left_behind(c, key)) status = iso_record_set(c->ctx, out, key, value);
     if (status == ISO_OK) status = iso_record_describe_effects(c->ctx, out, &c->effects);
     if (status == ISO_OK) status = describe_energy(c, to, out);
     if (status == ISO_OK && c->own_column >= 0 && (begin != 0 || iso_record_get(out, origin)))

@@ -22,8 +22,10 @@ static bool needs(const iso_crossings_options *o, iso_backend backend, iso_shown
 iso_way iso_crossings_way(const iso_crossings *c, size_t i)
 {
     const iso_backend asked = c->options.backend, last = asked == ISO_BACKEND_AUTO ? ISO_BACKEND_BALL : asked;
-    const iso_effects *effects = c->orbits[i].effects;
-    return iso_way_first(c->orbits[i].params, asked, last, !effects || !iso_effects_breaking(effects));
+    const iso_batch_orbit *of = &c->orbits[i];
+    iso_effects effects = of->effects ? *of->effects : iso_effects_default();
+    iso_start_settle(of->params, of->start, &effects);
+    return iso_way_first(of->params, asked, last, !iso_effects_breaking(&effects));
 }
 
 iso_orbit_options iso_crossings_orbit_options(const iso_crossings *c, size_t i, iso_way way)

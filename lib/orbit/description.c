@@ -273,8 +273,10 @@ iso_status iso_record_start_at(iso_context *ctx, const iso_record *r, const iso_
     for (int i = 0; i < ISO_STATE; i++) y[i] = row[columns[i]];
     const bool states_eps = model == ISO_POINT && iso_record_coupling(ctx, r, p, &eps, &status);
     if (status != ISO_OK) return status;
-    return iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, iso_effects_twist(effects),
-                              iso_record_row_tolerance(r), start);
+    status = iso_start_from_row(ctx, model, y, states_eps ? &eps : NULL, iso_effects_twist(effects),
+                                iso_record_row_tolerance(r), start);
+    if (status == ISO_OK) iso_start_settle(p, start, effects);
+    return status;
 }
 
 iso_status iso_record_start(iso_context *ctx, const iso_record *r, const iso_params *p, iso_model_kind model,

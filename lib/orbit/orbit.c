@@ -21,13 +21,12 @@
 /* --- making an orbit -------------------------------------------------------------------------------------------- */
 
 /* Effects that only the ball shows need the ball, and some methods are for one system. */
-static iso_backend choose_backend(const iso_orbit_options *opt, const iso_start *start)
+static iso_backend choose_backend(const iso_orbit_options *opt, const iso_effects *e, const iso_start *start)
 {
-    const iso_effects *e = opt->effects;
     if (opt->backend != ISO_BACKEND_AUTO) return opt->backend;
     if (opt->method && opt->method->system)
         return opt->method->system == &iso_system_ball ? ISO_BACKEND_BALL : ISO_BACKEND_POINT;
-    return e && (iso_effects_breaking(e) || iso_effects_ball_only(e)) ? ISO_BACKEND_BALL : (iso_backend)start->model;
+    return iso_effects_breaking(e) || iso_effects_ball_only(e) ? ISO_BACKEND_BALL : (iso_backend)start->model;
 }
 
 /* Whether a start stays where it is: then any time is known without steps. */
@@ -43,7 +42,9 @@ iso_status iso_orbit_prepare(iso_orbit *o, const iso_params *p, const iso_start 
 {
     iso_orbit_options *opt = &o->options;
     double six[ISO_STATE], size;
-    opt->backend = choose_backend(opt, start);
+    if (opt->effects) o->effects = *opt->effects;
+    iso_start_settle(p, start, &o->effects);
+    opt->backend = choose_backend(opt, &o->effects, start);
     const bool ball = opt->backend == ISO_BACKEND_BALL, exact = opt->backend == ISO_BACKEND_EXACT;
     if ((!ball && !exact && opt->backend != ISO_BACKEND_POINT) || (int)opt->shown < 0 || opt->shown > ISO_SHOW_BOTH)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "backend",

@@ -157,11 +157,11 @@ static iso_status check_closed(iso_context *ctx, const iso_effects *effects)
 
 static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_start *start)
 {
+    double n[3];
     iso_effects *e = &o->effects;
     const iso_effect *breaking = iso_effects_breaking(e), *only_ball = iso_effects_ball_only(e);
     const bool by_point = o->options.backend != ISO_BACKEND_BALL;
     const bool point = by_point || o->options.shown != ISO_SHOW_BALL || start->model == ISO_POINT;
-    const double *n = start->y + 3; /* a point's gamma: only gravity asks, which a point has not */
     if (start->model == ISO_POINT && isnan(iso_effects_level(e)))
         iso_effects_set_level(e, false, NAN); /* as it comes */
     if (o->options.backend == ISO_BACKEND_EXACT && check_closed(o->ctx, e) != ISO_OK) return ISO_BAD_ARGUMENT;
@@ -172,6 +172,7 @@ static iso_status check_effects(iso_orbit *o, const iso_params *p, const iso_sta
     if (only_ball && by_point)
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, only_ball->name, "'%s' is the ball's: take backend ball",
                                 only_ball->name);
+    iso_start_normal(p, start, n);
     return iso_effects_check(o->ctx, p, n, e);
 }
 
@@ -228,7 +229,6 @@ iso_status iso_orbit_find_start(iso_orbit *o, const iso_params *p, const iso_sta
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "an orbit starts as a ball or as a point");
     if (!all_finite(start->y, ISO_STATE) || (start->model == ISO_POINT && isinf(start->eps)))
         return iso_context_fail(o->ctx, ISO_BAD_ARGUMENT, "", "the start is not finite");
-    if (o->options.effects) o->effects = *o->options.effects;
     o->length = p->body.radius > 0 ? p->body.radius : 1;
     iso_status status = check_effects(o, p, start);
     if (status != ISO_OK) return status;

@@ -131,6 +131,35 @@ iso_status iso_start_point(iso_context *ctx, const double M[3], const double gam
     return check_pair(ctx, "gamma", "M", project ? ISO_SPIN_REMOVE : ISO_SPIN_REFUSE, start->y + 3, start->y);
 }
 
+/* n = J^(1/2) gamma, as a unit vector (18) */
+void iso_start_normal(const iso_params *p, const iso_start *start, double n[3])
+{
+    copy(start->y + 3, n, 3);
+    if (start->model != ISO_POINT) return;
+    for (int i = 0; i < 3; i++) n[i] *= sqrt(p->J[i]);
+    make_unit(n);
+}
+
+void iso_start_settle(const iso_params *p, const iso_start *start, iso_effects *effects)
+{
+    double n[3];
+    iso_start_normal(p, start, n);
+    iso_effects_settle(p, n, effects);
+}
+
+iso_effects iso_scene_effects(const iso_scene *scene)
+{
+    iso_effects effects = scene->effects;
+    iso_start_settle(&scene->params, &scene->start, &effects);
+    return effects;
+}
+
+iso_effects iso_scene_acting(const iso_scene *scene)
+{
+    const iso_effects effects = iso_scene_effects(scene);
+    return iso_effects_acting(&effects);
+}
+
 iso_scene iso_scene_default(void)
 {
     return (iso_scene){.effects = iso_effects_default(),

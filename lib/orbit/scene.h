@@ -89,6 +89,19 @@ typedef struct iso_scene {
     iso_place place[ISO_MAX_PLACES];
 } iso_scene;
 
+/* The normal n at a start: that of the ball, or of the ball's image of the point. */
+void iso_start_normal(const iso_params *params, const iso_start *start, double n[3]);
+
+/* Finds the effects that are idle from this start on (iso_effects_settle). */
+void iso_start_settle(const iso_params *params, const iso_start *start, iso_effects *effects);
+
+/* The effects of a scene, settled. */
+iso_effects iso_scene_effects(const iso_scene *scene);
+
+/* The effects that act on the motion of a scene: all but observers, and but those that only observe from its start
+ * on, as the weight on a level plane does. */
+ISO_API iso_effects iso_scene_acting(const iso_scene *scene);
+
 /* Puts "name:line:column: " before the context's message where the failure is about a key that the scene was read
  * with, or one that follows from it (k from `surface`); what is then a mistake in the file is ISO_BAD_INPUT, no
  * longer ISO_BAD_ARGUMENT. Gives the status. */

@@ -274,7 +274,7 @@ iso_status iso_analogue_problem_of(iso_context *ctx, const iso_scene *scene, iso
     iso_orbit *orbit;
     iso_sample sample;
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
-    iso_effects effects = iso_effects_acting(&scene->effects);
+    iso_effects effects = iso_scene_acting(scene);
     if (scene->start.model != ISO_POINT)
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "this scene is a ball already: an analogue is of a 'point'");
     iso_status status = check_effects(ctx, &effects);

@@ -175,7 +175,7 @@ static iso_status prepare(iso_chaos_walk *w)
     iso_sample start;
     iso_status status = check_options(w);
     if (status != ISO_OK) return status;
-    w->effects = iso_effects_acting(&w->scene->effects);
+    w->effects = iso_scene_acting(w->scene);
     choose_models(w);
     status = open_orbit(w, &start);
     if (status != ISO_OK) return status;

@@ -152,6 +152,7 @@ static iso_status open_first(checker *c, checked_model *m, const double row[])
     iso_effects effects = iso_checker_effects(c, m->kind);
     iso_status status = find_start(c, m, row, &start, &effects);
     if (status != ISO_OK) return status;
+    for (int e = 0; e < ISO_EFFECTS; e++) c->effects.idle[e] = c->effects.idle[e] || effects.idle[e];
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &effects;
     status = iso_orbit_create(c->ctx, c->params, &start, &o, &m->orbit);

@@ -53,7 +53,7 @@ static iso_status check_scene(iso_context *ctx, const iso_scene *scene, const is
 iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_scene *scene,
                                  const iso_cost_options *o)
 {
-    *p = (cost_problem){.user = user, .scene = scene, .effects = iso_effects_acting(&scene->effects)};
+    *p = (cost_problem){.user = user, .scene = scene, .effects = iso_scene_acting(scene)};
     p->monitor = (cost_monitor){.user = user, .deadline = INFINITY};
     p->clock = iso_orbit_defaults(&scene->start).clock;
     p->other = p->clock == ISO_CLOCK_T ? ISO_CLOCK_S : ISO_CLOCK_T;

@@ -47,7 +47,7 @@ static bool is_known(const energies *e)
     const iso_problem *f = &iso_orbit_model(e->first)->problem;
     for (iso_effect_id id = 0; id < ISO_EFFECTS; id++) {
         const iso_effect *effect = iso_effect_list[id];
-        if (!f->effects.on[id] || effect->observes) continue;
+        if (!iso_effect_acts(&f->effects, id)) continue;
         if (!effect->work || effect->work(f) == ISO_WORK_UNKNOWN) return false;
     }
     return true;

@@ -341,7 +341,7 @@ iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, co
     if (status != ISO_OK) return status;
     const bool fixed = !isnan(own.turns) || !isnan(own.end) || !isnan(own.samples);
     estimator e = {
-        .ctx = ctx, .scene = scene, .fixed = fixed, .effects = iso_effects_acting(&scene->effects), .f = f};
+        .ctx = ctx, .scene = scene, .fixed = fixed, .effects = iso_scene_acting(scene), .f = f};
     iso_frequencies_blank(f);
     f->estimated = true;
     status = prepare(&e, &own);

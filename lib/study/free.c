@@ -35,3 +35,25 @@ iso_status iso_study_check_free_start(iso_context *ctx, const iso_scene *scene, 
     iso_orbit_free(orbit);
     return iso_study_check_free(ctx, &found, what);
 }
+
+iso_status iso_study_motion(iso_context *ctx, const iso_scene *scene, const char *what, iso_params *own,
+                            iso_point_motion *motion)
+{
+    const iso_effects effects = iso_scene_acting(scene);
+    const iso_effect *effect = iso_effects_beyond_level(&effects);
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    iso_orbit *orbit;
+    if (effect)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
+                                "%s only of motions on which nothing acts but a level: remove '%s'", what,
+                                effect->name);
+    o.effects = &effects;
+    o.gamma_alone = true; /* M need not fit a double */
+    const iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    if (status != ISO_OK) return status;
+    *own = iso_orbit_units(orbit)->own;
+    *motion = iso_orbit_motion(orbit);
+    motion->p = own;
+    iso_orbit_free(orbit);
+    return ISO_OK;
+}

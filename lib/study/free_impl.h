@@ -18,4 +18,10 @@ iso_status iso_study_check_free(iso_context *ctx, const iso_effects *effects, co
 iso_status iso_study_check_free_start(iso_context *ctx, const iso_scene *scene, const iso_effects *effects,
                                       const char *what);
 
+/* The motion of a scene's point: its params in own units (into *own), eps and H; on H = 0, eps may be 0. Refuses an
+ * effect that acts and is no level, with ISO_BAD_INPUT; what: as in "integrals are sought". Errors: also those of
+ * iso_orbit_create. */
+iso_status iso_study_motion(iso_context *ctx, const iso_scene *scene, const char *what, iso_params *own,
+                            iso_point_motion *motion);
+
 #endif

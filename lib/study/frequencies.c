@@ -146,7 +146,7 @@ static iso_status solve(iso_context *ctx, const iso_orbit *orbit, const iso_samp
 
 static iso_status find_exact(iso_context *ctx, const iso_scene *scene, iso_frequencies *f)
 {
-    const iso_effects effects = iso_effects_acting(&scene->effects);
+    const iso_effects effects = iso_scene_acting(scene);
     iso_orbit *orbit;
     iso_sample start;
     iso_exact *exact = NULL;

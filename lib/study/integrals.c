@@ -7,6 +7,7 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
+#include "map/level.h"
 #include "study/free_impl.h"
 #include "study/integrals_impl.h"
 
@@ -69,13 +70,6 @@ static iso_status check_options(iso_context *ctx, iso_integral_search_options *o
     if (!(o->within > 0 && o->within < 1))
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "within", "within %g is not in (0, 1)", o->within);
     return ISO_OK;
-}
-
-/* Only free motions on H = 0 are searched. */
-static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
-{
-    const iso_effects acting = iso_effects_acting(&scene->effects);
-    return iso_study_check_free_start(ctx, scene, &acting, "integrals are sought");
 }
 
 /* --- integrals that are known ----------------------------------------------------------------------------------- */
@@ -145,9 +139,8 @@ static void add_gradients(search *s, const integral_part *part)
     for (uint64_t i = 0; i < PROBES; i++) {
         double l, x, y[ISO_STATE], by[2][ISO_STATE], slope[2];
         iso_section_spread_point(&s->samples.spread, i, &l, &x);
-        iso_section_point(iso_free_point(&s->samples.problem.p, s->samples.problem.eps), s->samples.axis, l, x, y);
-        iso_section_deviations(iso_free_point(&s->samples.problem.p, s->samples.problem.eps), s->samples.axis, l, x,
-                               by[0], by[1]);
+        iso_section_point(iso_integral_motion(&s->samples), s->samples.axis, l, x, y);
+        iso_section_deviations(iso_integral_motion(&s->samples), s->samples.axis, l, x, by[0], by[1]);
         for (size_t f = 0; f < part->found; f++) {
             for (int c = 0; c < 2; c++)
                 slope[c] = iso_integral_slope(&part->function[f], y, by[c]) * (c == 1 ? sqrt(1 - x * x) : 1);
@@ -281,11 +274,15 @@ static double relative_error(const iso_integral_search_options *o)
 
 static iso_status run(search *s, const iso_scene *scene)
 {
+    iso_params own;
+    iso_point_motion motion;
     iso_status status = check_options(s->ctx, &s->options);
-    if (status == ISO_OK) status = check_scene(s->ctx, scene);
+    if (status == ISO_OK) status = iso_study_motion(s->ctx, scene, "integrals are sought", &own, &motion);
     if (status == ISO_OK)
-        status = iso_integral_prepare(s->ctx, &scene->params, s->options.seed, s->options.orbits, &s->samples);
+        status = iso_integral_prepare(s->ctx, motion, s->options.seed, s->options.orbits, &s->samples);
     if (status != ISO_OK) return status;
+    const iso_problem *f = &s->samples.problem;
+    s->out->level = f->energy == 0 ? 0 : iso_level_of(&f->p, f->energy / f->eps);
     s->out->coefficients = s->options.coefficients;
     s->out->orbits = s->options.orbits;
     s->out->delta = relative_error(&s->options);

@@ -14,7 +14,7 @@ typedef struct integral_term {
 
 /* The states at which functions are looked at: ISO_INTEGRAL_ROWS rows for each orbit. */
 typedef struct integral_samples {
-    iso_problem problem; /* the free point, eps = 1/2, J in a unit with which |M| <= 1 */
+    iso_problem problem; /* the point on its level, in units with which |M| <= 1       */
     int axis;            /* of the section on which orbits start                       */
     iso_section_spread spread;
     size_t orbits, rows;
@@ -37,8 +37,9 @@ typedef struct integral_part {
 } integral_part;
 
 /* Everything but the states. */
-iso_status iso_integral_prepare(iso_context *ctx, const iso_params *p, uint64_t seed, size_t orbits,
+iso_status iso_integral_prepare(iso_context *ctx, iso_point_motion motion, uint64_t seed, size_t orbits,
                                 integral_samples *s);
+iso_point_motion iso_integral_motion(const integral_samples *s);
 
 /* The states; *energy: the root mean square of the energy's relative error. Errors: those of iso_batch_run;
  * ISO_NUMERICAL where powers of q do not fit a double. */

@@ -55,7 +55,7 @@ iso_status iso_measure_open(iso_context *ctx, const iso_scene *scene, const iso_
     iso_status status = iso_options_take(ctx, "iso_measure_options", options, sizeof *options, given);
     if (status == ISO_OK) status = check_options(ctx, options);
     if (status != ISO_OK) return status;
-    iso_effects acting = iso_effects_acting(&scene->effects);
+    iso_effects acting = iso_scene_acting(scene);
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     o.effects = &acting;
     o.backend = ISO_BACKEND_BALL;

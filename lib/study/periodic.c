@@ -64,7 +64,7 @@ static iso_status check_moments(const iso_periodic_work *w)
 static iso_status check_scene(iso_periodic_work *w)
 {
     const iso_start *start = &w->scene->start;
-    const iso_effects effects = iso_effects_acting(&w->scene->effects);
+    const iso_effects effects = iso_scene_acting(w->scene);
     iso_orbit_options o = iso_orbit_defaults(start);
     iso_orbit *orbit;
     iso_status status = iso_study_check_free(w->ctx, &effects, "periodic orbits are sought");

@@ -121,14 +121,12 @@ static void choose_section(iso_section_walk *w)
     w->chart = o->column < 0;
 }
 
-/* Observers cost time: only the observer whose column is used stays. */
+/* Observers cost time. They stay only where the column of an effect is used: one of them may need another. */
 static void choose_effects(iso_section_walk *w)
 {
     const int column = w->options.column;
-    w->effects = iso_effects_acting(&w->scene->effects);
-    if (column < ISO_COLUMN_EFFECTS || column >= iso_columns_count()) return;
-    const iso_effect_id effect = iso_column_effect(column);
-    w->effects.on[effect] = w->scene->effects.on[effect];
+    w->effects = iso_scene_acting(w->scene);
+    if (column >= ISO_COLUMN_EFFECTS && column < iso_columns_count()) w->effects = iso_scene_effects(w->scene);
 }
 
 static void choose_models(iso_section_walk *w)

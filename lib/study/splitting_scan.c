@@ -189,9 +189,9 @@ static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
 {
     static const char what[] = "the splitting is measured";
     if (!scene) return ISO_OK;
-    const iso_effects acting = iso_effects_acting(&scene->effects);
+    const iso_effects acting = iso_scene_acting(scene);
     return scene->start.model == ISO_POINT ? iso_study_check_free_start(ctx, scene, &acting, what)
-                                           : iso_study_check_free(ctx, &scene->effects, what);
+                                           : iso_study_check_free(ctx, &acting, what);
 }
 
 static iso_status run(iso_context *ctx, const iso_splitting_options *o, iso_splittings *s)

@@ -151,7 +151,8 @@ static size_t chaos_chunk(const iso_sweep_ask *ask)
     enum { MOST = 512, LANES = 8 };
     const double asked = isnan(ask->turns) ? 1000 : fmin(ask->turns, 1000),
                  models = with_model(ask, 0) + with_model(ask, 1);
-    const bool effects = ask->base && iso_effects_beyond_level(&ask->base->effects);
+    const iso_effects acting = ask->base ? iso_scene_acting(ask->base) : iso_effects_default();
+    const bool effects = iso_effects_beyond_level(&acting);
     const double point = (effects ? 300e-6 : 15e-6) * asked * models * (ask->setting[STARTS] + 1),
                  fits = fmin(1 / point, MOST);
     if (ask->setting[STARTS] > 0 || effects) return fits > 1 ? (size_t)fits : 1;

@@ -69,7 +69,8 @@ static int splitting_columns(const iso_sweep_ask *ask, const char *name[])
 
 static iso_status free_refuse(iso_context *ctx, const iso_sweep_ask *ask)
 {
-    const iso_effect *effect = iso_study_not_free(&ask->base->effects);
+    const iso_effects acting = iso_scene_acting(ask->base);
+    const iso_effect *effect = iso_study_not_free(&acting);
     if (!effect) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name, "it is about the free ball: take '%s' out of the scene",
                             effect->name);

@@ -162,7 +162,8 @@ static int backends_columns(const iso_sweep_ask *ask, const char *name[])
 
 static iso_status backends_refuse(iso_context *ctx, const iso_sweep_ask *ask)
 {
-    const iso_effect *breaking = iso_effects_breaking(&ask->base->effects);
+    const iso_effects acting = iso_scene_acting(ask->base);
+    const iso_effect *breaking = iso_effects_breaking(&acting);
     if (!breaking) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, breaking->name, "'%s' breaks the isomorphism: %s", breaking->name,
                             iso_effect_why_broken(breaking));

@@ -253,6 +253,59 @@ static void dependence(void)
     gsl_test_int((int)r.verdict, ISO_INTEGRALS_NONE, "and the same verdict");
 }
 
+/* --- every level of the energy ---------------------------------------------------------------------------------- */
+
+/* The scene of a start, on a level drawn above the potential there; by the point, or by its ball. */
+static iso_scene on_level(iso_random *random, double k, bool ball)
+{
+    double J[3];
+    iso_scene scene;
+    do {
+        draw(random, J);
+        scene = scene_of(k, J);
+    } while (iso_scene_on_level(ctx, &scene, iso_random_uniform(random, -0.5, 3)) != ISO_OK);
+    if (ball) return scene;
+    iso_orbit *orbit;
+    iso_sample start;
+    iso_orbit_options o = iso_orbit_defaults(&scene.start);
+    o.effects = &scene.effects;
+    o.shown = ISO_SHOW_BOTH;
+    gsl_test(iso_orbit_create(ctx, &scene.params, &scene.start, &o, &orbit) != ISO_OK ||
+                 iso_orbit_at(orbit, 0, &start) != ISO_OK,
+             "the point of a ball on a level");
+    scene.start = (iso_start){.model = ISO_POINT, .eps = iso_orbit_coupling(orbit)};
+    for (int i = 0; i < ISO_STATE; i++) scene.start.y[i] = start.point[i];
+    iso_orbit_free(orbit);
+    iso_effects_set_level(&scene.effects, false, NAN);
+    return scene;
+}
+
+/* k = 1 and -1 have their second integral on every level, other k have none; the ball's scene and the point's are one
+ * motion. */
+static void levels(void)
+{
+    static const double k[] = {1, -1, 0.5, -0.5, 2};
+    iso_random *random = iso_random_create(29);
+    iso_integral_search_options o = options(2);
+    o.turns = 10;
+    for (int i = 0; i < 5 * tests_length(3, 30); i++) {
+        const iso_scene scene = on_level(random, k[i % 5], i % 2 == 0);
+        const iso_integral_search r = search(&scene, &o);
+        const bool integrable = fabs(k[i % 5]) == 1;
+        gsl_test(r.level == 0, "k = %g: a level (%g)", k[i % 5], r.level);
+        gsl_test_int((int)r.verdict, integrable ? ISO_INTEGRALS_FOUND : ISO_INTEGRALS_NONE,
+                     "k = %g, level %g: integrals", k[i % 5], r.level);
+        gsl_test_int(r.independent, integrable ? 1 : 0, "k = %g, level %g: how many", k[i % 5], r.level);
+        gsl_test_int(r.known_count, integrable ? 1 : 0, "k = %g, level %g: known", k[i % 5], r.level);
+        if (integrable)
+            gsl_test(!(r.known[0].residual < 1e-9), "k = %g, level %g: %s is what is found (%.1e)", k[i % 5], r.level,
+                     r.known[0].name, r.known[0].residual);
+        gsl_test(!(r.energy < 1e-12), "k = %g, level %g: the samples keep the energy (%.1e)", k[i % 5], r.level,
+                 r.energy);
+    }
+    iso_random_free(random);
+}
+
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
 static void refuse(const iso_scene *scene, const iso_integral_search_options *o, iso_status status, const char *about)
@@ -287,8 +340,8 @@ static void refusals(void)
     iso_effects_set(ctx, &scene.effects, "rolling_resistance", "coefficient", 1, (double[]){0.1});
     refuse(&scene, &o, ISO_BAD_INPUT, "rolling_resistance");
     scene = scene_of(0.5, ours);
-    scene.start = (iso_start){.model = ISO_POINT, .y = {0, 0, 1, 1, 0, 0}, .eps = 2};
-    refuse(&scene, &o, ISO_BAD_INPUT, iso_level_name());
+    iso_effects_set(ctx, &scene.effects, "field", "linear", 3, (double[]){0.1, 0, 0.2});
+    refuse(&scene, &o, ISO_BAD_INPUT, "field");
     iso_context_set_monitor(ctx, never, NULL);
     scene = scene_of(0.5, ours);
     iso_integral_search r;
@@ -316,6 +369,7 @@ int main(void)
     doubtful();
     errors();
     dependence();
+    levels();
     refusals();
     iso_context_free(ctx);
     exit(gsl_test_summary());
