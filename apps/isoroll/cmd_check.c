@@ -1,6 +1,8 @@
 /* isoroll check - tests whether a trajectory solves its model. */
 #include <math.h>
+#include <string.h>
 
+#include "json.h"
 #include "parameters.h"
 #include "study/check.h"
 
@@ -8,27 +10,96 @@
 typedef struct options {
     file_options from;
     double tolerance, bound; /* NAN: not given */
+    bool json;
 } options;
 
-/* True: a bound is given, and a residual is above it. */
-static bool print_residuals(const iso_residuals *r, double bound)
+/* What is found out about a file. */
+typedef struct findings {
+    iso_residuals residuals;
+    json_t *unseen; /* names of what nobody looked at */
+} findings;
+
+static bool is_bad(const options *o, const iso_residual *r)
 {
-    bool failed = false;
+    return !isnan(o->bound) && !(r->worst <= o->bound);
+}
+
+static bool any_bad(const options *o, const iso_residuals *r)
+{
+    bool bad = false;
+    for (int i = 0; i < r->count; i++) bad = bad || is_bad(o, &r->residual[i]);
+    return bad;
+}
+
+/* --- what is printed -------------------------------------------------------------------------------------------- */
+
+/* Names with commas between, in lines of at most WIDTH characters. */
+static void print_names(const char *title, const json_t *names)
+{
+    enum { WIDTH = 100 };
+    int used = printf("%s", title);
+    for (size_t i = 0; i < json_array_size(names); i++) {
+        const char *name = json_string_value(json_array_get(names, i));
+        if (used + (int)strlen(name) + 2 > WIDTH) used = printf("\n   ") - 1;
+        used += printf(" %s%s", name, i + 1 < json_array_size(names) ? "," : "");
+    }
+    printf("\n");
+}
+
+static void print_table(const options *o, const findings *f)
+{
+    const iso_residuals *r = &f->residuals;
     printf("%zu rows", r->rows);
     if (r->passed > 0) printf(", %zu of nan passed over", r->passed);
-    printf("\n%-18s %10s %9s  %s\n", "residual", "worst", "at row", "of");
+    printf("\n%-22s %10s %9s  %s\n", "residual", "worst", "at row", "of");
     for (int i = 0; i < r->count; i++) {
         const iso_residual *x = &r->residual[i];
-        const bool bad = !isnan(bound) && !(x->worst <= bound);
-        failed = failed || bad;
-        printf("%-18s %10.2e %9zu  %s%s\n", x->name, x->worst, x->row, x->what, bad ? "  ABOVE THE BOUND" : "");
+        printf("%-22s %10.2e %9zu  %s%s\n", x->name, x->worst, x->row, x->what,
+               is_bad(o, x) ? "  ABOVE THE BOUND" : "");
     }
-    return failed;
+    if (json_array_size(f->unseen) > 0) print_names("not looked at:", f->unseen);
+}
+
+static bool print_json(const options *o, const findings *f)
+{
+    const iso_residuals *r = &f->residuals;
+    json_t *list = json_array();
+    for (int i = 0; i < r->count; i++) {
+        const iso_residual *x = &r->residual[i];
+        json_array_append_new(list,
+                              json_pack("{s:s, s:o, s:I, s:s, s:b}", "name", x->name, "worst", json_number(x->worst),
+                                        "row", (json_int_t)x->row, "of", x->what, "above_the_bound", is_bad(o, x)));
+    }
+    return json_print(json_pack("{s:s, s:I, s:I, s:o, s:o, s:O}", "isoroll", iso_version(), "rows",
+                                (json_int_t)r->rows, "passed_over", (json_int_t)r->passed, "bound",
+                                json_number(o->bound), "residuals", list, "not_looked_at", f->unseen));
+}
+
+/* --- the check -------------------------------------------------------------------------------------------------- */
+
+static void keep_name(void *data, const char *name)
+{
+    json_array_append_new(data, json_string(name));
+}
+
+/* Columns of other programs never come so far that they could be compared. */
+static void keep_ignored(const iso_trajectory_reader *in, json_t *unseen)
+{
+    const char *ignored = iso_trajectory_ignored(in);
+    if (ignored) json_array_append_new(unseen, json_sprintf("columns of others: %s", ignored));
+}
+
+static iso_status end_check(iso_checking *checking, const iso_trajectory_reader *in, findings *f)
+{
+    const iso_status status = iso_checking_end(checking, &f->residuals);
+    if (status != ISO_OK) return status;
+    keep_ignored(in, f->unseen);
+    return iso_checking_unseen(checking, keep_name, f->unseen);
 }
 
 /* Checks the rows one after the other, as they are read. A mistake in the first one is told before what the header
  * lacks. */
-static iso_status check_rows(iso_context *ctx, const options *o, iso_trajectory_reader *in, iso_residuals *residuals)
+static iso_status check_rows(iso_context *ctx, const options *o, iso_trajectory_reader *in, findings *f)
 {
     double row[ISO_TRAJECTORY_COLUMNS];
     iso_params params;
@@ -46,29 +117,40 @@ static iso_status check_rows(iso_context *ctx, const options *o, iso_trajectory_
         status = iso_checking_put(checking, row);
         if (status == ISO_OK) status = iso_trajectory_next(ctx, in, row, &more);
     }
-    if (status == ISO_OK) status = iso_checking_end(checking, residuals);
+    if (status == ISO_OK) status = end_check(checking, in, f);
     iso_checking_free(checking);
     return status;
+}
+
+static int report(const options *o, const findings *f)
+{
+    if (o->json) {
+        if (!print_json(o, f)) return EXIT_NUMERICAL;
+    } else {
+        print_table(o, f);
+    }
+    if (!any_bad(o, &f->residuals)) return EXIT_DONE;
+    return complain("%s: a residual is above %g", o->from.file, o->bound), EXIT_SOME_FAILED;
 }
 
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
     iso_trajectory_reader *in = NULL;
-    iso_residuals residuals;
-    bool failed = false;
+    findings f = {.residuals = {.rows = 0}};
+    json_begin();
+    f.unseen = json_array();
     iso_status status = iso_trajectory_reader_open(ctx, o->from.file, o->from.columns, &in);
     if (status == ISO_OK) {
         iso_trajectory_pass_nan(in);
-        status = check_rows(ctx, o, in, &residuals);
+        status = check_rows(ctx, o, in, &f);
     }
     iso_trajectory_reader_close(in);
-    if (status == ISO_OK)
-        failed = print_residuals(&residuals, o->bound);
-    else if (status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
+    if (status != ISO_OK && status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
         status = name_the_file(ctx, o->from.file, status);
-    if (failed) complain("%s: a residual is above %g", o->from.file, o->bound);
-    return status == ISO_OK && failed ? EXIT_SOME_FAILED : finish(ctx, status);
+    const int result = status == ISO_OK ? report(o, &f) : finish(ctx, status);
+    json_decref(f.unseen);
+    return result;
 }
 
 static const options defaults = {.from = FILE_OPTIONS_UNSET, .tolerance = NAN, .bound = NAN};
@@ -79,6 +161,7 @@ static const option_row rows[] = {
     ROWS_OF_FILE(options, from),
     ROW("max", "X", "a number from 0 on", "exit with status 1 if a residual is larger than X", set_bound, options,
         bound),
+    ROW_JSON(options, json),
     ROW_END,
 };
 
@@ -90,10 +173,13 @@ const command command_check = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
-    .description = "Prints residuals: of constraints, of integrals, and of every column. Residuals are relative. The "
-                   "residual 'flow' integrates each row to the time of the next row and compares. Rows are read one "
-                   "after the other, in constant memory.\n\nRows of nan, which convert writes, are passed over and "
-                   "counted.",
+    .description =
+        "Prints residuals: of constraints, of integrals, of every column, and of the # lines that state an "
+        "energy or how the ball began. Residuals are relative. The residual 'flow' integrates each row to "
+        "the time of the next row and compares. Rows are read one after the other, in constant memory.\n\n"
+        "The last line, 'not looked at', names the columns and # lines on which no residual depends: they "
+        "may hold anything. All others are noticed if they are off by a millionth.\n\n"
+        "Rows of nan, which convert writes, are passed over and counted.",
     .example = "isoroll check trajectory.csv --max 1e-9",
     .exits = "1: a residual is larger than --max",
     .run = run,

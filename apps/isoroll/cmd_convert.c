@@ -115,6 +115,13 @@ static void report_summary(const filter *f, const iso_conversion_summary *s)
                  f->name, iso_clock_name(s->clock), s->end, s->error, s->between, s->integrated);
 }
 
+/* Lines of the file that its first row does not confirm. */
+static void warn_of_lines(const filter *f, const iso_conversion_summary *s)
+{
+    char words[ISO_STATED_SIZE];
+    for (int i = 0; iso_conversion_stated_words(s, i, words); i++) complain("%s: %s", f->name, words);
+}
+
 static double largest_drift(const filter *f)
 {
     return iso_conversion_largest_drift(f->ctx, iso_trajectory_header(f->in), f->o->from.row_tolerance);
@@ -156,6 +163,7 @@ static int finish_filter(filter *f, iso_status status, const iso_conversion_summ
     if (closed != ISO_OK) return result == EXIT_DONE ? finish(f->ctx, closed) : result;
     if (status == ISO_STOPPED) complain("interrupted: %zu rows were converted", s->rows - s->bad);
     if (status != ISO_OK) return result;
+    warn_of_lines(f, s);
     if (!f->o->quiet) report_summary(f, s);
     return judge(f, s) ? EXIT_DONE : EXIT_SOME_FAILED;
 }

@@ -105,6 +105,8 @@ static void judge(iso_context *ctx, const iso_record *in, const iso_conversion_s
                   notes *n)
 {
     char words[256];
+    char stated[ISO_STATED_SIZE];
+    for (int i = 0; iso_conversion_stated_words(s, i, stated); i++) iso_notes_add(n, stated);
     if (!s->checked || s->drift.value <= iso_conversion_largest_drift(ctx, in, row_tolerance)) return;
     snprintf(words, sizeof words,
              "row %zu: these rows do not solve the equations that their lines state (k, J, eps, clocks), or have too "

@@ -55,6 +55,7 @@ typedef struct iso_effect_column {
     int length;              /* ... times the ball's radius to this power                                         */
     const char *checked_as;  /* `check` reports "<this> flow"; NULL: it is not compared                           */
     const char *sized_by;    /* the group whose size errors are measured by as well; NULL: its own size alone     */
+    bool ratio;              /* a ratio x, as large as it likes: errors are those of the angle atan x             */
     bool moves;              /* on a plane it goes on from where the ball was                                     */
 } iso_effect_column;
 

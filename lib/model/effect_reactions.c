@@ -100,7 +100,7 @@ static const iso_effect_column columns[] = {
      .length = -1,
      .checked_as = "force",
      .sized_by = "N"},
-    {.name = "mu", .column = mu_name, .count = 1},
+    {.name = "mu", .column = mu_name, .count = 1, .checked_as = "mu", .ratio = true},
     {.name = "lambda",
      .column = lambda_name,
      .count = 1,

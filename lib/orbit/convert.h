@@ -42,6 +42,13 @@ typedef struct iso_worst {
     size_t line;
 } iso_worst;
 
+/* A line (h, eps, level.c) that the first row does not confirm, beyond rounding: the row's own number is written. */
+typedef struct iso_stated {
+    char key[ISO_NAME_SIZE];
+    double stated, own; /* in the caller's units                                             */
+    double off;         /* the difference of the energies, relative to the size of the terms */
+} iso_stated;
+
 typedef struct iso_conversion_summary {
     size_t rows, bad;      /* all rows, and those that could not be converted                                */
     iso_worst constraint;  /* ball: | |n| - 1 | and (omega,n)/|omega|; point: likewise                       */
@@ -59,6 +66,8 @@ typedef struct iso_conversion_summary {
     double end, error;     /* its last value, and an estimate of its error: from the quadratures, the defects
                               and the rounding of the sums. A wrong k or J is not part of this estimate; it
                               shows as drift                                                                */
+    int stated_count;           /* how many lines the first row does not confirm                             */
+    iso_stated stated[3];
 } iso_conversion_summary;
 
 typedef struct iso_conversion iso_conversion;
@@ -92,7 +101,9 @@ ISO_API iso_status iso_conversion_create(iso_context *ctx, const iso_params *par
                                          const iso_conversion_target *target, iso_conversion **conversion);
 ISO_API void iso_conversion_free(iso_conversion *conversion);
 
-/* The next row. A point off the level H = 0 becomes a ball in the potential of the effect `level`, which the lines
+/* The next row. The first good one is held against the lines: where h, eps or c of a level does not fit it beyond
+ * rounding, the result states the row's own number, and the summary tells. Of the three the one is off that the other
+ * two and the row contradict. A point off the level H = 0 becomes a ball in the potential of the effect `level`, which the lines
  * of the result then name. A bad row goes to target->bad: it is no state, it is at rest, its time turns back, or
  * its energy is not that of the rows before. Errors: the status of the target; ISO_NO_MEMORY, ISO_STOPPED. */
 ISO_API iso_status iso_conversion_put(iso_conversion *conversion, const double row[], size_t line);
@@ -113,6 +124,10 @@ ISO_API double iso_conversion_largest_drift(iso_context *ctx, const iso_record *
 /* The two lines that say how the other clock was computed, and its error. False: it was not computed. */
 ISO_API bool iso_conversion_clock_lines(const iso_conversion_summary *summary, char key[2][ISO_NAME_SIZE],
                                         char value[2][160]);
+
+/* What is to be told of the line summary->stated[i]; false: there is none. */
+enum { ISO_STATED_SIZE = 240 };
+ISO_API bool iso_conversion_stated_words(const iso_conversion_summary *summary, int i, char words[ISO_STATED_SIZE]);
 
 /* --- whole ------------------------------------------------------------------------------------------------------ */
 

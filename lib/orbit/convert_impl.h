@@ -1,5 +1,6 @@
-/* convert_impl.h - what a conversion is made of. convert.c is the top layer and calls the four below, which call
- * each other in one direction only: convert_clock.c and convert_lines.c -> convert_row.c -> convert_write.c. */
+/* convert_impl.h - what a conversion is made of. convert.c is the top layer and calls those below, which call each
+ * other in one direction only: convert_clock.c and convert_lines.c -> convert_row.c -> convert_stated.c and
+ * convert_write.c. */
 #ifndef ISO_ORBIT_CONVERT_IMPL_H
 #define ISO_ORBIT_CONVERT_IMPL_H
 
@@ -28,7 +29,8 @@ struct iso_conversion {
     int state[ISO_STATE];         /* columns of the model converted from                                 */
     iso_clock own, other;         /* the clocks of the two models                                        */
     int own_column, other_column; /* their columns in `in`, -1: not there                                */
-    double stated_eps;            /* by the lines; NAN: not                                              */
+    double stated_eps;            /* by the lines, or the first row's own; NAN: not                      */
+    bool replaces;                /* the result states the first row's own h and eps                     */
     iso_effects effects;          /* of the lines, and the level of a point off H = 0; the caller's units */
 
     bool settled;                 /* which of them act is known: from the first row on that is a start   */
@@ -76,6 +78,17 @@ iso_status iso_conversion_bad(iso_conversion *c, size_t line, iso_status why);
 /* Notes a value at a line, if it is the worst so far. */
 void iso_worst_note(iso_worst *worst, double value, size_t line);
 
+/* --- convert_stated.c: what the lines state of the energy; calls none of the others --- */
+
+/* Holds the lines against the first row, whose orbit c->first gives the units: notes in the summary what is off, mends
+ * c of the level. True: the orbit of the row has the row's own energy, which is near the stated one or takes its
+ * place; false: that of a point is another. */
+bool iso_conversion_reconcile(iso_conversion *c, const conversion_row *r);
+
+/* How well energies of rows agree, relative: 1e-6. With a wider row tolerance the caller says that the rows have
+ * fewer digits; an energy is then off by several times that tolerance. */
+double iso_conversion_digits(const iso_conversion *c);
+
 /* --- convert_row.c: one row of the file; calls convert_write.c --- */
 
 /* Everything of a row but its place among the others: r->line is given. */
@@ -86,10 +99,6 @@ iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STAT
 
 /* An orbit of the record's own model from a row on, with the other clock. */
 iso_status iso_conversion_orbit(const iso_conversion *c, const iso_start *start, bool clock, iso_orbit **orbit);
-
-/* How well energies of rows agree, relative: 1e-6. With a wider row tolerance the caller says that the rows have
- * fewer digits; an energy is then off by several times that tolerance. */
-double iso_conversion_digits(const iso_conversion *c);
 
 /* --- convert_lines.c: the header of the result; calls convert_row.c --- */
 

@@ -7,12 +7,6 @@
 #include "map/state.h"
 #include "orbit/convert_impl.h"
 
-double iso_conversion_digits(const iso_conversion *c)
-{
-    const double tolerance = iso_record_row_tolerance(c->in);
-    return tolerance > ISO_ROW_TOLERANCE ? 10 * tolerance : 1e-6;
-}
-
 /* --- states ----------------------------------------------------------------------------------------------------- */
 
 iso_status iso_conversion_start(const iso_conversion *c, const double y[ISO_STATE], iso_start *start)
@@ -115,36 +109,26 @@ static iso_status create_first(iso_conversion *c, const iso_start *start, bool c
     return status;
 }
 
-/* H of the first row minus the value of the level that the lines state (or 0), relative; eps in own units. */
-static double first_off_level(const iso_conversion *c, const iso_start *start, double eps)
-{
-    double own[ISO_STATE];
-    copy(start->y, own, ISO_STATE);
-    for (int i = 0; i < 3; i++) own[i] /= iso_unit(&c->units, iso_system_point.fast_dimension);
-    return off_level(c, own, eps);
-}
-
-/* The orbit of the first row. The lines of a point state eps, and perhaps a level; without one it should be on H = 0.
- * - The row is on that level up to its digits: the coupling is computed from the row and the level.
- * - It is not, and a level is stated: the orbit is refused.
- * - It is not, and no level is stated: the orbit gets the level that follows from its energy. */
+/* The orbit of the first row. Where its energy is not the stated one, it gets its own. But a point whose energy is far
+ * from the stated one is another one: without a level in the lines it gets the level of its energy, with one it is
+ * refused. */
 static iso_status open_first(iso_conversion *c, const conversion_row *r)
 {
     iso_start start;
-    const bool clock = c->own_column >= 0, stated = iso_effects_have_level(&c->effects);
+    const bool clock = c->own_column >= 0, level = iso_effects_have_level(&c->effects);
     iso_status status = iso_conversion_start(c, r->y, &start);
     const double eps = start.eps;
-    if (stated) start.eps = NAN;
+    if (level) start.eps = NAN;
     if (status == ISO_OK) status = create_first(c, &start, clock);
-    if (status != ISO_OK || isnan(c->stated_eps)) return status;
-    const iso_effects effects = iso_orbit_effects(c->first);
-    if (!iso_effects_have_level(&effects)) return ISO_OK;
-    const double own_eps = c->stated_eps / iso_unit(&c->units, iso_dimension_eps);
-    const bool agrees = fabs(first_off_level(c, &start, own_eps)) <= iso_conversion_digits(c);
-    if (agrees && stated) return ISO_OK;
-    start.eps = agrees ? NAN : eps; /* with another level than the stated one create_first refuses */
-    if (agrees || stated) return create_first(c, &start, clock);
-    c->effects = iso_orbit_effects(c->first);
+    if (status != ISO_OK) return status;
+    const bool own = iso_conversion_reconcile(c, r);
+    const iso_effects found = iso_orbit_effects(c->first);
+    const bool fits = own ? !c->replaces && iso_effects_have_level(&found) == level : !level;
+    start.eps = own ? NAN : eps;
+    if (!fits) status = create_first(c, &start, clock);
+    if (status != ISO_OK || c->from == ISO_BALL) return status;
+    if (own && !isnan(c->stated_eps)) c->stated_eps = iso_orbit_coupling(c->first);
+    if (!level) c->effects = iso_orbit_effects(c->first);
     return ISO_OK;
 }
 

@@ -10,8 +10,7 @@
 #include "map/state.h"
 #include "model/attitude_impl.h"
 
-/* "effect.number", the key of a line. */
-static void line_key(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *n)
+void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *n)
 {
     snprintf(key, ISO_NAME_SIZE, "%s.%s", effect->name, n->name);
 }
@@ -27,7 +26,7 @@ iso_status iso_record_describe_effects(iso_context *ctx, iso_record *r, const is
         snprintf(names + used, sizeof names - used, "%s%s", used ? " " : "", iso_effect_list[e]->name);
         for (const iso_effect_number *n = iso_effect_list[e]->numbers; status == ISO_OK && n && n->name; n++) {
             if (n->scene_only) continue;
-            line_key(key, iso_effect_list[e], n);
+            iso_effect_line(key, iso_effect_list[e], n);
             status = iso_record_set_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, e, n));
         }
     }
@@ -112,7 +111,7 @@ static iso_status check_unnamed(iso_context *ctx, const iso_record *r, const iso
     char key[ISO_NAME_SIZE];
     const char *column = effect->observes || !effect->columns ? NULL : effect->columns->column[0];
     for (const iso_effect_number *n = effect->numbers; n && n->name; n++) {
-        line_key(key, effect, n);
+        iso_effect_line(key, effect, n);
         if (iso_record_get(r, key))
             return iso_context_fail(ctx, ISO_BAD_INPUT, "effects",
                                     "there is a line '# %s', but no line '# effects' that names '%s'", key,
@@ -138,7 +137,7 @@ static iso_status read_effect(iso_context *ctx, const iso_record *r, iso_effect_
     effects->on[e] = true;
     for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
         if (n->scene_only) continue;
-        line_key(key, iso_effect_list[e], n);
+        iso_effect_line(key, iso_effect_list[e], n);
         if (iso_record_get_numbers(ctx, r, key, (size_t)n->count, iso_effect_values(effects, e, n), &status))
             continue;
         if (status != ISO_OK) return status;

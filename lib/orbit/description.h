@@ -20,6 +20,9 @@ ISO_C_BEGIN
 ISO_API iso_status iso_record_describe(iso_context *ctx, iso_record *record, const char *model,
                                        const iso_params *params, const iso_orbit *orbit);
 
+/* The key of the line that states a number of an effect: "effect.number". */
+void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const iso_effect_number *number);
+
 /* Writes only the lines of the effects. */
 ISO_API iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, const iso_effects *effects);
 

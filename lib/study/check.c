@@ -12,10 +12,6 @@
 #include "map/state.h"
 #include "study/check_impl.h"
 
-struct iso_checking {
-    checker all;
-};
-
 /* --- what the others ask ---------------------------------------------------------------------------------------- */
 
 /* The residual of a name; it is made if it is new. NULL: there are too many. */
@@ -109,6 +105,7 @@ iso_status iso_checker_begin(checker *c)
     c->width = iso_record_columns(c->record);
     iso_status status = iso_record_effects(c->ctx, c->record, &c->effects);
     if (status != ISO_OK) return status;
+    c->stated = c->effects;
     iso_checker_choose_observers(c);
     for (int k = 0; status == ISO_OK && k < 2; k++) status = find_model(c, (iso_model_kind)k);
     if (status != ISO_OK || c->model[0].there || c->model[1].there) return status;
@@ -161,6 +158,14 @@ static iso_status open_first(checker *c, checked_model *m, const double row[])
     return ISO_OK;
 }
 
+/* What only the first row of a model is asked. */
+static iso_status begin_model(checker *c, checked_model *m, const double row[])
+{
+    for (int i = 0; i < ISO_STATE; i++) c->looked[m->first + i] = true;
+    const iso_status status = iso_checker_energy(c, m, row);
+    return status == ISO_OK ? iso_checker_flow_begin(c, m, row) : status;
+}
+
 static iso_status check_model(checker *c, checked_model *m, const double row[])
 {
     iso_start start;
@@ -169,7 +174,8 @@ static iso_status check_model(checker *c, checked_model *m, const double row[])
     iso_status status = first ? open_first(c, m, row) : find_start(c, m, row, &start, &effects);
     if (status != ISO_OK) return status;
     iso_checker_integrals(c, m, row);
-    return first ? iso_checker_flow_begin(c, m, row) : iso_checker_flow(c, m, row);
+    if (m->kind == ISO_BALL) iso_checker_beginning(c, m, row);
+    return first ? begin_model(c, m, row) : iso_checker_flow(c, m, row);
 }
 
 static void check_map(checker *c, const double row[])
@@ -194,6 +200,7 @@ iso_status iso_checking_put(iso_checking *checking, const double row[])
         if (status == ISO_OK && c->model[k].there) status = check_model(c, &c->model[k], row);
     if (status != ISO_OK) return status;
     if (c->model[0].there && c->model[1].there) check_map(c, row);
+    if (c->rows <= 2) memcpy(c->rows == 1 ? c->first : c->second, row, c->width * sizeof *row);
     memcpy(c->last, row, c->width * sizeof *row);
     return ISO_OK;
 }
@@ -256,7 +263,9 @@ iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const
     iso_checking *made = *checking = calloc(1, sizeof *made);
     if (!made) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
     made->all = (checker){.ctx = ctx, .params = params, .record = header, .tolerance = tolerance};
-    made->all.last = calloc(iso_record_columns(header) + 1, sizeof *made->all.last);
+    made->all.last = calloc(3 * iso_record_columns(header) + 1, sizeof *made->all.last);
+    made->all.first = made->all.last ? made->all.last + iso_record_columns(header) : NULL;
+    made->all.second = made->all.first ? made->all.first + iso_record_columns(header) : NULL;
     iso_units_choose(params, 0, &made->all.units);
     const iso_status status = made->all.last ? iso_checker_begin(&made->all)
                                              : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");

@@ -8,7 +8,7 @@
 
 ISO_C_BEGIN
 
-enum { ISO_MAX_RESIDUALS = 32 };
+enum { ISO_MAX_RESIDUALS = 64 };
 
 /* One quantity that should be zero, up to rounding and the method's error. */
 typedef struct iso_residual {
@@ -31,10 +31,13 @@ typedef struct iso_residuals {
  * - flow: each row is integrated to the time of the next row (at `tolerance`) and compared with it, relative to the
  *   largest component of omega or M, and to 1 for n and gamma. The record must have a clock for this;
  * - the columns of effects (e, q, contact, trace, centre, N, pressure, friction, lambda): the same, relative to the
- *   largest number of the vector;
+ *   largest number of the vector; forces and torques also to N; mu as the angle atan mu;
  * - the map: if the record has both models, each row's point against the point that belongs to its ball;
  * - clocks: if the record has two of t, tau, s, the steps of the second along the first, relative to its whole
- *   length.
+ *   length;
+ * - lines: h, eps and c of a level against the first row, relative to the size of the terms of the energy; numbers
+ *   that turn with the ball (`# gravity.up`, `# attitude.quaternion`) against a row at time 0. Other lines are the
+ *   numbers of the equations that all this is done with.
  * Errors, with the row: ISO_BAD_INPUT (no model's columns, a row that is no state, a time that is not finite),
  * ISO_NOT_MAPPED (a point with H not 0 in the times of a ball), ISO_NUMERICAL, ISO_NO_MEMORY. */
 ISO_API iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
@@ -65,6 +68,13 @@ ISO_API void iso_checking_pass(iso_checking *checking);
 
 /* After the last row. Errors: ISO_BAD_INPUT, if there was none. */
 ISO_API iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals);
+
+/* What the check does not look at: columns that nothing was compared with, and lines in which each number can be
+ * another by a millionth, or the words others, without any residual to show it. This is tried, number by number, at
+ * the first row and a little later. Calls `tell` for each: "mu", "# tolerance", "# J, number 2". Call it after
+ * iso_checking_end. Errors: ISO_NO_MEMORY, ISO_STOPPED. */
+ISO_API iso_status iso_checking_unseen(iso_checking *checking, void (*tell)(void *data, const char *name),
+                                       void *data);
 
 /* The drifts of the integrals that hold, row by row, as a new record. The first column is the model's first clock, or
  * "row", the row's number. The others ("h", "F_shell", ...) are |I(row) - I(first row)| / size; for a constraint its

@@ -21,36 +21,42 @@ typedef struct checked {
     int first, count;
 } checked;
 
-/* The size of the group that errors are measured by as well: of forces, of which the radius makes torques. */
+/* The size of the group that errors are measured by as well, which the radius carries into the units of this one:
+ * forces times it are torques. */
 static double other_size(const checker *c, const checked *k, const iso_sample *flow)
 {
-    const double radius = c->params->body.radius;
+    const double radius = c->params->body.radius > 0 ? c->params->body.radius : 1;
     double size = 0;
     if (!k->group->sized_by) return 0;
-    const int first = column_of(k->effect, k->group->sized_by);
-    for (const iso_effect_column *g = iso_effect_list[k->effect]->columns; first >= 0 && g->name; g++)
+    int first = ISO_COLUMN_EFFECTS + iso_effect_first_column(k->effect);
+    for (const iso_effect_column *g = iso_effect_list[k->effect]->columns; g->name; first += g->count, g++)
         for (int i = 0; strcmp(g->name, k->group->sized_by) == 0 && i < g->count; i++)
-            size = fmax(size, fabs(iso_sample_column(flow, first + i)));
-    return size * fmax(1, radius > 0 ? radius : 1);
+            size = fmax(size, fabs(iso_sample_column(flow, first + i)) * pow(radius, k->group->length - g->length));
+    return size;
 }
 
-/* What moves along a plane goes on from the row before. */
-static void check_columns(const checker *c, iso_residuals *found, const checked *k, const iso_sample *flow,
-                          const iso_sample *before, const iso_sample *there)
+/* What is compared: the number, or the angle of a ratio. */
+static double measured(const checked *k, double number)
 {
-    const bool goes_on = c->params->k == 1 && k->group->moves;
-    double error = 0, size = 0;
+    return k->group->ratio ? atan(number) : number;
+}
+
+static void check_columns(checker *c, iso_residuals *found, const checked *k, const iso_sample *flow,
+                          const double row[])
+{
+    bool any = false;
+    double error = 0, size = k->group->ratio ? 1 : other_size(c, k, flow);
     char name[sizeof found->residual[0].name];
     for (int i = k->first; i < k->first + k->count; i++) {
-        double expected = iso_sample_column(flow, i);
-        if (goes_on) expected += iso_sample_column(before, column_of(k->effect, NULL) + (i - k->first));
+        const double expected = measured(k, iso_sample_column(flow, i));
         if (isnan(expected) || c->columns[i] < 0) continue;
-        error = fmax(error, fabs(expected - iso_sample_column(there, i)));
-        size = fmax(size, fmax(fabs(expected), fabs(iso_sample_column(there, i))));
+        const double there = measured(k, iso_checker_at(c, row, i));
+        any = c->looked[i] = true;
+        error = fmax(error, fabs(expected - there));
+        size = fmax(size, fmax(fabs(expected), fabs(there)));
     }
-    size = fmax(size, other_size(c, k, flow));
     snprintf(name, sizeof name, "%s flow", k->group->checked_as);
-    if (size > 0)
+    if (any && size > 0)
         iso_checker_note(found, name, "effects' columns, each row integrated to the next", error / size, c->number);
 }
 
@@ -61,17 +67,26 @@ static bool same_report(const iso_effect_column *a, const iso_effect_column *b)
 
 void iso_checker_effects_flow(checker *c, iso_residuals *found, const iso_sample *flow, const double row[])
 {
-    iso_sample there, before;
     int first = ISO_COLUMN_EFFECTS;
-    iso_checker_sample(c, row, &there);
-    iso_checker_sample(c, c->last, &before);
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; g++) {
             checked k = {.group = g, .effect = e, .first = first, .count = g->count};
             for (; same_report(g, g + 1); g++) k.count += g[1].count;
-            if (g->checked_as) check_columns(c, found, &k, flow, &before, &there);
+            if (g->checked_as) check_columns(c, found, &k, flow, row);
             first += k.count;
         }
+}
+
+void iso_checker_go_on(const checker *c, const double row[], iso_sample *flow)
+{
+    int column = ISO_COLUMN_EFFECTS;
+    for (iso_effect_id e = 0; c->params->k == 1 && e < ISO_EFFECTS; e++)
+        for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; column += g->count, g++)
+            for (int i = 0; g->moves && i < g->count; i++) {
+                const int from = c->columns[column_of(e, NULL) + i]; /* the centre lacks only its height b n */
+                const double there = iso_sample_column(flow, column + i);
+                iso_sample_set_column(flow, column + i, from < 0 ? NAN : there + row[from]);
+            }
 }
 
 bool iso_checker_has_effects(const checker *c)
@@ -81,14 +96,22 @@ bool iso_checker_has_effects(const checker *c)
     return false;
 }
 
+bool iso_checker_has_group(const checker *c, iso_effect_id id, const char *name)
+{
+    const iso_effect_column *g = iso_effect_list[id]->columns;
+    while (name ? strcmp(g->name, name) != 0 : !g->moves) g++;
+    for (int i = 0; i < g->count; i++)
+        if (c->columns[column_of(id, name) + i] < 0) return false;
+    return true;
+}
+
 /* Whether the record has what an effect that acts on nothing begins with: the numbers that turn with the ball, and
  * on a plane the displacement, without which the height is not known. */
 static bool has_beginning(const checker *c, iso_effect_id id)
 {
-    const int displacement = column_of(id, NULL);
-    bool has = c->params->k != 1 || displacement < 0 || c->columns[displacement] >= 0;
+    bool has = c->params->k != 1 || column_of(id, NULL) < 0 || iso_checker_has_group(c, id, NULL);
     for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
-        if (n->turns_with) has = has && c->columns[column_of(id, n->turns_with)] >= 0;
+        if (n->turns_with) has = has && iso_checker_has_group(c, id, n->turns_with);
     return has;
 }
 
@@ -97,10 +120,11 @@ static bool has_beginning(const checker *c, iso_effect_id id)
 static bool is_shown(const checker *c, iso_effect_id id)
 {
     const iso_effect *effect = iso_effect_list[id];
-    bool stated = false;
+    bool stated = false, there = false;
     for (const iso_effect_number *n = effect->numbers; n && n->name; n++) stated = stated || !n->scene_only;
-    return effect->columns && !stated && (!effect->needs_D || c->params->D > 0) &&
-           c->columns[ISO_COLUMN_EFFECTS + iso_effect_first_column(id)] >= 0;
+    for (int i = iso_effect_first_column(id); i < iso_effect_first_column((iso_effect_id)(id + 1)); i++)
+        there = there || c->columns[ISO_COLUMN_EFFECTS + i] >= 0;
+    return there && !stated && (!effect->needs_D || c->params->D > 0);
 }
 
 void iso_checker_choose_observers(checker *c)

@@ -26,15 +26,13 @@ static iso_orbit_options options_of(const checker *c, const checked_model *m, co
     iso_orbit_options o = iso_orbit_defaults(start);
     o.effects = effects;
     o.tolerance = c->tolerance;
-    o.clock = (iso_clock)m->clock;
+    if (m->clock >= 0) o.clock = (iso_clock)m->clock;
     o.max_steps = ISO_MAX_ROW_STEPS;
     for (int k = 0; k < ISO_CLOCKS; k++) o.with_clock[k] = k != m->clock && c->columns[k] >= 0;
     return o;
 }
 
-/* The orbit of a row. The record's other clocks are computed, too, where the orbit has them: a point with H not 0 has
- * no free ball and no time t. */
-static iso_status open_orbit(const checker *c, const checked_model *m, const double row[], iso_orbit **orbit)
+iso_status iso_checker_open(const checker *c, const checked_model *m, const double row[], iso_orbit **orbit)
 {
     iso_start start;
     iso_effects effects = iso_checker_effects(c, m->kind);
@@ -47,17 +45,29 @@ static iso_status open_orbit(const checker *c, const checked_model *m, const dou
     return iso_orbit_create(c->ctx, c->params, &start, &o, orbit);
 }
 
-/* Integrates the last row to the time of this one. */
-static iso_status integrate(const checker *c, const checked_model *m, const double row[], iso_sample *sample)
+/* Integrates a row by so much of its clock. */
+static iso_status integrate(const checker *c, const checked_model *m, const double row[], size_t number, double time,
+                            iso_sample *sample)
 {
     iso_orbit *orbit = NULL;
-    iso_status status = open_orbit(c, m, c->last, &orbit);
-    if (status == ISO_OK)
-        status = iso_orbit_at(orbit, iso_checker_at(c, row, m->clock) - iso_checker_at(c, c->last, m->clock), sample);
+    iso_status status = iso_checker_open(c, m, row, &orbit);
+    if (status == ISO_OK) status = iso_orbit_at(orbit, time, sample);
     iso_orbit_free(orbit);
     if (status == ISO_OK) return ISO_OK;
     if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT; /* the number that is refused stands in the file */
-    return iso_context_fail(c->ctx, status, "", "row %zu: %s", c->before, iso_context_message(c->ctx));
+    return iso_context_fail(c->ctx, status, "", "row %zu: %s", number, iso_context_message(c->ctx));
+}
+
+/* The columns of effects in a row to which nothing is integrated: they belong to its state. */
+static iso_status check_alone(checker *c, checked_model *m, const double row[])
+{
+    iso_sample sample;
+    if (m->kind != ISO_BALL || !iso_checker_has_effects(c)) return ISO_OK;
+    const iso_status status = integrate(c, m, row, c->number, 0, &sample);
+    if (status != ISO_OK) return status;
+    iso_checker_go_on(c, row, &sample);
+    iso_checker_effects_flow(c, &m->found, &sample, row);
+    return ISO_OK;
 }
 
 static iso_status check_step(checker *c, checked_model *m, const double row[])
@@ -65,8 +75,11 @@ static iso_status check_step(checker *c, checked_model *m, const double row[])
     iso_sample sample;
     double here[ISO_STATE];
     char name[sizeof m->found.residual[0].name];
-    const iso_status status = integrate(c, m, row, &sample);
+    const double time = iso_checker_at(c, row, m->clock) - iso_checker_at(c, c->last, m->clock);
+    const iso_status status = integrate(c, m, c->last, c->before, time, &sample);
     if (status != ISO_OK) return status;
+    m->followed = c->looked[m->clock] = true;
+    iso_checker_go_on(c, c->last, &sample);
     iso_checker_state(c, m, row, here);
     snprintf(name, sizeof name, "%s flow", iso_model_kind_name((int)m->kind));
     iso_checker_note(&m->found, name, "each row integrated to the next",
@@ -74,6 +87,7 @@ static iso_status check_step(checker *c, checked_model *m, const double row[])
     iso_checker_effects_flow(c, &m->found, &sample, row);
     for (int k = 0; k < ISO_CLOCKS; k++) {
         if (k == m->clock || c->columns[k] < 0 || isnan(sample.clock[k])) continue;
+        c->looked[k] = true;
         snprintf(name, sizeof name, "clock %s", iso_clock_name((iso_clock)k));
         const double step = iso_checker_at(c, row, k) - iso_checker_at(c, c->last, k);
         iso_checker_note(&m->found, name, "its steps, from the equations of motion", step - sample.clock[k],
@@ -124,6 +138,7 @@ static bool passes(checker *c, checked_model *m, const double row[])
     iso_gap gap;
     if (!m->quadrature) return false;
     add_sample(c, m, row);
+    if (!m->followed) return false;
     const double h =
         (iso_checker_at(c, row, m->clock) - iso_checker_at(c, c->last, m->clock)) / m->way->unit_clock[m->clock];
     if (!is_near(c, m, row) || !iso_two_point_measure(m->quadrature, h, 0, &gap)) return false;
@@ -137,8 +152,9 @@ static bool passes(checker *c, checked_model *m, const double row[])
 
 iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double first[])
 {
-    if (m->clock < 0) return ISO_OK;
-    iso_status status = open_orbit(c, m, first, &m->way);
+    iso_status status = check_alone(c, m, first);
+    if (m->clock < 0 || status != ISO_OK) return status;
+    status = iso_checker_open(c, m, first, &m->way);
     if (status == ISO_OK && suits(c, m))
         status = iso_two_point_create(c->ctx, iso_orbit_model(m->way), c->tolerance, &m->quadrature);
     if (m->quadrature) add_sample(c, m, first);
@@ -147,5 +163,6 @@ iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double fir
 
 iso_status iso_checker_flow(checker *c, checked_model *m, const double row[])
 {
-    return m->clock < 0 || passes(c, m, row) ? ISO_OK : check_step(c, m, row);
+    if (m->clock < 0) return check_alone(c, m, row);
+    return passes(c, m, row) ? ISO_OK : check_step(c, m, row);
 }

@@ -20,15 +20,16 @@ double iso_checker_drift(const expectations *e, int i, const double own[])
 }
 
 /* An integral should keep the value of the first row. There are two exceptions: a constraint has its own exact value;
- * and where the record has a ball's columns or clocks, H of the point must be 0, or the level that it states. */
+ * and H of the point must be the level that the lines state, or 0 where the record has a ball's columns or clocks. */
 void iso_checker_expect(const checker *c, checked_model *m, const double first[])
 {
     expectations *e = &m->expect;
     const iso_units *units = iso_orbit_units(m->orbit);
     const double level = iso_effects_level(&c->effects) / iso_unit(units, iso_level_dimension());
-    const double claimed = iso_effects_have_level(&c->effects) ? iso_coupling(&units->own, level) : 0;
     const bool twin = c->columns[ISO_CLOCK_T] >= 0 || c->columns[ISO_CLOCK_TAU] >= 0 || c->model[ISO_BALL].there;
     double own[ISO_MAX_STATE];
+    e->level = iso_effects_have_level(&c->effects) ? iso_coupling(&units->own, level) : 0;
+    e->on_level = twin || iso_effects_have_level(&c->effects);
     e->system = m->system;
     e->first = m->orbit;
     e->problem = iso_orbit_model(m->orbit)->problem;
@@ -37,8 +38,8 @@ void iso_checker_expect(const checker *c, checked_model *m, const double first[]
     iso_checker_own(c, e, first, own);
     for (int i = 0; i < e->count; i++) {
         double size;
-        const bool on_level = twin && strcmp(e->integral[i]->name, "H") == 0;
-        e->value[i] = e->integral[i]->known == ISO_ONE ? 1 : on_level ? claimed : 0;
+        const bool on_level = e->on_level && strcmp(e->integral[i]->name, "H") == 0;
+        e->value[i] = e->integral[i]->known == ISO_ONE ? 1 : on_level ? e->level : 0;
         if (e->integral[i]->known == ISO_ANY_VALUE && !on_level)
             e->value[i] = e->integral[i]->value(&e->problem, own, &size);
     }

@@ -111,6 +111,50 @@ refuses 3 "already" convert --to point point.csv
 sed -e 's/^# h: .*/# h: 5/' -e 's/^# eps: .*/# eps: 7/' ball.csv >wrong.csv
 check "wrong h and eps" "$isoroll" convert --to point wrong.csv -o wrong_point.csv
 check "do not travel on" "$isoroll" convert --to ball wrong_point.csv
+# A line that the first row does not confirm is named, at any size above rounding, and the row's own takes its place:
+# so what is written passes check. On every level; for k = -1, too, a shifted J.
+# off KEY FACTOR FILE: that file with the number of a line times FACTOR
+off() {
+    awk -v k="# $1:" -v f="$2" 'index($0, k) == 1 { printf "%s %.17g\n", k, $3 * f; next } { print }' "$3" >off.csv
+}
+scene 0.5 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "$normal" 2 0.25 >flat.yaml
+{ cat flat.yaml; echo 'effects: {level: {c: 0.1}}'; } >level.yaml
+{ cat flat.yaml; echo 'effects: {field: {linear: [0.2, -0.1, 0.15]}}'; } >field.yaml
+for lines in flat level field; do
+    for as in ball point; do
+        case $as in ball) to=point ;; *) to=ball ;; esac
+        run 0 run $lines.yaml --as $as --tol 1e-14 -o good.csv
+        run 0 convert --quiet --to $to good.csv -o turned.csv
+        silent
+        run 0 check turned.csv --max 1e-11
+        for key in h eps level.c; do
+            grep -q "^# $key" good.csv || continue
+            for factor in 1.0000000001 0.999999 1.0001 1.5; do
+                off $key $factor good.csv
+                run 0 convert --quiet --to $to off.csv -o turned.csv
+                says "off.csv: # $key: "
+                run 0 check turned.csv --max 1e-11
+                run 1 check off.csv --max 1e-11
+                check "$lines, $as: check names # $key" grep -q "^# $key .*ABOVE" out
+            done
+        done
+    done
+done
+cat >shift.yaml <<'END'
+point: {k: -1, J: [1.0, 1.5, 2.0], eps: 0.5}
+initial: {gamma: [0.36, 0.48, 0.8], M: [1.6, -1.2, 0]}
+time: {end: 2, step: 0.25}
+END
+run 0 run shift.yaml -o good.csv
+run 0 convert --quiet --to ball --shift-J good.csv -o turned.csv
+silent
+run 0 check turned.csv --max 1e-9
+# a piece behind the start has the error of the steps to it: its own energy is taken, and no line is off
+run 0 run flat.yaml --t-end 200 --method rk8pd --tol 1e-7 -o good.csv
+awk '/^[0-9]/ && ++n < 700 { next } { print }' good.csv >late.csv
+run 0 convert --quiet --to point late.csv -o turned.csv
+silent
+check "the energy of a later row" test "$(grep '^# h' turned.csv)" != "$(grep '^# h' good.csv)"
 refuses 3 "bare_point.csv:3: the energy of this point is not that of the rows before" convert --strict --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3 -o none.csv
 run 3 convert --to ball bare_point.csv --k=-1 --J 1.4,2.1,3 --eps 3 -o none.csv
 check_not "an eps of another orbit leaves no file" test -e none.csv

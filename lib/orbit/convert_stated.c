@@ -1,0 +1,165 @@
+/* convert_stated.c - what the lines state of the energy (h, eps, c of the level), against the first row.
+ *
+ * With a level's c (0 without one) a row has one energy h, and eps = h det J/k^2. So of h, eps and c one that is off
+ * is known by the other two. What the row does not confirm is told, and the row's own number takes its place. */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "base/vec3_impl.h"
+#include "orbit/convert_impl.h"
+#include "orbit/orbit_impl.h"
+
+/* Energies h of the ball, in own units. */
+typedef struct account {
+    double row, h, eps;      /* of the row; stated, by h and by eps (NAN: not)                            */
+    double size, slope;      /* of the terms of h; h of the row falls by so much for each unit of c       */
+    double rounding, growth; /* what rounding makes of h, relative to its size; and the steps to the row  */
+} account;
+
+double iso_conversion_digits(const iso_conversion *c)
+{
+    const double tolerance = iso_record_row_tolerance(c->in);
+    return tolerance > ISO_ROW_TOLERANCE ? 10 * tolerance : 1e-6;
+}
+
+/* --- how exact a row is ----------------------------------------------------------------------------------------- */
+
+/* A row is as exact as its constraints show. Energies are squares, with powers 1/k, of vectors that may lie along the
+ * axis of the least moment. */
+static double rounding_of(const iso_conversion *c, const conversion_row *r)
+{
+    const double *J = c->params->J, size = largest(r->y);
+    double along = 0;
+    for (int i = 0; i < 3 && size > 0; i++) along += r->y[i] / size * r->y[3 + i];
+    const double digits = fmax(2 * DBL_EPSILON, fmax(fabs(norm(r->y + 3) - 1), fabs(along)));
+    return 8 * (1 + 1 / fabs(c->params->k)) * sqrt(max3(J) / min3(J)) * digits;
+}
+
+/* A row behind the start has the error of the steps to it: ten in the time in which a ball turns by an angle of 1,
+ * each of the stated tolerance. */
+static double growth_of(const iso_conversion *c, const conversion_row *r)
+{
+    double tolerance = 0;
+    iso_status unused;
+    iso_record_get_numbers(c->ctx, c->in, "tolerance", 1, &tolerance, &unused);
+    return 10 * fmax(tolerance, DBL_EPSILON) * fabs(r->time) / c->first->unit_clock[c->own];
+}
+
+/* --- the account ------------------------------------------------------------------------------------------------ */
+
+static double stated_energy(const iso_conversion *c, const char *key, iso_dimension d)
+{
+    double x;
+    iso_status status;
+    return iso_record_get_numbers(c->ctx, c->in, key, 1, &x, &status) ? x / iso_unit(iso_orbit_units(c->first), d)
+                                                                      : NAN;
+}
+
+/* The point's M^2/2 + V must be its level and eps q^(-1/k). */
+static void count_row(const iso_conversion *c, const conversion_row *r, account *a)
+{
+    const bool ball = c->from == ISO_BALL;
+    const iso_system *system = ball ? &iso_system_ball : &iso_system_point;
+    iso_problem f = iso_orbit_model(c->first)->problem;
+    double own[ISO_STATE];
+    copy(r->y, own, ISO_STATE);
+    for (int i = 0; i < 3; i++) own[i] /= ball ? c->first->units.w : c->first->unit_M;
+    const double q = ball ? 1 / dot_diag(own + 3, f.p.inv_J, own + 3) : dot_diag(own + 3, f.p.J, own + 3);
+    a->slope = pow(q, 1 / f.p.k);
+    if (!ball) f.eps = 0;
+    a->row = system->energy(&f, own, &a->size);
+    if (ball) return;
+    const double unit = iso_unit(&c->first->units, iso_level_dimension());
+    const double level = iso_effects_have_level(&c->effects) ? iso_effects_level(&c->effects) / unit : 0;
+    a->row = iso_energy(&f.p, a->row * a->slope) - level * a->slope;
+    a->size = fmax(iso_energy(&f.p, a->size * a->slope), fabs(level) * a->slope);
+}
+
+static account account_of(const iso_conversion *c, const conversion_row *r)
+{
+    account a = {.rounding = rounding_of(c, r), .growth = growth_of(c, r)};
+    count_row(c, r, &a);
+    const bool shifted = c->params == &c->shifted; /* h belongs to the moments before */
+    a.h = shifted ? NAN : stated_energy(c, "h", iso_dimension_h);
+    a.eps = iso_energy(&c->first->units.own, stated_energy(c, "eps", iso_dimension_eps));
+    return a;
+}
+
+/* Whether two energies are the same up to this, relative to the size of the terms; NAN is like none. */
+static bool alike(const account *a, double x, double y, double most)
+{
+    return fabs(x - y) <= most * a->size;
+}
+
+/* --- the verdict ------------------------------------------------------------------------------------------------ */
+
+static void note(iso_conversion *c, const char *key, double stated, double own, double off)
+{
+    iso_stated *s = &c->summary.stated[c->summary.stated_count++];
+    *s = (iso_stated){.stated = stated, .own = own, .off = off};
+    snprintf(s->key, sizeof s->key, "%s", key);
+}
+
+/* One of h and eps, `number` in the caller's units for each unit of energy, against the energy that is taken: it is
+ * replaced if they differ, and told if the steps to the row do not explain it. */
+static void judge(iso_conversion *c, const account *a, const char *key, double number, double stated, double taken)
+{
+    if (isnan(stated) || alike(a, stated, taken, a->rounding)) return;
+    c->replaces = true;
+    if (!alike(a, stated, taken, a->rounding + a->growth))
+        note(c, key, stated * number, taken * number, fabs(stated - taken) / a->size);
+}
+
+/* h and eps agree with each other, but not with the row: then c is off. */
+static bool level_is_off(const iso_conversion *c, const account *a)
+{
+    return iso_effects_have_level(&c->effects) && alike(a, a->h, a->eps, a->rounding) &&
+           !alike(a, a->h, a->row, a->rounding + a->growth);
+}
+
+/* The c that h and eps say. */
+static void mend_level(iso_conversion *c, const account *a)
+{
+    char key[ISO_NAME_SIZE];
+    const double unit = iso_unit(&c->first->units, iso_level_dimension());
+    const double stated = iso_effects_level(&c->effects), own = stated + (a->row - a->h) / a->slope * unit;
+    const iso_effect *level = iso_effect_list[iso_effect_find(iso_level_name())];
+    iso_effect_line(key, level, level->numbers);
+    note(c, key, stated, own, fabs(a->h - a->row) / a->size);
+    iso_effects_set_level(&c->effects, true, own);
+    c->replaces = true;
+}
+
+/* Whether the row has the energy of one of h and eps, up to the digits of rows and lines. */
+static bool fits(const iso_conversion *c, const account *a)
+{
+    const double digits = iso_conversion_digits(c);
+    return alike(a, a->h, a->row, digits) || alike(a, a->eps, a->row, digits);
+}
+
+bool iso_conversion_reconcile(iso_conversion *c, const conversion_row *r)
+{
+    const iso_params *p = &c->first->units.own;
+    account a = account_of(c, r);
+    c->replaces = c->params == &c->shifted || (isnan(a.h) && isnan(a.eps));
+    if (level_is_off(c, &a)) {
+        mend_level(c, &a);
+        a.row = a.h;
+    }
+    const bool own = c->from == ISO_BALL || fits(c, &a);
+    const double taken = own ? a.row : isnan(a.eps) ? a.h : a.eps;
+    judge(c, &a, "h", iso_unit(&c->first->units, iso_dimension_h), a.h, taken);
+    judge(c, &a, "eps", iso_coupling(p, 1) * iso_unit(&c->first->units, iso_dimension_eps), a.eps, taken);
+    return own;
+}
+
+bool iso_conversion_stated_words(const iso_conversion_summary *s, int i, char words[ISO_STATED_SIZE])
+{
+    if (i >= s->stated_count) return false;
+    const iso_stated *x = &s->stated[i];
+    snprintf(words, ISO_STATED_SIZE,
+             "# %s: %.17g does not fit the first row, by %.2g of the terms of its energy; %.17g does, and is written",
+             x->key, x->stated, x->off, x->own);
+    return true;
+}

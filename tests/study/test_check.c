@@ -1,0 +1,230 @@
+/* The law of iso_check: in a file that a run made, every number of every column and of every line, changed by a
+ * millionth, raises a residual above what the file itself passes, or the check says that nobody looks at it. Over the
+ * tables: every effect on every kind of ball, with all that observes, both models, every choice of columns. */
+#include "effects.h"
+#include "orbit/description.h"
+#include "scenes.h"
+#include "study/check.h"
+#include "study/run.h"
+
+static iso_context *ctx;
+
+/* The files pass it; numbers of this size of order one, changed by CHANGE, must not. Numbers below SMALL are too
+ * small beside the others of their vector. */
+static const double BOUND = 1e-11, CHANGE = 1e-6, SMALL = 1e-3;
+
+static size_t changed, small, told;
+
+static void must(iso_status status, const char *what)
+{
+    if (status != ISO_OK) scene_stops(what, ctx);
+}
+
+/* --- files ------------------------------------------------------------------------------------------------------ */
+
+static iso_status keep_header(void *data, const iso_record *header)
+{
+    iso_record **record = data;
+    const char *names[ISO_MAX_COLUMNS], *key, *value;
+    for (size_t i = 0; i < iso_record_columns(header); i++) names[i] = iso_record_name(header, i);
+    must(iso_record_create(ctx, iso_record_columns(header), names, record), "a record");
+    for (size_t i = 0; iso_record_line(header, i, &key, &value); i++)
+        must(iso_record_set(ctx, *record, key, value), "a line");
+    return ISO_OK;
+}
+
+static iso_status keep_row(void *data, const double row[], size_t count)
+{
+    double *to;
+    must(iso_record_append(ctx, *(iso_record **)data, &to), "a row");
+    memcpy(to, row, count * sizeof *to);
+    return ISO_OK;
+}
+
+/* What `run` writes; NULL: it refuses the scene, which makes no sense (a constant field). */
+static iso_record *file_of(const iso_scene *scene)
+{
+    iso_record *record = NULL;
+    const iso_run_sink sink = {.header = keep_header, .row = keep_row, .data = &record};
+    if (iso_run(ctx, scene, NULL, &sink, NULL) == ISO_OK) return record;
+    iso_record_free(record);
+    return NULL;
+}
+
+/* --- checks ----------------------------------------------------------------------------------------------------- */
+
+typedef struct answer {
+    iso_status status;
+    double worst;
+    char unseen[1024]; /* ";mu;# tolerance;" */
+} answer;
+
+static void keep_name(void *data, const char *name)
+{
+    char *unseen = data;
+    const size_t used = strlen(unseen);
+    snprintf(unseen + used, 1024 - used, "%s;", name);
+}
+
+static answer check_of(const iso_record *record, bool with_unseen)
+{
+    answer a = {.unseen = ";"};
+    iso_params params;
+    iso_residuals r;
+    iso_checking *c;
+    a.status = iso_record_params(ctx, record, &params);
+    if (a.status == ISO_OK) a.status = iso_checking_create(ctx, &params, record, 1e-14, &c);
+    if (a.status != ISO_OK) return a;
+    for (size_t row = 0; a.status == ISO_OK && row < iso_record_rows(record); row++)
+        a.status = iso_checking_put(c, iso_record_const_row(record, row));
+    if (a.status == ISO_OK) a.status = iso_checking_end(c, &r);
+    if (a.status == ISO_OK && with_unseen) must(iso_checking_unseen(c, keep_name, a.unseen), "what is not looked at");
+    for (int i = 0; a.status == ISO_OK && i < r.count; i++) a.worst = fmax(a.worst, r.residual[i].worst);
+    iso_checking_free(c);
+    return a;
+}
+
+static bool tells(const answer *a, const char *name)
+{
+    char wanted[80];
+    snprintf(wanted, sizeof wanted, ";%s;", name);
+    return strstr(a->unseen, wanted) != NULL;
+}
+
+/* The record, with one number changed: it is noticed, or the check of the record as it was told that it is not. */
+static void expect(const iso_record *record, const answer *before, const char *file, const char *name,
+                   const char *part, double number)
+{
+    const bool said = tells(before, name) || tells(before, part);
+    changed++;
+    told += said;
+    if (number != 0 && fabs(number) < SMALL) {
+        small++;
+        return;
+    }
+    const answer a = said ? *before : check_of(record, false);
+    gsl_test(!said && a.status == ISO_OK && !(a.worst > BOUND), "%s: %s (%g) off by a millionth is noticed: %.2g",
+             file, part, number, a.worst);
+}
+
+static double another(double number)
+{
+    return number == 0 ? CHANGE : number * (1 + CHANGE);
+}
+
+static void change_columns(iso_record *record, const answer *before, const char *file)
+{
+    for (size_t row = 0; row < iso_record_rows(record); row++)
+        for (size_t i = 0; i < iso_record_columns(record); i++) {
+            double *x = iso_record_row(record, row) + i;
+            const double kept = *x;
+            *x = another(kept);
+            expect(record, before, file, iso_record_name(record, i), iso_record_name(record, i), kept);
+            *x = kept;
+        }
+}
+
+/* The numbers of a line; words are none. */
+static size_t numbers_of(const char *text, double x[16])
+{
+    size_t count = 0;
+    char *end;
+    for (; *text && count < 16; text = end) {
+        x[count++] = strtod(text, &end);
+        if (end == text || (*end && *end != ' ')) return 0;
+    }
+    return count;
+}
+
+static void change_lines(iso_record *record, const answer *before, const char *file)
+{
+    const char *key, *value;
+    char kept[512], name[64], part[80];
+    double x[16];
+    for (size_t i = 0; iso_record_line(record, i, &key, &value); i++) {
+        snprintf(kept, sizeof kept, "%s", value);
+        snprintf(name, sizeof name, "# %s", key);
+        const size_t count = numbers_of(kept, x);
+        for (size_t j = 0; j < count; j++) {
+            const double number = x[j];
+            snprintf(part, sizeof part, "# %s, number %zu", key, j + 1);
+            x[j] = another(number);
+            must(iso_record_set_numbers(ctx, record, key, count, x), "a line");
+            expect(record, before, file, name, part, number);
+            x[j] = number;
+        }
+        if (count == 0 && strcmp(key, "effects") != 0)
+            gsl_test(!tells(before, name), "%s: the words of %s are looked at by nobody", file, name);
+        must(iso_record_set(ctx, record, key, kept), "a line");
+    }
+}
+
+static void hold(const iso_scene *scene, const char *file)
+{
+    iso_record *record = file_of(scene);
+    if (!record) return;
+    const answer before = check_of(record, true);
+    gsl_test(before.status != ISO_OK, "%s: is checked: %s", file, iso_context_message(ctx));
+    gsl_test(!(before.worst <= BOUND), "%s: passes %g: %.2g", file, BOUND, before.worst);
+    if (before.status == ISO_OK) {
+        change_columns(record, &before, file);
+        change_lines(record, &before, file);
+    }
+    iso_record_free(record);
+}
+
+/* --- over the tables -------------------------------------------------------------------------------------------- */
+
+static iso_scene scene_of(const rolling *ball, iso_model_kind model, const iso_effects *effects, iso_shown as,
+                          iso_random *random)
+{
+    iso_scene scene = iso_scene_default();
+    scene.params = ball->p;
+    scene.start = scene_start(ball, random);
+    scene.effects = *effects;
+    TWO_SIDED(&scene.effects) = 1;
+    scene.end = 0.75;
+    scene.step = 0.25;
+    scene.tolerance = 1e-14;
+    scene.as = as;
+    if (model == ISO_BALL) return scene;
+    iso_ball_to_point(&ball->p, scene.start.y, scene.start.y);
+    scene.start.model = ISO_POINT;
+    scene.start.eps = NAN;
+    scene.step = 0.25 / (1 + norm(scene.start.y)); /* s of a point runs as its M says */
+    scene.end = 3 * scene.step;
+    return scene;
+}
+
+/* Every effect, alone and with all observers; none. */
+static void hold_effect(const rolling *ball, int acting, bool observed, iso_random *random)
+{
+    char file[128];
+    int subset = acting < ISO_EFFECTS ? 1 << acting : 0;
+    for (int e = 0; e < ISO_EFFECTS && observed; e++) subset |= iso_effect_list[e]->observes ? 1 << e : 0;
+    for (int model = 0; model < 2; model++)
+        for (int as = 0; as < 3; as++) {
+            const iso_effects effects = effects_random(random, &ball->p, subset, 1, 1, 1);
+            const iso_scene scene = scene_of(ball, (iso_model_kind)model, &effects, (iso_shown)as, random);
+            const int used = snprintf(file, sizeof file, "%s, %s as %s, ", ball->name, iso_model_kind_name(model),
+                                      iso_shown_name(as));
+            effects_name(subset, file + used, sizeof file - (size_t)used);
+            hold(&scene, file);
+        }
+}
+
+int main(void)
+{
+    ctx = iso_context_create();
+    iso_random *random = iso_random_create(29);
+    if (!random) scene_stops("no memory", ctx);
+    for (int which = 0; which < ROLLINGS; which++) {
+        const rolling ball = rolling_ball(ctx, which);
+        for (int acting = 0; acting <= ISO_EFFECTS; acting++) hold_effect(&ball, acting, which % 2, random);
+    }
+    printf("%zu numbers changed, %zu of them not looked at, %zu too small\n", changed, told, small);
+    gsl_test(small > changed / 50, "%zu of %zu numbers are too small to be seen", small, changed);
+    iso_random_free(random);
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}
