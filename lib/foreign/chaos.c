@@ -65,7 +65,8 @@ static iso_status put_number(iso_context *ctx, iso_record *r, const char *key, d
 
 static iso_status put_share(iso_context *ctx, const iso_chaos_share *s, iso_record *r, iso_status status)
 {
-    if (s->count == 0) return status;
+    if (s->asked == 0) return status;
+    status = put_number(ctx, r, "asked", (double)s->asked, status);
     status = put_number(ctx, r, "count", (double)s->count, status);
     status = put_number(ctx, r, "chaotic", (double)s->chaotic, status);
     status = put_number(ctx, r, "regular", (double)s->regular, status);

@@ -15,9 +15,12 @@
  * not followed.
  *
  * With `starts`, more orbits of the scene's energy begin on the section, spread evenly by the area dL dl. The share
- * of them that is chaotic estimates the chaotic part of the area. The confidence interval is Wilson's, at 95 %. It
- * holds for random starts; these are more evenly spread, so it is rather too wide. Orbits that stay undecided are
- * counted separately: they are not in the chaotic share.
+ * of them that is chaotic estimates the chaotic part of the area. Its confidence interval of 95 % comes from the
+ * starts themselves: they are 16 copies of one even sequence, each with a random shift of its own, and the scatter of
+ * the copies tells the error (share_impl.h). An orbit that stays undecided may be either: at the low end of the
+ * interval it counts as not chaotic, at the high end as chaotic. Orbits that were not followed, because they failed
+ * or because the call was stopped, do not count. After a stop the orbits that have made a turn count, so that an
+ * early verdict has no advantage; those without a verdict are undecided.
  */
 #ifndef ISO_STUDY_CHAOS_H
 #define ISO_STUDY_CHAOS_H
@@ -73,11 +76,13 @@ typedef struct iso_chaos_orbit {
     iso_status status[2]; /* ISO_OK, or why it was not followed to its verdict                                 */
 } iso_chaos_orbit;
 
-/* Counts of the orbits that were spread over the section and followed. */
+/* Counts of the orbits that were spread over the section. */
 typedef struct iso_chaos_share {
-    size_t count, chaotic, regular, undecided; /* undecided includes those that failed or disagree               */
-    size_t disagree, failed;
-    double share, low, high; /* chaotic/count, and its confidence interval of 95 %                              */
+    size_t asked, count, failed; /* of `asked` starts, `count` were followed, `failed` failed         */
+    size_t chaotic, regular, undecided,
+        disagree;            /* of those followed; undecided includes those that disagree         */
+    double share, low, high; /* chaotic/count, and the confidence interval of 95 % of the chaotic part, with undecided
+                                ones counted both ways; NaN: no orbit was followed */
 } iso_chaos_share;
 
 typedef struct iso_chaos {
@@ -120,8 +125,8 @@ ISO_API void iso_chaos_free(iso_chaos *chaos);
 ISO_API iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
                                       const iso_chaos_options *options, iso_chaos *chaos[], iso_status status[]);
 
-/* Wilson's confidence interval of 95 % for a share, when `found` of `count` random samples belong to it. */
-ISO_API void iso_chaos_interval(size_t found, size_t count, double *low, double *high);
+/* Whether at least one model has followed this orbit for a turn, and none failed before there was a verdict. */
+ISO_API bool iso_chaos_followed(const iso_chaos_orbit *orbit);
 
 ISO_C_END
 

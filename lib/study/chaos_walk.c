@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "study/chaos_impl.h"
-#include "study/section_impl.h"
+#include "study/share_impl.h"
 
 /* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings. */
 enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000 };
@@ -41,16 +41,25 @@ static iso_chaos_orbit *orbit_of(const group *g, size_t i)
     return g->first + i == 0 ? &c->own : &c->start[g->first + i - 1];
 }
 
+/* The first starts are spread, then come the given ones. */
+static void chart_of_start(iso_chaos_walk *w, size_t i, double *l, double *x)
+{
+    const iso_chaos_options *how = &w->options;
+    if (i < how->starts)
+        iso_share_start(&w->spread, how->seed, i, l, x);
+    else
+        *l = how->at[i - how->starts][0], *x = how->at[i - how->starts][1];
+}
+
 static void make_starts(group *g)
 {
-    const iso_chaos_options *how = &g->w->options;
     for (size_t i = 0; i < g->count; i++) {
         const iso_chaos_walk *w = g->each ? g->each[i] : g->w;
         iso_chaos_orbit *o = orbit_of(g, i);
         *o = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_UNDECIDED};
         g->start[i] = w->scene->start;
         if (!g->each && g->first + i > 0) {
-            iso_section_chart_of_start(&w->spread, how->starts, how->at, g->first + i - 1, &o->l, &o->x);
+            chart_of_start(g->w, g->first + i - 1, &o->l, &o->x);
             g->start[i] = iso_section_start(w->orbit, w->scene->start.model, w->out->axis, o->l, o->x);
         }
         g->orbit[i] = (iso_batch_orbit){&w->scene->params, &g->start[i], &w->effects};

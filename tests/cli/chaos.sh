@@ -68,6 +68,7 @@ check "none is chaotic" test "$(value chaotic)" = 0.0
 check "30 starts" test "$(value starts)" = 30
 run 0 chaos chaotic.yaml --starts 40 --turns 600 --json
 check "a chaotic part" between "$(value chaotic)" 0.35 0.8
+check "asked and followed" test "$(value starts)/$(value followed)" = 40/40
 check "its error" between "$(value error)" 0.05 0.25
 cp out first
 run 0 chaos chaotic.yaml --starts 40 --turns 600 --json -j 1
@@ -118,5 +119,10 @@ if interruptible "chaos after SIGINT"; then
     says "interrupted: "
     check "its JSON is whole" is_json
     check "and has the orbit's verdict" grep -q '"verdict": "chaotic"' out
+    # Of 1000000 orbits few were followed, and none of these was followed to the end: anything is possible
+    says "of 1000000 starts were followed"
+    check "asked" test "$(value starts)" = 1000000
+    check "those that nobody followed do not count" between "$(value followed)" 0 20000
+    check "the undecided are possible" between "$(value undecided_starts)" 0 "$(value followed)"
 fi
 finish

@@ -8,6 +8,7 @@
 #include "laws.h"
 #include "length.h"
 #include "study/chaos.h"
+#include "study/share_impl.h"
 
 static iso_context *ctx;
 
@@ -124,8 +125,9 @@ static void check_shares(void)
         gsl_test_int((int)s->count, (int)o.starts, "k = %g: starts", family[j].k);
         gsl_test(!(s->share >= family[j].low && s->share <= family[j].high), "k = %g: chaotic part %g", family[j].k,
                  s->share);
-        gsl_test(s->undecided > s->count / 50 + 1, "k = %g: %zu of %zu undecided", family[j].k, s->undecided,
-                 s->count);
+        const double undecided = 0.02 * (double)s->count; /* and three of its standard deviations, by chance */
+        gsl_test((double)s->undecided > undecided + 3 * sqrt(undecided), "k = %g: %zu of %zu undecided", family[j].k,
+                 s->undecided, s->count);
         gsl_test_int((int)(s->chaotic + s->regular + s->undecided), (int)s->count, "the parts are the whole");
         gsl_test_int((int)s->failed, 0, "k = %g: none fails: %s", family[j].k, c->words);
         gsl_test(s->disagree > s->count / 500, "k = %g: ball and point disagree about %zu", family[j].k, s->disagree);
@@ -162,17 +164,73 @@ static void check_alone(void)
     iso_chaos_free(all);
 }
 
-/* Wilson's interval: at 0 and at all of them one end is 0 or 1; (10 of 100) is a textbook's. */
-static void check_interval(void)
+static bool stop_after(void *data)
 {
-    double low, high;
-    iso_chaos_interval(10, 100, &low, &high);
-    gsl_test_abs(low, 0.0552, 1e-4, "10 of 100: from");
-    gsl_test_abs(high, 0.1744, 1e-4, "10 of 100: to");
-    iso_chaos_interval(0, 50, &low, &high);
-    gsl_test(low != 0 || fabs(high - 0.0713) > 1e-4, "0 of 50: %g to %g", low, high);
-    iso_chaos_interval(50, 50, &low, &high);
-    gsl_test(high != 1 || fabs(low - 0.9287) > 1e-4, "50 of 50: %g to %g", low, high);
+    int *const left = data;
+    return --*left > 0;
+}
+
+/* The low end of the interval is that of the chaotic orbits, the high end that of all that are not known to be
+ * regular. So few turns leave most of them undecided. */
+static void check_undecided(void)
+{
+    enum { STARTS = 90, TURNS = 150 };
+    const iso_scene scene = scene_of(-0.5, 1.4, 2.1, 3);
+    iso_chaos_options o = iso_chaos_defaults();
+    iso_chaos *c;
+    size_t count[ISO_SHIFTS] = {0}, chaotic[ISO_SHIFTS] = {0}, other[ISO_SHIFTS] = {0};
+    double low, high, unused;
+    o.starts = STARTS;
+    o.turns = TURNS;
+    o.models = ISO_SHOW_POINT;
+    must(iso_chaos_run(ctx, &scene, &o, &c), "starts");
+    for (size_t i = 0; i < STARTS; i++) {
+        count[i % ISO_SHIFTS]++;
+        chaotic[i % ISO_SHIFTS] += c->start[i].verdict == ISO_CHAOTIC;
+        other[i % ISO_SHIFTS] += c->start[i].verdict != ISO_REGULAR;
+    }
+    iso_share_interval(count, chaotic, &low, &unused);
+    iso_share_interval(count, other, &unused, &high);
+    gsl_test(c->share.undecided < STARTS / 2, "%zu of %d undecided", c->share.undecided, STARTS);
+    gsl_test(c->share.low != low || c->share.high != high, "undecided both ways: %g to %g", c->share.low,
+             c->share.high);
+    gsl_test(!(c->share.high >= c->share.share + (double)c->share.undecided / STARTS), "%g is too low",
+             c->share.high);
+    iso_chaos_free(c);
+}
+
+/* Stopped after any number of calls: the orbits that nobody followed are not in the share. If there is none, there is
+ * no share. */
+static void check_stopped(void)
+{
+    const iso_scene scene = scene_of(-1, 1.4, 2.1, 3);
+    iso_chaos_options o = iso_chaos_defaults();
+    o.starts = 60;
+    o.turns = 400;
+    o.threads = 1;
+    o.models = ISO_SHOW_POINT;
+    bool none = false, some = false, stopped = true;
+    for (int calls = 2; stopped; calls += calls / 2) {
+        int left = calls;
+        iso_chaos *c;
+        iso_context_set_monitor(ctx, stop_after, &left);
+        stopped = iso_chaos_run(ctx, &scene, &o, &c) == ISO_STOPPED;
+        iso_context_set_monitor(ctx, NULL, NULL);
+        const iso_chaos_share *s = &c->share;
+        size_t followed = 0;
+        for (size_t i = 0; i < c->starts; i++) followed += c->start[i].told[ISO_POINT].turns > 0;
+        gsl_test(s->asked != o.starts || s->count != followed || s->failed > 0, "%d calls: %zu of %zu followed",
+                 calls, s->count, followed);
+        gsl_test_int((int)(s->chaotic + s->regular + s->undecided), (int)s->count, "%d calls: the parts", calls);
+        if (s->count == 0)
+            gsl_test(!isnan(s->share) || !isnan(s->low) || !isnan(s->high), "no orbit, no share: %g", s->share);
+        else
+            gsl_test(!(s->high >= (double)s->undecided / (double)s->count), "undecided are possible: %g", s->high);
+        none = none || s->count == 0;
+        some = some || (s->count > 0 && s->count < o.starts);
+        iso_chaos_free(c);
+    }
+    gsl_test(!none || !some, "stopped before the first orbit: %d, between two orbits: %d", none, some);
 }
 
 /* --- refusals --------------------------------------------------------------------------------------------------- */
@@ -185,12 +243,6 @@ static void refuse(const iso_scene *scene, const iso_chaos_options *o, iso_statu
              about, (int)status, iso_context_about(ctx), iso_context_message(ctx));
     gsl_test(c != NULL, "no result after a refusal");
     iso_chaos_free(c);
-}
-
-static bool stop_after(void *data)
-{
-    int *const left = data;
-    return --*left > 0;
 }
 
 static void check_refusals(void)
@@ -238,7 +290,8 @@ int main(void)
     check_planes();
     check_shares();
     check_alone();
-    check_interval();
+    check_undecided();
+    check_stopped();
     check_refusals();
     iso_context_free(ctx);
     return gsl_test_summary();

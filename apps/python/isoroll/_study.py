@@ -125,13 +125,19 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
 
 
 class Share(NamedTuple):
-    """The orbits spread over the section. share: the chaotic fraction; low, high: its 95 % confidence interval."""
+    """The orbits spread over the section.
+
+    orbits     those that were followed; `asked` were to be, `failed` failed
+    share      the chaotic fraction of them; NaN if none was followed
+    low, high  its 95 % confidence interval; undecided orbits are not chaotic at the low end, chaotic at the high end
+    """
 
     orbits: int
     chaotic: int
     regular: int
     undecided: int
     failed: int
+    asked: int
     share: float
     low: float
     high: float
@@ -157,7 +163,7 @@ class Chaos:
         self.share: Optional[Share] = None
         if "share" in self.lines:
             numbers = [float(self.lines[key]) for key in ("count", *Share._fields[1:])]
-            self.share = Share(*(int(x) for x in numbers[:5]), *numbers[5:])
+            self.share = Share(*(int(x) for x in numbers[:6]), *numbers[6:])
 
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "lines": None}
