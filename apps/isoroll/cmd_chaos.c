@@ -13,7 +13,7 @@
 typedef struct options {
     scene_options scene;           /* only its file and tolerance are used */
     const char *axis, *csv, *plot; /* NULL: not given                      */
-    double turns, starts, seed, threads;
+    double turns, exponent_turns, starts, seed, threads;
     iso_shown models; /* ISO_SHOW_START: not given */
     bool json;
 } options;
@@ -40,11 +40,13 @@ static void print_head(const iso_scene *scene, const iso_chaos *c)
         "", "t", "tau", "s");
 }
 
-/* x +- error, in 20 columns */
+/* x +- error, in 20 columns; an error that is not known is "?" */
 static void print_rate(double x, double error)
 {
-    if (isnan(x) || isnan(error))
+    if (isnan(x))
         printf("  %18s", "-");
+    else if (isnan(error))
+        printf("  %9.2e +- %5s", x, "?");
     else
         printf("  %9.2e +- %5.0e", x, error);
 }
@@ -66,7 +68,24 @@ static void print_agreement(const iso_chaos *c)
     const double apart = fabs(one->exponent[ISO_CLOCK_T] - other->exponent[ISO_CLOCK_T]),
                  error = hypot(one->error[ISO_CLOCK_T], other->error[ISO_CLOCK_T]);
     if (!c->with[ISO_BALL] || !c->with[ISO_POINT] || isnan(apart) || isnan(error)) return;
-    printf("  the exponents per t of both models are %.2g standard errors apart\n", apart / error);
+    printf("  the exponents per t of both models are %.2g errors apart\n", apart / error);
+}
+
+/* What the exponents are worth. */
+static void print_worth(const iso_chaos *c)
+{
+    bool rough = false;
+    long longest = 0;
+    for (int m = 0; m < 2; m++) {
+        const iso_indication *i = &c->own.told[m];
+        if (!c->with[m] || i->verdict != ISO_CHAOTIC) continue;
+        rough = rough || isnan(i->error[ISO_CLOCK_T] + i->per_turn_error);
+        if (i->exponent_turns > i->turns && i->exponent_turns > longest) longest = i->exponent_turns;
+    }
+    if (c->own.verdict == ISO_REGULAR)
+        printf("  the exponents of a regular orbit are 0: these estimates fall like 1/turns\n");
+    if (longest > 0) printf("  the exponents are from %ld turns\n", longest);
+    if (rough) printf("  +- ?: so few turns do not tell the error; --exponent-turns goes on\n");
 }
 
 /* How many of the starts were followed, if not all. */
@@ -100,8 +119,7 @@ static void print_table(const iso_scene *scene, const iso_chaos *c)
 {
     print_head(scene, c);
     for (int m = 0; m < 2 && c->plane < 0; m++) print_model(c, m);
-    if (c->plane < 0 && c->own.verdict == ISO_REGULAR)
-        printf("  the exponents of a regular orbit are 0: these estimates fall like 1/turns\n");
+    if (c->plane < 0) print_worth(c);
     print_agreement(c);
     print_share(&c->share);
 }
@@ -117,12 +135,12 @@ static json_t *model_of(const iso_chaos *c, int model)
 {
     const iso_indication *i = &c->own.told[model];
     if (!c->with[model]) return json_null();
-    return json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
-                     iso_verdict_name(i->verdict), "turns", (json_int_t)i->turns, "exponent", clocks_of(i->exponent),
-                     "error", clocks_of(i->error), "exponent_per_turn", json_number(i->per_turn), "error_per_turn",
-                     json_number(i->per_turn_error), "megno", json_number(i->megno), "megno_now",
-                     json_number(i->megno_now), "megno_mean", json_number(i->megno_mean), "gali2",
-                     json_number(i->gali2), "digits", json_number(i->digits));
+    return json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
+                     iso_verdict_name(i->verdict), "turns", (json_int_t)i->turns, "exponent_turns",
+                     (json_int_t)i->exponent_turns, "exponent", clocks_of(i->exponent), "error", clocks_of(i->error),
+                     "exponent_per_turn", json_number(i->per_turn), "error_per_turn", json_number(i->per_turn_error),
+                     "megno", json_number(i->megno), "megno_now", json_number(i->megno_now), "megno_mean",
+                     json_number(i->megno_mean), "gali2", json_number(i->gali2), "digits", json_number(i->digits));
 }
 
 static json_t *share_of(const iso_chaos_share *s)
@@ -270,6 +288,7 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = read_axis(ctx, o->axis, &how->axis);
     how->turns = (long)o->turns;
+    how->exponent_turns = (long)o->exponent_turns;
     how->starts = (size_t)o->starts;
     how->seed = (uint64_t)o->seed;
     how->threads = as_int(o->threads);
@@ -319,6 +338,9 @@ static const option_row rows[] = {
     ROW("turns", "N", "a whole number from 1 on",
         "follow each orbit for at most N turns (default 3000); it ends earlier once there is a verdict", set_count,
         options, turns),
+    ROW("exponent-turns", "N", "a whole number from 0 on",
+        "go on with a chaotic orbit until it has N turns, for its exponent; default 0: it ends with the verdict",
+        set_whole, options, exponent_turns),
     ROW("starts", "M", "a whole number from 0 on",
         "M more orbits of the same energy, spread evenly over the section: tells which part of it is chaotic",
         set_whole, options, starts),
@@ -348,10 +370,13 @@ const command command_chaos = {
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
         "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0; where none "
         "is known, it is a step of the time t. The indicators are MEGNO, GALI_2, and the largest exponent with its "
-        "standard error, per unit of t, tau and s. MEGNO is 2 on regular orbits, or 0 if all neighbours turn "
+        "error, per unit of t, tau and s. MEGNO is 2 on regular orbits, or 0 if all neighbours turn "
         "equally fast; on chaotic orbits it grows. GALI_2 is the sine of the angle between the deviations; on "
         "chaotic orbits it falls exponentially. Each model is integrated by itself. Of the scene's times and "
         "solver, only the tolerance is read.\n\n"
+        "The error of an exponent is meant so that at most one orbit in ten is off by more than two of it. A chaotic "
+        "orbit ends with its verdict, and is then often too short to know the error, which is shown as a question "
+        "mark; --exponent-turns makes it longer.\n\n"
         "With --starts, M more orbits of the same energy start on the section, spread evenly. The part of them "
         "that is chaotic is printed with its confidence interval of 95 %. The interval comes from the scatter of "
         "16 sets of starts, each with a random shift of its own. Undecided orbits count both ways: as not chaotic "

@@ -51,6 +51,9 @@ static iso_status check_options(const iso_chaos_walk *w)
     const iso_chaos_options *o = &w->options;
     if (o->turns < 1)
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "turns", "%ld turns: give 1 or more", o->turns);
+    if (o->exponent_turns < 0)
+        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "exponent_turns", "%ld turns: give 0 or more",
+                                o->exponent_turns);
     if (o->axis != ISO_AXIS_AUTO && (o->axis < 0 || o->axis > 2))
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "axis", "axis %d is not 1, 2 or 3", o->axis + 1);
     for (size_t i = 0; i < o->at_count; i++)

@@ -6,7 +6,8 @@
  *     iso_chaos_free(c);
  *
  * An orbit is followed from turn to turn, with two deviations beside it (orbit/crossings.h), until the indicators
- * (indicators.h) decide, or for at most `turns`. A turn of a free orbit is a return to the section n_a = 0
+ * (indicators.h) decide, or for at most `turns`. The exponent of so short an orbit is rough, and its error is not known:
+ * with `exponent_turns` a chaotic orbit goes on. A turn of a free orbit is a return to the section n_a = 0
  * (map/section.h). If effects act that keep the energy, or if the point is off its level H = 0, a turn is the time
  * 2 pi/|k omega|, with omega at the start; in a potential |omega| is not taken less than the orbit's own unit of it.
  * The deviations have no part along the flow and none along the energy, since these parts tell nothing about chaos.
@@ -39,6 +40,7 @@ ISO_C_BEGIN
 typedef struct iso_chaos_options {
     size_t size;           /* set by iso_chaos_defaults; see isoroll.h */
     long turns;            /* at most, of each orbit; 1 or more                                          */
+    long exponent_turns;   /* an orbit that is chaotic goes on to so many turns, for its exponent; 0: it ends */
     size_t starts;         /* orbits spread over the section                                             */
     uint64_t seed;         /* another seed spreads them in another way                                   */
     const double (*at)[2]; /* (l, x) of further starts, |x| < 1; they are not in the share */
@@ -108,7 +110,7 @@ typedef struct iso_chaos {
 /* Orbits that fail are counted in the result. The call fails only if no model can follow the scene's own orbit.
  * options NULL: iso_chaos_defaults().
  * Errors:
- * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1), "at" (outside of the chart);
+ * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1), "exponent_turns" (below 0), "at" (outside of the chart);
  * - ISO_BAD_INPUT: an effect that takes energy or lets the ball roll away (about its name); a ball at rest; `starts`
  *   or `at` with effects or off the level H = 0 (about the effect), since (l, x) does not determine an orbit there;
  *   about "axis": orbits can stay away from its section;

@@ -1,5 +1,5 @@
-/* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits without a verdict
- * go on to the next look, first by one model, then by the other. */
+/* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits that have not
+ * ended go on to the next look, first by one model, then by the other. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -87,7 +87,9 @@ static void make_beat(const iso_crossing *c, const iso_sample *sample, iso_beat 
 
 static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators *shown)
 {
-    const long every = (w->options.turns + TRACE_ROWS - 1) / TRACE_ROWS;
+    const iso_chaos_options *o = &w->options;
+    const long most = o->turns > o->exponent_turns ? o->turns : o->exponent_turns,
+               every = (most + TRACE_ROWS - 1) / TRACE_ROWS;
     iso_indication told;
     double *row;
     if (shown->turns % every != 0) return ISO_OK;
@@ -121,7 +123,14 @@ static void note_failures(const group *g, int model)
             note_failure(g, model, i, iso_crossings_why(r->crossings, i));
 }
 
-/* Adds the new crossings of an orbit until it has a verdict. */
+/* The number of turns after which an orbit ends: the verdict regular ends it at once. */
+static long most_turns(const iso_chaos_walk *w, const iso_indicators *shown)
+{
+    const iso_verdict verdict = iso_indicators_verdict(shown);
+    return verdict == ISO_UNDECIDED ? w->options.turns : verdict == ISO_CHAOTIC ? w->options.exponent_turns : 0;
+}
+
+/* Adds the new crossings of an orbit until it ends. */
 static iso_status take(group *g, int model, size_t i)
 {
     const iso_chaos_walk *w = g->w;
@@ -129,7 +138,7 @@ static iso_status take(group *g, int model, size_t i)
     iso_indicators *shown = &r->shown[i];
     iso_status status = ISO_OK;
     for (size_t j = 0; j < r->done[i] && status == ISO_OK; j++) {
-        if (iso_indicators_verdict(shown) != ISO_UNDECIDED || shown->turns >= w->options.turns) break;
+        if (shown->turns >= most_turns(w, shown)) break;
         const size_t at = r->each * i + j;
         iso_beat beat;
         make_beat(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &beat);
@@ -142,8 +151,7 @@ static iso_status take(group *g, int model, size_t i)
         iso_indicators_add(shown, &beat);
         if (!g->each && g->first + i == 0) status = trace(w, model, shown);
     }
-    r->wanted[i] =
-        r->status[i] == ISO_OK && iso_indicators_verdict(shown) == ISO_UNDECIDED && shown->turns < w->options.turns;
+    r->wanted[i] = r->status[i] == ISO_OK && shown->turns < most_turns(w, shown);
     return status;
 }
 
@@ -191,7 +199,8 @@ static size_t turns_of_round(const group *g, const runner *r)
 {
     for (size_t i = 0; i < g->count; i++) {
         if (!r->wanted[i]) continue;
-        const long turns = r->shown[i].turns, next = iso_indicators_next(&r->shown[i]), most = g->w->options.turns;
+        const long turns = r->shown[i].turns, next = iso_indicators_next(&r->shown[i]),
+                   most = most_turns(g->w, &r->shown[i]);
         const long left = (next < most ? next : most) - turns;
         return left < ROUND ? (size_t)left : ROUND;
     }
@@ -227,14 +236,14 @@ static void show_progress(const group *g)
     for (int m = 0; m < 2; m++)
         for (size_t i = 0; w->out->with[m] && i < g->count; i++) {
             const runner *r = &g->model[m];
-            done += r->wanted[i] ? (double)r->shown[i].turns / (double)w->options.turns : 1;
+            done += r->wanted[i] ? (double)r->shown[i].turns / (double)most_turns(w, &r->shown[i]) : 1;
             models += i == 0;
         }
     const double all = (double)(w->options.starts + w->options.at_count) + 1;
     w->options.progress(fmin(1, ((double)g->first + done / models) / all), w->options.data);
 }
 
-/* Each model follows an orbit until its own verdict, even if the other model has decided before. */
+/* Each model follows an orbit until its own end, even if the other model has decided before. */
 static iso_status follow_group(group *g)
 {
     iso_chaos *c = g->w->out;

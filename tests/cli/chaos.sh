@@ -49,8 +49,15 @@ check "a scene from standard input" test $? -eq 0
 
 # --- JSON: the exponents go together with the means of the clocks, and both models agree
 run 0 chaos chaotic.yaml --json
+check "at the verdict no error is known" test "$(grep -c '"t": null' out)" -eq 2
+run 0 chaos chaotic.yaml
+check "so it says" grep -q 'so few turns do not tell the error; --exponent-turns' out
+run 0 chaos chaotic.yaml --exponent-turns 1000
+check "from how many turns" grep -q 'the exponents are from 1000 turns' out
+run 0 chaos chaotic.yaml --exponent-turns 1000 --json
 silent
 check "JSON" is_json
+check "exponent_turns" test "$(value exponent_turns)" = 1000
 check "verdicts" test "$(grep -c '"verdict": "chaotic"' out)" -eq 3
 check "turns" between "$(value turns)" 90 3000
 check "exponent per t" between "$(value t 1)" 0.03 0.12
@@ -97,6 +104,7 @@ run 0 chaos plane.yaml --json
 check "nothing is told of deviations that are not followed" test "$(grep -c '"gali2": null' out)" -eq 2
 refuses 3 "an axis is 1, 2 or 3" chaos chaotic.yaml --axis 4
 refuses 2 "--turns '0'" chaos chaotic.yaml --turns 0
+refuses 2 "--exponent-turns '-5'" chaos chaotic.yaml --exponent-turns -5
 refuses 2 "--starts '-1'" chaos chaotic.yaml --starts -1
 refuses 2 "room for one" chaos chaotic.yaml --json --csv -
 
