@@ -110,8 +110,7 @@ static void print_share(const iso_chaos_share *s)
            s->share, s->chaotic, s->low, s->high, (double)s->regular / count, s->regular,
            (double)s->undecided / count, s->undecided);
     if (s->undecided > 0)
-        printf(
-            "  the interval counts the undecided both ways: not chaotic at its low end, chaotic at its high end\n");
+        printf("  undecided ones count both ways: not chaotic at the low end, chaotic at the high end\n");
     if (s->disagree > 0) printf("  of the undecided: ball and point disagree about %zu\n", s->disagree);
 }
 
