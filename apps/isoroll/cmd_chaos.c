@@ -13,7 +13,7 @@
 typedef struct options {
     scene_options scene;           /* only its file and tolerance are used */
     const char *axis, *csv, *plot; /* NULL: not given                      */
-    double turns, starts, seed, threads;
+    double turns, exponent_turns, starts, seed, threads;
     iso_shown models; /* ISO_SHOW_START: not given */
     bool json;
 } options;
@@ -40,11 +40,13 @@ static void print_head(const iso_scene *scene, const iso_chaos *c)
         "", "t", "tau", "s");
 }
 
-/* x +- error, in 20 columns */
+/* x +- error, in 20 columns; an error that is not known is "?" */
 static void print_rate(double x, double error)
 {
-    if (isnan(x) || isnan(error))
+    if (isnan(x))
         printf("  %18s", "-");
+    else if (isnan(error))
+        printf("  %9.2e +- %5s", x, "?");
     else
         printf("  %9.2e +- %5.0e", x, error);
 }
@@ -66,28 +68,57 @@ static void print_agreement(const iso_chaos *c)
     const double apart = fabs(one->exponent[ISO_CLOCK_T] - other->exponent[ISO_CLOCK_T]),
                  error = hypot(one->error[ISO_CLOCK_T], other->error[ISO_CLOCK_T]);
     if (!c->with[ISO_BALL] || !c->with[ISO_POINT] || isnan(apart) || isnan(error)) return;
-    printf("  the exponents per t of both models are %.2g standard errors apart\n", apart / error);
+    printf("  the exponents per t of both models are %.2g errors apart\n", apart / error);
+}
+
+/* What the exponents are worth. */
+static void print_worth(const iso_chaos *c)
+{
+    bool rough = false;
+    long longest = 0;
+    for (int m = 0; m < 2; m++) {
+        const iso_indication *i = &c->own.told[m];
+        if (!c->with[m] || i->verdict != ISO_CHAOTIC) continue;
+        rough = rough || isnan(i->error[ISO_CLOCK_T] + i->per_turn_error);
+        if (i->exponent_turns > i->turns && i->exponent_turns > longest) longest = i->exponent_turns;
+    }
+    if (c->own.verdict == ISO_REGULAR)
+        printf("  the exponents of a regular orbit are 0: these estimates fall like 1/turns\n");
+    if (longest > 0) printf("  the exponents are from %ld turns\n", longest);
+    if (rough) printf("  +- ?: so few turns do not tell the error; --exponent-turns goes on\n");
+}
+
+/* How many of the starts were followed, if not all. */
+static void print_followed(const iso_chaos_share *s)
+{
+    if (s->count == s->asked) return;
+    printf("  %zu of them were followed", s->count);
+    if (s->failed > 0) printf("; %zu failed", s->failed);
+    printf(s->count > 0 ? ": the shares are of these\n" : ": no share is known\n");
 }
 
 static void print_share(const iso_chaos_share *s)
 {
+    if (s->asked == 0) return;
+    const double count = (double)s->count;
+    printf("\n%zu starts spread evenly over the section, by its area dL dl:\n", s->asked);
+    print_followed(s);
     if (s->count == 0) return;
-    printf("\n%zu starts spread evenly over the section, by its area dL dl:\n"
-           "  chaotic    %8.4f   (%zu); 95 %% interval %.4f to %.4f\n"
+    printf("  chaotic    %8.4f   (%zu); 95 %% interval %.4f to %.4f\n"
            "  regular    %8.4f   (%zu)\n"
            "  undecided  %8.4f   (%zu)\n",
-           s->count, s->share, s->chaotic, s->low, s->high, (double)s->regular / (double)s->count, s->regular,
-           (double)s->undecided / (double)s->count, s->undecided);
+           s->share, s->chaotic, s->low, s->high, (double)s->regular / count, s->regular,
+           (double)s->undecided / count, s->undecided);
+    if (s->undecided > 0)
+        printf("  undecided ones count both ways: not chaotic at the low end, chaotic at the high end\n");
     if (s->disagree > 0) printf("  of the undecided: ball and point disagree about %zu\n", s->disagree);
-    if (s->failed > 0) printf("  of the undecided: %zu could not be followed to the end\n", s->failed);
 }
 
 static void print_table(const iso_scene *scene, const iso_chaos *c)
 {
     print_head(scene, c);
     for (int m = 0; m < 2 && c->plane < 0; m++) print_model(c, m);
-    if (c->plane < 0 && c->own.verdict == ISO_REGULAR)
-        printf("  the exponents of a regular orbit are 0: these estimates fall like 1/turns\n");
+    if (c->plane < 0) print_worth(c);
     print_agreement(c);
     print_share(&c->share);
 }
@@ -103,23 +134,24 @@ static json_t *model_of(const iso_chaos *c, int model)
 {
     const iso_indication *i = &c->own.told[model];
     if (!c->with[model]) return json_null();
-    return json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
-                     iso_verdict_name(i->verdict), "turns", (json_int_t)i->turns, "exponent", clocks_of(i->exponent),
-                     "error", clocks_of(i->error), "exponent_per_turn", json_number(i->per_turn), "error_per_turn",
-                     json_number(i->per_turn_error), "megno", json_number(i->megno), "megno_now",
-                     json_number(i->megno_now), "megno_mean", json_number(i->megno_mean), "gali2",
-                     json_number(i->gali2), "digits", json_number(i->digits));
+    return json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "verdict",
+                     iso_verdict_name(i->verdict), "turns", (json_int_t)i->turns, "exponent_turns",
+                     (json_int_t)i->exponent_turns, "exponent", clocks_of(i->exponent), "error", clocks_of(i->error),
+                     "exponent_per_turn", json_number(i->per_turn), "error_per_turn", json_number(i->per_turn_error),
+                     "megno", json_number(i->megno), "megno_now", json_number(i->megno_now), "megno_mean",
+                     json_number(i->megno_mean), "gali2", json_number(i->gali2), "digits", json_number(i->digits));
 }
 
 static json_t *share_of(const iso_chaos_share *s)
 {
-    const double n = (double)s->count;
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:I}", "chaotic", json_number(s->share),
-                     "error", json_number((s->high - s->low) / 2), "low", json_number(s->low), "high",
-                     json_number(s->high), "regular", json_number((double)s->regular / n), "undecided",
-                     json_number((double)s->undecided / n), "starts", (json_int_t)s->count, "chaotic_starts",
-                     (json_int_t)s->chaotic, "regular_starts", (json_int_t)s->regular, "undecided_starts",
-                     (json_int_t)s->undecided, "disagree", (json_int_t)s->disagree, "failed", (json_int_t)s->failed);
+    const double n = (double)s->count; /* 0: then every part of it is NaN, and null in the file */
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "chaotic",
+                     json_number(s->share), "error", json_number((s->high - s->low) / 2), "low", json_number(s->low),
+                     "high", json_number(s->high), "regular", json_number((double)s->regular / n), "undecided",
+                     json_number((double)s->undecided / n), "starts", (json_int_t)s->asked, "followed",
+                     (json_int_t)s->count, "chaotic_starts", (json_int_t)s->chaotic, "regular_starts",
+                     (json_int_t)s->regular, "undecided_starts", (json_int_t)s->undecided, "disagree",
+                     (json_int_t)s->disagree, "failed", (json_int_t)s->failed);
 }
 
 static long turns_of(const iso_chaos *c)
@@ -141,7 +173,7 @@ static bool print_json(const iso_scene *scene, const iso_chaos *c)
                   section, "turn", json_number(c->turn), "integral", c->integral ? c->integral->name : NULL,
                   "verdict", iso_verdict_name(c->own.verdict), "disagree", (int)c->own.disagree, "turns",
                   (json_int_t)turns_of(c), "ball", model_of(c, ISO_BALL), "point", model_of(c, ISO_POINT));
-    if (o && c->share.count > 0) json_object_set_new(o, "share", share_of(&c->share));
+    if (o && c->share.asked > 0) json_object_set_new(o, "share", share_of(&c->share));
     return json_print(o);
 }
 
@@ -157,19 +189,26 @@ static double exponent_of(const iso_chaos *c, const iso_chaos_orbit *o)
     return NAN;
 }
 
-/* Orbit 0 is the scene's own. */
+/* How many of the spread starts the result has; of some, nobody may have followed the orbit. */
+static size_t spread_of(const iso_chaos *c)
+{
+    return c->starts < c->share.asked ? c->starts : c->share.asked;
+}
+
+/* Orbit 0 is the scene's own. Other orbits that were not followed have no row. */
 static void write_csv(const iso_chaos *c, FILE *to)
 {
     static const char *const names[] = {"ball", "point"};
     fputs("# isoroll chaos 1\n# orbit 0: the scene's own; l and x are nan: it need not start on the section\n", to);
-    fputs("# nan elsewhere: not known, since the orbit was not followed\norbit,l,x,verdict", to);
+    fputs("# nan elsewhere: not known; an orbit that was not followed has no row\norbit,l,x,verdict", to);
     for (int m = 0; m < 2; m++)
         if (c->with[m])
             fprintf(to, ",%s_verdict,%s_turns,%s_exponent,%s_error,%s_megno,%s_gali2", names[m], names[m], names[m],
                     names[m], names[m], names[m]);
     fputc('\n', to);
-    for (size_t i = 0; i <= c->share.count; i++) {
+    for (size_t i = 0; i <= spread_of(c); i++) {
         const iso_chaos_orbit *o = i == 0 ? &c->own : &c->start[i - 1];
+        if (i > 0 && !iso_chaos_followed(o)) continue;
         fprintf(to, "%zu,%.17g,%.17g,%s", i, o->l, o->x, iso_verdict_name(o->verdict));
         for (int m = 0; m < 2; m++)
             if (c->with[m])
@@ -180,14 +219,15 @@ static void write_csv(const iso_chaos *c, FILE *to)
     }
 }
 
-/* Columns l, x, exponent per turn (0: regular, NaN: undecided) of the starts. */
+/* Columns l, x, exponent per turn (0: regular, NaN: undecided) of the starts that were followed. */
 static iso_status draw_section(iso_context *ctx, const options *o, const iso_chaos *c, const char *title)
 {
     static const char *const names[] = {"l", "x", "exponent"};
     iso_record *r;
     iso_status status = iso_record_create(ctx, 3, names, &r);
-    for (size_t i = 0; i < c->share.count && status == ISO_OK; i++) {
+    for (size_t i = 0; i < spread_of(c) && status == ISO_OK; i++) {
         double *row;
+        if (!iso_chaos_followed(&c->start[i])) continue;
         status = iso_record_append(ctx, r, &row);
         if (status != ISO_OK) break;
         row[0] = c->start[i].l;
@@ -202,10 +242,11 @@ static iso_status draw_section(iso_context *ctx, const options *o, const iso_cha
 static iso_status draw(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c)
 {
     const double *J = scene->params.J;
-    char title[160];
+    char title[200];
     if (c->share.count > 0) {
-        snprintf(title, sizeof title, "k = %.6g, J = %.6g %.6g %.6g: %.3g of the area is chaotic, %.3g undecided",
-                 scene->params.k, J[0], J[1], J[2], c->share.share,
+        snprintf(title, sizeof title,
+                 "k = %.6g, J = %.6g %.6g %.6g: %.3g of the area is chaotic (95 %%: %.3g to %.3g), %.3g undecided",
+                 scene->params.k, J[0], J[1], J[2], c->share.share, c->share.low, c->share.high,
                  (double)c->share.undecided / (double)c->share.count);
         return draw_section(ctx, o, c, title);
     }
@@ -246,6 +287,7 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     iso_status status = o->plot ? iso_plot_check_format(ctx, o->plot) : ISO_OK;
     if (status == ISO_OK) status = read_axis(ctx, o->axis, &how->axis);
     how->turns = (long)o->turns;
+    how->exponent_turns = (long)o->exponent_turns;
     how->starts = (size_t)o->starts;
     how->seed = (uint64_t)o->seed;
     how->threads = as_int(o->threads);
@@ -254,6 +296,15 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
     how->progress = progress_told;
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     return status == ISO_OK && o->csv ? iso_output_open(ctx, o->csv, csv) : status;
+}
+
+static void complain_interrupted(const iso_chaos_options *how, const iso_chaos *c)
+{
+    if (how->starts > 0)
+        complain("interrupted: %zu of %zu starts were followed, some of them not for all turns",
+                 c ? c->share.count : 0, how->starts);
+    else
+        complain("interrupted: without a verdict so far, the orbit is undecided");
 }
 
 static int run(iso_context *ctx, const void *options_given)
@@ -271,7 +322,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
     int result = finish_scene(ctx, &o->scene, &scene, status);
-    if (status == ISO_STOPPED) complain("interrupted: orbits without a verdict so far count as undecided");
+    if (status == ISO_STOPPED) complain_interrupted(&how, c);
     if (c)
         result = worse(result, report(ctx, o, &scene, c, csv));
     else
@@ -286,6 +337,9 @@ static const option_row rows[] = {
     ROW("turns", "N", "a whole number from 1 on",
         "follow each orbit for at most N turns (default 3000); it ends earlier once there is a verdict", set_count,
         options, turns),
+    ROW("exponent-turns", "N", "a whole number from 0 on",
+        "go on with a chaotic orbit until it has N turns, for its exponent; default 0: it ends with the verdict",
+        set_whole, options, exponent_turns),
     ROW("starts", "M", "a whole number from 0 on",
         "M more orbits of the same energy, spread evenly over the section: tells which part of it is chaotic",
         set_whole, options, starts),
@@ -315,12 +369,17 @@ const command command_chaos = {
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
         "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0; where none "
         "is known, it is a step of the time t. The indicators are MEGNO, GALI_2, and the largest exponent with its "
-        "standard error, per unit of t, tau and s. MEGNO is 2 on regular orbits, or 0 if all neighbours turn "
+        "error, per unit of t, tau and s. MEGNO is 2 on regular orbits, or 0 if all neighbours turn "
         "equally fast; on chaotic orbits it grows. GALI_2 is the sine of the angle between the deviations; on "
         "chaotic orbits it falls exponentially. Each model is integrated by itself. Of the scene's times and "
         "solver, only the tolerance is read.\n\n"
+        "The error of an exponent is meant so that at most one orbit in ten is off by more than two of it. A chaotic "
+        "orbit ends with its verdict, and is then often too short to know the error, which is shown as a question "
+        "mark; --exponent-turns makes it longer.\n\n"
         "With --starts, M more orbits of the same energy start on the section, spread evenly. The part of them "
-        "that is chaotic is printed with its confidence interval of 95 %.\n\n"
+        "that is chaotic is printed with its confidence interval of 95 %. The interval comes from the scatter of "
+        "16 sets of starts, each with a random shift of its own. Undecided orbits count both ways: as not chaotic "
+        "at its low end, as chaotic at its high end. Orbits that were not followed do not count.\n\n"
         "--plot draws the indicators against the number of turns. With --starts it draws the section, coloured by "
         "exponent. After Ctrl-C, what is known so far is printed.\n\n"
         "Effects that keep the energy, such as gravity, are allowed. Effects that take energy are refused: such a "

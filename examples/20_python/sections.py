@@ -16,13 +16,14 @@ both = isoroll.orbit(scene, as_="both").at([0, 10, 5])
 print(scene)
 print("gamma at t = 0, 10, 5:", *both.gamma)
 
-# %% The section: 60 orbits of the same energy. Each model is integrated by itself.
-section = isoroll.section(scene, starts=60, crossings=400, states="both")
-print(f"n{section.lines['section'][1:]}: {len(section)} crossings by the ball, {len(section.point)} by the point")
-
-# %% Which of the orbits are chaotic?
+# %% 60 orbits of the same energy, spread over the section. Which of them are chaotic?
 chaos = isoroll.chaos(scene, starts=60, models="ball")
 print(f"chaotic: {chaos.share.share:.0%} of the section, between {chaos.share.low:.0%} and {chaos.share.high:.0%}")
+
+# %% The section of these orbits. Each model is integrated by itself.
+starts = np.column_stack([chaos.orbits["l"], chaos.orbits["x"]])[1:]  # orbit 0 is the scene's own
+section = isoroll.section(scene, at=starts, crossings=400, states="both")
+print(f"n{section.lines['section'][1:]}: {len(section)} crossings by the ball, {len(section.point)} by the point")
 
 # %% Left: directions of the ball's n and omega. Right: place and momentum of the point.
 if len(sys.argv) > 1:

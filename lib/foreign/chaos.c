@@ -7,12 +7,12 @@
 #include "foreign/foreign_impl.h"
 #include "study/chaos.h"
 
-enum { COMMON = 5, TOLD = 14, MOST = COMMON + 2 * TOLD, NAME = 32 };
+enum { COMMON = 5, TOLD = 15, MOST = COMMON + 2 * TOLD, NAME = 32 };
 
 static const char *const common[COMMON] = {"orbit", "l", "x", "verdict", "disagree"};
 static const char *const told[TOLD] = {"verdict",    "status",       "turns",      "per_turn", "per_turn_error",
                                        "exponent_t", "exponent_tau", "exponent_s", "error_t",  "error_tau",
-                                       "error_s",    "megno",        "gali2",      "digits"};
+                                       "error_s",    "megno",        "gali2",      "digits",   "exponent_turns"};
 
 static iso_status create(iso_context *ctx, const iso_chaos *c, iso_record **record)
 {
@@ -39,6 +39,7 @@ static double *put_told(const iso_indication *i, iso_status status, double *to)
     *to++ = i->megno;
     *to++ = i->gali2;
     *to++ = i->digits;
+    *to++ = (double)i->exponent_turns;
     return to;
 }
 
@@ -65,7 +66,8 @@ static iso_status put_number(iso_context *ctx, iso_record *r, const char *key, d
 
 static iso_status put_share(iso_context *ctx, const iso_chaos_share *s, iso_record *r, iso_status status)
 {
-    if (s->count == 0) return status;
+    if (s->asked == 0) return status;
+    status = put_number(ctx, r, "asked", (double)s->asked, status);
     status = put_number(ctx, r, "count", (double)s->count, status);
     status = put_number(ctx, r, "chaotic", (double)s->chaotic, status);
     status = put_number(ctx, r, "regular", (double)s->regular, status);
@@ -106,15 +108,17 @@ static iso_status put_all(iso_context *ctx, const iso_scene *scene, const iso_ch
     return status;
 }
 
-iso_status iso_foreign_chaos(iso_context *ctx, const iso_foreign_scene *scene, long turns, size_t starts,
-                             uint64_t seed, const double at[], size_t at_count, int axis, const char *models,
-                             double tolerance, int threads, iso_record **record, iso_record *trace[2])
+iso_status iso_foreign_chaos(iso_context *ctx, const iso_foreign_scene *scene, long turns, long exponent_turns,
+                             size_t starts, uint64_t seed, const double at[], size_t at_count, int axis,
+                             const char *models, double tolerance, int threads, iso_record **record,
+                             iso_record *trace[2])
 {
     iso_chaos_options o = iso_chaos_defaults();
     iso_chaos *c = NULL;
     *record = NULL;
     if (trace) trace[0] = trace[1] = NULL;
     o.turns = turns;
+    o.exponent_turns = exponent_turns;
     o.starts = starts;
     o.seed = seed;
     o.at = (const double(*)[2])at;

@@ -161,16 +161,17 @@ ISO_API iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene
  *     orbit l x verdict disagree      l, x: where it starts; NaN: the scene's own. verdict: a number of iso_verdict
  *     ball_verdict ball_status ball_turns ball_per_turn ball_per_turn_error
  *     ball_exponent_t ball_exponent_tau ball_exponent_s    ball_error_t ball_error_tau ball_error_s
- *     ball_megno ball_gali2 ball_digits                    for each model that was integrated: ball_, point_
- *   Lines: model, k, J, section (axis and what a turn is), count, chaotic, regular, undecided, failed, share, low and
- *   high of the orbits spread over the section, integral if a further one is known, failure of the first orbit that
- *   failed.
+ *     ball_megno ball_gali2 ball_digits ball_exponent_turns    for each model that was integrated: ball_, point_
+ *   Lines: model, k, J, section (axis and what a turn is); of the orbits spread over the section asked, count (those
+ *   that were followed), chaotic, regular, undecided, failed, share, low and high; integral if a further one is known;
+ *   failure of the first orbit that failed.
  * trace[0], trace[1] (trace may be NULL): the indicators of the scene's own orbit by the turns, of ball and point;
  *   NULL: not integrated. Errors: those of iso_chaos_run; ISO_BAD_ARGUMENT about "models", "tolerance", or
  *   about "starts" above 2^53. */
-ISO_API iso_status iso_foreign_chaos(iso_context *ctx, const iso_foreign_scene *scene, long turns, size_t starts,
-                                     uint64_t seed, const double at[], size_t at_count, int axis, const char *models,
-                                     double tolerance, int threads, iso_record **record, iso_record *trace[2]);
+ISO_API iso_status iso_foreign_chaos(iso_context *ctx, const iso_foreign_scene *scene, long turns,
+                                     long exponent_turns, size_t starts, uint64_t seed, const double at[],
+                                     size_t at_count, int axis, const char *models, double tolerance, int threads,
+                                     iso_record **record, iso_record *trace[2]);
 
 /* --- records and files ------------------------------------------------------------------------------------------ */
 

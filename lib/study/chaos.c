@@ -13,6 +13,7 @@
 #include "study/chaos_impl.h"
 #include "study/frequencies_impl.h"
 #include "study/section_impl.h"
+#include "study/share_impl.h"
 
 /* --- what is refused -------------------------------------------------------------------------------------------- */
 
@@ -56,6 +57,9 @@ static iso_status check_options(const iso_chaos_walk *w)
     const iso_chaos_options *o = &w->options;
     if (o->turns < 1)
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "turns", "%ld turns: give 1 or more", o->turns);
+    if (o->exponent_turns < 0)
+        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "exponent_turns", "%ld turns: give 0 or more",
+                                o->exponent_turns);
     if (o->axis != ISO_AXIS_AUTO && (o->axis < 0 || o->axis > 2))
         return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "axis", "axis %d is not 1, 2 or 3", o->axis + 1);
     for (size_t i = 0; i < o->at_count; i++)
@@ -142,31 +146,40 @@ void iso_chaos_judge(const iso_chaos *c, iso_chaos_orbit *orbit)
                                           : ISO_UNDECIDED;
 }
 
-void iso_chaos_interval(size_t found, size_t count, double *low, double *high)
+static bool could_not_be_followed(const iso_chaos_orbit *o)
 {
-    static const double z = 1.959963984540054; /* 95 % of a normal distribution lie in [-z, z] */
-    const double n = (double)count, p = n > 0 ? (double)found / n : 0.5;
-    const double middle = (p + z * z / (2 * n)) / (1 + z * z / n),
-                 half = z / (1 + z * z / n) * sqrt(p * (1 - p) / n + z * z / (4 * n * n));
-    *low = count == 0 || found == 0 ? 0 : middle - half;
-    *high = count == 0 || found == count ? 1 : middle + half;
+    return o->verdict == ISO_UNDECIDED && (o->status[ISO_BALL] != ISO_OK || o->status[ISO_POINT] != ISO_OK);
+}
+
+bool iso_chaos_followed(const iso_chaos_orbit *o)
+{
+    return !could_not_be_followed(o) && o->told[ISO_BALL].turns + o->told[ISO_POINT].turns > 0;
 }
 
 static void count_shares(const iso_chaos_walk *w)
 {
     iso_chaos *c = w->out;
     iso_chaos_share *s = &c->share;
-    s->count = c->starts < w->options.starts ? c->starts : w->options.starts;
-    for (size_t i = 0; i < s->count; i++) {
+    size_t count[ISO_SHIFTS] = {0}, chaotic[ISO_SHIFTS] = {0}, possible[ISO_SHIFTS] = {0};
+    double unused;
+    s->asked = w->options.starts;
+    for (size_t i = 0; i < s->asked && i < c->starts; i++) {
         const iso_chaos_orbit *o = &c->start[i];
+        const size_t copy = i % ISO_SHIFTS;
+        s->failed += could_not_be_followed(o);
+        if (!iso_chaos_followed(o)) continue;
+        count[copy]++;
+        chaotic[copy] += o->verdict == ISO_CHAOTIC;
+        possible[copy] += o->verdict != ISO_REGULAR;
+        s->count++;
         s->chaotic += o->verdict == ISO_CHAOTIC;
         s->regular += o->verdict == ISO_REGULAR;
         s->disagree += o->disagree;
-        s->failed += o->verdict == ISO_UNDECIDED && (o->status[0] != ISO_OK || o->status[1] != ISO_OK);
     }
     s->undecided = s->count - s->chaotic - s->regular;
     s->share = s->count > 0 ? (double)s->chaotic / (double)s->count : NAN;
-    iso_chaos_interval(s->chaotic, s->count, &s->low, &s->high);
+    iso_share_interval(count, chaotic, &s->low, &unused);
+    iso_share_interval(count, possible, &unused, &s->high);
 }
 
 /* All that comes before the first turn. */

@@ -6,7 +6,8 @@
  *     iso_chaos_free(c);
  *
  * An orbit is followed from turn to turn, with two deviations beside it (orbit/crossings.h), until the indicators
- * (indicators.h) decide, or for at most `turns`. A turn of a free orbit is a return to the section n_a = 0
+ * (indicators.h) decide, or for at most `turns`. The exponent of so short an orbit is rough, and its error is not known:
+ * with `exponent_turns` a chaotic orbit goes on. A turn of a free orbit is a return to the section n_a = 0
  * (map/section.h). If effects act that keep the energy, or if the point is off its level H = 0, a turn is the time
  * 2 pi/|k omega|, with omega at the start; in a potential |omega| is not taken less than the orbit's own unit of it.
  * The deviations have no part along the flow and none along the energy, since these parts tell nothing about chaos.
@@ -15,9 +16,12 @@
  * not followed.
  *
  * With `starts`, more orbits of the scene's energy begin on the section, spread evenly by the area dL dl. The share
- * of them that is chaotic estimates the chaotic part of the area. The confidence interval is Wilson's, at 95 %. It
- * holds for random starts; these are more evenly spread, so it is rather too wide. Orbits that stay undecided are
- * counted separately: they are not in the chaotic share.
+ * of them that is chaotic estimates the chaotic part of the area. Its confidence interval of 95 % comes from the
+ * starts themselves: they are 16 copies of one even sequence, each with a random shift of its own, and the scatter of
+ * the copies tells the error (share_impl.h). An orbit that stays undecided may be either: at the low end of the
+ * interval it counts as not chaotic, at the high end as chaotic. Orbits that were not followed, because they failed
+ * or because the call was stopped, do not count. After a stop the orbits that have made a turn count, so that an
+ * early verdict has no advantage; those without a verdict are undecided.
  */
 #ifndef ISO_STUDY_CHAOS_H
 #define ISO_STUDY_CHAOS_H
@@ -36,6 +40,7 @@ ISO_C_BEGIN
 typedef struct iso_chaos_options {
     size_t size;           /* set by iso_chaos_defaults; see isoroll.h */
     long turns;            /* at most, of each orbit; 1 or more                                          */
+    long exponent_turns;   /* an orbit that is chaotic goes on to so many turns, for its exponent; 0: it ends */
     size_t starts;         /* orbits spread over the section                                             */
     uint64_t seed;         /* another seed spreads them in another way                                   */
     const double (*at)[2]; /* (l, x) of further starts, |x| < 1; they are not in the share */
@@ -73,11 +78,13 @@ typedef struct iso_chaos_orbit {
     iso_status status[2]; /* ISO_OK, or why it was not followed to its verdict                                 */
 } iso_chaos_orbit;
 
-/* Counts of the orbits that were spread over the section and followed. */
+/* Counts of the orbits that were spread over the section. */
 typedef struct iso_chaos_share {
-    size_t count, chaotic, regular, undecided; /* undecided includes those that failed or disagree               */
-    size_t disagree, failed;
-    double share, low, high; /* chaotic/count, and its confidence interval of 95 %                              */
+    size_t asked, count, failed; /* of `asked` starts, `count` were followed, `failed` failed         */
+    size_t chaotic, regular, undecided,
+        disagree;            /* of those followed; undecided includes those that disagree         */
+    double share, low, high; /* chaotic/count, and the confidence interval of 95 % of the chaotic part, with undecided
+                                ones counted both ways; NaN: no orbit was followed */
 } iso_chaos_share;
 
 typedef struct iso_chaos {
@@ -103,7 +110,7 @@ typedef struct iso_chaos {
 /* Orbits that fail are counted in the result. The call fails only if no model can follow the scene's own orbit.
  * options NULL: iso_chaos_defaults().
  * Errors:
- * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1), "at" (outside of the chart);
+ * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1), "exponent_turns" (below 0), "at" (outside of the chart);
  * - ISO_BAD_INPUT: an effect that takes energy or lets the ball roll away (about its name); a ball at rest; `starts`
  *   or `at` with effects or off the level H = 0 (about the effect), since (l, x) does not determine an orbit there;
  *   about "axis": orbits can stay away from its section;
@@ -120,8 +127,8 @@ ISO_API void iso_chaos_free(iso_chaos *chaos);
 ISO_API iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
                                       const iso_chaos_options *options, iso_chaos *chaos[], iso_status status[]);
 
-/* Wilson's confidence interval of 95 % for a share, when `found` of `count` random samples belong to it. */
-ISO_API void iso_chaos_interval(size_t found, size_t count, double *low, double *high);
+/* Whether at least one model has followed this orbit for a turn, and none failed before there was a verdict. */
+ISO_API bool iso_chaos_followed(const iso_chaos_orbit *orbit);
 
 ISO_C_END
 

@@ -1,12 +1,12 @@
-/* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits without a verdict
- * go on to the next look, first by one model, then by the other. */
+/* chaos_walk.c - follows the orbits of chaos.h in groups, round by round. In each round the orbits that have not
+ * ended go on to the next look, first by one model, then by the other. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "study/chaos_impl.h"
-#include "study/section_impl.h"
+#include "study/share_impl.h"
 
 /* GROUP: orbits that are followed together. ROUND: the most turns of a round. Together some 25 MB of crossings. */
 enum { GROUP = 1024, ROUND = 240, TRACE_ROWS = 4000 };
@@ -41,16 +41,25 @@ static iso_chaos_orbit *orbit_of(const group *g, size_t i)
     return g->first + i == 0 ? &c->own : &c->start[g->first + i - 1];
 }
 
+/* The first starts are spread, then come the given ones. */
+static void chart_of_start(iso_chaos_walk *w, size_t i, double *l, double *x)
+{
+    const iso_chaos_options *how = &w->options;
+    if (i < how->starts)
+        iso_share_start(&w->spread, how->seed, i, l, x);
+    else
+        *l = how->at[i - how->starts][0], *x = how->at[i - how->starts][1];
+}
+
 static void make_starts(group *g)
 {
-    const iso_chaos_options *how = &g->w->options;
     for (size_t i = 0; i < g->count; i++) {
         const iso_chaos_walk *w = g->each ? g->each[i] : g->w;
         iso_chaos_orbit *o = orbit_of(g, i);
         *o = (iso_chaos_orbit){.l = NAN, .x = NAN, .verdict = ISO_UNDECIDED};
         g->start[i] = w->scene->start;
         if (!g->each && g->first + i > 0) {
-            iso_section_chart_of_start(&w->spread, how->starts, how->at, g->first + i - 1, &o->l, &o->x);
+            chart_of_start(g->w, g->first + i - 1, &o->l, &o->x);
             g->start[i] = iso_section_start(w->orbit, w->scene->start.model, w->out->axis, o->l, o->x);
         }
         g->orbit[i] = (iso_batch_orbit){&w->scene->params, &g->start[i], &w->effects};
@@ -78,7 +87,9 @@ static void make_beat(const iso_crossing *c, const iso_sample *sample, iso_beat 
 
 static iso_status trace(const iso_chaos_walk *w, int model, const iso_indicators *shown)
 {
-    const long every = (w->options.turns + TRACE_ROWS - 1) / TRACE_ROWS;
+    const iso_chaos_options *o = &w->options;
+    const long most = o->turns > o->exponent_turns ? o->turns : o->exponent_turns,
+               every = (most + TRACE_ROWS - 1) / TRACE_ROWS;
     iso_indication told;
     double *row;
     if (shown->turns % every != 0) return ISO_OK;
@@ -112,7 +123,14 @@ static void note_failures(const group *g, int model)
             note_failure(g, model, i, iso_crossings_why(r->crossings, i));
 }
 
-/* Adds the new crossings of an orbit until it has a verdict. */
+/* The number of turns after which an orbit ends: the verdict regular ends it at once. */
+static long most_turns(const iso_chaos_walk *w, const iso_indicators *shown)
+{
+    const iso_verdict verdict = iso_indicators_verdict(shown);
+    return verdict == ISO_UNDECIDED ? w->options.turns : verdict == ISO_CHAOTIC ? w->options.exponent_turns : 0;
+}
+
+/* Adds the new crossings of an orbit until it ends. */
 static iso_status take(group *g, int model, size_t i)
 {
     const iso_chaos_walk *w = g->w;
@@ -120,7 +138,7 @@ static iso_status take(group *g, int model, size_t i)
     iso_indicators *shown = &r->shown[i];
     iso_status status = ISO_OK;
     for (size_t j = 0; j < r->done[i] && status == ISO_OK; j++) {
-        if (iso_indicators_verdict(shown) != ISO_UNDECIDED || shown->turns >= w->options.turns) break;
+        if (shown->turns >= most_turns(w, shown)) break;
         const size_t at = r->each * i + j;
         iso_beat beat;
         make_beat(&g->crossing[at], g->sample ? &g->sample[at] : NULL, &beat);
@@ -133,8 +151,7 @@ static iso_status take(group *g, int model, size_t i)
         iso_indicators_add(shown, &beat);
         if (!g->each && g->first + i == 0) status = trace(w, model, shown);
     }
-    r->wanted[i] =
-        r->status[i] == ISO_OK && iso_indicators_verdict(shown) == ISO_UNDECIDED && shown->turns < w->options.turns;
+    r->wanted[i] = r->status[i] == ISO_OK && shown->turns < most_turns(w, shown);
     return status;
 }
 
@@ -182,7 +199,8 @@ static size_t turns_of_round(const group *g, const runner *r)
 {
     for (size_t i = 0; i < g->count; i++) {
         if (!r->wanted[i]) continue;
-        const long turns = r->shown[i].turns, next = iso_indicators_next(&r->shown[i]), most = g->w->options.turns;
+        const long turns = r->shown[i].turns, next = iso_indicators_next(&r->shown[i]),
+                   most = most_turns(g->w, &r->shown[i]);
         const long left = (next < most ? next : most) - turns;
         return left < ROUND ? (size_t)left : ROUND;
     }
@@ -218,14 +236,14 @@ static void show_progress(const group *g)
     for (int m = 0; m < 2; m++)
         for (size_t i = 0; w->out->with[m] && i < g->count; i++) {
             const runner *r = &g->model[m];
-            done += r->wanted[i] ? (double)r->shown[i].turns / (double)w->options.turns : 1;
+            done += r->wanted[i] ? (double)r->shown[i].turns / (double)most_turns(w, &r->shown[i]) : 1;
             models += i == 0;
         }
     const double all = (double)(w->options.starts + w->options.at_count) + 1;
     w->options.progress(fmin(1, ((double)g->first + done / models) / all), w->options.data);
 }
 
-/* Each model follows an orbit until its own verdict, even if the other model has decided before. */
+/* Each model follows an orbit until its own end, even if the other model has decided before. */
 static iso_status follow_group(group *g)
 {
     iso_chaos *c = g->w->out;

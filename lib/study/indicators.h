@@ -13,8 +13,11 @@
  * D_n = sqrt((|d1|^2 + |d2|^2)/2). D_n is the same for every such pair. On a regular orbit D_n^2 is a + b n + c n^2,
  * times a bounded factor that depends on the place only. On a chaotic orbit D_n^2 grows like exp(2 lam n).
  *
- * - Exponent: the gain of ln D per unit of a clock, without the first eighth of the turns. Its standard error comes
- *   from the scatter of 14 to 28 equal parts of the other turns.
+ * - Exponent: the gain of ln D per unit of a clock, without the first eighth of the turns. Its error comes from the
+ *   scatter of blocks of the other turns, from 28 short ones to 3 long ones, and has a part for the times near islands
+ *   that the orbit has missed. It is meant so that at most one orbit in ten is off by more than two errors. While ln D
+ *   is below 400 the orbit is too short to know it, and no error is stated. A regular orbit has the exponent 0: its
+ *   error is the estimate itself. An orbit may go on after its verdict, for a better exponent.
  * - MEGNO: Y_n = (2/n) sum (j - 1/2) ln(D_j/D_(j-1)), and its mean over all turns so far. On a regular orbit both
  *   approach 2 like 1/n. On a chaotic orbit Y_n grows like lam n, and its mean like lam n/2.
  * - The limit of MEGNO on a regular orbit: the mean of 2 (j - 1/2) ln(D_j/D_(j-1)) with the smooth weight
@@ -82,9 +85,10 @@ typedef struct iso_indicators {
 typedef struct iso_indication {
     iso_verdict verdict;                 /* ISO_REGULAR, ISO_CHAOTIC, ISO_UNDECIDED                                 */
     long turns;                          /* until the verdict; undecided: all so far                                */
+    long exponent_turns;                 /* that the exponent is from; it may be more than `turns`                  */
     double per_turn, per_turn_error;     /* the largest exponent, per turn ...                                      */
     double exponent[ISO_CLOCKS];         /* ... and per unit of each clock                                          */
-    double error[ISO_CLOCKS];            /* its standard error                                                      */
+    double error[ISO_CLOCKS];            /* its error; NaN: the orbit is too short to know it                       */
     double megno, megno_now, megno_mean; /* the limit if regular, else megno_mean; Y_n; the mean of Y_n          */
     double gali2;
     double digits; /* to which the means over the two halves agree                                            */

@@ -6,7 +6,7 @@
 #include "study/chaos.h"
 #include "study/sweep_impl.h"
 
-enum { STARTS, SEED, MODEL, OF_MODEL = 11 };
+enum { STARTS, SEED, MODEL, EXPONENT_TURNS, OF_MODEL = 11 };
 
 static const char *model_word(int i)
 {
@@ -77,6 +77,7 @@ static iso_chaos_options options_of(const iso_sweep_ask *ask)
 {
     iso_chaos_options o = iso_chaos_defaults();
     if (!isnan(ask->turns)) o.turns = (long)ask->turns;
+    o.exponent_turns = (long)ask->setting[EXPONENT_TURNS];
     o.starts = (size_t)ask->setting[STARTS];
     o.seed = (uint64_t)ask->setting[SEED];
     if (!isnan(ask->setting[MODEL])) o.models = (iso_shown)ask->setting[MODEL];
@@ -149,7 +150,7 @@ static bool chaos_together(const iso_sweep_ask *ask)
 static size_t chaos_chunk(const iso_sweep_ask *ask)
 {
     enum { MOST = 512, LANES = 8 };
-    const double asked = isnan(ask->turns) ? 1000 : fmin(ask->turns, 1000),
+    const double asked = fmax(isnan(ask->turns) ? 1000 : fmin(ask->turns, 1000), ask->setting[EXPONENT_TURNS]),
                  models = with_model(ask, 0) + with_model(ask, 1);
     const iso_effects acting = ask->base ? iso_scene_acting(ask->base) : iso_effects_default();
     const bool effects = iso_effects_beyond_level(&acting);
@@ -163,6 +164,7 @@ static const iso_sweep_setting chaos_settings[] = {
     [STARTS] = {.name = "starts", .usual = 0, .least = 0, .most = 1e9, .whole = true},
     [SEED] = {.name = "seed", .usual = 0, .least = 0, .most = 0x1p53, .whole = true},
     [MODEL] = {.name = "model", .word = model_word, .usual = NAN},
+    [EXPONENT_TURNS] = {.name = "exponent_turns", .usual = 0, .least = 0, .most = 1e9, .whole = true},
     {.name = NULL},
 };
 

@@ -49,8 +49,15 @@ check "a scene from standard input" test $? -eq 0
 
 # --- JSON: the exponents go together with the means of the clocks, and both models agree
 run 0 chaos chaotic.yaml --json
+check "at the verdict no error is known" test "$(grep -c '"t": null' out)" -eq 2
+run 0 chaos chaotic.yaml
+check "so it says" grep -q 'so few turns do not tell the error; --exponent-turns' out
+run 0 chaos chaotic.yaml --exponent-turns 1000
+check "from how many turns" grep -q 'the exponents are from 1000 turns' out
+run 0 chaos chaotic.yaml --exponent-turns 1000 --json
 silent
 check "JSON" is_json
+check "exponent_turns" test "$(value exponent_turns)" = 1000
 check "verdicts" test "$(grep -c '"verdict": "chaotic"' out)" -eq 3
 check "turns" between "$(value turns)" 90 3000
 check "exponent per t" between "$(value t 1)" 0.03 0.12
@@ -68,6 +75,7 @@ check "none is chaotic" test "$(value chaotic)" = 0.0
 check "30 starts" test "$(value starts)" = 30
 run 0 chaos chaotic.yaml --starts 40 --turns 600 --json
 check "a chaotic part" between "$(value chaotic)" 0.35 0.8
+check "asked and followed" test "$(value starts)/$(value followed)" = 40/40
 check "its error" between "$(value error)" 0.05 0.25
 cp out first
 run 0 chaos chaotic.yaml --starts 40 --turns 600 --json -j 1
@@ -96,6 +104,7 @@ run 0 chaos plane.yaml --json
 check "nothing is told of deviations that are not followed" test "$(grep -c '"gali2": null' out)" -eq 2
 refuses 3 "an axis is 1, 2 or 3" chaos chaotic.yaml --axis 4
 refuses 2 "--turns '0'" chaos chaotic.yaml --turns 0
+refuses 2 "--exponent-turns '-5'" chaos chaotic.yaml --exponent-turns -5
 refuses 2 "--starts '-1'" chaos chaotic.yaml --starts -1
 refuses 2 "room for one" chaos chaotic.yaml --json --csv -
 
@@ -118,5 +127,10 @@ if interruptible "chaos after SIGINT"; then
     says "interrupted: "
     check "its JSON is whole" is_json
     check "and has the orbit's verdict" grep -q '"verdict": "chaotic"' out
+    # Of 1000000 orbits few were followed, and none of these was followed to the end: anything is possible
+    says "of 1000000 starts were followed"
+    check "asked" test "$(value starts)" = 1000000
+    check "those that nobody followed do not count" between "$(value followed)" 0 20000
+    check "the undecided are possible" between "$(value undecided_starts)" 0 "$(value followed)"
 fi
 finish

@@ -154,6 +154,7 @@ for point in 0 1; do
     done
     equal "exponent" "$(cell turns.csv $point chaos_ball_exponent_s)" "$(value s 1)"
     equal "share" "$(cell turns.csv $point chaos_share)" "$(value chaotic)"
+    equal "its interval" "$(cell turns.csv $point chaos_share_low)" "$(value low)"
     equal "its interval" "$(cell turns.csv $point chaos_share_high)" "$(value high)"
     run 0 section point.yaml --crossings 150 --as both -o section.csv
     for name in t l x; do

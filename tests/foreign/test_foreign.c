@@ -313,13 +313,13 @@ static void check_studies(const iso_foreign_scene *scene)
                                  sizeof notes) != ISO_BAD_ARGUMENT ||
                  record || point || !about("models"),
              "no model");
-    gsl_test(iso_foreign_chaos(ctx, scene, 50, 2, 0, at, 1, -1, NULL, 0, 0, &record, trace) != ISO_OK ||
+    gsl_test(iso_foreign_chaos(ctx, scene, 50, 0, 2, 0, at, 1, -1, NULL, 0, 0, &record, trace) != ISO_OK ||
                  iso_record_rows(record) != 4 || iso_record_columns(record) != 33 || !trace[0] || !trace[1] ||
                  !iso_record_get(record, "share"),
              "chaos");
     iso_record_free(record);
     for (int m = 0; m < 2; m++) iso_record_free(trace[m]);
-    gsl_test(iso_foreign_chaos(ctx, scene, 0, 0, 0, NULL, 0, -1, NULL, 0, 0, &record, NULL) != ISO_BAD_ARGUMENT ||
+    gsl_test(iso_foreign_chaos(ctx, scene, 0, 0, 0, 0, NULL, 0, -1, NULL, 0, 0, &record, NULL) != ISO_BAD_ARGUMENT ||
                  record,
              "no turns");
 }
@@ -335,7 +335,7 @@ static void check_numbers(void)
                                      NULL, 0) != ISO_BAD_ARGUMENT ||
                      record || !about("tolerance"),
                  "a section: %s", iso_context_message(ctx));
-        gsl_test(iso_foreign_chaos(ctx, scene, 5, 0, 0, NULL, 0, -1, NULL, bad[i], 1, &record, NULL) !=
+        gsl_test(iso_foreign_chaos(ctx, scene, 5, 0, 0, 0, NULL, 0, -1, NULL, bad[i], 1, &record, NULL) !=
                          ISO_BAD_ARGUMENT ||
                      record || !about("tolerance"),
                  "chaos: %s", iso_context_message(ctx));
@@ -345,7 +345,7 @@ static void check_numbers(void)
         const iso_status found =
             i < 2 ? iso_foreign_section(ctx, scene, crossings, spread, 0, NULL, 0, -1, NULL, 0, NULL, NULL, 0, 1,
                                         &record, NULL, NULL, 0)
-                  : iso_foreign_chaos(ctx, scene, 5, none, 0, NULL, 0, -1, NULL, 0, 1, &record, NULL);
+                  : iso_foreign_chaos(ctx, scene, 5, 0, none, 0, NULL, 0, -1, NULL, 0, 1, &record, NULL);
         gsl_test(found != ISO_BAD_ARGUMENT || record || !about(i == 0 ? "crossings" : "starts"), "no count: %s",
                  iso_context_message(ctx));
     }

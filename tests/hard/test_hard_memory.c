@@ -207,7 +207,7 @@ static iso_status call_foreign(const hard_road *way)
     if (status == ISO_OK)
         status = iso_foreign_section(ctx, scene, 2, 1, 0, NULL, 0, -1, NULL, 0, NULL, NULL, 0, 1, &point, &twin,
                                      notes, sizeof notes);
-    if (status == ISO_OK) status = iso_foreign_chaos(ctx, scene, 4, 1, 0, NULL, 0, -1, NULL, 0, 1, &chaos, NULL);
+    if (status == ISO_OK) status = iso_foreign_chaos(ctx, scene, 4, 0, 1, 0, NULL, 0, -1, NULL, 0, 1, &chaos, NULL);
     digits = status == ISO_OK ? digits + table[27] + iso_record_row(twin, 3)[6] : 0;
     iso_record_free(ball);
     iso_record_free(point);

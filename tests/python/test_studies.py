@@ -75,6 +75,7 @@ class Verdicts(Case):
                 self.assertEqual(found.verdict, command["ball"]["verdict"])
                 self.assertEqual(found.share.chaotic, command["share"]["chaotic_starts"])
                 self.assertEqual(found.share.undecided, command["share"]["undecided_starts"])
+                self.assertEqual((found.share.asked, found.share.orbits), (12, command["share"]["followed"]))
                 self.assertEqual((found.share.low, found.share.high),
                                  (command["share"]["low"], command["share"]["high"]))
                 self.assertEqual(found.orbits["ball_exponent_t"][0], command["ball"]["exponent"]["t"])
@@ -88,6 +89,13 @@ class Verdicts(Case):
         self.assertEqual(found.share.chaotic, 0)
         self.assertIn("integral", found.lines)
         self.assertNotIn("integral", isoroll.chaos(WILD, turns=10).lines)
+
+    def test_exponent_goes_on(self):
+        brief, far = (isoroll.chaos(WILD, models="point", exponent_turns=turns) for turns in (0, 700))
+        self.assertTrue(np.isnan(brief.orbits["point_error_t"][0]))
+        self.assertGreater(far.orbits["point_error_t"][0], 0)
+        self.assertEqual(far.orbits["point_exponent_turns"][0], 700)
+        self.assertEqual(far.orbits["point_turns"][0], brief.orbits["point_turns"][0])
 
     def test_trace(self):
         found = isoroll.chaos(WILD, turns=300, models="ball")

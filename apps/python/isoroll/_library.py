@@ -70,7 +70,7 @@ _TABLE = {
                           c_void_p, c_size_t, c_int, c_char_p, c_void_p, c_void_p),
     "iso_foreign_section": (c_int, c_void_p, c_void_p, c_size_t, c_size_t, c_uint64, c_void_p, c_size_t, c_int,
                             c_char_p, c_double, c_char_p, c_char_p, c_double, c_int, _OBJECT, _OBJECT) + _NOTES,
-    "iso_foreign_chaos": (c_int, c_void_p, c_void_p, c_long, c_size_t, c_uint64, c_void_p, c_size_t, c_int,
+    "iso_foreign_chaos": (c_int, c_void_p, c_void_p, c_long, c_long, c_size_t, c_uint64, c_void_p, c_size_t, c_int,
                           c_char_p, c_double, c_int, _OBJECT, _OBJECT),
     "iso_foreign_read": (c_int, c_void_p, c_char_p, c_char_p, _OBJECT) + _NOTES,
     "iso_foreign_write": (c_int, c_void_p, c_char_p, c_void_p, c_int, c_char_p),

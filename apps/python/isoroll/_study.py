@@ -125,13 +125,19 @@ def section(scene: SceneLike, *, crossings: int = 500, starts: int = 0, seed: in
 
 
 class Share(NamedTuple):
-    """The orbits spread over the section. share: the chaotic fraction; low, high: its 95 % confidence interval."""
+    """The orbits spread over the section.
+
+    orbits     those that were followed; `asked` were to be, `failed` failed
+    share      the chaotic fraction of them; NaN if none was followed
+    low, high  its 95 % confidence interval; undecided orbits are not chaotic at the low end, chaotic at the high end
+    """
 
     orbits: int
     chaotic: int
     regular: int
     undecided: int
     failed: int
+    asked: int
     share: float
     low: float
     high: float
@@ -157,7 +163,7 @@ class Chaos:
         self.share: Optional[Share] = None
         if "share" in self.lines:
             numbers = [float(self.lines[key]) for key in ("count", *Share._fields[1:])]
-            self.share = Share(*(int(x) for x in numbers[:5]), *numbers[5:])
+            self.share = Share(*(int(x) for x in numbers[:6]), *numbers[6:])
 
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "lines": None}
@@ -172,16 +178,18 @@ class Chaos:
 
 def chaos(scene: SceneLike, *, turns: int = 3000, starts: int = 0, seed: int = 0, at: Optional[ArrayLike] = None,
           axis: Optional[int] = None, models: str = "auto", tolerance: Optional[float] = None,
-          threads: int = 0) -> Chaos:
+          threads: int = 0, exponent_turns: int = 0) -> Chaos:
     """Which orbits are chaotic: exponents, MEGNO, GALI_2 and a verdict, as `isoroll chaos`. Arguments: see section.
 
-    turns  at most, of each orbit. Exponents are per unit of t, tau and s.
+    turns           at most, of each orbit. Exponents are per unit of t, tau and s.
+    exponent_turns  a chaotic orbit goes on to so many turns, for its exponent; errors that are not known are NaN
     """
     chosen, ctx, new, trace, points = as_scene(scene, {}), context(), new_record(), (c_void_p * 2)(), _points(at)
     try:
         with interruptible():
             status = lib.iso_foreign_chaos(
-                ctx, chosen.pointer, whole("turns", turns, 1, _MOST_ROWS), _orbits(starts, len(points), 1, "turns"),
+                ctx, chosen.pointer, whole("turns", turns, 1, _MOST_ROWS),
+                whole("exponent_turns", exponent_turns, 0, _MOST_ROWS), _orbits(starts, len(points), 1, "turns"),
                 whole("seed", seed, 0),
                 points.ctypes.data, len(points), _axis(axis), encoded(models), _tolerance(tolerance),
                 whole("threads", threads, 0, 1024), byref(new), trace)
