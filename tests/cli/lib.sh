@@ -39,10 +39,15 @@ written() {
     return 1
 }
 
-# worked N PID: it heeds signals, and has computed for N hundredths of a second of processor time
+# computed N PID: for N hundredths of a second of processor time
+computed() {
+    sed 's/.*) //' "/proc/$2/stat" 2>/dev/null | awk -v least="$1" 'END { exit !NR || $12 + $13 < least }'
+}
+
+# worked N PID: the same, and it catches SIGTERM
 worked() {
     case $(sed -n 's/^SigCgt:.*\(.\)...$/\1/p' "/proc/$2/status" 2>/dev/null) in
-    [4567cdef]) sed 's/.*) //' "/proc/$2/stat" | awk -v least="$1" '{ exit $12 + $13 < least }' ;;
+    [4567cdef]) computed "$1" "$2" ;;
     *) false ;;
     esac
 }
