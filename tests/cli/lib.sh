@@ -102,11 +102,12 @@ held() {
 # interrupted_when "DONE" ARGUMENT...: runs isoroll again and again, and presses Ctrl-C each time after twice the
 # processor time, until the command DONE finds that something was done by then. Leaves $status, `out`, err.
 interrupted_when() {
-    done=$1 hundredths=4 status=1
+    done=$1 hundredths=4
     shift
-    while [ $status -eq 1 ] && [ $hundredths -lt 100000 ]; do
+    while
         signalled INT "worked $hundredths" "$@"
-        if $done; then break; fi
+        ! $done && grep -q interrupted err && [ $hundredths -lt 100000 ]
+    do
         hundredths=$((hundredths * 2))
     done
     checks=$((checks + 1))
