@@ -121,10 +121,13 @@ END
     echo "memory: $starved runs, $wrong wrong"
     hard_hold $wrong 0
     crashed=0
-    for n in 260 270 280 290 300; do
+    ISO_FAIL_COUNT=calls LD_PRELOAD=$ISO_NO_MEMORY "$isoroll" run scene.yaml --method bdf -o made >out 2>err
+    n=$(cat calls)
+    while [ $crashed -eq 0 ] && [ "$n" -gt 0 ]; do
         ISO_FAIL_ANY=$n LD_PRELOAD=$ISO_NO_MEMORY "$isoroll" run scene.yaml --method bdf -o made >out 2>err
-        [ $? -lt 128 ] || crashed=$((crashed + 1))
+        [ $? -lt 128 ] || crashed=1
         rm -f made .isoroll-*
+        n=$((n - 5))
     done
     hard_naive "SUNDIALS where room has not been made sure of: crashes" $crashed 0
 else
