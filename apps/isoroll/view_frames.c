@@ -13,6 +13,7 @@
 #include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -143,18 +144,35 @@ static unsigned long number_of(const char *name)
     return strcmp(end, ".png") == 0 ? number : 0;
 }
 
+/* A page stands in the folder while Chromium reads it, locked by the program that wrote it. */
+static bool is_page(const char *name)
+{
+    return strncmp(name, ".isoroll-", 9) == 0 && ends_with(name, ".html");
+}
+
+/* Removes the page of a program that was killed: it has no lock any more. */
+static void remove_dead(DIR *folder, const char *name)
+{
+    const int fd = openat(dirfd(folder), name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) return;
+    if (flock(fd, LOCK_EX | LOCK_NB) == 0) unlinkat(dirfd(folder), name, 0);
+    close(fd);
+}
+
 /* Older pictures beyond the last new one would become part of the film. */
 static iso_status check_folder(iso_context *ctx, const char *folder, size_t all)
 {
     iso_status status = ISO_OK;
     DIR *list = opendir(folder);
     if (!list) return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot open '%s': %s", folder, strerror(errno));
-    for (const struct dirent *one; status == ISO_OK && (one = readdir(list));)
+    for (const struct dirent *one; status == ISO_OK && (one = readdir(list));) {
+        if (is_page(one->d_name)) remove_dead(list, one->d_name);
         if (number_of(one->d_name) > all)
             status = iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
                                       "--frames: '%s' has %s of an older film, and this one has %zu pictures: empty "
                                       "the folder, or name another",
                                       folder, one->d_name, all);
+    }
     closedir(list);
     return status;
 }
@@ -205,9 +223,26 @@ static iso_status draw(iso_context *ctx, const view_frames *f, const char *page,
     return status;
 }
 
+/* Writes and locks the page. In between, another program can take it for dead and remove it: then once more. */
+static iso_status put_page(iso_context *ctx, const char *path, const view_page *page, int *lock)
+{
+    for (;;) {
+        struct stat mine, named;
+        const iso_status status = view_write(ctx, path, page);
+        if (status != ISO_OK) return status;
+        *lock = open(path, O_RDWR | O_CLOEXEC);
+        if (*lock < 0 && errno != ENOENT) return ISO_OK; /* it goes on without a lock */
+        if (*lock < 0) continue;
+        (void)!flock(*lock, LOCK_SH);
+        if (fstat(*lock, &mine) == 0 && stat(path, &named) == 0 && mine.st_ino == named.st_ino) return ISO_OK;
+        close(*lock);
+    }
+}
+
 iso_status view_write_frames(iso_context *ctx, const view_frames *f, const view_page *page)
 {
     char folder[PATH_MAX], path[PATH_MAX + 32];
+    int lock;
     const double all = ceil(f->fps * f->seconds);
     if (all > MOST_FRAMES)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--frames: fps times seconds is %g pictures, more than %d",
@@ -220,9 +255,10 @@ iso_status view_write_frames(iso_context *ctx, const view_frames *f, const view_
     iso_status status = check_folder(ctx, f->folder, (size_t)all);
     if (status != ISO_OK) return status;
     snprintf(path, sizeof path, "%s/.isoroll-%ld.html", folder, (long)getpid());
-    status = view_write(ctx, path, page);
+    status = put_page(ctx, path, page, &lock);
     if (status != ISO_OK) return status;
     status = draw(ctx, f, path, (size_t)all);
     unlink(path);
+    close(lock);
     return status;
 }

@@ -77,7 +77,7 @@ static iso_status open_picture(iso_context *ctx, iso_gnuplot *g, const char *pat
     struct stat old;
     if (stat(path, &old) == 0 && !S_ISREG(old.st_mode))
         return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
-    return iso_replacement_open(ctx, path, &g->file, &g->picture);
+    return iso_replacement_open(ctx, path, false, &g->file, &g->picture);
 }
 
 iso_status iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height, iso_gnuplot **answer)

@@ -65,6 +65,16 @@ bool iso_hdf5_store_free(iso_hdf5_store *s)
     return good;
 }
 
+/* Without HDF5's own lock: on some network file systems it would meet the one that a replacement holds. */
+hid_t iso_hdf5_create(const char *path)
+{
+    const hid_t plan = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_file_locking(plan, false, true);
+    const hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, plan);
+    H5Pclose(plan);
+    return file;
+}
+
 hid_t iso_hdf5_access(void)
 {
     const hid_t plan = H5Pcreate(H5P_DATASET_ACCESS);

@@ -63,6 +63,9 @@ bool iso_hdf5_store_free(iso_hdf5_store *s);
 /* The block's rows from row `first` of the file on, between the block and every dataset. */
 bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write);
 
+/* A file that is to be written, under the name that a replacement has; negative: it fails. */
+hid_t iso_hdf5_create(const char *path);
+
 /* How datasets are accessed: chunk by chunk, of which none need be kept. */
 hid_t iso_hdf5_access(void);
 

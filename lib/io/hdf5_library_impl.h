@@ -25,17 +25,21 @@
 /* Functions, and numbers that H5open() sets. */
 #define ISO_HDF5_NAMES(X)                                                                                            \
     ISO_HDF5_OLD(X)                                                                                                  \
-    X(H5Aclose) X(H5Acreate2) X(H5Aget_name) X(H5Aget_name_by_idx) X(H5Aget_space) X(H5Aget_type) X(H5Aopen)         \
-    X(H5Aopen_by_idx) X(H5Aread) X(H5Awrite) X(H5Dclose) X(H5Dcreate2) X(H5Dget_space) X(H5Dopen2) X(H5Dread)        \
-    X(H5Dset_extent) X(H5Dwrite) X(H5Eget_auto2) X(H5Eset_auto2) X(H5Fclose) X(H5Fcreate) X(H5Fopen) X(H5Gclose)     \
-    X(H5Gget_info) X(H5Gopen2) X(H5Lexists) X(H5Lget_name_by_idx) X(H5Oget_info2) X(H5Pclose) X(H5Pcreate)           \
-    X(H5Pset_alloc_time) X(H5Pset_chunk) X(H5Pset_chunk_cache) X(H5Pset_create_intermediate_group)                   \
-    X(H5Pset_fill_time) X(H5Pset_obj_track_times) X(H5Sclose) X(H5Screate) X(H5Screate_simple)                       \
-    X(H5Sget_simple_extent_dims) X(H5Sget_simple_extent_ndims) X(H5Sget_simple_extent_npoints)                       \
-    X(H5Sselect_hyperslab) X(H5Tclose) X(H5Tcopy) X(H5Tget_class) X(H5Tget_cset) X(H5Tget_size)                      \
-    X(H5Tis_variable_str) X(H5Tset_cset) X(H5Tset_size) X(H5check_version) X(H5dont_atexit) X(H5free_memory)         \
-    X(H5open) X(H5T_NATIVE_DOUBLE_g) X(H5T_NATIVE_INT_g) X(H5T_NATIVE_INT64_g) X(H5T_C_S1_g)                         \
-    X(H5P_CLS_DATASET_ACCESS_ID_g) X(H5P_CLS_DATASET_CREATE_ID_g) X(H5P_CLS_LINK_CREATE_ID_g)
+    X(H5Aclose)                                                                                                      \
+    X(H5Acreate2) X(H5Aget_name) X(H5Aget_name_by_idx) X(H5Aget_space) X(H5Aget_type) X(H5Aopen) X(H5Aopen_by_idx)   \
+        X(H5Aread) X(H5Awrite) X(H5Dclose) X(H5Dcreate2) X(H5Dget_space) X(H5Dopen2) X(H5Dread) X(H5Dset_extent) X(  \
+            H5Dwrite) X(H5Eget_auto2) X(H5Eset_auto2) X(H5Fclose) X(H5Fcreate) X(H5Fopen) X(H5Gclose) X(H5Gget_info) \
+            X(H5Gopen2) X(H5Lexists) X(H5Lget_name_by_idx) X(H5Oget_info2) X(H5Pclose) X(H5Pcreate)                  \
+                X(H5Pset_alloc_time) X(H5Pset_chunk) X(H5Pset_chunk_cache) X(H5Pset_create_intermediate_group)       \
+                    X(H5Pset_file_locking) X(H5Pset_fill_time) X(H5Pset_obj_track_times) X(H5Sclose) X(H5Screate)    \
+                        X(H5Screate_simple) X(H5Sget_simple_extent_dims) X(H5Sget_simple_extent_ndims)               \
+                            X(H5Sget_simple_extent_npoints) X(H5Sselect_hyperslab) X(H5Tclose) X(H5Tcopy)            \
+                                X(H5Tget_class) X(H5Tget_cset) X(H5Tget_size) X(H5Tis_variable_str) X(H5Tset_cset)   \
+                                    X(H5Tset_size) X(H5check_version) X(H5dont_atexit) X(H5free_memory) X(H5open)    \
+                                        X(H5T_NATIVE_DOUBLE_g) X(H5T_NATIVE_INT_g) X(H5T_NATIVE_INT64_g)             \
+                                            X(H5T_C_S1_g) X(H5P_CLS_DATASET_ACCESS_ID_g)                             \
+                                                X(H5P_CLS_DATASET_CREATE_ID_g) X(H5P_CLS_FILE_ACCESS_ID_g)           \
+                                                    X(H5P_CLS_LINK_CREATE_ID_g)
 
 typedef struct iso_hdf5_library {
 #define ISO_HDF5_POINTER(name) __typeof__(name) *name;
@@ -92,6 +96,7 @@ bool iso_hdf5_is_there(void);
 #define H5Pset_chunk iso_hdf5.H5Pset_chunk
 #define H5Pset_chunk_cache iso_hdf5.H5Pset_chunk_cache
 #define H5Pset_create_intermediate_group iso_hdf5.H5Pset_create_intermediate_group
+#define H5Pset_file_locking iso_hdf5.H5Pset_file_locking
 #define H5Pset_fill_time iso_hdf5.H5Pset_fill_time
 #define H5Pset_obj_track_times iso_hdf5.H5Pset_obj_track_times
 #define H5Sclose iso_hdf5.H5Sclose
@@ -119,6 +124,7 @@ bool iso_hdf5_is_there(void);
 #define H5T_C_S1_g (*iso_hdf5.H5T_C_S1_g)
 #define H5P_CLS_DATASET_ACCESS_ID_g (*iso_hdf5.H5P_CLS_DATASET_ACCESS_ID_g)
 #define H5P_CLS_DATASET_CREATE_ID_g (*iso_hdf5.H5P_CLS_DATASET_CREATE_ID_g)
+#define H5P_CLS_FILE_ACCESS_ID_g (*iso_hdf5.H5P_CLS_FILE_ACCESS_ID_g)
 #define H5P_CLS_LINK_CREATE_ID_g (*iso_hdf5.H5P_CLS_LINK_CREATE_ID_g)
 #endif
 

@@ -135,13 +135,13 @@ static bool write_head(const iso_sweep_hdf5 *f, const iso_sweep_head *head, iso_
 
 static iso_status open_target(iso_context *ctx, iso_sweep_hdf5 *f, const char *path)
 {
-    const iso_status status = iso_replacement_open(ctx, path, &f->replacement, &f->descriptor);
+    const iso_status status = iso_replacement_open(ctx, path, true, &f->replacement, &f->descriptor);
     if (status != ISO_OK) return status;
     f->replacement.fresh = true;
     f->name = strdup(f->replacement.target);
     H5E_BEGIN_TRY
     {
-        f->file = H5Fcreate(f->replacement.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+        f->file = iso_hdf5_create(f->replacement.temporary);
     }
     H5E_END_TRY
     return f->file >= 0 && f->name ? ISO_OK : iso_hdf5_trouble(ctx, "write", path);

@@ -11,12 +11,12 @@ static iso_status hdf5_create(iso_context *ctx, iso_trajectory_writer *w, const 
     if (status != ISO_OK) return status;
     iso_hdf5_store *s = w->data = iso_hdf5_store_create();
     if (!s) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path);
-    status = iso_replacement_open(ctx, path, &s->replacement, &s->descriptor);
+    status = iso_replacement_open(ctx, path, true, &s->replacement, &s->descriptor);
     if (status == ISO_OK) {
         w->name = s->replacement.target;
         H5E_BEGIN_TRY
         {
-            s->file = H5Fcreate(s->replacement.temporary, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+            s->file = iso_hdf5_create(s->replacement.temporary);
         }
         H5E_END_TRY
         if (s->file >= 0) return ISO_OK;

@@ -1,4 +1,4 @@
-/* output.c - writes text files: into a temporary file, which is renamed when it is complete. */
+/* output.c - writes text files: into a file that gets its name when it is complete. */
 #include "io/output.h"
 
 #include <errno.h>
@@ -43,7 +43,7 @@ static bool is_direct(const char *path, const struct stat *old)
 static iso_status open_regular(iso_context *ctx, iso_output *out, const char *path)
 {
     int fd;
-    iso_status status = iso_replacement_open(ctx, path, &out->replacement, &fd);
+    iso_status status = iso_replacement_open(ctx, path, false, &out->replacement, &fd);
     if (status != ISO_OK) return status;
     out->name = out->replacement.target;
     out->file = fdopen(fd, "w");

@@ -258,13 +258,12 @@ static iso_status take_old(iso_context *ctx, iso_sweep_journal *j, off_t size, b
 static iso_status open_locked(iso_context *ctx, iso_sweep_journal *j, struct stat *s)
 {
     for (;;) {
-        struct stat named;
         j->descriptor = open(j->name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
         if (j->descriptor < 0) return trouble(ctx, j, "write");
         if (flock(j->descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
             return refuse(ctx, j->name, "is in use: another isoroll works on this sweep");
         if (fstat(j->descriptor, s) != 0) return trouble(ctx, j, "read");
-        if (stat(j->name, &named) == 0 && named.st_dev == s->st_dev && named.st_ino == s->st_ino) return ISO_OK;
+        if (iso_file_has_name(j->descriptor, j->name)) return ISO_OK;
         close(j->descriptor);
     }
 }

@@ -19,7 +19,7 @@ NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 FLAGS = ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
          "--host-resolver-rules=MAP * ~NOTFOUND", "--no-first-run", "--disable-dev-shm-usage",
          "--disable-background-networking", "--remote-debugging-pipe", "--hide-scrollbars")
-PATIENCE = 120  # seconds for one answer; the machine may be busy
+PATIENCE = 500  # seconds for one answer; the machine may be busy, and ctest ends what hangs
 
 
 def find():

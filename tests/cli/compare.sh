@@ -92,10 +92,9 @@ if has gnuplot "--plot"; then
     check "no temporary files" test "$(ls -A folder)" = a.svg
 fi
 for name in a.jpg a '' svg; do refuses 2 "" compare scene.yaml --plot "$name"; done
-scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1e6 1e5 >endless.yaml
-before=$(date +%s)
+# refused before the work, which would take days
+scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 1e12 1e11 >endless.yaml
 refuses 2 "" compare endless.yaml --plot a.jpg
-check "refused before the work" test $(($(date +%s) - before)) -le 2
 
 refuses 3 "<stdin>:1:1" compare - </dev/null
 scene 1 "1, 2, 3" "0, 0, 0" "0, 0, 1" 1 0.1 >rest.yaml

@@ -12,8 +12,7 @@ initial:
 time: {end: 5, step: 0.02}
 effects: {twist: {resistance: 1.0e8}}
 END
-checks=$((checks + 1))
-timeout 60 "$isoroll" run stiff.yaml -o stiff.csv 2>err || fail "a stiff contact at rest: $?"
+run 0 run stiff.yaml -o stiff.csv
 check "all rows" test "$(rows stiff.csv | wc -l)" -eq 251
 
 # Next to k = 1 the weight's potential is a large constant: it is no measure of the energy.

@@ -30,10 +30,15 @@ check "lib/README.md has the system circle" grep -q 'iso_system_circle = {' "$wo
 check "the system of lib/README.md compiles" "${CC:-cc}" -std=c11 -Wall -Wextra -Werror -fsyntax-only \
     -I"$source/lib" "$work/circle.c"
 
+for recipe in effect_drag effect_drag_plain kutta38; do # also with the warnings that only an optimising compiler has
+    check "$recipe.c has no warnings" "${CC:-cc}" -std=c11 -D_DEFAULT_SOURCE -O2 -Wall -Wextra -Wpedantic -Wshadow \
+        -Wconversion -Werror -I"$copy/lib" -c "$recipes/$recipe.c" -o recipe.o
+done
+
 build() {
     checks=$((checks + 1))
-    if ! { cmake -S "$copy" -B "$work/build" -DCMAKE_C_COMPILER="${CC:-cc}" -DISO_WERROR=ON -DBUILD_TESTING=OFF &&
-        cmake --build "$work/build" --target isoroll_command -j 2; } >"$work/build.log" 2>&1; then
+    if ! { cmake -S "$copy" -B "$work/build" -DCMAKE_C_COMPILER="${CC:-cc}" -DISO_WERROR=ON -DBUILD_TESTING=OFF \
+        -DISO_MPI=OFF -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 && cmake --build "$work/build" --target isoroll_command -j 2; } >"$work/build.log" 2>&1; then
         fail "$1 does not compile"
         grep -E 'error|warning' "$work/build.log" | head -n 5 >&2
         finish

@@ -27,6 +27,93 @@ length() {
     if [ "${ISO_TEST_LENGTH-}" = full ]; then echo "$2"; else echo "$1"; fi
 }
 
+# --- events in programs that run. A condition is a command that gets the program's number as its last argument.
+
+# written BYTES PID: the program has a file of this folder open that has so many bytes
+written() {
+    for opened in "/proc/$2/fd"/*; do
+        case $(readlink "$opened") in
+        "$(pwd -P)"/*) [ "$(stat -L -c %s "$opened" 2>/dev/null || echo 0)" -lt "$1" ] || return 0 ;;
+        esac
+    done
+    return 1
+}
+
+# computed N PID: for N hundredths of a second of processor time
+computed() {
+    sed 's/.*) //' "/proc/$2/stat" 2>/dev/null | awk -v least="$1" 'END { exit !NR || $12 + $13 < least }'
+}
+
+# worked N PID: the same, and it catches SIGTERM
+worked() {
+    case $(sed -n 's/^SigCgt:.*\(.\)...$/\1/p' "/proc/$2/status" 2>/dev/null) in
+    [4567cdef]) computed "$1" "$2" ;;
+    *) false ;;
+    esac
+}
+
+# in_journal FILE BYTES PID: the sweep's journal is there, and has more bytes
+in_journal() {
+    [ "$(cat "$1.part" 2>/dev/null | wc -c)" -gt "$2" ]
+}
+
+# await CONDITION... PID: waits until it is so, or the program has ended
+await() {
+    for awaited; do :; done
+    until "$@" || ! kill -0 "$awaited" 2>/dev/null; do sleep 0.01; done
+}
+
+# signalled SIGNAL "CONDITION" ARGUMENT...: runs isoroll, which gets the signal when it is so. Leaves its exit status in
+# $status, its messages in err. It runs in the foreground: in the background SIGINT is ignored.
+signalled() {
+    signal=$1 condition=$2
+    shift 2
+    rm -f pid
+    last="$* <- $signal"
+    (
+        until [ -s pid ]; do sleep 0.01; done
+        # shellcheck disable=SC2086 # a command and its arguments
+        await $condition "$(cat pid)"
+        kill -s "$signal" "$(cat pid)"
+    ) 2>/dev/null &
+    sh -c 'echo $$ >pid && exec "$@"' sh "$isoroll" "$@" >out 2>err
+    status=$?
+    wait $!
+}
+
+# held FILE ARGUMENT...: starts isoroll with a sweep into FILE, and stops it (SIGSTOP) when its journal has begun; from
+# the beginning if it has ended by then. Its number is in $pid.
+held() {
+    into=$1
+    shift
+    for _ in 1 2 3 4 5 6 7 8 9 10; do
+        rm -f "$into"
+        "$isoroll" "$@" -o "$into" 2>err &
+        pid=$!
+        await in_journal "$into" 200 $pid
+        kill -STOP $pid 2>/dev/null
+        [ -e "$into" ] || return 0
+        kill -CONT $pid 2>/dev/null
+        wait $pid
+    done
+    fail "isoroll $*: too fast to be stopped"
+}
+
+# interrupted_when "DONE" ARGUMENT...: runs isoroll again and again, and presses Ctrl-C each time after twice the
+# processor time, until the command DONE finds that something was done by then. Leaves $status, `out`, err.
+interrupted_when() {
+    done=$1 hundredths=4
+    shift
+    while
+        signalled INT "worked $hundredths" "$@"
+        ! $done && grep -q interrupted err && [ $hundredths -lt 100000 ]
+    do
+        hundredths=$((hundredths * 2))
+    done
+    checks=$((checks + 1))
+    [ "$status" -eq 1 ] || fail "$last: exit status $status, not 1"
+}
+
 # slow N: N, or a fifth of it if sanitizers make the programs slow: times of runs that are to take a while
 slow() {
     if [ "${ISO_SANITIZE-0}" = 1 ]; then echo $(($1 / 5)); else echo "$1"; fi

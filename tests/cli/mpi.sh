@@ -23,7 +23,7 @@ ranks() {
     shift 2
     checks=$((checks + 1))
     # shellcheck disable=SC2086 # options is a list
-    timeout -k 5 120 "$mpirun" $options -n "$number" "$program" "$@" >out 2>err </dev/null
+    timeout -k 5 400 "$mpirun" $options -n "$number" "$program" "$@" >out 2>err </dev/null
     status=$?
     [ $status -eq "$wanted" ] || fail "$number ranks, $*: status $status, not $wanted"
 }
@@ -92,7 +92,7 @@ once "mpirun does not tell whether its output arrives: give -o FILE"
 ranks 2 2 sweep - -o new.csv
 once "a pipe reaches one rank alone: give a file"
 # shellcheck disable=SC2086
-timeout 60 "$mpirun" $options -n 2 "$program" sweep grid.yaml -o new.csv : -n 1 "$program" sweep grid.yaml --nothing \
+timeout 400 "$mpirun" $options -n 2 "$program" sweep grid.yaml -o new.csv : -n 1 "$program" sweep grid.yaml --nothing \
     >out 2>err </dev/null
 check "a rank with other options ends all: status $?" test $? -eq 2
 once "rank 2: sweep: unknown or ambiguous option --nothing"
@@ -108,53 +108,52 @@ pids() {
         END { for (i in name) if (name[i] ~ /^isoroll-mpi/) for (j = i; j > 1; j = above[j]) if (j == top) print i }' |
         sort -n
 }
-# start N FILE: a run in the background, of $pid; it goes on when a further chunk is in the journal
+# start N FILE [CHUNKS]: a run in the background, of $pid; it goes on when so many further chunks are in the journal
 start() {
-    before=$(cat "$2.part" 2>/dev/null | wc -c)
+    begin=$(cat "$2.part" 2>/dev/null | wc -c)
     # shellcheck disable=SC2086
     "$mpirun" $options -n "$1" "$program" sweep long.yaml -o "$2" --resume >out 2>err </dev/null &
     pid=$!
+    await in_journal "$2" $((begin + ${3-2} * 100)) $pid
 }
-begun() {
-    for _ in $(seq 500); do
-        [ "$(cat "$1.part" 2>/dev/null | wc -c)" -le $((before + 200)) ] || break
-        sleep 0.02
+# midway N FILE COMMAND: start, then COMMAND, then its end, with $status; again if the run was done before
+midway() {
+    for _ in 1 2 3 4 5 6 7 8 9 10; do
+        rm -f "$2"
+        start "$1" "$2"
+        $3 2>/dev/null
+        wait $pid
+        status=$?
+        [ -e "$2" ] || break
     done
 }
+to_all() { kill -USR1 $pid; }
+to_last() { kill -TERM "$(pids $pid | tail -n 1)"; }
+full_disk() { prlimit --pid "$(pids $pid | head -n 1)" --fsize=100; }
 if has ps "signals and kills"; then
     run 0 sweep long.yaml -o long.h5
-    start 3 stopped.h5
-    begun stopped.h5
-    kill -USR1 $pid
-    wait $pid
-    check "USR1 to all" test $? -eq 0
+    midway 3 stopped.h5 to_all
+    check "USR1 to all" test $status -eq 0
     once "stopped by SIGTERM or SIGUSR1: .* of 60 chunks are in 'stopped.h5.part'"
-    start 3 stopped.h5
-    begun stopped.h5
-    kill -TERM "$(pids $pid | tail -n 1)"
-    wait $pid
-    check "TERM to the last rank" test $? -eq 0
+    midway 3 stopped.h5 to_last
+    check "TERM to the last rank" test $status -eq 0
     once "stopped by SIGTERM or SIGUSR1: .* of 60 chunks are in 'stopped.h5.part'"
     ranks 0 2 sweep long.yaml -o stopped.h5 --resume
     check "after signals" cmp stopped.h5 long.h5
 
     # --- a full disk, as far as rank 0 can see
     if has prlimit "a full disk"; then
-        start 3 full.h5
-        begun full.h5
-        prlimit --pid "$(pids $pid | head -n 1)" --fsize=100
-        wait $pid
-        check "a full disk" test $? -eq 5
+        midway 3 full.h5 full_disk
+        check "a full disk" test $status -eq 5
         once "cannot write 'full.h5.part': File too large"
         ranks 0 4 sweep long.yaml -o full.h5 --resume
         check "after a full disk" cmp full.h5 long.h5
     fi
 
-    # --- kill -9 of a rank, or of everything, at any moment; then another number of ranks
+    # --- kill -9 of a rank, or of everything, when some chunks more are there; then another number of ranks
     tries=0 kills=$(length 3 12) # 12: 1 to 4 ranks, each killed in all three ways
     while [ $tries -lt "$kills" ]; do
-        start $((tries % 4 + 1)) killed.h5
-        sleep "$(awk -v n=$tries 'BEGIN { srand(n + 3); printf "%.3f", 0.3 + 1.2 * rand() }')"
+        start $((tries % 4 + 1)) killed.h5 $((tries % 5))
         list=$(pids $pid)
         case $((tries % 3)) in
         0) kill -9 $(echo "$list" | tail -n 1) 2>/dev/null ;; # the last rank

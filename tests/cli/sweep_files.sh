@@ -113,11 +113,9 @@ h5=h5
 "$isoroll" sweep sweep.yaml -o all.h5 2>err || { h5=csv && skip "HDF5" "this build has none"; }
 sed 's/time: 10/time: 20000/' sweep.yaml >long.yaml
 for kind in csv $h5; do
-    rm -f late.$kind
-    "$isoroll" sweep long.yaml -o late.$kind -j 1 2>err &
-    pid=$!
-    while [ ! -s late.$kind.part ]; do sleep 0.01; done
+    held late.$kind sweep long.yaml -j 1
     echo "my thesis" >late.$kind
+    kill -CONT $pid
     wait $pid
     check "$kind: a file has appeared: status $?" test $? -eq 5
     check "$kind: words" grep -q "late.$kind' has appeared: it is not overwritten" err

@@ -98,7 +98,11 @@ for arguments in "run scene.yaml --step 1e-4" "compare scene.yaml --json --step 
     check "isoroll $arguments | head -1: a line" test -n "$first"
     check "isoroll $arguments | head -1: quiet" test ! -s err
 done
-{ sleep 0.1 && "$isoroll" run scene.yaml 2>err; echo $? >status; } | :
+mkfifo pipe
+exec 4<>pipe 5>pipe 4>&- # now nobody reads
+"$isoroll" run scene.yaml 2>err >&5
+echo $? >status
+exec 5>&-
 check "a pipe closed before: quiet" test ! -s err
 check "a pipe closed before: no success" test "$(cat status)" -eq 5
 if [ -c /dev/full ]; then
@@ -123,47 +127,61 @@ else
 fi
 
 # --- interruptions
-# interrupted SIGNAL SECONDS ARGUMENT...: a long run to which the signal comes; what it had computed is in stopped.csv
+# interrupted SIGNAL "CONDITION" ARGUMENT...: a long run to which the signal comes; what it had computed is in
+# stopped.csv
 interrupted() {
-    signal=$1 seconds=$2
-    shift 2
     mkdir -p stop
     rm -f stop/*
-    checks=$((checks + 1)) last="$* <- $signal"
-    timeout --preserve-status -k 30 -s "$signal" "$seconds" "$isoroll" run "$@" -o stop/stopped.csv 2>err
-    [ $? -eq 1 ] || fail "$last: not exit status 1"
+    signal=$1 condition=$2
+    shift 2
+    signalled "$signal" "$condition" run "$@" -o stop/stopped.csv
+    checks=$((checks + 1))
+    [ $status -eq 1 ] || fail "$last: exit status $status, not 1"
     says "interrupted: "
     check "$last: no temporary file" test "$(ls -A stop)" = stopped.csv
     check "$last: it says how many rows" grep -q "interrupted: $(rows stop/stopped.csv | wc -l) of" err
     run 0 check --max 1e-8 stop/stopped.csv
 }
-if has timeout "interruptions"; then
-    for signal in INT TERM; do
-        [ $signal != INT ] || interruptible "SIGINT" || continue
-        interrupted "$signal" 1 scene.yaml --t-end 1e8 --step 100 --backend ball
-        check "some rows" test "$(rows stop/stopped.csv | wc -l)" -gt 2
-        interrupted "$signal" 1 scene.yaml --t-end 1e10 --step 1e10 --backend ball # in the middle of a row
-        # without something to save it just ends
-        sleep 2 | timeout -k 30 -s "$signal" 0.2 "$isoroll" convert --to point - >out 2>err
-        check "convert ends" test $? -eq 124
-    done
-fi
+# sleeps PID: it waits for something
+sleeps() {
+    grep -q '^State:.*S' "/proc/$1/status" 2>/dev/null
+}
+for signal in INT TERM; do
+    [ $signal != INT ] || interruptible "SIGINT" || continue
+    interrupted "$signal" "written 4096" scene.yaml --t-end 1e8 --step 100 --backend ball
+    check "some rows" test "$(rows stop/stopped.csv | wc -l)" -gt 2
+    interrupted "$signal" "worked 20" scene.yaml --t-end 1e10 --step 1e10 --backend ball # in the middle of a row
+    # without something to save it just ends
+    exec 4<>pipe
+    signalled "$signal" sleeps convert --to point - <pipe
+    exec 4>&-
+    check "convert ends" test $status -gt 128
+done
 
 # --- progress: on a terminal only, after a second, coloured unless NO_COLOR says not to
-# on_terminal VARIABLE: what a run of two seconds writes on a terminal
+bar() { grep -q '\.\.\.\.' terminal; }
+# on_terminal VARIABLE: what a run writes on a terminal until there is a bar
 on_terminal() {
-    script -qec "env $1 timeout -k 30 -s TERM 2 '$isoroll' run scene.yaml --t-end 1e8 -o a.csv" /dev/null </dev/null >terminal
+    rm -f pid && : >terminal
+    (
+        until [ -s pid ]; do sleep 0.01; done
+        await bar "$(cat pid)"
+        kill -TERM "$(cat pid)"
+    ) &
+    script -qec "echo \$\$ >pid; exec env $1 '$isoroll' run scene.yaml --t-end 1e8 -o a.csv" /dev/null \
+        </dev/null >terminal
+    wait $!
 }
-if ! { command -v timeout && script -qec true /dev/null </dev/null; } >/dev/null 2>&1; then
-    skip "progress on a terminal" "no terminal can be made here (script, timeout)" # as in a bare chroot
+if ! script -qec true /dev/null </dev/null >/dev/null 2>&1; then
+    skip "progress on a terminal" "no terminal can be made here (script)" # as in a bare chroot
 else
     on_terminal NO_COLOR=
-    check "a bar on a terminal" grep -q '\.\.\.\.' terminal
+    check "a bar on a terminal" bar
     check "in colour" grep -q "$(printf '\033\\[36m')" terminal
     on_terminal NO_COLOR=1
-    check "a bar with NO_COLOR" grep -q '\.\.\.\.' terminal
+    check "a bar with NO_COLOR" bar
     check_not "no colour with NO_COLOR" grep -q "$(printf '\033')" terminal
-    timeout -k 30 -s TERM 2 "$isoroll" run scene.yaml --t-end 1e8 -o a.csv 2>err
+    signalled TERM "worked 200" run scene.yaml --t-end 1e8 -o a.csv
     check "no bar in a file" test "$(tr -d '\r' <err | wc -l)" -eq 1
     check_not "no bar in a file" grep -q '\.\.\.' err
 fi

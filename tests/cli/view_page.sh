@@ -11,15 +11,17 @@ if "$isoroll" view "$source/examples/15_two_spheres/scene.yaml" -o page.html 2>&
 elif [ -z "$browser" ]; then
     skip "pages in a browser" "chromium is not installed"
 elif has python3 "pages in a browser"; then
-    python3 -B "$here/view_page.py" "$isoroll" "$source" "$work" >results 2>err || fail "view_page.py ended early"
-    while read -r verdict words; do
-        case $verdict in
-        PASS) checks=$((checks + 1)) ;;
-        FAIL) checks=$((checks + 1)) && fail "$words" ;;
-        *) echo "$verdict $words" ;;
-        esac
-    done <results
-    check "view_page.py came to its end" grep -q '^PASS the end' results
+    if [ "${ISO_SANITIZE-0}" = 0 ]; then # the pages of isoroll with sanitizers are the same: cli/view.sh writes them
+        python3 -B "$here/view_page.py" "$isoroll" "$source" "$work" >results 2>err || fail "view_page.py ended early"
+        while read -r verdict words; do
+            case $verdict in
+            PASS) checks=$((checks + 1)) ;;
+            FAIL) checks=$((checks + 1)) && fail "$words" ;;
+            *) echo "$verdict $words" ;;
+            esac
+        done <results
+        check "view_page.py came to its end" grep -q '^PASS the end' results
+    fi
 
     # --- pictures
     cp "$source/examples/15_two_spheres/scene.yaml" .

@@ -377,7 +377,6 @@ static void check_choices(void)
 int main(void)
 {
     ctx = iso_context_create();
-    alarm(200); /* nothing may hang */
     check_walls();
     check_events_at_walls();
     for (int i = 0; iso_methods[i]; i++) {

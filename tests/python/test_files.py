@@ -76,7 +76,7 @@ class Files(Case):
             file.write(b"# isoroll trajectory 1\n# \xff: 1\n# \xfe: \xe9\n# \xfd: 3\nt,n1\n0,1\n")
         code = f"import isoroll; t = isoroll.read({self.path('a.csv')!r}); print(len(t.lines)); " \
             f"isoroll.write(isoroll.Table(t.array, t.columns, t.lines), {self.path('b.csv')!r})"
-        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True)
         self.assertEqual(done.stdout, "3\n")
         self.same_files(self.path("a.csv"), self.path("b.csv"))
 
