@@ -254,6 +254,7 @@ const command command_analogue = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, file),
+    .takes = FILE_SCENE,
     .description =
         "The problem is a scene of a 'point', or --neumann, or --k, --J and --eps. If the problem is a "
         "scene, its start is kept; otherwise a start is chosen. The answer is a scene of a ball, with a report in "

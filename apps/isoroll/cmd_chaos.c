@@ -311,6 +311,7 @@ const command command_chaos = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
         "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0; where none "

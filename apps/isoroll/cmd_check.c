@@ -90,6 +90,7 @@ const command command_check = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
+    .takes = FILE_ROWS,
     .description = "Prints residuals: of constraints, of integrals, and of every column. Residuals are relative. The "
                    "residual 'flow' integrates each row to the time of the next row and compares. Rows are read one "
                    "after the other, in constant memory.\n\nRows of nan, which convert writes, are passed over and "

@@ -319,6 +319,7 @@ const command command_compare = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "The backends are ball, point and, where there is a closed solution, exact. The table shows states, "
         "clocks and integrals by each of them. Differences of states are relative to the size of the "

@@ -234,6 +234,7 @@ const command command_convert = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
+    .takes = FILE_ROWS,
     .description =
         "A filter: row by row, in constant memory. It reads files of other programs, too. k, J and h or eps come "
         "from "

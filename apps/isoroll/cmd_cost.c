@@ -256,6 +256,7 @@ const command command_cost = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "All backends, methods and tolerances are measured. --backend, --method or --tol restrict the measurement to "
         "one; the scene's own backend, method and tolerance are not read.\n\n"

@@ -315,6 +315,7 @@ const command command_frequencies = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "Where there is a closed solution (k = 1, k = -1, equal moments, principal planes) the numbers are exact. "
         "Elsewhere they are estimated from an orbit in the ball's time t, by Laskar's frequency analysis. --turns, "

@@ -218,6 +218,7 @@ const command command_integrals = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "Looks for functions of the point's state that are constant along orbits: polynomials in M of degree D or "
         "less, with coefficients that are polynomials in gamma of degree E or less. Of the scene it reads k, J and "

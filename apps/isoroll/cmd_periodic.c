@@ -173,6 +173,7 @@ const command command_periodic = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found in "
         "two ways, stable between -2 and 2. Then it searches for all symmetric periodic orbits of at most P returns "

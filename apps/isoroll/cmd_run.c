@@ -180,6 +180,7 @@ const command command_run = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "The times of --t-end, --step and --times are those of the scene's model: t of a ball, s of a point. With "
         "a backend by name, a row does not depend on the other times. Backend exact is an exception: with --step the "

@@ -219,6 +219,7 @@ const command command_splitting = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, it "
         "is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come from "

@@ -323,6 +323,7 @@ const command command_sweep = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, file),
+    .takes = FILE_SWEEP | FILE_RESULT | FILE_HDF5,
     .files = offsetof(options, parts),
     .description =
         "A sweep is a file in YAML: a scene, the numbers in it that vary, and what is measured at each point "

@@ -71,7 +71,6 @@ bool is_regular(const char *path);
 bool ends_with(const char *path, const char *ending);
 
 /* Lists of words. */
-const char *method_word(int i);
 const char *backend_word(int i);
 const char *as_word(int i);
 const char *target_word(int i);
