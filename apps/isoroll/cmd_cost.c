@@ -162,10 +162,7 @@ static int report(iso_context *ctx, const options *o, cost_report *r, iso_output
     if (o->horizons > 0 && r->cost->complete) grow(ctx, o, line, r);
     progress_end();
     int result = print_report(o, line, r);
-    if (csv) {
-        cost_write_csv(r, iso_output_stream(csv));
-        result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
-    }
+    if (csv) result = worse(result, finish(ctx, cost_write_csv(ctx, r, csv)));
     if (o->plot && cost_count(r->cost, iso_cost_is_measured) > 0)
         result = worse(result, finish(ctx, draw(ctx, o, line, r)));
     else if (o->plot)

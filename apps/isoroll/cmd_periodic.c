@@ -51,10 +51,7 @@ static int report(iso_context *ctx, const options *o, const periodic_report *r, 
         result = periodic_print_json(r) ? result : EXIT_NUMERICAL;
     else if (!o->output || strcmp(o->output, "-") != 0)
         periodic_print(r);
-    if (csv) {
-        periodic_write_csv(r, iso_output_stream(csv));
-        result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
-    }
+    if (csv) result = worse(result, finish(ctx, periodic_write_csv(ctx, r, csv)));
     if (o->plot && r->found->count == 0)
         complain("no picture: there is no orbit"), result = worse(result, EXIT_SOME_FAILED);
     else if (o->plot)

@@ -131,7 +131,7 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
                   iso_output *csv)
 {
     int result = judge(ctx, s);
-    const splitting_report r = {scene->params.J, s};
+    const splitting_report r = {scene, scene->params.J, s};
     const bool some = splitting_has_rows(&r);
     if (some && o->json)
         result = splitting_print_json(&r) ? result : EXIT_NUMERICAL;
@@ -139,8 +139,8 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
         splitting_print(&r);
     if (s->lost > 0) complain("%zu zeros of m lie between these values of k, but were not found", s->lost);
     if (csv) {
-        if (some) splitting_write_csv(&r, iso_output_stream(csv));
-        result = worse(result, finish(ctx, iso_output_close(ctx, csv, some)));
+        const iso_status status = some ? splitting_write_csv(ctx, &r, csv) : iso_output_close(ctx, csv, false);
+        result = worse(result, finish(ctx, status));
     }
     if (some && o->plot && !interrupted()) result = worse(result, finish(ctx, splitting_draw(ctx, &r, o->plot)));
     return result;

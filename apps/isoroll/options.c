@@ -135,6 +135,47 @@ const char *target_word(int i)
     return words[i];
 }
 
+/* --- the command line ------------------------------------------------------------------------------------------- */
+
+/* What is longer ends in " ...". */
+static char command_line[4096];
+
+const char *options_command(void)
+{
+    return command_line;
+}
+
+static void add(const char *text)
+{
+    static const char dots[] = " ...";
+    const size_t used = strlen(command_line), room = sizeof command_line - sizeof dots - used;
+    if (used + sizeof dots >= sizeof command_line) return;
+    snprintf(command_line + used, room, "%s", text);
+    if (strlen(text) >= room) strcpy(command_line + strlen(command_line), dots);
+}
+
+/* One word as a shell reads it. Control characters, which a line has no place for, become question marks. */
+static void add_word(const char *before, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+-@%";
+    const bool quoted = !*word || word[strspn(word, plain)];
+    add(before);
+    add(quoted ? "'" : "");
+    for (const char *c = word; *c; c++) {
+        const char letter[] = {(unsigned char)*c < ' ' || *c == 0x7f ? '?' : *c, '\0'};
+        add(*c == '\'' ? "'\\''" : letter);
+    }
+    add(quoted ? "'" : "");
+}
+
+static void add_option(const option_row *r, const char *text)
+{
+    if (r->aside || r->file == OPTION_WRITES) return;
+    add(" --");
+    add(r->name);
+    if (text) add_word(r->argument[0] == '[' ? "=" : " ", text);
+}
+
 /* --- reading ---------------------------------------------------------------------------------------------------- */
 
 enum { MOST_ROWS = 32, LONG = 256 /* above all letters */ };
@@ -308,6 +349,9 @@ options_result options_read(const command *c, int argc, char **argv, void *optio
     bool help = false;
     make_known(c, known, letters);
     opterr = 0;
+    *command_line = '\0';
+    add("isoroll ");
+    add(c->name);
     for (int found; (found = getopt_long(argc, argv, letters, known, NULL)) != -1;) {
         if (found == ':') return wrong(c, "an argument is missing after ", argv[optind - 1]);
         if (found == '?') return unknown(c, argv);
@@ -316,7 +360,9 @@ options_result options_read(const command *c, int argc, char **argv, void *optio
             help = true;
         else if (!set_option(c, r, optarg, options))
             return OPTIONS_WRONG;
+        add_option(r, optarg);
     }
+    for (int i = optind; i < argc; i++) add_word(strncmp(argv[i], "-", 1) == 0 && argv[i][1] ? " ./" : " ", argv[i]);
     const options_result result = set_file(c, argc, argv, help, options);
     return result == OPTIONS_DONE ? keep_files_apart(c, options) : result;
 }
