@@ -281,6 +281,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = prepare(ctx, o, &scene, &how, &csv);
     if (status != ISO_OK) return finish(ctx, status);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     status = iso_chaos_run(ctx, &scene, &how, &c);
     iso_context_set_monitor(ctx, NULL, NULL);

@@ -60,7 +60,9 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = iso_trajectory_reader_open(ctx, o->from.file, o->from.columns, &in);
     if (status == ISO_OK) {
         iso_trajectory_pass_nan(in);
+        progress_begin();
         status = check_rows(ctx, o, in, &residuals);
+        progress_end();
     }
     iso_trajectory_reader_close(in);
     if (status == ISO_OK)

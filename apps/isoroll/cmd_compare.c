@@ -273,6 +273,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = scene_with_options(ctx, &o->scene, &scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_compare(ctx, &scene, show, NULL, &c);
     iso_context_set_monitor(ctx, NULL, NULL);

@@ -196,6 +196,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = prepare(ctx, o, &scene, &csv);
     const iso_cost_options how = options_of(o);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &how, &cost);
     int result = finish_scene(ctx, &o->scene, &scene, status);

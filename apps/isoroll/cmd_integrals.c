@@ -172,6 +172,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (status != ISO_OK) return finish(ctx, status);
     const iso_integral_search_options how = options_of(o);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     status = iso_integral_search_run(ctx, &scene, &how, &r);
     iso_context_set_monitor(ctx, NULL, NULL);

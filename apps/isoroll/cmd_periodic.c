@@ -70,6 +70,7 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     how.threads = as_int(o->threads);
     how.progress = progress_told;
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     const iso_status status = iso_periodic_run(ctx, scene, &how, &found);
     progress_end();

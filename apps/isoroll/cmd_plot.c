@@ -195,6 +195,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (strcmp(o->output, "-") == 0)
         return complain("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
     iso_status status = iso_plot_check_format(ctx, o->output);
+    progress_begin();
     const bool sweep = status == ISO_OK && is_sweep_result(o->from.file);
     if (sweep && o->from.columns)
         return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;

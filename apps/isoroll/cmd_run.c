@@ -27,6 +27,7 @@ static iso_status open_file(void *data, const iso_record *header)
     target *t = data;
     t->opened = true;
     stop_gently();
+    progress_begin_rows(t->o->output);
     const iso_status status = iso_trajectory_open(t->ctx, t->o->output, &t->writer);
     return status == ISO_OK ? iso_trajectory_write_header(t->ctx, t->writer, header) : status;
 }

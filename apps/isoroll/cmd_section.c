@@ -245,6 +245,7 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     iso_section_result r;
     if (o->plot) t.picture = section_picture_create(scene);
     stop_gently();
+    progress_begin_rows(o->output);
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     const iso_status status = o->plot && !t.picture
                                   ? iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture")

@@ -166,6 +166,7 @@ static int work(iso_context *ctx, const options *o, const iso_scene *scene, cons
     how.threads = as_int(o->threads);
     how.progress = progress_told;
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     const iso_status status = iso_splitting_run(ctx, &how, &s);
     iso_context_set_monitor(ctx, NULL, NULL);

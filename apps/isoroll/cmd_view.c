@@ -91,6 +91,7 @@ static iso_status make(iso_context *ctx, const options *o, view_kind kind, view_
                                              : of_scene(ctx, o, page);
     if (status == ISO_OK && page->rows) view_note_turn(page);
     if (status == ISO_OK && page->rows) status = view_numbers(ctx, page);
+    if (o->output && strcmp(o->output, "-") == 0) progress_end();
     if (status == ISO_OK && o->output) status = view_write(ctx, o->output, page);
     if (status == ISO_OK && o->frames.folder) status = view_write_frames(ctx, &o->frames, page);
     return status;
@@ -110,6 +111,7 @@ static int run(iso_context *ctx, const void *options_given)
     const view_kind kind = kind_of(&o->from);
     view_page page = view_page_empty(standard ? "<stdin>" : short_name(o->from.file), names[kind]);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     status = make(ctx, o, kind, &page);
     iso_context_set_monitor(ctx, NULL, NULL);

@@ -127,6 +127,7 @@ int draw_chart(iso_context *ctx, const iso_scene *scene, const periodic_chart *c
     iso_record *grid = NULL, *borders = NULL;
     iso_status status = read_words(ctx, scene, c, &o);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_stability_chart(ctx, &o, &grid, &borders);
     progress_end();

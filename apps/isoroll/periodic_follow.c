@@ -181,6 +181,7 @@ int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *
     if (status == ISO_OK) status = choose(ctx, found, how, &list, &count);
     if (status == ISO_OK && how->orbit == 0 && count < found->count)
         complain("%zu orbits without a symmetry are not followed", found->count - count);
+    progress_begin();
     if (status == ISO_OK) status = iso_follow_run(ctx, scene, list, count, &o, &f);
     progress_end();
     if (status == ISO_STOPPED) complain("interrupted: branches are missing or cut");

@@ -222,25 +222,6 @@ if has timeout "interruptions"; then
     done
 fi
 
-# --- progress: on a terminal only, after a second, coloured unless NO_COLOR says not to
-# on_terminal VARIABLE: what a run of two seconds writes on a terminal
-on_terminal() {
-    script -qec "env $1 timeout -k 30 -s TERM 2 '$isoroll' run scene.yaml --t-end 1e8 -o a.csv" /dev/null </dev/null >terminal
-}
-if ! { command -v timeout && script -qec true /dev/null </dev/null; } >/dev/null 2>&1; then
-    skip "progress on a terminal" "no terminal can be made here (script, timeout)" # as in a bare chroot
-else
-    on_terminal NO_COLOR=
-    check "a bar on a terminal" grep -q '\.\.\.\.' terminal
-    check "in colour" grep -q "$(printf '\033\\[36m')" terminal
-    on_terminal NO_COLOR=1
-    check "a bar with NO_COLOR" grep -q '\.\.\.\.' terminal
-    check_not "no colour with NO_COLOR" grep -q "$(printf '\033')" terminal
-    timeout -k 30 -s TERM 2 "$isoroll" run scene.yaml --t-end 1e8 -o a.csv 2>err
-    check "no bar in a file" test "$(tr -d '\r' <err | wc -l)" -eq 1
-    check_not "no bar in a file" grep -q '\.\.\.' err
-fi
-
 # --- a limit on the size of files; closed standard streams
 (ulimit -f 4 && exec "$isoroll" run scene.yaml --t-end 10 --step 1e-3 -o limited.csv) 2>err
 status=$?
