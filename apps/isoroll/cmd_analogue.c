@@ -194,6 +194,7 @@ static iso_status answer(iso_context *ctx, const options *o, task *t)
     if (status != ISO_OK) return status;
     if (!t->started) scene.end = iso_analogue_round_up(scene.end);
     if (t->rows > 0 && scene.end != 0) scene.step = fabs(scene.end) / t->rows;
+    progress_end();
     print_problem(&a);
     print_way(&a);
     print_reduced(&a);
@@ -217,6 +218,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (usage) return EXIT_USAGE;
     iso_status status = stated ? ISO_OK : problem_of_scene(ctx, o, &t);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = answer(ctx, o, &t);
     iso_context_set_monitor(ctx, NULL, NULL);
@@ -254,6 +256,7 @@ const command command_analogue = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, file),
+    .takes = FILE_SCENE,
     .description =
         "The problem is a scene of a 'point', or --neumann, or --k, --J and --eps. If the problem is a "
         "scene, its start is kept; otherwise a start is chosen. The answer is a scene of a ball, with a report in "

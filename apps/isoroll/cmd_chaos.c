@@ -8,6 +8,7 @@
 #include "progress.h"
 #include "scene_options.h"
 #include "study/chaos.h"
+#include "table.h"
 
 /* What chaos can be told. */
 typedef struct options {
@@ -195,18 +196,45 @@ static size_t spread_of(const iso_chaos *c)
     return c->starts < c->share.asked ? c->starts : c->share.asked;
 }
 
-/* Orbit 0 is the scene's own. Other orbits that were not followed have no row. */
-static void write_csv(const iso_chaos *c, FILE *to)
+/* The beginning of the table. */
+static iso_status begin_csv(iso_context *ctx, const options *o, const iso_scene *scene, const iso_chaos *c,
+                            iso_output *csv)
 {
-    static const char *const names[] = {"ball", "point"};
-    fputs("# isoroll chaos 1\n# orbit 0: the scene's own; l and x are nan: it need not start on the section\n", to);
-    fputs("# nan elsewhere: not known; an orbit that was not followed has no row\norbit,l,x,verdict", to);
+    static const char *const names[] = {"ball", "point"}, *const kept[] = {"verdict", "turns", "exponent",
+                                                                           "error",   "megno", "gali2"};
+    char columns[400] = "orbit,l,x,verdict";
+    const table_line lines[] = {
+        {.key = "turns", .number = o->turns},
+        {.key = "starts", .number = o->starts},
+        {.key = "seed", .number = o->seed},
+        {.key = "tolerance", .number = isnan(o->scene.tolerance) ? scene->tolerance : o->scene.tolerance},
+        {.key = "orbit 0", .text = "the scene's own; l and x are nan: it need not start on the section"},
+        {.key = "nan elsewhere", .text = "not known; an orbit that was not followed has no row"},
+        {.key = NULL}};
     for (int m = 0; m < 2; m++)
+<<<<<<< HEAD
         if (c->with[m])
             fprintf(to, ",%s_verdict,%s_turns,%s_exponent,%s_error,%s_megno,%s_gali2", names[m], names[m], names[m],
                     names[m], names[m], names[m]);
     fputc('\n', to);
     for (size_t i = 0; i <= spread_of(c); i++) {
+||||||| 31b4d84
+        if (c->with[m])
+            fprintf(to, ",%s_verdict,%s_turns,%s_exponent,%s_error,%s_megno,%s_gali2", names[m], names[m], names[m],
+                    names[m], names[m], names[m]);
+    fputc('\n', to);
+    for (size_t i = 0; i <= c->share.count; i++) {
+=======
+        for (size_t i = 0; c->with[m] && i < sizeof kept / sizeof *kept; i++)
+            snprintf(columns + strlen(columns), sizeof columns - strlen(columns), ",%s_%s", names[m], kept[i]);
+    return table_begin(ctx, csv, "chaos", scene, lines, columns);
+}
+
+/* Orbit 0 is the scene's own. */
+static void write_rows(const iso_chaos *c, FILE *to)
+{
+    for (size_t i = 0; i <= c->share.count; i++) {
+>>>>>>> w-words
         const iso_chaos_orbit *o = i == 0 ? &c->own : &c->start[i - 1];
         if (i > 0 && !iso_chaos_followed(o)) continue;
         fprintf(to, "%zu,%.17g,%.17g,%s", i, o->l, o->x, iso_verdict_name(o->verdict));
@@ -266,8 +294,9 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
     else if (!o->csv || strcmp(o->csv, "-") != 0)
         print_table(scene, c);
     if (csv) {
-        write_csv(c, iso_output_stream(csv));
-        result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
+        const iso_status status = begin_csv(ctx, o, scene, c, csv);
+        if (status == ISO_OK) write_rows(c, iso_output_stream(csv));
+        result = worse(result, finish(ctx, table_end(ctx, csv, status)));
     }
     if (o->plot && c->plane >= 0 && c->share.count == 0)
         complain("no picture: a rotation in a principal plane is periodic, and was not followed");
@@ -317,6 +346,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = prepare(ctx, o, &scene, &how, &csv);
     if (status != ISO_OK) return finish(ctx, status);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     status = iso_chaos_run(ctx, &scene, &how, &c);
     iso_context_set_monitor(ctx, NULL, NULL);
@@ -365,6 +395,7 @@ const command command_chaos = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
         "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0; where none "

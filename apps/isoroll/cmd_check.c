@@ -143,7 +143,9 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = iso_trajectory_reader_open(ctx, o->from.file, o->from.columns, &in);
     if (status == ISO_OK) {
         iso_trajectory_pass_nan(in);
+        progress_begin();
         status = check_rows(ctx, o, in, &f);
+        progress_end();
     }
     iso_trajectory_reader_close(in);
     if (status != ISO_OK && status != ISO_BAD_ARGUMENT && status != ISO_FILE_TROUBLE)
@@ -173,6 +175,7 @@ const command command_check = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
+    .takes = FILE_ROWS,
     .description =
         "Prints residuals: of constraints, of integrals, of every column, and of the # lines that state an "
         "energy or how the ball began. Residuals are relative. The residual 'flow' integrates each row to "

@@ -273,6 +273,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = scene_with_options(ctx, &o->scene, &scene);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_compare(ctx, &scene, show, NULL, &c);
     iso_context_set_monitor(ctx, NULL, NULL);
@@ -319,6 +320,7 @@ const command command_compare = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "The backends are ball, point and, where there is a closed solution, exact. The table shows states, "
         "clocks and integrals by each of them. Differences of states are relative to the size of the "

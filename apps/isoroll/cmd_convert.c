@@ -9,7 +9,7 @@
 typedef struct options {
     file_options from;
     const char *output;
-    iso_model_kind to;               /* -1: not given  */
+    iso_model_kind to;            /* -1: not given  */
     double tolerance, max_defect; /* NAN: not given */
     int digits;
     bool shift_J, strict, quiet;
@@ -186,6 +186,7 @@ static iso_status open_filter(filter *f, iso_params *params)
     if (iso_trajectory_ignored(f->in) && !o->quiet)
         complain("%s: passed over: %s", f->name, iso_trajectory_ignored(f->in));
     stop_gently();
+    progress_begin_rows(o->output);
     status = iso_trajectory_open(f->ctx, o->output, &f->out);
     if (status == ISO_OK) iso_trajectory_set_digits(f->out, o->digits);
     return status;
@@ -242,6 +243,7 @@ const command command_convert = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
+    .takes = FILE_ROWS,
     .description =
         "A filter: row by row, in constant memory. It reads files of other programs, too. k, J and h or eps come "
         "from "

@@ -162,10 +162,7 @@ static int report(iso_context *ctx, const options *o, cost_report *r, iso_output
     if (o->horizons > 0 && r->cost->complete) grow(ctx, o, line, r);
     progress_end();
     int result = print_report(o, line, r);
-    if (csv) {
-        cost_write_csv(r, iso_output_stream(csv));
-        result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
-    }
+    if (csv) result = worse(result, finish(ctx, cost_write_csv(ctx, r, csv)));
     if (o->plot && cost_count(r->cost, iso_cost_is_measured) > 0)
         result = worse(result, finish(ctx, draw(ctx, o, line, r)));
     else if (o->plot)
@@ -199,6 +196,7 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = prepare(ctx, o, &scene, &csv);
     const iso_cost_options how = options_of(o);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_cost_measure(ctx, &scene, &how, &cost);
     int result = finish_scene(ctx, &o->scene, &scene, status);
@@ -256,6 +254,7 @@ const command command_cost = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "All backends, methods and tolerances are measured. --backend, --method or --tol restrict the measurement to "
         "one; the scene's own backend, method and tolerance are not read.\n\n"

@@ -253,6 +253,7 @@ const command command_explain = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE | FILE_SWEEP,
     .description =
         "Tells the ball's parameters, the effects that act, whether the orbit has a twin, which Poincare section is "
         "global, whether there is a closed solution, the backend and the method, which integrals hold, and the "

@@ -88,8 +88,7 @@ static void print_angles(const iso_frequencies *f)
 
 static void print_resonances(const iso_frequencies *f)
 {
-    if (!isnan(f->rotation))
-        printf("\nrotation number, frequency 1 / frequency 2: %.15g\n", f->rotation);
+    if (!isnan(f->rotation)) printf("\nrotation number, frequency 1 / frequency 2: %.15g\n", f->rotation);
     if (f->resonances > 0)
         printf("near resonances: p times frequency 1 is almost q times frequency 2\n"
                "    p:q    relative gap  p angle 1 - q angle 2 makes one turn in\n");
@@ -278,8 +277,10 @@ static int run(iso_context *ctx, const void *options_given)
     iso_scene_forget_place(&scene, "end"); /* --t-end says it, not the scene */
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_frequencies_find(ctx, &scene, &how, &f);
+    progress_end();
     int result = finish_scene(ctx, &o->scene, &scene, status);
     if (status == ISO_OK) {
         if (!o->json)
@@ -315,6 +316,7 @@ const command command_frequencies = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "Where there is a closed solution (k = 1, k = -1, equal moments, principal planes) the numbers are exact. "
         "Elsewhere they are estimated from an orbit in the ball's time t, by Laskar's frequency analysis. --turns, "

@@ -174,6 +174,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (status != ISO_OK) return finish(ctx, status);
     const iso_integral_search_options how = options_of(o);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     status = iso_integral_search_run(ctx, &scene, &how, &r);
     iso_context_set_monitor(ctx, NULL, NULL);
@@ -220,6 +221,7 @@ const command command_integrals = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "Looks for functions of the point's state that are constant along orbits: polynomials in M of degree D or "
         "less, with coefficients that are polynomials in gamma of degree E or less. Of the scene it reads k, J and "

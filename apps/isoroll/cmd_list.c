@@ -1,6 +1,7 @@
 /* isoroll list - prints what there is: systems, backends, effects, methods and so on. */
 #include <string.h>
 
+#include "base/nearest.h"
 #include "command.h"
 
 /* What list can be told. */
@@ -122,6 +123,11 @@ static const struct {
 };
 enum { TOPICS = sizeof topics / sizeof *topics };
 
+static const char *topic_word(int i)
+{
+    return i < TOPICS ? topics[i].name : NULL;
+}
+
 static int run(iso_context *ctx, const void *options_given)
 {
     const options *o = options_given;
@@ -134,13 +140,9 @@ static int run(iso_context *ctx, const void *options_given)
         topics[i].list();
     }
     if (listed) return EXIT_DONE;
-    complain("list: nothing is called '%s'; 'isoroll list' shows all topics", o->topic);
+    char suggested[ISO_SUGGEST_SIZE];
+    complain("list: nothing is called '%s'; %s", o->topic, iso_suggest_word(suggested, o->topic, topic_word));
     return EXIT_USAGE;
-}
-
-static const char *topic_word(int i)
-{
-    return i < TOPICS ? topics[i].name : NULL;
 }
 
 static const options defaults = {.topic = "-"};

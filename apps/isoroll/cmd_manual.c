@@ -1,6 +1,7 @@
 /* isoroll manual - prints the man pages and the completions for shells; the build installs what it prints. */
 #include <string.h>
 
+#include "base/nearest.h"
 #include "io/output.h"
 #include "manual.h"
 
@@ -36,7 +37,8 @@ static int run(iso_context *ctx, const void *options_given)
     int i = 0;
     while (page_word(i) && strcmp(name, page_word(i)) != 0) i++;
     if (!page_word(i)) {
-        complain("manual: no page is called '%s': expected isoroll, the name of a command, bash or zsh", name);
+        char suggested[ISO_SUGGEST_SIZE];
+        complain("manual: no page is called '%s'; %s", name, iso_suggest_word(suggested, name, page_word));
         return EXIT_USAGE;
     }
     const iso_status status = iso_output_open(ctx, o->output, &output);

@@ -51,10 +51,7 @@ static int report(iso_context *ctx, const options *o, const periodic_report *r, 
         result = periodic_print_json(r) ? result : EXIT_NUMERICAL;
     else if (!o->output || strcmp(o->output, "-") != 0)
         periodic_print(r);
-    if (csv) {
-        periodic_write_csv(r, iso_output_stream(csv));
-        result = worse(result, finish(ctx, iso_output_close(ctx, csv, true)));
-    }
+    if (csv) result = worse(result, finish(ctx, periodic_write_csv(ctx, r, csv)));
     if (o->plot && r->found->count == 0)
         complain("no picture: there is no orbit"), result = worse(result, EXIT_SOME_FAILED);
     else if (o->plot)
@@ -73,6 +70,7 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     how.threads = as_int(o->threads);
     how.progress = progress_told;
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     const iso_status status = iso_periodic_run(ctx, scene, &how, &found);
     progress_end();
@@ -173,6 +171,7 @@ const command command_periodic = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found in "
         "two ways, stable between -2 and 2. Then it searches for all symmetric periodic orbits of at most P returns "

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "io/plot.h"
 #include "parameters.h"
 #include "study/check.h"
@@ -138,11 +139,14 @@ static iso_status read_two(iso_context *ctx, const options *o, iso_record **file
 
 static iso_status find_column(iso_context *ctx, const iso_record *r, const char *name)
 {
-    char there[400] = "";
+    char suggested[ISO_SUGGEST_SIZE];
+    const char *names[ISO_TRAJECTORY_COLUMNS];
+    size_t count = 0;
     if (iso_record_find(r, name) >= 0) return ISO_OK;
-    for (size_t c = 0, used = 0; c < iso_record_columns(r) && used < sizeof there - NAME; c++)
-        used += (size_t)snprintf(there + used, sizeof there - used, " %s", iso_record_name(r, c));
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "there is no column '%s'; there are%s", name, there);
+    for (; count < iso_record_columns(r) && count < ISO_TRAJECTORY_COLUMNS; count++)
+        names[count] = iso_record_name(r, count);
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "columns", "there is no column '%s'; %s", name,
+                            iso_suggest(suggested, name, count, names));
 }
 
 /* Whether x and y are components of one vector: one unit is then equally long on both axes. */
@@ -191,6 +195,7 @@ static int run(iso_context *ctx, const void *options_given)
     if (strcmp(o->output, "-") == 0)
         return complain("plot: -o FILE is missing: name a file that ends in .svg, .png or .pdf"), EXIT_USAGE;
     iso_status status = iso_plot_check_format(ctx, o->output);
+    progress_begin();
     const bool sweep = status == ISO_OK && is_sweep_result(o->from.file);
     if (sweep && o->from.columns)
         return complain("plot: --columns is for trajectories; of a sweep give --value NAME"), EXIT_USAGE;
@@ -222,6 +227,7 @@ const command command_plot = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
+    .takes = FILE_ROWS | FILE_RESULT | FILE_TABLE,
     .description = "-o FILE is needed; its ending chooses the format. The path and the clock of the other model are "
                    "computed, where the orbit has a twin. If the file has the columns of the effect attitude, the "
                    "picture also shows the path of the ball from above and from the side; if it has those of "

@@ -27,6 +27,7 @@ static iso_status open_file(void *data, const iso_record *header)
     target *t = data;
     t->opened = true;
     stop_gently();
+    progress_begin_rows(t->o->output);
     const iso_status status = iso_trajectory_open(t->ctx, t->o->output, &t->writer);
     return status == ISO_OK ? iso_trajectory_write_header(t->ctx, t->writer, header) : status;
 }
@@ -180,6 +181,7 @@ const command command_run = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "The times of --t-end, --step and --times are those of the scene's model: t of a ball, s of a point. With "
         "a backend by name, a row does not depend on the other times. Backend exact is an exception: with --step the "

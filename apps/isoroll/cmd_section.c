@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "base/number.h"
 #include "io/plot.h"
 #include "scene_options.h"
@@ -67,7 +68,7 @@ static iso_status read_points(iso_context *ctx, const char *text, double (**list
 /* COLUMN=VALUE */
 static iso_status read_event(iso_context *ctx, const char *text, iso_section_options *how)
 {
-    char name[ISO_NAME_SIZE] = "";
+    char name[ISO_NAME_SIZE] = "", suggested[ISO_SUGGEST_SIZE];
     const size_t length = text ? strcspn(text, "=") : 0;
     if (!text) return ISO_OK;
     if (length < sizeof name) memcpy(name, text, length);
@@ -76,11 +77,10 @@ static iso_status read_event(iso_context *ctx, const char *text, iso_section_opt
                                 text);
     how->column = iso_column_find(name);
     if (how->column >= ISO_CLOCKS) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                            how->column < 0 ? "--event: there is no column '%s'; section 4 of the file formats lists "
-                                              "them, such as omega1, n3, gamma2"
-                                            : "--event: the clock '%s' passes each value only once",
-                            name);
+    if (how->column >= 0)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--event: the clock '%s' passes each value only once", name);
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--event: there is no column '%s'; %s", name,
+                            iso_suggest_word(suggested, name, iso_column_name));
 }
 
 /* --cloud writes no rows and draws no picture. Refuses options that ask for them. */
@@ -245,6 +245,7 @@ static int run_scene(iso_context *ctx, const options *o, const iso_scene *scene,
     iso_section_result r;
     if (o->plot) t.picture = section_picture_create(scene);
     stop_gently();
+    progress_begin_rows(o->output);
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     const iso_status status = o->plot && !t.picture
                                   ? iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a picture")
@@ -315,6 +316,7 @@ const command command_section = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "Follows orbits and writes a row for each crossing of the section n_A = 0, n_A increasing. The section is "
         "the same for ball and point. A row has the number of the orbit, the number of the crossing (from 1), t, "

@@ -131,7 +131,7 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
                   iso_output *csv)
 {
     int result = judge(ctx, s);
-    const splitting_report r = {scene->params.J, s};
+    const splitting_report r = {scene, scene->params.J, s};
     const bool some = splitting_has_rows(&r);
     if (some && o->json)
         result = splitting_print_json(&r) ? result : EXIT_NUMERICAL;
@@ -139,8 +139,8 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
         splitting_print(&r);
     if (s->lost > 0) complain("%zu zeros of m lie between these values of k, but were not found", s->lost);
     if (csv) {
-        if (some) splitting_write_csv(&r, iso_output_stream(csv));
-        result = worse(result, finish(ctx, iso_output_close(ctx, csv, some)));
+        const iso_status status = some ? splitting_write_csv(ctx, &r, csv) : iso_output_close(ctx, csv, false);
+        result = worse(result, finish(ctx, status));
     }
     if (some && o->plot && !interrupted()) result = worse(result, finish(ctx, splitting_draw(ctx, &r, o->plot)));
     return result;
@@ -166,6 +166,7 @@ static int work(iso_context *ctx, const options *o, const iso_scene *scene, cons
     how.threads = as_int(o->threads);
     how.progress = progress_told;
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     const iso_status status = iso_splitting_run(ctx, &how, &s);
     iso_context_set_monitor(ctx, NULL, NULL);
@@ -219,6 +220,7 @@ const command command_splitting = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, scene.file),
+    .takes = FILE_SCENE,
     .description =
         "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, it "
         "is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come from "

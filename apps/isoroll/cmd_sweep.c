@@ -95,23 +95,11 @@ static iso_status read_share(iso_context *ctx, const char *text, iso_sweep_share
 typedef struct work {
     iso_sweep_journal *journal;
     size_t next, chunks; /* the chunk to look at next; all */
-    size_t before;       /* chunks that were there at the beginning */
-    double begun;
 } work;
 
 static void show(const work *w)
 {
-    const double done = (double)iso_sweep_journal_done(w->journal),
-                 all = (double)iso_sweep_journal_wanted(w->journal);
-    const double fresh = done - (double)w->before, left = (wall_seconds() - w->begun) * (all - done) / fresh;
-    char words[32] = "";
-    if (fresh > 0 && left < 120)
-        snprintf(words, sizeof words, "%.0f s left", left);
-    else if (fresh > 0 && left < 7200)
-        snprintf(words, sizeof words, "%.0f min left", left / 60);
-    else if (fresh > 0)
-        snprintf(words, sizeof words, "%.1f h left", left / 3600);
-    progress_with(done / all, words);
+    progress_show((double)iso_sweep_journal_done(w->journal) / (double)iso_sweep_journal_wanted(w->journal));
 }
 
 static bool next_chunk(void *data, size_t *c)
@@ -161,10 +149,11 @@ static int compute(iso_context *ctx, const options *o, const sweep_team *team, c
 {
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     char of[32];
-    work w = {.journal = journal, .chunks = iso_sweep_chunks(head), .begun = wall_seconds()};
+    work w = {.journal = journal, .chunks = iso_sweep_chunks(head)};
     const iso_sweep_source source = {next_chunk, take_chunk, &w};
-    w.before = iso_sweep_journal_done(journal);
     stop_before_limit();
+    progress_begin();
+    show(&w);
     iso_status status = team->run(team->data, ctx, sweep, threads_of(o), &source);
     progress_end();
     if (status != ISO_OK) return finish(ctx, status);
@@ -323,6 +312,7 @@ const command command_sweep = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, file),
+    .takes = FILE_SWEEP | FILE_RESULT | FILE_HDF5,
     .files = offsetof(options, parts),
     .description =
         "A sweep is a file in YAML: a scene, the numbers in it that vary, and what is measured at each point "

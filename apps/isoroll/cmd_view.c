@@ -18,7 +18,7 @@ typedef struct options {
 
 /* --- which kind of file ----------------------------------------------------------------------------------------- */
 
-typedef enum file_kind { SCENE, TRAJECTORY, SECTION } file_kind;
+typedef enum view_kind { SCENE, TRAJECTORY, SECTION } view_kind;
 
 /* Copies standard input to a temporary file and reads that instead: so its first bytes can be read twice. */
 static iso_status make_seekable(iso_context *ctx)
@@ -37,20 +37,9 @@ static iso_status make_seekable(iso_context *ctx)
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '<stdin>': %s", strerror(error));
 }
 
-/* The first bytes of the file; "" if it cannot be read: the reader of the file will say so. */
-static void read_beginning(const char *path, char *text, size_t size)
-{
-    const bool standard = strcmp(path, "-") == 0;
-    const bool regular = standard || is_regular(path);
-    const int file = standard ? STDIN_FILENO : regular ? open(path, O_RDONLY | O_CLOEXEC) : -1;
-    const ssize_t got = file >= 0 ? pread(file, text, size - 1, 0) : 0;
-    text[got > 0 ? got : 0] = '\0';
-    if (file >= 0 && !standard) close(file);
-}
-
 /* isoroll's own files say in their first line what they are. Of other files the ending says it, or an option that is
  * only for trajectories. */
-static file_kind kind_of(const file_options *from)
+static view_kind kind_of(const file_options *from)
 {
     static const char *const endings[] = {".h5", ".csv", ".txt", ".dat", ".tsv"};
     char text[64];
@@ -95,13 +84,14 @@ static iso_status of_scene(iso_context *ctx, const options *o, view_page *page)
     return blame_pipe(ctx, o->from.file, iso_scene_blame(ctx, &scene, name, status));
 }
 
-static iso_status make(iso_context *ctx, const options *o, file_kind kind, view_page *page)
+static iso_status make(iso_context *ctx, const options *o, view_kind kind, view_page *page)
 {
     iso_status status = kind == SECTION      ? view_of_section(ctx, &o->from, page)
                         : kind == TRAJECTORY ? view_of_trajectory(ctx, &o->from, page)
                                              : of_scene(ctx, o, page);
     if (status == ISO_OK && page->rows) view_note_turn(page);
     if (status == ISO_OK && page->rows) status = view_numbers(ctx, page);
+    if (o->output && strcmp(o->output, "-") == 0) progress_end();
     if (status == ISO_OK && o->output) status = view_write(ctx, o->output, page);
     if (status == ISO_OK && o->frames.folder) status = view_write_frames(ctx, &o->frames, page);
     return status;
@@ -118,9 +108,10 @@ static int run(iso_context *ctx, const void *options_given)
     iso_status status = view_check_build(ctx);
     if (status == ISO_OK && standard) status = make_seekable(ctx);
     if (status != ISO_OK) return finish(ctx, status);
-    const file_kind kind = kind_of(&o->from);
+    const view_kind kind = kind_of(&o->from);
     view_page page = view_page_empty(standard ? "<stdin>" : short_name(o->from.file), names[kind]);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     status = make(ctx, o, kind, &page);
     iso_context_set_monitor(ctx, NULL, NULL);
@@ -153,6 +144,7 @@ const command command_view = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
+    .takes = FILE_SCENE | FILE_ROWS,
     .description =
         "FILE is a scene, or a trajectory or section (CSV or HDF5). The page is one file. It opens from disk in "
         "any browser with WebGL, and needs no network.\n\n"

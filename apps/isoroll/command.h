@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "file_kind.h"
 #include "options.h"
 #include "progress.h"
 #include "report.h"
@@ -16,6 +17,7 @@ typedef struct command {
     const void *defaults;       /* a value of its struct of options                                     */
     size_t size;                /* of that struct                                                       */
     size_t file;                /* offset of the argument in it, a const char *                         */
+    unsigned takes;             /* kinds of file that the argument can be (file_kind.h); 0: not looked at */
     size_t files;               /* offset of a file_list in it, for further arguments; 0: there are none */
     const char *(*word)(int i); /* the words that the argument can be; NULL: it is a file           */
     const char *description;    /* paragraphs with an empty line between; lines are folded          */
@@ -30,6 +32,9 @@ extern const command *const commands[];
 
 /* NULL: there is none of that name. */
 const command *command_find(const char *name);
+
+/* The name of the i-th command; NULL past the last. */
+const char *command_word(int i);
 
 /* What the program is for, and its exit statuses, in words. */
 extern const char *const about_isoroll;

@@ -38,6 +38,11 @@ const char *const about_exits = "0: done\n"
                                 "4: numerical failure, or no memory\n"
                                 "5: trouble with a file";
 
+const char *command_word(int i)
+{
+    return commands[i] ? commands[i]->name : NULL;
+}
+
 const command *command_find(const char *name)
 {
     for (int i = 0; commands[i]; i++)

@@ -5,6 +5,7 @@
 #include "base/number.h"
 #include "cost_report.h"
 #include "json.h"
+#include "table.h"
 
 /* --- CSV -------------------------------------------------------------------------------------------------------- */
 
@@ -38,17 +39,20 @@ static void put_cell(FILE *to, const iso_cost_cell *c)
     put_quoted(to, c->why);
 }
 
-void cost_write_csv(const cost_report *r, FILE *to)
+iso_status cost_write_csv(iso_context *ctx, const cost_report *r, iso_output *to)
 {
     const iso_cost *c = r->cost;
-    fprintf(to,
-            "# isoroll cost 1\n# end: %.17g\n# reference: %s\n# second reference: %s\n# uncertainty: %.17g\n"
-            "# isoroll: %s\n",
-            c->end, c->reference, c->second, c->uncertainty, iso_version());
-    fputs("backend,method,tolerance,error,clock_error,energy_drift,constraint_drift,setup,fastest,median,slowest,"
-          "total,repeats,steps,rejected,rhs,jacobians,states,below,pareto,failure\n",
-          to);
-    for (int i = 0; i < c->cells; i++) put_cell(to, &c->cell[i]);
+    const table_line lines[] = {{.key = "end", .number = c->end},
+                                {.key = "reference", .text = c->reference},
+                                {.key = "second reference", .text = c->second},
+                                {.key = "uncertainty", .number = c->uncertainty},
+                                {.key = NULL}};
+    const iso_status status = table_begin(
+        ctx, to, "cost", r->scene, lines,
+        "backend,method,tolerance,error,clock_error,energy_drift,constraint_drift,setup,fastest,median,slowest,"
+        "total,repeats,steps,rejected,rhs,jacobians,states,below,pareto,failure");
+    for (int i = 0; status == ISO_OK && i < c->cells; i++) put_cell(iso_output_stream(to), &c->cell[i]);
+    return table_end(ctx, to, status);
 }
 
 /* --- JSON ------------------------------------------------------------------------------------------------------- */

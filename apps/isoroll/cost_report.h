@@ -4,6 +4,7 @@
 #ifndef ISOROLL_COST_REPORT_H
 #define ISOROLL_COST_REPORT_H
 
+#include "io/output.h"
 #include "scene_options.h"
 #include "study/cost.h"
 
@@ -51,6 +52,6 @@ void cost_print(const cost_report *r, const iso_cost_line *const line[]);
 bool cost_print_json(const cost_report *r);
 
 /* Writes the cells as CSV. */
-void cost_write_csv(const cost_report *r, FILE *to);
+iso_status cost_write_csv(iso_context *ctx, const cost_report *r, iso_output *to);
 
 #endif

@@ -60,7 +60,7 @@ void help_program(FILE *to)
     fputs("\nusage: isoroll COMMAND [options] [SCENE or FILE]      - is standard input or output\n\n", to);
     for (int i = 0; commands[i]; i++)
         fprintf(to, "  %-11s %-9s %s\n", commands[i]->name, commands[i]->argument, commands[i]->doc);
-    fputs("\n  isoroll COMMAND --help     the options of a command\n"
+    fputs("\n  isoroll help COMMAND       the options of a command, as isoroll COMMAND --help\n"
           "  isoroll --version          the versions of isoroll and its libraries\n\nexit status\n",
           to);
     print_indented(about_exits, to);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/nearest.h"
 #include "base/number.h"
 #include "command.h"
 
@@ -103,8 +104,7 @@ bool set_target(void *at, const char *text)
 
 bool set_method(void *at, const char *text)
 {
-    if (strcmp(text, "auto") != 0 && !iso_method_find(text)) return false;
-    return set_text(at, text);
+    return (strcmp(text, "auto") == 0 || iso_method_find(text)) && set_text(at, text);
 }
 
 bool set_digits(void *at, const char *text)
@@ -116,12 +116,6 @@ bool set_digits(void *at, const char *text)
 }
 
 /* --- words ------------------------------------------------------------------------------------------------------ */
-
-const char *method_word(int i)
-{
-    if (i == 0) return "auto";
-    return iso_methods[i - 1] ? iso_methods[i - 1]->name : NULL;
-}
 
 const char *backend_word(int i)
 {
@@ -141,6 +135,47 @@ const char *target_word(int i)
     return words[i];
 }
 
+/* --- the command line ------------------------------------------------------------------------------------------- */
+
+/* What is longer ends in " ...". */
+static char command_line[4096];
+
+const char *options_command(void)
+{
+    return command_line;
+}
+
+static void add(const char *text)
+{
+    static const char dots[] = " ...";
+    const size_t used = strlen(command_line), room = sizeof command_line - sizeof dots - used;
+    if (used + sizeof dots >= sizeof command_line) return;
+    snprintf(command_line + used, room, "%s", text);
+    if (strlen(text) >= room) strcpy(command_line + strlen(command_line), dots);
+}
+
+/* One word as a shell reads it. Control characters, which a line has no place for, become question marks. */
+static void add_word(const char *before, const char *word)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:=,+-@%";
+    const bool quoted = !*word || word[strspn(word, plain)];
+    add(before);
+    add(quoted ? "'" : "");
+    for (const char *c = word; *c; c++) {
+        const char letter[] = {(unsigned char)*c < ' ' || *c == 0x7f ? '?' : *c, '\0'};
+        add(*c == '\'' ? "'\\''" : letter);
+    }
+    add(quoted ? "'" : "");
+}
+
+static void add_option(const option_row *r, const char *text)
+{
+    if (r->aside || r->file == OPTION_WRITES) return;
+    add(" --");
+    add(r->name);
+    if (text) add_word(r->argument[0] == '[' ? "=" : " ", text);
+}
+
 /* --- reading ---------------------------------------------------------------------------------------------------- */
 
 enum { MOST_ROWS = 32, LONG = 256 /* above all letters */ };
@@ -157,7 +192,9 @@ const option_row *options_row(const command *c, int i)
 static bool set_option(const command *c, const option_row *r, const char *text, char *options)
 {
     if (r->set(options + r->offset, text)) return true;
-    complain("%s: --%s '%s': expected %s", c->name, r->name, text, r->expected);
+    const char *near = iso_nearest_word(text, r->word);
+    complain("%s: --%s '%s': expected %s%s%s%s", c->name, r->name, text, r->expected, near ? "; did you mean '" : "",
+             near ? near : "", near ? "'?" : "");
     return false;
 }
 
@@ -167,11 +204,41 @@ static options_result wrong(const command *c, const char *what, const char *whic
     return OPTIONS_WRONG;
 }
 
+/* Into `list`, the options that begin with `name`. Gives how many there are. */
+static int begin_with(const command *c, const char *name, size_t length, char list[200])
+{
+    int count = 0;
+    *list = '\0';
+    for (int i = 0; options_row(c, i); i++) {
+        const char *one = options_row(c, i)->name;
+        if (strncmp(one, name, length) != 0 || strlen(list) + strlen(one) + 8 > 200) continue;
+        snprintf(list + strlen(list), 200 - strlen(list), "%s--%s", count++ > 0 ? ", " : "", one);
+    }
+    return count;
+}
+
+/* A long option that is not known, fits more than one, or has an argument that it does not take. */
+static options_result wrong_long(const command *c, const char *text)
+{
+    const char *names[MOST_ROWS], *name = text + strspn(text, "-");
+    const size_t length = strcspn(name, "=");
+    size_t count = 0;
+    char list[200], bare[64];
+    const int fit = begin_with(c, name, length, list);
+    if (fit > 1) return complain("%s: ambiguous option %s: it fits %s", c->name, text, list), OPTIONS_WRONG;
+    if (fit == 1) return complain("%s: %s: the option %s takes no argument", c->name, text, list), OPTIONS_WRONG;
+    for (int i = 0; options_row(c, i) && count < MOST_ROWS; i++) names[count++] = options_row(c, i)->name;
+    snprintf(bare, sizeof bare, "%.*s", (int)(length < sizeof bare ? length : 0), name);
+    const char *near = iso_nearest(bare, count, names);
+    if (!near) return wrong(c, "unknown option ", text);
+    return complain("%s: unknown option %s; did you mean '--%s'?", c->name, text, near), OPTIONS_WRONG;
+}
+
 /* What getopt_long did not know: a letter, which it tells, or a long option. */
 static options_result unknown(const command *c, char **argv)
 {
     const char letter[] = {'-', (char)optopt, '\0'};
-    return wrong(c, "unknown or ambiguous option ", optopt > 0 && optopt < LONG ? letter : argv[optind - 1]);
+    return optopt > 0 && optopt < LONG ? wrong(c, "unknown option ", letter) : wrong_long(c, argv[optind - 1]);
 }
 
 /* The row of what getopt_long found: LONG + its index, or its letter. */
@@ -282,6 +349,9 @@ options_result options_read(const command *c, int argc, char **argv, void *optio
     bool help = false;
     make_known(c, known, letters);
     opterr = 0;
+    *command_line = '\0';
+    add("isoroll ");
+    add(c->name);
     for (int found; (found = getopt_long(argc, argv, letters, known, NULL)) != -1;) {
         if (found == ':') return wrong(c, "an argument is missing after ", argv[optind - 1]);
         if (found == '?') return unknown(c, argv);
@@ -290,7 +360,9 @@ options_result options_read(const command *c, int argc, char **argv, void *optio
             help = true;
         else if (!set_option(c, r, optarg, options))
             return OPTIONS_WRONG;
+        add_option(r, optarg);
     }
+    for (int i = optind; i < argc; i++) add_word(strncmp(argv[i], "-", 1) == 0 && argv[i][1] ? " ./" : " ", argv[i]);
     const options_result result = set_file(c, argc, argv, help, options);
     return result == OPTIONS_DONE ? keep_files_apart(c, options) : result;
 }

@@ -28,6 +28,7 @@ typedef struct option_row {
     char letter;                             /* of the short form, 'o' for -o; 0: none */
     option_file file;
     const char *(*word)(int i); /* the i-th word that the argument can be, NULL after the last; NULL: no such list */
+    bool aside;                 /* changes no number of a table; so does a row whose file is written         */
 } option_row;
 
 typedef enum options_result { OPTIONS_WRONG, OPTIONS_HELP, OPTIONS_DONE } options_result;
@@ -41,6 +42,10 @@ typedef struct file_list {
 /* Reads the arguments of a command into its struct, which already holds the defaults. OPTIONS_WRONG: a message has
  * been given. */
 options_result options_read(const struct command *c, int argc, char **argv, void *options);
+
+/* The command that was read last, as one line: its name, its options and its arguments, quoted where a shell needs
+ * it. Without the options that change no number of a table: bytes of tables do not depend on them. */
+const char *options_command(void);
 
 /* The rows of a command, and after them --help; NULL after the last. */
 const option_row *options_row(const struct command *c, int i);
@@ -71,7 +76,6 @@ bool is_regular(const char *path);
 bool ends_with(const char *path, const char *ending);
 
 /* Lists of words. */
-const char *method_word(int i);
 const char *backend_word(int i);
 const char *as_word(int i);
 const char *target_word(int i);
@@ -114,7 +118,7 @@ const char *target_word(int i);
     {                                                                                                                \
         .name = "threads", .argument = "N", .expected = "a whole number from 1 on",                                  \
         .doc = "threads that work (default: one for each processor)", .set = set_count,                              \
-        .offset = offsetof(type, field), .letter = 'j'                                                               \
+        .offset = offsetof(type, field), .letter = 'j', .aside = true                                                \
     }
 #define ROW_MODELS(type, field)                                                                                      \
     ROW_OF_WORDS("model", "M", "ball, point or both",                                                                \
@@ -123,6 +127,10 @@ const char *target_word(int i);
 #define ROW_SEED(type, field)                                                                                        \
     ROW("seed", "N", "a whole number from 0 on", "another number spreads --starts in another way (default 0)",       \
         set_whole, type, field)
-#define ROW_JSON(type, field) ROW("json", NULL, NULL, "print everything as JSON", set_flag, type, field)
+#define ROW_JSON(type, field)                                                                                        \
+    {                                                                                                                \
+        .name = "json", .doc = "print everything as JSON", .set = set_flag, .offset = offsetof(type, field),         \
+        .aside = true                                                                                                \
+    }
 
 #endif

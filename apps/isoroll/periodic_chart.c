@@ -13,6 +13,7 @@
 #include "report.h"
 #include "scene_options.h"
 #include "study/stability_chart.h"
+#include "table.h"
 
 bool read_range(const char *text, double range[2])
 {
@@ -46,9 +47,8 @@ static iso_status read_words(iso_context *ctx, const iso_scene *scene, const per
     return ISO_OK;
 }
 
-static void write_rows(const iso_stability_options *o, const iso_record *grid, const iso_record *borders, FILE *to)
+static void write_rows(const iso_record *grid, const iso_record *borders, FILE *to)
 {
-    fprintf(to, "# isoroll periodic chart 1\nkind,k,J%d,least,greatest\n", o->moment + 1);
     for (size_t i = 0; i < iso_record_rows(grid); i++) {
         const double *row = iso_record_const_row(grid, i);
         fprintf(to, "grid,%.17g,%.17g,%.17g,%.17g\n", row[0], row[1], row[2], row[3]);
@@ -105,14 +105,16 @@ static void print_table(const iso_stability_options *o, const iso_record *grid, 
     printf("%zu points of the borders T = 2 and T = -2: see -o, --json and --plot\n", iso_record_rows(borders));
 }
 
-static iso_status write_all(iso_context *ctx, const periodic_chart *c, const iso_stability_options *o,
-                            const iso_record *grid, const iso_record *borders)
+static iso_status write_all(iso_context *ctx, const iso_scene *scene, const periodic_chart *c,
+                            const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
 {
-    char title[160], moment[3] = {'J', (char)('1' + o->moment), 0};
+    char title[160], columns[64], moment[3] = {'J', (char)('1' + o->moment), 0};
     iso_status status = ISO_OK;
     if (c->rows) {
-        write_rows(o, grid, borders, iso_output_stream(c->rows));
-        status = iso_output_close(ctx, c->rows, true);
+        snprintf(columns, sizeof columns, "kind,k,J%d,least,greatest", o->moment + 1);
+        status = table_begin(ctx, c->rows, "periodic chart", scene, NULL, columns);
+        if (status == ISO_OK) write_rows(grid, borders, iso_output_stream(c->rows));
+        status = table_end(ctx, c->rows, status);
     }
     const int a = (o->moment + 1) % 3, b = (o->moment + 2) % 3;
     snprintf(title, sizeof title, "J%d = %.6g, J%d = %.6g", a + 1, o->J[a], b + 1, o->J[b]);
@@ -125,6 +127,7 @@ int draw_chart(iso_context *ctx, const iso_scene *scene, const periodic_chart *c
     iso_record *grid = NULL, *borders = NULL;
     iso_status status = read_words(ctx, scene, c, &o);
     stop_gently();
+    progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
     if (status == ISO_OK) status = iso_stability_chart(ctx, &o, &grid, &borders);
     progress_end();
@@ -134,7 +137,7 @@ int draw_chart(iso_context *ctx, const iso_scene *scene, const periodic_chart *c
     if (status == ISO_OK && c->json && !print_json(&o, grid, borders)) status = ISO_NO_MEMORY;
     if (status == ISO_OK && !c->json && !c->alone) print_table(&o, grid, borders);
     if (status == ISO_OK)
-        status = write_all(ctx, c, &o, grid, borders);
+        status = write_all(ctx, scene, c, &o, grid, borders);
     else if (c->rows)
         iso_output_close(ctx, c->rows, false);
     iso_record_free(grid);

@@ -13,6 +13,7 @@
 #include "progress.h"
 #include "report.h"
 #include "study/periodic_follow.h"
+#include "table.h"
 
 static iso_status read_words(iso_context *ctx, const char *given, iso_follow_options *o)
 {
@@ -58,9 +59,8 @@ static void print_branch(const iso_follow *f, size_t i, const char *name)
                b->event[j].at.trace, b->event[j].words);
 }
 
-static void write_rows(const iso_follow *f, const char *name, FILE *to)
+static void write_rows(const iso_follow *f, FILE *to)
 {
-    fprintf(to, "# isoroll periodic follow 1\nbranch,line,period,%s,l,x,trace,event\n", name);
     for (size_t i = 0; i < f->count; i++) {
         const iso_branch *b = &f->branch[i];
         for (size_t j = 0; j < b->points; j++)
@@ -141,8 +141,11 @@ static int show(iso_context *ctx, const iso_scene *scene, const iso_follow *f, c
     if (!how->json && !how->alone)
         for (size_t i = 0; i < f->count; i++) print_branch(f, i, name);
     if (how->rows) {
-        write_rows(f, name, iso_output_stream(how->rows));
-        status = iso_output_close(ctx, how->rows, true);
+        char columns[80];
+        snprintf(columns, sizeof columns, "branch,line,period,%s,l,x,trace,event", name);
+        status = table_begin(ctx, how->rows, "periodic follow", scene, NULL, columns);
+        if (status == ISO_OK) write_rows(f, iso_output_stream(how->rows));
+        status = table_end(ctx, how->rows, status);
     }
     if (status == ISO_OK && how->plot && f->count > 0) status = draw(ctx, scene, f, name, how->plot);
     const int result = printed ? finish(ctx, status) : EXIT_NUMERICAL;
@@ -178,6 +181,7 @@ int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *
     if (status == ISO_OK) status = choose(ctx, found, how, &list, &count);
     if (status == ISO_OK && how->orbit == 0 && count < found->count)
         complain("%zu orbits without a symmetry are not followed", found->count - count);
+    progress_begin();
     if (status == ISO_OK) status = iso_follow_run(ctx, scene, list, count, &o, &f);
     progress_end();
     if (status == ISO_STOPPED) complain("interrupted: branches are missing or cut");

@@ -6,6 +6,7 @@
 
 #include "io/plot.h"
 #include "json.h"
+#include "table.h"
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
@@ -169,12 +170,8 @@ bool periodic_print_json(const periodic_report *r)
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
-void periodic_write_csv(const periodic_report *r, FILE *to)
+static void write_rows(const periodic_report *r, FILE *to)
 {
-    fputs(
-        "# isoroll periodic 1\norbit,period,l,x,trace,error,stability,symmetry,copies,t,tau,s,closure,omega1,omega2,"
-        "omega3,n1,n2,n3,M1,M2,M3,gamma1,gamma2,gamma3\n",
-        to);
     for (size_t i = 0; i < r->found->count; i++) {
         const iso_periodic_orbit *o = &r->found->orbit[i];
         char words[ISO_DIGITS_SIZE];
@@ -187,6 +184,18 @@ void periodic_write_csv(const periodic_report *r, FILE *to)
         for (int j = 0; j < ISO_STATE; j++) fprintf(to, ",%.17g", o->point[j]);
         fputc('\n', to);
     }
+}
+
+iso_status periodic_write_csv(iso_context *ctx, const periodic_report *r, iso_output *to)
+{
+    const table_line lines[] = {
+        {.key = "longest_period", .number = r->period}, {.key = "axis", .number = r->found->axis + 1}, {.key = NULL}};
+    const iso_status status =
+        table_begin(ctx, to, "periodic", r->scene, lines,
+                    "orbit,period,l,x,trace,error,stability,symmetry,copies,t,tau,s,closure,omega1,omega2,omega3,n1,"
+                    "n2,n3,M1,M2,M3,gamma1,gamma2,gamma3");
+    if (status == ISO_OK) write_rows(r, iso_output_stream(to));
+    return table_end(ctx, to, status);
 }
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */

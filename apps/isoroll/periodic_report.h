@@ -5,6 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "io/output.h"
 #include "isoroll.h"
 #include "study/periodic.h"
 
@@ -21,8 +22,8 @@ void periodic_print(const periodic_report *r);
 /* False: there is no memory. */
 bool periodic_print_json(const periodic_report *r);
 
-/* One row for each orbit. */
-void periodic_write_csv(const periodic_report *r, FILE *to);
+/* One row for each orbit. Ends the file. */
+iso_status periodic_write_csv(iso_context *ctx, const periodic_report *r, iso_output *to);
 
 /* All orbits and their copies on the section. */
 iso_status periodic_draw(iso_context *ctx, const periodic_report *r, const char *path);

@@ -72,13 +72,15 @@ const char *complaint(void)
 void complain(const char *format, ...)
 {
     va_list args;
-    progress_end();
     va_start(args, format);
     vsnprintf(kept, sizeof kept, format, args);
     va_end(args);
     for (char *c = kept; *c; c++)
         if ((unsigned char)*c < ' ' || *c == 0x7f) *c = '?';
-    if (!silently) fprintf(stderr, "isoroll: %s\n", kept);
+    if (silently) return;
+    progress_pause();
+    fprintf(stderr, "isoroll: %s\n", kept);
+    progress_resume();
 }
 
 int worse(int a, int b)

@@ -26,7 +26,7 @@ typedef struct scene_options {
                  set_backend, type, scene.backend, backend_word)
 #define ROW_METHOD(type, scene)                                                                                      \
     ROW_OF_WORDS("method", "NAME", "a method of 'isoroll list methods', or auto", "the integrator, or auto",         \
-                 set_method, type, scene.method, method_word)
+                 set_method, type, scene.method, iso_method_word)
 #define ROW_TOLERANCE(type, scene)                                                                                   \
     ROW("tol", "X", "a number in [1e-15, 0.1]", "largest relative error of one step, in [1e-15, 0.1]",               \
         set_tolerance, type, scene.tolerance)

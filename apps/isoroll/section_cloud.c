@@ -46,6 +46,7 @@ static iso_status flow(iso_context *ctx, const iso_scene *scene, iso_measure_opt
 {
     iso_measure found;
     m.clock = clock;
+    progress_begin();
     const char *what = clock == ISO_CLOCK_T ? "flow in t" : "flow in s";
     const iso_status status = iso_measure_flow(ctx, scene, &m, &found);
     if (status == ISO_NOT_MAPPED && clock == ISO_CLOCK_S) return left_out(ctx, what);
@@ -58,6 +59,7 @@ static iso_status flow(iso_context *ctx, const iso_scene *scene, iso_measure_opt
 static iso_status returns(iso_context *ctx, const iso_scene *scene, const iso_measure_options *m, bool *kept)
 {
     iso_measure found;
+    progress_begin();
     const iso_status status = iso_measure_returns(ctx, scene, m, &found);
     if (status == ISO_NOT_MAPPED || status == ISO_BAD_INPUT) return left_out(ctx, "returns");
     if (status != ISO_OK) return status;

@@ -6,6 +6,7 @@
 
 #include "io/plot.h"
 #include "json.h"
+#include "table.h"
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
@@ -128,12 +129,14 @@ static void write_rows(FILE *to, const iso_splitting *rows, size_t count)
     }
 }
 
-void splitting_write_csv(const splitting_report *r, FILE *to)
+iso_status splitting_write_csv(iso_context *ctx, const splitting_report *r, iso_output *to)
 {
     const iso_splittings *s = r->found;
-    fputs("# isoroll splitting 1\nk,x,m,error,x_error,multiplier,digits,zero\n", to);
-    write_rows(to, s->row, s->rows);
-    write_rows(to, s->zero, s->zeros);
+    const iso_status status =
+        table_begin(ctx, to, "splitting", r->scene, NULL, "k,x,m,error,x_error,multiplier,digits,zero");
+    if (status == ISO_OK) write_rows(iso_output_stream(to), s->row, s->rows);
+    if (status == ISO_OK) write_rows(iso_output_stream(to), s->zero, s->zeros);
+    return table_end(ctx, to, status);
 }
 
 /* --- the picture ------------------------------------------------------------------------------------------------ */

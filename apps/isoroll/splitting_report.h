@@ -5,11 +5,13 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "io/output.h"
 #include "isoroll.h"
 #include "study/splitting.h"
 
 /* What is shown. */
 typedef struct splitting_report {
+    const iso_scene *scene;
     const double *J;
     const iso_splittings *found;
 } splitting_report;
@@ -23,7 +25,7 @@ void splitting_print(const splitting_report *r);
 bool splitting_print_json(const splitting_report *r);
 
 /* One row for each k that did not fail, then one for each zero. */
-void splitting_write_csv(const splitting_report *r, FILE *to);
+iso_status splitting_write_csv(iso_context *ctx, const splitting_report *r, iso_output *to);
 
 /* |m| over k, where there are several, and both curves at one k. */
 iso_status splitting_draw(iso_context *ctx, const splitting_report *r, const char *path);

@@ -11,6 +11,7 @@
 
 #include "io/sweep_file.h"
 #include "options.h"
+#include "progress.h"
 #include "study/sweep.h"
 
 /* Places of the sweep at which points are computed, how many of each, and for how long at most. A chaotic share is
@@ -123,7 +124,9 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     iso_status status = iso_sweep_create(ctx, &one, &sweep);
     if (status != ISO_OK) return status;
     status = iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, chunk, &rows);
+    progress_begin();
     if (status == ISO_OK) status = measure(ctx, sweep, &rows, &c);
+    progress_end();
     c.mean *= scale;
     c.most *= scale;
     if (status == ISO_OK) {

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "io/plot.h"
 #include "io/sweep_store.h"
 #include "options.h"
@@ -119,15 +120,13 @@ static const struct {
 
 static iso_status no_such_column(iso_context *ctx, const char *wanted, const table *t)
 {
-    char names[600] = "";
-    size_t used = 0;
-    for (int c = 0; c < t->head->columns && used + NAME + 8 < sizeof names; c++) {
-        char name[NAME];
-        name_of(&t->head->column[c], name);
-        used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", c > 0 ? ", " : "", name);
-    }
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "--value %s: there is no such column; there are %s", wanted,
-                            names);
+    enum { MOST = 64 };
+    char name[MOST][NAME], suggested[ISO_SUGGEST_SIZE];
+    const char *names[MOST];
+    const int count = t->head->columns < MOST ? t->head->columns : MOST;
+    for (int c = 0; c < count; c++) name_of(&t->head->column[c], name[c]), names[c] = name[c];
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "value", "--value %s: there is no such column; %s", wanted,
+                            iso_suggest(suggested, wanted, (size_t)count, names));
 }
 
 static iso_status choose_value(iso_context *ctx, const char *wanted, table *t)

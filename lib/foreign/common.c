@@ -4,6 +4,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "base/nearest.h"
 #include "foreign/foreign_impl.h"
 #include "method/integrator_impl.h"
 
@@ -73,14 +74,12 @@ iso_status iso_foreign_record_append(iso_context *ctx, iso_record *record, size_
 iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*name)(int), const char *word,
                             int *number)
 {
-    char list[200] = "";
+    char suggested[ISO_SUGGEST_SIZE];
     if (!word) word = "auto";
-    for (*number = 0; name(*number); ++*number) {
+    for (*number = 0; name(*number); ++*number)
         if (strcmp(name(*number), word) == 0) return ISO_OK;
-        if (*number > 0) strncat(list, ", ", sizeof list - strlen(list) - 1);
-        strncat(list, name(*number), sizeof list - strlen(list) - 1);
-    }
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s is '%s', it must be one of: %s", key, word, list);
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, key, "%s cannot be '%s'; %s", key, word,
+                            iso_suggest_word(suggested, word, name));
 }
 
 iso_status iso_foreign_shown(iso_context *ctx, const char *key, const char *word, iso_shown *shown)

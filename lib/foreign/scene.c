@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/nearest.h"
 #include "base/number.h"
 #include "foreign/foreign_impl.h"
 #include "io/scene_file.h"
@@ -78,11 +79,9 @@ static iso_status set_word(iso_context *ctx, iso_scene *scene, const char *key, 
 
 static iso_status set_method(iso_context *ctx, iso_scene *scene, const char *value)
 {
-    if (strcmp(value, "auto") != 0 && !iso_method_find(value))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method",
-                                "there is no method '%s'; `isoroll list methods` names them", value);
-    snprintf(scene->method, sizeof scene->method, "%s", value);
-    return ISO_OK;
+    const iso_status status = iso_method_check(ctx, value);
+    if (status == ISO_OK) snprintf(scene->method, sizeof scene->method, "%s", value);
+    return status;
 }
 
 static iso_status set_number(iso_context *ctx, iso_scene *scene, const char *key, const char *value)
@@ -113,11 +112,12 @@ static iso_status set_columns(iso_context *ctx, iso_scene *scene, const char *va
     scene->columns = 0;
     for (const char *at = value; *at; at += *at == ',') {
         const size_t length = strcspn(at, ",");
-        char name[ISO_NAME_SIZE] = "";
+        char name[ISO_NAME_SIZE] = "", suggested[ISO_SUGGEST_SIZE];
         if (length < sizeof name) memcpy(name, at, length);
         if (iso_column_find(name) < 0)
-            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns", "there is no column '%.*s'",
-                                    length < 100 ? (int)length : 100, at);
+            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns", "there is no column '%.*s'; %s",
+                                    length < 100 ? (int)length : 100, at,
+                                    iso_suggest_word(suggested, name, iso_column_name));
         for (size_t i = 0; i < scene->columns; i++)
             if (strcmp(scene->column[i], name) == 0)
                 return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "columns", "column '%s' appears twice", name);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "foreign/foreign_impl.h"
 #include "study/section.h"
 
@@ -78,9 +79,11 @@ static iso_status choose(iso_context *ctx, iso_section_options *o, const char *e
     o->column = iso_column_find(event);
     o->value = value;
     if (o->column >= ISO_CLOCKS) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "event",
-                            o->column < 0 ? "there is no column '%s'" : "the clock '%s' passes each value only once",
-                            event);
+    char suggested[ISO_SUGGEST_SIZE];
+    if (o->column < 0)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "event", "there is no column '%s'; %s", event,
+                                iso_suggest_word(suggested, event, iso_column_name));
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "event", "the clock '%s' passes each value only once", event);
 }
 
 iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene *scene, size_t crossings, size_t starts,

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/nearest.h"
 #include "base/number.h"
 #include "base/place_impl.h"
 #include "io/csv_impl.h"
@@ -148,14 +149,14 @@ static iso_status skip_column(csv *c, const field *f, bool named)
     iso_text_quote(quoted, f->text, f->length);
     const char *names[ISO_TRAJECTORY_COLUMNS];
     const int columns = iso_column_names(names);
-    iso_text_suggest(suggested, quoted, (size_t)columns, names);
+    iso_suggest(suggested, quoted, (size_t)columns, names);
     if (c->ours || named) {
         snprintf(detail, sizeof detail, "'%s'; %s", quoted, suggested);
         return fail(c, f->text, "unknown column ", detail);
     }
     char *to = c->r->ignored;
     const size_t used = strlen(to), room = sizeof c->r->ignored - used;
-    const bool near = iso_text_nearest(quoted, (size_t)columns, names) != NULL;
+    const bool near = iso_nearest(quoted, (size_t)columns, names) != NULL;
     if (f->length > 0 && room > 2 * ISO_QUOTE_SIZE)
         snprintf(to + used, room, "%s'%s'%s%s%s", used ? ", " : "", quoted, near ? " (" : "", near ? suggested : "",
                  near ? ")" : "");

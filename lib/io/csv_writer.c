@@ -10,6 +10,7 @@
 
 #include "base/number.h"
 #include "io/output.h"
+#include "io/table.h"
 #include "io/tasks_impl.h"
 #include "io/trajectory_impl.h"
 #include "orbit/scene.h"
@@ -131,40 +132,17 @@ static iso_status csv_open(iso_context *ctx, iso_trajectory_writer *w, const cha
     return ISO_OK;
 }
 
-/* Whether reading the line back gives the same key and value. */
-static bool is_line(const char *key, const char *value)
-{
-    const size_t k = strlen(key), v = strlen(value);
-    if (k == 0 || strpbrk(key, ":\r\n") || strpbrk(value, "\r\n")) return false;
-    if (strchr(" \t", key[0]) || strchr(" \t", key[k - 1])) return false;
-    return v == 0 || (!strchr(" \t", value[0]) && !strchr(" \t", value[v - 1]));
-}
-
 static iso_status csv_line(iso_context *ctx, iso_trajectory_writer *w, const char *key, const char *value)
 {
-    if (!is_line(key, value))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "'%s' cannot be a line '# key: value': a key has no colon, and both are one line",
-                                key);
     csv *c = w->data;
-    fprintf(stream_behind_rows(c), *value ? "# %s: %s\n" : "# %s:\n", key, value);
-    return iso_output_check(ctx, c->out);
+    const iso_status status = iso_table_line(ctx, stream_behind_rows(c), key, value);
+    return status == ISO_OK ? iso_output_check(ctx, c->out) : status;
 }
 
 static iso_status csv_header(iso_context *ctx, iso_trajectory_writer *w, const iso_record *header)
 {
-    const char *key, *value;
     csv *c = w->data;
-    FILE *file = iso_output_stream(c->out);
-    iso_status status = ISO_OK;
-    for (size_t i = 0; iso_record_line(header, i, &key, &value); i++)
-        if (!is_line(key, value)) return csv_line(ctx, w, key, value);
-    fprintf(file, "# isoroll %s " ISO_TRAJECTORY_VERSION "\n", w->kind);
-    for (size_t i = 0; status == ISO_OK && iso_record_line(header, i, &key, &value); i++)
-        status = csv_line(ctx, w, key, value);
-    for (size_t i = 0; i < iso_record_columns(header); i++)
-        fprintf(file, i ? ",%s" : "%s", iso_record_name(header, i));
-    fputc('\n', file);
+    const iso_status status = iso_table_begin(ctx, iso_output_stream(c->out), w->kind, header);
     return status == ISO_OK ? iso_output_check(ctx, c->out) : status;
 }
 

@@ -1,9 +1,7 @@
-/* text.c - text of users: opening and loading files, what a message may show of them, and the name they may have
- * meant. */
+/* text.c - text of users: opening and loading files, and what a message may show of them. */
 #include "base/place_impl.h"
 #include "io/text_impl.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -81,59 +79,4 @@ const char *iso_text_quote(char quoted[ISO_QUOTE_SIZE], const char *text, size_t
     for (size_t i = 0; i < n; i++) quoted[i] = is_control(text, i, length) ? '?' : text[i];
     strcpy(quoted + n, n < length ? "..." : "");
     return quoted;
-}
-
-static size_t smallest(size_t a, size_t b, size_t c)
-{
-    const size_t ab = a < b ? a : b;
-    return ab < c ? ab : c;
-}
-
-/* Letters to insert, drop, change or swap with their neighbour, capitals being equal to small ones. */
-static size_t distance(const char *a, size_t la, const char *b, size_t lb)
-{
-    size_t rows[3][ISO_QUOTE_SIZE], *before = rows[0], *last = rows[1], *now = rows[2];
-    for (size_t j = 0; j <= lb; j++) last[j] = j;
-    for (size_t i = 1; i <= la; i++) {
-        now[0] = i;
-        for (size_t j = 1; j <= lb; j++) {
-            const int x = tolower((unsigned char)a[i - 1]), y = tolower((unsigned char)b[j - 1]);
-            now[j] = smallest(last[j] + 1, now[j - 1] + 1, last[j - 1] + (x != y));
-            const bool swapped =
-                i > 1 && j > 1 && x == tolower((unsigned char)b[j - 2]) && y == tolower((unsigned char)a[i - 2]);
-            if (swapped && before[j - 2] + 1 < now[j]) now[j] = before[j - 2] + 1;
-        }
-        size_t *const oldest = before;
-        before = last, last = now, now = oldest;
-    }
-    return last[lb];
-}
-
-const char *iso_text_nearest(const char *wrong, size_t count, const char *const names[])
-{
-    const char *best = NULL;
-    const size_t length = strlen(wrong);
-    size_t least = ISO_QUOTE_SIZE;
-    for (size_t i = 0; i < count && length < ISO_QUOTE_SIZE; i++) {
-        const size_t other = strlen(names[i]), longer = length > other ? length : other;
-        if (other >= ISO_QUOTE_SIZE) continue;
-        const size_t d = distance(wrong, length, names[i], other);
-        if (2 * d >= longer || d >= least) continue;
-        least = d;
-        best = names[i];
-    }
-    return best;
-}
-
-const char *iso_text_suggest(char out[ISO_SUGGEST_SIZE], const char *wrong, size_t count, const char *const names[])
-{
-    const char *best = iso_text_nearest(wrong, count, names);
-    if (best) {
-        snprintf(out, ISO_SUGGEST_SIZE, "did you mean '%s'?", best);
-        return out;
-    }
-    size_t used = (size_t)snprintf(out, ISO_SUGGEST_SIZE, "valid %s", count == 1 ? "is" : "are");
-    for (size_t i = 0; i < count && used < ISO_SUGGEST_SIZE; i++)
-        used += (size_t)snprintf(out + used, ISO_SUGGEST_SIZE - used, "%s %s", i ? "," : "", names[i]);
-    return out;
 }

@@ -1,4 +1,4 @@
-/* text_impl.h - what readers of scenes and of trajectories share: whole files, safe quotations, nearest names. */
+/* text_impl.h - what readers of scenes and of trajectories share: whole files and safe quotations. */
 #ifndef ISO_IO_TEXT_IMPL_H
 #define ISO_IO_TEXT_IMPL_H
 
@@ -7,7 +7,7 @@
 
 #include "base/context.h"
 
-enum { ISO_QUOTE_SIZE = 64, ISO_SUGGEST_SIZE = 384 };
+enum { ISO_QUOTE_SIZE = 64 };
 
 /* How messages call the file `path`: "<stdin>" for "-". */
 const char *iso_text_name(const char *path);
@@ -22,12 +22,5 @@ iso_status iso_text_load(iso_context *ctx, const char *path, size_t limit, char 
 
 /* Text of the user's as it can be shown in a message: one line, short, nothing that moves a terminal's cursor. */
 const char *iso_text_quote(char quoted[ISO_QUOTE_SIZE], const char *text, size_t length);
-
-/* The name that is nearest to `wrong`; NULL: none is near, half of the letters differ or more. */
-const char *iso_text_nearest(const char *wrong, size_t count, const char *const names[]);
-
-/* What to write instead of `wrong`: "did you mean 'x'?" for the nearest of the names, or if none is near the list of
- * them all. */
-const char *iso_text_suggest(char out[ISO_SUGGEST_SIZE], const char *wrong, size_t count, const char *const names[]);
 
 #endif

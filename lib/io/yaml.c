@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "base/number.h"
 #include "base/place_impl.h"
 #include "io/text_impl.h"
@@ -199,7 +200,7 @@ iso_status iso_yaml_unknown(const iso_yaml *y, const yaml_node_t *n, const char 
     char quoted[ISO_QUOTE_SIZE], suggested[ISO_SUGGEST_SIZE];
     iso_text_quote(quoted, (const char *)n->data.scalar.value, n->data.scalar.length);
     return iso_yaml_fail(y, n->start_mark, "unknown %s '%s'; %s", what, quoted,
-                         iso_text_suggest(suggested, quoted, count, names));
+                         iso_suggest(suggested, quoted, count, names));
 }
 
 static bool number(const yaml_node_t *n, double *value)

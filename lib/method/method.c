@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <string.h>
 
+#include "base/nearest.h"
 #include "method/methods_impl.h"
 
 const iso_method *const iso_methods[] = {
@@ -43,6 +44,20 @@ const iso_method *iso_method_find(const char *name)
         if (rest > 0) candidate = iso_methods[i], candidates++;
     }
     return candidates == 1 ? candidate : NULL;
+}
+
+const char *iso_method_word(int i)
+{
+    if (i == 0) return "auto";
+    return iso_methods[i - 1] ? iso_methods[i - 1]->name : NULL;
+}
+
+iso_status iso_method_check(iso_context *ctx, const char *name)
+{
+    char suggested[ISO_SUGGEST_SIZE];
+    if (strcmp(name, "auto") == 0 || iso_method_find(name)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "method", "there is no method '%s'; %s", name,
+                            iso_suggest_word(suggested, name, iso_method_word));
 }
 
 const iso_method *iso_method_auto(const iso_model *model)

@@ -106,6 +106,12 @@ ISO_API extern const iso_method *const iso_methods[];
  * ("gsl-rk8pd", "cvode_adams"), and a beginning that fits only one method is enough ("dormand_prince"). */
 ISO_API const iso_method *iso_method_find(const char *name);
 
+/* The names that a scene can give its method: "auto", then those of the methods. NULL past the last. */
+const char *iso_method_word(int i);
+
+/* Whether a scene's method is one of them. Errors: ISO_BAD_ARGUMENT about "method", with the nearest name. */
+iso_status iso_method_check(iso_context *ctx, const char *name);
+
 /* Whether the method can simulate the model. If not, `why` says what is missing, in words that follow the method's
  * name. */
 enum { ISO_WHY_SIZE = 256 };

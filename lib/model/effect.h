@@ -157,6 +157,9 @@ ISO_API extern const iso_effect *const iso_effect_list[ISO_EFFECTS];
 /* The effect called `name`; ISO_EFFECTS: there is none. */
 ISO_API iso_effect_id iso_effect_find(const char *name);
 
+/* The name of the effect `id`; NULL past the last. */
+const char *iso_effect_name(int id);
+
 /* --- numbers ---------------------------------------------------------------------------------------------------- */
 
 /* Where an effect's number stands: number->count doubles, as const as `effects` is. */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/nearest.h"
 #include "base/vec3_impl.h"
 #include "model/effects_impl.h"
 #include "model/model.h"
@@ -17,6 +18,11 @@ double *iso_effect_values(const iso_effects *effects, iso_effect_id id, const is
 }
 
 /* Whether its place is within the numbers of an effect. */
+const char *iso_effect_name(int i)
+{
+    return i < ISO_EFFECTS ? iso_effect_list[i]->name : NULL;
+}
+
 static bool has_room(const iso_effect_number *n)
 {
     return n->at >= 0 && n->count > 0 && n->at + n->count <= ISO_EFFECT_NUMBERS;
@@ -35,7 +41,10 @@ iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *e
                            const double values[])
 {
     const iso_effect_id e = iso_effect_find(effect);
-    if (e == ISO_EFFECTS) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect, "there is no effect '%s'", effect);
+    char suggested[ISO_SUGGEST_SIZE];
+    if (e == ISO_EFFECTS)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, effect, "there is no effect '%s'; %s", effect,
+                                iso_suggest_word(suggested, effect, iso_effect_name));
     effects->on[e] = true;
     if (!name) return ISO_OK;
     for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
@@ -50,7 +59,12 @@ iso_status iso_effects_set(iso_context *ctx, iso_effects *effects, const char *e
         copy(values, iso_effect_values(effects, e, n), count);
         return ISO_OK;
     }
-    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "the effect '%s' has no number '%s'", effect, name);
+    const char *names[ISO_EFFECT_NUMBERS];
+    size_t known = 0;
+    for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name && known < ISO_EFFECT_NUMBERS; n++)
+        names[known++] = n->name;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, name, "the effect '%s' has no number '%s'%s%s", effect, name,
+                            known > 0 ? "; " : "", known > 0 ? iso_suggest(suggested, name, known, names) : "");
 }
 
 iso_effects iso_effects_scaled(const iso_effects *effects, const iso_units *units, int power)

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/nearest.h"
 #include "base/vec3_impl.h"
 #include "map/state.h"
 #include "model/attitude_impl.h"
@@ -147,6 +148,14 @@ static iso_status read_effect(iso_context *ctx, const iso_record *r, iso_effect_
     return ISO_OK;
 }
 
+static iso_status no_effect(iso_context *ctx, const char *name, size_t length)
+{
+    char wrong[ISO_NAME_SIZE] = "", suggested[ISO_SUGGEST_SIZE];
+    if (length < sizeof wrong) memcpy(wrong, name, length);
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "there is no effect '%.*s'; %s", (int)length, name,
+                            iso_suggest_word(suggested, wrong, iso_effect_name));
+}
+
 iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;
@@ -156,8 +165,7 @@ iso_status iso_record_effects(iso_context *ctx, const iso_record *r, iso_effects
     for (size_t length; names && *names; names += length + strspn(names + length, " \t")) {
         length = strcspn(names, " \t");
         const iso_effect_id e = find_effect(names, length);
-        if (e == ISO_EFFECTS)
-            return iso_context_fail(ctx, ISO_BAD_INPUT, "effects", "there is no effect '%.*s'", (int)length, names);
+        if (e == ISO_EFFECTS) return no_effect(ctx, names, length);
         const iso_status status = read_effect(ctx, r, e, effects);
         if (status != ISO_OK) return status;
     }

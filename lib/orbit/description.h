@@ -26,6 +26,15 @@ void iso_effect_line(char key[ISO_NAME_SIZE], const iso_effect *effect, const is
 /* Writes only the lines of the effects. */
 ISO_API iso_status iso_record_describe_effects(iso_context *ctx, iso_record *record, const iso_effects *effects);
 
+/* Writes the start of an orbit as a scene states it: `initial.normal` and `initial.angular_velocity` of a ball,
+ * `initial.gamma` and `initial.M` of a point. */
+iso_status iso_record_describe_start(iso_context *ctx, iso_record *record, const iso_start *start);
+
+/* Writes all that a scene says but its times, columns and solver: a table of its orbits begins with these lines, and
+ * the scene can be made again from them. They are those of iso_record_describe, the start, and the version of
+ * isoroll. */
+iso_status iso_record_describe_scene(iso_context *ctx, iso_record *record, const iso_scene *scene);
+
 /* Reads the parameters from the lines `k`, `J` and `D`. Errors: ISO_BAD_INPUT about "k", "J" or "D" (absent,
  * wrong). */
 ISO_API iso_status iso_record_params(iso_context *ctx, const iso_record *record, iso_params *params);

@@ -78,8 +78,8 @@ static iso_status open_backend(runner *r, iso_backend backend)
     iso_column_names(names);
     iso_status status = iso_record_create(r->ctx, ISO_COLUMN_EFFECTS, names, &run->trajectory);
     if (status != ISO_OK) return status;
-    if (!iso_method_find(r->scene->method) && strcmp(r->scene->method, "auto") != 0)
-        return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "method", "there is no method '%s'", r->scene->method);
+    status = iso_method_check(r->ctx, r->scene->method);
+    if (status != ISO_OK) return status;
     o.effects = &r->effects;
     o.backend = run->backend = backend;
     o.method = method_for(r->scene, backend);

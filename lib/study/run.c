@@ -335,8 +335,7 @@ static iso_status check(runner *r)
     if (status != ISO_OK) return status;
     r->count = iso_scene_columns(r->scene, r->columns);
     r->result->asked = r->options.times ? r->options.count : iso_scene_rows(r->scene);
-    if (strcmp(r->scene->method, "auto") == 0 || iso_method_find(r->scene->method)) return ISO_OK;
-    return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "method", "there is no method '%s'", r->scene->method);
+    return iso_method_check(r->ctx, r->scene->method);
 }
 
 static iso_status open_orbit(runner *r)

@@ -200,16 +200,6 @@ static iso_status set_whole(const iso_section_walk *w, iso_record *r, const char
     return iso_record_set(w->ctx, r, key, text);
 }
 
-static iso_status set_start(const iso_section_walk *w, iso_record *r)
-{
-    const iso_start *start = &w->scene->start;
-    const bool ball = start->model == ISO_BALL;
-    const iso_status status =
-        iso_record_set_numbers(w->ctx, r, ball ? "initial.normal" : "initial.gamma", 3, start->y + 3);
-    if (status != ISO_OK) return status;
-    return iso_record_set_numbers(w->ctx, r, ball ? "initial.angular_velocity" : "initial.M", 3, start->y);
-}
-
 static iso_status set_section(const iso_section_walk *w, iso_record *r)
 {
     const iso_section_options *o = &w->options;
@@ -237,7 +227,7 @@ static iso_status set_at(const iso_section_walk *w, iso_record *r)
 static iso_status describe(const iso_section_walk *w, iso_record *r)
 {
     const iso_section_options *o = &w->options;
-    iso_status status = set_start(w, r);
+    iso_status status = iso_record_describe_start(w->ctx, r, &w->scene->start);
     if (status == ISO_OK) status = set_section(w, r);
     if (status == ISO_OK) status = set_whole(w, r, "crossings", o->crossings);
     if (status == ISO_OK && o->starts > 0) status = set_whole(w, r, "starts", o->starts);

@@ -131,7 +131,7 @@ bad 2:3 "NUL"
 : >bad.csv
 bad 1:1 "end of the file"
 cp scene.yaml bad.csv
-bad 1:1 "unknown column"
+refuses 3 "'bad.csv' is a scene, and no trajectory" check bad.csv
 sed 's/^# J:.*/# J: 1 2/' ball.csv >bad.csv
 refuses 3 "'J: 1 2' should be 3 finite numbers" check bad.csv
 awk -F, -v OFS=, '/^#/ { print; next } { print $1, $2, $3, $4 }' ball.csv >bad.csv
@@ -154,7 +154,7 @@ run 0 explain scene.yaml --as both --backend point
 for words in "backend point" "  M1 M2 M3 " " gamma3 " "  tau s                  clock: a column, or the effect clock, asks for it"; do
     check "explain --as both --backend point: $words" grep -F -q -e "$words" out
 done
-refuses 2 "unknown or ambiguous option" explain scene.yaml --rows 3
+refuses 2 "unknown option --rows" explain scene.yaml --rows 3
 # Lengths and heights of a body that is not 1 m large: the file says its radius.
 cat >tilted.yaml <<'END'
 ball: {mass: 0.1, radius: 0.03, inertia: [3.4e-5, 3.6e-5, 3.8e-5]}

@@ -153,7 +153,7 @@ fi
 
 # --- what is refused, and leaves the picture that was there
 cp kept.svg picture.svg
-refuses 3 "bowl.csv: there is no column 'n4'; there are t omega1" plot bowl.csv --columns t,n4 -o picture.svg
+refuses 3 "bowl.csv: there is no column 'n4'; valid are t, omega1" plot bowl.csv --columns t,n4 -o picture.svg
 refuses 3 "there is no column '\`touch OWNED\`'" plot bowl.csv --columns 't,`touch OWNED`' -o picture.svg
 refuses 3 "expected a line of column names" plot - --columns t,n3 -o picture.svg <bare.csv
 refuses 3 "does not say its k" plot foreign.csv -o picture.svg

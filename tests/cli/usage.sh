@@ -3,7 +3,7 @@
 . "$(dirname "$0")/lib.sh"
 scene -1 "1.4, 2.1, 3.0" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >scene.yaml
 "$isoroll" run scene.yaml >ball.csv
-commands="run convert compare cost check plot view explain analogue frequencies list manual"
+commands="run convert compare cost check plot view section chaos periodic splitting integrals sweep explain analogue frequencies list manual"
 
 # --- exit statuses
 run 0 run scene.yaml
@@ -27,9 +27,9 @@ refuses 2 "unknown command 'runn'" runn scene.yaml
 refuses 2 "unknown command ''" ''
 refuses 2 "unknown command '--verbose'" --verbose
 refuses 2 "option --bogus; see 'isoroll run --help'" run --bogus scene.yaml
-refuses 2 "ambiguous option --t=5" run --t=5 scene.yaml # --tol, --times, --t-end
+refuses 2 "ambiguous option --t=5: it fits --tol, --t-end, --times" run --t=5 scene.yaml # --tol, --times, --t-end
 refuses 2 "option -x" run --verbose -xh scene.yaml
-refuses 2 "option --help=1" run --help=1
+refuses 2 "--help=1: the option --help takes no argument" run --help=1
 refuses 2 "missing after --tol" run scene.yaml --tol
 refuses 2 "missing after -o" run scene.yaml -o
 refuses 2 "one argument too many: b" run scene.yaml b
@@ -40,7 +40,67 @@ for bad in 0 -1 x; do refuses 2 "--step '$bad': expected a positive number" run 
 refuses 2 "--method 'rk': expected a method of 'isoroll list methods'" run scene.yaml --method rk
 refuses 2 "--backend 'both': expected ball, point, exact or auto" run scene.yaml --backend both
 refuses 2 "--as 'auto': expected ball, point or both" run scene.yaml --as auto
-refuses 2 "nothing is called 'bogus'" list bogus
+refuses 2 "nothing is called 'bogus'; valid are systems, backends, effects" list bogus
+
+# --- a word that is none of a list: the nearest one, as for keys of YAML
+near() { # WORD ARGUMENT...: usage, or bad input, with the nearest word
+    word=$1
+    shift
+    "$isoroll" "$@" >out 2>err
+    case $? in 2 | 3) ;; *) fail "isoroll $*: refused by none of 2 and 3" ;; esac
+    last=$*
+    says "did you mean '$word'?"
+    check "isoroll $last: nothing on stdout" test ! -s out
+}
+near periodic perodic scene.yaml
+near run help runn
+near --plot frequencies --plott a.svg scene.yaml
+near --t-end run --tend 3 scene.yaml
+near rk8pd run --method rk8pp scene.yaml
+near ball run --backend bal scene.yaml
+near both run --as bot scene.yaml
+near point convert --to poin ball.csv
+near both section --model boht scene.yaml
+near quad splitting --digits qad scene.yaml
+near omega1 section --event omga1=0.5 scene.yaml
+near omega1 plot ball.csv --columns t,omga1 -o a.svg
+near omega1 check ball.csv --columns t,omga1,omega2,omega3,n1,n2,n3
+near methods list metods
+near frequencies manual frequences
+sed 's/^# effects.*//; s/^# k:/# effects: gravty\n# k:/' ball.csv >wind.csv
+near gravity check wind.csv
+for wrong in "output: {as: bal}#ball" "output: {columns: [t, omga1]}#omega1" "solver: {backend: pont}#point" \
+    "solver: {method: tylor}#taylor" "effects: {gravty: {}}#gravity" "efects: {}#effects"; do
+    { cat scene.yaml && echo "${wrong%#*}"; } >wrong.yaml
+    near "${wrong#*#}" run wrong.yaml
+done
+for wrong in "measure: {caos: {}}#chaos" "measure: {chaos: {stats: 3}}#starts" "measur: {}#measure"; do
+    printf 'scene: scene.yaml\nvary: {k: [0.5, 1]}\nuntil: {turns: 3}\n%s\n' "${wrong%#*}" >wrong.yaml
+    near "${wrong#*#}" sweep wrong.yaml
+done
+
+# --- a file of another kind: what it is, and which commands take it
+printf 'scene: scene.yaml\nvary: {k: [0.5, 1]}\nmeasure: {rotations: {}}\n' >sweep.yaml
+run 0 sweep sweep.yaml -o result.csv
+run 0 section scene.yaml --crossings 3 --quiet -o section.csv
+run 0 chaos scene.yaml --turns 3 --csv chaos.csv
+for command in plot check convert; do
+    case $command in plot) more="-o a.svg" ;; convert) more="--to point" ;; *) more="" ;; esac
+    # shellcheck disable=SC2086 # a list
+    refuses 3 "'scene.yaml' is a scene, and no trajectory: 'isoroll run scene.yaml -o trajectory.csv' makes one" $command scene.yaml $more
+    # shellcheck disable=SC2086
+    refuses 3 "'sweep.yaml' is a sweep, which is for: sweep, explain" $command sweep.yaml $more
+done
+for command in run compare cost section chaos periodic splitting integrals frequencies analogue explain; do
+    [ $command = explain ] || refuses 3 "$command: 'sweep.yaml' is a sweep, which is for: sweep, explain" $command sweep.yaml
+    refuses 3 "$command: 'ball.csv' is a trajectory, which is for: convert, check, plot, view" $command ball.csv
+    refuses 3 "$command: 'section.csv' is a section, which is for: convert, check, plot, view" $command section.csv
+    refuses 3 "$command: 'result.csv' is the result of a sweep, which is for: plot, sweep" $command result.csv
+    refuses 3 "$command: 'chaos.csv' is a table, which is for: plot" $command chaos.csv
+done
+refuses 3 "'scene.yaml' is a scene: a sweep has the keys scene, vary and measure; scenes are for: run, compare" sweep scene.yaml
+refuses 3 "sweep: 'ball.csv' is a trajectory, which is for: convert, check, plot, view" sweep ball.csv
+refuses 3 "'sweep.yaml' is a sweep" view sweep.yaml -o a.html
 refuses 5 "cannot open 'a?[31m?b'" run "$(printf 'a\033[31m\nb')" # nothing that moves the cursor
 refuses 5 "cannot open 'xxxxx" run "$(printf '%05000d' 0 | tr 0 x)"
 refuses 5 "cannot read '.': Is a directory" run .
@@ -53,6 +113,19 @@ run 0 run --back point -- scene.yaml
 check "a beginning that fits one option" grep -qx '# backend: point' out
 cp scene.yaml ./-x.yaml
 run 0 run -- -x.yaml
+
+# --- help COMMAND is COMMAND --help
+for command in $commands; do
+    run 0 "$command" --help
+    mv out "help.$command"
+    run 0 help "$command"
+    check "help $command" cmp out "help.$command"
+done
+run 0 --help
+mv out help.program
+run 0 help
+check "help" cmp out help.program
+rm help.*
 
 # --- help: it lists exactly the options that are taken
 for command in $commands; do
@@ -71,9 +144,9 @@ for command in $commands; do
     while read -r option; do
         "$isoroll" "$command" "--$option" 2>err >out </dev/null
         if grep -q "^  --$option " "help.$command"; then
-            check_not "$command --$option is taken" grep -q "unknown or ambiguous" err
+            check_not "$command --$option is taken" grep -q "unknown option" err
         elif ! grep -q "^  --$option" "help.$command"; then # no beginning of another one
-            check "$command --$option is not taken" grep -q "unknown or ambiguous option --$option;" err
+            check "$command --$option is not taken" grep -q "unknown option --$option;" err
         fi
     done <all_options
 done
@@ -157,34 +230,6 @@ for signal in INT TERM; do
     exec 4>&-
     check "convert ends" test $status -gt 128
 done
-
-# --- progress: on a terminal only, after a second, coloured unless NO_COLOR says not to
-bar() { grep -q '\.\.\.\.' terminal; }
-# on_terminal VARIABLE: what a run writes on a terminal until there is a bar
-on_terminal() {
-    rm -f pid && : >terminal
-    (
-        until [ -s pid ]; do sleep 0.01; done
-        await bar "$(cat pid)"
-        kill -TERM "$(cat pid)"
-    ) &
-    script -qec "echo \$\$ >pid; exec env $1 '$isoroll' run scene.yaml --t-end 1e8 -o a.csv" /dev/null \
-        </dev/null >terminal
-    wait $!
-}
-if ! script -qec true /dev/null </dev/null >/dev/null 2>&1; then
-    skip "progress on a terminal" "no terminal can be made here (script)" # as in a bare chroot
-else
-    on_terminal NO_COLOR=
-    check "a bar on a terminal" bar
-    check "in colour" grep -q "$(printf '\033\\[36m')" terminal
-    on_terminal NO_COLOR=1
-    check "a bar with NO_COLOR" bar
-    check_not "no colour with NO_COLOR" grep -q "$(printf '\033')" terminal
-    signalled TERM "worked 200" run scene.yaml --t-end 1e8 -o a.csv
-    check "no bar in a file" test "$(tr -d '\r' <err | wc -l)" -eq 1
-    check_not "no bar in a file" grep -q '\.\.\.' err
-fi
 
 # --- a limit on the size of files; closed standard streams
 (ulimit -f 4 && exec "$isoroll" run scene.yaml --t-end 10 --step 1e-3 -o limited.csv) 2>err

@@ -1,0 +1,32 @@
+/* file_kind.h - which kind of file a command was given, where its beginning tells. */
+#ifndef ISOROLL_FILE_KIND_H
+#define ISOROLL_FILE_KIND_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct command;
+
+/* The kinds, as bits of command.takes. */
+enum {
+    FILE_SCENE = 1,
+    FILE_SWEEP = 2,      /* the YAML of a sweep                                 */
+    FILE_TRAJECTORY = 4, /* `# isoroll trajectory 1`                            */
+    FILE_SECTION = 8,
+    FILE_RESULT = 16, /* of a sweep                                          */
+    FILE_TABLE = 32,  /* of chaos, periodic, splitting, cost: no row is a state */
+    FILE_HDF5 = 64,   /* its beginning does not tell which                   */
+    FILE_ROWS = FILE_TRAJECTORY | FILE_SECTION | FILE_HDF5
+};
+
+/* The first bytes of a regular file, or of a standard input that can be read again ("-"), as text; "" of others. */
+void read_beginning(const char *path, char *text, size_t size);
+
+/* One of the kinds. 0: the file is no regular file, cannot be read, or its beginning does not tell. */
+unsigned file_kind(const char *path);
+
+/* Refuses a file that is surely of a kind that the command does not take: says what it is, and for what. False: it
+ * was refused. */
+bool file_fits(const struct command *c, const char *path);
+
+#endif
