@@ -253,6 +253,8 @@ const command command_convert = {
         "It is 0 at the first row.\n\n"
         "A row that cannot be converted becomes a row of nan. The first 20 are named, the others are counted. Rows "
         "with few digits need a --row-tolerance.\n\n"
+        "Where a # line h, eps or level.c does not fit the first row, beyond rounding, it is named, and the row's own "
+        "number is written.\n\n"
         "A point off the level H = 0 becomes a ball in the potential of the effect "
         "'level'; with --shift-J it becomes a free ball.",
     .example = "isoroll convert --to point ball.csv -o point.csv",

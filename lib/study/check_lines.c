@@ -50,21 +50,21 @@ iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]
 {
     const iso_units *units = iso_orbit_units(m->orbit);
     const bool ball = m->kind == ISO_BALL, level = iso_effects_have_level(&c->stated);
-    const bool free = !ball && !m->expect.on_level;
-    const char *what = free ? "as the file states it, against the other of h and eps"
-                            : "as the file states it, against the first row";
+    const bool any_level = !ball && !m->expect.on_level;
+    const char *what = any_level ? "as the file states it, against the other of h and eps"
+                                 : "as the file states it, against the first row";
     double h, eps, own[ISO_MAX_STATE], least = INFINITY;
     iso_status status = ISO_OK;
     const bool has_h = stated_energy(c, units, "h", &h, &status);
     const bool has_eps = status == ISO_OK && stated_energy(c, units, "eps", &eps, &status);
     if (status != ISO_OK || !iso_orbit_has_twin(m->orbit) || (!ball && c->model[ISO_BALL].there)) return status;
     iso_checker_own(c, &m->expect, first, own);
-    if (free) { /* nothing but the other of the two can be compared with it; the flow depends on eps */
+    if (any_level) { /* nothing but the other of the two can be compared with it; the flow depends on eps */
         if (!has_h || !has_eps) return ISO_OK;
         take_level(m, own, iso_coupling(&units->own, eps));
     }
     if (has_h) note_line(c, m, "h", what, least = off_energy(m, own, h));
-    if (has_eps) note_line(c, m, "eps", what, off_energy(m, own, free ? h : eps));
+    if (has_eps) note_line(c, m, "eps", what, off_energy(m, own, any_level ? h : eps));
     if (has_eps) least = fmin(least, off_energy(m, own, eps));
     char key[ISO_NAME_SIZE];
     const iso_effect *of_level = level ? iso_effect_list[iso_effect_find(iso_level_name())] : NULL;

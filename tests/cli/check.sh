@@ -172,4 +172,48 @@ for column in 17 20 23 26 29; do # contact3 trace3 centre3 N3 pressure
     awk -F, -v OFS=, -v c=$column '/^[0-9]/ {$(c + 1) = 7} 1' tilted.csv >damaged.csv
     run 1 check damaged.csv --max 1e-9
 done
+# any number of a row, the first one, too: mu is the last but one
+for row in 1 7; do
+    for factor in 100 -1 1.000001; do
+        awk -F, -v OFS=, -v CONVFMT=%.17g -v n=$row -v f=$factor '/^[0-9]/ && ++r == n { $(NF - 1) *= f } 1' tilted.csv >damaged.csv
+        run 1 check damaged.csv --max 1e-11
+        check "mu times $factor in row $row" grep -q "^mu flow .* $row  .*ABOVE" out
+    done
+done
+
+# --- lines: each has a residual, or is named
+echo "effects: {attitude: {}}" | cat scene.yaml - >turning.yaml
+run 0 run turning.yaml -o turning.csv
+# line FILE NAME...: the file passes; the first number of each line off by a millionth does not, and the line is named
+line() {
+    file=$1
+    shift
+    run 0 check --max 1e-11 "$file"
+    for key; do
+        awk -v k="# $key:" 'index($0, k) == 1 { $3 = sprintf("%.17g", $3 ? $3 * 1.000001 : 1e-6) } { print }' "$file" >damaged.csv
+        run 1 check --max 1e-9 damaged.csv
+        check "$file: # $key" grep -q "^# $key .*ABOVE" out
+    done
+}
+line ball.csv h eps
+line point.csv h eps
+line both.csv h eps
+line off_ball.csv h level.c
+line off_point.csv h level.c
+line turning.csv h eps attitude.quaternion
+line tilted.csv gravity.up attitude.quaternion
+run 0 check tilted.csv --json
+for name in model backend method tolerance isoroll; do
+    check "--json says that nobody looks at # $name" grep -qx " *\"# $name\",*" out
+done
+check "--json has the residuals" grep -q '"name": "# gravity.up"' out
+run 0 check tilted.csv
+check "the table says it, too" grep -qx "not looked at: # model, # backend, # method, # tolerance, # isoroll" out
+# columns without a check are named: of others, of half a vector, of what a point does not have
+awk -F, -v OFS=, '/^# isoroll t/ { next } /^#/ { print; next } { print $0, n++ ? 5 : "colour" }' ball.csv >more.csv
+run 0 check more.csv
+check "a column of another program" grep -q "^not looked at:.*'colour'" out
+awk -F, -v OFS=, '/^#/ { print; next } { print $1, $2, $3, $4, $5, $6, $7, $8, $9, $10 }' both.csv >half.csv
+run 0 check half.csv
+check "M1 alone" grep -q "^not looked at: M1, # model" out
 finish

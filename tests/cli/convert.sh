@@ -150,8 +150,11 @@ run 0 convert --quiet --to ball --shift-J good.csv -o turned.csv
 silent
 run 0 check turned.csv --max 1e-9
 # a piece behind the start has the error of the steps to it: its own energy is taken, and no line is off
-run 0 run flat.yaml --t-end 200 --method rk8pd --tol 1e-7 -o good.csv
-awk '/^[0-9]/ && ++n < 700 { next } { print }' good.csv >late.csv
+run 0 run flat.yaml --t-end 200 --tol 1e-7 -o good.csv
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ { for (i = 2; i < 5; i++) $i *= 1 + 1e-9 } { print }' good.csv >whole.csv
+awk '/^[0-9]/ && ++n < 700 { next } { print }' whole.csv >late.csv
+run 0 convert --quiet --to point whole.csv
+check "a whole file: both lines are off" test "$(grep -c 'does not fit the first row, by 2e-09' err)" -eq 2
 run 0 convert --quiet --to point late.csv -o turned.csv
 silent
 check "the energy of a later row" test "$(grep '^# h' turned.csv)" != "$(grep '^# h' good.csv)"
