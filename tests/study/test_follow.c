@@ -68,7 +68,7 @@ static void check_branch(void)
     gsl_test_abs(event_of(b, ISO_BRANCH_BREAKING)->at.trace, 2, 1e-6, "trace where a symmetry breaks");
     gsl_test_abs(end->at.value, 0.3, 0, "the end of the range");
     gsl_test_int(collision->axis, 0, "the rotation that it meets");
-    gsl_test_abs(iso_hill_trace(collision->at.value, J, 0, NULL), 2, 1e-9, "its trace at the collision");
+    gsl_test_abs(iso_hill_trace(collision->at.value, J, 0, 0, NULL), 2, 1e-9, "its trace at the collision");
     check_point(b, &b->point[b->points / 2], J);
     check_point(b, &b->point[0], J);
     gsl_test(follow->count < 2, "branches are switched to: %zu", follow->count);
@@ -141,7 +141,7 @@ static void check_chart(void)
     gsl_test(iso_record_rows(borders) < 20, "its borders");
     for (size_t i = 0; i < iso_record_rows(borders); i++) {
         const double *row = iso_record_const_row(borders, i), J[3] = {1, row[3], 5};
-        gsl_test_abs(iso_hill_trace(row[2], J, row[0] > 0 ? 2 : 0, NULL), row[1], 1e-8, "border at k = %g, J2 = %g",
+        gsl_test_abs(iso_hill_trace(row[2], J, 0, row[0] > 0 ? 2 : 0, NULL), row[1], 1e-8, "border at k = %g, J2 = %g",
                      row[2], row[3]);
     }
     iso_record_free(grid);

@@ -28,7 +28,7 @@ static void draw(iso_random *random, double J[3])
 static void look(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits, worst *w)
 {
     iso_splitting s;
-    if (iso_splitting_at(ctx, k, J, digits, &s) != ISO_OK)
+    if (iso_splitting_at(ctx, k, J, 0, digits, &s) != ISO_OK)
         gsl_test(1, "k = %g, J = %.15g %.15g %.15g: %s", k, J[0], J[1], J[2], iso_context_message(ctx));
     w->of_error = fmax(w->of_error, isnan(s.error) ? INFINITY : fabs(s.m) / s.error);
     w->size = fmax(w->size, s.error);
@@ -56,7 +56,7 @@ int main(void)
     const bool full = tests_length(0, 1);
     iso_splitting s;
     check(ctx, ISO_SPLITTING_DOUBLE, tests_length(10, MOST), full, 1e-14, "64 bits");
-    if (iso_splitting_at(ctx, NAN, (double[3]){1, 2, 3}, ISO_SPLITTING_QUAD, &s) != ISO_BAD_ARGUMENT)
+    if (iso_splitting_at(ctx, NAN, (double[3]){1, 2, 3}, 0, ISO_SPLITTING_QUAD, &s) != ISO_BAD_ARGUMENT)
         check(ctx, ISO_SPLITTING_QUAD, tests_length(1, MOST / 4), false, 1e-26, "128 bits");
     iso_context_free(ctx);
     return gsl_test_summary();
