@@ -28,8 +28,9 @@ static int tell_gaps(const iso_periodic *f)
                  f->unresolved);
     if (f->lost > 0) complain("%zu zeros were seen where no orbit was found: orbits may be missing", f->lost);
     if (f->closed)
-        complain("on this level the point can come to rest: orbits that rest and go back the same way are listed only if "
-                 "they have a symmetry besides, or with --all");
+        complain(
+            "on this level the point can come to rest: orbits that rest and go back the same way are listed only if "
+            "they have a symmetry besides, or with --all");
     return EXIT_DONE;
 }
 
@@ -162,11 +163,13 @@ static const option_row rows[] = {
     ROW("orbit", "N", "a whole number from 1 on", "follow orbit N of the list alone", set_count, options, orbit),
     ROW("branches", NULL, NULL, "follow what branches off, too", set_flag, options, branches),
     ROW("chart", "MOMENT", "J1, J2 or J3, or J2=A:B, or level=A:B",
-        "in place of all that: where rotations are stable, in the plane of k and a moment, or of k and the level, from A "
+        "in place of all that: where rotations are stable, in the plane of k and a moment, or of k and the level, "
+        "from A "
         "to B",
         set_text, options, chart),
     ROW("k", "A:B", "two numbers and a colon", "k of --chart (default -3:3)", set_text, options, k),
-    ROW("level", "X", "a number", "the level of --chart, everywhere (default: the scene's)", set_text, options, level),
+    ROW("level", "X", "a number", "the level of --chart, everywhere (default: the scene's)", set_text, options,
+        level),
     ROW("steps", "N", "a whole number from 1 on", "steps of --chart in both directions (default 120)", set_count,
         options, steps),
     ROW_THREADS(options, threads),
@@ -198,21 +201,27 @@ const command command_periodic = {
         "(itself among them), and its period in t. JSON and -o add the start in both models, the periods in tau "
         "and s, and how well the orbit closes. lib/doc/theory.md explains R, S1, S2, S3 and T.\n\n"
         "Only k, J and the energy of the scene are read. Orbits of the free ball do not depend on the energy, only "
-        "their clocks do. A point off H = 0, or a ball with the effect level, has a level (H/eps) J2^(1/k), J2 the middle "
-        "moment: a number without a dimension, which units do not change. Orbits depend on it. On a low level the point "
-        "cannot reach the whole sphere. Then a rotation may be missing, and the point oscillates between two places of "
+        "their clocks do. A point off H = 0, or a ball with the effect level, has a level (H/eps) J2^(1/k), J2 the "
+        "middle "
+        "moment: a number without a dimension, which units do not change. Orbits depend on it. On a low level the "
+        "point "
+        "cannot reach the whole sphere. Then a rotation may be missing, and the point oscillates between two places "
+        "of "
         "rest in its stead.\n\n"
-        "For k = 1 and k = -1 most periodic orbits fill tori, on every level. Those on the symmetry lines are listed as degenerate "
+        "For k = 1 and k = -1 most periodic orbits fill tori, on every level. Those on the symmetry lines are listed "
+        "as degenerate "
         "(trace 2).\n\n"
         "--follow k=A:B follows symmetric orbits from the scene's k to A and to B, or until they end: folds, period "
         "doublings, symmetry breaking and collisions with rotations are located. Where a branch cannot be followed, "
         "a line says where and why, and the part so far is kept. --branches follows what branches off as well, but "
         "not "
-        "what branches off from that. While k or a moment changes, the level stays that of the scene; --follow level=A:B "
+        "what branches off from that. While k or a moment changes, the level stays that of the scene; --follow "
+        "level=A:B "
         "changes it.\n\n"
         "--chart J2 shows in which part of the plane of k and J2 the rotations about the axes of the least and of "
         "the "
-        "greatest moment are stable, and the borders on which a trace is 2 or -2. (The axis of the middle moment is never "
+        "greatest moment are stable, and the borders on which a trace is 2 or -2. (The axis of the middle moment is "
+        "never "
         "stable.) The level is that of the scene, or --level; --chart level=A:B has the level in the place of J2.\n\n"
         "-o FILE writes one row for each orbit, in doubles. --plot draws all orbits and their copies on the section, "
         "unstable "

@@ -12,7 +12,7 @@
 
 /* What splitting can be told. */
 typedef struct options {
-    scene_options scene;           /* only its file is used */
+    scene_options scene;                   /* only its file is used */
     const char *k, *level, *output, *plot; /* NULL: not given */
     iso_splitting_digits digits;
     double threads;
@@ -57,17 +57,19 @@ typedef struct numbers {
 
 static iso_status bad_list(iso_context *ctx, const numbers *list, const char *text)
 {
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                            "--%s '%s': expected values and ranges A:B:STEP, STEP not 0, with commas between, at most "
-                            "%d values: 0.25:3:0.25, or 1/3,1/2,-0.5",
-                            list->name, text, MOST_K);
+    return iso_context_fail(
+        ctx, ISO_BAD_INPUT, "",
+        "--%s '%s': expected values and ranges A:B:STEP, STEP not 0, with commas between, at most "
+        "%d values: 0.25:3:0.25, or 1/3,1/2,-0.5",
+        list->name, text, MOST_K);
 }
 
 static iso_status append(iso_context *ctx, numbers *list, double x)
 {
     double *more = realloc(list->x, (list->count + 1) * sizeof *more);
     if (!more)
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of %s", list->count + 1, list->name);
+        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of %s", list->count + 1,
+                                list->name);
     list->x = more;
     list->x[list->count++] = x;
     return ISO_OK;
@@ -97,7 +99,8 @@ static iso_status read_item(iso_context *ctx, const char *text, const char *item
     const double way = number[1] - number[0], step = copysign(number[2], way), steps = floor(way / step + 1e-9);
     if (parts != 3 || number[2] == 0 || !(steps < MOST_K)) return bad_list(ctx, list, text);
     iso_status status = ISO_OK;
-    for (double i = 0; i <= steps && status == ISO_OK; i++) status = append(ctx, list, rounded(number[0] + i * step, step));
+    for (double i = 0; i <= steps && status == ISO_OK; i++)
+        status = append(ctx, list, rounded(number[0] + i * step, step));
     return status;
 }
 
@@ -119,8 +122,7 @@ static iso_status read_list(iso_context *ctx, const char *text, double scenes, n
 static iso_status read_lists(iso_context *ctx, const options *o, const iso_scene *scene, numbers *k, numbers *level)
 {
     double own = 0;
-    iso_status status =
-        o->level ? ISO_OK : iso_level_of_scene(ctx, scene, "the splitting is measured", &own);
+    iso_status status = o->level ? ISO_OK : iso_level_of_scene(ctx, scene, "the splitting is measured", &own);
     if (status == ISO_OK) status = read_list(ctx, o->k, scene->params.k, k);
     if (status == ISO_OK) status = read_list(ctx, o->level, own, level);
     if (status == ISO_OK && k->count > 1 && level->count > 1)
@@ -227,7 +229,8 @@ static const option_row rows[] = {
         "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
         set_text, options, k),
     ROW("level", "LIST", "values and ranges A:B:STEP",
-        "levels in place of the scene's, as many as you like at one k: a list like that of --k", set_text, options, level),
+        "levels in place of the scene's, as many as you like at one k: a list like that of --k", set_text, options,
+        level),
     ROW_OF_WORDS("digits", "D", "double, quad or auto",
                  "double: 64 bits of mantissa (19 digits); quad: 128 bits (32 digits); auto: 128 bits where 64 give "
                  "less than 3 "
@@ -257,7 +260,8 @@ const command command_splitting = {
         "they cross, there is none. "
         "This command finds the first point of the curve that leaves with l = pi/2, its x = M_a/|M|, and its slope "
         "m = dx/dl there; the other curve has the slope -m. So m = 0 at k = 1 and k = -1, on every level. Where m "
-        "is not 0 here, the crossing is shown numerically, with an error that is estimated: this is no proof that there "
+        "is not 0 here, the crossing is shown numerically, with an error that is estimated: this is no proof that "
+        "there "
         "is no further analytic integral.\n\n"
         "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not "
         "distinguish it from 0, 128 bits are taken, which need from seconds to a minute for each k. Other zeros of m "
@@ -267,11 +271,15 @@ const command command_splitting = {
         "there. Where the multiplier of the rotation is below 1.02, as between nearly "
         "equal moments, m is too small "
         "for 128 bits and not computed.\n\n"
-        "The level is (H/eps) J2^(1/k), J2 the middle moment, H the energy of the point: a number without a dimension. It "
-        "is 0 for the free ball, else that of the scene, a point off H = 0 or a ball with the effect level; or --level "
+        "The level is (H/eps) J2^(1/k), J2 the middle moment, H the energy of the point: a number without a "
+        "dimension. It "
+        "is 0 for the free ball, else that of the scene, a point off H = 0 or a ball with the effect level; or "
+        "--level "
         "gives it. A low level has no such rotation, but an oscillation between two places of rest.\n\n"
-        "Only k, J and the level of the scene are read. Its start does not matter else, nor do its times. -o FILE writes one row for "
-        "each k or level. --plot draws |m| over k or the level, and both curves where they are seen best. After Ctrl-C the rows "
+        "Only k, J and the level of the scene are read. Its start does not matter else, nor do its times. -o FILE "
+        "writes one row for "
+        "each k or level. --plot draws |m| over k or the level, and both curves where they are seen best. After "
+        "Ctrl-C the rows "
         "that are done are printed.",
     .example = "isoroll splitting scene.yaml --k 0.25:3:0.25 --plot splitting.png",
     .exits =

@@ -108,8 +108,8 @@ static bool print_json(const iso_stability_options *o, const iso_record *grid, c
     }
     json_t *level = o->moment == ISO_CHART_LEVEL ? json_null() : json_number(o->level);
     return json_print(json_pack("{s:s, s:s, s:o, s:{s:o, s:o, s:o, s:o}, s:o}", "isoroll", iso_version(), "moment",
-                                moment, "level", level, "grid", "k", column_of(grid, 0), moment, column_of(grid, 1), "least",
-                                column_of(grid, 2), "greatest", column_of(grid, 3), "borders", list));
+                                moment, "level", level, "grid", "k", column_of(grid, 0), moment, column_of(grid, 1),
+                                "least", column_of(grid, 2), "greatest", column_of(grid, 3), "borders", list));
 }
 
 #define EDGE 1e-9 /* with equal moments a trace is 2 or -2 up to rounding */
@@ -126,8 +126,8 @@ static void print_table(const iso_stability_options *o, const iso_record *grid, 
             else
                 none[which] += fabs(iso_record_const_row(grid, i)[0]) >= ISO_LEAST_K;
         }
-    printf("k from %g to %g, %s from %g to %g; share of the grid points\n%20s  T < -2    stable    T > 2\n", o->from[0],
-           o->to[0], of_chart(o->moment), o->from[1], o->to[1], "");
+    printf("k from %g to %g, %s from %g to %g; share of the grid points\n%20s  T < -2    stable    T > 2\n",
+           o->from[0], o->to[0], of_chart(o->moment), o->from[1], o->to[1], "");
     for (int which = 0; which < 2; which++) {
         const double all = (double)(count[which][0] + count[which][1] + count[which][2]);
         printf("  %-8s moment    %6.4f    %6.4f    %6.4f\n", axes[which], (double)count[which][0] / all,

@@ -169,11 +169,12 @@ static iso_status choose(iso_context *ctx, const iso_periodic *found, const peri
 static iso_status none_to_follow(iso_context *ctx, const iso_scene *scene, const iso_periodic *found, int period)
 {
     const iso_params *p = &scene->params;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "orbit",
-                            "no symmetric orbit to follow at k = %.12g, J = %.12g %.12g %.12g, level %.12g: the search "
-                            "along the six symmetry lines found none of %d returns at most; give a longer --period, or "
-                            "another k, J or level in the scene",
-                            p->k, p->J[0], p->J[1], p->J[2], found->level, period);
+    return iso_context_fail(
+        ctx, ISO_BAD_INPUT, "orbit",
+        "no symmetric orbit to follow at k = %.12g, J = %.12g %.12g %.12g, level %.12g: the search "
+        "along the six symmetry lines found none of %d returns at most; give a longer --period, or "
+        "another k, J or level in the scene",
+        p->k, p->J[0], p->J[1], p->J[2], found->level, period);
 }
 
 int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *found, const periodic_follow *how)

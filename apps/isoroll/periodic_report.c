@@ -169,9 +169,9 @@ bool periodic_print_json(const periodic_report *r)
     for (int a = 0; a < 3; a++) json_array_append_new(rotations, rotation_of(r, a));
     for (size_t i = 0; i < r->found->count; i++) json_array_append_new(orbits, orbit_of(r, i));
     json_t *o = json_pack("{s:s, s:o, s:o, s:o, s:{s:i}, s:i, s:o, s:o, s:I, s:I}", "isoroll", iso_version(), "k",
-                          json_number(p->k), "J", numbers(3, p->J), "level", json_number(r->found->level), "section", "axis", r->found->axis + 1,
-                          "longest_period", r->period, "rotations", rotations, "orbits", orbits, "unresolved",
-                          (json_int_t)r->found->unresolved, "lost", (json_int_t)r->found->lost);
+                          json_number(p->k), "J", numbers(3, p->J), "level", json_number(r->found->level), "section",
+                          "axis", r->found->axis + 1, "longest_period", r->period, "rotations", rotations, "orbits",
+                          orbits, "unresolved", (json_int_t)r->found->unresolved, "lost", (json_int_t)r->found->lost);
     return json_print(o);
 }
 
@@ -180,10 +180,9 @@ bool periodic_print_json(const periodic_report *r)
 void periodic_write_csv(const periodic_report *r, FILE *to)
 {
     fprintf(to, "# isoroll periodic 1\n# level: %.17g\n", r->found->level);
-    fputs(
-        "orbit,period,l,x,trace,error,stability,symmetry,copies,t,tau,s,closure,omega1,omega2,"
-        "omega3,n1,n2,n3,M1,M2,M3,gamma1,gamma2,gamma3\n",
-        to);
+    fputs("orbit,period,l,x,trace,error,stability,symmetry,copies,t,tau,s,closure,omega1,omega2,"
+          "omega3,n1,n2,n3,M1,M2,M3,gamma1,gamma2,gamma3\n",
+          to);
     for (size_t i = 0; i < r->found->count; i++) {
         const iso_periodic_orbit *o = &r->found->orbit[i];
         char words[ISO_DIGITS_SIZE];

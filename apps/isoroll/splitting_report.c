@@ -96,15 +96,13 @@ static json_t *row_of(const iso_splitting *s)
 {
     const bool there = s->status == ISO_OK;
     if (!there)
-        return json_pack("{s:o, s:o, s:n, s:n, s:n, s:n, s:s}", "k", json_number(s->k), "level", json_number(s->level),
-                         "x", "m", "error", "digits",
-                         "failed", s->words);
-    json_t *o =
-        json_pack("{s:o, s:o, s:o, s:o, s:o, s:i, s:o, s:o, s:o, s:o, s:b}", "k", json_number(s->k), "level",
-                  json_number(s->level), "x",
-                  json_number(s->x), "m", json_number(s->m), "error", json_number(s->error), "digits", s->digits,
-                  "x_error", json_number(s->x_error), "x_tail", json_number(s->x_tail), "m_tail",
-                  json_number(s->m_tail), "multiplier", json_number(s->lambda), "from_zero", (int)s->from_zero);
+        return json_pack("{s:o, s:o, s:n, s:n, s:n, s:n, s:s}", "k", json_number(s->k), "level",
+                         json_number(s->level), "x", "m", "error", "digits", "failed", s->words);
+    json_t *o = json_pack("{s:o, s:o, s:o, s:o, s:o, s:i, s:o, s:o, s:o, s:o, s:b}", "k", json_number(s->k), "level",
+                          json_number(s->level), "x", json_number(s->x), "m", json_number(s->m), "error",
+                          json_number(s->error), "digits", s->digits, "x_error", json_number(s->x_error), "x_tail",
+                          json_number(s->x_tail), "m_tail", json_number(s->m_tail), "multiplier",
+                          json_number(s->lambda), "from_zero", (int)s->from_zero);
     if (o)
         json_object_set_new(o, "global",
                             json_pack("{s:i, s:o, s:o}", "axis", s->section + 1, "x", json_number(s->section_x), "m",
@@ -180,7 +178,8 @@ static iso_status collect(iso_context *ctx, const iso_splittings *s, iso_record 
         double *row;
         if (s->row[i].status != ISO_OK) continue;
         status = iso_record_append(ctx, *rows, &row);
-        if (status == ISO_OK) row[0] = number_of(&s->row[i], by_level), row[1] = s->row[i].m, row[2] = s->row[i].error;
+        if (status == ISO_OK)
+            row[0] = number_of(&s->row[i], by_level), row[1] = s->row[i].m, row[2] = s->row[i].error;
     }
     return status;
 }
@@ -208,7 +207,8 @@ iso_status splitting_draw(iso_context *ctx, const splitting_report *r, const cha
         snprintf(title + length, sizeof title - (size_t)length, ", level %.6g", at->level);
     iso_status status = iso_splitting_curve(ctx, at->k, J, at->level, halves_of(at), &curve);
     if (status == ISO_OK && s->rows > 1) status = collect(ctx, s, &rows);
-    if (status == ISO_OK) status = iso_plot_splitting(ctx, path, title, rows, curve, number_of(at, by_level), at->section);
+    if (status == ISO_OK)
+        status = iso_plot_splitting(ctx, path, title, rows, curve, number_of(at, by_level), at->section);
     iso_record_free(rows);
     iso_record_free(curve);
     return status;

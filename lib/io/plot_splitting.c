@@ -27,7 +27,8 @@ static size_t put_rows(FILE *f, const iso_record *r, const char *name, kind want
         const double *row = iso_record_const_row(r, i), size = fabs(row[M]), error = row[ERROR];
         const kind is = size < TOLD * error ? BOUNDED : row[M] > 0 ? POSITIVE : NEGATIVE;
         if (is != wanted || !isfinite(row[AT]) || !isfinite(row[M]) || !(error > 0)) continue;
-        fprintf(f, "%.17g %.6g %.6g %.6g\n", row[AT], is == BOUNDED ? size + error : size, size - error, size + error);
+        fprintf(f, "%.17g %.6g %.6g %.6g\n", row[AT], is == BOUNDED ? size + error : size, size - error,
+                size + error);
         count++;
     }
     fputs("EOD\n", f);
@@ -47,8 +48,7 @@ static void put_size(FILE *f, const iso_record *r)
           "set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\nset logscale y; set format y '10^{%T}'; set xlabel ",
           f);
     iso_gnuplot_text(f, iso_record_name(r, AT), 8);
-    fputs("\nset ylabel '|m|' offset 1,0; set key outside top center horizontal maxrows 1 samplen 0.5\n",
-          f);
+    fputs("\nset ylabel '|m|' offset 1,0; set key outside top center horizontal maxrows 1 samplen 0.5\n", f);
     for (int i = 0; i < 3; i++) {
         if (count[i] == 0) continue;
         fprintf(f, "%s$%s using 1:2%s with %s %s", comma, name[i], i == BOUNDED ? "" : ":3:4",
@@ -94,7 +94,8 @@ iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *ti
     iso_gnuplot_text(f, title ? title : "", 110);
     fputs(" noenhanced font ',12'\n", f);
     if (with_rows) put_size(f, rows);
-    if (with_curve) put_curve(f, curve, with_rows && strcmp(iso_record_name(rows, AT), "level") == 0 ? "level" : "k", at, axis);
+    if (with_curve)
+        put_curve(f, curve, with_rows && strcmp(iso_record_name(rows, AT), "level") == 0 ? "level" : "k", at, axis);
     fputs("unset multiplot\nunset output\n", f);
     return iso_gnuplot_close(ctx, g, true);
 }

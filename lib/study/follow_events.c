@@ -189,8 +189,7 @@ iso_status iso_follow_events(const iso_follow_family *f, iso_branch *b, const is
         if (!is_true(f, &at, test)) continue;
         name(f, &at, test, test == TEST_FOLD && a->tangent[1] * to->tangent[1] < 0, &e);
         if (test == TEST_TURN) name_turn(f, &at, &e);
-        if (e.kind == ISO_BRANCH_DOUBLING && test != TEST_TURN)
-            name_touch(f, &at, doubles(a, to, test, ds, &at), &e);
+        if (e.kind == ISO_BRANCH_DOUBLING && test != TEST_TURN) name_touch(f, &at, doubles(a, to, test, ds, &at), &e);
         e.at = iso_follow_tell(&at, arc + part);
         if (is_there(b, &e)) continue;
         status = iso_follow_add_event(f, b, &e);

@@ -17,7 +17,7 @@ typedef struct iso_follow_family {
     iso_follow_options options;
     iso_params base;
     double level; /* of base, see map/level.h */
-    int axis; /* of the section, which must stay */
+    int axis;     /* of the section, which must stay */
     int line, period;
     double width; /* of the range */
 } iso_follow_family;

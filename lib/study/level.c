@@ -9,8 +9,8 @@ iso_status iso_level_check(iso_context *ctx, const iso_effects *effects, const c
     const iso_effect *effect = iso_effects_beyond_level(effects);
     if (!effect) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                            "%s only of the free ball and of the point, on every level of its energy: remove '%s'", what,
-                            effect->name);
+                            "%s only of the free ball and of the point, on every level of its energy: remove '%s'",
+                            what, effect->name);
 }
 
 /* A ball in the potential of a level can have so little energy that its point is driven off, not held. */
@@ -18,10 +18,11 @@ static iso_status check_coupling(iso_context *ctx, const iso_orbit *orbit, const
 {
     const iso_point_motion m = iso_orbit_motion(orbit);
     if (m.eps > 0 || m.energy == 0) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, iso_level_name(),
-                            "%s only where the point's coupling eps is above 0; here it is %.6g: the ball's energy in "
-                            "the potential of 'level' is not positive",
-                            what, iso_orbit_coupling(orbit));
+    return iso_context_fail(
+        ctx, ISO_BAD_INPUT, iso_level_name(),
+        "%s only where the point's coupling eps is above 0; here it is %.6g: the ball's energy in "
+        "the potential of 'level' is not positive",
+        what, iso_orbit_coupling(orbit));
 }
 
 iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on)
@@ -51,8 +52,7 @@ iso_status iso_level_of_scene(iso_context *ctx, const iso_scene *scene, const ch
     const iso_effects effects = iso_effects_acting(&scene->effects);
     const bool plain = scene->start.model == ISO_BALL && !iso_effects_have_level(&effects);
     *level = 0;
-    const iso_status status =
-        plain ? iso_level_check(ctx, &effects, what) : iso_level_find(ctx, scene, what, &on);
+    const iso_status status = plain ? iso_level_check(ctx, &effects, what) : iso_level_find(ctx, scene, what, &on);
     if (status == ISO_OK && !plain) *level = iso_level_of(&on.units.own, on.energy);
     return status;
 }

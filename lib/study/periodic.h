@@ -75,7 +75,7 @@ typedef struct iso_rotation {
     iso_multipliers half;     /* of half a turn                                                                    */
     double clock[ISO_CLOCKS]; /* of a whole turn, in the scene's units                                            */
     double l, x;              /* its fixed point; x = 1: the boundary of the section                               */
-    bool oscillates; /* there is none: part of its circle cannot be reached on this level. The other numbers
+    bool oscillates;          /* there is none: part of its circle cannot be reached on this level. The other numbers
                         are NaN                                                                                 */
 } iso_rotation;
 

@@ -25,8 +25,8 @@ const char *iso_vary_name(int vary)
 
 const char *iso_branch_kind_name(iso_branch_kind kind)
 {
-    static const char *const names[] = {"fold", "period doubling", "symmetry breaking", "collision", "torus",
-                                        "end",  "failure", "touch", "undecided"};
+    static const char *const names[] = {
+        "fold", "period doubling", "symmetry breaking", "collision", "torus", "end", "failure", "touch", "undecided"};
     return (int)kind >= 0 && kind <= ISO_BRANCH_UNDECIDED ? names[kind] : NULL;
 }
 

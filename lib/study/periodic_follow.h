@@ -20,14 +20,7 @@
 
 ISO_C_BEGIN
 
-typedef enum iso_vary {
-    ISO_VARY_K,
-    ISO_VARY_J1,
-    ISO_VARY_J2,
-    ISO_VARY_J3,
-    ISO_VARY_RATIO,
-    ISO_VARY_LEVEL
-} iso_vary;
+typedef enum iso_vary { ISO_VARY_K, ISO_VARY_J1, ISO_VARY_J2, ISO_VARY_J3, ISO_VARY_RATIO, ISO_VARY_LEVEL } iso_vary;
 /* "k", "J1", "J2", "J3", "ratio", "level"; NULL past the end. ratio: (J2 - J1)/(J3 - J1), by J2. level: (H/eps) J2^(1/k)
  * (map/level.h); it stays the scene's while the others change. */
 ISO_API const char *iso_vary_name(int vary);
@@ -38,8 +31,8 @@ typedef enum iso_branch_kind {
     ISO_BRANCH_BREAKING,
     ISO_BRANCH_COLLISION,
     ISO_BRANCH_TORUS,
-    ISO_BRANCH_END,    /* the end of the range                     */
-    ISO_BRANCH_FAILURE, /* it could not be followed: words say why  */
+    ISO_BRANCH_END,      /* the end of the range                     */
+    ISO_BRANCH_FAILURE,  /* it could not be followed: words say why  */
     ISO_BRANCH_TOUCH,    /* the trace touches -2 and does not pass it */
     ISO_BRANCH_UNDECIDED /* a touch, or two period doublings that are too close to tell */
 } iso_branch_kind;

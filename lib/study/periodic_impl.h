@@ -25,13 +25,13 @@
 
 typedef struct iso_periodic_map {
     iso_context *ctx;
-    iso_params p; /* own */
+    iso_params p;  /* own */
     double energy; /* the level H of the point, for eps = 1 */
     int axis, threads;
     iso_model model;     /* the point on this level, eps = 1, with all clocks */
     iso_effects effects; /* the level again, as starts need it                */
     double zeros;        /* see iso_lane_job */
-    double finer;    /* of one point: the tolerance is this part of the usual one */
+    double finer;        /* of one point: the tolerance is this part of the usual one */
 } iso_periodic_map;
 
 static inline iso_point_motion iso_periodic_motion(const iso_periodic_map *map)

@@ -50,9 +50,9 @@ typedef struct iso_splitting {
     int digits;                    /* decimal digits of the numbers: 19 or 32                                       */
     bool from_zero;                /* |m| > 100 errors                                                              */
     bool is_zero; /* a zero of m between two rows of a scan, to k_error or level_error; next_... are there   */
-    double k_error, level_error;   /* one of them is 0: that of the number in which both rows agree                */
-    iso_status status; /* ISO_OK, or why there is nothing                                               */
-    char words[200];   /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
+    double k_error, level_error; /* one of them is 0: that of the number in which both rows agree                */
+    iso_status status;           /* ISO_OK, or why there is nothing                                               */
+    char words[200];             /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
 } iso_splitting;
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and

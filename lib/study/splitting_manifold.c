@@ -97,10 +97,11 @@ static iso_status check_level(const iso_manifold *m)
     const iso_params *p = &m->problem.p;
     const double a = p->J[m->axis], lowest = iso_level_of(p, -pow(a, -1 / p->k));
     if (m->level > lowest) return ISO_OK;
-    return iso_context_fail(m->ctx, ISO_BAD_INPUT, "level",
-                            "splitting at k = %.15g, level %.15g: the middle axis has no rotation, but an oscillation "
-                            "between two places of rest: it has no separatrix. Give a level above %.12g",
-                            p->k, m->level, lowest);
+    return iso_context_fail(
+        m->ctx, ISO_BAD_INPUT, "level",
+        "splitting at k = %.15g, level %.15g: the middle axis has no rotation, but an oscillation "
+        "between two places of rest: it has no separatrix. Give a level above %.12g",
+        p->k, m->level, lowest);
 }
 
 iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)

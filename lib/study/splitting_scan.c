@@ -13,7 +13,7 @@
  * same size everywhere. Two neighbours with one between, along k or along the level. */
 typedef struct bracket {
     bool by_level;
-    double other;   /* the number in which they agree */
+    double other; /* the number in which they agree */
     double at[2], r[2];
     bool fine; /* 64 bits do not tell these m from 0 */
 } bracket;
@@ -135,7 +135,8 @@ static int by_k(const void *a, const void *b)
 static bool is_bracket(const iso_splitting *a, const iso_splitting *b, bracket *found)
 {
     const bool fine = a->digits > 19 || b->digits > 19, by_level = a->k == b->k;
-    *found = (bracket){by_level, by_level ? a->k : a->level, {a->k, b->k}, {reduced(a, a->m), reduced(b, b->m)}, fine};
+    *found =
+        (bracket){by_level, by_level ? a->k : a->level, {a->k, b->k}, {reduced(a, a->m), reduced(b, b->m)}, fine};
     if (by_level) found->at[0] = a->level, found->at[1] = b->level;
     return a->k * b->k > 0 && (by_level || a->level == b->level) && found->r[0] * found->r[1] < 0;
 }
@@ -162,7 +163,8 @@ static size_t find_brackets(const iso_splittings *s, const iso_splitting *list[]
 
 static void blank(double k, double level, iso_splitting *s)
 {
-    const iso_splitting none = {.k = k, .level = level, .status = ISO_STOPPED, .words = "not computed", .m = NAN, .x = NAN};
+    const iso_splitting none = {
+        .k = k, .level = level, .status = ISO_STOPPED, .words = "not computed", .m = NAN, .x = NAN};
     *s = none;
 }
 

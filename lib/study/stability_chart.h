@@ -10,12 +10,13 @@
 ISO_C_BEGIN
 
 typedef struct iso_stability_options {
-    size_t size;           /* set by iso_stability_defaults; see isoroll.h */
-    int moment;            /* which of J varies, 0 to 2; ISO_CHART_LEVEL: the level */
-    double J[3];           /* the others, > 0           */
-    double from[2], to[2]; /* k, the moment or level: from < to; |k| < ISO_LEAST_K is left out: there the trace has no limit */
-    int steps;             /* of the grid, in both directions: 2 to 2000 */
-    int threads;           /* 0: as many as there are processors to run on */
+    size_t size; /* set by iso_stability_defaults; see isoroll.h */
+    int moment;  /* which of J varies, 0 to 2; ISO_CHART_LEVEL: the level */
+    double J[3]; /* the others, > 0           */
+    double from[2],
+        to[2];   /* k, the moment or level: from < to; |k| < ISO_LEAST_K is left out: there the trace has no limit */
+    int steps;   /* of the grid, in both directions: 2 to 2000 */
+    int threads; /* 0: as many as there are processors to run on */
     /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
     void (*progress)(double part, void *data);
     void *data;
