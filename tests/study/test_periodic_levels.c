@@ -197,7 +197,7 @@ static void check_orbits(void)
         for (size_t j = 0; j < f->count; j++) {
             gsl_test(!(f->orbit[j].closure <= 1e-14), "closure %g", f->orbit[j].closure);
             const double size = 1 + fabs(f->orbit[j].trace);
-            gsl_test(!(fabs(f->orbit[j].determinant) <= 1e-17 * size), "trace %g: determinant 1 %+g", size - 1,
+            gsl_test(!(fabs(f->orbit[j].determinant) <= 1e-15 * size), "trace %g: determinant 1 %+g", size - 1,
                      f->orbit[j].determinant);
             if (fabs(f->orbit[j].trace) > 1000) continue;
             for (iso_model_kind model = ISO_BALL; model <= ISO_POINT; model++)
