@@ -101,6 +101,7 @@ check_not "nor is -1, between two values" grep -q 'm = 0 at' out
 cat >level.yaml <<END
 point: {k: 0.5, J: [1.4, 2.1, 3], eps: 1}
 initial: {gamma: [0.6, 0, 0.8], M: [0, 0.5, 0]}
+time: {end: 1, step: 1}
 END
 run 0 splitting level.yaml --digits double -o split.csv
 check "the scene's level" grep -q "^level of the point, (H/eps) J2^(1/k): -0.19928916282" out

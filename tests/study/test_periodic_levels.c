@@ -84,6 +84,22 @@ static void check_table(void)
     }
 }
 
+/* In 128 bits, where there are any, Hill's equation and the section agree to 28 digits. */
+static void check_polish(void)
+{
+    const iso_scene scene = scene_on(0.5, (const double[3]){1, 2, 5}, 1.7, -0.1);
+    iso_periodic_options o = iso_periodic_defaults();
+    iso_periodic *f;
+    o.polish = o.rotations_alone = true;
+    const iso_status status = iso_periodic_run(ctx, &scene, &o, &f);
+    if (status == ISO_BAD_ARGUMENT) return;
+    gsl_test(status != ISO_OK, "%s", iso_context_message(ctx));
+    for (int a = 0; a < 3 && f; a++)
+        gsl_test(!(f->rotation[a].error < 1e-28 * (1 + fabs(f->rotation[a].half_turn_trace))), "axis %d: %g +- %.1e",
+                 a + 1, f->rotation[a].half_turn_trace, f->rotation[a].error);
+    iso_periodic_free(f);
+}
+
 /* Random J that differ by a twentieth or more, k, and a level on which the whole sphere can be reached. */
 static double draw(iso_random *random, double J[3], double *k)
 {
@@ -338,9 +354,22 @@ static void check_slope(double k, const double J[3], double level)
     gsl_test_abs(m, s.section_m, 1e-6, "k = %g, level %g: m by difference quotients", k, level);
 }
 
+/* 64 bits and their error against 128 bits, where there are any. */
+static void check_digits(double k, const double J[3], double level)
+{
+    iso_splitting s, q;
+    iso_splitting_at(ctx, k, J, level, ISO_SPLITTING_DOUBLE, &s);
+    if (iso_splitting_at(ctx, k, J, level, ISO_SPLITTING_QUAD, &q) == ISO_BAD_ARGUMENT) return;
+    const double apart = fabs((s.m - q.m) + (s.m_tail - q.m_tail));
+    gsl_test(!(apart < s.error && q.error < 1e-26), "k = %g, level %g: 64 from 128 bits %.1e, errors %.1e and %.1e",
+             k, level, apart, s.error, q.error);
+}
+
 static void check_splitting(void)
 {
     static const double thin[3] = {1.4, 2.1, 3}, wide[3] = {1, 2, 5};
+    for (int i = 0; i < tests_length(0, 3); i++)
+        check_digits(i % 2 ? -0.5 : 0.5, i == 2 ? wide : thin, 0.4 - 0.25 * i);
     check_slope(0.5, thin, -0.25);
     check_slope(0.5, wide, 0.7);
     check_slope(-0.4, thin, 0.1);
@@ -415,6 +444,7 @@ int main(void)
 {
     ctx = iso_context_create();
     check_table();
+    check_polish();
     check_middle_axis();
     check_none();
     check_orbits();
