@@ -14,7 +14,7 @@
 typedef struct options {
     scene_options scene; /* only its file is used */
     const char *output, *plot;
-    const char *chart, *k, *follow;
+    const char *chart, *k, *level, *follow;
     double period, grid, steps, threads, orbit; /* orbit 0: all */
     bool all, polish, json, branches;
 } options;
@@ -27,6 +27,10 @@ static int tell_gaps(const iso_periodic *f)
         complain("on %zu intervals of the symmetry lines the samples are too far apart: orbits may be missing",
                  f->unresolved);
     if (f->lost > 0) complain("%zu zeros were seen where no orbit was found: orbits may be missing", f->lost);
+    if (f->closed)
+        complain(
+            "on this level the point can come to rest: orbits that rest and go back the same way are listed only if "
+            "they have a symmetry besides, or with --all");
     return EXIT_DONE;
 }
 
@@ -35,6 +39,7 @@ static int follow(iso_context *ctx, const options *o, const iso_scene *scene, co
 {
     const periodic_follow how = {.range = o->follow,
                                  .orbit = o->orbit,
+                                 .period = as_int(o->period),
                                  .branches = o->branches,
                                  .threads = as_int(o->threads),
                                  .rows = csv,
@@ -112,6 +117,10 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "steps", "periodic: --steps goes with --chart");
     if (o->k && !o->chart)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "periodic: --k is the range of --chart");
+    if (o->level && !o->chart)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "level",
+                                "periodic: --level is for --chart; other levels are those of a scene, or "
+                                "--follow level=A:B");
     if (o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     if (status == ISO_OK && o->follow) status = follow_check(ctx, scene, o->follow);
@@ -129,6 +138,7 @@ static int run(iso_context *ctx, const void *options_given)
         return draw_chart(ctx, &scene,
                           &(periodic_chart){.moment = o->chart,
                                             .k = o->k,
+                                            .level = o->level,
                                             .steps = o->steps,
                                             .threads = as_int(o->threads),
                                             .rows = csv,
@@ -145,15 +155,19 @@ static const option_row rows[] = {
         all),
     ROW("grid", "N", "a whole number from 1 on", "points of that grid (default 2000)", set_count, options, grid),
     ROW("polish", NULL, NULL, "compute with 128 bits and print 30 digits", set_flag, options, polish),
-    ROW("follow", "NAME=A:B", "k, J1, J2, J3 or ratio, =, two numbers and a colon",
-        "follow orbits while k, a moment or the ratio (J2 - J1)/(J3 - J1) goes from A to B", set_text, options,
-        follow),
+    ROW("follow", "NAME=A:B", "k, J1, J2, J3, ratio or level, =, two numbers and a colon",
+        "follow orbits while k, a moment, the ratio (J2 - J1)/(J3 - J1) or the level goes from A to B", set_text,
+        options, follow),
     ROW("orbit", "N", "a whole number from 1 on", "follow orbit N of the list alone", set_count, options, orbit),
     ROW("branches", NULL, NULL, "follow what branches off, too", set_flag, options, branches),
-    ROW("chart", "MOMENT", "J1, J2 or J3, or J2=A:B",
-        "in place of all that: where rotations are stable, in the plane of k and a moment, from A to B", set_text,
-        options, chart),
+    ROW("chart", "MOMENT", "J1, J2 or J3, or J2=A:B, or level=A:B",
+        "in place of all that: where rotations are stable, in the plane of k and a moment, or of k and the level, "
+        "from A "
+        "to B",
+        set_text, options, chart),
     ROW("k", "A:B", "two numbers and a colon", "k of --chart (default -3:3)", set_text, options, k),
+    ROW("level", "X", "a number", "the level of --chart, everywhere (default: the scene's)", set_text, options,
+        level),
     ROW("steps", "N", "a whole number from 1 on", "steps of --chart in both directions (default 120)", set_count,
         options, steps),
     ROW_THREADS(options, threads),
@@ -185,18 +199,29 @@ const command command_periodic = {
         "its error, stability, which reversors map the orbit to itself, how many copies R, S1 S2 and T make of it "
         "(itself among them), and its period in t. JSON and -o add the start in both models, the periods in tau "
         "and s, and how well the orbit closes. lib/doc/theory.md explains R, S1, S2, S3 and T.\n\n"
-        "Only k, J and the energy of the scene are read. Orbits do not depend on the energy, only their clocks "
-        "do.\n\n"
-        "For k = 1 and k = -1 most periodic orbits fill tori. Those on the symmetry lines are listed as degenerate "
+        "Only k, J and the energy of the scene are read. Orbits of the free ball do not depend on the energy, only "
+        "their clocks do. A point off H = 0, or a ball with the effect level, has a level (H/eps) J2^(1/k), J2 the "
+        "middle "
+        "moment: a number without a dimension, which units do not change. Orbits depend on it. On a low level the "
+        "point "
+        "cannot reach the whole sphere. Then a rotation may be missing, and the point oscillates between two places "
+        "of "
+        "rest in its stead.\n\n"
+        "For k = 1 and k = -1 most periodic orbits fill tori, on every level. Those on the symmetry lines are listed "
+        "as degenerate "
         "(trace 2).\n\n"
         "--follow k=A:B follows symmetric orbits from the scene's k to A and to B, or until they end: folds, period "
         "doublings, symmetry breaking and collisions with rotations are located. Where a branch cannot be followed, "
         "a line says where and why, and the part so far is kept. --branches follows what branches off as well, but "
         "not "
-        "what branches off from that.\n\n"
+        "what branches off from that. While k or a moment changes, the level stays that of the scene; --follow "
+        "level=A:B "
+        "changes it.\n\n"
         "--chart J2 shows in which part of the plane of k and J2 the rotations about the axes of the least and of "
         "the "
-        "greatest moment are stable, and the borders on which a trace is 2 or -2.\n\n"
+        "greatest moment are stable, and the borders on which a trace is 2 or -2. (The axis of the middle moment is "
+        "never "
+        "stable.) The level is that of the scene, or --level; --chart level=A:B has the level in the place of J2.\n\n"
         "-o FILE writes one row for each orbit, in doubles. --plot draws all orbits and their copies on the section, "
         "unstable "
         "ones "

@@ -8,11 +8,12 @@
 #include "io/plot.h"
 #include "scene_options.h"
 #include "splitting_report.h"
+#include "study/level.h"
 
 /* What splitting can be told. */
 typedef struct options {
-    scene_options scene;           /* only its file is used */
-    const char *k, *output, *plot; /* NULL: not given       */
+    scene_options scene;                   /* only its file is used */
+    const char *k, *level, *output, *plot; /* NULL: not given */
     iso_splitting_digits digits;
     double threads;
     bool json;
@@ -47,33 +48,39 @@ static bool read_number(const char *text, size_t length, double *x)
     return isfinite(*x);
 }
 
+/* The values of --k or --level. */
 typedef struct numbers {
-    double *k;
+    const char *name;
+    double *x;
     size_t count;
 } numbers;
 
-static iso_status bad_k(iso_context *ctx, const char *text)
+static iso_status bad_list(iso_context *ctx, const numbers *list, const char *text)
 {
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                            "--k '%s': expected values and ranges A:B:STEP, STEP not 0, with commas between, at most "
-                            "%d values: 0.25:3:0.25, or 1/3,1/2,-0.5",
-                            text, MOST_K);
+    return iso_context_fail(
+        ctx, ISO_BAD_INPUT, "",
+        "--%s '%s': expected values and ranges A:B:STEP, STEP not 0, with commas between, at most "
+        "%d values: 0.25:3:0.25, or 1/3,1/2,-0.5",
+        list->name, text, MOST_K);
 }
 
-static iso_status append(iso_context *ctx, numbers *list, double k)
+static iso_status append(iso_context *ctx, numbers *list, double x)
 {
-    double *more = realloc(list->k, (list->count + 1) * sizeof *more);
-    if (!more) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of k", list->count + 1);
-    list->k = more;
-    list->k[list->count++] = k;
+    double *more = realloc(list->x, (list->count + 1) * sizeof *more);
+    if (!more)
+        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of %s", list->count + 1,
+                                list->name);
+    list->x = more;
+    list->x[list->count++] = x;
     return ISO_OK;
 }
 
-/* 0.1 + 2 0.1 shall be 0.3, and 1/3 stay as it is. */
-static double rounded(double k)
+/* 0.1 + 2 0.1 shall be 0.3, -0.3 + 3 0.1 shall be 0, and 1/3 stay as it is. */
+static double rounded(double k, double step)
 {
     char digits[ISO_NUMBER_SIZE];
     double tidy;
+    if (fabs(k) < 1e-9 * fabs(step)) return 0;
     iso_number_print_as(digits, k, 12);
     return iso_number_read(digits, strlen(digits), &tidy) && fabs(tidy - k) < 1e-15 * fmax(1, fabs(k)) ? tidy : k;
 }
@@ -85,29 +92,47 @@ static iso_status read_item(iso_context *ctx, const char *text, const char *item
     int parts = 0;
     for (const char *c = item; c <= item + length; parts++) {
         const size_t left = (size_t)(item + length - c), part = strcspn(c, ":") < left ? strcspn(c, ":") : left;
-        if (parts == 3 || !read_number(c, part, &number[parts])) return bad_k(ctx, text);
+        if (parts == 3 || !read_number(c, part, &number[parts])) return bad_list(ctx, list, text);
         c += part + 1;
     }
     if (parts == 1) return append(ctx, list, number[0]);
     const double way = number[1] - number[0], step = copysign(number[2], way), steps = floor(way / step + 1e-9);
-    if (parts != 3 || number[2] == 0 || !(steps < MOST_K)) return bad_k(ctx, text);
+    if (parts != 3 || number[2] == 0 || !(steps < MOST_K)) return bad_list(ctx, list, text);
     iso_status status = ISO_OK;
-    for (double i = 0; i <= steps && status == ISO_OK; i++) status = append(ctx, list, rounded(number[0] + i * step));
+    for (double i = 0; i <= steps && status == ISO_OK; i++)
+        status = append(ctx, list, rounded(number[0] + i * step, step));
     return status;
 }
 
-/* The values of k, which are the caller's to free: --k, or the scene's. */
-static iso_status read_k(iso_context *ctx, const options *o, const iso_scene *scene, numbers *list)
+/* What is typed, or the scene's one. The values are the caller's to free. */
+static iso_status read_list(iso_context *ctx, const char *text, double scenes, numbers *list)
 {
-    if (!o->k) return append(ctx, list, scene->params.k);
-    for (const char *c = o->k;; c++) {
+    if (!text) return append(ctx, list, scenes);
+    for (const char *c = text;; c++) {
         const size_t length = strcspn(c, ",");
-        const iso_status status = read_item(ctx, o->k, c, length, list);
+        const iso_status status = read_item(ctx, text, c, length, list);
         if (status != ISO_OK) return status;
-        if (list->count > MOST_K) return bad_k(ctx, o->k);
+        if (list->count > MOST_K) return bad_list(ctx, list, text);
         c += length;
         if (!*c) return ISO_OK;
     }
+}
+
+/* Many k on one level, or many levels at one k: the shorter list is repeated. */
+static iso_status read_lists(iso_context *ctx, const options *o, const iso_scene *scene, numbers *k, numbers *level)
+{
+    double own = 0;
+    iso_status status = o->level ? ISO_OK : iso_level_of_scene(ctx, scene, "the splitting is measured", &own);
+    if (status == ISO_OK) status = read_list(ctx, o->k, scene->params.k, k);
+    if (status == ISO_OK) status = read_list(ctx, o->level, own, level);
+    if (status == ISO_OK && k->count > 1 && level->count > 1)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                "--k has %zu values and --level %zu: give many k and one level, or one k and many "
+                                "levels",
+                                k->count, level->count);
+    while (status == ISO_OK && k->count < level->count) status = append(ctx, k, k->x[0]);
+    while (status == ISO_OK && level->count < k->count) status = append(ctx, level, level->x[0]);
+    return status;
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
@@ -123,7 +148,8 @@ static int judge(iso_context *ctx, const iso_splittings *s)
     if (failed == 0) return EXIT_DONE;
     if (failed == s->rows)
         return finish(ctx, iso_context_fail(ctx, s->row[first].status, "", "%s", s->row[first].words));
-    complain("%zu of %zu values of k failed: %s", failed, s->rows, s->row[first].words);
+    complain("%zu of %zu values of %s failed: %s", failed, s->rows, splitting_is_by_level(s) ? "the level" : "k",
+             s->row[first].words);
     return EXIT_SOME_FAILED;
 }
 
@@ -137,7 +163,7 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
         result = splitting_print_json(&r) ? result : EXIT_NUMERICAL;
     else if (some && (!o->output || strcmp(o->output, "-") != 0))
         splitting_print(&r);
-    if (s->lost > 0) complain("%zu zeros of m lie between these values of k, but were not found", s->lost);
+    if (s->lost > 0) complain("%zu zeros of m lie between these values, but were not found", s->lost);
     if (csv) {
         const iso_status status = some ? splitting_write_csv(ctx, &r, csv) : iso_output_close(ctx, csv, false);
         result = worse(result, finish(ctx, status));
@@ -146,20 +172,22 @@ static int report(iso_context *ctx, const options *o, const iso_scene *scene, co
     return result;
 }
 
-static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, numbers *k, iso_output **csv)
+static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, numbers *k, numbers *level,
+                          iso_output **csv)
 {
     iso_status status = check_json_alone(ctx, "splitting", o->output, o->json);
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
-    if (status == ISO_OK) status = read_k(ctx, o, scene, k);
+    if (status == ISO_OK) status = read_lists(ctx, o, scene, k, level);
     return status == ISO_OK && o->output ? iso_output_open(ctx, o->output, csv) : status;
 }
 
-static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, iso_output *csv)
+static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, const numbers *level,
+                iso_output *csv)
 {
     iso_splittings *s = NULL;
     iso_splitting_options how = iso_splitting_defaults();
-    how.k = k->k, how.count = k->count;
+    how.k = k->x, how.level = level->x, how.count = k->count;
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
     how.scene = scene;
     how.digits = o->digits;
@@ -186,11 +214,12 @@ static int run(iso_context *ctx, const void *options_given)
     const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_output *csv = NULL;
-    numbers k = {NULL, 0};
-    const iso_status status = prepare(ctx, o, &scene, &k, &csv);
+    numbers k = {.name = "k"}, level = {.name = "level"};
+    const iso_status status = prepare(ctx, o, &scene, &k, &level, &csv);
     const int result =
-        status == ISO_OK ? work(ctx, o, &scene, &k, csv) : finish_scene(ctx, &o->scene, &scene, status);
-    free(k.k);
+        status == ISO_OK ? work(ctx, o, &scene, &k, &level, csv) : finish_scene(ctx, &o->scene, &scene, status);
+    free(k.x);
+    free(level.x);
     return result;
 }
 
@@ -200,6 +229,9 @@ static const option_row rows[] = {
     ROW("k", "LIST", "values and ranges A:B:STEP",
         "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
         set_text, options, k),
+    ROW("level", "LIST", "values and ranges A:B:STEP",
+        "levels in place of the scene's, as many as you like at one k: a list like that of --k", set_text, options,
+        level),
     ROW_OF_WORDS("digits", "D", "double, quad or auto",
                  "double: 64 bits of mantissa (19 digits); quad: 128 bits (32 digits); auto: 128 bits where 64 give "
                  "less than 3 "
@@ -229,23 +261,32 @@ const command command_splitting = {
         "orbits that end in the opposite rotation. If there is a further analytic integral, both are one curve. If "
         "they cross, there is none. "
         "This command finds the first point of the curve that leaves with l = pi/2, its x = M_a/|M|, and its slope "
-        "m = dx/dl there; the other curve has the slope -m. So m = 0 at k = 1 and k = -1, and m not 0 says that "
-        "there is no further analytic integral.\n\n"
+        "m = dx/dl there; the other curve has the slope -m. So m = 0 at k = 1 and k = -1, on every level. Where m "
+        "is not 0 here, the crossing is shown numerically, with an error that is estimated: this is no proof that "
+        "there "
+        "is no further analytic integral.\n\n"
         "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not "
         "distinguish it from 0, 128 bits are taken, which need from seconds to a minute for each k. Other zeros of m "
         "between two values of k "
         "are "
-        "located. There the curves touch at one point. The slope at the next common point is printed: if they cross "
-        "there, there is no further integral. Where the multiplier of the rotation is below 1.02, as between nearly "
+        "located. There the curves touch at one point. The slope at the next common point is printed: they may cross "
+        "there. Where the multiplier of the rotation is below 1.02, as between nearly "
         "equal moments, m is too small "
         "for 128 bits and not computed.\n\n"
-        "Only k and J of the scene are read. Its start does not matter, nor do its times. -o FILE writes one row for "
-        "each k. --plot draws |m| over k, and both curves at the k where they are seen best. After Ctrl-C the rows "
+        "The level is (H/eps) J2^(1/k), J2 the middle moment, H the energy of the point: a number without a "
+        "dimension. It "
+        "is 0 for the free ball, else that of the scene, a point off H = 0 or a ball with the effect level; or "
+        "--level "
+        "gives it. A low level has no such rotation, but an oscillation between two places of rest.\n\n"
+        "Only k, J and the level of the scene are read. Its start does not matter else, nor do its times. -o FILE "
+        "writes one row for "
+        "each k or level. --plot draws |m| over k or the level, and both curves where they are seen best. After "
+        "Ctrl-C the rows "
         "that are done are printed.",
     .example = "isoroll splitting scene.yaml --k 0.25:3:0.25 --plot splitting.png",
     .exits =
-        "1: interrupted, or some values of k failed\n"
-        "3: bad input: gravity or another effect, equal or nearly equal moments, or a middle axis that is stable\n"
+        "1: interrupted, or some rows failed\n"
+        "3: bad input: gravity or another effect, equal or nearly equal moments, or a level without the rotation\n"
         "4: the computation failed, or no memory",
     .run = run,
 };

@@ -12,6 +12,7 @@
 #include "progress.h"
 #include "report.h"
 #include "scene_options.h"
+#include "study/level.h"
 #include "study/stability_chart.h"
 #include "table.h"
 
@@ -22,21 +23,45 @@ bool read_range(const char *text, double range[2])
            iso_number_read(colon + 1, strlen(colon + 1), &range[1]);
 }
 
+/* What varies besides k. */
+static const char *of_chart(int moment)
+{
+    static const char *const names[] = {"J1", "J2", "J3", "level"};
+    return names[moment];
+}
+
+static iso_status read_level(iso_context *ctx, const iso_scene *scene, const periodic_chart *c,
+                             iso_stability_options *o)
+{
+    if (!c->level) return iso_level_of_scene(ctx, scene, "the chart is drawn", &o->level);
+    if (o->moment == ISO_CHART_LEVEL)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--level does not go with --chart level=A:B");
+    if (iso_number_read(c->level, strlen(c->level), &o->level)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--level '%s': expected a number", c->level);
+}
+
 static iso_status read_words(iso_context *ctx, const iso_scene *scene, const periodic_chart *c,
                              iso_stability_options *o)
 {
     double k[2] = {-3, 3}, moment[2];
     *o = iso_stability_defaults();
     const char *name = c->moment, *equals = strchr(name, '=');
-    o->moment = name[0] == 'J' ? name[1] - '1' : -1;
-    if (o->moment < 0 || o->moment > 2 || (name[2] && name[2] != '='))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--chart '%s': expected J1, J2 or J3, or J2=A:B", name);
+    const size_t length = strcspn(name, "=");
+    o->moment = -1;
+    for (int i = 0; i <= ISO_CHART_LEVEL; i++)
+        if (strlen(of_chart(i)) == length && strncmp(name, of_chart(i), length) == 0) o->moment = i;
+    if (o->moment < 0 || (o->moment == ISO_CHART_LEVEL && !equals))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "",
+                                "--chart '%s': expected J1, J2 or J3, or J2=A:B, or level=A:B", name);
     memcpy(o->J, scene->params.J, sizeof o->J);
+    const iso_status status = read_level(ctx, scene, c, o);
+    if (status != ISO_OK) return status;
     const double one = o->J[(o->moment + 1) % 3], other = o->J[(o->moment + 2) % 3];
     moment[0] = fmin(one, other);
     moment[1] = one + other;
     if (equals && !read_range(equals + 1, moment))
-        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--chart '%s': expected J%d=A:B, A < B", name, o->moment + 1);
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--chart '%s': expected %s=A:B, A < B", name,
+                                of_chart(o->moment));
     if (c->k && !read_range(c->k, k))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "", "--k '%s': expected A:B, A < B", c->k);
     o->from[0] = k[0], o->to[0] = k[1];
@@ -71,7 +96,7 @@ static json_t *column_of(const iso_record *r, int column)
 static bool print_json(const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
 {
     static const char *const axes[] = {"least", "greatest"};
-    char moment[3] = {'J', (char)('1' + o->moment), 0};
+    const char *moment = of_chart(o->moment);
     json_t *list = json_array();
     for (size_t i = 0; i < iso_record_rows(borders); i++) {
         const double *row = iso_record_const_row(borders, i);
@@ -79,45 +104,64 @@ static bool print_json(const iso_stability_options *o, const iso_record *grid, c
                               json_pack("{s:s, s:o, s:o, s:o}", "axis", axes[row[0] > 0], "trace",
                                         json_number(row[1]), "k", json_number(row[2]), moment, json_number(row[3])));
     }
-    return json_print(json_pack("{s:s, s:s, s:{s:o, s:o, s:o, s:o}, s:o}", "isoroll", iso_version(), "moment", moment,
-                                "grid", "k", column_of(grid, 0), moment, column_of(grid, 1), "least",
-                                column_of(grid, 2), "greatest", column_of(grid, 3), "borders", list));
+    json_t *level = o->moment == ISO_CHART_LEVEL ? json_null() : json_number(o->level);
+    return json_print(json_pack("{s:s, s:s, s:o, s:{s:o, s:o, s:o, s:o}, s:o}", "isoroll", iso_version(), "moment",
+                                moment, "level", level, "grid", "k", column_of(grid, 0), moment, column_of(grid, 1),
+                                "least", column_of(grid, 2), "greatest", column_of(grid, 3), "borders", list));
 }
 
 #define EDGE 1e-9 /* with equal moments a trace is 2 or -2 up to rounding */
 
 static void print_table(const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
 {
-    size_t count[2][3] = {{0}};
+    size_t count[2][3] = {{0}}, none[2] = {0};
     static const char *const axes[] = {"least", "greatest"};
     for (size_t i = 0; i < iso_record_rows(grid); i++)
         for (int which = 0; which < 2; which++) {
             const double T = iso_record_const_row(grid, i)[2 + which];
-            if (!isnan(T)) count[which][T < -2 - EDGE ? 0 : T > 2 + EDGE ? 2 : 1]++;
+            if (!isnan(T))
+                count[which][T < -2 - EDGE ? 0 : T > 2 + EDGE ? 2 : 1]++;
+            else
+                none[which] += fabs(iso_record_const_row(grid, i)[0]) >= ISO_LEAST_K;
         }
-    printf("k from %g to %g, J%d from %g to %g; share of the grid points\n%20s  T < -2    stable    T > 2\n",
-           o->from[0], o->to[0], o->moment + 1, o->from[1], o->to[1], "");
+    printf("k from %g to %g, %s from %g to %g; share of the grid points\n%20s  T < -2    stable    T > 2\n",
+           o->from[0], o->to[0], of_chart(o->moment), o->from[1], o->to[1], "");
     for (int which = 0; which < 2; which++) {
         const double all = (double)(count[which][0] + count[which][1] + count[which][2]);
         printf("  %-8s moment    %6.4f    %6.4f    %6.4f\n", axes[which], (double)count[which][0] / all,
                (double)count[which][1] / all, (double)count[which][2] / all);
     }
+    if (o->level != 0) printf("level of the point, (H/eps) J2^(1/k): %.15g\n", o->level);
+    for (int which = 0; which < 2; which++)
+        if (none[which] > 0)
+            printf("left out: %zu grid points, where there is no rotation about the axis of the %s moment, but an "
+                   "oscillation between two places of rest\n",
+                   none[which], axes[which]);
     printf("%zu points of the borders T = 2 and T = -2: see -o, --json and --plot\n", iso_record_rows(borders));
 }
 
 static iso_status write_all(iso_context *ctx, const iso_scene *scene, const periodic_chart *c,
                             const iso_stability_options *o, const iso_record *grid, const iso_record *borders)
 {
-    char title[160], columns[64], moment[3] = {'J', (char)('1' + o->moment), 0};
+    const char *moment = of_chart(o->moment);
+    const double *J = o->J;
+    char title[160], columns[64];
     iso_status status = ISO_OK;
     if (c->rows) {
-        snprintf(columns, sizeof columns, "kind,k,J%d,least,greatest", o->moment + 1);
-        status = table_begin(ctx, c->rows, "periodic chart", scene, NULL, columns);
+        const table_line lines[] = {{.key = o->moment == ISO_CHART_LEVEL ? NULL : "level", .number = o->level},
+                                    {.key = NULL}};
+        snprintf(columns, sizeof columns, "kind,k,%s,least,greatest", moment);
+        status = table_begin(ctx, c->rows, "periodic chart", scene, lines, columns);
         if (status == ISO_OK) write_rows(grid, borders, iso_output_stream(c->rows));
         status = table_end(ctx, c->rows, status);
     }
     const int a = (o->moment + 1) % 3, b = (o->moment + 2) % 3;
-    snprintf(title, sizeof title, "J%d = %.6g, J%d = %.6g", a + 1, o->J[a], b + 1, o->J[b]);
+    if (o->moment == ISO_CHART_LEVEL)
+        snprintf(title, sizeof title, "J = %.6g %.6g %.6g", J[0], J[1], J[2]);
+    else if (o->level == 0)
+        snprintf(title, sizeof title, "J%d = %.6g, J%d = %.6g", a + 1, J[a], b + 1, J[b]);
+    else
+        snprintf(title, sizeof title, "J%d = %.6g, J%d = %.6g, level %.6g", a + 1, J[a], b + 1, J[b], o->level);
     return status == ISO_OK && c->plot ? iso_plot_stability(ctx, c->plot, title, moment, grid, borders) : status;
 }
 

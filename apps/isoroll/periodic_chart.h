@@ -1,4 +1,5 @@
-/* periodic_chart.h - `isoroll periodic --chart`: where the rotations are stable, in the plane of k and one moment. */
+/* periodic_chart.h - `isoroll periodic --chart`: where the rotations are stable, in the plane of k and one moment,
+ * or of k and the level. */
 #ifndef ISOROLL_PERIODIC_CHART_H
 #define ISOROLL_PERIODIC_CHART_H
 
@@ -8,8 +9,9 @@
 #include "isoroll.h"
 
 typedef struct periodic_chart {
-    const char *moment; /* "J2", "J3=1:4": which one varies, and where */
+    const char *moment; /* "J2", "J3=1:4", "level=-1:1": which one varies, and where */
     const char *k;      /* "A:B"; NULL: -3:3                           */
+    const char *level;  /* a number; NULL: the scene's                 */
     double steps;
     int threads;      /* 0: one for each processor */
     iso_output *rows; /* is closed there; NULL: none                   */

@@ -27,7 +27,7 @@ static iso_status read_words(iso_context *ctx, const char *given, iso_follow_opt
         vary++;
     if (!equals || !iso_vary_name(vary) || !read_range(equals + 1, range))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "",
-                                "--follow '%s': expected NAME=A:B, NAME one of k, J1, J2, J3, ratio", given);
+                                "--follow '%s': expected NAME=A:B, NAME one of k, J1, J2, J3, ratio, level", given);
     o->vary = (iso_vary)vary;
     o->from = range[0];
     o->to = range[1];
@@ -168,6 +168,18 @@ static iso_status choose(iso_context *ctx, const iso_periodic *found, const peri
     return ISO_OK;
 }
 
+/* Where orbits were looked for, and how. */
+static iso_status none_to_follow(iso_context *ctx, const iso_scene *scene, const iso_periodic *found, int period)
+{
+    const iso_params *p = &scene->params;
+    return iso_context_fail(
+        ctx, ISO_BAD_INPUT, "orbit",
+        "no symmetric orbit to follow at k = %.12g, J = %.12g %.12g %.12g, level %.12g: the search "
+        "along the six symmetry lines found none of %d returns at most; give a longer --period, or "
+        "another k, J or level in the scene",
+        p->k, p->J[0], p->J[1], p->J[2], found->level, period);
+}
+
 int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *found, const periodic_follow *how)
 {
     iso_follow_options o;
@@ -181,6 +193,7 @@ int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *
     if (status == ISO_OK) status = choose(ctx, found, how, &list, &count);
     if (status == ISO_OK && how->orbit == 0 && count < found->count)
         complain("%zu orbits without a symmetry are not followed", found->count - count);
+    if (status == ISO_OK && count == 0 && how->orbit == 0) status = none_to_follow(ctx, scene, found, how->period);
     progress_begin();
     if (status == ISO_OK) status = iso_follow_run(ctx, scene, list, count, &o, &f);
     progress_end();

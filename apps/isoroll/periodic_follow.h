@@ -11,6 +11,7 @@
 typedef struct periodic_follow {
     const char *range; /* "k=0.4:0.6"                     */
     double orbit;      /* from 1; 0: all with a symmetry  */
+    int period;        /* the longest that was looked for */
     int threads;       /* 0: one for each processor      */
     bool branches, json;
     iso_output *rows; /* is closed here; NULL: none                  */

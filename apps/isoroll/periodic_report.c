@@ -27,6 +27,10 @@ static void print_rotations(const periodic_report *r)
         char text[ISO_DIGITS_SIZE];
         iso_periodic_digits(o->half_turn_trace, o->tail, text);
         printf("  %4d  ", a + 1);
+        if (o->oscillates) {
+            printf("none on this level: an oscillation between two places of rest\n");
+            continue;
+        }
         r->polish ? printf("%-33s", text) : printf("%-20.15g", o->half_turn_trace);
         printf("  %.1e  %-10s  ", o->error, iso_stability_name(o->half.stability));
         print_multipliers(&o->half);
@@ -56,8 +60,10 @@ void periodic_print(const periodic_report *r)
     const double *J = r->scene->params.J;
     const iso_periodic *f = r->found;
     size_t copies = 0, tori = 0;
-    printf("k = %.15g, J = %.15g %.15g %.15g; section n_%d = 0, n_%d increasing\n\n", r->scene->params.k, J[0], J[1],
+    printf("k = %.15g, J = %.15g %.15g %.15g; section n_%d = 0, n_%d increasing\n", r->scene->params.k, J[0], J[1],
            J[2], f->axis + 1, f->axis + 1);
+    if (f->level != 0) printf("level of the point, (H/eps) J2^(1/k): %.15g\n", f->level);
+    putchar('\n');
     print_rotations(r);
     printf("\n%s orbits of %d returns at most, but the rotations: %zu\n", r->all ? "periodic" : "symmetric periodic",
            r->period, f->count);
@@ -121,6 +127,8 @@ static json_t *rotation_of(const periodic_report *r, int axis)
                           json_number(a->half_turn_trace), "error", json_number(a->error), "by_section",
                           json_number(a->by_section), "turn_trace", json_number(a->turn_trace), "l",
                           json_number(a->x < 1 ? a->l : NAN), "x", json_number(a->x));
+    json_object_set_new(o, "oscillates", json_boolean(a->oscillates));
+    if (a->oscillates) return o;
     put_multipliers(o, &a->half);
     put_clocks(o, a->clock);
     if (r->polish) put_digits(o, "half_turn_trace_digits", a->half_turn_trace, a->tail);
@@ -161,10 +169,10 @@ bool periodic_print_json(const periodic_report *r)
     json_t *rotations = json_array(), *orbits = json_array();
     for (int a = 0; a < 3; a++) json_array_append_new(rotations, rotation_of(r, a));
     for (size_t i = 0; i < r->found->count; i++) json_array_append_new(orbits, orbit_of(r, i));
-    json_t *o = json_pack("{s:s, s:o, s:o, s:{s:i}, s:i, s:o, s:o, s:I, s:I}", "isoroll", iso_version(), "k",
-                          json_number(p->k), "J", numbers(3, p->J), "section", "axis", r->found->axis + 1,
-                          "longest_period", r->period, "rotations", rotations, "orbits", orbits, "unresolved",
-                          (json_int_t)r->found->unresolved, "lost", (json_int_t)r->found->lost);
+    json_t *o = json_pack("{s:s, s:o, s:o, s:o, s:{s:i}, s:i, s:o, s:o, s:I, s:I}", "isoroll", iso_version(), "k",
+                          json_number(p->k), "J", numbers(3, p->J), "level", json_number(r->found->level), "section",
+                          "axis", r->found->axis + 1, "longest_period", r->period, "rotations", rotations, "orbits",
+                          orbits, "unresolved", (json_int_t)r->found->unresolved, "lost", (json_int_t)r->found->lost);
     return json_print(o);
 }
 
@@ -188,8 +196,10 @@ static void write_rows(const periodic_report *r, FILE *to)
 
 iso_status periodic_write_csv(iso_context *ctx, const periodic_report *r, iso_output *to)
 {
-    const table_line lines[] = {
-        {.key = "longest_period", .number = r->period}, {.key = "axis", .number = r->found->axis + 1}, {.key = NULL}};
+    const table_line lines[] = {{.key = "level", .number = r->found->level},
+                                {.key = "longest_period", .number = r->period},
+                                {.key = "axis", .number = r->found->axis + 1},
+                                {.key = NULL}};
     const iso_status status =
         table_begin(ctx, to, "periodic", r->scene, lines,
                     "orbit,period,l,x,trace,error,stability,symmetry,copies,t,tau,s,closure,omega1,omega2,omega3,n1,"

@@ -18,31 +18,47 @@ static const iso_splitting *first_good(const iso_splittings *s)
     return NULL;
 }
 
+bool splitting_is_by_level(const iso_splittings *s)
+{
+    bool differ = false;
+    for (size_t i = 1; i < s->rows; i++) differ = differ || s->row[i].level != s->row[0].level;
+    return differ;
+}
+
+/* What differs from row to row. */
+static double number_of(const iso_splitting *s, bool by_level)
+{
+    return by_level ? s->level : s->k;
+}
+
 bool splitting_has_rows(const splitting_report *r)
 {
     return first_good(r->found) != NULL;
 }
 
-static void print_head(const splitting_report *r)
+static void print_head(const splitting_report *r, bool by_level)
 {
     const double *J = r->J;
     const iso_splitting *row = first_good(r->found);
     printf("J = %.15g %.15g %.15g\n", J[0], J[1], J[2]);
     if (!row) return;
+    if (by_level) printf("k = %.15g\n", row->k);
+    if (!by_level && row->level != 0) printf("level of the point, (H/eps) J2^(1/k): %.15g\n", row->level);
     printf("The unstable manifold of the rotation about axis %d meets l = pi/2 on the section n_%d = 0 at x,\n"
            "with the slope m. The stable one has -m: they are one curve only if m = 0.\n\n",
            row->middle + 1, row->axis + 1);
-    printf("%16s %11s %19s %24s %7s %7s\n", "k", "multiplier", "x", "m", "error", "digits");
+    printf("%16s %11s %19s %24s %7s %7s\n", by_level ? "level" : "k", "multiplier", "x", "m", "error", "digits");
 }
 
-static void print_row(const iso_splitting *s)
+static void print_row(const iso_splitting *s, bool by_level)
 {
+    const double at = number_of(s, by_level);
     if (s->status == ISO_STOPPED) return;
     if (s->status != ISO_OK) {
-        printf("%16.15g %s\n", s->k, s->words);
+        printf("%16.15g %s\n", at, s->words);
         return;
     }
-    printf("%16.15g %11.8g %19.16g ", s->k, s->lambda, s->x);
+    printf("%16.15g %11.8g %19.16g ", at, s->lambda, s->x);
     if (s->from_zero)
         printf("%24.16e %7.1e %7d\n", s->m, s->error, s->digits);
     else if (fabs(s->m) > s->error)
@@ -53,9 +69,10 @@ static void print_row(const iso_splitting *s)
     if (s->words[0]) printf("%16s %s\n", "", s->words);
 }
 
-static void print_zero(const iso_splitting *s)
+static void print_zero(const iso_splitting *s, bool by_level)
 {
-    printf("\nm = 0 at k = %.16g +- %.1e, where the manifolds touch at x = %.15g.\n", s->k, s->k_error, s->x);
+    printf("\nm = 0 at %s = %.16g +- %.1e, where the manifolds touch at x = %.15g.\n", by_level ? "level" : "k",
+           number_of(s, by_level), by_level ? s->level_error : s->k_error, s->x);
     if (isfinite(s->next_m))
         printf("On the section n_%d = 0 they meet next at l = %.12g, x = %.12g,\n"
                "and there with slopes %.6e above and below their mean: %s.",
@@ -68,9 +85,10 @@ static void print_zero(const iso_splitting *s)
 void splitting_print(const splitting_report *r)
 {
     const iso_splittings *s = r->found;
-    print_head(r);
-    for (size_t i = 0; i < s->rows; i++) print_row(&s->row[i]);
-    for (size_t i = 0; i < s->zeros; i++) print_zero(&s->zero[i]);
+    const bool by_level = splitting_is_by_level(s);
+    print_head(r, by_level);
+    for (size_t i = 0; i < s->rows; i++) print_row(&s->row[i], by_level);
+    for (size_t i = 0; i < s->zeros; i++) print_zero(&s->zero[i], by_level);
 }
 
 /* --- JSON and CSV ----------------------------------------------------------------------------------------------- */
@@ -79,13 +97,13 @@ static json_t *row_of(const iso_splitting *s)
 {
     const bool there = s->status == ISO_OK;
     if (!there)
-        return json_pack("{s:o, s:n, s:n, s:n, s:n, s:s}", "k", json_number(s->k), "x", "m", "error", "digits",
-                         "failed", s->words);
-    json_t *o =
-        json_pack("{s:o, s:o, s:o, s:o, s:i, s:o, s:o, s:o, s:o, s:b}", "k", json_number(s->k), "x",
-                  json_number(s->x), "m", json_number(s->m), "error", json_number(s->error), "digits", s->digits,
-                  "x_error", json_number(s->x_error), "x_tail", json_number(s->x_tail), "m_tail",
-                  json_number(s->m_tail), "multiplier", json_number(s->lambda), "from_zero", (int)s->from_zero);
+        return json_pack("{s:o, s:o, s:n, s:n, s:n, s:n, s:s}", "k", json_number(s->k), "level",
+                         json_number(s->level), "x", "m", "error", "digits", "failed", s->words);
+    json_t *o = json_pack("{s:o, s:o, s:o, s:o, s:o, s:i, s:o, s:o, s:o, s:o, s:b}", "k", json_number(s->k), "level",
+                          json_number(s->level), "x", json_number(s->x), "m", json_number(s->m), "error",
+                          json_number(s->error), "digits", s->digits, "x_error", json_number(s->x_error), "x_tail",
+                          json_number(s->x_tail), "m_tail", json_number(s->m_tail), "multiplier",
+                          json_number(s->lambda), "from_zero", (int)s->from_zero);
     if (o)
         json_object_set_new(o, "global",
                             json_pack("{s:i, s:o, s:o}", "axis", s->section + 1, "x", json_number(s->section_x), "m",
@@ -93,6 +111,7 @@ static json_t *row_of(const iso_splitting *s)
     if (o && s->words[0]) json_object_set_new(o, "words", json_string(s->words));
     if (o && s->is_zero) {
         json_object_set_new(o, "k_error", json_number(s->k_error));
+        json_object_set_new(o, "level_error", json_number(s->level_error));
         json_object_set_new(o, "next",
                             json_pack("{s:i, s:o, s:o, s:o}", "axis", s->section + 1, "l", json_number(s->next_l),
                                       "x", json_number(s->next_x), "m", json_number(s->next_m)));
@@ -124,8 +143,8 @@ static void write_rows(FILE *to, const iso_splitting *rows, size_t count)
     for (size_t i = 0; i < count; i++) {
         const iso_splitting *s = &rows[i];
         if (s->status == ISO_OK)
-            fprintf(to, "%.17g,%.17g,%.17g,%.3g,%.3g,%.17g,%d,%d\n", s->k, s->x, s->m, s->error, s->x_error,
-                    s->lambda, s->digits, (int)s->is_zero);
+            fprintf(to, "%.17g,%.17g,%.17g,%.3g,%.3g,%.17g,%d,%d,%.17g\n", s->k, s->x, s->m, s->error, s->x_error,
+                    s->lambda, s->digits, (int)s->is_zero, s->level);
     }
 }
 
@@ -133,7 +152,7 @@ iso_status splitting_write_csv(iso_context *ctx, const splitting_report *r, iso_
 {
     const iso_splittings *s = r->found;
     const iso_status status =
-        table_begin(ctx, to, "splitting", r->scene, NULL, "k,x,m,error,x_error,multiplier,digits,zero");
+        table_begin(ctx, to, "splitting", r->scene, NULL, "k,x,m,error,x_error,multiplier,digits,zero,level");
     if (status == ISO_OK) write_rows(iso_output_stream(to), s->row, s->rows);
     if (status == ISO_OK) write_rows(iso_output_stream(to), s->zero, s->zeros);
     return table_end(ctx, to, status);
@@ -155,13 +174,15 @@ static const iso_splitting *clearest(const iso_splittings *s)
 
 static iso_status collect(iso_context *ctx, const iso_splittings *s, iso_record **rows)
 {
-    static const char *const names[] = {"k", "m", "error"};
+    const bool by_level = splitting_is_by_level(s);
+    const char *const names[] = {by_level ? "level" : "k", "m", "error"};
     iso_status status = iso_record_create(ctx, 3, names, rows);
     for (size_t i = 0; i < s->rows && status == ISO_OK; i++) {
         double *row;
         if (s->row[i].status != ISO_OK) continue;
         status = iso_record_append(ctx, *rows, &row);
-        if (status == ISO_OK) row[0] = s->row[i].k, row[1] = s->row[i].m, row[2] = s->row[i].error;
+        if (status == ISO_OK)
+            row[0] = number_of(&s->row[i], by_level), row[1] = s->row[i].m, row[2] = s->row[i].error;
     }
     return status;
 }
@@ -181,10 +202,16 @@ iso_status splitting_draw(iso_context *ctx, const splitting_report *r, const cha
     iso_record *rows = NULL, *curve = NULL;
     char title[160];
     if (!at) return ISO_OK;
-    snprintf(title, sizeof title, "splitting of the separatrix, J = %.6g %.6g %.6g", J[0], J[1], J[2]);
-    iso_status status = iso_splitting_curve(ctx, at->k, J, halves_of(at), &curve);
+    const bool by_level = splitting_is_by_level(s);
+    int length = snprintf(title, sizeof title, "splitting of the separatrix, J = %.6g %.6g %.6g", J[0], J[1], J[2]);
+    if (by_level)
+        snprintf(title + length, sizeof title - (size_t)length, ", k = %.6g", at->k);
+    else if (at->level != 0)
+        snprintf(title + length, sizeof title - (size_t)length, ", level %.6g", at->level);
+    iso_status status = iso_splitting_curve(ctx, at->k, J, at->level, halves_of(at), &curve);
     if (status == ISO_OK && s->rows > 1) status = collect(ctx, s, &rows);
-    if (status == ISO_OK) status = iso_plot_splitting(ctx, path, title, rows, curve, at->k, at->section);
+    if (status == ISO_OK)
+        status = iso_plot_splitting(ctx, path, title, rows, curve, number_of(at, by_level), at->section);
     iso_record_free(rows);
     iso_record_free(curve);
     return status;

@@ -16,6 +16,9 @@ typedef struct splitting_report {
     const iso_splittings *found;
 } splitting_report;
 
+/* Whether the rows differ in the level, not in k. */
+bool splitting_is_by_level(const iso_splittings *s);
+
 /* False: every row failed, and there is nothing to show. */
 bool splitting_has_rows(const splitting_report *r);
 
@@ -24,10 +27,10 @@ void splitting_print(const splitting_report *r);
 /* False: there is no memory. */
 bool splitting_print_json(const splitting_report *r);
 
-/* One row for each k that did not fail, then one for each zero. */
+/* One row for each k or level that did not fail, then one for each zero. */
 iso_status splitting_write_csv(iso_context *ctx, const splitting_report *r, iso_output *to);
 
-/* |m| over k, where there are several, and both curves at one k. */
+/* |m| over k or the level, where there are several rows, and both curves of one of them. */
 iso_status splitting_draw(iso_context *ctx, const splitting_report *r, const char *path);
 
 #endif

@@ -1,5 +1,6 @@
-/* plot_splitting.c - a picture of the splitting: |m| over k, and the two manifolds on the section. */
+/* plot_splitting.c - a picture of the splitting: |m| over k or the level, and the two manifolds on the section. */
 #include <math.h>
+#include <string.h>
 
 #include "base/arithmetic_impl.h"
 #include "io/gnuplot_impl.h"
@@ -7,7 +8,7 @@
 #include "io/plot_impl.h"
 
 enum { WIDTH = 1000, HEIGHT = 470 };
-enum { K, M, ERROR };
+enum { AT, M, ERROR };
 #define TOLD 10 /* errors from which on m is drawn as a spot */
 
 static bool has_rows(const iso_record *r, size_t columns)
@@ -25,8 +26,9 @@ static size_t put_rows(FILE *f, const iso_record *r, const char *name, kind want
     for (size_t i = 0; i < iso_record_rows(r); i++) {
         const double *row = iso_record_const_row(r, i), size = fabs(row[M]), error = row[ERROR];
         const kind is = size < TOLD * error ? BOUNDED : row[M] > 0 ? POSITIVE : NEGATIVE;
-        if (is != wanted || !isfinite(row[K]) || !isfinite(row[M]) || !(error > 0)) continue;
-        fprintf(f, "%.17g %.6g %.6g %.6g\n", row[K], is == BOUNDED ? size + error : size, size - error, size + error);
+        if (is != wanted || !isfinite(row[AT]) || !isfinite(row[M]) || !(error > 0)) continue;
+        fprintf(f, "%.17g %.6g %.6g %.6g\n", row[AT], is == BOUNDED ? size + error : size, size - error,
+                size + error);
         count++;
     }
     fputs("EOD\n", f);
@@ -43,9 +45,10 @@ static void put_size(FILE *f, const iso_record *r)
     size_t count[3];
     for (int i = 0; i < 3; i++) count[i] = put_rows(f, r, name[i], (kind)i);
     fputs("set border 3 lc rgb '#606060'; set tics nomirror out scale 0.6\n"
-          "set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\nset logscale y; set format y '10^{%T}'; set xlabel 'k'\n"
-          "set ylabel '|m|' offset 1,0; set key outside top center horizontal maxrows 1 samplen 0.5\n",
+          "set grid back lt 1 lw 0.8 lc rgb '#DDE1E5'\nset logscale y; set format y '10^{%T}'; set xlabel ",
           f);
+    iso_gnuplot_text(f, iso_record_name(r, AT), 8);
+    fputs("\nset ylabel '|m|' offset 1,0; set key outside top center horizontal maxrows 1 samplen 0.5\n", f);
     for (int i = 0; i < 3; i++) {
         if (count[i] == 0) continue;
         fprintf(f, "%s$%s using 1:2%s with %s %s", comma, name[i], i == BOUNDED ? "" : ":3:4",
@@ -56,7 +59,8 @@ static void put_size(FILE *f, const iso_record *r)
     fputs("\nunset logscale y; set format y '%g'\n", f);
 }
 
-static void put_curve(FILE *f, const iso_record *curve, double at, int axis)
+/* name: of the number `at`. */
+static void put_curve(FILE *f, const iso_record *curve, const char *name, double at, int axis)
 {
     fputs("$curve << EOD\n", f);
     for (size_t i = 0; i < iso_record_rows(curve); i++) {
@@ -69,10 +73,10 @@ static void put_curve(FILE *f, const iso_record *curve, double at, int axis)
           "set key outside bottom center horizontal samplen 2\n",
           f);
     fprintf(f,
-            "set xlabel 'l − l(O) on the section γ_%d = 0, k = %.6g'; set ylabel 'M_%d / |M|' offset 1,0\n"
+            "set xlabel 'l − l(O) on the section γ_%d = 0, %s = %.6g'; set ylabel 'M_%d / |M|' offset 1,0\n"
             "plot $curve using 1:2 with lines lw 1.6 lc rgb " ISO_PLOT_VERMILLION " title 'unstable, from O', "
             "$curve using (pi-$1):2 with lines lw 1.6 dt (6,2) lc rgb " ISO_PLOT_BLUE " title \"stable, to O'\"\n",
-            axis + 1, at, axis + 1);
+            axis + 1, name, at, axis + 1);
 }
 
 iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
@@ -90,7 +94,8 @@ iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *ti
     iso_gnuplot_text(f, title ? title : "", 110);
     fputs(" noenhanced font ',12'\n", f);
     if (with_rows) put_size(f, rows);
-    if (with_curve) put_curve(f, curve, at, axis);
+    if (with_curve)
+        put_curve(f, curve, with_rows && strcmp(iso_record_name(rows, AT), "level") == 0 ? "level" : "k", at, axis);
     fputs("unset multiplot\nunset output\n", f);
     return iso_gnuplot_close(ctx, g, true);
 }

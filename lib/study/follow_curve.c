@@ -3,11 +3,12 @@
 #include <math.h>
 
 #include "base/pi_impl.h"
+#include "map/level.h"
 #include "study/follow_impl.h"
 
-bool iso_follow_params(const iso_follow_family *f, double value, iso_params *p)
+bool iso_follow_params(const iso_follow_family *f, double value, iso_params *p, double *energy)
 {
-    double J[3] = {f->base.J[0], f->base.J[1], f->base.J[2]}, k = f->base.k;
+    double J[3] = {f->base.J[0], f->base.J[1], f->base.J[2]}, k = f->base.k, level = f->level;
     iso_params own;
     iso_units units;
     switch (f->options.vary) {
@@ -16,10 +17,12 @@ bool iso_follow_params(const iso_follow_family *f, double value, iso_params *p)
     case ISO_VARY_J2: J[1] = value; break;
     case ISO_VARY_J3: J[2] = value; break;
     case ISO_VARY_RATIO: J[1] = J[0] + value * (J[2] - J[0]); break;
+    case ISO_VARY_LEVEL: level = value; break;
     }
     if (iso_params_reduced(f->ctx, k, J, &own) != ISO_OK) return false;
     iso_units_choose(&own, 1, &units);
     *p = units.own;
+    *energy = iso_level_energy(p, level);
     return iso_section_axis(iso_free_point(p, 1)) == f->axis;
 }
 
@@ -27,9 +30,10 @@ bool iso_follow_params(const iso_follow_family *f, double value, iso_params *p)
 static bool shoot(const iso_follow_family *f, double u, double value, iso_periodic_shot *shot)
 {
     iso_params p;
+    double energy;
     iso_periodic_map map;
-    if (!iso_follow_params(f, value, &p)) return false;
-    iso_periodic_map_prepare(f->ctx, &p, 1, &map);
+    if (!iso_follow_params(f, value, &p, &energy)) return false;
+    iso_periodic_map_prepare(f->ctx, &p, energy, 1, &map);
     return iso_periodic_shoot(&map, &iso_return_extended, f->line, u, f->period, shot);
 }
 

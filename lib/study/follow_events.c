@@ -16,6 +16,9 @@ iso_status iso_follow_add_event(const iso_follow_family *f, iso_branch *b, const
     return ISO_OK;
 }
 
+#define SAME_PLACE 1e-8 /* along the curve: zeros that are closer are one ... */
+#define TOO_CLOSE 1e-5  /* ... and those that are not as far apart may be one or two */
+
 /* The tests: each changes its sign where its event is. */
 enum { TEST_FOLD, TEST_BREAKING, TEST_DIAGONAL, TEST_OTHER_DIAGONAL, TEST_TURN, TESTS };
 
@@ -61,6 +64,7 @@ static void locate(const iso_follow_family *f, const iso_follow_point *a, const 
     at->v += share * (high.v - low.v);
     at->value += share * (high.value - low.value);
     at->trace += share * (high.trace - low.trace);
+    for (int i = 0; i < 2; i++) at->diagonal[i] += share * (high.diagonal[i] - low.diagonal[i]);
     *part = from + share * (to - from);
 }
 
@@ -69,7 +73,7 @@ static bool are_equal(const iso_follow_family *f, double *value, char names[2])
 {
     const iso_vary vary = f->options.vary;
     const double *J = f->base.J;
-    if (vary == ISO_VARY_K) return false;
+    if (vary == ISO_VARY_K || vary == ISO_VARY_LEVEL) return false;
     for (int i = 0; i < 3; i++) {
         const int moved = vary == ISO_VARY_RATIO ? 1 : (int)vary - (int)ISO_VARY_J1;
         const double at = vary == ISO_VARY_RATIO ? (i == 2 ? 1 : 0) : J[i];
@@ -93,8 +97,9 @@ static const char *words_of(iso_branch_kind kind)
 static void name(const iso_follow_family *f, iso_follow_point *at, int test, bool turns, iso_branch_event *e)
 {
     iso_params p;
+    double energy;
     char names[2];
-    const bool torus = iso_follow_params(f, at->value, &p) && fabs(fabs(p.k) - 1) < 1e-7;
+    const bool torus = iso_follow_params(f, at->value, &p, &energy) && fabs(fabs(p.k) - 1) < 1e-7;
     const char *vary = iso_vary_name((int)f->options.vary);
     e->kind = turns ? ISO_BRANCH_FOLD : test <= TEST_BREAKING ? ISO_BRANCH_BREAKING : ISO_BRANCH_DOUBLING;
     if (torus && e->kind == ISO_BRANCH_BREAKING) e->kind = ISO_BRANCH_TORUS;
@@ -109,6 +114,32 @@ static void name(const iso_follow_family *f, iso_follow_point *at, int test, boo
                  at->value);
     else
         snprintf(e->words, sizeof e->words, "%s at %s = %.12g", words_of(e->kind), vary, at->value);
+}
+
+/* trace + 2 = 4 D_00 D_11/det D changes its sign where one of D_00 and D_11 is 0. Where both are, as they are where half of
+ * an orbit with two symmetries has the trace 0, it only touches 0. How far from each other they are 0, along the curve,
+ * the slope between both points tells. */
+static iso_branch_kind doubles(const iso_follow_point *a, const iso_follow_point *to, int test, double ds,
+                               const iso_follow_point *at)
+{
+    const int other = test == TEST_DIAGONAL ? TEST_OTHER_DIAGONAL : TEST_DIAGONAL;
+    const double slope = (test_of(to, other) - test_of(a, other)) / ds, apart = fabs(test_of(at, other) / slope);
+    const bool passes = (a->trace + 2) * (to->trace + 2) < 0;
+    if (!(apart < TOO_CLOSE)) return ISO_BRANCH_DOUBLING;
+    return apart < SAME_PLACE && !passes ? ISO_BRANCH_TOUCH : ISO_BRANCH_UNDECIDED;
+}
+
+/* At a touch the derivative of the return map is -1. Half of the orbit, up to its symmetry, has the multipliers i and -i,
+ * and orbits of four such halves may branch off. */
+static void name_touch(const iso_follow_family *f, const iso_follow_point *at, iso_branch_kind kind,
+                       iso_branch_event *e)
+{
+    if (kind == ISO_BRANCH_DOUBLING) return;
+    e->kind = kind;
+    snprintf(e->words, sizeof e->words, "%s at %s = %.12g; orbits of period %d may branch off",
+             kind == ISO_BRANCH_TOUCH ? "the trace touches -2 and does not pass it"
+                                      : "the trace touches -2, or passes it twice: undecided",
+             iso_vary_name((int)f->options.vary), at->value, 2 * f->period);
 }
 
 /* The curve turns where it meets another one, without a fold: there this orbit branches off from one of half the
@@ -158,6 +189,7 @@ iso_status iso_follow_events(const iso_follow_family *f, iso_branch *b, const is
         if (!is_true(f, &at, test)) continue;
         name(f, &at, test, test == TEST_FOLD && a->tangent[1] * to->tangent[1] < 0, &e);
         if (test == TEST_TURN) name_turn(f, &at, &e);
+        if (e.kind == ISO_BRANCH_DOUBLING && test != TEST_TURN) name_touch(f, &at, doubles(a, to, test, ds, &at), &e);
         e.at = iso_follow_tell(&at, arc + part);
         if (is_there(b, &e)) continue;
         status = iso_follow_add_event(f, b, &e);
@@ -170,7 +202,8 @@ iso_status iso_follow_events(const iso_follow_family *f, iso_branch *b, const is
 static double mismatch(const iso_follow_family *f, int axis, double value, double target)
 {
     iso_params p;
-    return iso_follow_params(f, value, &p) ? iso_hill_trace(p.k, p.J, axis, NULL) - target : NAN;
+    double energy;
+    return iso_follow_params(f, value, &p, &energy) ? iso_hill_trace(p.k, p.J, energy, axis, NULL) - target : NAN;
 }
 
 /* The trace of the rotation at a collision, 2 cos theta, nearest to what it is. Neighbours of a fixed point turn p

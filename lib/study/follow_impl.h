@@ -16,7 +16,8 @@ typedef struct iso_follow_family {
     iso_context *ctx;
     iso_follow_options options;
     iso_params base;
-    int axis; /* of the section, which must stay */
+    double level; /* of base, see map/level.h */
+    int axis;     /* of the section, which must stay */
     int line, period;
     double width; /* of the range */
 } iso_follow_family;
@@ -33,8 +34,8 @@ typedef struct iso_follow_point {
     double tangent[2]; /* (du, dv), of length 1                                               */
 } iso_follow_point;
 
-/* The parameters at a value. False: there are none, or their section has another axis. */
-bool iso_follow_params(const iso_follow_family *f, double value, iso_params *p);
+/* The parameters at a value, and H there for eps = 1. False: there are none, or their section has another axis. */
+bool iso_follow_params(const iso_follow_family *f, double value, iso_params *p, double *energy);
 
 /* F and all slopes; by_v only if asked. False: it failed. */
 bool iso_follow_evaluate(const iso_follow_family *f, double u, double v, bool slopes, iso_follow_point *at);
@@ -56,6 +57,12 @@ iso_status iso_follow_add_event(const iso_follow_family *f, iso_branch *b, const
 /* The collision beyond a point near the end of the line; false: there is none near. */
 bool iso_follow_collision(const iso_follow_family *f, const iso_follow_point *a, const iso_follow_point *b,
                           iso_branch_event *e);
+
+/* Whether orbits of twice the period can branch off there: the trace is -2. */
+static inline bool iso_follow_doubles(iso_branch_kind kind)
+{
+    return kind == ISO_BRANCH_DOUBLING || kind == ISO_BRANCH_TOUCH || kind == ISO_BRANCH_UNDECIDED;
+}
 
 /* Looks for an orbit that branches off at an event, and gives its parameter and value to `found`. */
 iso_status iso_follow_switch(const iso_follow_family *f, const iso_branch *b, const iso_branch_event *e,

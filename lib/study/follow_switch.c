@@ -102,14 +102,15 @@ iso_status iso_follow_switch(const iso_follow_family *f, const iso_branch *b, co
 {
     iso_follow_family other = *f;
     iso_params p;
+    double energy;
     iso_periodic_map map;
     const double from[1][2] = {{e->at.l, e->at.x}};
     iso_periodic_point point[2 * ISO_PERIODIC_MOST];
     const int halves = 2 * b->period;
     bool any = false;
-    other.period = e->kind == ISO_BRANCH_DOUBLING ? 2 * b->period : b->period;
-    if (other.period > ISO_PERIODIC_MOST || !iso_follow_params(f, e->at.value, &p)) return ISO_OK;
-    iso_periodic_map_prepare(f->ctx, &p, 1, &map);
+    other.period = iso_follow_doubles(e->kind) ? 2 * b->period : b->period;
+    if (other.period > ISO_PERIODIC_MOST || !iso_follow_params(f, e->at.value, &p, &energy)) return ISO_OK;
+    iso_periodic_map_prepare(f->ctx, &p, energy, 1, &map);
     const finder s = {&other, &map, e->at.value, found, data};
     iso_status status = iso_periodic_walk(&map, 1, from, halves, false, 1e-13, point);
     for (int n = 0; n < halves && !any && status == ISO_OK; n++) {

@@ -1,12 +1,15 @@
-/* hill_impl.h - Hill's equation of a rotation by Taylor series, in numbers of the type NUMBER; see hill.c.
+/* hill_impl.h - Hill's equation of a rotation by Taylor series, in numbers of the type NUMBER; see hill.c. On the level
+ * H = E, with eps = 1 and u = E q^(1+1/k):
  *
- *     q y'' = (q'/(2k)) y' - (1/k) (J_i - (1-k) q) y,       q = m + d cos 2 phi = J_a cos^2 phi + J_b sin^2 phi
+ *     (q + u) y'' = (q'/(2k)) y' - ((1/k) (J_i - (1-k) q) + u) y,   q = m + d cos 2 phi = J_a cos^2 phi + J_b sin^2 phi
+ *     q u' = (1 + 1/k) q' u
  *
- * The only singular points are the zeros of q: cos 2 phi = -m/d, at phi = pi/2 (d > 0) or 0 (d < 0), up to i b,
- * cosh 2b = m/|d|. Each step is a fixed part of the distance to them, and has as many terms as the digits need.
+ * The singular points are the zeros of q: cos 2 phi = -m/d, at phi = pi/2 (d > 0) or 0 (d < 0), up to i b,
+ * cosh 2b = m/|d|; and those of 1 + E q^(1/k). Each step is a fixed part of the distance to them, and has as many terms
+ * as the digits need.
  */
 typedef struct HILL(problem) {
-    NUMBER k, Ji, m, d;
+    NUMBER k, Ji, m, d, energy;
 } HILL(problem);
 
 /* The series of cos 2 phi and sin 2 phi times d about phi, in powers of h. */
@@ -20,16 +23,29 @@ static void HILL(circle)(const HILL(problem) * p, NUMBER phi, NUMBER cosine[], N
     }
 }
 
+/* The series of u: n q u_n = sum_{j = 1..n} ((1 + 1/k) j - (n - j)) c_j u_{n-j}. */
+static void HILL(level)(const HILL(problem) * p, const NUMBER c[], NUMBER u[], int order)
+{
+    const NUMBER q = p->m + c[0], power = 1 + 1 / p->k;
+    u[0] = p->energy * q * POW(q, 1 / p->k);
+    for (int n = 1; n <= order; n++) {
+        u[n] = 0;
+        for (int j = 1; j <= n && p->energy != 0; j++) u[n] += (power * j - (n - j)) * c[j] * u[n - j];
+        u[n] /= n * q;
+    }
+}
+
 /* One step of the matrix whose columns are two solutions (y, y'). q = m + c, q' = -2 s. The coefficient of h^n:
  *
- *     m (n+2)(n+1) y_{n+2} = sum_{j <= n} [ -c_j (n-j+2)(n-j+1) y_{n-j+2} - (s_j/k) (n-j+1) y_{n-j+1}
- *                                           + ((1-k)/k) c_j y_{n-j} ] - (1/k)(J_i - (1-k) m) y_n
+ *     m (n+2)(n+1) y_{n+2} = sum_{j <= n} [ -(c_j + u_j) (n-j+2)(n-j+1) y_{n-j+2} - (s_j/k) (n-j+1) y_{n-j+1}
+ *                                           + (((1-k)/k) c_j - u_j) y_{n-j} ] - (1/k)(J_i - (1-k) m) y_n
  */
 static void HILL(step)(const HILL(problem) * p, NUMBER phi, NUMBER h, NUMBER y[2][2])
 {
-    NUMBER c[TERMS + 3], s[TERMS + 3], a[TERMS + 3];
+    NUMBER c[TERMS + 3], s[TERMS + 3], u[TERMS + 3], a[TERMS + 3];
     HILL(circle)(p, phi, c, s, TERMS);
-    const NUMBER q = p->m + c[0], keep = (1 - p->k) / p->k, pull = (p->Ji - (1 - p->k) * p->m) / p->k;
+    HILL(level)(p, c, u, TERMS);
+    const NUMBER q = p->m + c[0] + u[0], keep = (1 - p->k) / p->k, pull = (p->Ji - (1 - p->k) * p->m) / p->k;
     for (int column = 0; column < 2; column++) {
         a[0] = y[0][column];
         a[1] = y[1][column];
@@ -37,8 +53,8 @@ static void HILL(step)(const HILL(problem) * p, NUMBER phi, NUMBER h, NUMBER y[2
             NUMBER sum = -pull * a[n];
             for (int j = 0; j <= n; j++) {
                 const int r = n - j;
-                if (j > 0) sum -= c[j] * (NUMBER)((r + 2) * (r + 1)) * a[r + 2];
-                sum += keep * c[j] * a[r] - s[j] * (NUMBER)(r + 1) / p->k * a[r + 1];
+                if (j > 0) sum -= (c[j] + u[j]) * (NUMBER)((r + 2) * (r + 1)) * a[r + 2];
+                sum += (keep * c[j] - u[j]) * a[r] - s[j] * (NUMBER)(r + 1) / p->k * a[r + 1];
             }
             a[n + 2] = sum / (q * (NUMBER)((n + 2) * (n + 1)));
         }
@@ -50,20 +66,16 @@ static void HILL(step)(const HILL(problem) * p, NUMBER phi, NUMBER h, NUMBER y[2
 }
 
 /* The matrix from phi = 0 to pi. */
-static void HILL(turn)(NUMBER k, NUMBER Ji, NUMBER Ja, NUMBER Jb, NUMBER y[2][2])
+static void HILL(turn)(NUMBER k, NUMBER Ji, NUMBER Ja, NUMBER Jb, NUMBER energy, NUMBER y[2][2])
 {
-    const HILL(problem) p = {k, Ji, (Ja + Jb) / 2, (Ja - Jb) / 2};
-    const double ratio = (double)(p.m / (p.d < 0 ? -p.d : p.d));
-    const double height = Ja == Jb ? 1e3 : acosh(ratio) / 2, middle = Ja > Jb ? ISO_PI / 2 : 0;
+    const HILL(problem) p = {k, Ji, (Ja + Jb) / 2, (Ja - Jb) / 2, energy};
+    const double ratio = (double)(p.m / (p.d < 0 ? -p.d : p.d)), swing = (double)(Ji / (Ja < Jb ? Ja : Jb) / k);
+    const hill_pace pace = pace_of((double)k, (double)p.m, (double)p.d, (double)energy, ratio, swing);
     NUMBER phi = 0;
     y[0][0] = y[1][1] = 1;
     y[0][1] = y[1][0] = 0;
     while (phi < PI) {
-        double apart = fabs((double)phi - middle);
-        if (middle == 0) apart = fmin(apart, ISO_PI - (double)phi);
-        double h = PART * hypot(apart, height);
-        const double pace = sqrt(fabs((double)(Ji / (Ja < Jb ? Ja : Jb) / k)) + 1); /* of y, at most */
-        h = fmin(h, 1 / (1 + pace));
+        const double h = step_from(&pace, (double)phi);
         const bool last = (NUMBER)h >= PI - phi;
         const NUMBER length = last ? PI - phi : (NUMBER)h;
         HILL(step)(&p, phi, length, y);

@@ -4,8 +4,8 @@
 
 #include "study/wide_impl.h"
 
-/* The matrix of (gamma_i, dgamma_i/dphi) over half a turn about `axis`. Where the compiler has no numbers of 128
- * bits, it has 64 bits. */
-void iso_hill_matrix_wide(double k, const double J[3], int axis, iso_wide y[2][2]);
+/* The matrix of (gamma_i, dgamma_i/dphi) over half a turn about `axis`, on the level H = energy with eps = 1. Where the
+ * compiler has no numbers of 128 bits, it has 64 bits. */
+void iso_hill_matrix_wide(double k, const double J[3], double energy, int axis, iso_wide y[2][2]);
 
 #endif

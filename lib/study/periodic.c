@@ -11,7 +11,7 @@
 #include "base/options_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/orbit.h"
-#include "study/free_impl.h"
+#include "study/level_impl.h"
 #include "study/periodic_impl.h"
 #include "study/stability_chart.h"
 
@@ -61,31 +61,32 @@ static iso_status check_moments(const iso_periodic_work *w)
     return ISO_OK;
 }
 
+/* Off H = 0 a motion may begin at rest. */
+static bool may_rest(const iso_start *start, const iso_effects *effects)
+{
+    return start->model == ISO_POINT ? !isnan(start->eps) : iso_effects_have_level(effects);
+}
+
 static iso_status check_scene(iso_periodic_work *w)
 {
+    static const char what[] = "periodic orbits are sought";
     const iso_start *start = &w->scene->start;
     const iso_effects effects = iso_scene_acting(w->scene);
-    iso_orbit_options o = iso_orbit_defaults(start);
-    iso_orbit *orbit;
-    iso_status status = iso_study_check_free(w->ctx, &effects, "periodic orbits are sought");
+    iso_on_level on;
+    iso_status status = iso_level_check(w->ctx, &effects, what);
     if (status == ISO_OK) status = check_numbers(w);
     if (status == ISO_OK) status = check_moments(w);
-    if (status == ISO_OK && !(largest(start->y) > 0))
+    if (status == ISO_OK && !(largest(start->y) > 0) && !may_rest(start, &effects))
         status = iso_context_fail(w->ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
                                   "a %s at rest has no periodic orbits of its energy",
                                   iso_model_kind_name((int)start->model));
+    if (status == ISO_OK) status = iso_level_find(w->ctx, w->scene, what, &on);
     if (status != ISO_OK) return status;
-    o.effects = &effects;
-    status = iso_orbit_create(w->ctx, &w->scene->params, start, &o, &orbit);
-    if (status != ISO_OK) return status;
-    const iso_effects acting = iso_orbit_effects(orbit);
-    status = iso_study_check_free(w->ctx, &acting, "periodic orbits are sought");
-    w->units = *iso_orbit_units(orbit);
-    w->h = iso_orbit_energy(orbit) / iso_unit(&w->units, iso_dimension_h);
-    iso_orbit_free(orbit);
+    w->units = on.units, w->h = on.h, w->energy = on.energy, w->H = on.H;
+    w->out->level = iso_level_of(&w->units.own, w->energy);
     const double slow = 1 / sqrt(iso_coupling(&w->units.own, w->h));
     for (iso_clock c = 0; c < ISO_CLOCKS; c++) w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
-    if (status == ISO_OK && !isfinite(w->unit_clock[ISO_CLOCK_T]))
+    if (!isfinite(w->unit_clock[ISO_CLOCK_T]))
         status = iso_context_fail(w->ctx, ISO_BAD_INPUT, "angular_velocity",
                                   "the energy of this start is too large or too small for doubles");
     return status;
@@ -100,13 +101,23 @@ static int by_period(const void *a, const void *b)
     return (one->trace > other->trace) - (one->trace < other->trace);
 }
 
+/* Whether some place of the sphere, an end of an axis at worst, cannot be reached. */
+static bool is_closed(const iso_periodic_map *map)
+{
+    bool closed = false;
+    for (int axis = 0; axis < 3; axis++)
+        closed = closed || !iso_hill_has_rotation(map->p.k, map->p.J, map->energy, axis);
+    return closed;
+}
+
 static iso_status work(iso_periodic_work *w)
 {
     iso_status status = check_options(w);
     if (status == ISO_OK) status = check_scene(w);
     if (status != ISO_OK) return status;
-    iso_periodic_map_prepare(w->ctx, &w->units.own, w->options.threads, &w->map);
+    iso_periodic_map_prepare(w->ctx, &w->units.own, w->energy, w->options.threads, &w->map);
     w->out->axis = w->map.axis;
+    w->out->closed = is_closed(&w->map);
     status = iso_periodic_rotations(w);
     if (w->options.rotations_alone) return status;
     if (status == ISO_OK && !(w->options.all && w->options.no_lines)) status = iso_periodic_search(w);

@@ -13,25 +13,27 @@
 #include "base/pi_impl.h"
 #include "orbit/pool_impl.h"
 #include "study/follow_impl.h"
+#include "study/level_impl.h"
 
 #define NEAR_END 4e-3 /* of the line, in u: here a collision is foretold */
 
 const char *iso_vary_name(int vary)
 {
-    static const char *const names[] = {"k", "J1", "J2", "J3", "ratio"};
-    return vary >= 0 && vary < 5 ? names[vary] : NULL;
+    static const char *const names[] = {"k", "J1", "J2", "J3", "ratio", "level"};
+    return vary >= 0 && vary < 6 ? names[vary] : NULL;
 }
 
 const char *iso_branch_kind_name(iso_branch_kind kind)
 {
-    static const char *const names[] = {"fold", "period doubling", "symmetry breaking", "collision", "torus",
-                                        "end",  "failure"};
-    return (int)kind >= 0 && kind <= ISO_BRANCH_FAILURE ? names[kind] : NULL;
+    static const char *const names[] = {
+        "fold", "period doubling", "symmetry breaking", "collision", "torus", "end", "failure", "touch", "undecided"};
+    return (int)kind >= 0 && kind <= ISO_BRANCH_UNDECIDED ? names[kind] : NULL;
 }
 
-static double value_of(const iso_params *p, iso_vary vary)
+static double value_of(const iso_params *p, double level, iso_vary vary)
 {
     if (vary == ISO_VARY_K) return p->k;
+    if (vary == ISO_VARY_LEVEL) return level;
     if (vary == ISO_VARY_RATIO) return (p->J[1] - p->J[0]) / (p->J[2] - p->J[0]);
     return p->J[vary - ISO_VARY_J1];
 }
@@ -108,6 +110,21 @@ static iso_status stop_at(const iso_follow_family *f, iso_branch *b, const iso_f
     return status == ISO_OK ? iso_context_fail(f->ctx, ISO_STOPPED, "", "stopped on request") : status;
 }
 
+/* Why no step can be taken from `at`. */
+static const char *why_stuck(const iso_follow_family *f, const iso_follow_point *at)
+{
+    iso_params p;
+    double energy, u[2];
+    iso_periodic_map map;
+    if (!iso_follow_params(f, (at->v + 1e-3 * at->tangent[1]) * f->width, &p, &energy))
+        return "another axis gets the largest (k > 0) or least (k < 0) moment, or a moment becomes 0,";
+    iso_periodic_map_prepare(f->ctx, &p, energy, 1, &map);
+    const bool open = iso_line_range(&map, f->line, u);
+    if (!open || at->u < u[0] + NEAR_END || at->u > u[1] - NEAR_END)
+        return "too near an oscillation in a principal plane, where the point rests, to go on";
+    return "steps became too small";
+}
+
 /* From `at` along its tangent. */
 static iso_status go(const iso_follow_family *f, iso_branch *b, iso_follow_point at)
 {
@@ -123,13 +140,7 @@ static iso_status go(const iso_follow_family *f, iso_branch *b, iso_follow_point
             if (!iso_context_goes_on(f->ctx)) return stop_at(f, b, &at, arc);
             taken /= 2;
             if (taken < 1e-7) {
-                iso_params p;
-                const double ahead = (at.v + 1e-3 * at.tangent[1]) * f->width;
-                return fail_at(
-                    f, b, &at, arc,
-                    iso_follow_params(f, ahead, &p)
-                        ? "steps became too small"
-                        : "another axis gets the largest (k > 0) or least (k < 0) moment, or a moment becomes 0,");
+                return fail_at(f, b, &at, arc, why_stuck(f, &at));
             }
         }
         const iso_status status = accept(f, b, &at, &next, taken, arc, &over);
@@ -201,6 +212,7 @@ static iso_status check(const iso_follow_family *f, double own)
     const iso_follow_options *o = &f->options;
     const char *name = iso_vary_name((int)o->vary);
     iso_params p;
+    double energy;
     if (!name || !(o->from < o->to) || !isfinite(o->to - o->from))
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range", "%s from %g to %g: give A:B with A < B",
                                 name ? name : "?", o->from, o->to);
@@ -211,7 +223,8 @@ static iso_status check(const iso_follow_family *f, double own)
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
                                 "the scene has %s = %.12g: the range %g to %g must contain it", name, own, o->from,
                                 o->to);
-    if (o->vary != ISO_VARY_K && (!iso_follow_params(f, o->from, &p) || !iso_follow_params(f, o->to, &p)))
+    if (o->vary != ISO_VARY_K &&
+        (!iso_follow_params(f, o->from, &p, &energy) || !iso_follow_params(f, o->to, &p, &energy)))
         return iso_context_fail(f->ctx, ISO_BAD_ARGUMENT, "range",
                                 "%s from %g to %g leaves the range in which J%d is the %s moment", name, o->from,
                                 o->to, f->axis + 1, f->base.k > 0 ? "largest" : "smallest");
@@ -251,7 +264,7 @@ static iso_status switch_branches(const iso_follow_family *f, iso_follow *out, s
     for (size_t j = 0; j < out->branch[i].events && status == ISO_OK; j++) {
         const iso_branch b = out->branch[i]; /* the list may move */
         const iso_branch_event e = b.event[j];
-        const bool off = !e.joins && (e.kind == ISO_BRANCH_DOUBLING || e.kind == ISO_BRANCH_BREAKING);
+        const bool off = !e.joins && (e.kind == ISO_BRANCH_BREAKING || iso_follow_doubles(e.kind));
         const size_t before = out->count;
         if (!off) continue;
         status = iso_follow_switch(f, &b, &e, follow_found, &s);
@@ -350,10 +363,11 @@ static iso_status prepare(iso_context *ctx, const iso_scene *scene, const iso_fo
                           iso_follow_family *f, double *own)
 {
     *f = (iso_follow_family){.ctx = ctx, .options = iso_follow_defaults(), .base = scene->params};
-    const iso_status status = iso_options_take(ctx, "iso_follow_options", &f->options, sizeof f->options, options);
+    iso_status status = iso_options_take(ctx, "iso_follow_options", &f->options, sizeof f->options, options);
+    if (status == ISO_OK) status = iso_level_of_scene(ctx, scene, "periodic orbits are followed", &f->level);
     f->axis = iso_section_axis(iso_free_point(&scene->params, 1));
     f->width = f->options.to - f->options.from;
-    *own = value_of(&scene->params, f->options.vary);
+    *own = value_of(&scene->params, f->level, f->options.vary);
     return status == ISO_OK ? check(f, *own) : status;
 }
 
@@ -374,7 +388,7 @@ iso_status iso_follow_run(iso_context *ctx, const iso_scene *scene, const iso_pe
     iso_status status = prepare(ctx, scene, options, &f, &own);
     if (status == ISO_OK) status = check_lines(ctx, orbits, count);
     if (status == ISO_OK && count == 0)
-        status = iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "there is no symmetric orbit to follow");
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "orbit", "no symmetric orbit to follow: the list is empty");
     if (status != ISO_OK) return status;
     iso_follow *out = calloc(1, sizeof *out);
     if (!out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for branches");

@@ -1,4 +1,4 @@
-/* periodic_follow.h - follows a symmetric periodic orbit while k or a moment changes.
+/* periodic_follow.h - follows a symmetric periodic orbit while k, a moment or the level changes.
  *
  * The orbit passes its symmetry line at u (periodic.h), and again half an orbit later: there F(u, value), the
  * distance from the line, is 0. The curve F = 0 is followed by its arc length, through folds, in steps that adapt. D
@@ -8,7 +8,8 @@
  *
  *     fold                D_10 = 0, the slope of F along the line: two orbits meet and vanish
  *     symmetry breaking   D_01 = 0: orbits with less symmetry branch off (trace 2)
- *     period doubling     D_00 D_11 = 0: orbits of twice the period branch off (trace -2)
+ *     period doubling     D_00 or D_11 = 0: orbits of twice the period branch off (the trace passes -2)
+ *     touch               D_00 = D_11 = 0: the trace touches -2 and does not pass it
  *     collision           u reaches an end of the line, a rotation about a principal axis
  *     torus               k = 1 or -1, or two equal moments: the orbit is one of a torus of them
  */
@@ -19,8 +20,9 @@
 
 ISO_C_BEGIN
 
-typedef enum iso_vary { ISO_VARY_K, ISO_VARY_J1, ISO_VARY_J2, ISO_VARY_J3, ISO_VARY_RATIO } iso_vary;
-/* "k", "J1", "J2", "J3", "ratio"; NULL past the end. ratio: (J2 - J1)/(J3 - J1), by J2. */
+typedef enum iso_vary { ISO_VARY_K, ISO_VARY_J1, ISO_VARY_J2, ISO_VARY_J3, ISO_VARY_RATIO, ISO_VARY_LEVEL } iso_vary;
+/* "k", "J1", "J2", "J3", "ratio", "level"; NULL past the end. ratio: (J2 - J1)/(J3 - J1), by J2. level: (H/eps) J2^(1/k)
+ * (map/level.h); it stays the scene's while the others change. */
 ISO_API const char *iso_vary_name(int vary);
 
 typedef enum iso_branch_kind {
@@ -29,10 +31,12 @@ typedef enum iso_branch_kind {
     ISO_BRANCH_BREAKING,
     ISO_BRANCH_COLLISION,
     ISO_BRANCH_TORUS,
-    ISO_BRANCH_END,    /* the end of the range                     */
-    ISO_BRANCH_FAILURE /* it could not be followed: words say why  */
+    ISO_BRANCH_END,      /* the end of the range                     */
+    ISO_BRANCH_FAILURE,  /* it could not be followed: words say why  */
+    ISO_BRANCH_TOUCH,    /* the trace touches -2 and does not pass it */
+    ISO_BRANCH_UNDECIDED /* a touch, or two period doublings that are too close to tell */
 } iso_branch_kind;
-/* "fold", "period doubling", "symmetry breaking", "collision", "torus", "end", "failure". */
+/* "fold", "period doubling", "symmetry breaking", "collision", "torus", "end", "failure", "touch", "undecided". */
 ISO_API const char *iso_branch_kind_name(iso_branch_kind kind);
 
 typedef struct iso_branch_point {

@@ -10,7 +10,7 @@
  *     periodic_solve.c       an orbit from a place near it: digits, trace, error, closure
  *     periodic_orbit.c       the list: what is new, symmetry, copies
  *
- * All of them compute in own units with eps = 1.
+ * All of them compute in own units with eps = 1, on the level H = energy of the point.
  */
 #ifndef ISO_STUDY_PERIODIC_IMPL_H
 #define ISO_STUDY_PERIODIC_IMPL_H
@@ -25,14 +25,25 @@
 
 typedef struct iso_periodic_map {
     iso_context *ctx;
-    iso_params p; /* own */
+    iso_params p;  /* own */
+    double energy; /* the level H of the point, for eps = 1 */
     int axis, threads;
-    iso_model model; /* the point on H = 0, eps = 1, with all clocks */
-    double zeros;    /* see iso_lane_job */
-    double finer;    /* of one point: the tolerance is this part of the usual one */
+    iso_model model;     /* the point on this level, eps = 1, with all clocks */
+    iso_effects effects; /* the level again, as starts need it                */
+    double zeros;        /* see iso_lane_job */
+    double finer;        /* of one point: the tolerance is this part of the usual one */
 } iso_periodic_map;
 
-void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, int threads, iso_periodic_map *map);
+static inline iso_point_motion iso_periodic_motion(const iso_periodic_map *map)
+{
+    return (iso_point_motion){&map->p, 1, map->energy};
+}
+
+void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, double energy, int threads,
+                              iso_periodic_map *map);
+
+/* The same of the section of another axis. */
+void iso_periodic_map_turn(int axis, iso_periodic_map *map);
 
 /* A point of the section, and d(l, x) there / d(l, x) at the start. */
 typedef struct iso_periodic_point {
@@ -90,6 +101,10 @@ static inline int iso_line_reversor(int line)
 /* The axis of the rotation at u = 0, or at u = pi/2. */
 int iso_line_axis_at(int axis, int line, bool end);
 
+/* The part u[0] < u < u[1] of a line on which the point can move on this level; false: none. Where it ends between 0
+ * and pi/2 the point rests: it oscillates in a principal plane. */
+bool iso_line_range(const iso_periodic_map *map, int line, double u[2]);
+
 /* The reversor S1, S2, S3 (0, 1, 2). */
 void iso_periodic_reverse(int reversor, const double z[2], double to[2]);
 
@@ -129,7 +144,9 @@ typedef struct iso_periodic_work {
     const iso_scene *scene;
     iso_periodic_options options;
     iso_periodic_map map;
-    double h; /* of the scene's orbit, own units                            */
+    double h;      /* of the scene's orbit, own units                            */
+    double energy; /* its level H for eps = 1, own units                         */
+    double H;      /* the same level, in the scene's units                       */
     iso_units units;
     double unit_clock[ISO_CLOCKS]; /* the scene's clocks of one own clock at eps = 1 */
     iso_periodic *out;

@@ -20,6 +20,37 @@ int iso_line_axis_at(int axis, int line, bool end)
     return end ? axis : line == LINE_0 ? c : b;
 }
 
+/* The axis on which the point is at u = 0, or at u = pi/2. (On l = 0, l = pi/2 and the pole it stays on one.) */
+static int place_axis_at(int axis, int line, bool end)
+{
+    const int b = (axis + 1) % 3, c = (axis + 2) % 3;
+    switch (line) {
+    case LINE_X: return end ? c : b;
+    case LINE_0: return b;
+    case LINE_QUARTER: return c;
+    case LINE_POLE: return axis;
+    case LINE_PLANE_B: return end ? axis : c;
+    default: return end ? axis : b;
+    }
+}
+
+/* q along a line goes one way, so that the point can move up to one place, or from one on. */
+bool iso_line_range(const iso_periodic_map *map, int line, double u[2])
+{
+    const double *J = map->p.J, k = map->p.k;
+    double q[2];
+    for (int end = 0; end < 2; end++) {
+        const int axis = place_axis_at(map->axis, line, end);
+        q[end] = J[axis];
+        u[end] = end * ISO_PI / 2;
+    }
+    const bool moves[2] = {1 + map->energy * pow(q[0], 1 / k) > 0, 1 + map->energy * pow(q[1], 1 / k) > 0};
+    if (moves[0] == moves[1]) return moves[0];
+    const double border = pow(-map->energy, -k), part = (border - q[0]) / (q[1] - q[0]); /* sin^2 u */
+    u[moves[0]] = asin(sqrt(fmin(fmax(part, 0), 1)));
+    return true;
+}
+
 void iso_periodic_reverse(int reversor, const double z[2], double to[2])
 {
     to[0] = reversor == 0 ? z[0] : reversor == 1 ? -z[0] : ISO_PI - z[0];

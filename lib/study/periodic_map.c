@@ -10,17 +10,26 @@
 #include <string.h>
 
 #include "base/vec3_impl.h"
+#include "method/taylor/lanes_impl.h"
 #include "orbit/crossings_impl.h"
 #include "study/periodic_impl.h"
 
-void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, int threads, iso_periodic_map *map)
+void iso_periodic_map_turn(int axis, iso_periodic_map *map)
 {
-    const iso_problem problem = {.p = *own, .eps = 1, .energy = 0};
+    map->axis = axis;
+    map->zeros = iso_crossings_zeros(iso_periodic_motion(map), axis, iso_lane_clock(&map->model));
+}
+
+void iso_periodic_map_prepare(iso_context *ctx, const iso_params *own, double energy, int threads,
+                              iso_periodic_map *map)
+{
+    const iso_problem problem = {.p = *own, .eps = 1, .energy = energy};
     const bool with[ISO_CLOCKS] = {true, true, true};
-    *map = (iso_periodic_map){
-        .ctx = ctx, .p = *own, .axis = iso_section_axis(iso_free_point(own, 1)), .threads = threads, .finer = 1};
+    *map = (iso_periodic_map){.ctx = ctx, .p = *own, .energy = energy, .threads = threads, .finer = 1};
     map->model = iso_model_assemble(&iso_system_point, &problem, ISO_CLOCK_T, with);
-    map->zeros = iso_crossings_zeros(iso_free_point(own, 1), map->axis, ISO_CLOCK_T);
+    map->effects = iso_effects_default();
+    iso_effects_set_level(&map->effects, energy != 0, iso_energy(own, energy));
+    iso_periodic_map_turn(iso_section_axis(iso_periodic_motion(map)), map);
 }
 
 /* --- many points ------------------------------------------------------------------------------------------------ */
@@ -57,15 +66,20 @@ static bool make_walk(size_t orbits, size_t each, walk *w)
     return w->start && w->orbit && w->crossing && w->done && w->status;
 }
 
+static void set_state(const iso_periodic_map *map, walk *w, size_t i, const double y[ISO_STATE])
+{
+    w->start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
+    memcpy(w->start[i].y, y, sizeof w->start[i].y);
+    w->orbit[i] = (iso_batch_orbit){&map->p, &w->start[i], map->energy != 0 ? &map->effects : NULL};
+}
+
 /* The crossing at z, of a half turned over by T. */
 static void set_start(const iso_periodic_map *map, walk *w, size_t i, const double z[2], bool over)
 {
     double y[ISO_STATE];
-    iso_section_point(iso_free_point(&map->p, 1), map->axis, z[0], z[1], y);
+    iso_section_point(iso_periodic_motion(map), map->axis, z[0], z[1], y);
     for (int j = 3; j < ISO_STATE && over; j++) y[j] = -y[j];
-    w->start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
-    memcpy(w->start[i].y, y, sizeof y);
-    w->orbit[i] = (iso_batch_orbit){&map->p, &w->start[i], NULL};
+    set_state(map, w, i, y);
 }
 
 static void set_point(const walk *w, size_t orbit, size_t crossing, iso_periodic_point *to)
@@ -122,20 +136,17 @@ iso_status iso_periodic_walk(const iso_periodic_map *map, size_t count, const do
 static void set_half_way(const iso_periodic_map *map, walk *w, size_t i, iso_return_start from, double u)
 {
     const int a = map->axis, b = (a + 1) % 3, c = (a + 2) % 3;
-    double gamma[3] = {0}, along[3] = {0}, J_gamma[3], M[3];
+    double y[ISO_STATE] = {0}, *M = y, *gamma = y + 3, along[3] = {0};
     if (from == ISO_FROM_POLE) {
         gamma[a] = -1, along[b] = cos(u), along[c] = sin(u);
     } else {
         gamma[a] = -sin(u), gamma[from == ISO_FROM_PLANE_B ? c : b] = cos(u);
         along[from == ISO_FROM_PLANE_B ? b : c] = 1;
     }
-    diag(map->p.J, gamma, J_gamma);
+    const double k = map->p.k, q = dot_diag(gamma, map->p.J, gamma);
     cross(along, gamma, M);
-    scale(M, sqrt(2) * pow(dot(gamma, J_gamma), -1 / (2 * map->p.k)));
-    w->start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
-    memcpy(w->start[i].y, M, sizeof M);
-    memcpy(w->start[i].y + 3, gamma, sizeof gamma);
-    w->orbit[i] = (iso_batch_orbit){&map->p, &w->start[i], NULL};
+    scale(M, sqrt(2) * pow(q, -1 / (2 * k)) * sqrt(1 + map->energy * pow(q, 1 / k)));
+    set_state(map, w, i, y);
 }
 
 iso_status iso_periodic_enter_many(const iso_periodic_map *map, iso_return_start start, size_t count,
@@ -180,10 +191,17 @@ static iso_wide q_of(const iso_periodic_map *map, const iso_return *r)
     return r->start == ISO_FROM_POLE ? Ja : map->p.J[(map->axis + beside) % 3] * C * C + Ja * S * S;
 }
 
-/* G(l)/G(l'), by q and q': G = (2 eps)^(1/2) q^(-1/(2k)). */
+/* 1 + H q^(1/k): 0 where the point rests. */
+static iso_wide moving(const iso_periodic_map *map, iso_wide q)
+{
+    return 1 + map->energy * WIDE_POW(q, 1 / (iso_wide)map->p.k);
+}
+
+/* G(l)/G(l'), by q and q': G^2 = 2 q^(-1/k) (1 + H q^(1/k)). */
 static iso_wide law(const iso_periodic_map *map, iso_wide q, iso_wide to)
 {
-    return WIDE_POW(to / q, 1 / (2 * (iso_wide)map->p.k));
+    const iso_wide level = map->energy != 0 ? WIDE_ROOT(moving(map, q) / moving(map, to)) : 1;
+    return WIDE_POW(to / q, 1 / (2 * (iso_wide)map->p.k)) * level;
 }
 
 iso_wide iso_periodic_determinant(const iso_periodic_map *map, iso_wide l, iso_wide to)

@@ -145,7 +145,7 @@ static void tell_states(const iso_periodic_work *w, iso_periodic_orbit *o)
     const iso_params *p = &w->scene->params;
     const double h = w->h * iso_unit(&w->units, iso_dimension_h);
     for (int c = 0; c < ISO_CLOCKS; c++) o->clock[c] *= w->unit_clock[c];
-    iso_section_point(iso_free_point(p, iso_coupling(p, h)), w->map.axis, o->l, o->x, o->point);
+    iso_section_point((iso_point_motion){p, iso_coupling(p, h), w->H}, w->map.axis, o->l, o->x, o->point);
     iso_point_to_ball(p, o->point, o->ball);
 }
 

@@ -23,10 +23,7 @@ static bool ask_section(iso_periodic_work *w, iso_rotation *r, iso_wide *trace)
     iso_periodic_map map = w->map;
     iso_periodic_fine found;
     const bool own = r->axis == map.axis;
-    if (own) {
-        map.axis = (map.axis + 1) % 3;
-        map.zeros = iso_crossings_zeros(iso_free_point(&map.p, 1), map.axis, ISO_CLOCK_T);
-    }
+    if (own) iso_periodic_map_turn((map.axis + 1) % 3, &map);
     const iso_wide z[2] = {r->axis == (map.axis + 1) % 3 ? WIDE_PI / 2 : 0, 0};
     if (!iso_periodic_far(&map, iso_return_code_of(w->options.polish), z, 1, NULL, &found)) return false;
     *trace = -(found.slope[0][0] + found.slope[1][1]);
@@ -43,6 +40,15 @@ static double error_of(const iso_periodic_work *w, iso_wide trace, double rough,
     return fmax(apart, fmax(fabs(rough - (double)trace), 0x1p-53 * size));
 }
 
+/* No number: the plane holds an oscillation. */
+static void none(iso_rotation *r)
+{
+    r->oscillates = true;
+    r->half_turn_trace = r->error = r->tail = r->by_section = r->turn_trace = NAN;
+    r->half = (iso_multipliers){.stability = ISO_STABILITY_UNDECIDED, .value = {{NAN, NAN}, {NAN, NAN}}};
+    for (int c = 0; c < ISO_CLOCKS; c++) r->clock[c] = NAN;
+}
+
 static bool find_rotation(iso_periodic_work *w, int axis)
 {
     iso_rotation *r = &w->out->rotation[axis];
@@ -50,8 +56,9 @@ static bool find_rotation(iso_periodic_work *w, int axis)
     iso_wide Y[2][2], section;
     *r = (iso_rotation){.axis = axis};
     place(&w->map, r);
-    const double rough = iso_hill_trace(p->k, p->J, axis, NULL);
-    iso_hill_matrix_wide(p->k, p->J, axis, Y);
+    if (!iso_hill_has_rotation(p->k, p->J, w->energy, axis)) return none(r), true;
+    const double rough = iso_hill_trace(p->k, p->J, w->energy, axis, NULL);
+    iso_hill_matrix_wide(p->k, p->J, w->energy, axis, Y);
     const iso_fine trace = iso_fine_of(Y[0][0] + Y[1][1]);
     r->half_turn_trace = trace.head;
     r->tail = trace.tail;

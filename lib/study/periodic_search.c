@@ -202,9 +202,11 @@ static iso_status refine_samples(search *s)
 
 static iso_status sample_line(search *s)
 {
-    double u[FIRST + 1];
-    const double end = ISO_PI / 2 - 2 * SKIPPED;
-    for (int i = 0; i <= FIRST; i++) u[i] = SKIPPED + end * i / FIRST;
+    double u[FIRST + 1], range[2];
+    if (!iso_line_range(&s->w->map, s->line, range)) return ISO_OK;
+    const double end = range[1] - range[0] - 2 * SKIPPED;
+    if (!(end > 0)) return ISO_OK;
+    for (int i = 0; i <= FIRST; i++) u[i] = range[0] + SKIPPED + end * i / FIRST;
     iso_status status = take_samples(s, FIRST + 1, u);
     if (status == ISO_OK) status = grow(s->w->ctx, (void **)&s->open, &s->open_room, 0, FIRST, sizeof(interval));
     if (status != ISO_OK) return status;

@@ -123,7 +123,7 @@ static double by_other_steps(const solver *s)
     other.path = path;
     if (s->code->error > 1e-25) { /* the constants of the equations are rounded like k */
         if (iso_params_reduced(s->map.ctx, nextafter(s->map.p.k, 0), s->map.p.J, &p) != ISO_OK) return NAN;
-        iso_periodic_map_prepare(s->map.ctx, &p, 1, &other.map);
+        iso_periodic_map_prepare(s->map.ctx, &p, s->map.energy, 1, &other.map);
     }
     other.map.finer = 0.03;
     if (s->line < 0) find_step_in_plane(&other, step);

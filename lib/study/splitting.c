@@ -1,4 +1,4 @@
-/* splitting.c - the splitting at one k: x* and m, with errors. */
+/* splitting.c - the splitting at one k on one level: x* and m, with errors. */
 #define _GNU_SOURCE /* functions of _Float128 */
 #include "study/splitting.h"
 
@@ -10,12 +10,12 @@
 #include "study/splitting_impl.h"
 
 /* Terms of the polynomial, and of the one that is compared with it. Its domain is 3/4 as large. */
-typedef struct level {
+typedef struct numbers {
     int terms, other;
     int digits;
-} level;
+} numbers;
 
-static const level with_64_bits = {12, 10, 19}, with_106_bits = {21, 18, 32};
+static const numbers with_64_bits = {12, 10, 19}, with_106_bits = {21, 18, 32};
 
 /* --- the domain ------------------------------------------------------------------------------------------------- */
 
@@ -94,7 +94,7 @@ static void tell(const iso_manifold *m, const iso_manifold_crossing *c, const is
     s->from_zero = fabs(s->m) > 100 * s->error;
 }
 
-static iso_status compute(iso_manifold *m, const level *l, iso_manifold_crossing *c, iso_splitting *s)
+static iso_status compute(iso_manifold *m, const numbers *l, iso_manifold_crossing *c, iso_splitting *s)
 {
     iso_manifold_crossing again;
     iso_status status = iso_manifold_refine(m, c);
@@ -120,17 +120,18 @@ static iso_status compute_finer(iso_manifold *m, iso_manifold_crossing *c, iso_s
 
 /* --- one k ------------------------------------------------------------------------------------------------------ */
 
-static void begin(double k, iso_splitting *s)
+static void begin(double k, double level, iso_splitting *s)
 {
     memset(s, 0, sizeof *s);
     s->k = k;
+    s->level = level;
     s->lambda = s->x = s->m = s->section_x = s->section_m = s->error = s->x_error = s->next_l = s->next_x =
         s->next_m = NAN;
 }
 
-iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], iso_manifold *m)
+iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
 {
-    const iso_status status = iso_manifold_open(ctx, k, J, m);
+    const iso_status status = iso_manifold_open(ctx, k, J, level, m);
     return status == ISO_OK ? find_domain(m) : status;
 }
 
@@ -162,7 +163,7 @@ static iso_status find(iso_context *ctx, const double J[3], iso_splitting_digits
     iso_manifold m;
     iso_manifold_crossing c, n;
     iso_status status = check_digits(ctx, digits);
-    if (status == ISO_OK) status = iso_manifold_find(ctx, s->k, J, &m);
+    if (status == ISO_OK) status = iso_manifold_find(ctx, s->k, J, s->level, &m);
     if (status != ISO_OK) return status;
     s->section = m.axis;
     s->middle = m.corner == 0 ? (m.axis + 2) % 3 : (m.axis + 1) % 3;
@@ -176,28 +177,28 @@ static iso_status find(iso_context *ctx, const double J[3], iso_splitting_digits
     return status == ISO_NUMERICAL ? ISO_OK : status;
 }
 
-static iso_status find_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits, bool next,
-                          iso_splitting *s)
+static iso_status find_at(iso_context *ctx, double k, const double J[3], double level, iso_splitting_digits digits,
+                          bool next, iso_splitting *s)
 {
-    begin(k, s);
+    begin(k, level, s);
     const iso_status status = find(ctx, J, digits, next, s);
     if (status == ISO_OK) return ISO_OK;
-    begin(k, s);
+    begin(k, level, s);
     s->status = status;
     snprintf(s->words, sizeof s->words, "%s", iso_context_message(ctx));
     return status;
 }
 
-iso_status iso_splitting_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits,
+iso_status iso_splitting_at(iso_context *ctx, double k, const double J[3], double level, iso_splitting_digits digits,
                             iso_splitting *s)
 {
     ISO_DEFAULT_ARITHMETIC;
-    return find_at(ctx, k, J, digits, false, s);
+    return find_at(ctx, k, J, level, digits, false, s);
 }
 
-iso_status iso_splitting_next_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits,
-                                 iso_splitting *s)
+iso_status iso_splitting_next_at(iso_context *ctx, double k, const double J[3], double level,
+                                 iso_splitting_digits digits, iso_splitting *s)
 {
     ISO_DEFAULT_ARITHMETIC;
-    return find_at(ctx, k, J, digits, true, s);
+    return find_at(ctx, k, J, level, digits, true, s);
 }

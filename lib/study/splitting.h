@@ -5,10 +5,11 @@
  * cross. Of the section n_a = 0 with the middle axis c = a - 1, cyclically, O is (l, x) = (0, 0). The reversor
  * (l, x) -> (pi - l, x) turns W^u(O) into W^s(O'), so they meet wherever one of them meets the line l = pi/2, there
  * with the slopes +m and -m, m = dx/dl of W^u(O). If m != 0 they cross transversally, and there is no further analytic
- * integral (lib/doc/why_only_one.md); m is computed, not proved.
+ * integral (lib/doc/why_only_one.md); m is computed, not proved. All this holds on every level of the point's energy
+ * (map/level.h) on which the rotation exists: those on which the point can reach the whole sphere.
  *
  *     iso_splitting s;
- *     status = iso_splitting_at(ctx, 0.5, (double[3]){1.4, 2.1, 3}, ISO_SPLITTING_AUTO, &s);     s.x, s.m, s.error
+ *     status = iso_splitting_at(ctx, 0.5, (double[3]){1.4, 2.1, 3}, 0, ISO_SPLITTING_AUTO, &s);     s.x, s.m, s.error
  *
  * The manifold near O is a polynomial W with g(W(theta)) = W(lambda^(1/2) theta), g half a return, found by Newton's
  * method; farther out it is followed by half returns with their derivatives. Numbers have 64 bits of mantissa, and
@@ -33,9 +34,9 @@ typedef enum iso_splitting_digits {
     ISO_SPLITTING_AUTO
 } iso_splitting_digits;
 
-/* What is found at one k. */
+/* What is found at one k, on one level. */
 typedef struct iso_splitting {
-    double k;
+    double k, level;
     int middle;                  /* the middle axis, 0 to 2: O is the rotation about it                           */
     int axis;                    /* a = middle + 1, cyclically: x and m belong to n_a = 0, where O is (l, x) = 0  */
     double lambda;               /* O's multiplier > 1 of a whole return                                          */
@@ -48,37 +49,38 @@ typedef struct iso_splitting {
                                       of their slopes; NaN: not asked for, or not found                    */
     int digits;                    /* decimal digits of the numbers: 19 or 32                                       */
     bool from_zero;                /* |m| > 100 errors                                                              */
-    bool is_zero;                  /* k is a zero of m between two rows of a scan, to k_error; next_... are there   */
-    double k_error;
-    iso_status status; /* ISO_OK, or why there is nothing                                               */
-    char words[200];   /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
+    bool is_zero; /* a zero of m between two rows of a scan, to k_error or level_error; next_... are there   */
+    double k_error, level_error; /* one of them is 0: that of the number in which both rows agree                */
+    iso_status status;           /* ISO_OK, or why there is nothing                                               */
+    char words[200];             /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
 } iso_splitting;
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and
- * there is no middle axis); a middle axis whose rotation is not hyperbolic, or lambda below 1.02 (moments that are
- * nearly equal, large |k|), where m is estimated at 1e-427 or less and not computed; parameters beyond what the
- * numbers hold. ISO_NUMERICAL: no crossing was found, or a return failed. ISO_BAD_ARGUMENT about "digits" where this
+ * there is no middle axis); lambda below 1.02 (moments that are nearly equal, large |k|, a high level), where m is
+ * estimated at 1e-427 or less and not computed; parameters beyond what the numbers hold; about "level": the middle axis
+ * has no rotation, but an oscillation between two places of rest. ISO_NUMERICAL: no crossing was found, or a return failed. ISO_BAD_ARGUMENT about "digits" where this
  * build has no 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The status and its words are in *s as well. */
-ISO_API iso_status iso_splitting_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits,
-                                    iso_splitting *s);
+ISO_API iso_status iso_splitting_at(iso_context *ctx, double k, const double J[3], double level,
+                                    iso_splitting_digits digits, iso_splitting *s);
 
 /* The same, and next_... as well. */
-ISO_API iso_status iso_splitting_next_at(iso_context *ctx, double k, const double J[3], iso_splitting_digits digits,
-                                         iso_splitting *s);
+ISO_API iso_status iso_splitting_next_at(iso_context *ctx, double k, const double J[3], double level,
+                                         iso_splitting_digits digits, iso_splitting *s);
 
 typedef struct iso_splitting_options {
     size_t size;     /* set by iso_splitting_defaults; see isoroll.h */
     const double *k; /* the values, in any order                                              */
     size_t count;
     double J[3];
-    const iso_scene *scene; /* no effect may act on its ball, and its point must be on H = 0; k and J are not
-                               read from it. NULL: a free ball                             */
+    const iso_scene *scene; /* no effect but a level may act on its ball; its k and J are read for its level alone.
+                               NULL: a free ball                                           */
     iso_splitting_digits digits;
     bool zeros;  /* look for zeros of m between neighbours of this list                    */
     int threads; /* 0: as many as there are processors to run on                           */
     /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
     void (*progress)(double part, void *data);
     void *data;
+    const double *level; /* one for each k; NULL: the scene's level everywhere */
 } iso_splitting_options;
 
 static inline iso_splitting_options iso_splitting_defaults(void)
@@ -94,22 +96,24 @@ typedef struct iso_splittings {
     size_t rows, zeros;
     size_t lost;         /* zeros that lie between two rows and were not found: a failure, or +-1 too close  */
     iso_splitting *row;  /* one for each k of the options, in their order; status ISO_STOPPED: not done    */
-    iso_splitting *zero; /* zeros of m other than k = +-1, by growing k                                    */
+    iso_splitting *zero; /* zeros of m other than k = +-1, by growing k and level                          */
 } iso_splittings;
 
 /* Other zeros of m than k = 1 and k = -1 are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1): there is one between two
- * neighbours that are distinguished from 0 if their r have opposite signs. There the manifolds touch at one point. If
+ * neighbours that are distinguished from 0 if their r have opposite signs. Neighbours have the same level, or else the
+ * same k. There the manifolds touch at one point. If
  * they cross at the next one (next_m != 0), there is no further integral.
  * A failure at one k stands in its row, and is no failure of the call.
- * Errors: ISO_BAD_ARGUMENT (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball, or the level of a
- * point off H = 0; where the scene starts as a point, those of iso_orbit_create; ISO_NO_MEMORY; ISO_STOPPED by the
+ * Errors: ISO_BAD_ARGUMENT (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball and is no level; where
+ * the scene starts as a point, or has a level, those of iso_orbit_create; ISO_NO_MEMORY; ISO_STOPPED by the
  * context's monitor: *s has the rows that are done. */
 ISO_API iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *options, iso_splittings **s);
 ISO_API void iso_splitting_free(iso_splittings *s);
 
 /* The unstable manifold of O as a line of points, columns u and x, from O for `halves` half returns past the first
  * crossing, in numbers of 64 bits. (pi - u, x) is the stable manifold of O'. Errors: as iso_splitting_at. */
-ISO_API iso_status iso_splitting_curve(iso_context *ctx, double k, const double J[3], int halves, iso_record **curve);
+ISO_API iso_status iso_splitting_curve(iso_context *ctx, double k, const double J[3], double level, int halves,
+                                       iso_record **curve);
 
 ISO_C_END
 

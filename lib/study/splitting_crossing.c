@@ -279,14 +279,15 @@ static iso_status draw(iso_context *ctx, const iso_manifold *m, int halves, iso_
     return status;
 }
 
-iso_status iso_splitting_curve(iso_context *ctx, double k, const double J[3], int halves, iso_record **curve)
+iso_status iso_splitting_curve(iso_context *ctx, double k, const double J[3], double level, int halves,
+                               iso_record **curve)
 {
     static const char *const names[] = {"u", "x"};
     iso_manifold m;
     iso_record *r = NULL;
     ISO_DEFAULT_ARITHMETIC;
     *curve = NULL;
-    iso_status status = iso_manifold_find(ctx, k, J, &m);
+    iso_status status = iso_manifold_find(ctx, k, J, level, &m);
     if (status == ISO_OK) status = iso_record_create(ctx, 2, names, &r);
     if (status == ISO_OK) status = draw(ctx, &m, halves, r);
     if (status == ISO_OK)

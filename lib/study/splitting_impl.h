@@ -5,9 +5,10 @@
  *     splitting.c            one k, with its error
  *     splitting_scan.c       many k, and the zeros between them
  *
- * Coordinates are z = (u, x): u = l - l0, so that the fixed point is 0. The map is g = sign h, h half a return
- * (return_map_impl.h), sign so that its multiplier is positive: here lambda is that of half a return, the square root
- * of iso_splitting.lambda. (The maps commute with z -> -z.)
+ * Coordinates are z = (u, x): u = l - l0, so that the fixed point is 0. The map is g, half a return
+ * (return_map_impl.h): here lambda is its multiplier, the square root of iso_splitting.lambda. It is above 1, as the
+ * half-turn trace of the middle axis is below -2 (lib/doc/theory.md) and g turns its sign over. (g commutes with z ->
+ * -z.)
  */
 #ifndef ISO_STUDY_SPLITTING_IMPL_H
 #define ISO_STUDY_SPLITTING_IMPL_H
@@ -27,8 +28,8 @@ typedef struct iso_manifold {
     iso_problem problem;
     iso_model model;
     const iso_return_code *code;
-    int axis, sign, terms;
-    double zeros, tolerance;
+    int axis, terms;
+    double level, zeros, tolerance;
     iso_wide corner; /* l0 */
     iso_wide lambda, v[2], size, c[2][ISO_MANIFOLD_TERMS];
     double rate; /* |c_(i+1)/c_i|, about */
@@ -47,8 +48,8 @@ typedef struct iso_manifold_crossing {
     double scatter[2]; /* how far rounding moves x and the slope                     */
 } iso_manifold_crossing;
 
-/* Checks k and J, and finds lambda and v. Errors: as iso_splitting_at. */
-iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], iso_manifold *m);
+/* Checks k, J and the level, and finds lambda and v. Errors: as iso_splitting_at. */
+iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m);
 
 /* Other numbers: lambda and v anew, and the polynomial stays as a first guess. */
 iso_status iso_manifold_use(iso_manifold *m, const iso_return_code *code);
@@ -69,7 +70,7 @@ iso_status iso_manifold_at(const iso_manifold *m, iso_wide theta, int halves, is
 iso_status iso_manifold_go_on(const iso_manifold *m, iso_manifold_point *p);
 
 /* Both, in numbers of 64 bits: from the domain that suits them. */
-iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], iso_manifold *m);
+iso_status iso_manifold_find(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m);
 
 /* The first crossing with the line u = pi/2: roughly, then to the last digit from a guess. */
 iso_status iso_manifold_first(const iso_manifold *m, iso_manifold_crossing *c);

@@ -11,7 +11,9 @@
 #include <string.h>
 
 #include "base/pi_impl.h"
+#include "map/level.h"
 #include "map/section.h"
+#include "method/taylor/lanes_impl.h"
 #include "orbit/crossings_impl.h"
 #include "study/splitting_impl.h"
 
@@ -31,9 +33,9 @@ iso_status iso_manifold_map(const iso_manifold *m, const iso_wide z[2], iso_wide
     if (!(WIDE_ABS(z[1]) < 1)) return no_return(m);
     if (!m->code->go(&m->model, m->axis, m->zeros, m->tolerance, &r)) return no_return(m);
     for (int i = 0; i < 2; i++)
-        for (int j = 0; j < 2; j++) A[i][j] = m->sign * iso_wide_of(r.slope[i][j]);
-    image[0] = m->sign * iso_wide_turned(iso_wide_of(r.to[0]) - m->corner);
-    image[1] = m->sign * iso_wide_of(r.to[1]);
+        for (int j = 0; j < 2; j++) A[i][j] = iso_wide_of(r.slope[i][j]);
+    image[0] = iso_wide_turned(iso_wide_of(r.to[0]) - m->corner);
+    image[1] = iso_wide_of(r.to[1]);
     return image[0] - image[0] == 0 && image[1] - image[1] == 0 ? ISO_OK : no_return(m);
 }
 
@@ -44,11 +46,6 @@ static iso_status check_trace(const iso_manifold *m, double trace)
 {
     const double apart = trace - 2; /* (lambda - 1)^2/lambda */
     if (apart > 1e-4) return ISO_OK;
-    if (apart < -1e-9)
-        return iso_context_fail(m->ctx, ISO_BAD_INPUT, "k",
-                                "splitting: at k = %.15g the rotation about the middle axis is not hyperbolic "
-                                "(half-turn trace %.12g): it has no separatrix",
-                                m->problem.p.k, trace);
     const double exponent = 2 * sqrt(fmax(apart, 1e-15)); /* ln lambda^2 */
     return iso_context_fail(
         m->ctx, ISO_BAD_INPUT, "J",
@@ -62,16 +59,14 @@ static iso_status find_direction(iso_manifold *m)
 {
     const iso_wide origin[2] = {0, 0};
     iso_wide image[2], A[2][2];
-    m->sign = 1;
     iso_status status = iso_manifold_map(m, origin, image, A);
     if (status != ISO_OK) return status;
-    iso_wide trace = A[0][0] + A[1][1];
-    if (trace < 0) m->sign = -1, trace = -trace;
+    const iso_wide trace = A[0][0] + A[1][1];
     status = check_trace(m, (double)trace);
     if (status != ISO_OK) return status;
     m->lambda = (trace + WIDE_ROOT((trace - 2) * (trace + 2))) / 2;
-    m->v[0] = m->sign * A[0][1];
-    m->v[1] = m->lambda - m->sign * A[0][0];
+    m->v[0] = A[0][1];
+    m->v[1] = m->lambda - A[0][0];
     const iso_wide length = WIDE_ROOT(m->v[0] * m->v[0] + m->v[1] * m->v[1]) * (m->v[0] < 0 ? -1 : 1);
     for (int i = 0; i < 2; i++) m->v[i] /= length;
     return ISO_OK;
@@ -96,10 +91,24 @@ static iso_status check_moments(iso_context *ctx, const double J[3])
                             J[0], J[1], J[2]);
 }
 
-iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], iso_manifold *m)
+/* Below this level the circle of the middle axis' rotation is not open as a whole. */
+static iso_status check_level(const iso_manifold *m)
+{
+    const iso_params *p = &m->problem.p;
+    const double a = p->J[m->axis], lowest = iso_level_of(p, -pow(a, -1 / p->k));
+    if (m->level > lowest) return ISO_OK;
+    return iso_context_fail(
+        m->ctx, ISO_BAD_INPUT, "level",
+        "splitting at k = %.15g, level %.15g: the middle axis has no rotation, but an oscillation "
+        "between two places of rest: it has no separatrix. Give a level above %.12g",
+        p->k, m->level, lowest);
+}
+
+iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], double level, iso_manifold *m)
 {
     memset(m, 0, sizeof *m);
     m->ctx = ctx;
+    m->level = level;
     int exponent;
     const double top = fmax(J[0], fmax(J[1], J[2]));
     frexp(isfinite(top) && top > 0 ? top : 1, &exponent);
@@ -110,14 +119,19 @@ iso_status iso_manifold_open(iso_context *ctx, double k, const double J[3], iso_
     const iso_params *p = &m->problem.p;
     if (!(fabs(k) >= 0.05 && fabs(k) <= 50))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "k", "splitting: k = %.15g: give 0.05 <= |k| <= 50", k);
+    if (!isfinite(level)) return iso_context_fail(ctx, ISO_BAD_INPUT, "level", "splitting: level %g", level);
     m->problem.eps = 1;
-    m->axis = iso_section_axis(iso_free_point(p, 1));
+    m->problem.energy = iso_level_energy(p, level);
+    const iso_point_motion motion = {p, 1, m->problem.energy};
+    m->axis = iso_section_axis(motion);
+    status = check_level(m);
+    if (status != ISO_OK) return status;
     const int b = (m->axis + 1) % 3, c = (m->axis + 2) % 3;
     const bool at_zero = k > 0 ? p->J[c] > p->J[b] : p->J[c] < p->J[b]; /* c is the middle axis */
     m->corner = at_zero ? 0 : WIDE_PI / 2;
     const bool none[ISO_CLOCKS] = {false};
     m->model = iso_model_assemble(&iso_system_point, &m->problem, ISO_CLOCK_T, none);
-    m->zeros = iso_crossings_zeros(iso_free_point(p, 1), m->axis, k == -1 ? ISO_CLOCK_S : ISO_CLOCK_T);
+    m->zeros = iso_crossings_zeros(motion, m->axis, iso_lane_clock(&m->model));
     return iso_manifold_use(m, &iso_return_extended);
 }
 

@@ -1,4 +1,4 @@
-/* splitting_scan.c - the splitting at many k on all threads, and the zeros of m between them. */
+/* splitting_scan.c - the splitting at many k or levels on all threads, and the zeros of m between them. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -6,19 +6,22 @@
 #include "base/options_impl.h"
 #include "base/pi_impl.h"
 #include "orbit/pool_impl.h"
-#include "study/free_impl.h"
+#include "study/level_impl.h"
 #include "study/splitting.h"
 
 /* m has the zeros k = 1 and k = -1 anyway. Others are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1), which is of the
- * same size everywhere. Two neighbours with one between. */
+ * same size everywhere. Two neighbours with one between, along k or along the level. */
 typedef struct bracket {
-    double k[2], r[2];
+    bool by_level;
+    double other; /* the number in which they agree */
+    double at[2], r[2];
     bool fine; /* 64 bits do not tell these m from 0 */
 } bracket;
 
 typedef struct scan {
     const iso_splitting_options *o;
     iso_splittings *s;
+    double level; /* where the options give none */
     const bracket *bracket;
     atomic_size_t done;
     size_t all;
@@ -32,11 +35,18 @@ static double reduced(const iso_splitting *s, double m)
 
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
+static double level_of(const scan *c, size_t i)
+{
+    return c->o->level ? c->o->level[i] : c->level;
+}
+
 static bool solve_rows(iso_pool_worker *w, void *data, size_t first, size_t count)
 {
     scan *c = data;
     for (size_t i = first; i < first + count; i++) {
-        if (iso_splitting_at(w->ctx, c->o->k[i], c->o->J, c->o->digits, &c->s->row[i]) == ISO_NO_MEMORY) return false;
+        if (iso_splitting_at(w->ctx, c->o->k[i], c->o->J, level_of(c, i), c->o->digits, &c->s->row[i]) ==
+            ISO_NO_MEMORY)
+            return false;
         const size_t now = atomic_fetch_add(&c->done, 1) + 1;
         if (w->asks && c->o->progress) c->o->progress((double)now / (double)c->all, c->o->data);
     }
@@ -46,11 +56,12 @@ static bool solve_rows(iso_pool_worker *w, void *data, size_t first, size_t coun
 /* --- zeros ------------------------------------------------------------------------------------------------------ */
 
 /* r as the search sees it. */
-static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, double k, double *r, double *error)
+static iso_status value_at(iso_pool_worker *w, const scan *c, const bracket *b, double at, double *r, double *error)
 {
     iso_splitting s;
     const iso_splitting_digits digits = b->fine ? c->o->digits : ISO_SPLITTING_DOUBLE;
-    const iso_status status = iso_splitting_at(w->ctx, k, c->o->J, digits, &s);
+    const double k = b->by_level ? b->other : at, level = b->by_level ? at : b->other;
+    const iso_status status = iso_splitting_at(w->ctx, k, c->o->J, level, digits, &s);
     *r = reduced(&s, s.m), *error = fabs(reduced(&s, s.error));
     return status;
 }
@@ -61,46 +72,47 @@ static bool is_blind(const bracket *b, double error)
     return !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100);
 }
 
-/* Regula falsi in Illinois' form, until r is not distinguished from 0, or k stands still. slope: dr/dk there. */
-static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *k, double *slope)
+/* Regula falsi in Illinois' form, until r is not distinguished from 0, or the number stands still. slope: dr by it there. */
+static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *at, double *slope)
 {
     enum { MOST = 40 };
     int kept = -1;
     double r = NAN, error = NAN, aside = NAN, end[2] = {b->r[0], b->r[1]};
     iso_status status = ISO_OK;
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
-        const double last = *k;
-        *k = (b->k[0] * end[1] - b->k[1] * end[0]) / (end[1] - end[0]);
-        status = value_at(w, c, b, *k, &r, &error);
+        const double last = *at;
+        *at = (b->at[0] * end[1] - b->at[1] * end[0]) / (end[1] - end[0]);
+        status = value_at(w, c, b, *at, &r, &error);
         if (status == ISO_OK && is_blind(b, error)) return ISO_NUMERICAL;
-        if (status != ISO_OK || fabs(r) < 10 * error || fabs(*k - last) < 1e-12 * fabs(*k)) break;
+        if (status != ISO_OK || fabs(r) < 10 * error || fabs(*at - last) < 1e-12 * fabs(*at)) break;
         const int side = r * end[0] > 0 ? 0 : 1;
-        b->k[side] = *k, end[side] = r;
+        b->at[side] = *at, end[side] = r;
         if (kept == 1 - side) end[1 - side] /= 2;
         kept = 1 - side;
     }
-    if (status == ISO_OK) status = value_at(w, c, b, *k * (1 + 1e-4), &aside, &error);
-    *slope = (aside - r) / (*k * 1e-4);
+    if (status == ISO_OK) status = value_at(w, c, b, *at * (1 + 1e-4), &aside, &error);
+    *slope = (aside - r) / (*at * 1e-4);
     return status;
 }
 
 /* The zero of the search, and steps of the secant method farther, with the digits that were asked for, until m is not
- * distinguished from 0, or as small as doubles of k allow: the next crossing's slope must be seen beside it. */
+ * distinguished from 0, or as small as doubles of k or the level allow: the next crossing's slope must be seen beside it. */
 static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_splitting *zero)
 {
     enum { MOST = 8 };
-    double k = NAN, slope = NAN, last_k = NAN, last_r = NAN, least = 0, r = NAN, error = NAN;
-    iso_status status = search(w, c, &b, &k, &slope);
+    double at = NAN, slope = NAN, last = NAN, last_r = NAN, least = 0, r = NAN, error = NAN;
+    iso_status status = search(w, c, &b, &at, &slope);
     for (int i = 0; i < MOST && status == ISO_OK; i++) {
-        status = iso_splitting_next_at(w->ctx, k, c->o->J, c->o->digits, zero);
+        status = iso_splitting_next_at(w->ctx, b.by_level ? b.other : at, c->o->J, b.by_level ? at : b.other,
+                                       c->o->digits, zero);
         r = reduced(zero, zero->m), error = fabs(reduced(zero, zero->error));
-        if (i > 0 && fabs(k - last_k) > 1e-12 * fabs(k)) slope = (r - last_r) / (k - last_k);
-        least = 4e-16 * fabs(slope * k);
+        if (i > 0 && fabs(at - last) > 1e-12 * fabs(at)) slope = (r - last_r) / (at - last);
+        least = 4e-16 * fabs(slope * at);
         if (fabs(r) < fmax(10 * error, least)) break;
-        last_k = k, last_r = r;
-        k -= r / slope;
+        last = at, last_r = r;
+        at -= r / slope;
     }
-    zero->k_error = fmax(fabs(r) + error, least) / fabs(slope);
+    *(b.by_level ? &zero->level_error : &zero->k_error) = fmax(fabs(r) + error, least) / fabs(slope);
     zero->is_zero = status == ISO_OK;
     return status;
 }
@@ -116,14 +128,17 @@ static bool solve_zeros(iso_pool_worker *w, void *data, size_t first, size_t cou
 static int by_k(const void *a, const void *b)
 {
     const iso_splitting *const *one = a, *const *other = b;
-    return (*one)->k < (*other)->k ? -1 : (*one)->k > (*other)->k;
+    if ((*one)->k != (*other)->k) return (*one)->k < (*other)->k ? -1 : 1;
+    return ((*one)->level > (*other)->level) - ((*one)->level < (*other)->level);
 }
 
 static bool is_bracket(const iso_splitting *a, const iso_splitting *b, bracket *found)
 {
-    const bool fine = a->digits > 19 || b->digits > 19;
-    *found = (bracket){{a->k, b->k}, {reduced(a, a->m), reduced(b, b->m)}, fine};
-    return a->k * b->k > 0 && found->r[0] * found->r[1] < 0;
+    const bool fine = a->digits > 19 || b->digits > 19, by_level = a->k == b->k;
+    *found =
+        (bracket){by_level, by_level ? a->k : a->level, {a->k, b->k}, {reduced(a, a->m), reduced(b, b->m)}, fine};
+    if (by_level) found->at[0] = a->level, found->at[1] = b->level;
+    return a->k * b->k > 0 && (by_level || a->level == b->level) && found->r[0] * found->r[1] < 0;
 }
 
 /* Rows that are distinguished from 0, by growing k; their number. */
@@ -146,9 +161,10 @@ static size_t find_brackets(const iso_splittings *s, const iso_splitting *list[]
 
 /* --- the call --------------------------------------------------------------------------------------------------- */
 
-static void blank(double k, iso_splitting *s)
+static void blank(double k, double level, iso_splitting *s)
 {
-    const iso_splitting none = {.k = k, .status = ISO_STOPPED, .words = "not computed", .m = NAN, .x = NAN};
+    const iso_splitting none = {
+        .k = k, .level = level, .status = ISO_STOPPED, .words = "not computed", .m = NAN, .x = NAN};
     *s = none;
 }
 
@@ -168,11 +184,11 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     s->zero = calloc(s->rows, sizeof *s->zero);
     if (list && brackets && s->zero) {
         s->zeros = find_brackets(s, list, brackets);
-        for (size_t i = 0; i < s->zeros; i++) blank(NAN, &s->zero[i]);
+        for (size_t i = 0; i < s->zeros; i++) blank(NAN, NAN, &s->zero[i]);
         c->bracket = brackets;
         status = run_pool(ctx, c, s->zeros, solve_zeros);
     } else {
-        iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of k", s->rows);
+        iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu rows", s->rows);
     }
     size_t kept = 0;
     for (size_t i = 0; i < s->zeros; i++)
@@ -184,23 +200,21 @@ static iso_status run_zeros(iso_context *ctx, scan *c)
     return status;
 }
 
-/* The start of a ball does not matter: it may be at rest. That of a point tells its level. */
-static iso_status check_scene(iso_context *ctx, const iso_scene *scene)
+/* *level: that of the scene, where the options give none. */
+static iso_status check_scene(iso_context *ctx, const iso_splitting_options *o, double *level)
 {
     static const char what[] = "the splitting is measured";
-    if (!scene) return ISO_OK;
-    const iso_effects acting = iso_scene_acting(scene);
-    return scene->start.model == ISO_POINT ? iso_study_check_free_start(ctx, scene, &acting, what)
-                                           : iso_study_check_free(ctx, &acting, what);
+    const iso_effects acting = iso_scene_acting(o->scene);
+    return o->level ? iso_level_check(ctx, &acting, what) : iso_level_of_scene(ctx, o->scene, what, level);
 }
 
-static iso_status run(iso_context *ctx, const iso_splitting_options *o, iso_splittings *s)
+static iso_status run(iso_context *ctx, const iso_splitting_options *o, double level, iso_splittings *s)
 {
-    scan c = {.o = o, .s = s, .all = o->count};
+    scan c = {.o = o, .s = s, .level = level, .all = o->count};
     s->rows = o->count;
     s->row = calloc(o->count, sizeof *s->row);
-    if (!s->row) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu values of k", o->count);
-    for (size_t i = 0; i < o->count; i++) blank(o->k[i], &s->row[i]);
+    if (!s->row) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for %zu rows", o->count);
+    for (size_t i = 0; i < o->count; i++) blank(o->k[i], level_of(&c, i), &s->row[i]);
     const iso_status status = run_pool(ctx, &c, o->count, solve_rows);
     return status == ISO_OK && o->zeros ? run_zeros(ctx, &c) : status;
 }
@@ -210,14 +224,15 @@ iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *opti
     ISO_DEFAULT_ARITHMETIC;
     *s = NULL;
     iso_splitting_options o = iso_splitting_defaults();
+    double level = 0;
     iso_status status = iso_options_take(ctx, "iso_splitting_options", &o, sizeof o, options);
     if (status == ISO_OK && o.count == 0)
         status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "splitting: there is no k");
-    if (status == ISO_OK) status = check_scene(ctx, o.scene);
+    if (status == ISO_OK && o.scene) status = check_scene(ctx, &o, &level);
     if (status != ISO_OK) return status;
     iso_splittings *found = calloc(1, sizeof *found);
     if (!found) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the splitting");
-    status = run(ctx, &o, found);
+    status = run(ctx, &o, level, found);
     if (status == ISO_OK || status == ISO_STOPPED)
         *s = found;
     else

@@ -1,10 +1,13 @@
-/* stability_chart.c - the chart of stable rotations in the plane of k and one moment (stability_chart.h). */
+/* stability_chart.c - the chart of stable rotations in the plane of k and one moment, or k and the level
+ * (stability_chart.h). */
 #include "study/stability_chart.h"
 
 #include <math.h>
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
+#include "base/vec3_impl.h"
+#include "map/level.h"
 #include "orbit/pool_impl.h"
 #include "study/periodic.h"
 
@@ -14,16 +17,27 @@ typedef struct chart {
     iso_record *grid, *borders;
 } chart;
 
+/* H for eps = 1. Powers of J must fit a double: off H = 0 the moments get a unit near the largest of them, which changes
+ * no trace. */
+static double energy_of(double k, double level, double J[3])
+{
+    int exponent;
+    if (level == 0) return 0;
+    frexp(max3(J), &exponent);
+    for (int i = 0; i < 3; i++) J[i] = ldexp(J[i], 1 - exponent);
+    return iso_level_energy(&(iso_params){.k = k, .J = {J[0], J[1], J[2]}}, level);
+}
+
 /* The half-turn trace of the axis of the least (0) or greatest (1) moment at (k, J). */
 static double trace_at(const chart *c, int which, const double at[2])
 {
-    double J[3] = {c->o.J[0], c->o.J[1], c->o.J[2]};
+    double J[3] = {c->o.J[0], c->o.J[1], c->o.J[2]}, level = c->o.level;
     int axis = 0;
-    J[c->o.moment] = at[1];
+    *(c->o.moment == ISO_CHART_LEVEL ? &level : &J[c->o.moment]) = at[1];
     if (fabs(at[0]) < ISO_LEAST_K) return NAN;
     for (int i = 1; i < 3; i++)
         if (which == 0 ? J[i] < J[axis] : J[i] > J[axis]) axis = i;
-    return iso_hill_trace(at[0], J, axis, NULL);
+    return iso_hill_trace(at[0], J, energy_of(at[0], level, J), axis, NULL);
 }
 
 static void place(const chart *c, int i, int j, double at[2])
@@ -116,7 +130,12 @@ static iso_status check(const chart *c)
     if (o->from[0] > -ISO_LEAST_K && o->to[0] < ISO_LEAST_K)
         return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "k", "k from %g to %g: nothing is computed for |k| < %g",
                                 o->from[0], o->to[0], ISO_LEAST_K);
-    if (o->moment < 0 || o->moment > 2 || !(o->from[1] > 0) || !(o->from[1] < o->to[1]) || !isfinite(o->to[1]))
+    const bool by_level = o->moment == ISO_CHART_LEVEL;
+    if (by_level ? !(o->from[1] < o->to[1]) || !isfinite(o->to[1] - o->from[1]) : !isfinite(o->level))
+        return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "level", "level from %g to %g: give A:B with A < B",
+                                o->from[1], o->to[1]);
+    if (o->moment < 0 || o->moment > ISO_CHART_LEVEL ||
+        (!by_level && (!(o->from[1] > 0) || !(o->from[1] < o->to[1]) || !isfinite(o->to[1]))))
         return iso_context_fail(c->ctx, ISO_BAD_ARGUMENT, "J", "J%d from %g to %g: give A:B with 0 < A < B",
                                 o->moment + 1, o->from[1], o->to[1]);
     for (int i = 0; i < 3; i++)

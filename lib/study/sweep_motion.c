@@ -1,7 +1,6 @@
 /* sweep_motion.c - quantities of the free ball: frequencies, the splitting of the separatrix, the rotations. */
 #include <math.h>
 
-#include "study/free_impl.h"
 #include "study/frequencies.h"
 #include "study/periodic.h"
 #include "study/splitting.h"
@@ -70,9 +69,10 @@ static int splitting_columns(const iso_sweep_ask *ask, const char *name[])
 static iso_status free_refuse(iso_context *ctx, const iso_sweep_ask *ask)
 {
     const iso_effects acting = iso_scene_acting(ask->base);
-    const iso_effect *effect = iso_study_not_free(&acting);
+    const iso_effect *effect = iso_effects_beyond_level(&acting);
     if (!effect) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name, "it is about the free ball: take '%s' out of the scene",
+    return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
+                            "it is about the free ball, or the point on a level: take '%s' out of the scene",
                             effect->name);
 }
 
@@ -83,6 +83,7 @@ static iso_status splitting_find(iso_context *ctx, const iso_sweep_ask *ask, con
     o.k = &scene->params.k;
     o.count = 1;
     for (int i = 0; i < 3; i++) o.J[i] = scene->params.J[i];
+    o.scene = scene;
     o.digits = (iso_splitting_digits)ask->setting[0];
     o.zeros = false;
     o.threads = 1;

@@ -65,7 +65,8 @@ check "the state comes back" awk -F, '/^[0-9]/ { for (i = 2; i <= 7; i++) { if (
 
 # --- following
 run 0 periodic b.yaml --period 1 --orbit 1 --follow k=0.3:0.8 -o f.csv
-check "a period doubling" grep -q "period doubling *k = 0.57775689376" out
+check "a touch of trace -2" grep -q "touch *k = 0.57775689376.*does not pass it" out
+check_not "which is no period doubling" grep -q "period doubling" out
 check "a collision" grep -q "it shrinks onto the rotation about axis 1 at k = 0.65388982" out
 check "symmetry breaking" grep -q "symmetry breaking *k = 0.415374" out
 check "columns of a branch" test "$(columns f.csv)" = "branch,line,period,k,l,x,trace,event"
@@ -95,6 +96,31 @@ check "no other event there" test "$(grep -c "1\.4000\|1\.3999" out)" -eq 0
 run 0 periodic b.yaml --period 1 --follow k=0.5:0.7 --branches
 check "what branches off" grep -q "branch 2: period 2, .*from branch 1" out
 
+# --- levels
+cat >level.yaml <<END
+point: {k: 0.5, J: [1, 2, 5], eps: 1}
+initial: {gamma: [0.6, 0, 0.8], M: [0, 0.3, 0]}
+time: {end: 10, step: 1}
+END
+run 0 periodic level.yaml --period 2 --json -j 2
+level=$(number level 1)
+check "JSON says the level" test -n "$level"
+run 0 periodic level.yaml --period 2 -o level.csv
+check "words say the level" grep -q "^level of the point, (H/eps) J2^(1/k): -" out
+check "so does the CSV" grep -q "^# level: $level" level.csv
+run 0 periodic level.yaml --period 2 --follow level=-0.15:-0.12 -o f.csv
+check "--follow level" test "$(columns f.csv)" = "branch,line,period,level,l,x,trace,event"
+refuses 3 "must contain it" periodic level.yaml --follow level=1:2
+sed 's/0\.3/0.1/' level.yaml >low.yaml
+run 0 periodic low.yaml --period 2
+says "the point can come to rest"
+check "a rotation that is none" grep -q "^ *1  none on this level: an oscillation between two places of rest" out
+run 0 periodic b.yaml --chart J2 --level=-0.2 --steps 6 --json
+check "a chart on a level" test "$(number level 1)" = -0.20000000000000001
+run 0 periodic b.yaml --chart level=-1:1 --steps 6 -o chart.csv
+check "a chart by the level" test "$(columns chart.csv)" = "kind,k,level,least,greatest"
+check "places without a rotation" grep -q "^left out: .* an oscillation between two places of rest" out
+
 # --- interrupted
 if interruptible "periodic after SIGINT"; then
     follows() { grep -q ",failure$" cut.csv 2>/dev/null; }
@@ -123,12 +149,18 @@ refuses 3 "contains k = 0" periodic b.yaml --period 1 --follow k=-1:1
 refuses 3 "largest moment" periodic b.yaml --period 1 --follow J2=1.5:6
 refuses 3 "expected NAME=A:B" periodic b.yaml --period 1 --follow h=1:2
 refuses 3 "expected J1, J2 or J3" periodic b.yaml --chart J4
+refuses 3 "or level=A:B" periodic b.yaml --chart level
+refuses 3 "expected a number" periodic b.yaml --chart J2 --level low
+refuses 3 "does not go with" periodic b.yaml --chart level=0:1 --level 1
+refuses 2 "level is for --chart" periodic b.yaml --level 1
 refuses 3 "give A:B with" periodic b.yaml --chart J2=3:1
 refuses 2 "give 1 to 64" periodic b.yaml --period 65
 refuses 5 "nowhere" periodic b.yaml --period 1 --follow k=0.4:0.6 -o nowhere/f.csv
 refuses 5 "nowhere" periodic b.yaml --chart J2 -o nowhere/f.csv
 scene 2 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >calm.yaml
-refuses 3 "no symmetric orbit to follow" periodic calm.yaml --period 2 --follow k=1.9:2.1
+refuses 3 "no symmetric orbit to follow at k = 2, J = 1.4 2.1 3, level 0: the search along the six" \
+    periodic calm.yaml --period 2 --follow k=1.9:2.1
+says "found none of 2 returns at most"
 scene 0.01 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >flat.yaml
 refuses 3 "give |k| >= 0.02" periodic flat.yaml
 refuses 3 "nothing is computed for |k| < 0.02" periodic b.yaml --chart J2 --k=-0.01:0.01

@@ -97,6 +97,30 @@ check_not "k = 1 is no further zero" grep -q 'm = 0 at' out
 run 0 splitting half.yaml --digits double --k=-1.05:-0.95:0.1
 check_not "nor is -1, between two values" grep -q 'm = 0 at' out
 
+# --- levels: 1 the scene's; many; m falls as the level grows, and is 0 at k = 1
+cat >level.yaml <<END
+point: {k: 0.5, J: [1.4, 2.1, 3], eps: 1}
+initial: {gamma: [0.6, 0, 0.8], M: [0, 0.5, 0]}
+time: {end: 1, step: 1}
+END
+run 0 splitting level.yaml --digits double -o split.csv
+check "the scene's level" grep -q "^level of the point, (H/eps) J2^(1/k): -0.19928916282" out
+near "in the CSV" "$(column 1 level)" -0.199289162827174 1e-12
+run 0 splitting half.yaml --digits double --level=-0.2:0.2:0.2 -o split.csv
+check "as many levels" test "$(rows split.csv | wc -l)" -eq 3
+check "0 is 0" test "$(column 2 level)" = 0
+near "m at level 0" "$(column 2 m)" 0.00614708829830125 1e-15
+near "m at level -0.2, by 128 bits" "$(column 1 m)" 0.016487284010730307 1e-16
+check "m falls" awk -v a="$(column 1 m)" -v b="$(column 2 m)" -v c="$(column 3 m)" 'BEGIN { exit !(a > b && b > c && c > 0) }'
+run 0 splitting half.yaml --digits double --k 1 --level 0.3,-0.2 --json
+check "k = 1: no m on any level" test "$(grep -c '"from_zero": false' out)" -eq 2
+check "JSON: the level" grep -q '"level": 0.29999999999999999' out
+refuses 3 "oscillation between two places of rest" splitting half.yaml --level=-0.9
+refuses 3 "many k and one level" splitting half.yaml --k 1,2 --level 1,2
+refuses 3 "expected values and ranges" splitting half.yaml --level x
+run 1 splitting half.yaml --digits double --level=-0.9,0
+says "1 of 2 values of the level failed"
+
 # --- JSON: the contract
 run 0 splitting half.yaml --json
 for key in rows k x m error digits; do check "JSON: $key" grep -q "\"$key\":" out; done

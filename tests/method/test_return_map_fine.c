@@ -2,12 +2,16 @@
  * against Hill's traces, and by its laws: determinant, reversor, two halves. */
 #include <gsl/gsl_test.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "base/pi_impl.h"
 #include "laws.h"
 #include "length.h"
 #include "map/section.h"
 #include "method/methods_impl.h"
+#include "method/taylor/lanes_impl.h"
 #include "method/taylor/return_map_impl.h"
 #include "orbit/crossings.h"
 #include "orbit/crossings_impl.h"
@@ -170,9 +174,73 @@ static void test_laws(void)
     gsl_test(!(w.doubles < 1), "doubles differ by %.2g of 1e-9", w.doubles);
 }
 
+/* --- other levels ----------------------------------------------------------------------------------------------- */
+
+enum { NUMBERS = 22 };
+
+/* Numbers of a row of levels.csv behind its name. */
+enum { K, J1, LEVEL = 11, AXIS, CROSSING, S, T, M_1, G_1 = 19 };
+
+static bool read_row(FILE *file, double v[NUMBERS])
+{
+    char line[2048];
+    while (fgets(line, sizeof line, file)) {
+        char *at = strchr(line, ',');
+        if (strncmp(line, "lev", 3) != 0 || !at) continue;
+        for (int i = 0; i < NUMBERS; i++) v[i] = strtod(at + 1, &at);
+        return true;
+    }
+    return false;
+}
+
+/* f^4 of crossing 1 is crossing 5, all with eps = 1 as in the file. The bound: a hundred roundings of the start, doubles,
+ * that grow like the derivative. */
+static void check_reference(const double first[NUMBERS], const double fifth[NUMBERS], double *most)
+{
+    const bool clocks[ISO_CLOCKS] = {true, true, true};
+    double z[2], wanted[2], s = 0, t = 0, growth = 1;
+    problem = (iso_problem){.p = laws_params(first[K], first + J1), .eps = 1, .energy = first[LEVEL]};
+    axis = (int)first[AXIS] - 1;
+    model = iso_model_assemble(&iso_system_point, &problem, ISO_CLOCK_T, clocks);
+    zeros = iso_crossings_zeros((iso_point_motion){&problem.p, 1, first[LEVEL]}, axis, iso_lane_clock(&model));
+    iso_section_chart(axis, first + M_1, &z[0], &z[1]);
+    iso_section_chart(axis, fifth + M_1, &wanted[0], &wanted[1]);
+    for (int c = 0; c < CODES; c++) {
+        iso_return r = {.to = {{z[0], 0}, {z[1], 0}}};
+        s = t = 0, growth = 1;
+        for (int n = 0; n < 4; n++) {
+            r = go(codes[c], false, r.to);
+            growth *= size_of(&r);
+            s += r.clock[ISO_CLOCK_S].head, t += r.clock[ISO_CLOCK_T].head;
+        }
+        const double bound = 1e-14 * growth;
+        *most = fmax(*most, fabs(remainder(r.to[0].head - wanted[0], 2 * ISO_PI)) / bound);
+        *most = fmax(*most, fabs(r.to[1].head - wanted[1]) / bound);
+        *most = fmax(*most, fabs(s / (fifth[S] - first[S]) - 1) / bound);
+        *most = fmax(*most, fabs(t / (fifth[T] - first[T]) - 1) / bound);
+    }
+}
+
+/* Crossings by another program, in 128 bits, on levels from -9 to 18. */
+static void test_levels(void)
+{
+    FILE *file = fopen(ISO_TEST_DATA "/levels.csv", "r");
+    double v[NUMBERS], first[NUMBERS], most = 0;
+    int rows = 0;
+    if (!file) gsl_test(1, "levels.csv");
+    while (file && read_row(file, v)) {
+        if (v[CROSSING] == 1) memcpy(first, v, sizeof first);
+        if (v[CROSSING] == 5) check_reference(first, v, &most), rows++;
+    }
+    if (file) fclose(file);
+    gsl_test(rows < 5, "%d orbits of levels.csv", rows);
+    gsl_test(!(most < 1), "their crossings 5 by four returns: %.2g of the bound", most);
+}
+
 int main(void)
 {
     ctx = iso_context_create();
+    test_levels();
     test_traces();
     test_laws();
     iso_context_free(ctx);

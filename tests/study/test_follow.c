@@ -38,6 +38,16 @@ static const iso_branch_event *event_of(const iso_branch *b, iso_branch_kind kin
     exit(gsl_test_summary());
 }
 
+/* The trace on both sides of an event: above -2 both times where it touches -2, else above and below. */
+static void check_sides(const iso_branch *b, const iso_branch_event *e, bool touches)
+{
+    size_t i = 0;
+    while (i + 2 < b->points && b->point[i + 1].arc < e->at.arc) i++;
+    const double before = b->point[i].trace + 2, behind = b->point[i + 1].trace + 2;
+    gsl_test((before * behind > 0) != touches, "trace %g before and %g behind -2 at %.9g: %s", before, behind,
+             e->at.value, iso_branch_kind_name(e->kind));
+}
+
 /* A point of a branch is found again by the search along lines, at its value of k. */
 static void check_point(const iso_branch *b, const iso_branch_point *p, const double J[3])
 {
@@ -50,8 +60,9 @@ static void check_point(const iso_branch *b, const iso_branch_point *p, const do
     iso_periodic_free(f);
 }
 
-/* J = (1, 2, 5), the fixed point of period 1: its doubling, its collision with the rotation about axis 1, whose trace is
- * there 2, and the branch of period 2 that begins at the doubling. */
+/* J = (1, 2, 5), the fixed point of period 1: where its trace touches -2 (it has two symmetries, so that its trace is that
+ * of half of it squared, less 2), its collision with the rotation about axis 1, whose trace is there 2, and the branch of
+ * period 2 that begins at the touch. */
 static void check_branch(void)
 {
     static const double J[3] = {1, 2, 5};
@@ -62,13 +73,16 @@ static void check_branch(void)
     o.from = 0.3, o.to = 0.8, o.branches = true, o.longest = 0.08;
     gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
     const iso_branch *b = &follow->branch[0];
-    const iso_branch_event *doubling = event_of(b, ISO_BRANCH_DOUBLING), *end = event_of(b, ISO_BRANCH_END);
+    const iso_branch_event *touch = event_of(b, ISO_BRANCH_TOUCH), *end = event_of(b, ISO_BRANCH_END);
     const iso_branch_event *collision = event_of(b, ISO_BRANCH_COLLISION);
-    gsl_test_abs(doubling->at.trace, -2, 1e-9, "trace at a period doubling");
+    gsl_test_abs(touch->at.trace, -2, 1e-9, "trace at a touch");
+    check_sides(b, touch, true);
+    for (size_t i = 0; i < b->events; i++)
+        gsl_test(b->event[i].kind == ISO_BRANCH_DOUBLING, "a touch is no period doubling");
     gsl_test_abs(event_of(b, ISO_BRANCH_BREAKING)->at.trace, 2, 1e-6, "trace where a symmetry breaks");
     gsl_test_abs(end->at.value, 0.3, 0, "the end of the range");
     gsl_test_int(collision->axis, 0, "the rotation that it meets");
-    gsl_test_abs(iso_hill_trace(collision->at.value, J, 0, NULL), 2, 1e-9, "its trace at the collision");
+    gsl_test_abs(iso_hill_trace(collision->at.value, J, 0, 0, NULL), 2, 1e-9, "its trace at the collision");
     check_point(b, &b->point[b->points / 2], J);
     check_point(b, &b->point[0], J);
     gsl_test(follow->count < 2, "branches are switched to: %zu", follow->count);
@@ -77,9 +91,42 @@ static void check_branch(void)
         const iso_branch *other = &follow->branch[i];
         gsl_test_int(other->parent, 0, "its parent");
         for (size_t j = 0; j < other->events && other->period == 2; j++)
-            meets = meets || (other->event[j].joins && fabs(other->event[j].at.value - doubling->at.value) < 1e-9);
+            meets = meets || (other->event[j].joins && fabs(other->event[j].at.value - touch->at.value) < 1e-9);
     }
-    gsl_test(!meets, "a branch of period 2 begins at the doubling");
+    gsl_test(!meets, "a branch of period 2 begins at the touch");
+    iso_follow_free(follow);
+    iso_periodic_free(f);
+}
+
+/* The touch of k = 0.3767, J = (1.4, 2.1, 3); and, of an orbit with one symmetry, true period doublings on levels. */
+static void check_touch(void)
+{
+    static const double J[3] = {1.4, 2.1, 3};
+    iso_scene scene = scene_of(0.38, J);
+    iso_follow_options o = iso_follow_defaults();
+    iso_follow *follow;
+    iso_periodic *f = orbits_of(&scene, 1);
+    o.from = 0.37, o.to = 0.39;
+    gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
+    const iso_branch_event *e = event_of(&follow->branch[0], ISO_BRANCH_TOUCH);
+    gsl_test_abs(e->at.value, 0.3767272689, 1e-9, "k of the touch");
+    check_sides(&follow->branch[0], e, true);
+    iso_follow_free(follow);
+    iso_periodic_free(f);
+    scene.params = laws_params(0.5, J);
+    scene.start = (iso_start){.model = ISO_POINT, .y = {0, 0.5, 0, 0.6, 0, 0.8}, .eps = 1};
+    f = orbits_of(&scene, 2);
+    o.vary = ISO_VARY_LEVEL, o.from = -0.25, o.to = -0.19;
+    gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
+    size_t doublings = 0;
+    for (size_t i = 0; i < follow->count; i++)
+        for (size_t j = 0; j < follow->branch[i].events; j++) {
+            const iso_branch_event *d = &follow->branch[i].event[j];
+            if (d->kind != ISO_BRANCH_DOUBLING || d->joins) continue;
+            check_sides(&follow->branch[i], d, false);
+            doublings++;
+        }
+    gsl_test(doublings == 0, "there are period doublings");
     iso_follow_free(follow);
     iso_periodic_free(f);
 }
@@ -141,8 +188,8 @@ static void check_chart(void)
     gsl_test(iso_record_rows(borders) < 20, "its borders");
     for (size_t i = 0; i < iso_record_rows(borders); i++) {
         const double *row = iso_record_const_row(borders, i), J[3] = {1, row[3], 5};
-        gsl_test_abs(iso_hill_trace(row[2], J, row[0] > 0 ? 2 : 0, NULL), row[1], 1e-8, "border at k = %g, J2 = %g",
-                     row[2], row[3]);
+        gsl_test_abs(iso_hill_trace(row[2], J, 0, row[0] > 0 ? 2 : 0, NULL), row[1], 1e-8,
+                     "border at k = %g, J2 = %g", row[2], row[3]);
     }
     iso_record_free(grid);
     iso_record_free(borders);
@@ -154,6 +201,7 @@ int main(void)
 {
     ctx = iso_context_create();
     check_branch();
+    check_touch();
     check_torus();
     check_refusals();
     check_chart();

@@ -112,7 +112,7 @@ static void check_by_gsl(void)
         gsl_odeiv2_driver *d = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-3, 1e-14, 1e-14);
         double y[4] = {1, 0, 0, 1}, phi = 0, error;
         gsl_odeiv2_driver_apply(d, &phi, acos(-1), y);
-        const double trace = iso_hill_trace(k, J, a, &error), size = fabs(y[0]) + fabs(y[3]) + 1;
+        const double trace = iso_hill_trace(k, J, 0, a, &error), size = fabs(y[0]) + fabs(y[3]) + 1;
         gsl_test_abs(trace, y[0] + y[3], 1e-11 * size, "k = %g, axis %d: trace by GSL", k, a + 1);
         gsl_test(!(error < 1e-12 * size), "its error %g", error);
         gsl_odeiv2_driver_free(d);

@@ -1,0 +1,22 @@
+/* level_impl.h - the level of a scene, for the studies that hold on every level of the point's energy. */
+#ifndef ISO_STUDY_LEVEL_IMPL_H
+#define ISO_STUDY_LEVEL_IMPL_H
+
+#include "orbit/orbit.h"
+#include "study/level.h"
+
+/* A scene's motion with what fixes it. */
+typedef struct iso_on_level {
+    iso_units units;
+    double h;      /* of the ball, own units                */
+    double energy; /* H of the point for eps = 1, own units */
+    double H;      /* the same level in the scene's units   */
+} iso_on_level;
+
+/* ISO_OK where nothing acts but a level, else ISO_BAD_INPUT about the effect. what: as in "periodic orbits are sought". */
+iso_status iso_level_check(iso_context *ctx, const iso_effects *effects, const char *what);
+
+/* Errors: those of iso_level_check and iso_orbit_create; ISO_BAD_INPUT where the coupling eps is not above 0. */
+iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on);
+
+#endif
