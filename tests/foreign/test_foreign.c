@@ -314,7 +314,7 @@ static void check_studies(const iso_foreign_scene *scene)
                  record || point || !about("models"),
              "no model");
     gsl_test(iso_foreign_chaos(ctx, scene, 50, 0, 2, 0, at, 1, -1, NULL, 0, 0, &record, trace) != ISO_OK ||
-                 iso_record_rows(record) != 4 || iso_record_columns(record) != 33 || !trace[0] || !trace[1] ||
+                 iso_record_rows(record) != 4 || iso_record_columns(record) != 35 || !trace[0] || !trace[1] ||
                  !iso_record_get(record, "share"),
              "chaos");
     iso_record_free(record);
