@@ -175,3 +175,16 @@ double iso_unit(const iso_units *u, iso_dimension d)
     const double fraction = whole == floor(power) ? exp2((power - whole) + lost) : 1;
     return ldexp(fraction, (int)whole + d.J * ilogb(u->J) + d.w * ilogb(u->w));
 }
+
+bool iso_params_powers_fit(const iso_params *p)
+{
+    return log(max3(p->J) / min3(p->J)) / fabs(p->k) < 650;
+}
+
+iso_status iso_params_check_powers(iso_context *ctx, const iso_params *p)
+{
+    if (iso_params_powers_fit(p)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "k",
+                            "k = %.15g is too near 0 for these moments: (max J/min J)^(1/|k|) does not fit a double",
+                            p->k);
+}

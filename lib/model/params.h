@@ -85,6 +85,12 @@ void iso_units_choose(const iso_params *params, double speed, iso_units *units);
  * Infinite or zero when it does not fit a double. */
 ISO_API double iso_unit(const iso_units *units, iso_dimension d);
 
+/* Whether q^(1/k) fits a double, over its value at another q, for all q from the least moment to the largest. */
+bool iso_params_powers_fit(const iso_params *p);
+
+/* ISO_BAD_INPUT about "k" where they do not. */
+iso_status iso_params_check_powers(iso_context *ctx, const iso_params *p);
+
 ISO_C_END
 
 #endif

@@ -32,14 +32,22 @@ static const double *state_of(const iso_orbit *orbit, const iso_sample *sample)
     return iso_crossings_model(orbit) == ISO_POINT ? sample->point : sample->ball;
 }
 
+/* Lanes cannot follow the orbit. Returns to a section need bounds for their times, which are powers of q. */
+static iso_status refuse_deviations(const iso_crossings *c, size_t i)
+{
+    iso_context *ctx = c->orbit[i].ctx;
+    const iso_params *p = c->orbits[i].params;
+    if (c->options.kind == ISO_SECTION_AXIS && iso_params_check_powers(ctx, p) != ISO_OK) return ISO_BAD_INPUT;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "deviations",
+                            "deviations are computed for free orbits on a global section, and at equal steps of "
+                            "a clock; not for stiff balls, balls at rest, or effects without a formula");
+}
+
 static iso_status begin(iso_crossings *c, size_t i)
 {
     iso_crossed *o = &c->orbit[i];
     iso_sample start;
-    if (c->options.deviations)
-        return iso_context_fail(o->ctx, ISO_BAD_INPUT, "deviations",
-                                "deviations are computed for free orbits on a global section, and at equal steps of "
-                                "a clock; not for stiff balls, balls at rest, or effects without a formula");
+    if (c->options.deviations) return refuse_deviations(c, i);
     iso_status status = create(c, i, &o->alone);
     if (status == ISO_OK) status = iso_orbit_at(o->alone, 0, &start);
     if (status != ISO_OK) return status;

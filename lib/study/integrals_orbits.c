@@ -11,12 +11,9 @@
 /* J in a unit with which max(q^(-1/k)) = 1. */
 static iso_status choose_unit(iso_context *ctx, const iso_params *p, iso_params *own, double *unit)
 {
-    const double low = min3(p->J), high = max3(p->J);
-    *unit = p->k > 0 ? low : high;
-    if (!(log(high / low) / fabs(p->k) < 650))
-        return iso_context_fail(
-            ctx, ISO_BAD_INPUT, "k",
-            "k = %.15g is too near 0 for these moments: (max J/min J)^(1/|k|) does not fit a double", p->k);
+    *unit = p->k > 0 ? min3(p->J) : max3(p->J);
+    const iso_status status = iso_params_check_powers(ctx, p);
+    if (status != ISO_OK) return status;
     return iso_params_reduced(ctx, p->k, (double[]){p->J[0] / *unit, p->J[1] / *unit, p->J[2] / *unit}, own);
 }
 

@@ -25,7 +25,7 @@ static void name_global(const iso_orbit *orbit, iso_section_nature *n)
     const iso_point_motion m = iso_orbit_motion(orbit);
     const double turn = 2 * ISO_PI * iso_unit(units, iso_clock_dimension(ISO_CLOCK_S));
     const double unit_M = iso_unit(units, iso_system_point.fast_dimension);
-    char level[48] = "", except[48], longest[32] = "or more";
+    char level[48] = "", except[48], longest[32] = "or more", returns[96];
     double W[2];
     iso_section_bounds(m, n->axis, W);
     if (W[0] > 0) snprintf(longest, sizeof longest, "to %.4g", turn / W[0]);
@@ -34,9 +34,12 @@ static void name_global(const iso_orbit *orbit, iso_section_nature *n)
         snprintf(level, sizeof level, " on the level H = %.4g", m.energy * unit_M * unit_M);
         snprintf(except, sizeof except, "those in its plane");
     }
-    snprintf(n->words, sizeof n->words,
-             "n_%d = 0 is global%s: every orbit crosses it for ever, except %s; a return takes %.4g %s in s",
-             n->axis + 1, level, except, turn / W[1], longest);
+    if (iso_params_powers_fit(m.p))
+        snprintf(returns, sizeof returns, "a return takes %.4g %s in s", turn / W[1], longest);
+    else
+        snprintf(returns, sizeof returns, "k is so near 0 that s of a return need not fit a double");
+    snprintf(n->words, sizeof n->words, "n_%d = 0 is global%s: every orbit crosses it for ever, except %s; %s",
+             n->axis + 1, level, except, returns);
 }
 
 iso_section_nature iso_section_of(const iso_orbit *orbit, int axis)
