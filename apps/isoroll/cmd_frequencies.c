@@ -5,6 +5,7 @@
 
 #include "io/plot.h"
 #include "json.h"
+#include "progress.h"
 #include "scene_options.h"
 #include "study/frequencies.h"
 #include "study/momentum.h"
@@ -16,6 +17,16 @@ typedef struct options {
     double turns, samples; /* NAN: not given  */
     bool json;
 } options;
+
+static iso_frequencies_options options_of(const options *o)
+{
+    iso_frequencies_options how = iso_frequencies_defaults();
+    how.turns = o->turns;
+    how.end = o->scene.end;
+    how.samples = o->samples;
+    how.progress = progress_told;
+    return how;
+}
 
 static const char *const verdicts[] = {[ISO_REGULAR] = "regular",
                                        [ISO_CHAOTIC] = "chaotic",
@@ -230,10 +241,11 @@ static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene
                              const iso_frequencies *found)
 {
     static const char *const names[] = {"frequency", "amplitude", "signal", "m", "n"};
-    const iso_frequencies_options how = {.turns = o->turns, .end = o->scene.end, .samples = o->samples};
+    const iso_frequencies_options how = options_of(o);
     iso_frequencies f = *found;
     iso_record *r;
     iso_status status = f.estimated ? ISO_OK : iso_frequencies_estimate(ctx, scene, &how, &f);
+    progress_end();
     if (status == ISO_OK) status = iso_record_create(ctx, 5, names, &r);
     if (status != ISO_OK) return status;
     for (int s = 0; s < 2; s++)
@@ -272,7 +284,7 @@ static int run(iso_context *ctx, const void *options_given)
     const options *o = options_given;
     iso_scene scene = {.places = 0};
     iso_frequencies f;
-    const iso_frequencies_options how = {.turns = o->turns, .end = o->scene.end, .samples = o->samples};
+    const iso_frequencies_options how = options_of(o);
     iso_status status = iso_scene_read(ctx, o->scene.file, &scene);
     iso_scene_forget_place(&scene, "end"); /* --t-end says it, not the scene */
     if (status == ISO_OK && o->plot) status = iso_plot_check_format(ctx, o->plot);
@@ -301,7 +313,7 @@ static const option_row rows[] = {
     ROW("t-end", "T", "a positive number", "length of the orbit in time t, in place of --turns", set_positive,
         options, scene.end),
     ROW("samples", "N", "a whole number from 1 on",
-        "number of samples of the orbit, rounded up to a power of 2 (default 32 each turn)", set_count, options,
+        "number of samples of the orbit, to 4194304, rounded up to a power of 2 (default 32 each turn)", set_count, options,
         samples),
     ROW_PLOT(options, plot),
     ROW_JSON(options, json),

@@ -28,6 +28,8 @@ typedef struct estimator {
     double end[ISO_CLOCKS];
     long turns;            /* in which the indicators of chaos may decide */
     iso_verdict indicated; /* what they say                               */
+    void (*progress)(double share, void *data);
+    void *data;
     iso_frequencies *f;
 } estimator;
 
@@ -56,6 +58,7 @@ static iso_status sample(estimator *e, iso_clock clock, double n[], double mean[
         status = iso_orbit_at(orbit, e->end[clock] * (double)j / (double)e->count, &s);
         if (status != ISO_OK) break;
         copy(s.ball + 3, n + 3 * j, 3);
+        if (e->progress) e->progress((double)j / (double)e->count, e->data);
         add_scaled(mean, 1 / (double)e->count, s.ball);
     }
     if (status == ISO_OK && clock == ISO_CLOCK_T) {
@@ -304,11 +307,17 @@ static iso_status choose_length(estimator *e, double speed, const iso_frequencie
     const double samples = isnan(o->samples) ? fmax(32 * length / turn, 12 * length * fast) : o->samples;
     e->count = 512;
     while (e->count < ISO_MOST_SAMPLES && (double)e->count < samples) e->count *= 2;
-    if ((double)e->count >= 8 * length * fast) return ISO_OK;
-    return iso_context_fail(
-        e->ctx, ISO_BAD_ARGUMENT, "samples",
-        "%zu samples of %g turns of the ball are fewer than 8 for each turn: take fewer turns, or more samples",
-        e->count, length * fast);
+    const double needed = 8 * length * fast; /* for each turn of the ball */
+    if ((double)e->count >= needed) return ISO_OK;
+    if (needed <= ISO_MOST_SAMPLES)
+        return iso_context_fail(e->ctx, ISO_BAD_ARGUMENT, "samples",
+                                "%zu samples of %g turns of the ball are fewer than 8 for each turn: take %.0f or more",
+                                e->count, length * fast, ceil(needed));
+    const double most = ISO_MOST_SAMPLES / (8 * fast); /* in t */
+    return iso_context_fail(e->ctx, ISO_BAD_ARGUMENT, isnan(o->end) ? "turns" : "end",
+                            "an estimate takes %d samples, 8 for each turn of the ball: take %.0f turns, or t = %.6g, "
+                            "at most",
+                            ISO_MOST_SAMPLES, floor(most / turn), most * (1 - 1e-6));
 }
 
 /* Checks the scene, and chooses the length of the orbit. */
@@ -342,6 +351,8 @@ iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, co
     const bool fixed = !isnan(own.turns) || !isnan(own.end) || !isnan(own.samples);
     estimator e = {
         .ctx = ctx, .scene = scene, .fixed = fixed, .effects = iso_scene_acting(scene), .f = f};
+    e.progress = own.progress;
+    e.data = own.data;
     iso_frequencies_blank(f);
     f->estimated = true;
     status = prepare(&e, &own);

@@ -36,6 +36,8 @@ typedef struct iso_frequencies_options {
     double turns;   /* of n in the estimate, about, 20 or more; NaN: 1000                                */
     double end;     /* length of the orbit in t, 20 turns or more; NaN: by turns                         */
     double samples; /* of the orbit, rounded up to a power of two, 512 or more; NaN: 32 for each turn    */
+    void (*progress)(double share, void *data); /* may be NULL; of the orbit in hand, in [0, 1]          */
+    void *data;
 } iso_frequencies_options;
 
 /* All NaN: 1000 turns (fewer where |k| < 1/4), up to 16 times as many while the motion is not found regular. */

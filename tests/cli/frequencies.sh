@@ -116,4 +116,36 @@ if has gnuplot "--plot"; then
 else
     echo "gnuplot is not installed: no pictures"
 fi
+# On a level: the ball with the potential of the level and its point have the same frequencies in every clock. The rate
+# of crossings of a section is a small combination of them.
+for k in 0.5 -0.6; do
+    cat >ball_level.yaml <<END
+reduced: {k: $k, J: [1.4, 2.1, 3.0]}
+initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}
+time: {end: 1, step: 1}
+effects: {level: {c: 0.02}}
+END
+    run 0 run ball_level.yaml --as point -o start.csv
+    rows start.csv | head -n 1 | awk -F, -v k="$k" -v eps="$(sed -n 's/^# eps: //p' start.csv)" '{
+        print "point: {k: " k ", J: [1.4, 2.1, 3.0], eps: " eps "}"
+        print "initial: {M: [" $2 ", " $3 ", " $4 "], gamma: [" $5 ", " $6 ", " $7 "]}"
+        print "time: {end: 1}" }' >point_level.yaml
+    for model in ball point; do
+        run 0 frequencies ${model}_level.yaml --turns 200
+        awk '$1 == "frequency" { print $2, $3, $4 }' out >$model.frequencies
+        check "$model: two angles" test "$(wc -l <$model.frequencies)" -eq 2
+    done
+    at_most "k = $k: ball and point on a level" "$(paste ball.frequencies point.frequencies | awk '
+        { for (i = 1; i < 4; i++) { d = $i / $(i + 3) - 1; if (d < 0) d = -d; if (d > most) most = d } }
+        END { print most + 0 }')" 1e-9
+    run 0 section ball_level.yaml --model ball --crossings 1000 -o crossings.csv
+    rate=$(rows crossings.csv | awk -F, 'NR == 1 { first = $3 } { last = $3 }
+        END { printf "%.17g", 2 * 3.14159265358979323846 * (NR - 1) / (last - first) }')
+    at_most "k = $k: crossings turn with the frequencies" "$(awk -v rate="$rate" '{ f[NR] = $1 }
+        END { least = 1
+              for (m = -3; m <= 3; m++) for (n = -3; n <= 3; n++) {
+                  d = (m * f[1] + n * f[2]) / rate - 1; if (d < 0) d = -d; if (d < least) least = d }
+              print least }' ball.frequencies)" 1e-3
+done
+
 finish

@@ -87,7 +87,7 @@ scene 0.001 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >extreme.yaml
 # --- refusals
 refuses 3 "k = 0.001 is too near 0 for these moments" integrals extreme.yaml
 { cat other.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >gravity.yaml
-refuses 3 "integrals are sought only of the free ball and of the point on H = 0: remove 'gravity'" integrals gravity.yaml
+refuses 3 "integrals are sought only of motions on which nothing acts but a level: remove 'gravity'" integrals gravity.yaml
 refuses 2 "--degree '0'" integrals other.yaml --degree 0
 refuses 2 "--degree '-1'" integrals other.yaml --degree=-1
 refuses 2 "--within '-1'" integrals other.yaml --within -1
@@ -107,4 +107,18 @@ if interruptible "integrals after SIGINT"; then
     check "what is done" one_degree
     check "undecided" grep -q '^undecided: stopped after degree' out
 fi
+# Where powers of q do not fit a double, commands say so with the same words: k is to blame, not a stiff ball.
+cat >near_zero.yaml <<'END'
+reduced: {k: 0.001, J: [1, 2, 5]}
+initial: {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}
+time: {end: 5}
+END
+for command in integrals "chaos --turns 50" "chaos --turns 50 --starts 2"; do
+    # shellcheck disable=SC2086
+    refuses 3 "k = 0.001 is too near 0 for these moments" $command near_zero.yaml
+done
+run 1 section near_zero.yaml --crossings 2 -o rows.csv
+check "section says why it does not know how long a return takes" grep -q 'k is so near 0' err
+check_not "and no length" grep -q 'a return takes' err
+
 finish

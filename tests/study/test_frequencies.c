@@ -301,6 +301,40 @@ static void check_refusals(void)
     refuses(&scene, &o, ISO_BAD_ARGUMENT, "end");
 }
 
+static bool never(void *unused)
+{
+    (void)unused;
+    return false;
+}
+
+/* A length that a refusal advises is accepted: the monitor stops it at once. */
+static void check_advice(void)
+{
+    static const double k[] = {0.5, 3, -0.02};
+    const double w[3] = {0.8, 0.3, -0.6}, n[3] = {0.6, 0, 0.8};
+    for (int i = 0; i < 3; i++) {
+        const iso_scene scene = scene_from(k[i], (const double[]){1.4, 2.1, 3}, w, n);
+        iso_frequencies_options o = iso_frequencies_defaults();
+        iso_frequencies f;
+        o.turns = 1e6;
+        refuses(&scene, &o, ISO_BAD_ARGUMENT, "turns");
+        const char *advice = strstr(iso_context_message(ctx), "take ");
+        gsl_test(!advice || sscanf(advice, "take %lf turns", &o.turns) != 1, "k = %g: turns are advised", k[i]);
+        iso_context_set_monitor(ctx, never, NULL);
+        gsl_test_int((int)iso_frequencies_find(ctx, &scene, &o, &f), ISO_STOPPED, "k = %g: %g turns are accepted", k[i],
+                     o.turns);
+        iso_context_set_monitor(ctx, NULL, NULL);
+        o.samples = 512;
+        refuses(&scene, &o, ISO_BAD_ARGUMENT, "samples");
+        advice = strstr(iso_context_message(ctx), "take ");
+        gsl_test(!advice || sscanf(advice, "take %lf or more", &o.samples) != 1, "k = %g: samples are advised", k[i]);
+        iso_context_set_monitor(ctx, never, NULL);
+        gsl_test_int((int)iso_frequencies_find(ctx, &scene, &o, &f), ISO_STOPPED, "k = %g: %g samples are accepted",
+                     k[i], o.samples);
+        iso_context_set_monitor(ctx, NULL, NULL);
+    }
+}
+
 /* --- the image of the momentum map ------------------------------------------------------------------------------ */
 
 static void check_rotations(int k, laws_worst *worst)
@@ -397,6 +431,7 @@ int main(void)
     check_integrable();
     check_rotation();
     check_refusals();
+    check_advice();
     check_closed();
     iso_context_free(ctx);
     exit(gsl_test_summary());
