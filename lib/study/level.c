@@ -25,15 +25,34 @@ static iso_status check_coupling(iso_context *ctx, const iso_orbit *orbit, const
         what, iso_orbit_coupling(orbit));
 }
 
+/* The orbit of a scene on which nothing acts but a level. */
+static iso_status open_orbit(iso_context *ctx, const iso_scene *scene, const char *what, iso_orbit **orbit)
+{
+    const iso_effects effects = iso_scene_acting(scene);
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    const iso_status status = iso_level_check(ctx, &effects, what);
+    o.effects = &effects;
+    o.gamma_alone = true; /* M need not fit a double */
+    return status == ISO_OK ? iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit) : status;
+}
+
+iso_status iso_level_motion(iso_context *ctx, const iso_scene *scene, const char *what, iso_params *own,
+                            iso_point_motion *motion)
+{
+    iso_orbit *orbit;
+    const iso_status status = open_orbit(ctx, scene, what, &orbit);
+    if (status != ISO_OK) return status;
+    *own = iso_orbit_units(orbit)->own;
+    *motion = iso_orbit_motion(orbit);
+    motion->p = own;
+    iso_orbit_free(orbit);
+    return ISO_OK;
+}
+
 iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on)
 {
-    const iso_effects effects = iso_effects_acting(&scene->effects);
-    iso_orbit_options o = iso_orbit_defaults(&scene->start);
     iso_orbit *orbit;
-    iso_status status = iso_level_check(ctx, &effects, what);
-    if (status != ISO_OK) return status;
-    o.effects = &effects;
-    status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    iso_status status = open_orbit(ctx, scene, what, &orbit);
     if (status != ISO_OK) return status;
     const iso_effects acting = iso_orbit_effects(orbit);
     const iso_point_motion m = iso_orbit_motion(orbit);
@@ -49,7 +68,7 @@ iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *
 iso_status iso_level_of_scene(iso_context *ctx, const iso_scene *scene, const char *what, double *level)
 {
     iso_on_level on;
-    const iso_effects effects = iso_effects_acting(&scene->effects);
+    const iso_effects effects = iso_scene_acting(scene);
     const bool plain = scene->start.model == ISO_BALL && !iso_effects_have_level(&effects);
     *level = 0;
     const iso_status status = plain ? iso_level_check(ctx, &effects, what) : iso_level_find(ctx, scene, what, &on);

@@ -2,6 +2,7 @@
 #ifndef ISO_STUDY_LEVEL_IMPL_H
 #define ISO_STUDY_LEVEL_IMPL_H
 
+#include "map/section.h"
 #include "orbit/orbit.h"
 #include "study/level.h"
 
@@ -15,6 +16,11 @@ typedef struct iso_on_level {
 
 /* ISO_OK where nothing acts but a level, else ISO_BAD_INPUT about the effect. what: as in "periodic orbits are sought". */
 iso_status iso_level_check(iso_context *ctx, const iso_effects *effects, const char *what);
+
+/* The motion of a scene's point: its params in own units (into *own), eps and H; on H = 0, eps may be 0. Errors: those of
+ * iso_level_check and iso_orbit_create. */
+iso_status iso_level_motion(iso_context *ctx, const iso_scene *scene, const char *what, iso_params *own,
+                            iso_point_motion *motion);
 
 /* Errors: those of iso_level_check and iso_orbit_create; ISO_BAD_INPUT where the coupling eps is not above 0. */
 iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on);
