@@ -205,6 +205,7 @@ static iso_status begin_csv(iso_context *ctx, const options *o, const iso_scene 
     char columns[400] = "orbit,l,x,verdict";
     const table_line lines[] = {
         {.key = "turns", .number = o->turns},
+        {.key = "exponent_turns", .number = o->exponent_turns},
         {.key = "starts", .number = o->starts},
         {.key = "seed", .number = o->seed},
         {.key = "tolerance", .number = isnan(o->scene.tolerance) ? scene->tolerance : o->scene.tolerance},
