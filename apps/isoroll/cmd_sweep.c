@@ -9,6 +9,8 @@
 #include "scene_options.h"
 #include "sweep_team.h"
 
+extern const command command_sweep;
+
 /* What sweep can be told. */
 typedef struct options {
     const char *file;
@@ -251,6 +253,7 @@ int sweep_with(iso_context *ctx, const void *options_given, const sweep_team *te
     iso_sweep_file *file;
     if (!o->merge && o->parts.count > 1)
         return complain("sweep: one argument too many: %s", o->parts.path[1]), EXIT_USAGE;
+    if (!o->merge && !file_fits(&command_sweep, o->file)) return EXIT_BAD_INPUT;
     const bool computes = !o->merge && isnan(o->point); /* else one member is enough */
     if (computes && team->members > 1 && !is_file(o->file))
         return complain("sweep: a pipe reaches one rank alone: give a file"), EXIT_USAGE;

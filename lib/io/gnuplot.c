@@ -223,6 +223,15 @@ static bool is_whole(const iso_gnuplot *g)
     return got > 0 && memmem(tail, (size_t)got, g->format->ending, strlen(g->format->ending));
 }
 
+/* Why nothing more can be written to the picture, as an errno; 0: something can. */
+static int why_full(const iso_gnuplot *g)
+{
+    static const char block[1 << 16];
+    const off_t end = lseek(g->picture, 0, SEEK_END);
+    const ssize_t put = end < 0 ? 0 : pwrite(g->picture, block, sizeof block, end);
+    return put < 0 ? errno : put < (ssize_t)sizeof block ? ENOSPC : 0;
+}
+
 static iso_status run(iso_context *ctx, iso_gnuplot *g)
 {
     char words[200];
@@ -240,10 +249,11 @@ static iso_status run(iso_context *ctx, iso_gnuplot *g)
                                 "gnuplot was ended by signal %d; if it cannot run here, " INSTALL, WTERMSIG(result));
     if (ended == child && WEXITSTATUS(result) == 0 && is_whole(g)) return ISO_OK;
     if (ended < 0 && is_whole(g)) return ISO_OK;
+    errno = why_full(g);
+    if (errno != 0) return iso_file_trouble(ctx, "write", g->file.target);
     read_complaints(g->complaints, words, sizeof words);
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
-                            "gnuplot did not draw '%s' (exit status %d); " INSTALL "; it said: %s", g->file.target,
-                            ended == child ? WEXITSTATUS(result) : -1, words[0] ? words : "nothing");
+    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "gnuplot did not draw '%s' (exit status %d); it said: %s",
+                            g->file.target, ended == child ? WEXITSTATUS(result) : -1, words[0] ? words : "nothing");
 }
 
 iso_status iso_gnuplot_close(iso_context *ctx, iso_gnuplot *g, bool keep)

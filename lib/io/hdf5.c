@@ -1,6 +1,7 @@
 /* hdf5.c - what the reader and the writer of trajectories as HDF5 share. */
 #include "io/hdf5_impl.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,6 +31,9 @@ int iso_hdf5_parts(iso_hdf5_part parts[ISO_HDF5_PARTS])
 
 iso_status iso_hdf5_trouble(iso_context *ctx, const char *what, const char *name)
 {
+    static const int reasons[] = {ENOSPC, EDQUOT, EFBIG, EIO, EROFS}; /* other values may be older than the failure */
+    for (size_t i = 0; i < sizeof reasons / sizeof *reasons; i++)
+        if (errno == reasons[i]) return iso_file_trouble(ctx, what, name);
     return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot %s '%s': the HDF5 library gives no reason", what,
                             name);
 }

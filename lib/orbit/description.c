@@ -73,7 +73,7 @@ iso_status iso_record_params(iso_context *ctx, const iso_record *r, iso_params *
         return status;
     }
     return iso_context_fail(ctx, ISO_BAD_INPUT, has_k ? "J" : "k",
-                            "the trajectory does not say its %s: a line '# %s' or the option --%s must",
+                            "the trajectory does not say its %s: write it in a line '# %s' of the file, or give --%s",
                             has_k ? "J" : "k", has_k ? "J: J1 J2 J3" : "k: K", has_k ? "J J1,J2,J3" : "k K");
 }
 

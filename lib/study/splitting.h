@@ -4,8 +4,8 @@
  * O', half a turn of l away. At k = +-1 the unstable manifold of O is the stable manifold of O'. At other k they
  * cross. Of the section n_a = 0 with the middle axis c = a - 1, cyclically, O is (l, x) = (0, 0). The reversor
  * (l, x) -> (pi - l, x) turns W^u(O) into W^s(O'), so they meet wherever one of them meets the line l = pi/2, there
- * with the slopes +m and -m, m = dx/dl of W^u(O). m != 0 is a transversal crossing, which excludes a further analytic
- * integral.
+ * with the slopes +m and -m, m = dx/dl of W^u(O). If m != 0 they cross transversally, and there is no further analytic
+ * integral (lib/doc/why_only_one.md); m is computed, not proved.
  *
  *     iso_splitting s;
  *     status = iso_splitting_at(ctx, 0.5, (double[3]){1.4, 2.1, 3}, ISO_SPLITTING_AUTO, &s);     s.x, s.m, s.error

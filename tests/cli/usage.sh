@@ -189,6 +189,28 @@ if [ -c /dev/full ]; then
     done
     refuses 5 "cannot write '/dev/full': No space left on device" run scene.yaml -o /dev/full
 fi
+# The answers are in the file `full`. It is absent where the file system cannot be set up.
+cat >full.sh <<'END'
+mkdir full.d && mount -t tmpfs -o size=16k none full.d || exit
+for picture in svg png pdf; do "$1" plot long.csv -o full.d/a.$picture; done 2>full
+if "$1" run scene.yaml --t-end 0.1 --step 0.1 -o a.h5; then "$1" run scene.yaml --step 0.01 -o full.d/a.h5 2>>full; fi
+ls -A full.d >>full
+END
+"$isoroll" run scene.yaml --step 0.005 -o long.csv
+if has gnuplot "pictures on a full disk" && unshare -rm sh full.sh "$isoroll" 2>/dev/null; [ -e full ]; then
+    check "a full disk: says so" test "$(grep -c "cannot write 'full.d/a.*': No space left on device" full)" -ge 3
+    check_not "a full disk: nothing else, no file" grep -qv "cannot write 'full.d/a.*': No space left on device" full
+else
+    skip "pictures on a full disk" "no file system can be mounted here"
+fi
+if "$isoroll" run scene.yaml -o a.h5 2>err; then
+    (ulimit -f 4 && exec "$isoroll" run scene.yaml --step 0.01 -o b.h5) 2>err
+    check "HDF5 and a limit on files" grep -q "cannot write 'b.h5': File too large" err
+fi
+printf '0,1,2,3\n1,2,3,4\n' >nameless.csv
+refuses 3 "nameless.csv:1:1: expected a line of column names such as t,omega1,omega2,... before the numbers; without one, --columns t,omega1,... names them" check nameless.csv
+grep -v '^# k:' ball.csv >no_k.csv
+refuses 3 "does not say its k: write it in a line '# k: K' of the file, or give --k K" check no_k.csv
 "$isoroll" list >&- 2>err
 check "closed standard output" test $? -eq 5
 for folder in absent /proc scene.yaml; do refuses 5 "cannot write" run scene.yaml -o $folder/a.csv; done
