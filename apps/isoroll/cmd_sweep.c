@@ -146,6 +146,15 @@ static int threads_of(const options *o)
     return o->threads < 1024 ? (int)o->threads : 1024;
 }
 
+/* Before the work begins, not hours later. */
+static void warn_of_zeros(const iso_sweep_file *file, const iso_sweep_journal *journal)
+{
+    const size_t zeros = iso_sweep_zeros_of_k(file);
+    if (zeros > 0 && iso_sweep_journal_done(journal) < iso_sweep_journal_wanted(journal))
+        complain("sweep: %zu of %zu points have k = 0, where there is no ball: they will fail", zeros,
+                 iso_sweep_file_plan(file)->family.count);
+}
+
 static int compute(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep *sweep,
                    iso_sweep_journal *journal)
 {
@@ -178,14 +187,15 @@ static int refused(iso_context *ctx, const options *o, const iso_sweep_plan *pla
 }
 
 /* Every member has read the sweep. The one that writes opens the journal. */
-static int run_sweep(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep *sweep,
-                     iso_sweep_share share)
+static int run_sweep(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep_file *file,
+                     const iso_sweep *sweep, iso_sweep_share share)
 {
     iso_sweep_journal *journal = NULL;
     iso_status status = ISO_OK;
     if (team->writes)
         status = iso_sweep_journal_open(ctx, o->output, iso_sweep_head_of(sweep), share, o->resume, &journal);
     int result = team->agree(team->data, finish(ctx, status));
+    if (journal) warn_of_zeros(file, journal);
     if (result == EXIT_DONE && team->writes)
         result = compute(ctx, o, team, sweep, journal);
     else if (result == EXIT_DONE)
@@ -202,7 +212,7 @@ static int run_file(iso_context *ctx, const options *o, const sweep_team *team, 
     iso_status status = read_share(ctx, o->shard, &share);
     if (status == ISO_OK) status = iso_sweep_create(ctx, plan, &sweep);
     int result = team->agree(team->data, refused(ctx, o, plan, status));
-    if (result == EXIT_DONE) result = run_sweep(ctx, o, team, sweep, share);
+    if (result == EXIT_DONE) result = run_sweep(ctx, o, team, file, sweep, share);
     iso_sweep_free(sweep);
     return result;
 }

@@ -367,6 +367,19 @@ bool iso_sweep_axis_words(const iso_sweep_file *f, int i, char words[ISO_SWEEP_W
     return true;
 }
 
+size_t iso_sweep_zeros_of_k(const iso_sweep_file *f)
+{
+    for (int i = 0; i < f->axes; i++) {
+        const iso_sweep_axis *a = &f->axis[i];
+        const bool list = a->values == ISO_FROM_LIST;
+        size_t zeros = 0;
+        if (strcmp(a->name, "k") != 0 || !(list || a->values == ISO_FROM_RANGE)) continue;
+        for (size_t j = 0; j < a->count; j++) zeros += (list ? a->list[j] : iso_sweep_in_range(a, j)) == 0;
+        return zeros * (f->plan.family.count / a->count);
+    }
+    return 0;
+}
+
 /* Good enough to choose between a scene and a sweep: neither key occurs in the other kind of file. */
 bool iso_sweep_is_one(const char *text, size_t length)
 {

@@ -32,7 +32,9 @@ chunk: 4
 END
 for kind in csv $other; do
     run 1 sweep grid.yaml -o "all.$kind"
-    says "6 of 30 points failed; the first is point 12: scene.yaml:1:14: k = 0"
+    check "before it runs" test "$(head -n 1 err)" = "isoroll: sweep: 6 of 30 points have k = 0, where there is no ball: they will fail"
+    check "after it" grep -q "6 of 30 points failed; the first is point 12: scene.yaml:1:14: k = 0" err
+    check "no more words" test "$(wc -l <err)" -eq 2
     for threads in 1 2 3; do
         run 1 sweep grid.yaml -o "again.$kind" -j $threads
         check "$kind, $threads threads" cmp "all.$kind" "again.$kind"
@@ -326,7 +328,8 @@ check "the thesis" cmp thesis.csv thesis.copy
 check "the thesis, as a journal" cmp new.csv.part thesis.copy
 rm new.csv.part
 refuses 5 "cannot write" sweep grid.yaml -o /nowhere/new.csv
-refuses 5 "No space left" sweep grid.yaml -o /dev/full
+run 5 sweep grid.yaml -o /dev/full
+check "a full disk" grep -q "No space left" err
 mkdir locked && chmod 555 locked
 if [ "$(id -u)" = 0 ]; then
     skip "read-only folder" "root may write everywhere"
