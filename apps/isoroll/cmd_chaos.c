@@ -385,10 +385,10 @@ const command command_chaos = {
     .takes = FILE_SCENE,
     .description =
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
-        "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0, on "
-        "every level of the energy; with effects beyond the level, it is a step of the time t. The indicators are "
-        "MEGNO, GALI_2, and the largest exponent with its "
-        "error, per unit of t, tau and s. MEGNO is 2 on regular orbits, or 0 if all neighbours turn "
+        "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0, on every "
+        "level of the energy; with effects beyond the level, it is a step of the time t. The indicators are MEGNO, "
+        "GALI_2, and the largest exponent with its error, per unit of t, tau and s. MEGNO is 2 on regular orbits, "
+        "or 0 if all neighbours turn "
         "equally fast; on chaotic orbits it grows. GALI_2 is the sine of the angle between the deviations; on "
         "chaotic orbits it falls exponentially. Each model is integrated by itself. Of the scene's times and "
         "solver, only the tolerance is read.\n\n"

@@ -6,10 +6,10 @@
  *     iso_chaos_free(c);
  *
  * An orbit is followed from turn to turn, with two deviations beside it (orbit/crossings.h), until the indicators
- * (indicators.h) decide, or for at most `turns`. The exponent of so short an orbit is rough, and its error is not known:
- * with `exponent_turns` a chaotic orbit goes on. A turn is a return to the section n_a = 0 (map/section.h), on every
- * level of the point's energy. If effects beyond a level act that keep the energy, a turn is the time 2 pi/|k omega|,
- * with omega at the start; in a potential |omega| is not taken less than the orbit's own unit of it.
+ * (indicators.h) decide, or for at most `turns`. The exponent of so short an orbit is rough, and its error is not
+ * known: with `exponent_turns` a chaotic orbit goes on. A turn is a return to the section n_a = 0 (map/section.h), on
+ * every level of the point's energy. If effects beyond a level act that keep the energy, a turn is the time
+ * 2 pi/|k omega|, with omega at the start; in a potential |omega| is not taken less than the orbit's own unit of it.
  * The deviations have no part along the flow and none along the energy, since these parts tell nothing about chaos.
  *
  * A rotation in a principal plane is periodic. So it is regular, even if its neighbours leave it exponentially. It is
