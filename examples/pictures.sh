@@ -79,7 +79,7 @@ scene=17_why_only_one
 "$isoroll" splitting $scene/scene.yaml --k=-3:-1/8:1/8,1/8:3:1/8 --plot $scene/picture.svg >"$work/out"
 
 # sweeps: about a minute each
-for sweep in 18_chaotic_share 19_atlas; do
+for sweep in 18_chaotic_share 19_atlas 21_levels; do
     "$isoroll" sweep $sweep/sweep.yaml -o "$work/$sweep.csv"
     "$isoroll" plot "$work/$sweep.csv" -o $sweep/picture.svg
 done

@@ -14,7 +14,7 @@ enum { MOST = 200000, MOST_IN_SVG = 40000 };
 
 struct section_picture {
     const iso_scene *scene;
-    double eps;
+    double eps, energy;
     int axis, l, x; /* axis: -1: none. l, x: columns of the rows */
     uint64_t rows;  /* that came so far                          */
     uint64_t limit; /* rows whose hash is below it are kept      */
@@ -59,7 +59,10 @@ void section_picture_begin(section_picture *p, const iso_record *header)
     p->l = iso_record_find(header, "l");
     p->x = iso_record_find(header, "x");
     p->axis = axis && p->l >= 0 ? axis[0] - '1' : -1;
-    p->eps = eps && !iso_record_get(header, "effects") ? strtod(eps, NULL) : 0; /* with effects L is not G(l) x */
+    const char *effects = iso_record_get(header, "effects"), *c = iso_record_get(header, "level.c");
+    const bool level = effects && c && strcmp(effects, iso_level_name()) == 0;
+    p->eps = eps && (!effects || level) ? strtod(eps, NULL) : 0; /* with other effects L is not G(l) x */
+    p->energy = level ? iso_coupling(&p->scene->params, strtod(c, NULL)) : 0;
 }
 
 /* Numbers without a pattern, which choose the rows that are kept. If every second row were kept, an orbit that jumps
@@ -152,6 +155,7 @@ iso_status section_picture_draw(iso_context *ctx, const section_picture *p, cons
     const iso_plot_section section = {.title = title,
                                       .params = &p->scene->params,
                                       .eps = p->eps,
+                                      .energy = p->energy,
                                       .axis = p->axis,
                                       .count = drawn.count,
                                       .orbit = p->orbit,

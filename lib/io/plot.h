@@ -138,7 +138,7 @@ ISO_API iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_p
 typedef struct iso_plot_section {
     const char *title; /* one line, any characters; NULL: none                                          */
     const iso_params *params;
-    double eps;               /* the coupling, > 0, if the orbits are free; 0: x is drawn in place of L        */
+    double eps, energy;       /* coupling, > 0, and level H, if nothing acts but a level; eps 0: x is drawn, not L */
     int axis;                 /* a, 0 to 2                                                                     */
     size_t count;             /* crossings, 1 or more                                                          */
     const uint32_t *orbit;    /* of each: the orbit it belongs to                                              */

@@ -54,10 +54,10 @@ static spot of_ball(const iso_plot_section *s, const double chart[2])
     return (spot){atan2(p->root_J[c] * sin(l), p->root_J[b] * cos(l)), omega[2] / norm(omega)};
 }
 
-/* G(l). If the orbits are not free, 1: then x is drawn in place of L. */
+/* G(l). If more acts than a level, 1: then x is drawn in place of L. */
 static double largest_momentum(const iso_plot_section *s, double l)
 {
-    return s->eps > 0 ? iso_section_momentum(iso_free_point(s->params, s->eps), s->axis, l) : 1;
+    return s->eps > 0 ? iso_section_momentum((iso_point_motion){s->params, s->eps, s->energy}, s->axis, l) : 1;
 }
 
 static spot of_point(const iso_plot_section *s, const double chart[2])

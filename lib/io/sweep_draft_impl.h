@@ -1,5 +1,5 @@
-/* sweep_draft_impl.h - a sweep's text, as its files share it: sweep_file.c reads its keys, sweep_vary.c what varies,
- * sweep_point.c makes the points. */
+/* sweep_draft_impl.h - a sweep's text, as its files share it: sweep_file.c reads its keys, sweep_vary.c and
+ * sweep_level.c what varies, sweep_point.c makes the points. */
 #ifndef ISO_IO_SWEEP_DRAFT_IMPL_H
 #define ISO_IO_SWEEP_DRAFT_IMPL_H
 
@@ -72,6 +72,10 @@ struct iso_sweep_file {
 /* sweep_vary.c: reads `vary` and `samples` (NULL: not there), after the scene. Errors: ISO_BAD_INPUT,
  * ISO_NO_MEMORY. */
 iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples);
+
+/* sweep_level.c: whether an axis is that of the level; what it needs of the scene's text. Errors: ISO_BAD_INPUT. */
+bool iso_sweep_find_level(iso_sweep_axis *a);
+iso_status iso_sweep_check_level(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a);
 
 /* The keys of a mapping must be among `names`, each once. Errors: ISO_BAD_INPUT. */
 iso_status iso_sweep_check_keys(iso_yaml *y, const yaml_node_t *mapping, const char *what, size_t count,

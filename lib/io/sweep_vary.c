@@ -68,15 +68,6 @@ static bool find_chart(iso_sweep_axis *a)
     return false;
 }
 
-/* The level sets the length of a point's M, or the number c of a ball's effect `level`. */
-static bool find_level(iso_sweep_axis *a)
-{
-    if (strcmp(a->name, iso_level_name()) != 0) return false;
-    a->target = ISO_TO_LEVEL;
-    a->width = 1;
-    return true;
-}
-
 static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
 {
     static const char *const others[] = {"l", "x", "start", "level", "J1", "J2", "J3", "J2/J1", "J3/J1"};
@@ -87,7 +78,8 @@ static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_swe
     if (key->type != YAML_SCALAR_NODE || key->data.scalar.length >= ISO_NAME_SIZE)
         return iso_yaml_fail(&f->yaml, key->start_mark, "a key should be the name of a number of the scene");
     snprintf(a->name, sizeof a->name, "%s", (const char *)key->data.scalar.value);
-    if (find_chart(a) || find_level(a) || find_number(list, count, a) || find_ratio(list, count, a)) return ISO_OK;
+    if (find_chart(a) || iso_sweep_find_level(a) || find_number(list, count, a) || find_ratio(list, count, a))
+        return ISO_OK;
     for (int i = 0; i < count; i++) names[named++] = list[i].name;
     const bool moments = strstr(a->name, "J") != NULL;
     for (size_t i = 0; i < (moments ? 9u : 4u); i++) names[named++] = others[i];
@@ -292,27 +284,6 @@ static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const 
     return ISO_OK;
 }
 
-/* A point's eps, or a ball's c, must stand in the scene: so its text can state the level. */
-static iso_status check_level(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
-{
-    iso_draft_number list[ISO_SWEEP_NAMES];
-    const bool point = f->base.start.model == ISO_POINT;
-    char needed[ISO_NAME_SIZE];
-    if (a->target != ISO_TO_LEVEL) return ISO_OK;
-    f->level = a;
-    snprintf(needed, sizeof needed, point ? "eps" : "%s.c", iso_level_name());
-    const int count = iso_draft_numbers(&f->draft, ISO_SWEEP_NAMES, list);
-    for (int i = 0; i < count; i++)
-        if (strcmp(list[i].name, needed) == 0) a->node = list[i].value;
-    if (!a->node)
-        return iso_yaml_fail(&f->yaml, key->start_mark, "'level' needs %s in the scene",
-                             point ? "'eps'" : "'effects: {level: {c: 1}}', whose c it sets,");
-    for (const iso_sweep_axis *b = f->axis; b < f->axis + f->axes; b++)
-        if (strcmp(b->name, needed) == 0 && !point)
-            return iso_yaml_fail(&f->yaml, key->start_mark, "'level' and '%s' set the same number", needed);
-    return ISO_OK;
-}
-
 /* l and x are both there, once. */
 static iso_status check_start(iso_sweep_file *f, const yaml_node_t *vary)
 {
@@ -376,7 +347,7 @@ static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
     if (status == ISO_OK) status = read_values(f, value, a);
     if (status == ISO_OK) status = check_tolerance(f, value, a);
     if (status == ISO_OK) status = check_chart(f, value, a);
-    if (status == ISO_OK) status = check_level(f, key, a);
+    if (status == ISO_OK) status = iso_sweep_check_level(f, key, a);
     if (status == ISO_OK) status = name_columns(f, key, a);
     if (status == ISO_OK) status = check_moments(f, key, a);
     if (status != ISO_OK || a->values != ISO_FROM_DRAWING) return status;

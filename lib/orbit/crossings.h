@@ -7,7 +7,7 @@
  *     iso_crossings_go(c, NULL, 500, crossing, NULL, done, status);     the next 500 of each
  *     iso_crossings_free(c);
  *
- * The section of a free orbit is n_a = 0, n_a increasing (map/section.h). This is also gamma_a = 0: ball and point
+ * The section is n_a = 0, n_a increasing (map/section.h). This is also gamma_a = 0: ball and point
  * cross it at the same events. There are two other kinds: a column of the samples passes a value upwards; or, without
  * a section, equal steps of a clock.
  *
@@ -17,7 +17,7 @@
  * Lengths and angles are given without the part along the flow, which tells only how far ahead of the orbit its
  * neighbour is.
  *
- * Free orbits are followed in the lanes of vectors and on all threads (batch.h). The numbers of an orbit depend on
+ * Orbits on which nothing acts but a level are followed in the lanes of vectors and on all threads (batch.h). The numbers of an orbit depend on
  * the kind of vectors. They do not depend, not even in the last bit, on the other orbits, their order, the number of
  * threads, or the number of crossings asked at a time.
  */
@@ -103,7 +103,8 @@ enum { ISO_MOST_BETWEEN = 10000 };
 ISO_API iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
                                     iso_sample sample[], size_t done[], iso_status status[]);
 
-/* A start of this model on the section n_axis = 0, at (l, x), with the energy of `orbit`, which is free. */
+/* A start of this model on the section n_axis = 0, at (l, x), with the energy of `orbit`, on which nothing acts but a
+ * level. */
 iso_start iso_section_start(const iso_orbit *orbit, iso_model_kind model, int axis, double l, double x);
 
 /* Why orbit i has failed, in words without its number. */

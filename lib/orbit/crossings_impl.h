@@ -1,7 +1,7 @@
 /* crossings_impl.h - what the files of crossings share.
  *
  *     crossings.c          checks the options, distributes the orbits, keeps the failures
- *     crossings_lanes.c    free orbits, in the lanes of vectors and on all threads
+ *     crossings_lanes.c    global sections and steps of a clock, in the lanes of vectors
  *     crossings_alone.c    every other orbit, one by one with iso_orbit_event or iso_orbit_at
  *     crossings_common.c   what these two have in common
  */

@@ -6,9 +6,9 @@
  *     iso_chaos_free(c);
  *
  * An orbit is followed from turn to turn, with two deviations beside it (orbit/crossings.h), until the indicators
- * (indicators.h) decide, or for at most `turns`. The exponent of so short an orbit is rough, and its error is not known:
- * with `exponent_turns` a chaotic orbit goes on. A turn of a free orbit is a return to the section n_a = 0
- * (map/section.h). If effects act that keep the energy, or if the point is off its level H = 0, a turn is the time
+ * (indicators.h) decide, or for at most `turns`. The exponent of so short an orbit is rough, and its error is not
+ * known: with `exponent_turns` a chaotic orbit goes on. A turn is a return to the section n_a = 0 (map/section.h), on
+ * every level of the point's energy. If effects beyond a level act that keep the energy, a turn is the time
  * 2 pi/|k omega|, with omega at the start; in a potential |omega| is not taken less than the orbit's own unit of it.
  * The deviations have no part along the flow and none along the energy, since these parts tell nothing about chaos.
  *
@@ -112,7 +112,8 @@ typedef struct iso_chaos {
  * Errors:
  * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1), "exponent_turns" (below 0), "at" (outside of the chart);
  * - ISO_BAD_INPUT: an effect that takes energy or lets the ball roll away (about its name); a ball at rest; `starts`
- *   or `at` with effects or off the level H = 0 (about the effect), since (l, x) does not determine an orbit there;
+ *   or `at` with effects beyond a level (about the effect), since (l, x) does not determine an orbit there; `at` where
+ *   the level closes the circle of l (about "at"), `starts` where it closes all of it;
  *   about "axis": orbits can stay away from its section;
  * - those of iso_orbit_create: ISO_NOT_MAPPED if the point is asked for and there is none;
  * - ISO_STOPPED by the context's monitor: *chaos has what is known by then. */

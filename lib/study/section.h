@@ -9,7 +9,7 @@
  * The section is n_a = 0, n_a increasing, the same for ball and point (map/section.h); or an event: a column of the
  * samples passes a value upwards. Orbit 0 is the scene's own. Then come `starts` orbits, spread evenly over the
  * section by the area dL dl. Then come those that begin at the given points (l, x). All have the scene's energy h,
- * and so the same eps. Orbits 1, 2, ... begin on the section; this start is no crossing.
+ * eps and level H. Orbits 1, 2, ... begin on the section; this start is no crossing.
  *
  * Memory does not grow with the number of orbits. It grows with the number of crossings only up to a bound of about
  * 100 MB.
@@ -119,8 +119,8 @@ typedef struct iso_section_result {
  * Errors before the header:
  * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "crossings" (0);
  * - ISO_BAD_INPUT: an effect that takes energy (about its name), since its orbits do not return for ever; a ball at
- *   rest; `at` with |x| >= 1 or a number that is not finite; `starts` or `at` with effects, off the level H = 0, or
- *   with an event, since (l, x) does not determine an orbit there; a column of an effect that the scene does not
+ *   rest; `at` with |x| >= 1 or a number that is not finite; `starts` or `at` with effects beyond a level, or with
+ *   an event, since (l, x) does not determine an orbit there, or where the level closes the section; a column of an effect that the scene does not
  *   have;
  * - those of iso_orbit_create: ISO_NOT_MAPPED if the point is asked for and there is none.
  * Errors after the header: what the sink returns; ISO_STOPPED; ISO_NO_MEMORY. */

@@ -252,7 +252,7 @@ static void test_sections(void)
     const char *path = in_folder("s.svg");
     iso_params p;
     iso_params_reduced(ctx, -1, (double[]){1, 2, 5}, &p);
-    iso_plot_section section = {"it's `touch OWNED`",  &p,       6.5, 0, 3, orbit, chart, chart, 2,
+    iso_plot_section section = {"it's `touch OWNED`",  &p,       6.5, 0, 0, 3, orbit, chart, chart, 2,
                                 (bool[]){false, true}, "chaotic"};
     gsl_test((int)iso_plot_sections(ctx, path, &section), "%s", iso_context_message(ctx));
     gsl_test(!file_contains(path, ">chaotic<") || !file_contains(path, "units of the scene"), "key and axes");
