@@ -83,7 +83,8 @@ static iso_status check_section(const iso_chaos_walk *w)
 
 /* --- what a turn is --------------------------------------------------------------------------------------------- */
 
-/* A turn: a return to the section; under an effect beyond the level, the time in which n turns once at the rate |k omega|. */
+/* A turn: a return to the section; under an effect beyond the level, the time in which n turns once at the rate
+ * |k omega|. */
 static void choose_turn(iso_chaos_walk *w, const iso_sample *start, const iso_effect *effect)
 {
     iso_chaos *c = w->out;

@@ -66,13 +66,13 @@ static void follow(iso_context *ctx, const sea *s, uint64_t seed, work *w)
     iso_crossings *crossings;
     iso_section_spread spread;
     must(ctx, iso_params_reduced(ctx, s->k, s->J, &p), "parameters");
-    const int axis = iso_section_axis(&p);
-    iso_section_spread_prepare(&spread, &p, axis, seed);
+    const int axis = iso_section_axis(iso_free_point(&p, 1));
+    iso_section_spread_prepare(&spread, iso_free_point(&p, 1), axis, seed);
     for (size_t i = 0; i < w->count; i++) {
         double l, x;
         iso_section_spread_point(&spread, i, &l, &x);
         w->start[i] = (iso_start){.model = ISO_POINT, .eps = 1};
-        iso_section_point(&p, 1, axis, l, x, w->start[i].y);
+        iso_section_point(iso_free_point(&p, 1), axis, l, x, w->start[i].y);
         w->orbit[i] = (iso_batch_orbit){&p, &w->start[i], NULL};
         iso_indicators_begin(&w->shown[i], 3000);
         w->wanted[i] = true;

@@ -98,7 +98,7 @@ static void check_coverage(int repetitions)
     int within[SETS][NUMBERS] = {{0}};
     double share[SETS], width[SETS][NUMBERS] = {{0}};
     iso_section_spread spread;
-    iso_section_spread_prepare(&spread, &p, 2, 0);
+    iso_section_spread_prepare(&spread, iso_free_point(&p, 1), 2, 0);
     for (int s = 0; s < SETS; s++) share[s] = true_share(&sets[s]);
     for (int seed = 0; seed < repetitions; seed++) {
         size_t count[ISO_SHIFTS] = {0}, found[SETS][ISO_SHIFTS] = {{0}};
@@ -163,7 +163,7 @@ static void check_starts(void)
     const iso_params p = laws_params(0.5, (double[]){1, 2, 5});
     iso_section_spread spread;
     double l[2], x[2], again[2];
-    iso_section_spread_prepare(&spread, &p, 2, 0);
+    iso_section_spread_prepare(&spread, iso_free_point(&p, 1), 2, 0);
     for (size_t i = 0; i < 40; i++) {
         iso_share_start(&spread, 1, i, &l[0], &x[0]);
         iso_share_start(&spread, 2, i, &l[1], &x[1]);
