@@ -8,8 +8,8 @@
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
 #include "map/level.h"
-#include "study/free_impl.h"
 #include "study/integrals_impl.h"
+#include "study/level_impl.h"
 
 enum { LEAST_ORBITS = 64, MOST_ORBITS = 10000, PROBES = 16 };
 
@@ -277,7 +277,7 @@ static iso_status run(search *s, const iso_scene *scene)
     iso_params own;
     iso_point_motion motion;
     iso_status status = check_options(s->ctx, &s->options);
-    if (status == ISO_OK) status = iso_study_motion(s->ctx, scene, "integrals are sought", &own, &motion);
+    if (status == ISO_OK) status = iso_level_motion(s->ctx, scene, "integrals are sought", &own, &motion);
     if (status == ISO_OK)
         status = iso_integral_prepare(s->ctx, motion, s->options.seed, s->options.orbits, &s->samples);
     if (status != ISO_OK) return status;

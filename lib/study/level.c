@@ -27,7 +27,7 @@ static iso_status check_coupling(iso_context *ctx, const iso_orbit *orbit, const
 
 iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on)
 {
-    const iso_effects effects = iso_effects_acting(&scene->effects);
+    const iso_effects effects = iso_scene_acting(scene);
     iso_orbit_options o = iso_orbit_defaults(&scene->start);
     iso_orbit *orbit;
     iso_status status = iso_level_check(ctx, &effects, what);
@@ -49,10 +49,29 @@ iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *
 iso_status iso_level_of_scene(iso_context *ctx, const iso_scene *scene, const char *what, double *level)
 {
     iso_on_level on;
-    const iso_effects effects = iso_effects_acting(&scene->effects);
+    const iso_effects effects = iso_scene_acting(scene);
     const bool plain = scene->start.model == ISO_BALL && !iso_effects_have_level(&effects);
     *level = 0;
     const iso_status status = plain ? iso_level_check(ctx, &effects, what) : iso_level_find(ctx, scene, what, &on);
     if (status == ISO_OK && !plain) *level = iso_level_of(&on.units.own, on.energy);
     return status;
+}
+
+iso_status iso_level_motion(iso_context *ctx, const iso_scene *scene, const char *what, iso_params *own,
+                            iso_point_motion *motion)
+{
+    const iso_effects effects = iso_scene_acting(scene);
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    iso_orbit *orbit;
+    iso_status status = iso_level_check(ctx, &effects, what);
+    if (status != ISO_OK) return status;
+    o.effects = &effects;
+    o.gamma_alone = true; /* M need not fit a double */
+    status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    if (status != ISO_OK) return status;
+    *own = iso_orbit_units(orbit)->own;
+    *motion = iso_orbit_motion(orbit);
+    motion->p = own;
+    iso_orbit_free(orbit);
+    return ISO_OK;
 }
