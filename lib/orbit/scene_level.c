@@ -53,7 +53,7 @@ static iso_status move_ball(iso_context *ctx, const iso_orbit *orbit, double lev
 
 iso_status iso_scene_on_level(iso_context *ctx, iso_scene *scene, double level)
 {
-    iso_effects acting = iso_effects_acting(&scene->effects);
+    iso_effects acting = iso_scene_acting(scene);
     const iso_effect *effect = iso_effects_beyond_level(&acting);
     const bool ball = scene->start.model == ISO_BALL;
     iso_orbit_options o = iso_orbit_defaults(&scene->start);

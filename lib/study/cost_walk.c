@@ -33,11 +33,12 @@ bool iso_cost_is_stopped(cost_problem *p)
     return p->monitor.stopped;
 }
 
-static iso_status check_scene(iso_context *ctx, const iso_scene *scene, const iso_cost_options *o)
+static iso_status check_scene(iso_context *ctx, const iso_scene *scene, const iso_effects *effects,
+                              const iso_cost_options *o)
 {
     iso_orbit *orbit;
     iso_orbit_options options = iso_orbit_defaults(&scene->start);
-    options.effects = &scene->effects;
+    options.effects = effects;
     options.backend = o->backend;
     options.method = o->method;
     if (o->tolerance != 0) options.tolerance = o->tolerance;
@@ -58,7 +59,7 @@ iso_status iso_cost_problem_open(cost_problem *p, iso_context *user, const iso_s
     p->clock = iso_orbit_defaults(&scene->start).clock;
     p->other = p->clock == ISO_CLOCK_T ? ISO_CLOCK_S : ISO_CLOCK_T;
     p->end = scene->end;
-    const iso_status status = check_scene(user, scene, o);
+    const iso_status status = check_scene(user, scene, &p->effects, o);
     if (status != ISO_OK) return status;
     p->ctx = iso_context_create();
     if (!p->ctx) return iso_context_fail(user, ISO_NO_MEMORY, "", "no memory for a context");

@@ -25,4 +25,9 @@ iso_status iso_level_motion(iso_context *ctx, const iso_scene *scene, const char
 /* Errors: those of iso_level_check and iso_orbit_create; ISO_BAD_INPUT where the coupling eps is not above 0. */
 iso_status iso_level_find(iso_context *ctx, const iso_scene *scene, const char *what, iso_on_level *on);
 
+/* The motion of a scene's point: its params in own units (into *own), eps of any sign, and H. eps is 0 for a ball at
+ * rest. Errors: those of iso_level_check and iso_orbit_create. */
+iso_status iso_level_motion(iso_context *ctx, const iso_scene *scene, const char *what, iso_params *own,
+                            iso_point_motion *motion);
+
 #endif

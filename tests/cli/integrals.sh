@@ -87,7 +87,7 @@ scene 0.001 "1.4, 2.1, 3" "$spin" "$normal" 10 0.5 >extreme.yaml
 # --- refusals
 refuses 3 "k = 0.001 is too near 0 for these moments" integrals extreme.yaml
 { cat other.yaml; echo "effects: {gravity: {mgb: 0.7, up: [0, 0.6, 0.8]}}"; } >gravity.yaml
-refuses 3 "integrals are sought only of motions on which nothing acts but a level: remove 'gravity'" integrals gravity.yaml
+refuses 3 "integrals are sought only of the free ball and of the point, on every level of its energy: remove 'gravity'" integrals gravity.yaml
 refuses 2 "--degree '0'" integrals other.yaml --degree 0
 refuses 2 "--degree '-1'" integrals other.yaml --degree=-1
 refuses 2 "--within '-1'" integrals other.yaml --within -1
