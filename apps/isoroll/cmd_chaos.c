@@ -212,19 +212,6 @@ static iso_status begin_csv(iso_context *ctx, const options *o, const iso_scene 
         {.key = "nan elsewhere", .text = "not known; an orbit that was not followed has no row"},
         {.key = NULL}};
     for (int m = 0; m < 2; m++)
-<<<<<<< HEAD
-        if (c->with[m])
-            fprintf(to, ",%s_verdict,%s_turns,%s_exponent,%s_error,%s_megno,%s_gali2", names[m], names[m], names[m],
-                    names[m], names[m], names[m]);
-    fputc('\n', to);
-    for (size_t i = 0; i <= spread_of(c); i++) {
-||||||| 31b4d84
-        if (c->with[m])
-            fprintf(to, ",%s_verdict,%s_turns,%s_exponent,%s_error,%s_megno,%s_gali2", names[m], names[m], names[m],
-                    names[m], names[m], names[m]);
-    fputc('\n', to);
-    for (size_t i = 0; i <= c->share.count; i++) {
-=======
         for (size_t i = 0; c->with[m] && i < sizeof kept / sizeof *kept; i++)
             snprintf(columns + strlen(columns), sizeof columns - strlen(columns), ",%s_%s", names[m], kept[i]);
     return table_begin(ctx, csv, "chaos", scene, lines, columns);
@@ -233,8 +220,7 @@ static iso_status begin_csv(iso_context *ctx, const options *o, const iso_scene 
 /* Orbit 0 is the scene's own. */
 static void write_rows(const iso_chaos *c, FILE *to)
 {
-    for (size_t i = 0; i <= c->share.count; i++) {
->>>>>>> w-words
+    for (size_t i = 0; i <= spread_of(c); i++) {
         const iso_chaos_orbit *o = i == 0 ? &c->own : &c->start[i - 1];
         if (i > 0 && !iso_chaos_followed(o)) continue;
         fprintf(to, "%zu,%.17g,%.17g,%s", i, o->l, o->x, iso_verdict_name(o->verdict));
