@@ -148,7 +148,7 @@ class Conversion(Case):
 
     def test_refused(self):
         ball = isoroll.run(BALL)
-        self.refuses(isoroll.BadArgument, "must be one of: ball, point", isoroll.convert, ball, "both", about="to")
+        self.refuses(isoroll.BadArgument, "valid are ball, point", isoroll.convert, ball, "both", about="to")
         self.refuses(isoroll.BadInput, "already", isoroll.convert, ball, "ball")
         self.refuses(isoroll.BadArgument, "tolerance 2", isoroll.convert, ball, "point", tolerance=2)
         self.refuses(isoroll.BadArgument, "row_tolerance", isoroll.convert, ball, "point", row_tolerance=0)

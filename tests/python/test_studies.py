@@ -61,7 +61,7 @@ class Sections(Case):
         refuse(isoroll.BadArgument, "tolerance is nan", tolerance=np.nan, about="tolerance")
         refuse(isoroll.BadInput, "", at=[[np.nan, 0]])
         refuse(isoroll.BadArgument, "shape (3,)", at=[1, 2, 3])
-        refuse(isoroll.BadArgument, "must be one of", models="neither")
+        refuse(isoroll.BadArgument, "valid are", models="neither")
         refuse(isoroll.BadInput, "", at=[[0, 2]])
         self.refuses(isoroll.BadInput, "", isoroll.section, example("10_bowl"))
 
