@@ -20,24 +20,39 @@ static void print_folded(const char *text, FILE *to)
     fputc('\n', to);
 }
 
-static void print_row(const option_row *r, FILE *to)
+/* The words of a line of text behind `column` characters; further lines begin behind `indent` blanks. */
+static void print_hanging(const char *text, int column, int indent, FILE *to)
 {
-    const int length = (int)strlen(r->name), name = length > 10 ? length : 10; /* then fewer blanks */
-    fprintf(to, "  --%-*s %-*s %s", name, r->name, 19 - name, r->argument ? r->argument : "", r->doc);
-    if (r->letter && r->argument)
-        fprintf(to, " (-%c %s)", r->letter, r->argument);
-    else if (r->letter)
-        fprintf(to, " (-%c)", r->letter);
+    while (*text && *text != '\n') {
+        const int word = (int)strcspn(text, " \n");
+        if (column + 1 + word > WIDTH) column = fprintf(to, "\n%*s", indent, "") - 1;
+        column += fprintf(to, " %.*s", word, text);
+        text += word;
+        text += strspn(text, " ");
+    }
     fputc('\n', to);
 }
 
-/* Each line of text after two blanks. */
+static void print_row(const option_row *r, FILE *to)
+{
+    const int length = (int)strlen(r->name), name = length > 10 ? length : 10; /* then fewer blanks */
+    char doc[512];
+    const int used = snprintf(doc, sizeof doc, "%s", r->doc);
+    if (r->letter && used < (int)sizeof doc)
+        snprintf(doc + used, sizeof doc - (size_t)used, " (-%c%s%s)", r->letter, r->argument ? " " : "",
+                 r->argument ? r->argument : "");
+    const int column = fprintf(to, "  --%-*s %-*s", name, r->name, 19 - name, r->argument ? r->argument : "");
+    print_hanging(doc, column, 24, to);
+}
+
+/* Each line of text after two blanks; a long one goes on further right. */
 static void print_indented(const char *text, FILE *to)
 {
     while (*text) {
-        const size_t length = strcspn(text, "\n");
-        fprintf(to, "  %.*s\n", (int)length, text);
-        text += length + (text[length] == '\n');
+        fputc(' ', to);
+        print_hanging(text, 1, 4, to);
+        text += strcspn(text, "\n");
+        text += *text == '\n';
     }
 }
 

@@ -121,6 +121,7 @@ for command in $commands; do
     run 0 help "$command"
     check "help $command" cmp out "help.$command"
 done
+check "no line of help is longer than 100 characters" test -z "$(cat help.* | awk 'length > 100')"
 run 0 --help
 mv out help.program
 run 0 help
