@@ -70,13 +70,6 @@ iso_effects iso_effects_acting(const iso_effects *effects)
     return acting;
 }
 
-const iso_effect *iso_effects_idle(const iso_effects *effects)
-{
-    int e = 0;
-    while (e < ISO_EFFECTS && !(effects->on[e] && effects->idle[e])) e++;
-    return e < ISO_EFFECTS ? iso_effect_list[e] : NULL;
-}
-
 const char *iso_effect_why_broken(const iso_effect *effect)
 {
     if (effect->breaks) return effect->breaks;

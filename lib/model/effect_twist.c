@@ -141,7 +141,8 @@ static bool keeps_normal(const iso_problem *f)
 {
     bool orthogonal = true;
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
-        if (e != ISO_TWIST && iso_effect_acts(&f->effects, e)) orthogonal = orthogonal && iso_effect_list[e]->potential;
+        if (e != ISO_TWIST && iso_effect_acts(&f->effects, e))
+            orthogonal = orthogonal && iso_effect_list[e]->potential;
     return f->p.k == 1 && c_of(f) == 0 && orthogonal;
 }
 

@@ -250,6 +250,13 @@ void iso_effects_settle(const iso_params *p, const double normal[3], iso_effects
     }
 }
 
+const iso_effect *iso_effects_idle(const iso_effects *effects)
+{
+    int e = 0;
+    while (e < ISO_EFFECTS && !(effects->on[e] && effects->idle[e])) e++;
+    return e < ISO_EFFECTS ? iso_effect_list[e] : NULL;
+}
+
 iso_status iso_effects_check(iso_context *ctx, const iso_params *p, const double normal[3], iso_effects *effects)
 {
     ISO_DEFAULT_ARITHMETIC;

@@ -310,14 +310,16 @@ static iso_status choose_length(estimator *e, double speed, const iso_frequencie
     const double needed = 8 * length * fast; /* for each turn of the ball */
     if ((double)e->count >= needed) return ISO_OK;
     if (needed <= ISO_MOST_SAMPLES)
-        return iso_context_fail(e->ctx, ISO_BAD_ARGUMENT, "samples",
-                                "%zu samples of %g turns of the ball are fewer than 8 for each turn: take %.0f or more",
-                                e->count, length * fast, ceil(needed));
+        return iso_context_fail(
+            e->ctx, ISO_BAD_ARGUMENT, "samples",
+            "%zu samples of %g turns of the ball are fewer than 8 for each turn: take %.0f or more", e->count,
+            length * fast, ceil(needed));
     const double most = ISO_MOST_SAMPLES / (8 * fast); /* in t */
-    return iso_context_fail(e->ctx, ISO_BAD_ARGUMENT, isnan(o->end) ? "turns" : "end",
-                            "an estimate takes %d samples, 8 for each turn of the ball: take %.0f turns, or t = %.6g, "
-                            "at most",
-                            ISO_MOST_SAMPLES, floor(most / turn), most * (1 - 1e-6));
+    return iso_context_fail(
+        e->ctx, ISO_BAD_ARGUMENT, isnan(o->end) ? "turns" : "end",
+        "an estimate takes %d samples, 8 for each turn of the ball: take %.0f turns, or t = %.6g, "
+        "at most",
+        ISO_MOST_SAMPLES, floor(most / turn), most * (1 - 1e-6));
 }
 
 /* Checks the scene, and chooses the length of the orbit. */
@@ -349,8 +351,7 @@ iso_status iso_frequencies_estimate(iso_context *ctx, const iso_scene *scene, co
     if (status == ISO_OK) status = iso_frequencies_check(ctx, &own);
     if (status != ISO_OK) return status;
     const bool fixed = !isnan(own.turns) || !isnan(own.end) || !isnan(own.samples);
-    estimator e = {
-        .ctx = ctx, .scene = scene, .fixed = fixed, .effects = iso_scene_acting(scene), .f = f};
+    estimator e = {.ctx = ctx, .scene = scene, .fixed = fixed, .effects = iso_scene_acting(scene), .f = f};
     e.progress = own.progress;
     e.data = own.data;
     iso_frequencies_blank(f);

@@ -22,7 +22,8 @@ static iso_status choose_unit(iso_context *ctx, const iso_params *p, iso_params 
 static iso_status choose_level(iso_context *ctx, iso_point_motion m, double unit, iso_problem *f)
 {
     const double eps = m.energy == 0 ? 1 : m.eps * pow(unit, -1 / m.p->k), k = m.p->k;
-    const double least = m.energy + eps * pow(min3(f->p.J), -1 / k), most = m.energy + eps * pow(max3(f->p.J), -1 / k);
+    const double least = m.energy + eps * pow(min3(f->p.J), -1 / k),
+                 most = m.energy + eps * pow(max3(f->p.J), -1 / k);
     const double size = 2 * fmax(least, most);
     if (!(size > 0 && isfinite(size)))
         return iso_context_fail(ctx, ISO_BAD_INPUT, "M", "on this level the point can only be at rest");

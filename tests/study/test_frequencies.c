@@ -9,8 +9,8 @@
 #include "base/vec3_impl.h"
 #include "exact/coordinates.h"
 #include "laws.h"
-#include "numbers.h"
 #include "map/state.h"
+#include "numbers.h"
 #include "study/frequencies.h"
 
 static iso_context *ctx;
@@ -321,8 +321,8 @@ static void check_advice(void)
         const char *advice = strstr(iso_context_message(ctx), "take ");
         gsl_test(!advice || sscanf(advice, "take %lf turns", &o.turns) != 1, "k = %g: turns are advised", k[i]);
         iso_context_set_monitor(ctx, never, NULL);
-        gsl_test_int((int)iso_frequencies_find(ctx, &scene, &o, &f), ISO_STOPPED, "k = %g: %g turns are accepted", k[i],
-                     o.turns);
+        gsl_test_int((int)iso_frequencies_find(ctx, &scene, &o, &f), ISO_STOPPED, "k = %g: %g turns are accepted",
+                     k[i], o.turns);
         iso_context_set_monitor(ctx, NULL, NULL);
         o.samples = 512;
         refuses(&scene, &o, ISO_BAD_ARGUMENT, "samples");
