@@ -82,11 +82,11 @@ static void keep_name(void *data, const char *name)
     json_array_append_new(data, json_string(name));
 }
 
-/* Columns of other programs never come so far that they could be compared. */
+/* Columns that are none of a trajectory never come so far that they could be compared. */
 static void keep_ignored(const iso_trajectory_reader *in, json_t *unseen)
 {
     const char *ignored = iso_trajectory_ignored(in);
-    if (ignored) json_array_append_new(unseen, json_sprintf("columns of others: %s", ignored));
+    if (ignored) json_array_append_new(unseen, json_sprintf("other columns: %s", ignored));
 }
 
 static iso_status end_check(iso_checking *checking, const iso_trajectory_reader *in, findings *f)
@@ -114,6 +114,7 @@ static iso_status check_rows(iso_context *ctx, const options *o, iso_trajectory_
     while (status == ISO_OK) {
         for (; passed < iso_trajectory_passed(in); passed++) iso_checking_pass(checking);
         if (!more) break;
+        if (iso_trajectory_begins_orbit(in)) iso_checking_begin_orbit(checking);
         status = iso_checking_put(checking, row);
         if (status == ISO_OK) status = iso_trajectory_next(ctx, in, row, &more);
     }
@@ -175,13 +176,16 @@ const command command_check = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
-    .takes = FILE_ROWS,
+    .takes = FILE_ROWS | FILE_ORBITS,
     .description =
         "Prints residuals: of constraints, of integrals, of every column, and of the # lines that state an "
         "energy or how the ball began. Residuals are relative. The residual 'flow' integrates each row to "
         "the time of the next row and compares. Rows are read one after the other, in constant memory.\n\n"
         "The last line, 'not looked at', names the columns and # lines on which no residual depends: they "
         "may hold anything. All others are noticed if they are off by a millionth.\n\n"
+        "A file can hold several orbits of one energy: of section with --as, and of periodic -o, where each row is "
+        "an orbit. Another orbit begins where the column 'orbit' changes. No flow goes from one orbit to the "
+        "next.\n\n"
         "Rows of nan, which convert writes, are passed over and counted.",
     .example = "isoroll check trajectory.csv --max 1e-9",
     .exits = "1: a residual is larger than --max",

@@ -70,6 +70,10 @@ static iso_status put_bad(void *data, size_t line, iso_status why, const char *w
 static iso_status filter_row(filter *f, double row[], bool *more)
 {
     const iso_status status = iso_trajectory_next(f->ctx, f->in, row, more);
+    if (status == ISO_OK && *more && iso_trajectory_begins_orbit(f->in))
+        return iso_context_fail(f->ctx, ISO_BAD_INPUT, "",
+                                "line %zu: here another orbit begins; convert takes a file of one orbit",
+                                iso_trajectory_line(f->in));
     if (status == ISO_OK) return *more ? iso_conversion_put(f->conversion, row, iso_trajectory_line(f->in)) : ISO_OK;
     if (status != ISO_BAD_INPUT || f->o->strict) return status;
     name_bad_row(f, 0, iso_context_message(f->ctx));

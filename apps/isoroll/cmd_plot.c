@@ -227,7 +227,7 @@ const command command_plot = {
     .defaults = &defaults,
     .size = sizeof defaults,
     .file = offsetof(options, from.file),
-    .takes = FILE_ROWS | FILE_RESULT | FILE_TABLE,
+    .takes = FILE_ROWS | FILE_RESULT | FILE_TABLE | FILE_ORBITS,
     .description = "-o FILE is needed; its ending chooses the format. The path and the clock of the other model are "
                    "computed, where the orbit has a twin. If the file has the columns of the effect attitude, the "
                    "picture also shows the path of the ball from above and from the side; if it has those of "

@@ -28,9 +28,9 @@ static unsigned kind_of_table(const char *line)
     static const struct {
         const char *name;
         unsigned kind;
-    } kinds[] = {
-        {"trajectory ", FILE_TRAJECTORY}, {"section ", FILE_SECTION}, {"sweep ", FILE_RESULT}, {"chaos ", FILE_TABLE},
-        {"periodic ", FILE_TABLE},        {"splitting ", FILE_TABLE}, {"cost ", FILE_TABLE}};
+    } kinds[] = {{"trajectory ", FILE_TRAJECTORY}, {"section ", FILE_SECTION},  {"sweep ", FILE_RESULT},
+                 {"chaos ", FILE_TABLE},           {"periodic 1", FILE_ORBITS}, {"periodic ", FILE_TABLE},
+                 {"splitting ", FILE_TABLE},       {"cost ", FILE_TABLE}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (strncmp(line, kinds[i].name, strlen(kinds[i].name)) == 0) return kinds[i].kind;
     return 0;
@@ -82,7 +82,8 @@ static const char *name_of(unsigned kind)
     case FILE_TRAJECTORY: return "a trajectory";
     case FILE_SECTION: return "a section";
     case FILE_RESULT: return "the result of a sweep";
-    case FILE_TABLE: return "a table";
+    case FILE_TABLE: return "a table, with no states of one scene";
+    case FILE_ORBITS: return "a table of periodic orbits";
     default: return "an HDF5 file";
     }
 }

@@ -20,8 +20,8 @@ enum { ISO_LONGEST_LINE = 1 << 16, ISO_MOST_FIELDS = 1024 };
 /* How a row is read. */
 typedef struct iso_csv_format {
     char separator;                /* ',', ';', or ' ' for blanks                                       */
-    size_t fields, columns;        /* columns: of the record                                            */
-    short column[ISO_MOST_FIELDS]; /* of the record, for each field of the file; -1: passed over        */
+    size_t fields, columns;        /* columns: the numbers of a row                                     */
+    short column[ISO_MOST_FIELDS]; /* of the row, for each field of the file; -1: passed over           */
     locale_t plain;                /* the C locale                                                      */
 } iso_csv_format;
 

@@ -24,6 +24,7 @@ typedef struct csv {
     iso_csv_lines *lines;
     iso_csv_format format;
     bool ours, again;               /* the file has our first line; the line is to be read once more */
+    size_t orbit;                   /* the field of that name, from 1; 0: there is none              */
     bool callers;                   /* `line` is the caller's names of columns, no line of the file  */
     char *line;                     /* without its end                                               */
     size_t length, number;          /* number: of the line, from 1                                   */
@@ -181,7 +182,9 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
             return fail(c, f.text, "expected a line of column names such as t,omega1,omega2,... before the numbers",
                         "; without one, --columns t,omega1,... names them");
         if (known < 0) {
-            status = skip_column(c, &f, named);
+            const bool orbit = !c->ours && c->orbit == 0 && strcmp(f.text, ISO_ORBIT_COLUMN) == 0;
+            if (orbit) c->orbit = c->format.fields + 1;
+            if (!orbit || !named) status = skip_column(c, &f, named);
             continue;
         }
         for (size_t i = 0; i < count; i++)
@@ -245,7 +248,8 @@ static iso_status fail_number(const csv *c, char *start, size_t i)
     const field f = next_field(c->format.separator, &rest);
     const bool comma = c->format.separator != ',' && memchr(f.text, ',', f.length);
     snprintf(detail, sizeof detail, comma ? "%s, with a decimal point, not '%s'" : "%s, not '%s'",
-             iso_record_name(c->r->header, (size_t)c->format.column[i]), iso_text_quote(quoted, f.text, f.length));
+             i + 1 == c->orbit ? ISO_ORBIT_COLUMN : iso_record_name(c->r->header, (size_t)c->format.column[i]),
+             iso_text_quote(quoted, f.text, f.length));
     return fail(c, f.text, "expected a finite number for ", detail);
 }
 
@@ -276,14 +280,22 @@ static bool is_nan_row(const csv *c)
 static iso_status csv_next(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more)
 {
     csv *c = r->data;
+    double own[ISO_TRAJECTORY_COLUMNS + 1];
+    const double *numbers = own;
     c->ctx = ctx;
     iso_status status = next_data(c, more);
     for (; status == ISO_OK && *more && !c->row && r->passes && is_nan_row(c); r->passed++)
         status = next_data(c, more);
     r->line = c->number;
     if (status != ISO_OK || !*more) return status;
-    if (!c->row) return read_row(c, row);
-    memcpy(row, c->row, c->format.columns * sizeof *row);
+    if (c->row)
+        numbers = c->row;
+    else
+        status = read_row(c, own);
+    if (status != ISO_OK) return status;
+    const size_t columns = iso_record_columns(r->header);
+    memcpy(row, numbers, columns * sizeof *row);
+    r->orbit = c->orbit > 0 ? numbers[columns] : 0;
     return ISO_OK;
 }
 
@@ -313,6 +325,7 @@ static iso_status csv_open(iso_context *ctx, iso_trajectory_reader *r, const cha
     if (status == ISO_OK) status = read_header(c, columns);
     if (status != ISO_OK) return status;
     c->format.columns = iso_record_columns(r->header);
+    if (c->orbit > 0) c->format.column[c->orbit - 1] = (short)c->format.columns++;
     iso_csv_lines_read_rows(c->lines, &c->format);
     return ISO_OK;
 }

@@ -42,12 +42,12 @@ typedef struct iso_hdf5_set {
 typedef struct iso_hdf5_store {
     hid_t file;
     int sets;
-    iso_hdf5_set set[ISO_TRAJECTORY_COLUMNS];
-    size_t columns, filled, next; /* rows in the block; the one read next       */
-    hsize_t rows;                 /* in the file: to be read, or written so far */
-    hsize_t begun;                /* of the block that is being read            */
-    double *block, *packed;       /* rows; a dataset's part of them             */
-    iso_replacement replacement;  /* of a writer                                */
+    iso_hdf5_set set[ISO_TRAJECTORY_COLUMNS + 1]; /* the last: the orbits of a section */
+    size_t columns, filled, next;                 /* rows in the block; the one read next       */
+    hsize_t rows;                                 /* in the file: to be read, or written so far */
+    hsize_t begun;                                /* of the block that is being read            */
+    double *block, *packed;                       /* rows; a dataset's part of them             */
+    iso_replacement replacement;                  /* of a writer                                */
     int descriptor;
 } iso_hdf5_store;
 

@@ -39,8 +39,9 @@ static iso_status read_attribute(iso_context *ctx, iso_trajectory_reader *r, hid
         text[strcspn(text, "\r\n")] = '\0';
         if (strcmp(key, "format") != 0)
             status = iso_record_set(ctx, r->header, key, text);
-        else if (strcmp(text, ISO_HDF5_FORMAT) != 0)
-            status = bad_file(ctx, r, "expected the format 'isoroll trajectory 1', not ", text);
+        else if (strcmp(text, ISO_HDF5_FORMAT) != 0 && strcmp(text, "isoroll section 1") != 0)
+            status =
+                bad_file(ctx, r, "expected the format 'isoroll trajectory 1' or 'isoroll section 1', not ", text);
     }
     H5Sclose(space);
     H5Tclose(type);
@@ -95,10 +96,25 @@ static iso_status add_set(iso_context *ctx, iso_trajectory_reader *r, hid_t id, 
     return ISO_OK;
 }
 
+/* The datasets that only sections have. Of these the numbers of the orbits are read, behind the others of a row. */
+static iso_status find_orbit(iso_context *ctx, iso_trajectory_reader *r, const char *names[], size_t *columns)
+{
+    static const char *const group = "section", *const sets[] = {ISO_ORBIT_COLUMN, "crossing", "l", "x"};
+    const iso_hdf5_store *s = r->data;
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
+        char path[32];
+        const size_t used = strlen(r->ignored);
+        snprintf(path, sizeof path, "/%s/%s", group, sets[i]);
+        if (H5Lexists(s->file, group, H5P_DEFAULT) <= 0 || H5Lexists(s->file, path, H5P_DEFAULT) <= 0) continue;
+        snprintf(r->ignored + used, sizeof r->ignored - used, "%s'%s'", used ? ", " : "", sets[i]);
+    }
+    return add_set(ctx, r, open_set(s->file, group, ISO_ORBIT_COLUMN), ISO_ORBIT_COLUMN, 0, 1, names, columns);
+}
+
 static iso_status find_sets(iso_context *ctx, iso_trajectory_reader *r)
 {
     iso_hdf5_store *s = r->data;
-    const char *names[ISO_TRAJECTORY_COLUMNS];
+    const char *names[ISO_TRAJECTORY_COLUMNS + 1];
     size_t columns = 0;
     iso_hdf5_part parts[ISO_HDF5_PARTS];
     iso_status status = ISO_OK;
@@ -114,9 +130,11 @@ static iso_status find_sets(iso_context *ctx, iso_trajectory_reader *r)
     }
     if (status == ISO_OK && columns == 0)
         status = bad_file(ctx, r, "no dataset of a trajectory, such as /clock/t or /ball/omega", "");
+    size_t numbers = columns;
+    if (status == ISO_OK) status = find_orbit(ctx, r, names, &numbers);
     if (status != ISO_OK) return status;
     status = iso_trajectory_name_columns(ctx, r, columns, names);
-    if (status == ISO_OK && !iso_hdf5_store_room(s, columns))
+    if (status == ISO_OK && !iso_hdf5_store_room(s, numbers))
         status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
     return status;
 }
@@ -168,9 +186,12 @@ static iso_status take_row(iso_context *ctx, iso_trajectory_reader *r, double ro
 {
     iso_hdf5_store *s = r->data;
     const iso_status status = s->next == s->filled ? read_block(ctx, r) : ISO_OK;
+    const size_t columns = iso_record_columns(r->header);
     *more = status == ISO_OK && s->next < s->filled;
     if (!*more) return status;
-    memcpy(row, s->block + s->next++ * s->columns, s->columns * sizeof *row);
+    const double *numbers = s->block + s->next++ * s->columns;
+    memcpy(row, numbers, columns * sizeof *row);
+    r->orbit = s->columns > columns ? numbers[columns] : 0;
     r->line++;
     return ISO_OK;
 }
@@ -184,11 +205,11 @@ static bool is_nan_row(const double row[], size_t columns)
 
 static iso_status hdf5_next(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more)
 {
-    const iso_hdf5_store *s = r->data;
+    const size_t columns = iso_record_columns(r->header);
     iso_status status = take_row(ctx, r, row, more);
-    for (; *more && r->passes && is_nan_row(row, s->columns); r->passed++) status = take_row(ctx, r, row, more);
+    for (; *more && r->passes && is_nan_row(row, columns); r->passed++) status = take_row(ctx, r, row, more);
     if (!*more) return status;
-    for (size_t i = 0; i < s->columns; i++)
+    for (size_t i = 0; i < columns; i++)
         if (!isfinite(row[i]))
             return iso_context_placed(ctx, iso_context_fail(ctx, ISO_BAD_INPUT, "",
                                                             "%s:%zu: expected a finite number for %s", r->name,

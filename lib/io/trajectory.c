@@ -68,7 +68,17 @@ iso_record *iso_trajectory_header(iso_trajectory_reader *r)
 iso_status iso_trajectory_next(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more)
 {
     ISO_DEFAULT_ARITHMETIC;
-    return r->format->next(ctx, r, row, more);
+    const double before = r->orbit;
+    const iso_status status = r->format->next(ctx, r, row, more);
+    if (status != ISO_OK || !*more) return status;
+    r->begins = r->any && r->orbit != before;
+    r->any = true;
+    return ISO_OK;
+}
+
+bool iso_trajectory_begins_orbit(const iso_trajectory_reader *r)
+{
+    return r->begins;
 }
 
 size_t iso_trajectory_line(const iso_trajectory_reader *r)

@@ -63,6 +63,10 @@ ISO_API iso_record *iso_trajectory_header(iso_trajectory_reader *reader);
  * ISO_STOPPED when a signal comes while a pipe is waited for and the context's monitor says so. */
 ISO_API iso_status iso_trajectory_next(iso_context *ctx, iso_trajectory_reader *reader, double row[], bool *more);
 
+/* Whether the row read last is of another orbit than the row before it: it has another number in the column `orbit`,
+ * as files of several orbits have it. */
+ISO_API bool iso_trajectory_begins_orbit(const iso_trajectory_reader *reader);
+
 /* From now on rows that are nan in every column are passed over; otherwise they are ISO_BAD_INPUT, as are rows that
  * are nan in some columns. */
 ISO_API void iso_trajectory_pass_nan(iso_trajectory_reader *reader);

@@ -34,8 +34,13 @@ struct iso_trajectory_reader {
     char ignored[512]; /* "": nothing */
     bool passes;       /* over rows of nan, which are counted */
     size_t passed;
+    double orbit;     /* the format sets it with each row: the number of its orbit */
+    bool any, begins; /* a row was read; the last one is of another orbit than the one before */
     void *data;
 };
+
+/* The column of a file of several orbits that tells them apart. It is no column of a trajectory. */
+#define ISO_ORBIT_COLUMN "orbit"
 
 /* The reader's header gets columns, and keeps its lines. */
 iso_status iso_trajectory_name_columns(iso_context *ctx, iso_trajectory_reader *r, size_t count,

@@ -152,16 +152,22 @@ static iso_status open_first(checker *c, checked_model *m, const double row[])
     for (int e = 0; e < ISO_EFFECTS; e++) c->effects.idle[e] = c->effects.idle[e] || effects.idle[e];
     iso_orbit_options o = iso_orbit_defaults(&start);
     o.effects = &effects;
-    status = iso_orbit_create(c->ctx, c->params, &start, &o, &m->orbit);
-    if (status != ISO_OK) return status;
-    iso_checker_expect(c, m, row);
-    return ISO_OK;
+    return iso_orbit_create(c->ctx, c->params, &start, &o, &m->orbit);
 }
 
-/* What only the first row of a model is asked. */
+static void forget_flow(checked_model *m)
+{
+    iso_two_point_free(m->quadrature);
+    iso_orbit_free(m->way);
+    m->quadrature = NULL;
+    m->way = NULL;
+}
+
+/* What only the first row of an orbit is asked. */
 static iso_status begin_model(checker *c, checked_model *m, const double row[])
 {
     for (int i = 0; i < ISO_STATE; i++) c->looked[m->first + i] = true;
+    forget_flow(m);
     const iso_status status = iso_checker_energy(c, m, row);
     return status == ISO_OK ? iso_checker_flow_begin(c, m, row) : status;
 }
@@ -170,12 +176,12 @@ static iso_status check_model(checker *c, checked_model *m, const double row[])
 {
     iso_start start;
     iso_effects effects = iso_checker_effects(c, m->kind);
-    const bool first = !m->orbit;
-    iso_status status = first ? open_first(c, m, row) : find_start(c, m, row, &start, &effects);
+    iso_status status = m->orbit ? find_start(c, m, row, &start, &effects) : open_first(c, m, row);
     if (status != ISO_OK) return status;
+    if (c->begins) iso_checker_expect(c, m, row);
     iso_checker_integrals(c, m, row);
     if (m->kind == ISO_BALL) iso_checker_beginning(c, m, row);
-    return first ? begin_model(c, m, row) : iso_checker_flow(c, m, row);
+    return c->begins ? begin_model(c, m, row) : iso_checker_flow(c, m, row);
 }
 
 static void check_map(checker *c, const double row[])
@@ -202,7 +208,13 @@ iso_status iso_checking_put(iso_checking *checking, const double row[])
     if (c->model[0].there && c->model[1].there) check_map(c, row);
     if (c->rows <= 2) memcpy(c->rows == 1 ? c->first : c->second, row, c->width * sizeof *row);
     memcpy(c->last, row, c->width * sizeof *row);
+    c->begins = false;
     return ISO_OK;
+}
+
+void iso_checking_begin_orbit(iso_checking *checking)
+{
+    checking->all.begins = true;
 }
 
 void iso_checking_pass(iso_checking *checking)
@@ -248,8 +260,7 @@ void iso_checking_free(iso_checking *checking)
 {
     if (!checking) return;
     for (int k = 0; k < 2; k++) {
-        iso_two_point_free(checking->all.model[k].quadrature);
-        iso_orbit_free(checking->all.model[k].way);
+        forget_flow(&checking->all.model[k]);
         iso_orbit_free(checking->all.model[k].orbit);
     }
     free(checking->all.last);
@@ -262,7 +273,7 @@ iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const
     ISO_DEFAULT_ARITHMETIC;
     iso_checking *made = *checking = calloc(1, sizeof *made);
     if (!made) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
-    made->all = (checker){.ctx = ctx, .params = params, .record = header, .tolerance = tolerance};
+    made->all = (checker){.ctx = ctx, .params = params, .record = header, .tolerance = tolerance, .begins = true};
     made->all.last = calloc(3 * iso_record_columns(header) + 1, sizeof *made->all.last);
     made->all.first = made->all.last ? made->all.last + iso_record_columns(header) : NULL;
     made->all.second = made->all.first ? made->all.first + iso_record_columns(header) : NULL;
@@ -285,8 +296,13 @@ iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_recor
     *residuals = (iso_residuals){.rows = 0};
     iso_status status = iso_checking_create(ctx, params, record, tolerance, &c);
     if (status != ISO_OK) return status;
-    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(record); row++)
-        status = iso_checking_put(c, iso_record_const_row(record, row));
+    const int orbit = iso_record_find(record, "orbit");
+    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(record); row++) {
+        const double *x = iso_record_const_row(record, row);
+        if (orbit >= 0 && row > 0 && x[orbit] != iso_record_const_row(record, row - 1)[orbit])
+            iso_checking_begin_orbit(c);
+        status = iso_checking_put(c, x);
+    }
     if (status == ISO_OK) status = iso_checking_end(c, residuals);
     iso_checking_free(c);
     return status;
@@ -325,7 +341,9 @@ static iso_status look_at_rows(checker *c, checked_model *m, const iso_record *r
         if (status == ISO_OK) status = find_start(c, m, iso_record_const_row(rows, row), &start, &effects);
     }
     c->number = 1;
-    return status == ISO_OK ? open_first(c, m, iso_record_const_row(rows, 0)) : status;
+    if (status == ISO_OK) status = open_first(c, m, iso_record_const_row(rows, 0));
+    if (status == ISO_OK) iso_checker_expect(c, m, iso_record_const_row(rows, 0));
+    return status;
 }
 
 iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, iso_record **drifts)

@@ -24,9 +24,11 @@ typedef struct iso_residuals {
     iso_residual residual[ISO_MAX_RESIDUALS];
 } iso_residuals;
 
-/* Looks at every model whose six columns the record has:
+/* A record with the column `orbit` holds several orbits of one energy; another begins where that number changes.
+ * Looks at every model whose six columns the record has:
  * - constraints (|n| = 1, (w,n) = 0; |gamma| = 1, (M,gamma) = 0), relative to the lengths of the vectors;
- * - integrals that hold for k and J: |I(row) - I(first row)| / size (iso_integral). H of a point must be 0, not its
+ * - integrals that hold for k and J: |I(row) - I(first row of the orbit)| / size (iso_integral); of the energy the
+ *   first row of all. H of a point must be 0, not its
  *   first value, if the record has a ball's columns or clocks;
  * - flow: each row is integrated to the time of the next row (at `tolerance`) and compared with it, relative to the
  *   largest component of omega or M, and to 1 for n and gamma. The record must have a clock for this;
@@ -35,7 +37,7 @@ typedef struct iso_residuals {
  * - the map: if the record has both models, each row's point against the point that belongs to its ball;
  * - clocks: if the record has two of t, tau, s, the steps of the second along the first, relative to its whole
  *   length;
- * - lines: h, eps and c of a level against the first row, relative to the size of the terms of the energy; numbers
+ * - lines: h, eps and c of a level against the first row of each orbit, relative to the size of the terms of the energy; numbers
  *   that turn with the ball (`# gravity.up`, `# attitude.quaternion`) against a row at time 0. Other lines are the
  *   numbers of the equations that all this is done with.
  * Errors, with the row: ISO_BAD_INPUT (no model's columns, a row that is no state, a time that is not finite),
@@ -46,7 +48,7 @@ ISO_API iso_status iso_check(iso_context *ctx, const iso_params *params, const i
 /* --- row by row ---------------------------------------------------------------------------------------------------
  *
  *     iso_checking_create(ctx, &params, header, 1e-13, &c);
- *     while (next(row)) status = iso_checking_put(c, row);
+ *     while (next(row)) status = iso_checking_put(c, row); (before it iso_checking_begin_orbit, where one begins)
  *     status = iso_checking_end(c, &residuals);
  *     iso_checking_free(c);
  *
@@ -63,6 +65,10 @@ ISO_API void iso_checking_free(iso_checking *checking);
 /* The next row: as many numbers as the header has columns. Errors: those of iso_check. */
 ISO_API iso_status iso_checking_put(iso_checking *checking, const double row[]);
 
+/* The next row is the first of another orbit, of the same energy: no flow goes to it from the row before, and the
+ * integrals but the energy may have other values. */
+ISO_API void iso_checking_begin_orbit(iso_checking *checking);
+
 /* Call this in the place of a row of nan: it is counted, and the flow goes from the row before to the one behind. */
 ISO_API void iso_checking_pass(iso_checking *checking);
 
@@ -71,7 +77,8 @@ ISO_API iso_status iso_checking_end(iso_checking *checking, iso_residuals *resid
 
 /* What the check does not look at: columns that nothing was compared with, and lines in which each number can be
  * another by a millionth, or the words others, without any residual to show it. This is tried, number by number, at
- * the first row and a little later. Calls `tell` for each: "mu", "# tolerance", "# J, number 2". Call it after
+ * the first row and a little later. Calls `tell` for each: "mu", "# tolerance", "# J, number 2"; and "the flow from row
+ * to row" where no orbit has two rows, or no clock. Call it after
  * iso_checking_end. Errors: ISO_NO_MEMORY, ISO_STOPPED. */
 ISO_API iso_status iso_checking_unseen(iso_checking *checking, void (*tell)(void *data, const char *name),
                                        void *data);

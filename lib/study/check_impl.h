@@ -60,7 +60,8 @@ struct checker {
     size_t width;                        /* of a row                               */
     size_t rows, passed, number,
         before;              /* rows so far; passed over; the number of the row in hand, and of the last */
-    double *last;            /* that row                               */
+    bool begins;             /* the row in hand is the first of its orbit */
+    double *last;            /* the last row                           */
     double *first, *second;  /* the first two                          */
     double span[ISO_CLOCKS]; /* largest |clock| so far                 */
     iso_units units;         /* for the map                            */
@@ -99,7 +100,7 @@ double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE]
 
 /* --- check_integrals.c ------------------------------------------------------------------------------------------ */
 
-/* The first row gives the values. */
+/* The first row of an orbit gives the values. */
 void iso_checker_expect(const checker *c, checked_model *m, const double first[]);
 
 void iso_checker_integrals(const checker *c, checked_model *m, const double row[]);

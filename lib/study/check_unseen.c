@@ -55,7 +55,7 @@ static iso_status go_later(const trial *t, const checked_model *m, bool *gone)
     const checker *c = t->c;
     iso_orbit *orbit = NULL;
     iso_sample sample;
-    if (!m->there || m->clock < 0) return ISO_OK;
+    if (!m->followed) return ISO_OK;
     iso_status status = iso_checker_open(c, m, c->first, &orbit);
     if (status != ISO_OK) return status;
     const int column = c->columns[m->clock];
@@ -67,11 +67,17 @@ static iso_status go_later(const trial *t, const checked_model *m, bool *gone)
     return status;
 }
 
+/* Whether any row was integrated to the next. */
+static bool followed(const checker *c)
+{
+    return c->model[ISO_BALL].followed || c->model[ISO_POINT].followed;
+}
+
 static iso_status make_later(trial *t)
 {
     const checker *c = t->c;
     bool gone = false;
-    if (c->rows < 2) return ISO_OK;
+    if (!followed(c)) return ISO_OK;
     t->later = calloc(c->width + 1, sizeof *t->later);
     if (!t->later) return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory for a check");
     memcpy(t->later, c->first, c->width * sizeof *t->later);
@@ -224,6 +230,7 @@ iso_status iso_checking_unseen(iso_checking *checking, void (*tell)(void *data, 
     ISO_DEFAULT_ARITHMETIC;
     checker *c = &checking->all;
     trial t = {.c = c};
+    if (!followed(c)) tell(data, "the flow from row to row");
     for (size_t i = 0; i < c->width; i++) {
         const int column = iso_column_find(iso_record_name(c->record, i));
         if (column < 0 || !c->looked[column]) tell(data, iso_record_name(c->record, i));
