@@ -209,6 +209,38 @@ done
 check "--json has the residuals" grep -q '"name": "# gravity.up"' out
 run 0 check tilted.csv
 check "the table says it, too" grep -qx "not looked at: # model, # backend, # method, # tolerance, # isoroll" out
+# --- several orbits in one file: each for itself, all on the level of the lines
+cat >several.yaml <<END
+point: {k: 0.5, J: [1.4, 2.1, 3], eps: 1}
+initial: {gamma: [0.6, 0, 0.8], M: [0, 0.5, 0]}
+time: {end: 10}
+END
+formats=csv
+"$isoroll" run several.yaml -o several.h5 2>/dev/null && formats="csv h5"
+for format in $formats; do
+    run 0 section several.yaml --starts 3 --crossings 6 --as point --quiet -o several.$format
+    run 0 check --max 1e-9 several.$format
+    check "$format: rows of all orbits" grep -qx '24 rows' out
+    check "$format: the number of the orbit is named" grep -q "^not looked at: other columns: 'orbit', 'crossing'" out
+done
+sed 's/^orbit,/number,/' several.csv >damaged.csv # without the column it would be one orbit
+finds "orbits that are taken for one" "point flow"
+# orbits 1 to 3 on another level; a row of the last one
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^[123],/ { for (i = 8; i <= 10; i++) $i *= 1.01 } { print }' several.csv >damaged.csv
+finds "the level of other orbits" "point H" "# h" "# eps"
+awk -F, -v OFS=, -v CONVFMT=%.17g '/^3,2,/ { $8 *= 1.000001; $9 *= 1.000001; $10 *= 1.000001 } { print }' several.csv >damaged.csv
+finds "a row of the last orbit" "point H" "point flow"
+refuses 3 "another orbit begins; convert takes a file of one orbit" convert several.csv --to ball --quiet -o none.csv
+check "nothing is written" test ! -e none.csv
+scene 0.5 "1, 2, 5" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 1 >half.yaml
+run 0 periodic half.yaml --period 2 -o orbits.csv
+run 0 check --max 1e-9 orbits.csv
+check "periodic: no flow" grep -q "the flow from row to row, t, tau, s" out
+sed 's/^# h: \(.*\)/# h: 1\1/' orbits.csv >damaged.csv
+finds "periodic: h" "# h"
+run 0 periodic half.yaml --period 1 --follow k=0.5:0.51 -o follow.csv
+refuses 3 "'follow.csv' is a table, with no states of one scene" check follow.csv
+
 # columns without a check are named: of others, of half a vector, of what a point does not have
 awk -F, -v OFS=, '/^# isoroll t/ { next } /^#/ { print; next } { print $0, n++ ? 5 : "colour" }' ball.csv >more.csv
 run 0 check more.csv

@@ -11,8 +11,10 @@
 #include "laws.h"
 #include "length.h"
 #include "map/level.h"
+#include "orbit/description.h"
 #include "orbit/orbit.h"
 #include "study/chaos.h"
+#include "study/check.h"
 #include "study/section.h"
 
 static iso_context *ctx;
@@ -38,11 +40,26 @@ typedef struct law {
     size_t rows;
     laws_worst H, F;
     const char *what;
+    iso_record *file; /* all that the section wrote */
 } law;
+
+static iso_status keep_header(void *data, const iso_record *header)
+{
+    law *k = data;
+    const char *names[ISO_MAX_COLUMNS], *key, *value;
+    for (size_t i = 0; i < iso_record_columns(header); i++) names[i] = iso_record_name(header, i);
+    iso_status status = iso_record_create(ctx, iso_record_columns(header), names, &k->file);
+    for (size_t i = 0; status == ISO_OK && iso_record_line(header, i, &key, &value); i++)
+        status = iso_record_set(ctx, k->file, key, value);
+    return status;
+}
 
 static iso_status see_row(void *data, const double row[], size_t count)
 {
     law *k = data;
+    double *to;
+    if (iso_record_append(ctx, k->file, &to) != ISO_OK) return ISO_NO_MEMORY;
+    memcpy(to, row, count * sizeof *to);
     const double *point = row + count - ISO_STATE;
     double size;
     const double H = iso_system_point.energy(&k->problem, point, &size);
@@ -54,6 +71,36 @@ static iso_status see_row(void *data, const double row[], size_t count)
     }
     k->rows++;
     return ISO_OK;
+}
+
+/* The largest residual of the file, by its own lines. */
+static double worst_of(const law *k)
+{
+    iso_params params;
+    iso_residuals r;
+    double worst = 0;
+    gsl_test(iso_record_params(ctx, k->file, &params) != ISO_OK ||
+                 iso_check(ctx, &params, k->file, 1e-13, &r) != ISO_OK,
+             "%s: is checked: %s", k->what, iso_context_message(ctx));
+    for (int i = 0; i < r.count; i++) worst = fmax(worst, r.residual[i].worst);
+    return worst;
+}
+
+/* The file passes its check. It does not if one row, or all rows of one orbit, have another energy. */
+static void check_file(law *k)
+{
+    const double good = worst_of(k);
+    gsl_test(!(good <= 1e-9), "%s: the section passes its check: %.2g", k->what, good);
+    const size_t rows = iso_record_rows(k->file), state = iso_record_columns(k->file) - ISO_STATE;
+    for (size_t first = rows / 5; rows >= 5 && first < rows; first += rows / 5) { /* orbits 1 to 4 */
+        for (size_t row = first; row < first + rows / 5 && row < rows; row++)
+            for (size_t i = 0; i < 3; i++) iso_record_row(k->file, row)[state + i] *= 1.001;
+        gsl_test(!(worst_of(k) > 1e-5), "%s: another level from row %zu on is found", k->what, first + 1);
+        for (size_t row = first; row < first + rows / 5 && row < rows; row++)
+            for (size_t i = 0; i < 3; i++) iso_record_row(k->file, row)[state + i] /= 1.001;
+    }
+    iso_record_free(k->file);
+    k->file = NULL;
 }
 
 static void find_integrals(law *k)
@@ -100,7 +147,7 @@ static void check_rows(void)
         iso_orbit_free(orbit);
         find_integrals(&k);
         k.what = what;
-        const iso_section_sink sink = {.row = see_row, .data = &k};
+        const iso_section_sink sink = {.header = keep_header, .row = see_row, .data = &k};
         iso_section_options o = iso_section_defaults();
         iso_section_result result;
         o.crossings = 5;
@@ -112,6 +159,7 @@ static void check_rows(void)
                  iso_context_message(ctx));
         gsl_test(!result.nature.global || k.rows - before != 25 || result.unequal > 0, "%s: %zu rows of 25, %s", what,
                  k.rows - before, result.words);
+        check_file(&k);
     }
     laws_report(&k.H, "rows of a section have the H of the scene");
     laws_report(&k.F, "and keep the further integral on every level");
