@@ -10,12 +10,12 @@ struct command;
 /* The kinds, as bits of command.takes. */
 enum {
     FILE_SCENE = 1,
-    FILE_SWEEP = 2,      /* the YAML of a sweep                                 */
-    FILE_TRAJECTORY = 4, /* `# isoroll trajectory 1`                            */
+    FILE_SWEEP = 2, /* the YAML of a sweep */
+    FILE_TRAJECTORY = 4,
     FILE_SECTION = 8,
-    FILE_RESULT = 16, /* of a sweep                                          */
-    FILE_TABLE = 32,  /* of chaos, periodic, splitting, cost: no row is a state */
-    FILE_HDF5 = 64,   /* its beginning does not tell which                   */
+    FILE_RESULT = 16, /* of a sweep */
+    FILE_TABLE = 32,  /* of chaos, periodic, splitting or cost: its rows are no states */
+    FILE_HDF5 = 64,   /* its beginning does not tell what is in it */
     FILE_ROWS = FILE_TRAJECTORY | FILE_SECTION | FILE_HDF5
 };
 

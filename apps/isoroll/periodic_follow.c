@@ -1,4 +1,4 @@
-/* periodic_follow.c - followed orbits as a list of events, as rows, as JSON and as a picture (see periodic_follow.h). */
+/* periodic_follow.c - shows followed orbits: as events, rows, JSON and a picture (see periodic_follow.h). */
 #include "periodic_follow.h"
 
 #include <math.h>

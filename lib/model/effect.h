@@ -219,7 +219,7 @@ ISO_API const char *iso_effect_why_broken(const iso_effect *effect);
 /* The first observer that only backend ball has; NULL: none. */
 const iso_effect *iso_effects_ball_only(const iso_effects *effects);
 
-/* The first effect that acts and is no level; NULL: none. */
+/* The first effect that acts, other than `level`; NULL: none. */
 const iso_effect *iso_effects_beyond_level(const iso_effects *effects);
 
 /* The first effect with which n(t) has no frequencies, and why; NULL: none. */
