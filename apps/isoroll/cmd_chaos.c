@@ -86,7 +86,7 @@ static void print_worth(const iso_chaos *c)
     if (c->own.verdict == ISO_REGULAR)
         printf("  the exponents of a regular orbit are 0: these estimates fall like 1/turns\n");
     if (longest > 0) printf("  the exponents are from %ld turns\n", longest);
-    if (rough) printf("  +- ?: so few turns do not tell the error; --exponent-turns goes on\n");
+    if (rough) printf("  +- ?: the orbit is too short to know this error; --exponent-turns makes it longer\n");
 }
 
 /* How many of the starts were followed, if not all. */
@@ -190,7 +190,7 @@ static double exponent_of(const iso_chaos *c, const iso_chaos_orbit *o)
     return NAN;
 }
 
-/* How many of the spread starts the result has; of some, nobody may have followed the orbit. */
+/* How many of the spread starts the result has; some of them may not have been followed. */
 static size_t spread_of(const iso_chaos *c)
 {
     return c->starts < c->share.asked ? c->starts : c->share.asked;
@@ -386,15 +386,14 @@ const command command_chaos = {
     .description =
         "Follows the scene's orbit from turn to turn, with two deviations beside it, until the indicators decide: "
         "regular, chaotic, or undecided after --turns. A turn is a return to a global section n_A = 0, on every "
-        "level of the energy; with effects beyond the level, it is a step of the time t. The indicators are MEGNO, "
-        "GALI_2, and the largest exponent with its error, per unit of t, tau and s. MEGNO is 2 on regular orbits, "
-        "or 0 if all neighbours turn "
-        "equally fast; on chaotic orbits it grows. GALI_2 is the sine of the angle between the deviations; on "
-        "chaotic orbits it falls exponentially. Each model is integrated by itself. Of the scene's times and "
-        "solver, only the tolerance is read.\n\n"
-        "The error of an exponent is meant so that at most one orbit in ten is off by more than two of it. A chaotic "
-        "orbit ends with its verdict, and is then often too short to know the error, which is shown as a question "
-        "mark; --exponent-turns makes it longer.\n\n"
+        "level of the energy; with effects other than 'level', it is a step of the time t. The indicators are "
+        "MEGNO, GALI_2, and the largest exponent with its error, per unit of t, tau and s. MEGNO is 2 on regular "
+        "orbits, or 0 if all neighbours turn equally fast; on chaotic orbits it grows. GALI_2 is the sine of the "
+        "angle between the deviations; on chaotic orbits it falls exponentially. Each model is integrated by "
+        "itself. Of the scene's times and solver, only the tolerance is read.\n\n"
+        "The error of an exponent is chosen so that at most one orbit in ten should be off by more than two "
+        "errors. A chaotic orbit ends with its verdict, and is then often too short to know the error, which is "
+        "shown as a question mark; --exponent-turns makes it longer.\n\n"
         "With --starts, M more orbits of the same energy start on the section, spread evenly. The part of them "
         "that is chaotic is printed with its confidence interval of 95 %. The interval comes from the scatter of "
         "16 sets of starts, each with a random shift of its own. Undecided orbits count both ways: as not chaotic "

@@ -16,7 +16,7 @@ typedef struct options {
 /* What is found out about a file. */
 typedef struct findings {
     iso_residuals residuals;
-    json_t *unseen; /* names of what nobody looked at */
+    json_t *unseen; /* names of what is not looked at */
 } findings;
 
 static bool is_bad(const options *o, const iso_residual *r)
@@ -178,11 +178,11 @@ const command command_check = {
     .file = offsetof(options, from.file),
     .takes = FILE_ROWS | FILE_ORBITS,
     .description =
-        "Prints residuals: of constraints, of integrals, of every column, and of the # lines that state an "
-        "energy or how the ball began. Residuals are relative. The residual 'flow' integrates each row to "
-        "the time of the next row and compares. Rows are read one after the other, in constant memory.\n\n"
-        "The last line, 'not looked at', names the columns and # lines on which no residual depends: they "
-        "may hold anything. All others are noticed if they are off by a millionth.\n\n"
+        "Prints residuals: of constraints, of integrals, of every column, and of the # lines that state an energy "
+        "or the start. Residuals are relative. The residual 'flow' integrates each row to the time of the next row "
+        "and compares. Rows are read one after the other, in constant memory.\n\n"
+        "The last line, 'not looked at', names the columns and # lines on which no residual depends: they may hold "
+        "anything. Any other number that is off by a millionth of the size of its vector is noticed.\n\n"
         "A file can hold several orbits of one energy: of section with --as, and of periodic -o, where each row is "
         "an orbit. Another orbit begins where the column 'orbit' changes. No flow goes from one orbit to the "
         "next.\n\n"

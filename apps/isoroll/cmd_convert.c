@@ -250,17 +250,16 @@ const command command_convert = {
     .takes = FILE_ROWS,
     .description =
         "A filter: row by row, in constant memory. It reads files of other programs, too. k, J and h or eps come "
-        "from "
-        "the # lines of the file, from --scene, or from --k and --J.\n\n"
+        "from the # lines of the file, from --scene, or from --k and --J.\n\n"
         "States are mapped by (18) of the paper. The clock of the other model, unless the file has it, is computed "
         "from the rows by two-point Taylor quadrature to --tol. Where the rows are too far apart it is integrated. "
         "It is 0 at the first row.\n\n"
         "A row that cannot be converted becomes a row of nan. The first 20 are named, the others are counted. Rows "
         "with few digits need a --row-tolerance.\n\n"
-        "Where a # line h, eps or level.c does not fit the first row, beyond rounding, it is named, and the row's own "
-        "number is written.\n\n"
-        "A point off the level H = 0 becomes a ball in the potential of the effect "
-        "'level'; with --shift-J it becomes a free ball.",
+        "If the # line h, eps or level.c does not fit the first row, beyond rounding, a message names it, and the "
+        "row's own number is written.\n\n"
+        "A point off the level H = 0 becomes a ball in the potential of the effect 'level'; with --shift-J it "
+        "becomes a free ball.",
     .example = "isoroll convert --to point ball.csv -o point.csv",
     .exits = "1: a row was bad, or the rows do not lie on one orbit",
     .run = run,

@@ -37,7 +37,7 @@ static void explain_effects(const iso_orbit *orbit)
     print_effects(&effects, true);
 }
 
-/* An effect that observes from this start on: the weight on a level plane. */
+/* An effect that observes from this start on: the weight on a horizontal plane. */
 static void explain_idle(const iso_orbit *orbit)
 {
     const iso_effects effects = iso_orbit_effects(orbit);

@@ -313,8 +313,8 @@ static const option_row rows[] = {
     ROW("t-end", "T", "a positive number", "length of the orbit in time t, in place of --turns", set_positive,
         options, scene.end),
     ROW("samples", "N", "a whole number from 1 on",
-        "number of samples of the orbit, to 4194304, rounded up to a power of 2 (default 32 each turn)", set_count,
-        options, samples),
+        "number of samples of the orbit, at most 4194304, rounded up to a power of 2 (default 32 each turn)",
+        set_count, options, samples),
     ROW_PLOT(options, plot),
     ROW_JSON(options, json),
     ROW_END,
@@ -334,8 +334,7 @@ const command command_frequencies = {
         "Elsewhere they are estimated from an orbit in the ball's time t, by Laskar's frequency analysis. --turns, "
         "--t-end and --samples are about this orbit; the scene's own times are not read.\n\n"
         "--plot draws the image of the momentum map (h, F) with the orbit in it. Where there is no such map, it "
-        "draws "
-        "the spectral lines of n(t).",
+        "draws the spectral lines of n(t).",
     .example = "isoroll frequencies scene.yaml --plot map.svg",
     .run = run,
 };

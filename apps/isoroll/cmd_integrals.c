@@ -137,15 +137,15 @@ static json_t *known_of(const iso_integral_search *r)
 static bool print_json(const options *o, const iso_scene *scene, const iso_integral_search *r)
 {
     const iso_params *p = &scene->params;
-    return json_print(
-        json_pack("{s:s, s:o, s:[o,o,o], s:o, s:i, s:i, s:I, s:o, s:i, s:o, s:o, s:s, s:i, s:b, s:b, s:o, s:o, s:o, s:o}",
-                  "isoroll", iso_version(), "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]),
-                  json_number(p->J[2]), "level", json_number(r->level), "degree", (int)o->degree, "coefficients", r->coefficients, "orbits",
-                  (json_int_t)r->orbits, "turns", json_number(o->turns), "samples", ISO_INTEGRAL_ROWS, "within",
-                  json_number(o->within), "delta", json_number(r->delta), "verdict",
-                  iso_integral_verdict_name(r->verdict), "independent", r->independent, "near", (int)r->near,
-                  "energy", r->degrees >= 2 && r->at[2].found > 0, "energy_spread", json_number(r->energy),
-                  "smallest", json_number(smallest_of(r)), "known", known_of(r), "degrees", degrees_of(r)));
+    return json_print(json_pack(
+        "{s:s, s:o, s:[o,o,o], s:o, s:i, s:i, s:I, s:o, s:i, s:o, s:o, s:s, s:i, s:b, s:b, s:o, s:o, s:o, s:o}",
+        "isoroll", iso_version(), "k", json_number(p->k), "J", json_number(p->J[0]), json_number(p->J[1]),
+        json_number(p->J[2]), "level", json_number(r->level), "degree", (int)o->degree, "coefficients",
+        r->coefficients, "orbits", (json_int_t)r->orbits, "turns", json_number(o->turns), "samples",
+        ISO_INTEGRAL_ROWS, "within", json_number(o->within), "delta", json_number(r->delta), "verdict",
+        iso_integral_verdict_name(r->verdict), "independent", r->independent, "near", (int)r->near, "energy",
+        r->degrees >= 2 && r->at[2].found > 0, "energy_spread", json_number(r->energy), "smallest",
+        json_number(smallest_of(r)), "known", known_of(r), "degrees", degrees_of(r)));
 }
 
 /* --- the command ------------------------------------------------------------------------------------------------ */
@@ -225,19 +225,19 @@ const command command_integrals = {
     .description =
         "Looks for functions of the point's state that are constant along orbits: polynomials in M of degree D or "
         "less, with coefficients that are polynomials in gamma of degree E or less. Of the scene it reads k, J and "
-        "the level of the energy: that of a point, or of a ball with the effect level. Orbits start spread evenly over a section and are sampled at many times. The singular values "
-        "of the samples tell how little a function of this space can vary along orbits, relative to its own size.\n\n"
+        "the level of the energy: that of a point, or of a ball with the effect 'level'. Orbits start spread "
+        "evenly over a section and are sampled at many times. The singular values of the samples tell how little a "
+        "function of this space can vary along orbits, relative to its own size.\n\n"
         "The table has a line for each degree: how many independent functions there are, how many of them are "
-        "integrals, how many are new (not the energy, and not found two degrees lower; products of integrals "
-        "are counted as new), and the smallest value of the others. On a level the energy is a "
-        "constant; it is the one integral of "
-        "degree 2 that every ball has.\n\n"
+        "integrals, how many are new (not the energy, and not found two degrees lower; products of integrals are "
+        "counted as new), and the smallest value of the others. On each level the energy is constant; it is the "
+        "one integral of degree 2 that every ball has.\n\n"
         "Integrals that are known for this k and J are named where they are found. 'undecided': a value lies "
         "between its own error and --within, or k and J are almost those of an integrable ball, or the search was "
         "stopped.",
     .example = "isoroll integrals scene.yaml --degree 4",
     .exits = "1: interrupted\n"
-             "3: bad input: an effect that acts and is no level, or k too near 0\n"
+             "3: bad input: an effect that acts, other than 'level', or k too near 0\n"
              "4: the computation failed, or no memory",
     .run = run,
 };

@@ -29,8 +29,8 @@ static int tell_gaps(const iso_periodic *f)
     if (f->lost > 0) complain("%zu zeros were seen where no orbit was found: orbits may be missing", f->lost);
     if (f->closed)
         complain(
-            "on this level the point can come to rest: orbits that rest and go back the same way are listed only if "
-            "they have a symmetry besides, or with --all");
+            "on this level the point can come to rest: orbits that do so and go back the same way are listed only "
+            "if they have another symmetry, or with --all");
     return EXIT_DONE;
 }
 
@@ -119,8 +119,8 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "k", "periodic: --k is the range of --chart");
     if (o->level && !o->chart)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "level",
-                                "periodic: --level is for --chart; other levels are those of a scene, or "
-                                "--follow level=A:B");
+                                "periodic: --level is for --chart; elsewhere the level is the scene's, and --follow "
+                                "level=A:B changes it");
     if (o->plot) status = iso_plot_check_format(ctx, o->plot);
     if (status == ISO_OK) status = iso_scene_read(ctx, o->scene.file, scene);
     if (status == ISO_OK && o->follow) status = follow_check(ctx, scene, o->follow);
@@ -161,8 +161,7 @@ static const option_row rows[] = {
     ROW("orbit", "N", "a whole number from 1 on", "follow orbit N of the list alone", set_count, options, orbit),
     ROW("branches", NULL, NULL, "follow what branches off, too", set_flag, options, branches),
     ROW("chart", "MOMENT", "J1, J2 or J3, or J2=A:B, or level=A:B",
-        "in place of all that: where rotations are stable, in the plane of k and a moment, or of k and the level, "
-        "from A "
+        "in place of all that: where rotations are stable, in the plane of k and this moment or the level, from A "
         "to B",
         set_text, options, chart),
     ROW("k", "A:B", "two numbers and a colon", "k of --chart (default -3:3)", set_text, options, k),
@@ -187,48 +186,37 @@ const command command_periodic = {
     .file = offsetof(options, scene.file),
     .takes = FILE_SCENE,
     .description =
-        "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found in "
-        "two ways, stable between -2 and 2. Then it searches for all symmetric periodic orbits of at most P returns "
-        "to "
-        "the section n_a = 0, as roots along the six symmetry lines: x = 0, l = 0 and l = pi/2 of the section, for "
-        "the "
-        "reversors S1, S2, S3; and three lines half way between two crossings, for T S1, T S2, T S3. A "
-        "message says where some may be missing. Orbits without a symmetry need --all.\n\n"
+        "Shows the rotations about the principal axes first: the trace of Hill's equation over half a turn, found "
+        "in two ways, stable between -2 and 2. Then it searches for all symmetric periodic orbits of at most P "
+        "returns to the section n_a = 0, as roots along the six symmetry lines: x = 0, l = 0 and l = pi/2 of the "
+        "section, for the reversors S1, S2, S3; and three lines half way between two crossings, for T S1, T S2, T "
+        "S3. A message says where some may be missing. Orbits without a symmetry need --all.\n\n"
         "For each orbit: a point (l, x) of the section, the trace of the return map's derivative over the period "
-        "with "
-        "its error, stability, which reversors map the orbit to itself, how many copies R, S1 S2 and T make of it "
-        "(itself among them), and its period in t. JSON and -o add the start in both models, the periods in tau "
-        "and s, and how well the orbit closes. lib/doc/theory.md explains R, S1, S2, S3 and T.\n\n"
+        "with its error, stability, which reversors map the orbit to itself, how many copies R, S1 S2 and T make "
+        "of it (itself among them), and its period in t. JSON and -o add the start in both models, the periods in "
+        "tau and s, and how well the orbit closes. lib/doc/theory.md explains R, S1, S2, S3 and T.\n\n"
         "Only k, J and the energy of the scene are read. Orbits of the free ball do not depend on the energy, only "
-        "their clocks do. A point off H = 0, or a ball with the effect level, has a level (H/eps) J2^(1/k), J2 the "
-        "middle "
-        "moment: a number without a dimension, which units do not change. Orbits depend on it. On a low level the "
-        "point "
-        "cannot reach the whole sphere. Then a rotation may be missing, and the point oscillates between two places "
-        "of "
-        "rest in its stead.\n\n"
-        "For k = 1 and k = -1 most periodic orbits fill tori, on every level. Those on the symmetry lines are listed "
-        "as degenerate "
-        "(trace 2).\n\n"
-        "--follow k=A:B follows symmetric orbits from the scene's k to A and to B, or until they end: folds, period "
-        "doublings, symmetry breaking and collisions with rotations are located. Where a branch cannot be followed, "
-        "a line says where and why, and the part so far is kept. --branches follows what branches off as well, but "
-        "not "
-        "what branches off from that. While k or a moment changes, the level stays that of the scene; --follow "
-        "level=A:B "
-        "changes it.\n\n"
+        "their clocks do. A point off H = 0, or a ball with the effect 'level', has a level (H/eps) J2^(1/k), J2 "
+        "the middle moment: a number without a unit. Orbits depend on it. On a low level the point cannot reach "
+        "the whole sphere. Then a rotation may be missing, and the point oscillates between two places of rest "
+        "instead.\n\n"
+        "For k = 1 and k = -1 most periodic orbits fill tori, on every level. Those on the symmetry lines are "
+        "listed as degenerate (trace 2).\n\n"
+        "--follow k=A:B follows symmetric orbits from the scene's k to A and to B, or until they end: folds, "
+        "period doublings, touches of the trace -2, symmetry breaking and collisions with rotations are located. "
+        "Where a branch cannot be followed, a line says where and why, and the part so far is kept. --branches "
+        "follows what branches off as well, but not what branches off from that. While k or a moment changes, the "
+        "level stays that of the scene; --follow level=A:B changes it.\n\n"
         "--chart J2 shows in which part of the plane of k and J2 the rotations about the axes of the least and of "
-        "the "
-        "greatest moment are stable, and the borders on which a trace is 2 or -2. (The axis of the middle moment is "
-        "never "
-        "stable.) The level is that of the scene, or --level; --chart level=A:B has the level in the place of J2.\n\n"
-        "-o FILE writes one row for each orbit, in doubles. --plot draws all orbits and their copies on the section, "
-        "unstable "
-        "ones "
-        "in grey.",
+        "the greatest moment are stable, and the borders on which a trace is 2 or -2. (The axis of the middle "
+        "moment is never stable.) The level is that of the scene, or --level; --chart level=A:B has the level in "
+        "place of J2.\n\n"
+        "-o FILE writes one row for each orbit, in doubles. --plot draws all orbits and their copies on the "
+        "section, unstable ones in grey.",
     .example = "isoroll periodic scene.yaml --period 8 --plot orbits.svg",
     .exits = "1: interrupted, or a branch could not be followed to its end\n"
-             "3: bad input: gravity or another effect, two equal moments, a ball at rest, a range without the "
+             "3: bad input: an effect that acts, other than 'level', two equal moments, a ball at rest, a range "
+             "without the "
              "scene's value",
     .run = run,
 };

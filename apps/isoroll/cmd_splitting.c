@@ -230,8 +230,7 @@ static const option_row rows[] = {
         "values of k in place of the scene's, with commas between: ranges A:B:STEP, numbers, fractions such as 1/3",
         set_text, options, k),
     ROW("level", "LIST", "values and ranges A:B:STEP",
-        "levels in place of the scene's, as many as you like at one k: a list like that of --k", set_text, options,
-        level),
+        "levels in place of the scene's, at one k: a list like that of --k", set_text, options, level),
     ROW_OF_WORDS("digits", "D", "double, quad or auto",
                  "double: 64 bits of mantissa (19 digits); quad: 128 bits (32 digits); auto: 128 bits where 64 give "
                  "less than 3 "
@@ -254,39 +253,30 @@ const command command_splitting = {
     .file = offsetof(options, scene.file),
     .takes = FILE_SCENE,
     .description =
-        "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, it "
-        "is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come from "
-        "this rotation. Another one enters its mirror: "
-        "the "
-        "orbits that end in the opposite rotation. If there is a further analytic integral, both are one curve. If "
-        "they cross, there is none. "
-        "This command finds the first point of the curve that leaves with l = pi/2, its x = M_a/|M|, and its slope "
-        "m = dx/dl there; the other curve has the slope -m. So m = 0 at k = 1 and k = -1, on every level. Where m "
-        "is not 0 here, the crossing is shown numerically, with an error that is estimated: this is no proof that "
-        "there "
-        "is no further analytic integral.\n\n"
+        "The rotation about the middle axis is unstable. On the section n_a = 0, a the axis after the middle one, "
+        "it is a point (l, x); l and x are those of isoroll section. One curve leaves it: the orbits that come "
+        "from this rotation. Another one enters its mirror: the orbits that end in the opposite rotation. If there "
+        "is a further analytic integral, both are one curve. If they cross, there is none. This command follows "
+        "the curve that leaves to its first point with l = pi/2. It finds x = M_a/|M| there, and the slope m = "
+        "dx/dl; the other curve has the slope -m. So m = 0 at k = 1 and k = -1, on every level. Where m is not 0, "
+        "the curves cross. The command shows this numerically, with an estimated error; it does not prove that "
+        "there is no further analytic integral.\n\n"
         "Each m has its error, from a second computation. m falls very fast with |k|: where 64 bits do not "
-        "distinguish it from 0, 128 bits are taken, which need from seconds to a minute for each k. Other zeros of m "
-        "between two values of k "
-        "are "
-        "located. There the curves touch at one point. The slope at the next common point is printed: they may cross "
-        "there. Where the multiplier of the rotation is below 1.02, as between nearly "
-        "equal moments, m is too small "
-        "for 128 bits and not computed.\n\n"
-        "The level is (H/eps) J2^(1/k), J2 the middle moment, H the energy of the point: a number without a "
-        "dimension. It "
-        "is 0 for the free ball, else that of the scene, a point off H = 0 or a ball with the effect level; or "
-        "--level "
-        "gives it. A low level has no such rotation, but an oscillation between two places of rest.\n\n"
-        "Only k, J and the level of the scene are read. Its start does not matter else, nor do its times. -o FILE "
-        "writes one row for "
-        "each k or level. --plot draws |m| over k or the level, and both curves where they are seen best. After "
-        "Ctrl-C the rows "
-        "that are done are printed.",
+        "distinguish it from 0, 128 bits are taken, which need from seconds to a minute for each k. Other zeros of "
+        "m between two values of k or the level are located. There the curves touch at one point. The slope at the "
+        "next common point is printed: if it is not 0, they cross there. Where the multiplier of the rotation is "
+        "below 1.02, as between nearly equal moments, m is too small for 128 bits and not computed.\n\n"
+        "The level is (H/eps) J2^(1/k), J2 the middle moment, H the energy of the point: a number without a unit. "
+        "It is 0 for the free ball, and another number for a point off H = 0 and for a ball with the effect "
+        "'level'. --level takes other levels than the scene's. On a low level there is no such rotation: the point "
+        "oscillates between two places of rest instead.\n\n"
+        "Only k, J and the level of the scene are read. Nothing else of its start matters, nor do its times. -o "
+        "FILE writes one row for each k or level. --plot draws |m| over k or the level, and both curves where they "
+        "are seen best. After Ctrl-C the rows that are done are printed.",
     .example = "isoroll splitting scene.yaml --k 0.25:3:0.25 --plot splitting.png",
-    .exits =
-        "1: interrupted, or some rows failed\n"
-        "3: bad input: gravity or another effect, equal or nearly equal moments, or a level without the rotation\n"
-        "4: the computation failed, or no memory",
+    .exits = "1: interrupted, or some rows failed\n"
+             "3: bad input: an effect that acts, other than 'level', equal or nearly equal moments, or a level "
+             "without the rotation\n"
+             "4: the computation failed, or no memory",
     .run = run,
 };

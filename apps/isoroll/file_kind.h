@@ -10,13 +10,13 @@ struct command;
 /* The kinds, as bits of command.takes. */
 enum {
     FILE_SCENE = 1,
-    FILE_SWEEP = 2,      /* the YAML of a sweep                                 */
-    FILE_TRAJECTORY = 4, /* `# isoroll trajectory 1`                            */
+    FILE_SWEEP = 2, /* the YAML of a sweep */
+    FILE_TRAJECTORY = 4,
     FILE_SECTION = 8,
-    FILE_RESULT = 16,  /* of a sweep                                          */
-    FILE_TABLE = 32,   /* of other commands: the rows are not states of one scene */
-    FILE_HDF5 = 64,    /* its beginning does not tell which                   */
-    FILE_ORBITS = 128, /* of periodic: each row is an orbit                   */
+    FILE_RESULT = 16,  /* of a sweep */
+    FILE_TABLE = 32,   /* of other commands: its rows are no states of one scene */
+    FILE_HDF5 = 64,    /* its beginning does not tell what is in it */
+    FILE_ORBITS = 128, /* of periodic: each row is an orbit */
     FILE_ROWS = FILE_TRAJECTORY | FILE_SECTION | FILE_HDF5
 };
 

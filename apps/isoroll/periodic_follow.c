@@ -1,4 +1,4 @@
-/* periodic_follow.c - followed orbits as a list of events, as rows, as JSON and as a picture (see periodic_follow.h). */
+/* periodic_follow.c - shows followed orbits: as events, rows, JSON and a picture (see periodic_follow.h). */
 #include "periodic_follow.h"
 
 #include <math.h>
@@ -175,7 +175,7 @@ static iso_status none_to_follow(iso_context *ctx, const iso_scene *scene, const
     return iso_context_fail(
         ctx, ISO_BAD_INPUT, "orbit",
         "no symmetric orbit to follow at k = %.12g, J = %.12g %.12g %.12g, level %.12g: the search "
-        "along the six symmetry lines found none of %d returns at most; give a longer --period, or "
+        "along the six symmetry lines found none of at most %d returns; give a longer --period, or "
         "another k, J or level in the scene",
         p->k, p->J[0], p->J[1], p->J[2], found->level, period);
 }

@@ -33,7 +33,8 @@ static int run_with(iso_context *ctx, void *options, const command *c, int argc,
     case OPTIONS_HELP: help_command(c, stdout); return EXIT_DONE;
     case OPTIONS_DONE: break;
     }
-    if (!c->files && !file_fits(c, *(const char *const *)(const void *)((const char *)options + c->file))) return EXIT_BAD_INPUT;
+    if (!c->files && !file_fits(c, *(const char *const *)(const void *)((const char *)options + c->file)))
+        return EXIT_BAD_INPUT;
     return c->run(ctx, options);
 }
 

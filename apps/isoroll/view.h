@@ -103,9 +103,9 @@ typedef struct view_miss {
 iso_status view_complete(iso_context *ctx, const view_page *page, iso_record *rows, iso_record **complete,
                          view_miss *worst);
 
-/* An orbit for rows of a file, by the ball's equations in `clock`, with its attitude; if there is a point, also with the
- * point and all clocks. Reads page->params and page->alone. Switches the attitude on in `effects`. Errors: those of
- * iso_orbit_create. */
+/* An orbit for rows of a file, by the ball's equations in `clock`, with its attitude; if there is a point, also with
+ * the point and all clocks. Reads page->params and page->alone. Switches the attitude on in `effects`. Errors: those
+ * of iso_orbit_create. */
 iso_status view_orbit(iso_context *ctx, const view_page *page, const iso_start *start, iso_effects *effects,
                       iso_clock clock, iso_orbit **orbit);
 

@@ -106,11 +106,11 @@ ISO_API iso_status iso_plot_indicators(iso_context *ctx, const char *path, const
 ISO_API iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis,
                                       const iso_record *spots);
 
-/* The splitting of the separatrix. On the left |m| over k or the level, as spots with errors, blue for m > 0, vermillion for m <
- * 0, triangles where m is not distinguished from 0: they are upper bounds. On the right, if there is a curve, W^u(O)
- * and its mirror W^s(O') on the section. rows: columns k or level, m, error; NULL or empty: only the right one. curve:
- * columns u and x, as iso_splitting_curve has them; NULL: none. at: the k or level of the curve. axis: of its section, 0 to 2.
- * Errors: as iso_plot_momentum. */
+/* The splitting of the separatrix. On the left |m| over k or the level, as spots with errors, blue for m > 0,
+ * vermillion for m < 0, triangles where m is not distinguished from 0: they are upper bounds. On the right, if there
+ * is a curve, W^u(O) and its mirror W^s(O') on the section. rows: columns k or level, m, error; NULL or empty: only
+ * the right one. curve: columns u and x, as iso_splitting_curve has them; NULL: none. at: the k or level of the
+ * curve. axis: of its section, 0 to 2. Errors: as iso_plot_momentum. */
 ISO_API iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
                                       const iso_record *curve, double at, int axis);
 

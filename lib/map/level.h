@@ -1,9 +1,9 @@
-/* level.h - the level of the point's energy as one number without a dimension.
+/* level.h - the level of the point's energy as one number without a unit.
  *
  *     level = (H/eps) J2^(1/k),       J2: the middle one of the three moments
  *
- * Units of mass, length and time do not change it, nor does the factor by which the ball turns faster. With k and J1:J2:J3
- * it fixes all motions, up to their clocks. 0 is the free ball.
+ * Units of mass, length and time do not change it, nor does the factor by which the ball turns faster. With k and
+ * J1:J2:J3 it fixes all motions, up to their clocks. 0 is the free ball.
  */
 #ifndef ISO_MAP_LEVEL_H
 #define ISO_MAP_LEVEL_H

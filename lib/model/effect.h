@@ -6,7 +6,7 @@
  * integral and no isomorphism.
  *
  *     effect              torque MQ on the ball                 states          isomorphism
- *     gravity             mgb e x n                             e (3)           lost, but on a level plane
+ *     gravity             mgb e x n                             e (3)           lost, but on a horizontal plane
  *     field               k n x (C n + l)                       none            kept, V + U/G
  *     level               2 c g^(-1/k - 1) n x J^-1 n           none            kept, H = c det J/k^2
  *     twist               -c (omega,n) n, contact not rigid     lambda, stiff   lost
@@ -185,14 +185,14 @@ ISO_API const char *iso_level_name(void);
 iso_dimension iso_level_dimension(void);
 
 /* What is wrong with numbers or combinations, as the physics sees it: an effect that cannot matter here (gravity on a
- * level plane, a constant field), numbers that are none. `normal` is n at the start. Makes unit vectors of those that
- * are (to 1e-6), and fills in numbers that follow from others: the attitude, where it was not given.
- * Errors: ISO_BAD_INPUT about the effect's name or its number's. */
+ * horizontal plane, a constant field), numbers that are none. `normal` is n at the start. Makes unit vectors of those
+ * that are (to 1e-6), and fills in numbers that follow from others: the attitude, where it was not given. Errors:
+ * ISO_BAD_INPUT about the effect's name or its number's. */
 ISO_API iso_status iso_effects_check(iso_context *ctx, const iso_params *params, const double normal[3],
                                      iso_effects *effects);
 
 /* Finds the effects that have no torque from a start with this normal on, up to rounding, and notes them in `idle`:
- * the weight on a level plane only presses the ball down. Orbits settle their effects themselves. */
+ * the weight on a horizontal plane only presses the ball down. Orbits settle their effects themselves. */
 ISO_API void iso_effects_settle(const iso_params *params, const double normal[3], iso_effects *effects);
 
 /* The upward vertical at the start, in body axes: 3 numbers. Without gravity they mean nothing. */
@@ -219,7 +219,7 @@ ISO_API const char *iso_effect_why_broken(const iso_effect *effect);
 /* The first observer that only backend ball has; NULL: none. */
 const iso_effect *iso_effects_ball_only(const iso_effects *effects);
 
-/* The first effect that acts and is no level; NULL: none. */
+/* The first effect that acts, other than `level`; NULL: none. */
 const iso_effect *iso_effects_beyond_level(const iso_effects *effects);
 
 /* The first effect with which n(t) has no frequencies, and why; NULL: none. */

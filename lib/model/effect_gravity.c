@@ -6,8 +6,8 @@
  * and the potential energy is m g (a+b)(n,e) = mgb/(1-k) (n,e). On a plane (k = 1) it is the height of the centre, m
  * g (E,x), with the vertical E in space and the displacement x, which only `attitude` knows.
  *
- * On a level plane e = n, now and for ever: e' = e x w is n' = k n x w where k = 1. There the weight has no torque, and
- * gravity is idle. It has no states either, since n is the vertical.
+ * On a horizontal plane e = n, now and for ever: e' = e x w is n' = k n x w where k = 1. There the weight has no
+ * torque, and gravity is idle. It has no states either, since n is the vertical.
  */
 #include <float.h>
 #include <math.h>
@@ -142,7 +142,7 @@ static iso_status check(iso_context *ctx, const iso_params *p, const double n[3]
     if (e->on[ISO_REACTIONS] || !e->idle[ISO_GRAVITY]) return ISO_OK;
     return iso_context_fail(
         ctx, ISO_BAD_INPUT, "gravity",
-        "on a level plane (up along the normal) gravity has no torque and changes nothing: take it "
+        "on a horizontal plane (up along the normal) gravity has no torque and changes nothing: take it "
         "out, tilt the plane, or ask for 'reactions'");
 }
 

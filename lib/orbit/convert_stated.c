@@ -158,8 +158,9 @@ bool iso_conversion_stated_words(const iso_conversion_summary *s, int i, char wo
 {
     if (i >= s->stated_count) return false;
     const iso_stated *x = &s->stated[i];
-    snprintf(words, ISO_STATED_SIZE,
-             "# %s: %.17g does not fit the first row, by %.2g of the terms of its energy; %.17g does, and is written",
-             x->key, x->stated, x->off, x->own);
+    snprintf(
+        words, ISO_STATED_SIZE,
+        "# %s: %.17g does not fit the first row (off by %.2g of the terms of its energy); %.17g fits, and is written",
+        x->key, x->stated, x->off, x->own);
     return true;
 }

@@ -17,9 +17,9 @@
  * Lengths and angles are given without the part along the flow, which tells only how far ahead of the orbit its
  * neighbour is.
  *
- * Orbits on which nothing acts but a level are followed in the lanes of vectors and on all threads (batch.h). The numbers of an orbit depend on
- * the kind of vectors. They do not depend, not even in the last bit, on the other orbits, their order, the number of
- * threads, or the number of crossings asked at a time.
+ * Orbits on which nothing acts but a level are followed in the lanes of vectors and on all threads (batch.h). The
+ * numbers of an orbit depend on the kind of vectors. They do not depend, not even in the last bit, on the other
+ * orbits, their order, the number of threads, or the number of crossings asked at a time.
  */
 #ifndef ISO_ORBIT_CROSSINGS_H
 #define ISO_ORBIT_CROSSINGS_H
@@ -95,10 +95,10 @@ ISO_API void iso_crossings_free(iso_crossings *c);
  * Errors of one orbit: those of iso_orbit_create and iso_orbit_at; ISO_NUMERICAL if two crossings of a global section
  * are outside the bounds of their distance in s (map/section.h), if the ball rests, or if no further crossing is
  * found within ISO_MOST_BETWEEN turns; ISO_BAD_INPUT about "axis" for an orbit in the plane n_a = 0 itself, the
- * boundary of the chart, and about "deviations" for an orbit that has none. If s does not fit a double (extreme k), distances are not checked.
- * The call returns the error of the first orbit that failed; the message has its number and the reason.
- * Errors of the call: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: then done[] and the crossings that it
- * counts are valid, and the next call goes on from there. */
+ * boundary of the chart, and about "deviations" for an orbit that has none. If s does not fit a double (extreme k),
+ * distances are not checked. The call returns the error of the first orbit that failed; the message has its number
+ * and the reason. Errors of the call: ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: then done[] and the
+ * crossings that it counts are valid, and the next call goes on from there. */
 enum { ISO_MOST_BETWEEN = 10000 };
 ISO_API iso_status iso_crossings_go(iso_crossings *c, const bool wanted[], size_t each, iso_crossing crossing[],
                                     iso_sample sample[], size_t done[], iso_status status[]);

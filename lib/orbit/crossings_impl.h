@@ -23,9 +23,9 @@ typedef struct iso_crossed {
     bool begins_on_it; /* the start lies on the section: it is no crossing                                        */
     bool upwards;      /* ... and n_a increases there: a whole return to the first crossing                  */
     double bound[2];   /* least and largest s between two crossings; NaN: no bounds are known                     */
-    int axis; /* of ISO_SECTION_AXIS; -1: another kind                                                                     */
-    iso_status status; /* the failure that ended the orbit, or ISO_OK                                              */
-    char *why;         /* the message of this failure                                                             */
+    int axis;          /* of ISO_SECTION_AXIS; -1: another kind */
+    iso_status status; /* the failure that ended the orbit, or ISO_OK */
+    char *why;         /* the message of this failure */
     char about[32];
 } iso_crossed;
 

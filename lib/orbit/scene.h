@@ -99,7 +99,7 @@ void iso_start_settle(const iso_params *params, const iso_start *start, iso_effe
 iso_effects iso_scene_effects(const iso_scene *scene);
 
 /* The effects that act on the motion of a scene: all but observers, and but those that only observe from its start
- * on, as the weight on a level plane does. */
+ * on, as the weight on a horizontal plane does. */
 ISO_API iso_effects iso_scene_acting(const iso_scene *scene);
 
 /* Puts "name:line:column: " before the context's message where the failure is about a key that the scene was read

@@ -10,7 +10,7 @@ static iso_status refuse_place(iso_context *ctx, const iso_point_motion m, doubl
 {
     return iso_context_fail(
         ctx, ISO_BAD_INPUT, "level",
-        "level %.10g is not reached at this %s: the potential there is %.10g in the same unit, and "
+        "level %.10g is not reached at this %s: the potential there is %.10g, counted like the level, and "
         "the level must be above it",
         level, name, -iso_level_of(m.p, pow(q, -1 / m.p->k)));
 }

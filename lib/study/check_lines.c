@@ -51,8 +51,7 @@ iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]
     const iso_units *units = iso_orbit_units(m->orbit);
     const bool ball = m->kind == ISO_BALL, level = iso_effects_have_level(&c->stated);
     const bool any_level = !ball && !m->expect.on_level;
-    const char *what = any_level ? "as the file states it, against the other of h and eps"
-                                 : "as the file states it, against the first row";
+    const char *what = any_level ? "h and eps of the file, against each other" : "this line, against the first row";
     double h, eps, own[ISO_MAX_STATE], least = INFINITY;
     iso_status status = ISO_OK;
     const bool has_h = stated_energy(c, units, "h", &h, &status);
@@ -70,7 +69,7 @@ iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]
     const iso_effect *of_level = level ? iso_effect_list[iso_effect_find(iso_level_name())] : NULL;
     if (!level || isinf(least)) return ISO_OK;
     iso_effect_line(key, of_level, of_level->numbers);
-    note_line(c, m, key, "as the file states it, against the first row with h or eps", least);
+    note_line(c, m, key, "this line, against the first row and h or eps", least);
     return ISO_OK;
 }
 
@@ -90,7 +89,7 @@ static void compare_beginning(checker *c, checked_model *ball, iso_effect_id id,
         size = fmax(size, fmax(fabs(there), fabs(stated)));
     }
     iso_effect_line(key, iso_effect_list[id], n);
-    note_line(c, ball, key, "as the file states it, against the row at time 0", size > 0 ? error / size : 0);
+    note_line(c, ball, key, "this line, against the row at time 0", size > 0 ? error / size : 0);
 }
 
 void iso_checker_beginning(checker *c, checked_model *ball, const double row[])

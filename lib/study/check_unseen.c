@@ -2,7 +2,7 @@
  *
  * A column is looked at if something was compared with it. For a line this is tried: a small check, of the first row
  * and of one a little later that solves the equations exactly, is made again with another number in the line. If no
- * residual grows, nobody looks at that number. So what is said here is right for lines of any program, and nothing
+ * residual grows, that number is not looked at. So what is said here is right for lines of any program, and nothing
  * has to be kept up to date. */
 #include <math.h>
 #include <stdio.h>

@@ -315,11 +315,10 @@ static iso_status choose_length(estimator *e, double speed, const iso_frequencie
             "%zu samples of %g turns of the ball are fewer than 8 for each turn: take %.0f or more", e->count,
             length * fast, ceil(needed));
     const double most = ISO_MOST_SAMPLES / (8 * fast); /* in t */
-    return iso_context_fail(
-        e->ctx, ISO_BAD_ARGUMENT, isnan(o->end) ? "turns" : "end",
-        "an estimate takes %d samples, 8 for each turn of the ball: take %.0f turns, or t = %.6g, "
-        "at most",
-        ISO_MOST_SAMPLES, floor(most / turn), most * (1 - 1e-6));
+    return iso_context_fail(e->ctx, ISO_BAD_ARGUMENT, isnan(o->end) ? "turns" : "end",
+                            "an estimate takes at most %d samples, 8 for each turn of the ball: take %.0f turns or "
+                            "fewer, or t = %.6g or less",
+                            ISO_MOST_SAMPLES, floor(most / turn), most * (1 - 1e-6));
 }
 
 /* Checks the scene, and chooses the length of the orbit. */

@@ -116,9 +116,9 @@ static void name(const iso_follow_family *f, iso_follow_point *at, int test, boo
         snprintf(e->words, sizeof e->words, "%s at %s = %.12g", words_of(e->kind), vary, at->value);
 }
 
-/* trace + 2 = 4 D_00 D_11/det D changes its sign where one of D_00 and D_11 is 0. Where both are, as they are where half of
- * an orbit with two symmetries has the trace 0, it only touches 0. How far from each other they are 0, along the curve,
- * the slope between both points tells. */
+/* trace + 2 = 4 D_00 D_11/det D changes its sign where one of D_00 and D_11 is 0. Where both are, as they are where
+ * half of an orbit with two symmetries has the trace 0, it only touches 0. How far from each other they are 0, along
+ * the curve, the slope between both points tells. */
 static iso_branch_kind doubles(const iso_follow_point *a, const iso_follow_point *to, int test, double ds,
                                const iso_follow_point *at)
 {
@@ -129,8 +129,8 @@ static iso_branch_kind doubles(const iso_follow_point *a, const iso_follow_point
     return apart < SAME_PLACE && !passes ? ISO_BRANCH_TOUCH : ISO_BRANCH_UNDECIDED;
 }
 
-/* At a touch the derivative of the return map is -1. Half of the orbit, up to its symmetry, has the multipliers i and -i,
- * and orbits of four such halves may branch off. */
+/* At a touch the derivative of the return map is -1. Half of the orbit, up to its symmetry, has the multipliers i and
+ * -i, and orbits of four such halves may branch off. */
 static void name_touch(const iso_follow_family *f, const iso_follow_point *at, iso_branch_kind kind,
                        iso_branch_event *e)
 {

@@ -15,7 +15,7 @@
  *
  * - Exponent: the gain of ln D per unit of a clock, without the first eighth of the turns. Its error comes from the
  *   scatter of blocks of the other turns, from 28 short ones to 3 long ones, and has a part for the times near islands
- *   that the orbit has missed. It is meant so that at most one orbit in ten is off by more than two errors. While ln D
+ *   that the orbit has missed. It is chosen so that at most one orbit in ten should be off by more than two errors. While ln D
  *   is below 400 the orbit is too short to know it, and no error is stated. A regular orbit has the exponent 0: its
  *   error is the estimate itself. An orbit may go on after its verdict, for a better exponent.
  * - MEGNO: Y_n = (2/n) sum (j - 1/2) ln(D_j/D_(j-1)), and its mean over all turns so far. On a regular orbit both

@@ -15,8 +15,9 @@
  * On one level h is a number, and V_d are the polynomials in M of degrees d, d - 2, ... with polynomials in gamma of
  * degree E or less. The energy itself is the constant 1 in V_2, V_4, ...: it is found there, as any other integral.
  *
- * The orbits are those of the scene's level H = E: of a point, or of a ball with the effect `level`. There eps q^(-1/k)
- * is M^2/2 - E, and the same functions are looked at. What is constant on one level need not be constant on others.
+ * The orbits are those of the scene's level H = E: of a point, or of a ball with the effect `level`. There eps
+ * q^(-1/k) is M^2/2 - E, and the same functions are looked at. What is constant on one level need not be constant on
+ * others.
  *
  * The search. Orbits start spread evenly over a global section (map/section.h), with one value of eps. Each is
  * sampled at many times. The functions are columns, the samples rows. Relations that hold on the surface (|gamma| =
@@ -139,7 +140,7 @@ typedef struct iso_integral_search {
 /* Only k, J and the effects of the scene are read, and the level H of its start.
  * Errors: ISO_BAD_ARGUMENT about "degree", "coefficients", "orbits" (too few for the functions, or more than 10000),
  * "turns", "within", "tolerance", "threads"; ISO_BAD_INPUT about "k" where powers of q do not fit a double, about an
- * effect that acts and is no level, about "M" where the point can only rest on its level; those of iso_batch_run;
+ * effect that acts, other than `level`, about "M" where the point can only rest on its level; those of iso_batch_run;
  * ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: the degrees done are valid. */
 ISO_API iso_status iso_integral_search_run(iso_context *ctx, const iso_scene *scene,
                                            const iso_integral_search_options *options, iso_integral_search *result);

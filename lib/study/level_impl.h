@@ -14,7 +14,8 @@ typedef struct iso_on_level {
     double H;      /* the same level in the scene's units   */
 } iso_on_level;
 
-/* ISO_OK where nothing acts but a level, else ISO_BAD_INPUT about the effect. what: as in "periodic orbits are sought". */
+/* ISO_OK where nothing acts but a level, else ISO_BAD_INPUT about the effect. what: as in "periodic orbits are
+ * sought". */
 iso_status iso_level_check(iso_context *ctx, const iso_effects *effects, const char *what);
 
 /* The motion of a scene's point: its params in own units (into *own), eps of any sign, and H. eps is 0 for a ball at

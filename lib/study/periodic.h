@@ -21,11 +21,11 @@
  * R: (l, x) -> (l + pi, x) and S1 S2: (l, x) -> (-l, -x) and T carry orbits to orbits of the same kind: copies. One
  * of them is listed.
  *
- * Energy scales out: for the ball on which nothing acts orbits are the same for every energy, and isolated, but for k =
- * 1 and k = -1 and equal moments. A point off H = 0, or a ball with the effect `level`, is on a level that does not scale
- * out: (H/eps) J2^(1/k), J2 the middle moment, a number without a dimension (map/level.h). Where the point cannot reach
- * the whole sphere, orbits may come to rest and go back the same way. Those that no S and T S maps to themselves are not
- * on the lines: only a search from a grid finds them.
+ * Energy scales out: for the ball on which nothing acts orbits are the same for every energy, and isolated, but for k
+ * = 1 and k = -1 and equal moments. A point off H = 0, or a ball with the effect `level`, is on a level that does
+ * not scale out: (H/eps) J2^(1/k), J2 the middle moment, a number without a unit (map/level.h). Where the point
+ * cannot reach the whole sphere, orbits may come to rest and go back the same way. Those that no S and T S maps to
+ * themselves are not on the lines: only a search from a grid finds them.
  */
 #ifndef ISO_STUDY_PERIODIC_H
 #define ISO_STUDY_PERIODIC_H
@@ -61,8 +61,9 @@ typedef struct iso_multipliers {
  *
  *     (q + u) d^2 gamma_i/dphi^2 = (q'/(2k)) dgamma_i/dphi - ((1/k) (J_i - (1 - k) q) + u) gamma_i
  *
- * half_turn_trace is the trace of its matrix from phi = 0 to pi: stable for |trace| < 2. It needs the whole circle: where
- * part of it cannot be reached, E + q^(-1/k) <= 0, the motion in the plane is an oscillation between two places of rest.
+ * half_turn_trace is the trace of its matrix from phi = 0 to pi: stable for |trace| < 2. It needs the whole circle:
+ * where part of it cannot be reached, E + q^(-1/k) <= 0, the motion in the plane is an oscillation between two
+ * places of rest.
  */
 typedef struct iso_rotation {
     int axis; /* 0 to 2 */
@@ -75,8 +76,7 @@ typedef struct iso_rotation {
     iso_multipliers half;     /* of half a turn                                                                    */
     double clock[ISO_CLOCKS]; /* of a whole turn, in the scene's units                                            */
     double l, x;              /* its fixed point; x = 1: the boundary of the section                               */
-    bool oscillates;          /* there is none: part of its circle cannot be reached on this level. The other numbers
-                        are NaN                                                                                 */
+    bool oscillates; /* there is no rotation: see above. Then the other numbers are NaN */
 } iso_rotation;
 
 enum { ISO_PERIODIC_MOST = 64 }; /* the longest period that can be asked for */
@@ -159,8 +159,8 @@ ISO_API int iso_symmetry_words(int symmetry, char text[ISO_DIGITS_SIZE]);
 
 /* The half-turn trace of Hill's equation about `axis` (0 to 2) on the level H = energy of the point with eps = 1, by
  * numbers of 64 bits of mantissa, and in *error (NULL: not asked) how far it may be off. NaN for |k| < 1e-4, a moment
- * <= 0, or where there is no such rotation. It is below -2 about the axis of the middle moment, for all k and J and on
- * every level on which this rotation exists. */
+ * <= 0, or where there is no such rotation. It is below -2 about the axis of the middle moment, for all k and J and
+ * on every level on which this rotation exists. */
 ISO_API double iso_hill_trace(double k, const double J[3], double energy, int axis, double *error);
 
 /* Whether the whole circle gamma_axis = 0 can be reached on this level, energy + q^(-1/k) > 0. If not, there is no

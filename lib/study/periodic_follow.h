@@ -21,8 +21,8 @@
 ISO_C_BEGIN
 
 typedef enum iso_vary { ISO_VARY_K, ISO_VARY_J1, ISO_VARY_J2, ISO_VARY_J3, ISO_VARY_RATIO, ISO_VARY_LEVEL } iso_vary;
-/* "k", "J1", "J2", "J3", "ratio", "level"; NULL past the end. ratio: (J2 - J1)/(J3 - J1), by J2. level: (H/eps) J2^(1/k)
- * (map/level.h); it stays the scene's while the others change. */
+/* "k", "J1", "J2", "J3", "ratio", "level"; NULL past the end. ratio: (J2 - J1)/(J3 - J1), by J2. level: (H/eps)
+ * J2^(1/k) (map/level.h); it stays the scene's while the others change. */
 ISO_API const char *iso_vary_name(int vary);
 
 typedef enum iso_branch_kind {

@@ -4,9 +4,9 @@
  * O', half a turn of l away. At k = +-1 the unstable manifold of O is the stable manifold of O'. At other k they
  * cross. Of the section n_a = 0 with the middle axis c = a - 1, cyclically, O is (l, x) = (0, 0). The reversor
  * (l, x) -> (pi - l, x) turns W^u(O) into W^s(O'), so they meet wherever one of them meets the line l = pi/2, there
- * with the slopes +m and -m, m = dx/dl of W^u(O). If m != 0 they cross transversally, and there is no further analytic
- * integral (lib/doc/why_only_one.md); m is computed, not proved. All this holds on every level of the point's energy
- * (map/level.h) on which the rotation exists: those on which the point can reach the whole sphere.
+ * with the slopes +m and -m, m = dx/dl of W^u(O). If m != 0 they cross transversally, and there is no further
+ * analytic integral (lib/doc/why_only_one.md); m is computed, not proved. All this holds on every level of the
+ * point's energy (map/level.h) on which the rotation exists: those on which the point can reach the whole sphere.
  *
  *     iso_splitting s;
  *     status = iso_splitting_at(ctx, 0.5, (double[3]){1.4, 2.1, 3}, 0, ISO_SPLITTING_AUTO, &s);     s.x, s.m, s.error
@@ -57,9 +57,10 @@ typedef struct iso_splitting {
 
 /* Errors: ISO_BAD_INPUT about "k" or "J": those of iso_params_reduced; two equal moments (the body is integrable, and
  * there is no middle axis); lambda below 1.02 (moments that are nearly equal, large |k|, a high level), where m is
- * estimated at 1e-427 or less and not computed; parameters beyond what the numbers hold; about "level": the middle axis
- * has no rotation, but an oscillation between two places of rest. ISO_NUMERICAL: no crossing was found, or a return failed. ISO_BAD_ARGUMENT about "digits" where this
- * build has no 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The status and its words are in *s as well. */
+ * estimated at 1e-427 or less and not computed; parameters beyond what the numbers hold; about "level": the middle
+ * axis has no rotation, but an oscillation between two places of rest. ISO_NUMERICAL: no crossing was found, or a
+ * return failed. ISO_BAD_ARGUMENT about "digits" where this build has no 128 bits. ISO_NO_MEMORY, ISO_STOPPED. The
+ * status and its words are in *s as well. */
 ISO_API iso_status iso_splitting_at(iso_context *ctx, double k, const double J[3], double level,
                                     iso_splitting_digits digits, iso_splitting *s);
 
@@ -100,13 +101,12 @@ typedef struct iso_splittings {
 } iso_splittings;
 
 /* Other zeros of m than k = 1 and k = -1 are those of r = m exp(2 pi^2/ln lambda)/(k^2 - 1): there is one between two
- * neighbours that are distinguished from 0 if their r have opposite signs. Neighbours have the same level, or else the
- * same k. There the manifolds touch at one point. If
- * they cross at the next one (next_m != 0), there is no further integral.
- * A failure at one k stands in its row, and is no failure of the call.
- * Errors: ISO_BAD_ARGUMENT (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball and is no level; where
- * the scene starts as a point, or has a level, those of iso_orbit_create; ISO_NO_MEMORY; ISO_STOPPED by the
- * context's monitor: *s has the rows that are done. */
+ * neighbours that are distinguished from 0 if their r have opposite signs. Neighbours have the same level, or else
+ * the same k. There the manifolds touch at one point. If they cross at the next one (next_m != 0), there is no
+ * further integral. A failure at one k stands in its row, and is no failure of the call. Errors: ISO_BAD_ARGUMENT
+ * (no k; "digits"); ISO_BAD_INPUT about an effect that acts on the ball, other than `level`; where the scene starts
+ * as a point, or has a level, those of iso_orbit_create; ISO_NO_MEMORY; ISO_STOPPED by the context's monitor: *s has
+ * the rows that are done. */
 ISO_API iso_status iso_splitting_run(iso_context *ctx, const iso_splitting_options *options, iso_splittings **s);
 ISO_API void iso_splitting_free(iso_splittings *s);
 

@@ -72,7 +72,8 @@ static bool is_blind(const bracket *b, double error)
     return !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100);
 }
 
-/* Regula falsi in Illinois' form, until r is not distinguished from 0, or the number stands still. slope: dr by it there. */
+/* Regula falsi in Illinois' form, until r is not distinguished from 0, or the number stands still. slope: dr by it
+ * there. */
 static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *at, double *slope)
 {
     enum { MOST = 40 };
@@ -96,7 +97,8 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
 }
 
 /* The zero of the search, and steps of the secant method farther, with the digits that were asked for, until m is not
- * distinguished from 0, or as small as doubles of k or the level allow: the next crossing's slope must be seen beside it. */
+ * distinguished from 0, or as small as doubles of k or the level allow: the next crossing's slope must be seen beside
+ * it. */
 static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_splitting *zero)
 {
     enum { MOST = 8 };

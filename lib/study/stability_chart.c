@@ -17,8 +17,8 @@ typedef struct chart {
     iso_record *grid, *borders;
 } chart;
 
-/* H for eps = 1. Powers of J must fit a double: off H = 0 the moments get a unit near the largest of them, which changes
- * no trace. */
+/* H for eps = 1. Powers of J must fit a double: off H = 0 the moments get a unit near the largest of them, which
+ * changes no trace. */
 static double energy_of(double k, double level, double J[3])
 {
     int exponent;

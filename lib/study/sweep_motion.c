@@ -72,8 +72,7 @@ static iso_status free_refuse(iso_context *ctx, const iso_sweep_ask *ask)
     const iso_effect *effect = iso_effects_beyond_level(&acting);
     if (!effect) return ISO_OK;
     return iso_context_fail(ctx, ISO_BAD_INPUT, effect->name,
-                            "it is about the free ball, or the point on a level: take '%s' out of the scene",
-                            effect->name);
+                            "it is about the free ball, or the point on a level: remove '%s'", effect->name);
 }
 
 static iso_status splitting_find(iso_context *ctx, const iso_sweep_ask *ask, const iso_scene *scene, double number[])

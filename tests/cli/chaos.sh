@@ -51,7 +51,7 @@ check "a scene from standard input" test $? -eq 0
 run 0 chaos chaotic.yaml --json
 check "at the verdict no error is known" test "$(grep -c '"t": null' out)" -eq 2
 run 0 chaos chaotic.yaml
-check "so it says" grep -q 'so few turns do not tell the error; --exponent-turns' out
+check "so it says" grep -q 'too short to know this error; --exponent-turns' out
 run 0 chaos chaotic.yaml --exponent-turns 1000
 check "from how many turns" grep -q 'the exponents are from 1000 turns' out
 run 0 chaos chaotic.yaml --exponent-turns 1000 --json

@@ -154,7 +154,7 @@ run 0 run flat.yaml --t-end 200 --tol 1e-7 -o good.csv
 awk -F, -v OFS=, -v CONVFMT=%.17g '/^[0-9]/ { for (i = 2; i < 5; i++) $i *= 1 + 1e-9 } { print }' good.csv >whole.csv
 awk '/^[0-9]/ && ++n < 700 { next } { print }' whole.csv >late.csv
 run 0 convert --quiet --to point whole.csv
-check "a whole file: both lines are off" test "$(grep -c 'does not fit the first row, by 2e-09' err)" -eq 2
+check "a whole file: both lines are off" test "$(grep -c 'does not fit the first row (off by 2e-09' err)" -eq 2
 run 0 convert --quiet --to point late.csv -o turned.csv
 silent
 check "the energy of a later row" test "$(grep '^# h' turned.csv)" != "$(grep '^# h' good.csv)"

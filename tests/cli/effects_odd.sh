@@ -40,7 +40,7 @@ run 0 run grazing.yaml
 says "contact is lost at 0"
 check "one row" test "$(rows out | wc -l)" -eq 1
 
-# Files: reactions on a level plane, a level with attitude, rounded rows off the level, a lost line.
+# Files: reactions on a horizontal plane, a level with attitude, rounded rows off the level, a lost line.
 cat >level_plane.yaml <<'END'
 reduced: {k: 1, J: [1.4, 1.5, 1.6], D: 1}
 initial: {normal: [0, 0, 1], angular_velocity: [1, 0.3, 0]}
@@ -50,7 +50,7 @@ END
 run 0 run level_plane.yaml -o file.csv
 run 0 check file.csv --max 1e-9
 run 0 explain level_plane.yaml
-check "the level plane is reported" grep -q "'gravity' has no torque here" out
+check "the horizontal plane is reported" grep -q "'gravity' has no torque here" out
 cat >off.yaml <<'END'
 point: {k: -1, J: [1, 2, 2.5], eps: 0.5}
 initial: {gamma: [0.6, 0, 0.8], M: [0, 0.3, 0]}

@@ -178,7 +178,7 @@ for one in gravity free; do
     run 0 integrals $one.yaml --turns 2
     cp out $one.integrals
 done
-check "a level plane and no weight give the same section" cmp gravity.rows free.rows
+check "a horizontal plane and no weight give the same section" cmp gravity.rows free.rows
 check "and the same integrals" cmp gravity.integrals free.integrals
 
 # a point whose other numbers say that it is off the level

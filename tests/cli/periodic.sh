@@ -160,7 +160,7 @@ refuses 5 "nowhere" periodic b.yaml --chart J2 -o nowhere/f.csv
 scene 2 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >calm.yaml
 refuses 3 "no symmetric orbit to follow at k = 2, J = 1.4 2.1 3, level 0: the search along the six" \
     periodic calm.yaml --period 2 --follow k=1.9:2.1
-says "found none of 2 returns at most"
+says "found none of at most 2 returns"
 scene 0.01 "1.4, 2.1, 3" "0.9, -0.3, -0.225" "0.36, 0.48, 0.8" 10 0.5 >flat.yaml
 refuses 3 "give |k| >= 0.02" periodic flat.yaml
 refuses 3 "nothing is computed for |k| < 0.02" periodic b.yaml --chart J2 --k=-0.01:0.01

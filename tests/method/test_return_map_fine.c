@@ -193,8 +193,8 @@ static bool read_row(FILE *file, double v[NUMBERS])
     return false;
 }
 
-/* f^4 of crossing 1 is crossing 5, all with eps = 1 as in the file. The bound: a hundred roundings of the start, doubles,
- * that grow like the derivative. */
+/* f^4 of crossing 1 is crossing 5, all with eps = 1 as in the file. The bound: a hundred roundings of the start,
+ * doubles, that grow like the derivative. */
 static void check_reference(const double first[NUMBERS], const double fifth[NUMBERS], double *most)
 {
     const bool clocks[ISO_CLOCKS] = {true, true, true};

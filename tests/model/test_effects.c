@@ -379,10 +379,10 @@ static void refused_combinations(void)
     for (int side = -1; side <= 1; side += 2) {
         copy((const double[]){0, 0, side}, GRAVITY_UP(&e), 3);
         e.on[ISO_REACTIONS] = false;
-        attempt("gravity on a level plane", 1, 0.3, ISO_GRAVITY, e, "gravity");
+        attempt("gravity on a horizontal plane", 1, 0.3, ISO_GRAVITY, e, "gravity");
         attempt("gravity at the top of a sphere", 0.5, 0.3, ISO_GRAVITY, e, NULL);
         e.on[ISO_REACTIONS] = true;
-        attempt("gravity on a level plane with reactions", 1, 0.3, ISO_GRAVITY, e, NULL);
+        attempt("gravity on a horizontal plane with reactions", 1, 0.3, ISO_GRAVITY, e, NULL);
     }
 }
 

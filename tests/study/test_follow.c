@@ -60,9 +60,9 @@ static void check_point(const iso_branch *b, const iso_branch_point *p, const do
     iso_periodic_free(f);
 }
 
-/* J = (1, 2, 5), the fixed point of period 1: where its trace touches -2 (it has two symmetries, so that its trace is that
- * of half of it squared, less 2), its collision with the rotation about axis 1, whose trace is there 2, and the branch of
- * period 2 that begins at the touch. */
+/* J = (1, 2, 5), the fixed point of period 1: where its trace touches -2 (it has two symmetries, so that its trace is
+ * that of half of it squared, less 2), its collision with the rotation about axis 1, whose trace is there 2, and the
+ * branch of period 2 that begins at the touch. */
 static void check_branch(void)
 {
     static const double J[3] = {1, 2, 5};

@@ -132,7 +132,7 @@ static void check_cat(void)
     const iso_indication told = follow(&m, &o, TURNS);
     gsl_test_int((int)told.verdict, ISO_CHAOTIC, "verdict of the cat map");
     gsl_test_int(told.turns < 200, 1, "the cat map is decided at %ld turns", told.turns);
-    gsl_test(!isnan(told.per_turn_error), "so few turns do not tell the error: %g", told.per_turn_error);
+    gsl_test(!isnan(told.per_turn_error), "an orbit that is too short to know the error: %g", told.per_turn_error);
     gsl_test_abs(told.per_turn, exact, 1e-12, "exponent of the cat map");
     gsl_test_abs(told.exponent[ISO_CLOCK_T], exact / 2, 1e-12, "... per unit of t");
     gsl_test_abs(told.exponent[ISO_CLOCK_TAU], exact / 3, 1e-12, "... of tau");

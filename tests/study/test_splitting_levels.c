@@ -1,5 +1,5 @@
-/* The splitting on every level of the point's energy: m by difference quotients of crossings, 64 against 128 bits, scans
- * against the level. */
+/* The splitting on every level of the point's energy: m by difference quotients of crossings, 64 against 128 bits,
+ * scans against the level. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
