@@ -3,7 +3,8 @@
  *     U = -c g^(-1/k),  g = (n, J^-1 n):     MQ = k n x dU/dn = 2 c g^(-1/k - 1) n x J^-1 n
  *
  * On the point U/G = -c det J/k^2 is a constant, which makes no force. The point's equations stay the same, but its
- * orbit is on the level H = c det J/k^2, not on H = 0. That level is the problem's `energy`.
+ * orbit is on the level H = c det J/k^2, not on H = 0. That level is the problem's `energy`. With three equal moments U
+ * is a constant as well: the ball moves as a free one, and still its point has this H.
  */
 #include <math.h>
 
@@ -46,15 +47,6 @@ static bool keeps(const iso_problem *f, iso_further integral)
     return true;
 }
 
-static iso_status check(iso_context *ctx, const iso_params *p, const double n[3], iso_effects *effects)
-{
-    (void)n;
-    (void)effects;
-    if (p->J[0] != p->J[1] || p->J[1] != p->J[2]) return ISO_OK;
-    return iso_context_fail(ctx, ISO_BAD_INPUT, "level",
-                            "with equal moments this potential is a constant and changes nothing: take it out");
-}
-
 /* The energy of a point tells c, that of a ball does not. */
 static iso_status complete(iso_context *ctx, const iso_params *p, int model, double number[],
                            bool (*given)(const void *scene, const char *key), const void *scene)
@@ -80,7 +72,6 @@ const iso_effect iso_effect_level = {
     .keeps = keeps,
     .numbers = numbers,
     .complete = complete,
-    .check = check,
     .motion = motion,
     .potential = potential,
     .strength = strength,

@@ -80,6 +80,13 @@ run 0 section low.yaml --starts 3 --crossings 3
 refuses 3 "n_3 = 0 is closed at l = 1.5 on the level H = " section low.yaml --at 1.5,0
 refuses 3 "n_1 = 0 is closed everywhere on the level" section low.yaml --axis 1 --starts 2
 
+# --- three equal moments: the potential of the level is a constant, and still the point has its H
+sed 's/J: [^]]*/J: [2, 2, 2/' off.yaml >equal.yaml
+run 0 run equal.yaml --as point -o equal.csv
+run 0 convert --to ball equal.csv -o equal_ball.csv
+for file in equal equal_ball; do run 0 check --max 1e-11 $file.csv; done
+run 0 section equal.yaml --starts 2 --crossings 3
+
 # --- sweeps over the level
 cat >levels.yaml <<END
 scene: off.yaml

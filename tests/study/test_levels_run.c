@@ -110,7 +110,7 @@ static void find_integrals(law *k)
         if (i->name[0] == 'F' && (!i->holds || i->holds(&k->problem))) k->integral[k->count++] = i;
 }
 
-/* Random scenes: k, J, H; points, and balls with the effect `level`; by the ball, the point, and both. */
+/* Random scenes: k, J (of some bodies equal), H; points, and balls with the effect `level`; by the ball, the point, and both. */
 static void check_rows(void)
 {
     static const double ks[] = {0.5, -0.5, 1, -1, 2, -2};
@@ -118,8 +118,10 @@ static void check_rows(void)
     law k = {.rows = 0};
     for (int i = 0; i < tests_length(24, 240); i++) {
         char text[512], what[64];
-        const double J[3] = {iso_random_uniform(r, 1, 3), iso_random_uniform(r, 1, 3), iso_random_uniform(r, 1, 3)};
+        double J[3] = {iso_random_uniform(r, 1, 3), iso_random_uniform(r, 1, 3), iso_random_uniform(r, 1, 3)};
         double gamma[3], M[3];
+        if (i % 7 == 3 || i % 7 == 5) J[1] = J[0]; /* two equal moments */
+        if (i % 7 == 5) J[2] = J[0];               /* three             */
         iso_random_direction(r, gamma);
         iso_random_direction(r, M);
         const double fast = iso_random_uniform(r, 0.05, 3);
