@@ -142,6 +142,7 @@ bool iso_conversion_reconcile(iso_conversion *c, const conversion_row *r)
 {
     const iso_params *p = &c->first->units.own;
     account a = account_of(c, r);
+    c->summary.stated_count = 0; /* the row before may have been bad */
     c->replaces = c->params == &c->shifted || (isnan(a.h) && isnan(a.eps));
     if (level_is_off(c, &a)) {
         mend_level(c, &a);

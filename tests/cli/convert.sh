@@ -140,6 +140,12 @@ for lines in flat level field; do
         done
     done
 done
+# a wrong k beside a level: every row is refused; the lines that no row confirms were once told for each of them
+run 0 run level.yaml --as point -o good.csv
+sed 's/^# k: .*/# k: 0.5005/' good.csv >off.csv
+run 3 convert --to ball off.csv -o none.csv
+check "the reason comes last" sh -c 'tail -n 1 err | grep -q "off.csv: level: this point has the energy of c = "'
+check_not "a wrong k leaves no file" test -e none.csv
 cat >shift.yaml <<'END'
 point: {k: -1, J: [1.0, 1.5, 2.0], eps: 0.5}
 initial: {gamma: [0.36, 0.48, 0.8], M: [1.6, -1.2, 0]}
