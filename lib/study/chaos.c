@@ -171,7 +171,7 @@ static void count_shares(const iso_chaos_walk *w)
         if (!iso_chaos_followed(o)) continue;
         count[copy]++;
         chaotic[copy] += o->verdict == ISO_CHAOTIC;
-        possible[copy] += o->verdict != ISO_REGULAR;
+        possible[copy] += o->verdict == ISO_CHAOTIC || (o->verdict == ISO_UNDECIDED && !c->integral);
         s->count++;
         s->chaotic += o->verdict == ISO_CHAOTIC;
         s->regular += o->verdict == ISO_REGULAR;

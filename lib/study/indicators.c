@@ -184,7 +184,7 @@ static double error_of(const iso_indicators *it, int c, double lam)
 /* The exponent of a regular orbit is 0, so its estimate is its error. */
 static double tell_rate(const iso_indicators *it, int c, double *error)
 {
-    const double lam = rate(it, c);
+    const double found = rate(it, c), lam = isfinite(found) ? found : (double)NAN; /* it may not fit a double */
     *error = it->verdict == ISO_REGULAR ? fabs(lam) : it->verdict == ISO_CHAOTIC ? error_of(it, c, lam) : (double)NAN;
     return lam;
 }

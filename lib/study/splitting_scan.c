@@ -15,7 +15,8 @@ typedef struct bracket {
     bool by_level;
     double other; /* the number in which they agree */
     double at[2], r[2];
-    bool fine; /* 64 bits do not tell these m from 0 */
+    double width; /* of at */
+    bool fine;    /* 64 bits do not tell these m from 0 */
 } bracket;
 
 typedef struct scan {
@@ -72,6 +73,12 @@ static bool is_blind(const bracket *b, double error)
     return !(error < fmax(fabs(b->r[0]), fabs(b->r[1])) / 100);
 }
 
+/* How far the number must go to change by much: k itself; a level can be 0, so it is measured by its bracket. */
+static double size_of(const bracket *b, double at)
+{
+    return b->by_level ? b->width : fabs(at);
+}
+
 /* Regula falsi in Illinois' form, until r is not distinguished from 0, or the number stands still. slope: dr by it
  * there. */
 static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *at, double *slope)
@@ -85,14 +92,15 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
         *at = (b->at[0] * end[1] - b->at[1] * end[0]) / (end[1] - end[0]);
         status = value_at(w, c, b, *at, &r, &error);
         if (status == ISO_OK && is_blind(b, error)) return ISO_NUMERICAL;
-        if (status != ISO_OK || fabs(r) < 10 * error || fabs(*at - last) < 1e-12 * fabs(*at)) break;
+        if (status != ISO_OK || fabs(r) < 10 * error || fabs(*at - last) < 1e-12 * size_of(b, *at)) break;
         const int side = r * end[0] > 0 ? 0 : 1;
         b->at[side] = *at, end[side] = r;
         if (kept == 1 - side) end[1 - side] /= 2;
         kept = 1 - side;
     }
-    if (status == ISO_OK) status = value_at(w, c, b, *at * (1 + 1e-4), &aside, &error);
-    *slope = (aside - r) / (*at * 1e-4);
+    const double step = copysign(1e-4 * size_of(b, *at), *at);
+    if (status == ISO_OK) status = value_at(w, c, b, *at + step, &aside, &error);
+    *slope = (aside - r) / step;
     return status;
 }
 
@@ -108,8 +116,8 @@ static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_sp
         status = iso_splitting_next_at(w->ctx, b.by_level ? b.other : at, c->o->J, b.by_level ? at : b.other,
                                        c->o->digits, zero);
         r = reduced(zero, zero->m), error = fabs(reduced(zero, zero->error));
-        if (i > 0 && fabs(at - last) > 1e-12 * fabs(at)) slope = (r - last_r) / (at - last);
-        least = 4e-16 * fabs(slope * at);
+        if (i > 0 && fabs(at - last) > 1e-12 * size_of(&b, at)) slope = (r - last_r) / (at - last);
+        least = 4e-16 * fabs(slope) * size_of(&b, at);
         if (fabs(r) < fmax(10 * error, least)) break;
         last = at, last_r = r;
         at -= r / slope;
@@ -138,8 +146,9 @@ static bool is_bracket(const iso_splitting *a, const iso_splitting *b, bracket *
 {
     const bool fine = a->digits > 19 || b->digits > 19, by_level = a->k == b->k;
     *found =
-        (bracket){by_level, by_level ? a->k : a->level, {a->k, b->k}, {reduced(a, a->m), reduced(b, b->m)}, fine};
+        (bracket){by_level, by_level ? a->k : a->level, {a->k, b->k}, {reduced(a, a->m), reduced(b, b->m)}, 0, fine};
     if (by_level) found->at[0] = a->level, found->at[1] = b->level;
+    found->width = fabs(found->at[1] - found->at[0]);
     return a->k * b->k > 0 && (by_level || a->level == b->level) && found->r[0] * found->r[1] < 0;
 }
 

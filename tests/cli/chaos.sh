@@ -118,6 +118,16 @@ if has gnuplot pictures; then
 fi
 refuses 2 "must end in .svg" chaos chaotic.yaml --plot x.gif
 
+# --- where a further integral is known, undecided orbits are not chaotic
+run 0 chaos regular.yaml --starts 40 --turns 20 --json
+check "all are undecided" test "$(value undecided_starts)" = 40
+check "and none of them may be chaotic" between "$(sed -n 's/^ *"high": \([0-9.e-]*\),*$/\1/p' out)" 0 0.1
+
+# --- an exponent that does not fit a double is not known
+scene 0.003 "1, 2, 5" "$spin" "$normal" 10 0.5 >extreme.yaml
+run 0 chaos extreme.yaml
+check_not "no infinite exponent" grep -qw inf out
+
 # --- Ctrl-C keeps what is known
 if interruptible "chaos after SIGINT"; then
     judged() { grep -q '"verdict": "chaotic"' out; }

@@ -248,4 +248,8 @@ check "a column of another program" grep -q "^not looked at:.*'colour'" out
 awk -F, -v OFS=, '/^#/ { print; next } { print $1, $2, $3, $4, $5, $6, $7, $8, $9, $10 }' both.csv >half.csv
 run 0 check half.csv
 check "M1 alone" grep -q "^not looked at: M1, # model" out
+# --- a point's rows do not state effects that only observe: they are the ball's
+run 0 run "$source/examples/01_bowling_ball/lane.yaml" --t-end 1 --step 0.2 --as point -o lane.csv
+check_not "no weight on the point" grep -q '^# gravity' lane.csv
+run 0 check lane.csv --max 1e-9
 finish
