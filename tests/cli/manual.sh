@@ -23,7 +23,7 @@ sed -n 's/^  \([a-z]*\)  *\[*[A-Z]*\]*  *[a-z].*/\1/p' out | grep -v '^isoroll$'
 for command in $(cat commands); do
     run 0 "$command" --help
     sed -n 's/^  --\([a-zA-Z-]*\) .*/\1/p' out | sort >"options.$command"
-    sed -n 's/.*(-\([a-z]\)[ )].*/\1/p' out | sort >"letters.$command"
+    sed -n 's/.*(-\([a-z]\)\([ )].*\)*$/\1/p' out | sort >"letters.$command"
 done
 check "ten commands or more" test "$(wc -l <commands)" -ge 10
 

@@ -280,10 +280,8 @@ static iso_context *ctx;
 static void accepted(const effects_case *c, laws_worst *worst)
 {
     iso_effects e = c->model.problem.effects;
-    const double *J = c->model.problem.p.J;
-    const bool constant = e.on[ISO_LEVEL] && J[0] == J[1] && J[1] == J[2]; /* a level that is refused */
     const iso_status status = iso_effects_check(ctx, &c->model.problem.p, c->y + 3, &e);
-    effects_note(c, worst, (status != ISO_OK) != constant, 0.5, constant ? "accepted" : "refused");
+    effects_note(c, worst, status != ISO_OK, 0.5, "refused");
     for (iso_effect_id i = 0; i < ISO_EFFECTS; i++)
         for (const iso_effect_number *n = iso_effect_list[i]->numbers; n && n->name; n++)
             for (int j = 0; j < n->count; j++) {
