@@ -25,7 +25,7 @@ static void name_global(const iso_orbit *orbit, iso_section_nature *n)
     const iso_point_motion m = iso_orbit_motion(orbit);
     const double turn = 2 * ISO_PI * iso_unit(units, iso_clock_dimension(ISO_CLOCK_S));
     const double unit_M = iso_unit(units, iso_system_point.fast_dimension);
-    char level[48] = "", except[48], longest[32] = "or more", returns[96];
+    char level[40] = "", except[40], longest[32] = "or more", returns[80];
     double W[2];
     iso_section_bounds(m, n->axis, W);
     if (W[0] > 0) snprintf(longest, sizeof longest, "to %.4g", turn / W[0]);
