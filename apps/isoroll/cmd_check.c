@@ -17,6 +17,7 @@ typedef struct options {
 typedef struct findings {
     iso_residuals residuals;
     json_t *unseen; /* names of what is not looked at */
+    bool lost;      /* there was no memory for a name in it */
 } findings;
 
 static bool is_bad(const options *o, const iso_residual *r)
@@ -77,24 +78,32 @@ static bool print_json(const options *o, const findings *f)
 
 /* --- the check -------------------------------------------------------------------------------------------------- */
 
+static void keep(findings *f, json_t *name)
+{
+    f->lost = json_array_append_new(f->unseen, name) != 0 || f->lost;
+}
+
 static void keep_name(void *data, const char *name)
 {
-    json_array_append_new(data, json_string(name));
+    keep(data, json_string(name));
 }
 
 /* Columns that are none of a trajectory never come so far that they could be compared. */
-static void keep_ignored(const iso_trajectory_reader *in, json_t *unseen)
+static void keep_ignored(const iso_trajectory_reader *in, findings *f)
 {
     const char *ignored = iso_trajectory_ignored(in);
-    if (ignored) json_array_append_new(unseen, json_sprintf("other columns: %s", ignored));
+    if (ignored) keep(f, json_sprintf("other columns: %s", ignored));
 }
 
-static iso_status end_check(iso_checking *checking, const iso_trajectory_reader *in, findings *f)
+static iso_status end_check(iso_context *ctx, iso_checking *checking, const iso_trajectory_reader *in, findings *f)
 {
-    const iso_status status = iso_checking_end(checking, &f->residuals);
+    iso_status status = iso_checking_end(checking, &f->residuals);
     if (status != ISO_OK) return status;
-    keep_ignored(in, f->unseen);
-    return iso_checking_unseen(checking, keep_name, f->unseen);
+    f->unseen = json_array();
+    keep_ignored(in, f);
+    status = iso_checking_unseen(checking, keep_name, f);
+    if (status != ISO_OK || (f->unseen && !f->lost)) return status;
+    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for the names of what is not looked at");
 }
 
 /* Checks the rows one after the other, as they are read. A mistake in the first one is told before what the header
@@ -118,7 +127,7 @@ static iso_status check_rows(iso_context *ctx, const options *o, iso_trajectory_
         status = iso_checking_put(checking, row);
         if (status == ISO_OK) status = iso_trajectory_next(ctx, in, row, &more);
     }
-    if (status == ISO_OK) status = end_check(checking, in, f);
+    if (status == ISO_OK) status = end_check(ctx, checking, in, f);
     iso_checking_free(checking);
     return status;
 }
@@ -140,7 +149,6 @@ static int run(iso_context *ctx, const void *options_given)
     iso_trajectory_reader *in = NULL;
     findings f = {.residuals = {.rows = 0}};
     json_begin();
-    f.unseen = json_array();
     iso_status status = iso_trajectory_reader_open(ctx, o->from.file, o->from.columns, &in);
     if (status == ISO_OK) {
         iso_trajectory_pass_nan(in);

@@ -52,7 +52,7 @@ static const iso_effect *next_on(const iso_effects *effects, int *e)
 /* The same, of those that act. */
 static const iso_effect *next_acting(const iso_effects *effects, int *e)
 {
-    while (*e < ISO_EFFECTS && !iso_effect_acts(effects, *e)) ++*e;
+    while (*e < ISO_EFFECTS && !iso_effect_acts(effects, (iso_effect_id)*e)) ++*e;
     return *e < ISO_EFFECTS ? iso_effect_list[(*e)++] : NULL;
 }
 
@@ -66,7 +66,7 @@ bool iso_effect_acts(const iso_effects *effects, iso_effect_id id)
 iso_effects iso_effects_acting(const iso_effects *effects)
 {
     iso_effects acting = *effects;
-    for (int e = 0; e < ISO_EFFECTS; e++) acting.on[e] = iso_effect_acts(effects, e);
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) acting.on[e] = iso_effect_acts(effects, e);
     return acting;
 }
 

@@ -108,7 +108,7 @@ static void add_states(iso_model *m)
 /* The first effect whose torque is a function, not a formula; NULL: none. */
 static const iso_effect *find_without_formula(const iso_model *m)
 {
-    for (int e = 0; e < ISO_EFFECTS; e++)
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
         if (iso_effect_acts(&m->problem.effects, e) && m->system == &iso_system_ball && iso_effect_list[e]->torque)
             return iso_effect_list[e];
     return NULL;
