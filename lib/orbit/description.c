@@ -45,7 +45,8 @@ iso_status iso_record_describe(iso_context *ctx, iso_record *r, const char *mode
     const bool twin = iso_orbit_has_twin(orbit);
     const double h = iso_orbit_energy(orbit), eps = iso_orbit_coupling(orbit);
     iso_effects effects = iso_orbit_effects(orbit);
-    if (strcmp(model, iso_model_kind_name(ISO_POINT)) == 0) effects = iso_effects_acting(&effects); /* no others */
+    /* effects that only observe are the ball's: rows of the point have none of their columns */
+    if (strcmp(model, iso_model_kind_name(ISO_POINT)) == 0) effects = iso_effects_acting(&effects);
     const double c = iso_effects_level(&effects);
     iso_effects_set_level(&effects, iso_effects_have_level(&effects) && isnormal(c), c);
     if (iso_effects_need_D(&effects)) status = iso_record_set_numbers(ctx, r, "D", 1, &p->D);

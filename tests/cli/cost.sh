@@ -70,6 +70,7 @@ awk '/^ "choice": {/ { choice = 1 } /"error":/ { error = $2 + 0 }
 check "the choice is the cheapest cell that reaches it" test $? -eq 0
 run 0 cost open.yaml --method taylor --want 1e-8
 says "expected: error "
+check "it reaches what is wanted" awk '/expected: error/ { found = 1; bad = !($4 + 0 <= 1e-8) } END { exit !found || bad }' err
 check "options, and nothing else" grep -qxE -e '--backend (ball|point) --method taylor --tol 1e-[0-9]{2}' out # the cheapest, as timed
 check "one line" test "$(wc -l <out)" -eq 1
 # shellcheck disable=SC2046 # options
