@@ -81,12 +81,12 @@ static int list(iso_context *ctx, const options *o, const iso_scene *scene, iso_
     progress_end();
     int result = finish_scene(ctx, &o->scene, scene, status);
     if (status == ISO_STOPPED) complain("interrupted: orbits are missing");
-    if (found && o->follow)
-        result = worse(result, follow(ctx, o, scene, found, csv));
-    else if (found)
-        result = worse(result, report(ctx, o, &(periodic_report){scene, found, how.period, o->polish, o->all}, csv));
-    else if (csv)
+    if (!found || (o->follow && found->count == 0 && status == ISO_STOPPED))
         iso_output_close(ctx, csv, false);
+    else if (o->follow)
+        result = worse(result, follow(ctx, o, scene, found, csv));
+    else
+        result = worse(result, report(ctx, o, &(periodic_report){scene, found, how.period, o->polish, o->all}, csv));
     iso_context_set_monitor(ctx, NULL, NULL);
     iso_periodic_free(found);
     return result;
