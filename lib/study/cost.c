@@ -149,9 +149,12 @@ static void not_in_time(iso_cost_cell *cell, double seconds)
 static void check_cell(measurer *m, iso_cost_cell *cell, double seconds, double *about)
 {
     cost_track track;
-    if (iso_cost_track_make(&m->p, m->reference.first.times, m->time, &track) != ISO_OK) return;
-    const iso_status status =
-        iso_cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, false, seconds, &track);
+    iso_status status = iso_cost_track_make(&m->p, m->reference.first.times, m->time, &track);
+    if (status != ISO_OK) {
+        fail(cell, status, iso_context_message(m->p.user));
+        return;
+    }
+    status = iso_cost_walk(&m->p, cell->backend, cell->method, cell->tolerance, false, seconds, &track);
     *about = track.seconds;
     if (status == ISO_OK) {
         cell->status = ISO_OK;

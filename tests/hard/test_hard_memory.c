@@ -307,8 +307,7 @@ static iso_status measure_cost(const hard_road *way)
     return status;
 }
 
-/* --- each call in turn
- * -------------------------------------------------------------------------------------------- */
+/* --- each call in turn ------------------------------------------------------------------------------------------- */
 
 typedef iso_status call(const hard_road *way);
 
@@ -393,7 +392,7 @@ int main(void)
     starve("frequencies", find_frequencies, &hard_way[0], 60);
     starve("frequencies, estimated", find_frequencies, NULL, 30);
     starve("error", find_error, NULL, 60);
-    starve("cost", measure_cost, NULL, 12);
+    starve("cost", measure_cost, NULL, 60);
     unlink("hard_memory.csv");
     iso_context_free(ctx);
     return hard_summary();
