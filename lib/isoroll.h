@@ -1,5 +1,5 @@
 /* isoroll.h - what most programs need: a context, parameters, effects, scenes, orbits, batches, runs, conversions,
- * scene files and trajectory files. Other headers are included by name, such as <isoroll/study/cost.h>.
+ * scene files and trajectory files. Other headers are included by name, such as <isoroll/study/cost/cost.h>.
  *
  * Rules for all functions of the library. A header names only the exceptions.
  *

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "io/sweep_store.h"
+#include "sweep/sweep_store.h"
 #include "progress.h"
 #include "ranks.h"
 

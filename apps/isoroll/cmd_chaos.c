@@ -3,11 +3,11 @@
 #include <string.h>
 
 #include "io/output.h"
-#include "io/plot.h"
 #include "json.h"
+#include "plot/plot.h"
 #include "progress.h"
 #include "scene_options.h"
-#include "study/chaos.h"
+#include "study/chaos/chaos.h"
 #include "table.h"
 
 /* What chaos can be told. */
@@ -15,7 +15,7 @@ typedef struct options {
     scene_options scene;           /* only its file and tolerance are used */
     const char *axis, *csv, *plot; /* NULL: not given                      */
     double turns, exponent_turns, starts, seed, threads;
-    iso_shown models; /* ISO_SHOW_START: not given */
+    iso_models models; /* ISO_SHOW_START: not given */
     bool json;
 } options;
 
@@ -90,7 +90,7 @@ static void print_worth(const iso_chaos *c)
 }
 
 /* How many of the starts were followed, if not all. */
-static void print_followed(const iso_chaos_share *s)
+static void print_followed(const iso_chaos_fraction *s)
 {
     if (s->count == s->asked) return;
     printf("  %zu of them were followed", s->count);
@@ -98,7 +98,7 @@ static void print_followed(const iso_chaos_share *s)
     printf(s->count > 0 ? ": the shares are of these\n" : ": no share is known\n");
 }
 
-static void print_share(const iso_chaos_share *s)
+static void print_share(const iso_chaos_fraction *s)
 {
     if (s->asked == 0) return;
     const double count = (double)s->count;
@@ -143,7 +143,7 @@ static json_t *model_of(const iso_chaos *c, int model)
                      json_number(i->megno_mean), "gali2", json_number(i->gali2), "digits", json_number(i->digits));
 }
 
-static json_t *share_of(const iso_chaos_share *s)
+static json_t *share_of(const iso_chaos_fraction *s)
 {
     const double n = (double)s->count; /* 0: then every part of it is NaN, and null in the file */
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:I, s:I}", "chaotic",

@@ -4,7 +4,7 @@
 
 #include "json.h"
 #include "parameters.h"
-#include "study/check.h"
+#include "study/check/check.h"
 
 /* What check can be told. */
 typedef struct options {

@@ -1,8 +1,8 @@
 /* isoroll compare - computes one orbit by every backend and shows the differences: table, picture, JSON. */
 #include <math.h>
 
-#include "io/plot.h"
 #include "json.h"
+#include "plot/plot.h"
 #include "scene_options.h"
 #include "study/compare.h"
 

@@ -5,7 +5,7 @@
 
 #include "cost_report.h"
 #include "io/output.h"
-#include "io/plot.h"
+#include "plot/plot.h"
 #include "scene_options.h"
 
 /* What cost can be told. */
@@ -38,7 +38,7 @@ static iso_cost_options options_of(const options *o)
 /* --- growth ----------------------------------------------------------------------------------------------------- */
 
 /* The cell of a line with the smallest error; NULL: none is measured. */
-static const iso_cost_cell *most_exact(const iso_cost *cost, const iso_cost_line *line)
+static const iso_cost_cell *most_exact(const iso_cost *cost, const iso_cost_series *line)
 {
     const iso_cost_cell *best = NULL;
     for (int i = line->first; i < line->first + line->count; i++) {
@@ -49,7 +49,7 @@ static const iso_cost_cell *most_exact(const iso_cost *cost, const iso_cost_line
 }
 
 /* For each backend the fastest method, at the tolerance where its error is smallest. */
-static int best_cells(const iso_cost *cost, const iso_cost_line *const line[],
+static int best_cells(const iso_cost *cost, const iso_cost_series *const line[],
                       const iso_cost_cell *best[COST_GROWTHS])
 {
     int count = 0;
@@ -62,7 +62,7 @@ static int best_cells(const iso_cost *cost, const iso_cost_line *const line[],
     return count;
 }
 
-static void grow(iso_context *ctx, const options *o, const iso_cost_line *const line[], cost_report *r)
+static void grow(iso_context *ctx, const options *o, const iso_cost_series *const line[], cost_report *r)
 {
     const iso_cost_cell *best[COST_GROWTHS];
     const int count = best_cells(r->cost, line, best);
@@ -87,13 +87,13 @@ static bool has_name(const iso_plot_work *work, int in_panel, int *names, const 
 }
 
 /* Adds the lines of one backend, the fastest first. `error` and `seconds` hold the numbers of all cells. */
-static void add_panel(const iso_cost *cost, const iso_cost_line *const line[], iso_backend backend,
+static void add_panel(const iso_cost *cost, const iso_cost_series *const line[], iso_backend backend,
                       const double *error, const double *seconds, iso_plot_work *work, iso_plot_series *series,
                       int *names)
 {
     int in_panel = 0;
     for (int l = 0; l < cost->lines && work->count < ISO_PLOT_SERIES; l++) {
-        const iso_cost_line *one = line[l];
+        const iso_cost_series *one = line[l];
         if (!one->method || one->backend != backend) continue;
         const bool named = has_name(work, in_panel++, names, one->method->name);
         series[work->count++] = (iso_plot_series){.panel = iso_backend_name((int)backend),
@@ -104,7 +104,7 @@ static void add_panel(const iso_cost *cost, const iso_cost_line *const line[], i
     }
 }
 
-static iso_status draw(iso_context *ctx, const options *o, const iso_cost_line *const line[], const cost_report *r)
+static iso_status draw(iso_context *ctx, const options *o, const iso_cost_series *const line[], const cost_report *r)
 {
     const iso_params *p = &r->scene->params;
     const iso_cost *cost = r->cost;
@@ -144,7 +144,7 @@ static int tell_choice(const cost_report *r)
     return EXIT_DONE;
 }
 
-static int print_report(const options *o, const iso_cost_line *const line[], const cost_report *r)
+static int print_report(const options *o, const iso_cost_series *const line[], const cost_report *r)
 {
     const bool lost = !r->cost->complete || cost_count(r->cost, cost_is_failed) > 0;
     const bool failed = isnan(r->want) ? lost : !iso_cost_choose(r->cost, r->want);
@@ -157,7 +157,7 @@ static int print_report(const options *o, const iso_cost_line *const line[], con
 /* Prints and draws what was asked for. */
 static int report(iso_context *ctx, const options *o, cost_report *r, iso_output *csv)
 {
-    const iso_cost_line **line = cost_sort_lines(r->cost);
+    const iso_cost_series **line = cost_sort_lines(r->cost);
     if (!line) return complain("out of memory"), iso_output_close(ctx, csv, false), EXIT_NUMERICAL;
     if (o->horizons > 0 && r->cost->complete) grow(ctx, o, line, r);
     progress_end();

@@ -4,7 +4,7 @@
 #include <time.h>
 
 #include "scene_options.h"
-#include "study/section.h"
+#include "study/section/section.h"
 #include "sweep_explain.h"
 
 /* What explain can be told. */

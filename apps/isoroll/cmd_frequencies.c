@@ -3,12 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "io/plot.h"
 #include "json.h"
+#include "plot/plot.h"
 #include "progress.h"
 #include "scene_options.h"
-#include "study/frequencies.h"
-#include "study/momentum.h"
+#include "study/frequencies/frequencies.h"
+#include "study/frequencies/momentum.h"
 
 /* What frequencies can be told. */
 typedef struct options {
@@ -170,7 +170,7 @@ static json_t *lines_of(const iso_estimate *e, int signal)
 {
     json_t *list = json_array();
     for (int i = 0; i < e->lines[signal]; i++) {
-        const iso_named_line *l = &e->line[signal][i];
+        const iso_identified_line *l = &e->line[signal][i];
         json_array_append_new(list, json_pack("{s:o, s:o, s:o, s:o}", "frequency", json_number(l->line.frequency),
                                               "amplitude", json_number(l->line.amplitude), "m",
                                               l->known ? json_integer(l->m) : json_null(), "n",
@@ -250,7 +250,7 @@ static iso_status draw_lines(iso_context *ctx, const options *o, const iso_scene
     if (status != ISO_OK) return status;
     for (int s = 0; s < 2; s++)
         for (int i = 0; status == ISO_OK && i < f.estimate.lines[s]; i++) {
-            const iso_named_line *l = &f.estimate.line[s][i];
+            const iso_identified_line *l = &f.estimate.line[s][i];
             double *row;
             status = iso_record_append(ctx, r, &row);
             if (status != ISO_OK) break;

@@ -4,7 +4,7 @@
 #include "json.h"
 #include "progress.h"
 #include "scene_options.h"
-#include "study/integrals.h"
+#include "study/integrals/integrals.h"
 
 /* What integrals can be told. */
 typedef struct options {

@@ -3,10 +3,10 @@
 #include <string.h>
 
 #include "io/output.h"
-#include "io/plot.h"
 #include "periodic_chart.h"
 #include "periodic_follow.h"
 #include "periodic_report.h"
+#include "plot/plot.h"
 #include "progress.h"
 #include "scene_options.h"
 

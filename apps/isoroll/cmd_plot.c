@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/nearest.h"
-#include "io/plot.h"
 #include "parameters.h"
-#include "study/check.h"
+#include "plot/plot.h"
+#include "study/check/check.h"
 #include "study/energy.h"
 #include "sweep_plot.h"
 

@@ -6,11 +6,11 @@
 
 #include "base/nearest.h"
 #include "base/number.h"
-#include "io/plot.h"
+#include "plot/plot.h"
 #include "scene_options.h"
 #include "section_cloud.h"
 #include "section_plot.h"
-#include "study/section.h"
+#include "study/section/section.h"
 
 enum { MOST_AT = 64 };
 
@@ -21,7 +21,7 @@ typedef struct options {
     const char *at[MOST_AT + 1];              /* as they were typed, then NULL  */
     double crossings, starts, seed, threads;
     double cloud;     /* 0: not given                  */
-    iso_shown models; /* ISO_SHOW_START: not given      */
+    iso_models models; /* ISO_SHOW_START: not given      */
     bool quiet;
 } options;
 

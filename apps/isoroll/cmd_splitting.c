@@ -5,7 +5,7 @@
 
 #include "base/number.h"
 #include "io/output.h"
-#include "io/plot.h"
+#include "plot/plot.h"
 #include "scene_options.h"
 #include "splitting_report.h"
 #include "study/level.h"
@@ -14,7 +14,7 @@
 typedef struct options {
     scene_options scene;                   /* only its file is used */
     const char *k, *level, *output, *plot; /* NULL: not given */
-    iso_splitting_digits digits;
+    iso_separatrix_digits digits;
     double threads;
     bool json;
 } options;
@@ -32,7 +32,7 @@ static const char *digits_word(int i)
 static bool set_splitting_digits(void *at, const char *text)
 {
     for (int i = 0; digits_word(i); i++)
-        if (strcmp(text, digits_word(i)) == 0) return *(iso_splitting_digits *)at = (iso_splitting_digits)i, true;
+        if (strcmp(text, digits_word(i)) == 0) return *(iso_separatrix_digits *)at = (iso_separatrix_digits)i, true;
     return false;
 }
 
@@ -138,7 +138,7 @@ static iso_status read_lists(iso_context *ctx, const options *o, const iso_scene
 /* --- the command ------------------------------------------------------------------------------------------------ */
 
 /* All rows failed: the first one's reason is that of the command. Some: they are told. */
-static int judge(iso_context *ctx, const iso_splittings *s)
+static int judge(iso_context *ctx, const iso_separatrix_table *s)
 {
     size_t failed = 0, first = s->rows;
     for (size_t i = 0; i < s->rows; i++) {
@@ -153,7 +153,7 @@ static int judge(iso_context *ctx, const iso_splittings *s)
     return EXIT_SOME_FAILED;
 }
 
-static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_splittings *s,
+static int report(iso_context *ctx, const options *o, const iso_scene *scene, const iso_separatrix_table *s,
                   iso_output *csv)
 {
     int result = judge(ctx, s);
@@ -185,8 +185,8 @@ static iso_status prepare(iso_context *ctx, const options *o, iso_scene *scene, 
 static int work(iso_context *ctx, const options *o, const iso_scene *scene, const numbers *k, const numbers *level,
                 iso_output *csv)
 {
-    iso_splittings *s = NULL;
-    iso_splitting_options how = iso_splitting_defaults();
+    iso_separatrix_table *s = NULL;
+    iso_separatrix_options how = iso_separatrix_defaults();
     how.k = k->x, how.level = level->x, how.count = k->count;
     for (int i = 0; i < 3; i++) how.J[i] = scene->params.J[i];
     how.scene = scene;
@@ -196,7 +196,7 @@ static int work(iso_context *ctx, const options *o, const iso_scene *scene, cons
     stop_gently();
     progress_begin();
     iso_context_set_monitor(ctx, not_interrupted, NULL);
-    const iso_status status = iso_splitting_run(ctx, &how, &s);
+    const iso_status status = iso_separatrix_run(ctx, &how, &s);
     iso_context_set_monitor(ctx, NULL, NULL);
     progress_end();
     int result = status == ISO_STOPPED ? EXIT_SOME_FAILED : finish_scene(ctx, &o->scene, scene, status);
@@ -205,7 +205,7 @@ static int work(iso_context *ctx, const options *o, const iso_scene *scene, cons
         result = worse(result, report(ctx, o, scene, s, csv));
     else
         iso_output_close(ctx, csv, false);
-    iso_splitting_free(s);
+    iso_separatrix_free(s);
     return result;
 }
 
@@ -223,7 +223,7 @@ static int run(iso_context *ctx, const void *options_given)
     return result;
 }
 
-static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .digits = ISO_SPLITTING_AUTO};
+static const options defaults = {.scene = SCENE_OPTIONS_UNSET, .digits = ISO_SEPARATRIX_AUTO};
 
 static const option_row rows[] = {
     ROW("k", "LIST", "values and ranges A:B:STEP",

@@ -4,9 +4,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "io/sweep_file.h"
-#include "io/sweep_store.h"
 #include "scene_options.h"
+#include "sweep/sweep_file.h"
+#include "sweep/sweep_store.h"
 #include "sweep_team.h"
 
 extern const command command_sweep;
@@ -38,12 +38,12 @@ static bool from_environment(const char *name, double usual, double *x)
 }
 
 /* "slurm/N": task I of Slurm computes shard I of N, from 1 on, also if only some tasks are submitted again. */
-static iso_status share_of_task(iso_context *ctx, const char *shares, iso_sweep_share *share)
+static iso_status share_of_task(iso_context *ctx, const char *shares, iso_sweep_shard *share)
 {
     double id, count;
     if (read_whole(shares, strlen(shares), &count) && from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) && id >= 1 &&
         id <= count) {
-        *share = (iso_sweep_share){(size_t)id - 1, (size_t)count};
+        *share = (iso_sweep_shard){(size_t)id - 1, (size_t)count};
         return ISO_OK;
     }
     return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
@@ -52,7 +52,7 @@ static iso_status share_of_task(iso_context *ctx, const char *shares, iso_sweep_
 
 /* The number of a task of a Slurm array begins at any number, and can go in steps. Some tasks that are submitted
  * again are an array of their own: its numbers do not tell their shards. */
-static iso_status share_of_slurm(iso_context *ctx, iso_sweep_share *share)
+static iso_status share_of_slurm(iso_context *ctx, iso_sweep_shard *share)
 {
     double id, count, least, step, most;
     if (!from_environment("SLURM_ARRAY_TASK_ID", NAN, &id) ||
@@ -72,14 +72,14 @@ static iso_status share_of_slurm(iso_context *ctx, iso_sweep_share *share)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
                                 "--shard slurm: this array has one task or gaps, so it does not tell N: give "
                                 "--shard slurm/N, N the number of all shards");
-    *share = (iso_sweep_share){(size_t)index, (size_t)count};
+    *share = (iso_sweep_shard){(size_t)index, (size_t)count};
     return ISO_OK;
 }
 
-static iso_status read_share(iso_context *ctx, const char *text, iso_sweep_share *share)
+static iso_status read_share(iso_context *ctx, const char *text, iso_sweep_shard *share)
 {
     double i, n;
-    *share = (iso_sweep_share){0, 1};
+    *share = (iso_sweep_shard){0, 1};
     if (!text) return ISO_OK;
     if (strcmp(text, "slurm") == 0) return share_of_slurm(ctx, share);
     if (strncmp(text, "slurm/", 6) == 0) return share_of_task(ctx, text + 6, share);
@@ -88,7 +88,7 @@ static iso_status read_share(iso_context *ctx, const char *text, iso_sweep_share
         i < 1 || i > n)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "shard",
                                 "--shard '%s': expected i/n with 1 <= i <= n, slurm or slurm/n", text);
-    *share = (iso_sweep_share){(size_t)i - 1, (size_t)n};
+    *share = (iso_sweep_shard){(size_t)i - 1, (size_t)n};
     return ISO_OK;
 }
 
@@ -188,7 +188,7 @@ static int refused(iso_context *ctx, const options *o, const iso_sweep_plan *pla
 
 /* Every member has read the sweep. The one that writes opens the journal. */
 static int run_sweep(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep_file *file,
-                     const iso_sweep *sweep, iso_sweep_share share)
+                     const iso_sweep *sweep, iso_sweep_shard share)
 {
     iso_sweep_journal *journal = NULL;
     iso_status status = ISO_OK;
@@ -207,7 +207,7 @@ static int run_sweep(iso_context *ctx, const options *o, const sweep_team *team,
 static int run_file(iso_context *ctx, const options *o, const sweep_team *team, const iso_sweep_file *file)
 {
     const iso_sweep_plan *plan = iso_sweep_file_plan(file);
-    iso_sweep_share share;
+    iso_sweep_shard share;
     iso_sweep *sweep = NULL;
     iso_status status = read_share(ctx, o->shard, &share);
     if (status == ISO_OK) status = iso_sweep_create(ctx, plan, &sweep);
@@ -271,7 +271,7 @@ int sweep_with(iso_context *ctx, const void *options_given, const sweep_team *te
         return complain("sweep: mpirun does not tell whether its output arrives: give -o FILE"), EXIT_USAGE;
     if (!computes && !team->writes) return EXIT_DONE;
     if (o->merge) return merge(ctx, o);
-    int result = finish(ctx, iso_sweep_read(ctx, o->file, iso_sweep_topics(), &file));
+    int result = finish(ctx, iso_sweep_read(ctx, o->file, iso_sweep_quantities(), &file));
     if (computes) result = team->agree(team->data, result);
     if (result == EXIT_DONE) result = computes ? run_file(ctx, o, team, file) : print_point(ctx, o, file);
     iso_sweep_file_free(file);

@@ -94,7 +94,7 @@ static json_t *lines_of(const iso_cost *c)
 {
     json_t *list = json_array();
     for (int i = 0; i < c->lines; i++) {
-        const iso_cost_line *l = &c->line[i];
+        const iso_cost_series *l = &c->line[i];
         json_array_append_new(list,
                               json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "backend",
                                         iso_backend_name((int)l->backend), "method", method_of(l->method),

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "cost_report.h"
-#include "study/cost.h"
+#include "study/cost/cost.h"
 
 bool cost_is_failed(const iso_cost_cell *cell)
 {
@@ -17,7 +17,7 @@ int cost_count(const iso_cost *cost, bool (*is)(const iso_cost_cell *cell))
     return count;
 }
 
-const iso_cost_cell *cost_choose_steps(const iso_cost *cost, const iso_cost_line *line, double want)
+const iso_cost_cell *cost_choose_steps(const iso_cost *cost, const iso_cost_series *line, double want)
 {
     const iso_cost_cell *best = NULL;
     const int first = line ? line->first : 0, end = line ? first + line->count : cost->cells;
@@ -28,7 +28,7 @@ const iso_cost_cell *cost_choose_steps(const iso_cost *cost, const iso_cost_line
     return best;
 }
 
-static bool is_faster(const iso_cost *cost, const iso_cost_line *a, const iso_cost_line *b)
+static bool is_faster(const iso_cost *cost, const iso_cost_series *a, const iso_cost_series *b)
 {
     static const double wants[] = {1e-9, 1e-6, 1e-3};
     if (!a->method || !b->method) return !a->method && b->method;
@@ -40,9 +40,9 @@ static bool is_faster(const iso_cost *cost, const iso_cost_line *a, const iso_co
     return false;
 }
 
-const iso_cost_line **cost_sort_lines(const iso_cost *cost)
+const iso_cost_series **cost_sort_lines(const iso_cost *cost)
 {
-    const iso_cost_line **line = calloc((size_t)cost->lines + 1, sizeof *line);
+    const iso_cost_series **line = calloc((size_t)cost->lines + 1, sizeof *line);
     for (int i = 0; line && i < cost->lines; i++) {
         int at = i;
         for (; at > 0 && is_faster(cost, &cost->line[i], line[at - 1]); at--) line[at] = line[at - 1];

@@ -6,7 +6,7 @@
 
 #include "io/output.h"
 #include "scene_options.h"
-#include "study/cost.h"
+#include "study/cost/cost.h"
 
 /* How error and time of one cell grow with the length of the orbit. */
 typedef struct cost_growth {
@@ -32,11 +32,11 @@ bool cost_is_failed(const iso_cost_cell *cell);
 int cost_count(const iso_cost *cost, bool (*is)(const iso_cost_cell *cell));
 
 /* As iso_cost_choose, but only among the methods that take steps, and in one line (NULL: in all). */
-const iso_cost_cell *cost_choose_steps(const iso_cost *cost, const iso_cost_line *line, double want);
+const iso_cost_cell *cost_choose_steps(const iso_cost *cost, const iso_cost_series *line, double want);
 
 /* All lines: the closed solution first, then the methods, the fastest to an error of 1e-9 first. Methods that do
  * not reach it are sorted by 1e-6, then by 1e-3. The caller frees the list. NULL: no memory. */
-const iso_cost_line **cost_sort_lines(const iso_cost *cost);
+const iso_cost_series **cost_sort_lines(const iso_cost *cost);
 
 /* The options of `run` for a cell: "--backend point --method taylor --tol 1e-11". */
 enum { COST_OPTIONS = 96 };
@@ -48,7 +48,7 @@ const char *cost_seconds(double seconds, char words[COST_SECONDS]);
 
 /* Prints everything on standard output: as tables and words, with the lines in this order (cost_table.c); as JSON
  * (cost_data.c), false: no memory. */
-void cost_print(const cost_report *r, const iso_cost_line *const line[]);
+void cost_print(const cost_report *r, const iso_cost_series *const line[]);
 bool cost_print_json(const cost_report *r);
 
 /* Writes the cells as CSV. */

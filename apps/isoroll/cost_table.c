@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "cost_report.h"
-#include "study/cost.h"
+#include "study/cost/cost.h"
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
@@ -61,7 +61,7 @@ static void print_cell(const iso_cost_cell *c)
            cost_seconds(c->setup, setup));
 }
 
-static void print_cells(const iso_cost *cost, const iso_cost_line *const line[])
+static void print_cells(const iso_cost *cost, const iso_cost_series *const line[])
 {
     printf("  %-5s  %-22s %7s %9s %8s %8s %9s %7s %9s %9s %9s\n", "", "method", "tol", "error", "clocks", "energy",
            "time", "spread", "steps", "rhs", "set-up");
@@ -91,7 +91,7 @@ static void print_left_out(const iso_cost *cost)
 {
     int lines = 0;
     for (int l = 0; l < cost->lines; l++) {
-        const iso_cost_line *line = &cost->line[l];
+        const iso_cost_series *line = &cost->line[l];
         const iso_cost_cell *c = &cost->cell[line->first], *end = c + line->count;
         while (c < end && c->status != ISO_STOPPED) c++;
         if (c == end) continue;
@@ -104,14 +104,14 @@ static void print_left_out(const iso_cost *cost)
 
 /* --- what the methods give for more time ------------------------------------------------------------------------ */
 
-static void print_time_to(const iso_cost *cost, const iso_cost_line *line, double want)
+static void print_time_to(const iso_cost *cost, const iso_cost_series *line, double want)
 {
     char words[COST_SECONDS];
     const iso_cost_cell *c = cost_choose_steps(cost, line, want);
     printf(" %9s", cost_seconds(c ? c->total : (double)NAN, words));
 }
 
-static void print_lines(const iso_cost *cost, const iso_cost_line *const line[])
+static void print_lines(const iso_cost *cost, const iso_cost_series *const line[])
 {
     printf(
         "\nmethods, sorted by their time to an error of 1e-9: time to reach an error, factor in time for one more\n"
@@ -119,7 +119,7 @@ static void print_lines(const iso_cost *cost, const iso_cost_line *const line[])
         "  %-5s  %-22s %9s %9s %9s  %10s  %8s  %s\n",
         "", "", "to 1e-6", "to 1e-9", "to 1e-12", "a digit", "order", "least error");
     for (int l = 0; l < cost->lines; l++) {
-        const iso_cost_line *m = line[l];
+        const iso_cost_series *m = line[l];
         if (!m->method || isnan(m->least)) continue;
         printf("  %-5s  %-22s", iso_backend_name((int)m->backend), m->method->name);
         print_time_to(cost, m, 1e-6);
@@ -217,7 +217,7 @@ static void print_growth(const cost_growth *g)
         printf(", the time like length^%.2f\n", x->time_power);
 }
 
-void cost_print(const cost_report *r, const iso_cost_line *const line[])
+void cost_print(const cost_report *r, const iso_cost_series *const line[])
 {
     print_head(r);
     print_cells(r->cost, line);

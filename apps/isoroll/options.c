@@ -91,7 +91,7 @@ bool set_backend(void *at, const char *text)
 bool set_as(void *at, const char *text)
 {
     const int value = value_of(text, as_word, iso_shown_name);
-    if (value >= 0) *(iso_shown *)at = (iso_shown)value;
+    if (value >= 0) *(iso_models *)at = (iso_models)value;
     return value >= 0;
 }
 

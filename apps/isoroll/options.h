@@ -62,7 +62,7 @@ bool set_tolerance(void *at, const char *text); /* double, as the methods take i
 bool set_vector(void *at, const char *text);    /* double[3], three numbers and commas  */
 bool set_method(void *at, const char *text);    /* const char *, a method or auto       */
 bool set_backend(void *at, const char *text);   /* iso_backend: ball, point, exact, auto */
-bool set_as(void *at, const char *text);        /* iso_shown: ball, point, both         */
+bool set_as(void *at, const char *text);        /* iso_models: ball, point, both         */
 bool set_target(void *at, const char *text);    /* iso_model_kind: ball, point          */
 bool set_digits(void *at, const char *text);    /* int, 1 to 17, or ISO_HEXADECIMAL     */
 

@@ -7,13 +7,13 @@
 
 #include "base/number.h"
 #include "io/output.h"
-#include "io/plot.h"
 #include "json.h"
+#include "plot/plot.h"
 #include "progress.h"
 #include "report.h"
 #include "scene_options.h"
 #include "study/level.h"
-#include "study/stability_chart.h"
+#include "study/periodic/stability_chart.h"
 #include "table.h"
 
 bool read_range(const char *text, double range[2])

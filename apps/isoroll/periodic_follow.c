@@ -7,19 +7,19 @@
 #include <string.h>
 
 #include "io/output.h"
-#include "io/plot.h"
 #include "json.h"
 #include "periodic_chart.h"
+#include "plot/plot.h"
 #include "progress.h"
 #include "report.h"
-#include "study/periodic_follow.h"
+#include "study/periodic/continuation.h"
 #include "table.h"
 
-static iso_status read_words(iso_context *ctx, const char *given, iso_follow_options *o)
+static iso_status read_words(iso_context *ctx, const char *given, iso_continuation_options *o)
 {
     double range[2];
     const char *equals = strchr(given, '=');
-    *o = iso_follow_defaults();
+    *o = iso_continuation_defaults();
     int vary = 0;
     while (iso_vary_name(vary) && equals &&
            (strlen(iso_vary_name(vary)) != (size_t)(equals - given) ||
@@ -36,21 +36,21 @@ static iso_status read_words(iso_context *ctx, const char *given, iso_follow_opt
 
 iso_status follow_check(iso_context *ctx, const iso_scene *scene, const char *range)
 {
-    iso_follow_options o;
+    iso_continuation_options o;
     iso_status status = read_words(ctx, range, &o);
-    if (status == ISO_OK) status = iso_follow_check(ctx, scene, &o);
+    if (status == ISO_OK) status = iso_continuation_check(ctx, scene, &o);
     return status == ISO_BAD_ARGUMENT ? ISO_BAD_INPUT : status;
 }
 
 /* --- what is shown ---------------------------------------------------------------------------------------------- */
 
-static void print_branch(const iso_follow *f, size_t i, const char *name)
+static void print_branch(const iso_continuations *f, size_t i, const char *name)
 {
     const iso_branch *b = &f->branch[i];
     double low = INFINITY, high = -INFINITY;
     for (size_t j = 0; j < b->points; j++) low = fmin(low, b->point[j].value), high = fmax(high, b->point[j].value);
     printf("branch %zu: period %d, on the line of %s, %s from %.12g to %.12g, %zu points", i + 1, b->period,
-           iso_line_name(b->line), name, low, high, b->points);
+           iso_symmetry_line_name(b->line), name, low, high, b->points);
     if (b->parent >= 0) printf(", from branch %d", b->parent + 1);
     putchar('\n');
     for (size_t j = 0; j < b->events; j++)
@@ -59,15 +59,15 @@ static void print_branch(const iso_follow *f, size_t i, const char *name)
                b->event[j].at.trace, b->event[j].words);
 }
 
-static void write_rows(const iso_follow *f, FILE *to)
+static void write_rows(const iso_continuations *f, FILE *to)
 {
     for (size_t i = 0; i < f->count; i++) {
         const iso_branch *b = &f->branch[i];
         for (size_t j = 0; j < b->points; j++)
-            fprintf(to, "%zu,%s,%d,%.17g,%.17g,%.17g,%.17g,\n", i + 1, iso_line_name(b->line), b->period,
+            fprintf(to, "%zu,%s,%d,%.17g,%.17g,%.17g,%.17g,\n", i + 1, iso_symmetry_line_name(b->line), b->period,
                     b->point[j].value, b->point[j].l, b->point[j].x, b->point[j].trace);
         for (size_t j = 0; j < b->events; j++)
-            fprintf(to, "%zu,%s,%d,%.17g,%.17g,%.17g,%.17g,%s\n", i + 1, iso_line_name(b->line), b->period,
+            fprintf(to, "%zu,%s,%d,%.17g,%.17g,%.17g,%.17g,%s\n", i + 1, iso_symmetry_line_name(b->line), b->period,
                     b->event[j].at.value, b->event[j].at.l, b->event[j].at.x, b->event[j].at.trace,
                     iso_branch_kind_name(b->event[j].kind));
     }
@@ -91,11 +91,11 @@ static json_t *branch_of(const iso_branch *b, const char *name)
         if (b->event[j].axis >= 0) json_object_set_new(e, "axis", json_integer(b->event[j].axis + 1));
         json_array_append_new(events, e);
     }
-    return json_pack("{s:i, s:s, s:o, s:o, s:o}", "period", b->period, "line", iso_line_name(b->line), "parent",
+    return json_pack("{s:i, s:s, s:o, s:o, s:o}", "period", b->period, "line", iso_symmetry_line_name(b->line), "parent",
                      b->parent < 0 ? json_null() : json_integer(b->parent + 1), "points", points, "events", events);
 }
 
-static bool print_json(const iso_follow *f, const char *name)
+static bool print_json(const iso_continuations *f, const char *name)
 {
     json_t *branches = json_array();
     for (size_t i = 0; i < f->count; i++) json_array_append_new(branches, branch_of(&f->branch[i], name));
@@ -103,7 +103,7 @@ static bool print_json(const iso_follow *f, const char *name)
         json_pack("{s:s, s:s, s:o}", "isoroll", iso_version(), "parameter", name, "branches", branches));
 }
 
-static iso_status draw(iso_context *ctx, const iso_scene *scene, const iso_follow *f, const char *name,
+static iso_status draw(iso_context *ctx, const iso_scene *scene, const iso_continuations *f, const char *name,
                        const char *path)
 {
     static const char *const names[] = {"branch", "value", "x", "trace"};
@@ -128,7 +128,7 @@ static iso_status draw(iso_context *ctx, const iso_scene *scene, const iso_follo
 
 /* --- the whole -------------------------------------------------------------------------------------------------- */
 
-static int show(iso_context *ctx, const iso_scene *scene, const iso_follow *f, const iso_follow_options *o,
+static int show(iso_context *ctx, const iso_scene *scene, const iso_continuations *f, const iso_continuation_options *o,
                 const periodic_follow *how)
 {
     const char *name = iso_vary_name((int)o->vary);
@@ -182,8 +182,8 @@ static iso_status none_to_follow(iso_context *ctx, const iso_scene *scene, const
 
 int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *found, const periodic_follow *how)
 {
-    iso_follow_options o;
-    iso_follow *f = NULL;
+    iso_continuation_options o;
+    iso_continuations *f = NULL;
     iso_periodic_orbit *list = NULL;
     size_t count = 0;
     iso_status status = read_words(ctx, how->range, &o);
@@ -195,7 +195,7 @@ int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *
         complain("%zu orbits without a symmetry are not followed", found->count - count);
     if (status == ISO_OK && count == 0 && how->orbit == 0) status = none_to_follow(ctx, scene, found, how->period);
     progress_begin();
-    if (status == ISO_OK) status = iso_follow_run(ctx, scene, list, count, &o, &f);
+    if (status == ISO_OK) status = iso_continuation_run(ctx, scene, list, count, &o, &f);
     progress_end();
     if (status == ISO_STOPPED) complain("interrupted: branches are missing or cut");
     if (status == ISO_BAD_ARGUMENT) status = ISO_BAD_INPUT;
@@ -207,6 +207,6 @@ int follow_orbits(iso_context *ctx, const iso_scene *scene, const iso_periodic *
         iso_output_close(ctx, how->rows, false);
     }
     free(list);
-    iso_follow_free(f);
+    iso_continuation_free(f);
     return result;
 }

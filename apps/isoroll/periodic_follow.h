@@ -6,7 +6,7 @@
 
 #include "io/output.h"
 #include "isoroll.h"
-#include "study/periodic.h"
+#include "study/periodic/periodic.h"
 
 typedef struct periodic_follow {
     const char *range; /* "k=0.4:0.6"                     */

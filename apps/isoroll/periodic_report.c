@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "io/plot.h"
 #include "json.h"
+#include "plot/plot.h"
 #include "table.h"
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
@@ -144,7 +144,7 @@ static json_t *orbit_of(const periodic_report *r, size_t i)
                           json_number(p->l), "x", json_number(p->x), "trace", json_number(p->trace), "error",
                           json_number(p->error), "closure", json_number(p->closure), "determinant",
                           json_number(1 + p->determinant), "symmetry", words, "torus", (int)p->torus);
-    json_object_set_new(o, "line", p->line >= 0 ? json_string(iso_line_name(p->line)) : json_null());
+    json_object_set_new(o, "line", p->line >= 0 ? json_string(iso_symmetry_line_name(p->line)) : json_null());
     put_clocks(o, p->clock);
     put_multipliers(o, &p->multipliers);
     json_object_set_new(o, "copies", pairs((size_t)p->copies, p->copy));
@@ -219,7 +219,7 @@ typedef struct picture {
 
 static void put_orbit(picture *p, const iso_periodic_orbit *o, size_t i)
 {
-    p->grey[i] = o->multipliers.stability == ISO_UNSTABLE || o->multipliers.stability == ISO_INVERSE;
+    p->grey[i] = o->multipliers.stability == ISO_UNSTABLE || o->multipliers.stability == ISO_INVERSE_HYPERBOLIC;
     for (int n = 0; n < 16 * o->period; n++) { /* by S1 S2, R, T and S1 */
         const double *z = o->half[n / 8], sign = n & 1 ? -1 : 1;
         p->orbit[p->count] = (uint32_t)i;

@@ -7,7 +7,7 @@
 
 #include "io/output.h"
 #include "isoroll.h"
-#include "study/periodic.h"
+#include "study/periodic/periodic.h"
 
 /* What the table and JSON are made of; polish: all digits. */
 typedef struct periodic_report {

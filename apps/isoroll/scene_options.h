@@ -11,13 +11,13 @@ typedef struct scene_options {
     const char *file;
     const char *method;          /* NULL: as the scene says */
     iso_backend backend;         /* -1: as the scene says   */
-    iso_shown as;                /* likewise                */
+    iso_models as;                /* likewise                */
     double tolerance, end, step; /* NAN: as the scene says  */
 } scene_options;
 
 #define SCENE_OPTIONS_UNSET                                                                                          \
     {                                                                                                                \
-        .file = "-", .backend = (iso_backend)-1, .as = (iso_shown)-1, .tolerance = NAN, .end = NAN, .step = NAN      \
+        .file = "-", .backend = (iso_backend)-1, .as = (iso_models)-1, .tolerance = NAN, .end = NAN, .step = NAN      \
     }
 
 /* Rows of these; `scene` is the place of a scene_options in the struct `type`. */

@@ -1,11 +1,11 @@
 /* section_cloud.c - `isoroll section --cloud N`: clouds of states are drawn by the invariant measure (10), carried by
- * the flow and by returns to a section, and then tested against the measure (study/measure.h). */
+ * the flow and by returns to a section, and then tested against the measure (study/section/measure.h). */
 #include "section_cloud.h"
 
 #include <math.h>
 #include <stdio.h>
 
-#include "study/measure.h"
+#include "study/section/measure.h"
 
 static iso_measure_options options_of(const iso_section_options *how, double count)
 {
@@ -22,7 +22,7 @@ static iso_measure_options options_of(const iso_section_options *how, double cou
 /* One line about a cloud. */
 static void print_cloud(const char *what, const iso_measure *m)
 {
-    const iso_measure_line *worst = &m->line[m->worst];
+    const iso_measure_entry *worst = &m->line[m->worst];
     progress_end();
     if (m->lost > 0) {
         printf("%-10s not kept: at least %zu of %zu orbits do not return\n", what, m->lost, m->count);

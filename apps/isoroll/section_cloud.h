@@ -3,7 +3,7 @@
 #define ISOROLL_SECTION_CLOUD_H
 
 #include "scene_options.h"
-#include "study/section.h"
+#include "study/section/section.h"
 
 /* Carries clouds of `count` states: by the flow in t, by the flow in s if the ball has a twin, and by returns to the
  * section of how->axis. Prints whether they are still distributed by the measure. Gives the exit status:

@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/plot.h"
 #include "orbit/crossings.h"
-#include "study/section.h"
+#include "plot/plot.h"
+#include "study/section/section.h"
 
 /* The most points in a picture: more cannot be seen in a .png, and would make a .svg too large. */
 enum { MOST = 200000, MOST_IN_SVG = 40000 };

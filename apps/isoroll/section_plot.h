@@ -3,7 +3,7 @@
 #define ISOROLL_SECTION_PLOT_H
 
 #include "isoroll.h"
-#include "study/chaos.h"
+#include "study/chaos/chaos.h"
 
 typedef struct section_picture section_picture;
 

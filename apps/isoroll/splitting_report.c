@@ -4,21 +4,21 @@
 #include <math.h>
 #include <string.h>
 
-#include "io/plot.h"
 #include "json.h"
+#include "plot/plot.h"
 #include "table.h"
 
 /* --- the table -------------------------------------------------------------------------------------------------- */
 
 /* The axes are those of each row that did not fail; NULL: all did. */
-static const iso_splitting *first_good(const iso_splittings *s)
+static const iso_separatrix_splitting *first_good(const iso_separatrix_table *s)
 {
     for (size_t i = 0; i < s->rows; i++)
         if (s->row[i].status == ISO_OK) return &s->row[i];
     return NULL;
 }
 
-bool splitting_is_by_level(const iso_splittings *s)
+bool splitting_is_by_level(const iso_separatrix_table *s)
 {
     bool differ = false;
     for (size_t i = 1; i < s->rows; i++) differ = differ || s->row[i].level != s->row[0].level;
@@ -26,7 +26,7 @@ bool splitting_is_by_level(const iso_splittings *s)
 }
 
 /* What differs from row to row. */
-static double number_of(const iso_splitting *s, bool by_level)
+static double number_of(const iso_separatrix_splitting *s, bool by_level)
 {
     return by_level ? s->level : s->k;
 }
@@ -39,7 +39,7 @@ bool splitting_has_rows(const splitting_report *r)
 static void print_head(const splitting_report *r, bool by_level)
 {
     const double *J = r->J;
-    const iso_splitting *row = first_good(r->found);
+    const iso_separatrix_splitting *row = first_good(r->found);
     printf("J = %.15g %.15g %.15g\n", J[0], J[1], J[2]);
     if (!row) return;
     if (by_level) printf("k = %.15g\n", row->k);
@@ -50,7 +50,7 @@ static void print_head(const splitting_report *r, bool by_level)
     printf("%16s %11s %19s %24s %7s %7s\n", by_level ? "level" : "k", "multiplier", "x", "m", "error", "digits");
 }
 
-static void print_row(const iso_splitting *s, bool by_level)
+static void print_row(const iso_separatrix_splitting *s, bool by_level)
 {
     const double at = number_of(s, by_level);
     if (s->status == ISO_STOPPED) return;
@@ -69,7 +69,7 @@ static void print_row(const iso_splitting *s, bool by_level)
     if (s->words[0]) printf("%16s %s\n", "", s->words);
 }
 
-static void print_zero(const iso_splitting *s, bool by_level)
+static void print_zero(const iso_separatrix_splitting *s, bool by_level)
 {
     printf("\nm = 0 at %s = %.16g +- %.1e, where the manifolds touch at x = %.15g.\n", by_level ? "level" : "k",
            number_of(s, by_level), by_level ? s->level_error : s->k_error, s->x);
@@ -84,7 +84,7 @@ static void print_zero(const iso_splitting *s, bool by_level)
 
 void splitting_print(const splitting_report *r)
 {
-    const iso_splittings *s = r->found;
+    const iso_separatrix_table *s = r->found;
     const bool by_level = splitting_is_by_level(s);
     print_head(r, by_level);
     for (size_t i = 0; i < s->rows; i++) print_row(&s->row[i], by_level);
@@ -93,7 +93,7 @@ void splitting_print(const splitting_report *r)
 
 /* --- JSON and CSV ----------------------------------------------------------------------------------------------- */
 
-static json_t *row_of(const iso_splitting *s)
+static json_t *row_of(const iso_separatrix_splitting *s)
 {
     const bool there = s->status == ISO_OK;
     if (!there)
@@ -119,7 +119,7 @@ static json_t *row_of(const iso_splitting *s)
     return o;
 }
 
-static json_t *list_of(const iso_splitting *rows, size_t count)
+static json_t *list_of(const iso_separatrix_splitting *rows, size_t count)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < count; i++)
@@ -130,18 +130,18 @@ static json_t *list_of(const iso_splitting *rows, size_t count)
 bool splitting_print_json(const splitting_report *report)
 {
     const double *J = report->J;
-    const iso_splittings *s = report->found;
-    const iso_splitting *r = first_good(s);
+    const iso_separatrix_table *s = report->found;
+    const iso_separatrix_splitting *r = first_good(s);
     return json_print(json_pack("{s:s, s:[o,o,o], s:i, s:i, s:o, s:o, s:I}", "isoroll", iso_version(), "J",
                                 json_number(J[0]), json_number(J[1]), json_number(J[2]), "axis", r->axis + 1,
                                 "middle", r->middle + 1, "rows", list_of(s->row, s->rows), "zeros",
                                 list_of(s->zero, s->zeros), "lost", (json_int_t)s->lost));
 }
 
-static void write_rows(FILE *to, const iso_splitting *rows, size_t count)
+static void write_rows(FILE *to, const iso_separatrix_splitting *rows, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
-        const iso_splitting *s = &rows[i];
+        const iso_separatrix_splitting *s = &rows[i];
         if (s->status == ISO_OK)
             fprintf(to, "%.17g,%.17g,%.17g,%.3g,%.3g,%.17g,%d,%d,%.17g\n", s->k, s->x, s->m, s->error, s->x_error,
                     s->lambda, s->digits, (int)s->is_zero, s->level);
@@ -150,7 +150,7 @@ static void write_rows(FILE *to, const iso_splitting *rows, size_t count)
 
 iso_status splitting_write_csv(iso_context *ctx, const splitting_report *r, iso_output *to)
 {
-    const iso_splittings *s = r->found;
+    const iso_separatrix_table *s = r->found;
     const iso_status status =
         table_begin(ctx, to, "splitting", r->scene, NULL, "k,x,m,error,x_error,multiplier,digits,zero,level");
     if (status == ISO_OK) write_rows(iso_output_stream(to), s->row, s->rows);
@@ -161,9 +161,9 @@ iso_status splitting_write_csv(iso_context *ctx, const splitting_report *r, iso_
 /* --- the picture ------------------------------------------------------------------------------------------------ */
 
 /* The row whose curves are best seen: |m| is about 1/30. */
-static const iso_splitting *clearest(const iso_splittings *s)
+static const iso_separatrix_splitting *clearest(const iso_separatrix_table *s)
 {
-    const iso_splitting *best = NULL;
+    const iso_separatrix_splitting *best = NULL;
     double least = INFINITY;
     for (size_t i = 0; i < s->rows; i++) {
         const double apart = fabs(log(fmax(fabs(s->row[i].m), 1e-40) * 30));
@@ -172,7 +172,7 @@ static const iso_splitting *clearest(const iso_splittings *s)
     return best;
 }
 
-static iso_status collect(iso_context *ctx, const iso_splittings *s, iso_record **rows)
+static iso_status collect(iso_context *ctx, const iso_separatrix_table *s, iso_record **rows)
 {
     const bool by_level = splitting_is_by_level(s);
     const char *const names[] = {by_level ? "level" : "k", "m", "error"};
@@ -188,7 +188,7 @@ static iso_status collect(iso_context *ctx, const iso_splittings *s, iso_record 
 }
 
 /* As many half returns beyond the crossing as the lobes need to be seen: they grow like lambda^(1/2) each. */
-static int halves_of(const iso_splitting *s)
+static int halves_of(const iso_separatrix_splitting *s)
 {
     const double needed = log(0.3 / fmax(fabs(s->section_m), 1e-4)) / (log(s->lambda) / 2);
     return (int)fmin(fmax(needed, 2) + 2, 60);
@@ -197,8 +197,8 @@ static int halves_of(const iso_splitting *s)
 iso_status splitting_draw(iso_context *ctx, const splitting_report *r, const char *path)
 {
     const double *J = r->J;
-    const iso_splittings *s = r->found;
-    const iso_splitting *at = clearest(s);
+    const iso_separatrix_table *s = r->found;
+    const iso_separatrix_splitting *at = clearest(s);
     iso_record *rows = NULL, *curve = NULL;
     char title[160];
     if (!at) return ISO_OK;
@@ -208,7 +208,7 @@ iso_status splitting_draw(iso_context *ctx, const splitting_report *r, const cha
         snprintf(title + length, sizeof title - (size_t)length, ", k = %.6g", at->k);
     else if (at->level != 0)
         snprintf(title + length, sizeof title - (size_t)length, ", level %.6g", at->level);
-    iso_status status = iso_splitting_curve(ctx, at->k, J, at->level, halves_of(at), &curve);
+    iso_status status = iso_separatrix_curve(ctx, at->k, J, at->level, halves_of(at), &curve);
     if (status == ISO_OK && s->rows > 1) status = collect(ctx, s, &rows);
     if (status == ISO_OK)
         status = iso_plot_splitting(ctx, path, title, rows, curve, number_of(at, by_level), at->section);

@@ -7,17 +7,17 @@
 
 #include "io/output.h"
 #include "isoroll.h"
-#include "study/splitting.h"
+#include "study/separatrix/separatrix.h"
 
 /* What is shown. */
 typedef struct splitting_report {
     const iso_scene *scene;
     const double *J;
-    const iso_splittings *found;
+    const iso_separatrix_table *found;
 } splitting_report;
 
 /* Whether the rows differ in the level, not in k. */
-bool splitting_is_by_level(const iso_splittings *s);
+bool splitting_is_by_level(const iso_separatrix_table *s);
 
 /* False: every row failed, and there is nothing to show. */
 bool splitting_has_rows(const splitting_report *r);

@@ -9,10 +9,10 @@
 #include <string.h>
 #include <time.h>
 
-#include "io/sweep_file.h"
 #include "options.h"
 #include "progress.h"
-#include "study/sweep.h"
+#include "sweep/sweep.h"
+#include "sweep/sweep_file.h"
 
 /* Places of the sweep at which points are computed, how many of each, and for how long at most. A chaotic share is
  * measured with STARTS orbits where it asks for many more: its time grows with them. */
@@ -58,7 +58,7 @@ static iso_status measure(iso_context *ctx, const iso_sweep *sweep, iso_sweep_ro
         if (c->points > 0 && total / (double)c->points * (double)count > patience) count = 1; /* they are slow */
         if (p == 0 || head->count < PLACES) count = 1;
         const double before = now();
-        const iso_status status = iso_sweep_measure_points(ctx, sweep, first, count, rows);
+        const iso_status status = iso_sweep_compute_points(ctx, sweep, first, count, rows);
         const double time = now() - before;
         if (status != ISO_OK) return status;
         total += time;
@@ -97,7 +97,7 @@ static size_t head_count(const iso_sweep *sweep)
 }
 
 /* Gives by how much a point with all its starts takes longer. */
-static double take_few_starts(const iso_sweep_topic *topic, iso_sweep_wish *wish)
+static double take_few_starts(const iso_sweep_quantity *topic, iso_sweep_request *wish)
 {
     for (int i = 0; topic->settings && topic->settings[i].name; i++) {
         const double starts = wish->setting[i];
@@ -119,7 +119,7 @@ static iso_status explain_quantity(iso_context *ctx, const iso_sweep_plan *plan,
     one.wishes = 1;
     one.wish[0] = plan->wish[which];
     one.chunk = chunk;
-    const iso_sweep_topic *topic = iso_sweep_topics()[one.wish[0].topic];
+    const iso_sweep_quantity *topic = iso_sweep_quantities()[one.wish[0].topic];
     const double scale = take_few_starts(topic, &one.wish[0]);
     iso_status status = iso_sweep_create(ctx, &one, &sweep);
     if (status != ISO_OK) return status;
@@ -180,7 +180,7 @@ static iso_status explain(iso_context *ctx, const iso_sweep_file *file)
 int explain_sweep(iso_context *ctx, const char *path)
 {
     iso_sweep_file *file;
-    iso_status status = iso_sweep_read(ctx, path, iso_sweep_topics(), &file);
+    iso_status status = iso_sweep_read(ctx, path, iso_sweep_quantities(), &file);
     if (status != ISO_OK) return finish(ctx, status);
     status = explain(ctx, file);
     iso_sweep_file_free(file);

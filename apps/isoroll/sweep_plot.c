@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "base/nearest.h"
-#include "io/plot.h"
-#include "io/sweep_store.h"
 #include "options.h"
+#include "plot/plot.h"
+#include "sweep/sweep_store.h"
 
 enum { MOST_AXES = 16, NAME = 2 * ISO_NAME_SIZE + 2 };
 

@@ -5,7 +5,7 @@
 #define ISOROLL_SWEEP_TEAM_H
 
 #include "report.h"
-#include "study/sweep.h"
+#include "sweep/sweep.h"
 
 typedef struct sweep_team {
     int members;

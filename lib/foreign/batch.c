@@ -91,7 +91,7 @@ static void choose_options(work *w, int threads, const char *vectors)
     w->how.shown = ball && point ? ISO_SHOW_BOTH
                    : ball        ? ISO_SHOW_BALL
                    : point       ? ISO_SHOW_POINT
-                                 : (iso_shown)scene->start.model;
+                                 : (iso_models)scene->start.model;
     w->how.clock = scene->start.model == ISO_BALL ? ISO_CLOCK_T : ISO_CLOCK_S;
     w->how.backend = scene->backend;
     w->how.tolerance = scene->tolerance;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "foreign/foreign_impl.h"
-#include "study/chaos.h"
+#include "study/chaos/chaos.h"
 
 enum { COMMON = 5, TOLD = 15, MOST = COMMON + 2 * TOLD, NAME = 32 };
 
@@ -64,7 +64,7 @@ static iso_status put_number(iso_context *ctx, iso_record *r, const char *key, d
     return status == ISO_OK ? iso_record_set_numbers(ctx, r, key, 1, &x) : status;
 }
 
-static iso_status put_share(iso_context *ctx, const iso_chaos_share *s, iso_record *r, iso_status status)
+static iso_status put_share(iso_context *ctx, const iso_chaos_fraction *s, iso_record *r, iso_status status)
 {
     if (s->asked == 0) return status;
     status = put_number(ctx, r, "asked", (double)s->asked, status);

@@ -82,11 +82,11 @@ iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*nam
                             iso_suggest_word(suggested, word, name));
 }
 
-iso_status iso_foreign_shown(iso_context *ctx, const char *key, const char *word, iso_shown *shown)
+iso_status iso_foreign_shown(iso_context *ctx, const char *key, const char *word, iso_models *shown)
 {
     int number;
     const iso_status status = iso_foreign_word(ctx, key, iso_shown_name, word, &number);
-    *shown = (iso_shown)number;
+    *shown = (iso_models)number;
     return status;
 }
 

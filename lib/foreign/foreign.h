@@ -141,7 +141,7 @@ ISO_API iso_status iso_foreign_batch(iso_context *ctx, const iso_foreign_scene *
 
 /* --- studies ---------------------------------------------------------------------------------------------------- */
 
-/* The Poincare section of a scene (study/section.h).
+/* The Poincare section of a scene (study/section/section.h).
  * at: l, x of further starts, at_count pairs. axis: 0 to 2, or -1: the global one.
  * event: NULL, or a column; crossings are then where it passes `value` upwards. models: those that are integrated.
  * shown: whose states are in the rows; NULL or "auto": no states. tolerance: 1e-15 to 0.1, or 0: the scene's.
@@ -156,7 +156,7 @@ ISO_API iso_status iso_foreign_section(iso_context *ctx, const iso_foreign_scene
                                        double tolerance, int threads, iso_record **record, iso_record **point,
                                        char notes[], size_t room);
 
-/* Which orbits are chaotic (study/chaos.h); arguments and tolerance as for sections.
+/* Which orbits are chaotic (study/chaos/chaos.h); arguments and tolerance as for sections.
  * *record has a row for each orbit; row 0 is the scene's own. Columns:
  *     orbit l x verdict disagree      l, x: where it starts; NaN: the scene's own. verdict: a number of iso_verdict
  *     ball_verdict ball_status ball_turns ball_per_turn ball_per_turn_error

@@ -33,7 +33,7 @@ iso_status iso_foreign_word(iso_context *ctx, const char *key, const char *(*nam
                             int *number);
 
 /* The number of a word for models to show. */
-iso_status iso_foreign_shown(iso_context *ctx, const char *key, const char *word, iso_shown *shown);
+iso_status iso_foreign_shown(iso_context *ctx, const char *key, const char *word, iso_models *shown);
 
 /* The tolerance of a study, whose options have NAN for the scene's: callers write 0, since a number that went wrong
  * is a NaN. Errors: ISO_BAD_ARGUMENT about "tolerance". */

@@ -73,7 +73,7 @@ static iso_status set_word(iso_context *ctx, iso_scene *scene, const char *key, 
     if (backend)
         scene->backend = (iso_backend)number;
     else
-        scene->as = (iso_shown)number, scene->columns = 0;
+        scene->as = (iso_models)number, scene->columns = 0;
     return ISO_OK;
 }
 

@@ -6,7 +6,7 @@
 
 #include "base/nearest.h"
 #include "foreign/foreign_impl.h"
-#include "study/section.h"
+#include "study/section/section.h"
 
 typedef struct keeper {
     iso_context *ctx;

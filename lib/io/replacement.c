@@ -19,7 +19,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/sweep_store_impl.h"
+#include "base/low_discrepancy_impl.h"
 
 enum {
     MOST_NAMES = 1000, /* for programs that write one target at once */
@@ -51,14 +51,19 @@ static const char *last_part(const char *path)
     return slash ? slash + 1 : path;
 }
 
+static uint64_t sum_of(const char *text, uint64_t salt)
+{
+    for (; *text; text++) salt = iso_scatter(salt ^ (unsigned char)*text);
+    return salt;
+}
+
 /* Name number i. Other machines have other names: their locks may not be seen here. NULL: no memory. */
 static char *name_beside(const char *target, int i)
 {
     char machine[256] = "", *name;
     const char *own = last_part(target);
     (void)!gethostname(machine, sizeof machine - 1);
-    const uint64_t salt = iso_sweep_checksum(machine, strlen(machine), 0);
-    const uint64_t sum = iso_sweep_checksum(own, strlen(own), salt);
+    const uint64_t sum = sum_of(own, sum_of(machine, 0));
     if (asprintf(&name, "%.*s.isoroll-%016" PRIx64 "-%d.tmp", (int)(own - target), target, sum, i) >= 0) return name;
     errno = ENOMEM;
     return NULL;

@@ -23,7 +23,7 @@ typedef struct iso_draft {
 iso_draft iso_draft_empty(iso_context *ctx, const char *name);
 
 /* A key of `initial` and the model whose start it states (ISO_SHOW_BOTH: either). */
-bool iso_draft_initial_key(int i, const char **name, iso_shown *model);
+bool iso_draft_initial_key(int i, const char **name, iso_models *model);
 
 /* Reads every key under d->root into the draft: types, ranges, unknown, duplicate and missing keys.
  * What must hold between sections is left to the caller. Errors: ISO_BAD_INPUT. */

@@ -84,7 +84,7 @@ static iso_status check_initial(iso_draft *d, iso_model_kind model)
     const char *what = model == ISO_BALL ? "a ball starts from 'normal' and 'angular_velocity'"
                                          : "a point starts from 'gamma' and 'M'";
     const char *name;
-    iso_shown whose;
+    iso_models whose;
     find_key(d, "initial", NULL, &initial, NULL);
     for (int i = 0; iso_draft_initial_key(i, &name, &whose); i++) {
         const bool present = find_key(d, "initial", name, &key, NULL);
@@ -212,7 +212,7 @@ iso_status iso_draft_make(iso_draft *d)
     if ((status = make_effects(d, model)) != ISO_OK) return status;
     if ((status = make_start(d, model)) != ISO_OK) return status;
     d->scene.backend = (iso_backend)d->backend;
-    d->scene.as = (iso_shown)d->as;
+    d->scene.as = (iso_models)d->as;
     return iso_scene_blame(d->yaml.ctx, &d->scene, d->yaml.name, iso_scene_check_columns(d->yaml.ctx, &d->scene));
 }
 

@@ -8,7 +8,7 @@
  *
  * Files of others are read as well: without the lines of #, separated by commas, semicolons or blanks, names quoted
  * or in a line of #, other columns beside ours (which are passed over), CRLF and blank lines, exponents in D, C's
- * hexadecimal numbers. In every path "-" is standard input or output. A path that ends in .h5 is HDF5 (io/hdf5.c
+ * hexadecimal numbers. In every path "-" is standard input or output. A path that ends in .h5 is HDF5 (io/hdf5/hdf5.c
  * says how it is laid out), where the build has it; else ISO_BAD_ARGUMENT.
  */
 #ifndef ISO_IO_TRAJECTORY_H

@@ -1,6 +1,7 @@
 /* section_spread.c - the section's area, and points spread evenly over it. Both need the integral of G(l). */
 #include <math.h>
 
+#include "base/low_discrepancy_impl.h"
 #include "base/pi_impl.h"
 #include "map/quarter_impl.h"
 #include "map/section_impl.h"

@@ -168,7 +168,7 @@ bool iso_effects_pull(const iso_effects *effects)
     return pulls;
 }
 
-bool iso_effects_keep(const iso_problem *f, iso_further integral)
+bool iso_effects_keep(const iso_problem *f, iso_additional integral)
 {
     const iso_effect *effect;
     bool keep = true;

@@ -81,7 +81,7 @@ typedef enum iso_work {
 } iso_work;
 
 /* The further integrals of the two systems (ball.c, point.c). */
-typedef enum iso_further { ISO_F_PLANE, ISO_F_SHELL, ISO_F_AXIS1, ISO_F_AXIS2, ISO_F_AXIS3 } iso_further;
+typedef enum iso_additional { ISO_F_PLANE, ISO_F_SHELL, ISO_F_AXIS1, ISO_F_AXIS2, ISO_F_AXIS3 } iso_additional;
 
 typedef struct iso_effect {
     const char *name, *doc;
@@ -98,7 +98,7 @@ typedef struct iso_effect {
     bool clocks;        /* it asks for the clocks as columns, and for nothing else                            */
     bool is_level;      /* its potential is the energy level of the point: no force on the point              */
     iso_work (*work)(const iso_problem *f);                    /* NULL: unknown; for an observer: none            */
-    bool (*keeps)(const iso_problem *f, iso_further integral); /* NULL: it keeps none; an observer: all           */
+    bool (*keeps)(const iso_problem *f, iso_additional integral); /* NULL: it keeps none; an observer: all           */
     const char *(*no_frequencies)(const iso_problem *f);       /* why n(t) is not quasi-periodic; NULL: it may be */
 
     /* --- its numbers and columns --- */
@@ -253,7 +253,7 @@ ISO_API bool iso_effects_have_image(const iso_effects *effects);
 bool iso_effects_pull(const iso_effects *effects);
 
 /* Whether one of the further integrals survives all effects. */
-bool iso_effects_keep(const iso_problem *f, iso_further integral);
+bool iso_effects_keep(const iso_problem *f, iso_additional integral);
 
 /* Whether the energy is conserved, and known from the state: on a plane the height is a state of `attitude`. */
 bool iso_effects_keep_energy(const iso_problem *f);

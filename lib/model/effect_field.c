@@ -81,7 +81,7 @@ static bool is_symmetric(const iso_problem *f, int axis)
            l[k] == 0;
 }
 
-static bool keeps(const iso_problem *f, iso_further integral)
+static bool keeps(const iso_problem *f, iso_additional integral)
 {
     return integral >= ISO_F_AXIS1 && is_symmetric(f, (int)integral - ISO_F_AXIS1);
 }

@@ -40,7 +40,7 @@ static double strength(const iso_problem *f, const double y[])
     return fabs(c_of(f)) * pow(dot_diag(y + 3, f->p.inv_J, y + 3), -1 / f->p.k);
 }
 
-static bool keeps(const iso_problem *f, iso_further integral)
+static bool keeps(const iso_problem *f, iso_additional integral)
 {
     (void)f;
     (void)integral;

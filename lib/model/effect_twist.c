@@ -83,7 +83,7 @@ static iso_work work(const iso_problem *f)
 }
 
 /* On a plane the torque along n leaves Jw x n alone; a level's part of F_plane changes with it. */
-static bool keeps(const iso_problem *f, iso_further integral)
+static bool keeps(const iso_problem *f, iso_additional integral)
 {
     return integral == ISO_F_PLANE && !iso_effects_have_level(&f->effects);
 }

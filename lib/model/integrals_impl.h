@@ -17,7 +17,7 @@ static inline bool holds_shell(const iso_problem *f)
 /* The body is symmetric about an axis, and the effects as well. */
 static inline bool holds_axis(const iso_problem *f, int axis)
 {
-    return iso_params_symmetric(&f->p, axis) && iso_effects_keep(f, (iso_further)(ISO_F_AXIS1 + axis));
+    return iso_params_symmetric(&f->p, axis) && iso_effects_keep(f, (iso_additional)(ISO_F_AXIS1 + axis));
 }
 
 static inline bool holds_axis1(const iso_problem *f)

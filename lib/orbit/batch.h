@@ -32,7 +32,7 @@ typedef struct iso_batch_options {
     double tolerance;
     long max_steps; /* of each orbit; 0: no bound                                                         */
     iso_clock clock;
-    iso_shown shown;
+    iso_models shown;
     bool with_clock[ISO_CLOCKS];
     int threads;         /* 0: as many as there are processors to run on                                       */
     const char *vectors; /* "avx512", "avx2", "plain"; NULL: the widest of this processor                      */

@@ -47,7 +47,7 @@ typedef struct iso_crossings_options {
     bool deviations;
     double tolerance;
     long max_steps;  /* between two crossings; 0: no bound                                                   */
-    iso_shown shown; /* what samples show                                                                    */
+    iso_models shown; /* what samples show                                                                    */
     int threads;
     const char *vectors;
 } iso_crossings_options;

@@ -11,7 +11,7 @@
 /* --- the orbit -------------------------------------------------------------------------------------------------- */
 
 /* Whether the states of a model are needed: because it is integrated, because samples show it, or for the column. */
-static bool needs(const iso_crossings_options *o, iso_backend backend, iso_shown model)
+static bool needs(const iso_crossings_options *o, iso_backend backend, iso_models model)
 {
     const bool point = model == ISO_SHOW_POINT;
     const bool of_point = o->column >= ISO_COLUMN_POINT && o->column < ISO_COLUMN_EFFECTS;

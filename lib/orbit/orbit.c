@@ -333,3 +333,10 @@ double iso_orbit_integral(const iso_orbit *o, const iso_system *system, const is
     iso_orbit_state_of(o, system, sample, y);
     return integral->value(&problem, y, size);
 }
+
+const iso_integral *iso_orbit_additional_integral(const iso_orbit *o)
+{
+    for (const iso_integral *i = iso_system_ball.integrals + 1; i->name; i++)
+        if (i->known == ISO_ANY_VALUE && (!i->holds || i->holds(&o->model.problem))) return i;
+    return NULL;
+}

@@ -32,7 +32,7 @@ typedef struct iso_orbit_options {
     double tolerance;            /* of the method                                                             */
     long max_steps;              /* after which a call fails with ISO_NUMERICAL; 0: no bound                  */
     iso_clock clock;             /* the clock in which times are asked                                        */
-    iso_shown shown;             /* the models filled into samples, not ISO_SHOW_START                        */
+    iso_models shown;             /* the models filled into samples, not ISO_SHOW_START                        */
     bool gamma_alone;            /* of the point gamma is filled in, which always fits a double, but not M    */
     bool with_clock[ISO_CLOCKS]; /* other clocks filled into samples                                       */
     size_t memory;               /* bytes for the ends of its steps, at most, for each direction of time;

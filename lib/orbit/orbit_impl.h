@@ -73,4 +73,7 @@ void iso_sample_blank(iso_sample *s);
 iso_status iso_orbit_sample_effects(const iso_orbit *o, const double y[], iso_sample *sample);
 void iso_orbit_state_of(const iso_orbit *o, const iso_system *system, const iso_sample *sample, double y[]);
 
+/* The ball's integral beyond the energy and the constraints; NULL: none is known. */
+const iso_integral *iso_orbit_additional_integral(const iso_orbit *orbit);
+
 #endif

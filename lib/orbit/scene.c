@@ -220,7 +220,7 @@ static bool is_filled(const iso_scene *scene, int column)
  * effects. */
 static bool is_default(const iso_scene *scene, int c)
 {
-    const iso_shown as = scene->as == ISO_SHOW_START ? (iso_shown)scene->start.model : scene->as;
+    const iso_models as = scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
     const bool ball = c == ISO_CLOCK_T || (c >= ISO_COLUMN_BALL && c < ISO_COLUMN_POINT) || c >= ISO_COLUMN_EFFECTS;
     const bool point = c == ISO_CLOCK_S || (c >= ISO_COLUMN_POINT && c < ISO_COLUMN_EFFECTS);
     if (!is_filled(scene, c)) return false;

@@ -27,12 +27,12 @@ typedef enum iso_backend {
 } iso_backend;
 
 /* Whose states are given or written. */
-typedef enum iso_shown {
+typedef enum iso_models {
     ISO_SHOW_BALL,
     ISO_SHOW_POINT,
     ISO_SHOW_BOTH,
     ISO_SHOW_START /* the model of the start; of a scene only */
-} iso_shown;
+} iso_models;
 
 /* "ball", "point"; "ball", "point", "auto", "exact"; "ball", "point", "both", "auto". NULL past the end. */
 ISO_API const char *iso_model_kind_name(int kind);
@@ -82,7 +82,7 @@ typedef struct iso_scene {
     iso_backend backend;        /* what finds the orbit                                                   */
     char method[ISO_NAME_SIZE]; /* a name of iso_methods, or "auto"                                        */
     double tolerance;           /* largest relative error of one step, in [1e-15, 0.1]                     */
-    iso_shown as;               /* whose states are written                                               */
+    iso_models as;               /* whose states are written                                               */
     size_t columns;             /* names of the columns wanted; 0: those of `as`                           */
     char column[ISO_MAX_COLUMNS][ISO_NAME_SIZE];
     int places; /* of what was read from a file, 0 for a scene filled by hand                              */

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/arithmetic_impl.h"
+#include "base/seconds_impl.h"
 #include "base/vec3_impl.h"
-#include "study/seconds_impl.h"
 
 typedef struct runner {
     iso_context *ctx;

@@ -7,9 +7,9 @@
 
 #include "base/arithmetic_impl.h"
 #include "base/options_impl.h"
+#include "base/seconds_impl.h"
 #include "base/vec3_impl.h"
 #include "orbit/orbit_impl.h"
-#include "study/seconds_impl.h"
 
 /* How far from the start the moved orbits begin, relative: far above the error of their method, but small enough that
  * their distance grows in proportion. */

@@ -48,7 +48,7 @@ static iso_orbit_options orbit_options(const iso_scene *scene, const int columns
     o.shown = ball && point ? ISO_SHOW_BOTH
               : ball        ? ISO_SHOW_BALL
               : point       ? ISO_SHOW_POINT
-                            : (iso_shown)scene->start.model;
+                            : (iso_models)scene->start.model;
     o.gamma_alone = point && !M;
     o.backend = scene->backend;
     o.method = iso_method_find(scene->method);
@@ -100,7 +100,7 @@ static iso_status describe(const runner *r, iso_record **header)
 {
     const char *names[ISO_MAX_COLUMNS];
     const iso_scene *scene = r->scene;
-    const iso_shown as = scene->as == ISO_SHOW_START ? (iso_shown)scene->start.model : scene->as;
+    const iso_models as = scene->as == ISO_SHOW_START ? (iso_models)scene->start.model : scene->as;
     for (int i = 0; i < r->count; i++) names[i] = iso_column_name(r->columns[i]);
     iso_status status = iso_record_create(r->ctx, (size_t)r->count, names, header);
     if (status == ISO_OK)

@@ -8,9 +8,9 @@
 
 #include "base/options_impl.h"
 #include "isoroll.h"
-#include "study/cost.h"
+#include "study/cost/cost.h"
 #include "study/error.h"
-#include "study/frequencies.h"
+#include "study/frequencies/frequencies.h"
 
 static void test_version(void)
 {

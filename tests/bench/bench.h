@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "study/seconds_impl.h"
+#include "base/seconds_impl.h"
 
 /* The processor time this process has taken so far. */
 static inline double bench_milliseconds(void)

@@ -1,4 +1,4 @@
-/* How often the error of an exponent (lib/study/indicators.h) covers: many orbits of one chaotic sea, against the mean
+/* How often the error of an exponent (lib/study/chaos/indicators.h) covers: many orbits of one chaotic sea, against the mean
  * of all of them over a long time.
  *
  *     bench_exponent [ORBITS] [TURNS] [SEED]      orbits that begin on the section (default 150), turns of each
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 
 #include "map/section.h"
-#include "study/chaos.h"
+#include "study/chaos/chaos.h"
 
 enum { EACH = 250, LENGTHS = 16 };
 
@@ -49,12 +49,12 @@ static void must(const iso_context *ctx, iso_status status, const char *what)
 static void add(work *w, size_t i, const iso_crossing *c)
 {
     iso_indicators *shown = &w->shown[i];
-    iso_beat beat = {.area = c->area, .seen = {NAN, NAN, NAN}};
+    iso_turn_sample beat = {.area = c->area, .seen = {NAN, NAN, NAN}};
     for (int n = 0; n < ISO_CLOCKS; n++) beat.clock[n] = c->clock[n];
     for (int n = 0; n < ISO_DEVIATIONS; n++) beat.growth[n] = c->growth[n];
     iso_indicators_add(shown, &beat);
     for (int n = 0; n < w->lengths; n++)
-        if (shown->turns == w->length[n]) iso_indicators_tell(shown, &w->told[(size_t)n * w->count + i]);
+        if (shown->turns == w->length[n]) iso_indicators_read(shown, &w->told[(size_t)n * w->count + i]);
     if (shown->turns == w->turns / 2) w->half[i] = *c;
 }
 

@@ -12,8 +12,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "study/chaos.h"
-#include "study/share_impl.h"
+#include "study/chaos/chaos.h"
+#include "study/chaos/share_impl.h"
 
 typedef struct motion {
     double k, J[3];
@@ -45,7 +45,7 @@ static answer ask(iso_context *ctx, const motion *m, size_t starts, long turns, 
         fprintf(stderr, "%s\n", iso_context_message(ctx));
         exit(1);
     }
-    const iso_chaos_share *s = &c->share;
+    const iso_chaos_fraction *s = &c->share;
     answer a = {s->share, (double)s->undecided / (double)s->count, 0, 0, {s->low, s->high}};
     for (size_t i = 0; i < c->starts; i++) {
         if (!iso_chaos_followed(&c->start[i])) continue;

@@ -17,10 +17,10 @@
 #include <unistd.h>
 
 #include "bench.h"
-#include "io/sweep_file.h"
-#include "io/sweep_store.h"
-#include "study/chaos.h"
-#include "study/sweep.h"
+#include "study/chaos/chaos.h"
+#include "sweep/sweep.h"
+#include "sweep/sweep_file.h"
+#include "sweep/sweep_store.h"
 
 static iso_context *ctx;
 
@@ -56,7 +56,7 @@ static iso_sweep_file *sweep_of(size_t orbits, long turns, size_t chunk)
              "  {normal: [0.36, 0.48, 0.8], angular_velocity: [0.9, -0.3, -0.225]}}\n"
              "vary: {start: {spread: %zu}}\nmeasure: {chaos: {model: point}}\nuntil: {turns: %ld}\n%s",
              orbits, turns, more);
-    must(iso_sweep_parse(ctx, "bench.yaml", text, strlen(text), iso_sweep_topics(), &file));
+    must(iso_sweep_parse(ctx, "bench.yaml", text, strlen(text), iso_sweep_quantities(), &file));
     return file;
 }
 
@@ -108,7 +108,7 @@ static void dispatch(size_t chunk)
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     must(iso_sweep_rows_create(ctx, head->columns, chunk, &rows));
     snprintf(path, sizeof path, "/tmp/bench_sweep_%ld.csv", (long)getpid());
-    must(iso_sweep_journal_open(ctx, path, head, (iso_sweep_share){0, 1}, false, &w.journal));
+    must(iso_sweep_journal_open(ctx, path, head, (iso_sweep_shard){0, 1}, false, &w.journal));
     rows.count = chunk;
     const double before = bench_wall_milliseconds();
     for (size_t c; next_chunk(&w, &c);) {
@@ -153,7 +153,7 @@ static double by_sweep(size_t orbits, long turns, int threads, double *processor
     must(iso_sweep_create(ctx, iso_sweep_file_plan(file), &sweep));
     const iso_sweep_head *head = iso_sweep_head_of(sweep);
     w.chunks = iso_sweep_chunks(head);
-    must(iso_sweep_journal_open(ctx, "/dev/null", head, (iso_sweep_share){0, 1}, false, &w.journal));
+    must(iso_sweep_journal_open(ctx, "/dev/null", head, (iso_sweep_shard){0, 1}, false, &w.journal));
     const iso_sweep_source source = {next_chunk, take_chunk, &w};
     const double before = bench_wall_milliseconds(), busy = busy_time();
     must(iso_sweep_run(ctx, sweep, threads, &source));

@@ -5,7 +5,7 @@
 #include "fuzz.h"
 #include "io/trajectory.h"
 #include "orbit/convert.h"
-#include "study/check.h"
+#include "study/check/check.h"
 
 enum { STEPS = 3000, ROWS = 200 };
 

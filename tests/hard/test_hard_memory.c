@@ -14,11 +14,11 @@
 #include "io/scene_file.h"
 #include "io/trajectory.h"
 #include "orbit/convert.h"
-#include "study/check.h"
+#include "study/check/check.h"
 #include "study/compare.h"
-#include "study/cost.h"
+#include "study/cost/cost.h"
 #include "study/error.h"
-#include "study/frequencies.h"
+#include "study/frequencies/frequencies.h"
 
 static iso_context *ctx;
 static batch_pool pool;

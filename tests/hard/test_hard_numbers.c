@@ -169,7 +169,7 @@ static iso_status batch(iso_context *ctx, const void *data, const double v[], sw
     if (status != ISO_OK) return status;
     memcpy(start.y, v + STATE, sizeof start.y);
     iso_batch_options o = iso_batch_defaults();
-    o.tolerance = v[TOLERANCE], o.max_steps = 20000, o.backend = r->backend, o.shown = (iso_shown)r->model;
+    o.tolerance = v[TOLERANCE], o.max_steps = 20000, o.backend = r->backend, o.shown = (iso_models)r->model;
     o.threads = 1, o.clock = r->clock;
     status = iso_batch_run(ctx, &(iso_batch_orbit){&p, &start, NULL}, 1, &o, (double[]){v[TIME], v[AFTER_ORBIT]}, 2,
                            samples, NULL);

@@ -9,7 +9,7 @@
 #include "laws.h"
 #include "map/state.h"
 #include "study/compare.h"
-#include "study/frequencies.h"
+#include "study/frequencies/frequencies.h"
 
 static iso_context *ctx;
 static iso_params params;

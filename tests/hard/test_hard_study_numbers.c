@@ -6,12 +6,12 @@
 #include "hard.h"
 #include "isoroll.h"
 #include "study/analogue.h"
-#include "study/check.h"
+#include "study/check/check.h"
 #include "study/compare.h"
-#include "study/cost.h"
-#include "study/frequencies.h"
-#include "study/momentum.h"
-#include "study/spectrum.h"
+#include "study/cost/cost.h"
+#include "study/frequencies/frequencies.h"
+#include "study/frequencies/momentum.h"
+#include "study/frequencies/spectrum.h"
 #include "sweep.h"
 
 /* --- records ---------------------------------------------------------------------------------------------------- */
@@ -236,7 +236,7 @@ static iso_status spectrum(iso_context *ctx, const void *data, const double v[],
 {
     enum { COUNT = 64 };
     double signal[2 * COUNT];
-    iso_line line[3];
+    iso_spectral_line line[3];
     int found;
     (void)data;
     for (int i = 0; i < COUNT; i++) signal[2 * i] = cos(0.7 * i), signal[2 * i + 1] = sin(0.7 * i);

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "io/plot.h"
+#include "plot/plot.h"
 
 static iso_context *ctx;
 static char folder[] = "/tmp/isoroll-test-XXXXXX";

@@ -1,4 +1,4 @@
-/* The compositions of lib/method/splitting.c: their orders, what they keep, the way back, times between steps. */
+/* The compositions of lib/method/symplectic.c: their orders, what they keep, the way back, times between steps. */
 #include <float.h>
 #include <gsl/gsl_fit.h>
 #include <string.h>

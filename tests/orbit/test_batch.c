@@ -137,7 +137,7 @@ static void check_right(void)
         o.backend = (const iso_backend[]){ISO_BACKEND_AUTO, ISO_BACKEND_BALL, ISO_BACKEND_POINT}[variant % 3];
         o.clock = (iso_clock)(variant / 3 % 3);
         o.vectors = iso_batch_vectors(variant % codes, NULL);
-        o.shown = (iso_shown)(variant / 9 % 4 % 3);
+        o.shown = (iso_models)(variant / 9 % 4 % 3);
         for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = variant % 2 == 0;
         const bool t_alone = o.clock == ISO_CLOCK_T;
         const double J_unit = t_alone ? units[variant / 9] : 1, speed = t_alone ? units[(variant / 9 + 2) % 4] : 1;
@@ -214,7 +214,7 @@ static void check_conserved(iso_backend backend)
     iso_batch_options o = iso_batch_defaults();
     iso_status status[BATCH_ORBITS], whole;
     static const double ks[] = {1, -1, 0.5, -0.4, 0.75, 1.5};
-    o.tolerance = 1e-15, o.backend = backend, o.shown = (iso_shown)backend;
+    o.tolerance = 1e-15, o.backend = backend, o.shown = (iso_models)backend;
     all.count = 0;
     for (int i = 0; i < BATCH_ORBITS; i++) batch_add_random(&all, dice, ks[i % 6], orbit_J, 1, 1, ISO_CLOCK_T, 0);
     iso_sample *samples = batch_run(ctx, all.orbit, all.count, &o, &time, 1, status, &whole);

@@ -219,7 +219,7 @@ static void check_rest(double k, iso_backend backend)
     iso_batch_options o = iso_batch_defaults();
     iso_start rest = batch_start(0, 0, 0, 0.36, 0.48, 0.8);
     iso_status status[COUNT], whole;
-    o.backend = backend, o.shown = (iso_shown)backend, o.threads = 1;
+    o.backend = backend, o.shown = (iso_models)backend, o.threads = 1;
     rest.model = (iso_model_kind)backend, rest.eps = NAN;
     all.count = 0;
     for (int i = 0; i < COUNT; i++)

@@ -136,7 +136,7 @@ static void check_shows(const problem *o)
 {
     iso_orbit *all = create(&o->p, &o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
     const iso_sample whole = scene_at(ctx, all, 7);
-    for (iso_shown shown = ISO_SHOW_BALL; shown <= ISO_SHOW_BOTH; shown++) {
+    for (iso_models shown = ISO_SHOW_BALL; shown <= ISO_SHOW_BOTH; shown++) {
         iso_orbit_options less = all_of(&o->start, ISO_BACKEND_EXACT, ISO_CLOCK_T);
         less.shown = shown;
         less.with_clock[ISO_CLOCK_TAU] = false;
@@ -370,7 +370,7 @@ static void check_errors(const problem *o)
     check_effects_refused(&o->p, &ball);
     other.method = iso_method_find("taylor");
     refused(&o->p, &ball, &other, "method", "backend exact does not integrate");
-    other = exact, other.shown = (iso_shown)4;
+    other = exact, other.shown = (iso_models)4;
     refused(&o->p, &ball, &other, "backend", "shown as ball, point or both");
     refused(&o->p, &neither, &exact, "", "starts as a ball or as a point");
     iso_batch_options batch = iso_batch_defaults();

@@ -3,7 +3,7 @@
 #define ISO_TESTS_COSTS_H
 
 #include "scenes.h"
-#include "study/cost.h"
+#include "study/cost/cost.h"
 
 static inline iso_scene cost_scene(iso_context *ctx, double k, const double J[3], double end)
 {

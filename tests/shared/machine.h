@@ -11,17 +11,16 @@
 #include "base/number.h"
 #include "batches.h"
 #include "hard.h"
-#include "io/plot.h"
 #include "io/scene_file.h"
 #include "io/trajectory.h"
 #include "orbit/convert.h"
 #include "orbit/description.h"
 #include "study/analogue.h"
-#include "study/check.h"
+#include "study/check/check.h"
 #include "study/compare.h"
-#include "study/cost.h"
+#include "study/cost/cost.h"
 #include "study/error.h"
-#include "study/frequencies.h"
+#include "study/frequencies/frequencies.h"
 
 static iso_context *ctx;
 static batch_pool pool; /* filled before the machine's state is changed */
@@ -143,7 +142,7 @@ static void put_scenes(FILE *to)
         iso_sample sample;
         o.effects = &scene.effects;
         o.backend = scene.backend;
-        o.shown = scene.as == ISO_SHOW_START ? (iso_shown)scene.start.model : scene.as;
+        o.shown = scene.as == ISO_SHOW_START ? (iso_models)scene.start.model : scene.as;
         put(to, &scene.params.k, sizeof(double));
         put(to, scene.params.J, sizeof scene.params.J);
         put(to, &scene.params.det_J, sizeof(double)); /* of one of them subnormal */
@@ -188,10 +187,6 @@ static void put_studies(FILE *to)
             put(to, &residuals.residual[i].worst, sizeof(double));
         iso_record_free(read);
     }
-    const iso_plot plot = {"a shell", c->run[ISO_BALL].trajectory, c->run[ISO_POINT].trajectory, c->difference,
-                           1e-12};
-    put_status(to, ctx, iso_plot_comparison(ctx, "hard_machine.svg", &plot), true);
-    put_file(to, "hard_machine.svg");
     iso_comparison_free(c);
 }
 

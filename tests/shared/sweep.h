@@ -38,7 +38,7 @@ static inline void sweep_give(sweep_answer *a, const double x[], int count)
 }
 
 /* The columns of a sample that are shown. */
-static inline void sweep_give_sample(sweep_answer *a, const iso_sample *sample, iso_shown shown)
+static inline void sweep_give_sample(sweep_answer *a, const iso_sample *sample, iso_models shown)
 {
     sweep_give(a, sample->clock, 1);
     if (shown != ISO_SHOW_POINT) sweep_give(a, sample->ball, ISO_STATE);

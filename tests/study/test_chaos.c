@@ -1,4 +1,4 @@
-/* Verdicts of lib/study/chaos.h by both models, on orbits that are known to be regular or chaotic; shares;
+/* Verdicts of lib/study/chaos/chaos.h by both models, on orbits that are known to be regular or chaotic; shares;
  * refusals. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -7,8 +7,8 @@
 
 #include "laws.h"
 #include "length.h"
-#include "study/chaos.h"
-#include "study/share_impl.h"
+#include "study/chaos/chaos.h"
+#include "study/chaos/share_impl.h"
 
 static iso_context *ctx;
 
@@ -175,7 +175,7 @@ static void check_shares(void)
         iso_chaos *c;
         o.starts = (size_t)tests_length(40, 400);
         must(iso_chaos_run(ctx, &scene, &o, &c), "starts");
-        const iso_chaos_share *s = &c->share;
+        const iso_chaos_fraction *s = &c->share;
         gsl_test_int((int)s->count, (int)o.starts, "k = %g: starts", family[j].k);
         gsl_test(!(s->share >= family[j].low && s->share <= family[j].high), "k = %g: chaotic part %g", family[j].k,
                  s->share);
@@ -270,7 +270,7 @@ static void check_stopped(void)
         iso_context_set_monitor(ctx, stop_after, &left);
         stopped = iso_chaos_run(ctx, &scene, &o, &c) == ISO_STOPPED;
         iso_context_set_monitor(ctx, NULL, NULL);
-        const iso_chaos_share *s = &c->share;
+        const iso_chaos_fraction *s = &c->share;
         size_t followed = 0;
         for (size_t i = 0; i < c->starts; i++) followed += c->start[i].told[ISO_POINT].turns > 0;
         gsl_test(s->asked != o.starts || s->count != followed || s->failed > 0, "%d calls: %zu of %zu followed",

@@ -4,7 +4,7 @@
 #include "effects.h"
 #include "orbit/description.h"
 #include "scenes.h"
-#include "study/check.h"
+#include "study/check/check.h"
 #include "study/run.h"
 
 static iso_context *ctx;
@@ -175,7 +175,7 @@ static void hold(const iso_scene *scene, const char *file)
 
 /* --- over the tables -------------------------------------------------------------------------------------------- */
 
-static iso_scene scene_of(const rolling *ball, iso_model_kind model, const iso_effects *effects, iso_shown as,
+static iso_scene scene_of(const rolling *ball, iso_model_kind model, const iso_effects *effects, iso_models as,
                           iso_random *random)
 {
     iso_scene scene = iso_scene_default();
@@ -205,7 +205,7 @@ static void hold_effect(const rolling *ball, int acting, bool observed, iso_rand
     for (int model = 0; model < 2; model++)
         for (int as = 0; as < 3; as++) {
             const iso_effects effects = effects_random(random, &ball->p, subset, 1, 1, 1);
-            const iso_scene scene = scene_of(ball, (iso_model_kind)model, &effects, (iso_shown)as, random);
+            const iso_scene scene = scene_of(ball, (iso_model_kind)model, &effects, (iso_models)as, random);
             const int used = snprintf(file, sizeof file, "%s, %s as %s, ", ball->name, iso_model_kind_name(model),
                                       iso_shown_name(as));
             effects_name(subset, file + used, sizeof file - (size_t)used);

@@ -1,4 +1,4 @@
-/* What accuracy costs (study/cost.h): that the errors told are the true ones, that fits find orders and what is
+/* What accuracy costs (study/cost/cost.h): that the errors told are the true ones, that fits find orders and what is
  * broken, and that what is chosen is the cheapest. How long anything takes is no test. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -8,10 +8,10 @@
 
 #include "base/vec3_impl.h"
 #include "costs.h"
-#include "numbers.h"
 #include "method/integrator_impl.h"
+#include "numbers.h"
 #include "reference.h"
-#include "study/cost_impl.h"
+#include "study/cost/cost_impl.h"
 
 static iso_context *ctx;
 
@@ -119,7 +119,7 @@ static void check_orders(const iso_cost *c)
 {
     int lines = 0;
     for (int l = 0; l < c->lines; l++) {
-        const iso_cost_line *line = &c->line[l];
+        const iso_cost_series *line = &c->line[l];
         int cells = 0;
         for (int i = 0; i < line->count; i++) cells += cost_is_measured(&c->cell[line->first + i]);
         if (!line->method || line->method->order == 0 || line->method->order > 8 || cells < 4) continue;
@@ -193,7 +193,7 @@ static void check_choice(const iso_cost *c)
 
 /* Pairs of lines whose times for 1e-6 differ by more than 1.5, and those of which the order is another in two
  * measurements: for the eye. */
-static double time_at(const iso_cost *c, const iso_cost_line *l, double error)
+static double time_at(const iso_cost *c, const iso_cost_series *l, double error)
 {
     for (int i = 0; i + 1 < l->count; i++) {
         const iso_cost_cell *a = &c->cell[l->first + i], *b = a + 1;
@@ -296,7 +296,7 @@ static void check_numbers(void)
     gsl_test(!iso_cost_times_settled(&times), "five that agree are enough");
     for (int i = 0; i < 5; i++) times.stepping[i] = 1 + i;
     gsl_test(iso_cost_times_settled(&times), "five that do not agree are not");
-    iso_cost_times_tell(&times, &cell);
+    iso_cost_times_read(&times, &cell);
     gsl_test(cell.median != 3 || cell.fastest != 1 || cell.slowest != 5 || cell.total != 3.5,
              "least, median, largest");
     for (int i = 0; i < 7; i++) x[i] = i, y[i] = 2 - 3 * i;

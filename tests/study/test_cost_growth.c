@@ -1,4 +1,4 @@
-/* How error grows with the length of an orbit (study/cost.h): by a power, or as neighbours part. */
+/* How error grows with the length of an orbit (study/cost/cost.h): by a power, or as neighbours part. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

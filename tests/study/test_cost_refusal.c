@@ -1,4 +1,4 @@
-/* What study/cost.h does not measure, gives up, and stops. */
+/* What study/cost/cost.h does not measure, gives up, and stops. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Following periodic orbits (lib/study/periodic_follow.h): points of a branch are periodic orbits, events are where
+/* Following periodic orbits (lib/study/periodic/continuation.h): points of a branch are periodic orbits, events are where
  * their law says, branches that meet agree; refusals. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -6,8 +6,8 @@
 #include <string.h>
 
 #include "laws.h"
-#include "study/periodic_follow.h"
-#include "study/stability_chart.h"
+#include "study/periodic/continuation.h"
+#include "study/periodic/stability_chart.h"
 
 static iso_context *ctx;
 
@@ -68,10 +68,10 @@ static void check_branch(void)
     static const double J[3] = {1, 2, 5};
     const iso_scene scene = scene_of(0.5, J);
     iso_periodic *f = orbits_of(&scene, 1);
-    iso_follow_options o = iso_follow_defaults();
-    iso_follow *follow;
+    iso_continuation_options o = iso_continuation_defaults();
+    iso_continuations *follow;
     o.from = 0.3, o.to = 0.8, o.branches = true, o.longest = 0.08;
-    gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
+    gsl_test_int((int)iso_continuation_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
     const iso_branch *b = &follow->branch[0];
     const iso_branch_event *touch = event_of(b, ISO_BRANCH_TOUCH), *end = event_of(b, ISO_BRANCH_END);
     const iso_branch_event *collision = event_of(b, ISO_BRANCH_COLLISION);
@@ -94,7 +94,7 @@ static void check_branch(void)
             meets = meets || (other->event[j].joins && fabs(other->event[j].at.value - touch->at.value) < 1e-9);
     }
     gsl_test(!meets, "a branch of period 2 begins at the touch");
-    iso_follow_free(follow);
+    iso_continuation_free(follow);
     iso_periodic_free(f);
 }
 
@@ -103,21 +103,21 @@ static void check_touch(void)
 {
     static const double J[3] = {1.4, 2.1, 3};
     iso_scene scene = scene_of(0.38, J);
-    iso_follow_options o = iso_follow_defaults();
-    iso_follow *follow;
+    iso_continuation_options o = iso_continuation_defaults();
+    iso_continuations *follow;
     iso_periodic *f = orbits_of(&scene, 1);
     o.from = 0.37, o.to = 0.39;
-    gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
+    gsl_test_int((int)iso_continuation_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
     const iso_branch_event *e = event_of(&follow->branch[0], ISO_BRANCH_TOUCH);
     gsl_test_abs(e->at.value, 0.3767272689, 1e-9, "k of the touch");
     check_sides(&follow->branch[0], e, true);
-    iso_follow_free(follow);
+    iso_continuation_free(follow);
     iso_periodic_free(f);
     scene.params = laws_params(0.5, J);
     scene.start = (iso_start){.model = ISO_POINT, .y = {0, 0.5, 0, 0.6, 0, 0.8}, .eps = 1};
     f = orbits_of(&scene, 2);
     o.vary = ISO_VARY_LEVEL, o.from = -0.25, o.to = -0.19;
-    gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
+    gsl_test_int((int)iso_continuation_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed");
     size_t doublings = 0;
     for (size_t i = 0; i < follow->count; i++)
         for (size_t j = 0; j < follow->branch[i].events; j++) {
@@ -127,7 +127,7 @@ static void check_touch(void)
             doublings++;
         }
     gsl_test(doublings == 0, "there are period doublings");
-    iso_follow_free(follow);
+    iso_continuation_free(follow);
     iso_periodic_free(f);
 }
 
@@ -137,11 +137,11 @@ static void check_torus(void)
     static const double J[3] = {1.4, 2.1, 3};
     const iso_scene scene = scene_of(0.97, J);
     iso_periodic *f = orbits_of(&scene, 5);
-    iso_follow_options o = iso_follow_defaults();
-    iso_follow *follow;
+    iso_continuation_options o = iso_continuation_defaults();
+    iso_continuations *follow;
     o.from = 0.96, o.to = 1.02, o.longest = 0.1;
     gsl_test(f->count < 2, "there are orbits");
-    gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, 2, &o, &follow), ISO_OK, "followed");
+    gsl_test_int((int)iso_continuation_run(ctx, &scene, f->orbit, 2, &o, &follow), ISO_OK, "followed");
     int tori = 0;
     for (size_t i = 0; i < follow->count; i++)
         for (size_t j = 0; j < follow->branch[i].events; j++) {
@@ -151,7 +151,7 @@ static void check_torus(void)
             tori++;
         }
     gsl_test(tori == 0, "branches pass tori");
-    iso_follow_free(follow);
+    iso_continuation_free(follow);
     iso_periodic_free(f);
 }
 
@@ -166,10 +166,10 @@ static void check_refusals(void)
     const iso_scene scene = scene_of(0.5, J);
     iso_periodic *f = orbits_of(&scene, 4);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        iso_follow_options o = iso_follow_defaults();
-        iso_follow *follow;
+        iso_continuation_options o = iso_continuation_defaults();
+        iso_continuations *follow;
         o.vary = wrong[i].vary, o.from = wrong[i].from, o.to = wrong[i].to;
-        gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_BAD_ARGUMENT, "range %zu",
+        gsl_test_int((int)iso_continuation_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_BAD_ARGUMENT, "range %zu",
                      i);
         gsl_test(strcmp(iso_context_about(ctx), "range") != 0, "about the range");
         gsl_test(follow != NULL, "nothing is given");

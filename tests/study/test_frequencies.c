@@ -11,7 +11,7 @@
 #include "laws.h"
 #include "map/state.h"
 #include "numbers.h"
-#include "study/frequencies.h"
+#include "study/frequencies/frequencies.h"
 
 static iso_context *ctx;
 

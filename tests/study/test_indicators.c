@@ -1,4 +1,4 @@
-/* Exponent, MEGNO, GALI_2 and the verdict of lib/study/indicators.h, on maps of the plane with exact derivatives. */
+/* Exponent, MEGNO, GALI_2 and the verdict of lib/study/chaos/indicators.h, on maps of the plane with exact derivatives. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdbool.h>
@@ -7,7 +7,7 @@
 #include "base/pi_impl.h"
 #include "base/random.h"
 #include "length.h"
-#include "study/indicators.h"
+#include "study/chaos/indicators.h"
 
 enum { TURNS = 3000 };
 
@@ -79,10 +79,10 @@ static orbit start(double x, double y)
 }
 
 /* The clocks run 2, 3 and 1/2 times as fast as the turns. */
-static iso_beat beat_of(const orbit *o)
+static iso_turn_sample beat_of(const orbit *o)
 {
     const double n = (double)o->turns, x = o->x, y = o->y;
-    iso_beat b = {.clock = {2 * n, 3 * n, n / 2}};
+    iso_turn_sample b = {.clock = {2 * n, 3 * n, n / 2}};
     double length[2];
     for (int i = 0; i < 2; i++) {
         length[i] = hypot(o->d[i][0], o->d[i][1]);
@@ -104,10 +104,10 @@ static iso_indication follow(const map *m, orbit *o, long most)
     while (o->turns < most && iso_indicators_verdict(&it) == ISO_UNDECIDED) {
         m->step(o, m->parameter);
         o->turns++;
-        const iso_beat b = beat_of(o);
+        const iso_turn_sample b = beat_of(o);
         iso_indicators_add(&it, &b);
     }
-    iso_indicators_tell(&it, &told);
+    iso_indicators_read(&it, &told);
     return told;
 }
 
@@ -160,10 +160,10 @@ static iso_indication go_to(const map *m, orbit *o, iso_indicators *it, long tur
     while (o->turns < turns) {
         m->step(o, m->parameter);
         o->turns++;
-        const iso_beat b = beat_of(o);
+        const iso_turn_sample b = beat_of(o);
         iso_indicators_add(it, &b);
     }
-    iso_indicators_tell(it, &told);
+    iso_indicators_read(it, &told);
     return told;
 }
 
@@ -288,7 +288,7 @@ static void check_edges(void)
     iso_indicators it;
     iso_indication told;
     iso_indicators_begin(&it, TURNS);
-    iso_indicators_tell(&it, &told);
+    iso_indicators_read(&it, &told);
     gsl_test_int((int)told.verdict, ISO_UNDECIDED, "verdict of nothing");
     gsl_test(!isnan(told.per_turn) || !isnan(told.megno), "exponent and MEGNO of nothing are not known");
     const map m = {"K = 5", standard, 5};
@@ -297,7 +297,7 @@ static void check_edges(void)
     gsl_test_int((int)first.verdict, ISO_UNDECIDED, "verdict at 50 turns");
     iso_indicators_begin(&it, 50); /* it may go on */
     for (o = start(3, 0.2); o.turns < 1000; o.turns++) {
-        const iso_beat b = beat_of(&o);
+        const iso_turn_sample b = beat_of(&o);
         if (o.turns > 0) iso_indicators_add(&it, &b);
         m.step(&o, m.parameter);
     }

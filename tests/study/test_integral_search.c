@@ -1,4 +1,4 @@
-/* The search for first integrals (study/integrals.h): it finds those that are known, and no others; what is doubtful
+/* The search for first integrals (study/integrals/integrals.h): it finds those that are known, and no others; what is doubtful
  * is called undecided; values depend on k and the ratio of the moments alone; what is refused. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -10,7 +10,7 @@
 #include "io/scene_file.h"
 #include "laws.h"
 #include "length.h"
-#include "study/integrals.h"
+#include "study/integrals/integrals.h"
 
 static iso_context *ctx;
 static const double ours[3] = {1.4, 2.1, 3};

@@ -13,9 +13,9 @@
 #include "map/level.h"
 #include "orbit/description.h"
 #include "orbit/orbit.h"
-#include "study/chaos.h"
-#include "study/check.h"
-#include "study/section.h"
+#include "study/chaos/chaos.h"
+#include "study/check/check.h"
+#include "study/section/section.h"
 
 static iso_context *ctx;
 
@@ -154,7 +154,7 @@ static void check_rows(void)
         iso_section_result result;
         o.crossings = 5;
         o.starts = 4;
-        o.models = (iso_shown)(i / 2 % 3);
+        o.models = (iso_models)(i / 2 % 3);
         o.shown = i % 4 < 2 ? ISO_SHOW_POINT : ISO_SHOW_BOTH;
         const size_t before = k.rows;
         gsl_test(iso_section_run(ctx, &scene, &o, &sink, &result) != ISO_OK, "%s: %s", what,
@@ -170,7 +170,7 @@ static void check_rows(void)
 
 /* --- shares ----------------------------------------------------------------------------------------------------- */
 
-static iso_chaos_share share_of(const char *point, double level, size_t starts, long turns, iso_shown models)
+static iso_chaos_fraction share_of(const char *point, double level, size_t starts, long turns, iso_models models)
 {
     iso_scene scene = scene_of(point);
     iso_chaos_options o = iso_chaos_defaults();
@@ -181,7 +181,7 @@ static iso_chaos_share share_of(const char *point, double level, size_t starts, 
     gsl_test(iso_scene_on_level(ctx, &scene, level) != ISO_OK || iso_chaos_run(ctx, &scene, &o, &c) != ISO_OK,
              "level %g: %s", level, iso_context_message(ctx));
     gsl_test(c && c->axis < 0, "level %g: a turn is a return to the section", level);
-    const iso_chaos_share share = c ? c->share : (iso_chaos_share){.share = NAN};
+    const iso_chaos_fraction share = c ? c->share : (iso_chaos_fraction){.share = NAN};
     iso_chaos_free(c);
     return share;
 }
@@ -197,14 +197,14 @@ static void check_shares(void)
 {
     for (int i = 0; i < 3; i++) {
         const double level = (double[]){-0.7, 0.4, 3}[i];
-        const iso_shown models = i == 1 ? ISO_SHOW_BOTH : ISO_SHOW_POINT;
+        const iso_models models = i == 1 ? ISO_SHOW_BOTH : ISO_SHOW_POINT;
         gsl_test_int((int)share_of(POINT("1"), level, 16, 200, models).chaotic, 0, "k = 1, level %g: no chaos",
                      level);
         gsl_test_int((int)share_of(SHELL, level, 16, 200, models).chaotic, 0, "k = -1, level %g: no chaos", level);
     }
-    const iso_chaos_share some = share_of(POINT("0.5"), -0.3, 24, 400, ISO_SHOW_POINT);
+    const iso_chaos_fraction some = share_of(POINT("0.5"), -0.3, 24, 400, ISO_SHOW_POINT);
     gsl_test(!(some.share > 0.1), "k = 0.5, level -0.3: chaos, share %g", some.share);
-    const iso_chaos_share none = share_of(POINT("0.5"), 1000, 24, 400, ISO_SHOW_POINT);
+    const iso_chaos_fraction none = share_of(POINT("0.5"), 1000, 24, 400, ISO_SHOW_POINT);
     gsl_test_int((int)none.chaotic, 0, "k = 0.5, level 1000: nearly free on the sphere");
 }
 

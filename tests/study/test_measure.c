@@ -8,7 +8,7 @@
 #include "laws.h"
 #include "length.h"
 #include "map/section.h"
-#include "study/measure.h"
+#include "study/section/measure.h"
 
 static iso_context *ctx;
 
@@ -54,7 +54,7 @@ static void kept(test_of *test, const iso_scene *scene, const iso_measure_option
 {
     iso_measure m;
     if (!run(test, scene, o, &m)) return;
-    const iso_measure_line *worst = &m.line[m.worst];
+    const iso_measure_entry *worst = &m.line[m.worst];
     gsl_test(!m.kept || m.p < o->significance, "%s in %s, k = %g, %zu orbits: p = %.2g (%s, %.3g), resolution %.2g",
              kind(test), iso_clock_name(o->clock), scene->params.k, m.count, m.p, worst->name, worst->deviation,
              m.resolution);
@@ -77,7 +77,7 @@ static void found_out(test_of *test, const iso_scene *scene, iso_measure_options
 
 /* --- exact means ------------------------------------------------------------------------------------------------ */
 
-static const iso_measure_line *line_of(const iso_measure *m, const char *name)
+static const iso_measure_entry *line_of(const iso_measure *m, const char *name)
 {
     for (int i = 0; i < m->lines; i++)
         if (strcmp(m->line[i].name, name) == 0) return &m->line[i];

@@ -1,4 +1,4 @@
-/* Periodic orbits (lib/study/periodic.h): the rotations' traces against a table and the section, orbits against their
+/* Periodic orbits (lib/study/periodic/periodic.h): the rotations' traces against a table and the section, orbits against their
  * laws, the search along lines against Newton's method from a grid, k = 1 and -1. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
@@ -13,7 +13,7 @@
 #include "map/section.h"
 #include "method/methods_impl.h"
 #include "orbit/crossings.h"
-#include "study/periodic.h"
+#include "study/periodic/periodic.h"
 
 static iso_context *ctx;
 

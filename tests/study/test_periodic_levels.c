@@ -16,9 +16,9 @@
 #include "map/state.h"
 #include "orbit/orbit.h"
 #include "study/level.h"
-#include "study/periodic_follow.h"
-#include "study/splitting.h"
-#include "study/stability_chart.h"
+#include "study/periodic/continuation.h"
+#include "study/periodic/stability_chart.h"
+#include "study/separatrix/separatrix.h"
 
 static iso_context *ctx;
 
@@ -154,8 +154,8 @@ static void check_none(void)
             gsl_test(isnan(r->half_turn_trace) != r->oscillates, "E = %g, axis %d: its trace", energies[i], a + 1);
         }
         gsl_test(f->unresolved > 0, "E = %g: the lines are resolved", energies[i]);
-        iso_splitting s;
-        gsl_test(iso_splitting_at(ctx, 0.5, J, f->level, ISO_SPLITTING_DOUBLE, &s) != ISO_BAD_INPUT ||
+        iso_separatrix_splitting s;
+        gsl_test(iso_separatrix_at(ctx, 0.5, J, f->level, ISO_SEPARATRIX_DOUBLE, &s) != ISO_BAD_INPUT ||
                      strcmp(iso_context_about(ctx), "level") != 0,
                  "E = %g: no splitting: %s", energies[i], iso_context_message(ctx));
         iso_periodic_free(f);
@@ -256,11 +256,11 @@ static void check_branch(void)
     static const double J[3] = {1.4, 2.1, 3};
     const iso_scene scene = scene_on(0.5, J, 1, -0.1);
     iso_periodic *f = orbits_of(&scene, 2);
-    iso_follow_options o = iso_follow_defaults();
-    iso_follow *follow = NULL;
+    iso_continuation_options o = iso_continuation_defaults();
+    iso_continuations *follow = NULL;
     size_t ends = 0;
     o.vary = ISO_VARY_LEVEL, o.from = -0.16, o.to = -0.05, o.longest = 0.1;
-    gsl_test_int((int)iso_follow_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed: %s",
+    gsl_test_int((int)iso_continuation_run(ctx, &scene, f->orbit, f->count, &o, &follow), ISO_OK, "followed: %s",
                  iso_context_message(ctx));
     for (size_t i = 0; follow && i < follow->count; i++)
         for (size_t j = 0; j < follow->branch[i].events; j++) {
@@ -276,7 +276,7 @@ static void check_branch(void)
             ends++;
         }
     gsl_test(ends < 2, "%zu ends", ends);
-    iso_follow_free(follow);
+    iso_continuation_free(follow);
     iso_periodic_free(f);
 }
 

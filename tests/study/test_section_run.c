@@ -1,4 +1,4 @@
-/* iso_section_run (study/section.h): its rows equal the crossings of each orbit computed separately; starts, both
+/* iso_section_run (study/section/section.h): its rows equal the crossings of each orbit computed separately; starts, both
  * models, refusals, and the rows that stay when a sink, the monitor or a failure ends the work. */
 #include <gsl/gsl_test.h>
 #include <limits.h>
@@ -12,7 +12,7 @@
 #include "length.h"
 #include "map/section.h"
 #include "map/state.h"
-#include "study/section.h"
+#include "study/section/section.h"
 
 static iso_context *ctx;
 
@@ -145,7 +145,7 @@ static void check_energy(void)
 {
     static const char *const scenes[] = {FREE("0.5"), FREE("-1"), FREE("-0.3"), FREE("2")};
     for (int s = 0; s < 4; s++)
-        for (iso_shown model = ISO_SHOW_BALL; model <= ISO_SHOW_BOTH; model++) {
+        for (iso_models model = ISO_SHOW_BALL; model <= ISO_SHOW_BOTH; model++) {
             iso_section_options o = iso_section_defaults();
             const iso_params p = laws_params((const double[]){0.5, -1, -0.3, 2}[s], (const double[]){1, 2, 5});
             laws_worst energy = {0}, section = {0}, chart = {0};

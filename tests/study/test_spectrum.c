@@ -1,9 +1,9 @@
-/* Lines of made signals, lib/study/spectrum.h. */
+/* Lines of made signals, lib/study/frequencies/spectrum.h. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
 
-#include "study/spectrum.h"
+#include "study/frequencies/spectrum.h"
 
 static iso_context *ctx;
 
@@ -24,7 +24,7 @@ static bool goes_on(void *data)
  * */
 static void check_stop(const double x[], size_t count, double step)
 {
-    iso_line found[ISO_MAX_LINES];
+    iso_spectral_line found[ISO_MAX_LINES];
     int lines, asked = 1000;
     iso_context_set_monitor(ctx, goes_on, &asked);
     must(iso_spectrum_find(ctx, x, count, step, ISO_MAX_LINES, found, &lines), "a spectrum that may be stopped");
@@ -43,11 +43,11 @@ static void check_stop(const double x[], size_t count, double step)
 static void check_lines(void)
 {
     enum { COUNT = 4096, MADE = 6 };
-    static const iso_line made[MADE] = {{1.0123, 1, 0.3},    {-1.0123, 0.5, 1}, {1.0923, 0.1, -2},
+    static const iso_spectral_line made[MADE] = {{1.0123, 1, 0.3},    {-1.0123, 0.5, 1}, {1.0923, 0.1, -2},
                                         {-2.2345, 1e-2, -1}, {0, 1e-3, 0.2},    {3.0456, 1e-5, 2}};
     static double x[2 * COUNT];
     const double step = 0.5;
-    iso_line found[ISO_MAX_LINES];
+    iso_spectral_line found[ISO_MAX_LINES];
     double worst = 0, worst_part = 0;
     int count;
     for (int j = 0; j < COUNT; j++)

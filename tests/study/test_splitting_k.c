@@ -1,19 +1,19 @@
-/* The splitting of the separatrix, lib/study/splitting.h: known values, symmetries, errors, zeros,
+/* The splitting of the separatrix, lib/study/separatrix/separatrix.h: known values, symmetries, errors, zeros,
  * refusals. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
 
 #include "length.h"
-#include "study/splitting.h"
+#include "study/separatrix/separatrix.h"
 
 static iso_context *ctx;
 static const double J_thin[3] = {1.4, 2.1, 3}, J_wide[3] = {1, 2, 5};
 
-static iso_splitting at(double k, const double J[3], iso_splitting_digits digits)
+static iso_separatrix_splitting at(double k, const double J[3], iso_separatrix_digits digits)
 {
-    iso_splitting s;
-    if (iso_splitting_at(ctx, k, J, 0, digits, &s) != ISO_OK)
+    iso_separatrix_splitting s;
+    if (iso_separatrix_at(ctx, k, J, 0, digits, &s) != ISO_OK)
         gsl_test(1, "splitting at k = %g: %s", k, iso_context_message(ctx));
     return s;
 }
@@ -24,7 +24,7 @@ static void test_table(void)
     static const double table[][3] = {
         {0.5, -0.5793681, 0.006147}, {0.75, -0.6363709, 0.0001087}, {1, -0.6614378, 0}, {-0.5, 0.8508579, 0.001561}};
     for (int i = 0; i < 4; i++) {
-        const iso_splitting s = at(table[i][0], J_thin, ISO_SPLITTING_DOUBLE);
+        const iso_separatrix_splitting s = at(table[i][0], J_thin, ISO_SEPARATRIX_DOUBLE);
         const double dx = fabs(s.x - table[i][1]), dm = fabs(s.m - table[i][2]);
         gsl_test(!(dx <= 5e-8 && dm <= fmax(5e-4 * table[i][2], 1e-8)), "k = %g: x and m differ by %.1e, %.1e",
                  table[i][0], dx, dm);
@@ -34,14 +34,14 @@ static void test_table(void)
 
 static bool has_quad(void)
 {
-    iso_splitting s;
-    return iso_splitting_at(ctx, NAN, J_thin, 0, ISO_SPLITTING_QUAD, &s) != ISO_BAD_ARGUMENT;
+    iso_separatrix_splitting s;
+    return iso_separatrix_at(ctx, NAN, J_thin, 0, ISO_SEPARATRIX_QUAD, &s) != ISO_BAD_ARGUMENT;
 }
 
-static void check_against_quad(double k, const double J[3], const iso_splitting *s)
+static void check_against_quad(double k, const double J[3], const iso_separatrix_splitting *s)
 {
     if (!has_quad()) return;
-    const iso_splitting q = at(k, J, ISO_SPLITTING_QUAD);
+    const iso_separatrix_splitting q = at(k, J, ISO_SEPARATRIX_QUAD);
     const double dm = fabs((s->m - q.m) + (s->m_tail - q.m_tail)), dx = fabs((s->x - q.x) + (s->x_tail - q.x_tail));
     gsl_test(!(dm < s->error && dx < s->x_error), "k = %g: the errors cover the distance from 128 bits: %.2g, %.2g",
              k, dm / s->error, dx / s->x_error);
@@ -56,7 +56,7 @@ static void test_fine(void)
         {-1, 1.4, 2.1, 3}, {-0.4, 0.33, 0.9, 2.2}, {-1, 3, 1.1, 2}, {2, 1, 2, 5}, {0.2, 1, 2, 3}};
     const int count = tests_length(0, 5);
     for (int i = 0; i < count; i++) {
-        const iso_splitting s = at(cases[i][0], &cases[i][1], ISO_SPLITTING_DOUBLE);
+        const iso_separatrix_splitting s = at(cases[i][0], &cases[i][1], ISO_SEPARATRIX_DOUBLE);
         check_against_quad(cases[i][0], &cases[i][1], &s);
     }
 }
@@ -67,10 +67,10 @@ static void test_symmetries(void)
     double worst = 0;
     for (int i = 0; i < tests_length(1, 2); i++) {
         const double k = i == 0 ? -0.6 : 0.6;
-        const iso_splitting s = at(k, J_wide, ISO_SPLITTING_DOUBLE);
+        const iso_separatrix_splitting s = at(k, J_wide, ISO_SEPARATRIX_DOUBLE);
         const double scaled[3] = {1e-8, 2e-8, 5e-8}, cyclic[3] = {5, 1, 2}, mirror[3] = {5, 2, 1};
-        const iso_splitting t = at(k, scaled, ISO_SPLITTING_DOUBLE), c = at(k, cyclic, ISO_SPLITTING_DOUBLE),
-                            m = at(-k, mirror, ISO_SPLITTING_DOUBLE), n = at(-k, J_wide, ISO_SPLITTING_DOUBLE);
+        const iso_separatrix_splitting t = at(k, scaled, ISO_SEPARATRIX_DOUBLE), c = at(k, cyclic, ISO_SEPARATRIX_DOUBLE),
+                            m = at(-k, mirror, ISO_SEPARATRIX_DOUBLE), n = at(-k, J_wide, ISO_SEPARATRIX_DOUBLE);
         worst = fmax(worst, fmax(fabs(s.x - t.x), fabs(s.m - t.m)) / 1e-15);
         worst = fmax(worst, fmax(fabs(s.x - c.x), fabs(s.m - c.m)) / 1e-15);
         worst =
@@ -84,21 +84,21 @@ static void test_symmetries(void)
 static void test_signs(void)
 {
     for (int i = -1; i <= 1; i += 2) {
-        const double below = at(i * 0.98, J_thin, ISO_SPLITTING_DOUBLE).m,
-                     above = at(i * 1.02, J_thin, ISO_SPLITTING_DOUBLE).m;
+        const double below = at(i * 0.98, J_thin, ISO_SEPARATRIX_DOUBLE).m,
+                     above = at(i * 1.02, J_thin, ISO_SEPARATRIX_DOUBLE).m;
         gsl_test(!(below * above < 0), "m changes its sign at k = %d: %.2e, %.2e", i, below, above);
     }
 }
 
 /* --- scans ------------------------------------------------------------------------------------------------------ */
 
-static iso_splittings *scan(const double k[], size_t count, const double J[3], int threads)
+static iso_separatrix_table *scan(const double k[], size_t count, const double J[3], int threads)
 {
-    iso_splittings *s;
-    iso_splitting_options o = iso_splitting_defaults();
-    o.k = k, o.count = count, o.digits = ISO_SPLITTING_DOUBLE, o.threads = threads;
+    iso_separatrix_table *s;
+    iso_separatrix_options o = iso_separatrix_defaults();
+    o.k = k, o.count = count, o.digits = ISO_SEPARATRIX_DOUBLE, o.threads = threads;
     memcpy(o.J, J, sizeof o.J);
-    if (iso_splitting_run(ctx, &o, &s) != ISO_OK) gsl_test(1, "a scan: %s", iso_context_message(ctx));
+    if (iso_separatrix_run(ctx, &o, &s) != ISO_OK) gsl_test(1, "a scan: %s", iso_context_message(ctx));
     return s;
 }
 
@@ -106,19 +106,19 @@ static void test_zeros(void)
 {
     static const double k[] = {-1.5, -1.7, -0.9, -1.1}, none[] = {0.9, 1.1, 1.5};
     const int rows = tests_length(2, 4);
-    iso_splittings *s = scan(k, (size_t)rows, J_wide, 2), *n = scan(none, (size_t)tests_length(2, 3), J_wide, 1);
+    iso_separatrix_table *s = scan(k, (size_t)rows, J_wide, 2), *n = scan(none, (size_t)tests_length(2, 3), J_wide, 1);
     gsl_test(s->zeros != 1 || n->zeros != 0, "J = (1, 2, 5): a zero of m between k = -1.7 and -1.5, none at +-1");
     if (s->zeros == 1) {
-        const iso_splitting *z = s->zero;
+        const iso_separatrix_splitting *z = s->zero;
         gsl_test(!(fabs(z->k + 1.602408110834) < 1e-9 && fabs(z->m) < 1e-15), "it is at k = %.13g", z->k);
         gsl_test(!(fabs(z->next_m) > 1e-13), "the manifolds cross at the next point, with %.2e", z->next_m);
     }
     for (int i = 0; i < rows; i++) {
-        const iso_splitting one = at(k[i], J_wide, ISO_SPLITTING_DOUBLE);
+        const iso_separatrix_splitting one = at(k[i], J_wide, ISO_SEPARATRIX_DOUBLE);
         gsl_test(s->row[i].m != one.m || s->row[i].k != k[i], "row %d of a scan is that of its k", i);
     }
-    iso_splitting_free(s);
-    iso_splitting_free(n);
+    iso_separatrix_free(s);
+    iso_separatrix_free(n);
 }
 
 /* +-1 between the same neighbours hides no zero and makes none. */
@@ -132,11 +132,11 @@ static void test_zeros_beside_one(void)
                  {{-0.5, -1.602}, NAN},
                  {{0.5, 1.0001}, NAN}};
     for (int i = tests_length(5, 0); i < 5; i++) {
-        iso_splittings *s = scan(cases[i].k, 2, J_wide, 1);
+        iso_separatrix_table *s = scan(cases[i].k, 2, J_wide, 1);
         const bool some = !isnan(cases[i].zero);
         gsl_test(s->zeros != some || s->lost > 0 || !(s->zeros == 0 || fabs(s->zero->k - cases[i].zero) < 1e-8),
                  "between k = %g and %g: %zu zeros, %zu lost", cases[i].k[0], cases[i].k[1], s->zeros, s->lost);
-        iso_splitting_free(s);
+        iso_separatrix_free(s);
     }
 }
 
@@ -150,8 +150,8 @@ static bool never(void *unused)
 
 static void check_refused(double k, const double J[3], const char *words)
 {
-    iso_splitting s;
-    const iso_status status = iso_splitting_at(ctx, k, J, 0, ISO_SPLITTING_AUTO, &s);
+    iso_separatrix_splitting s;
+    const iso_status status = iso_separatrix_at(ctx, k, J, 0, ISO_SEPARATRIX_AUTO, &s);
     gsl_test(status != ISO_BAD_INPUT || s.status != status || !strstr(iso_context_message(ctx), words),
              "k = %g, J = %g %g %g: %s", k, J[0], J[1], J[2], iso_context_message(ctx));
 }
@@ -167,7 +167,7 @@ static void test_near_moments(void)
         {-0.05, 1.4, 1.401, 3}, {0.05, 1.4, 1.4000001, 3}, {0.5, 1.4, 1.401, 3}, {-0.05, 1.4, 2.9999999, 3}};
     for (int i = 0; i < 8; i++) check_refused(refused[i][0], &refused[i][1], "too near 1: m is about");
     for (int i = 0; i < tests_length(2, 4); i++) {
-        const iso_splitting s = at(held[i][0], &held[i][1], ISO_SPLITTING_DOUBLE);
+        const iso_separatrix_splitting s = at(held[i][0], &held[i][1], ISO_SEPARATRIX_DOUBLE);
         gsl_test(!(s.error < 1e-16 && s.x_error < 1e-16), "J = %g %g %g, k = %g: errors %.1e, %.1e", held[i][1],
                  held[i][2], held[i][3], held[i][0], s.error, s.x_error);
         if (tests_length(0, i < 2)) check_against_quad(held[i][0], &held[i][1], &s);
@@ -177,9 +177,9 @@ static void test_near_moments(void)
 static void test_refusals(void)
 {
     const double half = 0.5;
-    iso_splittings *s;
-    iso_splitting one;
-    iso_splitting_options o = iso_splitting_defaults();
+    iso_separatrix_table *s;
+    iso_separatrix_splitting one;
+    iso_separatrix_options o = iso_separatrix_defaults();
     check_refused(0.5, (double[3]){1, 2, 2}, "equal");
     check_refused(0.5, (double[3]){1, 1, 1}, "equal");
     check_refused(0, J_thin, "k = 0");
@@ -187,30 +187,30 @@ static void test_refusals(void)
     check_refused(0.001, J_thin, "give 0.05 <= |k|");
     check_refused(1, (double[3]){1, -2, 3}, "");
     iso_scene scene = iso_scene_default();
-    gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_ARGUMENT || s, "no k");
+    gsl_test(iso_separatrix_run(ctx, &o, &s) != ISO_BAD_ARGUMENT || s, "no k");
     iso_params_reduced(ctx, half, J_thin, &scene.params);
     iso_effects_set(ctx, &scene.effects, "gravity", "mgb", 1, (double[]){0.7});
     o.k = &half, o.count = 1, o.scene = &scene;
     memcpy(o.J, J_thin, sizeof o.J);
-    gsl_test(iso_splitting_run(ctx, &o, &s) != ISO_BAD_INPUT || s || strcmp(iso_context_about(ctx), "gravity") != 0,
+    gsl_test(iso_separatrix_run(ctx, &o, &s) != ISO_BAD_INPUT || s || strcmp(iso_context_about(ctx), "gravity") != 0,
              "a ball with gravity: %s", iso_context_message(ctx));
     scene.effects = iso_effects_default();
     scene.start = (iso_start){.model = ISO_POINT, .y = {0.8, -0.6, 0, 0.6, 0.8, 0}, .eps = 0.3};
-    if (iso_splitting_run(ctx, &o, &s) != ISO_OK) gsl_test(1, "a point off H = 0: %s", iso_context_message(ctx));
-    one = at(0.5, J_thin, ISO_SPLITTING_DOUBLE);
+    if (iso_separatrix_run(ctx, &o, &s) != ISO_OK) gsl_test(1, "a point off H = 0: %s", iso_context_message(ctx));
+    one = at(0.5, J_thin, ISO_SEPARATRIX_DOUBLE);
     gsl_test(s && !(s->row->level > 0 && s->row->m > 0 && s->row->m < one.m / 2), "it is on its level, %g: m = %g",
              s ? s->row->level : 0, s ? s->row->m : 0);
-    iso_splitting_free(s);
+    iso_separatrix_free(s);
     iso_context_set_monitor(ctx, never, NULL);
-    gsl_test(iso_splitting_at(ctx, 0.5, J_thin, 0, ISO_SPLITTING_AUTO, &one) != ISO_STOPPED, "stopped on request");
+    gsl_test(iso_separatrix_at(ctx, 0.5, J_thin, 0, ISO_SEPARATRIX_AUTO, &one) != ISO_STOPPED, "stopped on request");
     iso_context_set_monitor(ctx, NULL, NULL);
 }
 
 static void test_curve(void)
 {
     iso_record *curve;
-    const iso_splitting s = at(0.5, J_thin, ISO_SPLITTING_DOUBLE);
-    if (iso_splitting_curve(ctx, 0.5, J_thin, 0, 2, &curve) != ISO_OK) gsl_test(1, "%s", iso_context_message(ctx));
+    const iso_separatrix_splitting s = at(0.5, J_thin, ISO_SEPARATRIX_DOUBLE);
+    if (iso_separatrix_curve(ctx, 0.5, J_thin, 0, 2, &curve) != ISO_OK) gsl_test(1, "%s", iso_context_message(ctx));
     double nearest = 1, x = 0;
     for (size_t i = 0; i < iso_record_rows(curve); i++) {
         const double *row = iso_record_const_row(curve, i), away = fabs(row[0] - 1.5707963267948966);

@@ -11,7 +11,7 @@
 #include "map/level.h"
 #include "map/section.h"
 #include "orbit/crossings.h"
-#include "study/splitting.h"
+#include "study/separatrix/separatrix.h"
 
 static iso_context *ctx;
 
@@ -75,9 +75,9 @@ static double slope_by_differences(const plane *a)
 
 static void check_slope(double k, const double J[3], double level)
 {
-    iso_splitting s;
+    iso_separatrix_splitting s;
     plane a = {.p = laws_params(k, J)};
-    if (iso_splitting_at(ctx, k, J, level, ISO_SPLITTING_DOUBLE, &s) != ISO_OK)
+    if (iso_separatrix_at(ctx, k, J, level, ISO_SEPARATRIX_DOUBLE, &s) != ISO_OK)
         gsl_test(1, "splitting: %s", iso_context_message(ctx));
     a.motion = (iso_point_motion){&a.p, 1, iso_level_energy(&a.p, level)};
     a.axis = s.section;
@@ -90,9 +90,9 @@ static void check_slope(double k, const double J[3], double level)
 /* 64 bits and their error against 128 bits, where there are any. */
 static void check_digits(double k, const double J[3], double level)
 {
-    iso_splitting s, q;
-    iso_splitting_at(ctx, k, J, level, ISO_SPLITTING_DOUBLE, &s);
-    if (iso_splitting_at(ctx, k, J, level, ISO_SPLITTING_QUAD, &q) == ISO_BAD_ARGUMENT) return;
+    iso_separatrix_splitting s, q;
+    iso_separatrix_at(ctx, k, J, level, ISO_SEPARATRIX_DOUBLE, &s);
+    if (iso_separatrix_at(ctx, k, J, level, ISO_SEPARATRIX_QUAD, &q) == ISO_BAD_ARGUMENT) return;
     const double apart = fabs((s.m - q.m) + (s.m_tail - q.m_tail));
     gsl_test(!(apart < s.error && q.error < 1e-26), "k = %g, level %g: 64 from 128 bits %.1e, errors %.1e and %.1e",
              k, level, apart, s.error, q.error);
@@ -113,17 +113,17 @@ static void check_splitting(void)
 static void check_scan(void)
 {
     static const double J[3] = {1, 2, 5}, k[] = {-1.5, -1.5, -1.5}, level[] = {0, 0.05, -0.05};
-    iso_splitting_options o = iso_splitting_defaults();
-    iso_splittings *s;
-    o.k = k, o.level = level, o.count = 3, o.digits = ISO_SPLITTING_DOUBLE;
+    iso_separatrix_options o = iso_separatrix_defaults();
+    iso_separatrix_table *s;
+    o.k = k, o.level = level, o.count = 3, o.digits = ISO_SEPARATRIX_DOUBLE;
     memcpy(o.J, J, sizeof o.J);
-    if (iso_splitting_run(ctx, &o, &s) != ISO_OK) gsl_test(1, "a scan: %s", iso_context_message(ctx));
+    if (iso_separatrix_run(ctx, &o, &s) != ISO_OK) gsl_test(1, "a scan: %s", iso_context_message(ctx));
     for (int i = 0; i < 3; i++) {
-        iso_splitting one;
-        iso_splitting_at(ctx, k[i], J, level[i], ISO_SPLITTING_DOUBLE, &one);
+        iso_separatrix_splitting one;
+        iso_separatrix_at(ctx, k[i], J, level[i], ISO_SEPARATRIX_DOUBLE, &one);
         gsl_test(s->row[i].level != level[i] || s->row[i].m != one.m, "row %d is that of its level", i);
     }
-    iso_splitting_free(s);
+    iso_separatrix_free(s);
 }
 
 int main(void)

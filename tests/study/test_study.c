@@ -8,7 +8,7 @@
 #include "base/vec3_impl.h"
 #include "laws.h"
 #include "orbit/convert.h"
-#include "study/check.h"
+#include "study/check/check.h"
 #include "study/compare.h"
 
 static iso_context *ctx;

@@ -12,10 +12,10 @@
 
 #include "laws.h"
 #include "length.h"
-#include "study/chaos.h"
+#include "study/chaos/chaos.h"
 #include "study/compare.h"
-#include "study/splitting.h"
-#include "study/sweep.h"
+#include "study/separatrix/separatrix.h"
+#include "sweep/sweep.h"
 
 static iso_context *ctx;
 
@@ -46,17 +46,17 @@ static iso_status scene_of(iso_context *of, const void *data, size_t i, iso_scen
 static int topic(const char *name)
 {
     int i = 0;
-    while (strcmp(iso_sweep_topics()[i]->name, name) != 0) i++;
+    while (strcmp(iso_sweep_quantities()[i]->name, name) != 0) i++;
     return i;
 }
 
 static void ask(iso_sweep_plan *plan, const char *name)
 {
-    iso_sweep_wish *wish = &plan->wish[plan->wishes++];
+    iso_sweep_request *wish = &plan->wish[plan->wishes++];
     wish->topic = topic(name);
-    const iso_sweep_setting *s = iso_sweep_topics()[wish->topic]->settings;
+    const iso_sweep_setting *s = iso_sweep_quantities()[wish->topic]->settings;
     for (int i = 0; s && s[i].name; i++) wish->setting[i] = s[i].usual;
-    if (strcmp(name, "splitting") == 0) wish->setting[0] = ISO_SPLITTING_DOUBLE; /* 128 bits take long */
+    if (strcmp(name, "splitting") == 0) wish->setting[0] = ISO_SEPARATRIX_DOUBLE; /* 128 bits take long */
 }
 
 static iso_sweep_plan plan_of(double turns, double time, size_t chunk)
@@ -226,7 +226,7 @@ static void check_failure(void)
     iso_sweep_rows rows;
     must(iso_sweep_create(ctx, &plan, &sweep), "a sweep");
     must(iso_sweep_rows_create(ctx, iso_sweep_head_of(sweep)->columns, 8, &rows), "rows");
-    must(iso_sweep_measure_points(ctx, sweep, 4, 1, &rows), "point 4");
+    must(iso_sweep_compute_points(ctx, sweep, 4, 1, &rows), "point 4");
     gsl_test(rows.status[0] != ISO_BAD_INPUT || strstr(rows.reason[0], "k = 0") == NULL, "k = 0: %s", rows.reason[0]);
     for (int c = 2; c < rows.columns; c++) gsl_test(!isnan(rows.number[c]), "k = 0: column %d is empty", c);
     gsl_test(rows.number[0] != 0, "k = 0: k is there");

@@ -1,0 +1,274 @@
+/* gnuplot.c - runs gnuplot. Its standard input is the script, its standard output the picture, its messages go to a
+ * third file. All three are files, not pipes: nothing can block or raise SIGPIPE, and no script contains a file
+ * name. */
+#define _GNU_SOURCE /* memmem */
+#include "plot/gnuplot.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/number.h"
+#include "io/output.h"
+
+#define INSTALL "install gnuplot (package gnuplot-nox)"
+
+extern char **environ;
+
+/* A format: the terminal that makes it, and how a complete file of it ends. A file without this ending shows that
+ * gnuplot was stopped or had no room on the disk, also where its exit status is lost (in a program that ignores
+ * SIGCHLD). */
+typedef struct format {
+    const char *extension, *terminal, *unit;
+    double scale; /* of width and height */
+    const char *ending;
+} format;
+
+static const format formats[] = {
+    {".svg", "svg enhanced background 'white' font 'DejaVu Sans,Helvetica,Arial,sans-serif,10' fontscale 1.3", "", 1,
+     "</svg>"},
+    {".png", "pngcairo enhanced background 'white' font 'DejaVu Sans,10' fontscale 2 linewidth 2 pointscale 2.1", "",
+     2, "IEND\xAE\x42\x60\x82"},
+    {".pdf", "pdfcairo enhanced background 'white' font 'DejaVu Sans,10' fontscale 0.72 linewidth 1.6 pointscale 1",
+     "in", 0.01, "%%EOF"},
+};
+
+struct iso_gnuplot {
+    const format *format;
+    FILE *script, *complaints; /* without a name */
+    iso_output *output;        /* the picture    */
+    int picture;               /* its descriptor */
+};
+
+static const format *find_format(const char *path)
+{
+    const size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        const size_t n = strlen(formats[i].extension);
+        if (length > n && strcmp(path + length - n, formats[i].extension) == 0) return &formats[i];
+    }
+    return NULL;
+}
+
+iso_status iso_gnuplot_check_format(iso_context *ctx, const char *path)
+{
+    if (find_format(path)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "'%s': the name of a picture must end in .svg, .png or .pdf",
+                            path);
+}
+
+static iso_status trouble(iso_context *ctx, const char *what, const char *name)
+{
+    enum { SHOWN = 400 }; /* its end: the reason must have room behind it */
+    const size_t length = strlen(name), hidden = length > SHOWN ? length - SHOWN : 0;
+    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot %s '%s%s': %s", what, hidden ? "..." : "",
+                            name + hidden, strerror(errno));
+}
+
+static void release(iso_gnuplot *g)
+{
+    if (g->script) fclose(g->script);
+    if (g->complaints) fclose(g->complaints);
+    free(g);
+}
+
+/* ---- Opening ---- */
+
+static iso_status open_picture(iso_context *ctx, iso_gnuplot *g, const char *path)
+{
+    struct stat old;
+    if (stat(path, &old) == 0 && !S_ISREG(old.st_mode))
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot write '%s': it is not a regular file", path);
+    const iso_status status = iso_output_open(ctx, path, &g->output);
+    if (status == ISO_OK) g->picture = fileno(iso_output_stream(g->output));
+    return status;
+}
+
+iso_status iso_gnuplot_open(iso_context *ctx, const char *path, int width, int height, iso_gnuplot **answer)
+{
+    *answer = NULL;
+    iso_status status = iso_gnuplot_check_format(ctx, path);
+    if (status != ISO_OK) return status;
+    iso_gnuplot *g = calloc(1, sizeof *g);
+    if (!g) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to draw");
+    g->format = find_format(path);
+    status = open_picture(ctx, g, path);
+    if (status == ISO_OK) {
+        g->script = tmpfile();
+        g->complaints = tmpfile();
+        if (!g->script || !g->complaints) status = trouble(ctx, "open", "a temporary file");
+    }
+    if (status != ISO_OK) {
+        iso_output_close(ctx, g->output, false);
+        release(g);
+        return status;
+    }
+    fprintf(g->script, "set encoding utf8\nset terminal %s size ", g->format->terminal);
+    iso_gnuplot_number(g->script, width * g->format->scale);
+    fprintf(g->script, "%s,", g->format->unit);
+    iso_gnuplot_number(g->script, height * g->format->scale);
+    fprintf(g->script, "%s\n", g->format->unit);
+    *answer = g;
+    return ISO_OK;
+}
+
+FILE *iso_gnuplot_script(iso_gnuplot *g)
+{
+    return g->script;
+}
+
+/* ---- Numbers and texts ---- */
+
+void iso_gnuplot_number(FILE *script, double value)
+{
+    char text[ISO_NUMBER_SIZE];
+    iso_number_print(text, value);
+    fputs(text, script);
+}
+
+void iso_gnuplot_pair(FILE *script, double x, double y)
+{
+    iso_gnuplot_number(script, x);
+    fputc(' ', script);
+    iso_gnuplot_number(script, y);
+    fputc('\n', script);
+}
+
+/* The length of the character that begins text, 0 if it is none that XML and pango take (controls, broken UTF-8). */
+static int character(const unsigned char *text)
+{
+    static const unsigned smallest[] = {0, 0x20, 0xA0, 0x800, 0x10000};
+    const int length = text[0] < 0x80 ? 1 : text[0] < 0xC0 ? 0 : text[0] < 0xE0 ? 2 : text[0] < 0xF0 ? 3 : 4;
+    if (length == 0 || text[0] >= 0xF8 || text[0] == 0x7F) return 0;
+    unsigned code = length == 1 ? text[0] : text[0] & (0x7Fu >> length);
+    for (int i = 1; i < length; i++) {
+        if ((text[i] & 0xC0) != 0x80) return 0;
+        code = code << 6 | (text[i] & 0x3Fu);
+    }
+    const bool surrogate = code >= 0xD800 && code < 0xE000;
+    return code < smallest[length] || code > 0x10FFFF || surrogate || (code & 0xFFFE) == 0xFFFE ? 0 : length;
+}
+
+/* Characters that mean nothing to gnuplot in a text; quotes, backslashes, `commands` and @macros are not among
+ * them. */
+static bool is_plain(unsigned char c)
+{
+    return c >= 0x80 || (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+           (c && strchr(" -._/,:", c));
+}
+
+/* Every other character is written in octal. (In single quotes gnuplot 5.4 fails on a text that begins with a quote.)
+ * gnuplot reads a fourth digit as part of the number: before a digit the text is closed, and joined to the next by a
+ * dot. */
+void iso_gnuplot_text(FILE *script, const char *text, int longest)
+{
+    const unsigned char *c = (const unsigned char *)text;
+    fputc('"', script);
+    for (int i = 0; *c && i < longest; i++) {
+        const int length = character(c);
+        if (length == 0)
+            fputc(*c < 0x20 ? ' ' : '.', script);
+        else if (is_plain(*c))
+            fwrite(c, 1, (size_t)length, script);
+        else
+            fprintf(script, c[1] >= '0' && c[1] <= '9' ? "\\%03o\".\"" : "\\%03o", *c);
+        c += length > 0 ? length : 1;
+    }
+    fputs(*c ? "…\"" : "\"", script);
+}
+
+/* ---- Drawing ---- */
+
+/* gnuplot's messages in one line; of long ones the end. */
+static void read_complaints(FILE *file, char words[], size_t size)
+{
+    fseek(file, 0, SEEK_END);
+    const long length = ftell(file), tail = (long)size - 1;
+    fseek(file, length > tail ? length - tail : 0, SEEK_SET);
+    const size_t got = fread(words, 1, size - 1, file);
+    size_t kept = 0;
+    for (size_t i = 0; i < got; i++) {
+        const bool blank = (unsigned char)words[i] <= 0x20 || words[i] == 0x7F || words[i] == '^';
+        if (!blank)
+            words[kept++] = words[i];
+        else if (kept > 0 && words[kept - 1] != ' ')
+            words[kept++] = ' ';
+    }
+    while (kept > 0 && words[kept - 1] == ' ') kept--;
+    words[kept] = '\0';
+}
+
+/* Starts gnuplot with its three files; returns an errno. -d: no start-up file of the user changes the picture. */
+static int spawn(iso_gnuplot *g, pid_t *child)
+{
+    char name[] = "gnuplot", settings[] = "-d", input[] = "-", *const arguments[] = {name, settings, input, NULL};
+    const int wanted[3] = {fileno(g->script), g->picture, fileno(g->complaints)};
+    int copies[3] = {-1, -1, -1}, error = 0; /* above 2: where they stand, dup2 cannot overwrite one with another */
+    posix_spawn_file_actions_t actions;
+    if ((error = posix_spawn_file_actions_init(&actions)) != 0) return error;
+    for (int i = 0; i < 3 && error == 0; i++) {
+        copies[i] = fcntl(wanted[i], F_DUPFD_CLOEXEC, 3);
+        error = copies[i] < 0 ? errno : posix_spawn_file_actions_adddup2(&actions, copies[i], i);
+    }
+    if (error == 0) error = posix_spawnp(child, name, &actions, NULL, arguments, environ);
+    for (int i = 0; i < 3; i++)
+        if (copies[i] >= 0) close(copies[i]);
+    posix_spawn_file_actions_destroy(&actions);
+    return error;
+}
+
+static bool is_whole(const iso_gnuplot *g)
+{
+    char tail[32];
+    const off_t length = lseek(g->picture, 0, SEEK_END);
+    const off_t from = length > (off_t)sizeof tail ? length - (off_t)sizeof tail : 0;
+    const ssize_t got = pread(g->picture, tail, sizeof tail, from);
+    return got > 0 && memmem(tail, (size_t)got, g->format->ending, strlen(g->format->ending));
+}
+
+/* Why nothing more can be written to the picture, as an errno; 0: something can. */
+static int why_full(const iso_gnuplot *g)
+{
+    static const char block[1 << 16];
+    const off_t end = lseek(g->picture, 0, SEEK_END);
+    const ssize_t put = end < 0 ? 0 : pwrite(g->picture, block, sizeof block, end);
+    return put < 0 ? errno : put < (ssize_t)sizeof block ? ENOSPC : 0;
+}
+
+static iso_status run(iso_context *ctx, iso_gnuplot *g)
+{
+    char words[200];
+    pid_t child, ended;
+    int result = 0;
+    if (fflush(g->script) != 0 || ferror(g->script) || fseek(g->script, 0, SEEK_SET) != 0)
+        return trouble(ctx, "write", "gnuplot's temporary script");
+    const int error = spawn(g, &child);
+    if (error != 0)
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot run gnuplot: %s; " INSTALL, strerror(error));
+    do ended = waitpid(child, &result, 0);
+    while (ended < 0 && errno == EINTR);
+    if (ended == child && WIFSIGNALED(result))
+        return iso_context_fail(ctx, ISO_FILE_TROUBLE, "",
+                                "gnuplot was ended by signal %d; if it cannot run here, " INSTALL, WTERMSIG(result));
+    if (ended == child && WEXITSTATUS(result) == 0 && is_whole(g)) return ISO_OK;
+    if (ended < 0 && is_whole(g)) return ISO_OK;
+    errno = why_full(g);
+    if (errno != 0) return trouble(ctx, "write", iso_output_name(g->output));
+    read_complaints(g->complaints, words, sizeof words);
+    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "gnuplot did not draw '%s' (exit status %d); it said: %s",
+                            iso_output_name(g->output), ended == child ? WEXITSTATUS(result) : -1, words[0] ? words : "nothing");
+}
+
+iso_status iso_gnuplot_close(iso_context *ctx, iso_gnuplot *g, bool keep)
+{
+    if (!g) return ISO_OK;
+    const iso_status drawn = keep ? run(ctx, g) : ISO_OK;
+    const iso_status status = iso_output_close(ctx, g->output, keep && drawn == ISO_OK);
+    release(g);
+    return drawn != ISO_OK ? drawn : status;
+}

@@ -1,0 +1,181 @@
+/* plot.h - pictures, drawn by gnuplot (package gnuplot-nox), which is started for each.
+ *
+ *     iso_comparison *c;                                                          (study/compare.h)
+ *     iso_plot plot = {.title = "a shell, k = -1", .tolerance = scene.tolerance, .difference = c->difference,
+ *                      .ball = c->run[ISO_BALL].trajectory, .point = c->run[ISO_POINT].trajectory};
+ *     status = iso_plot_comparison(ctx, "orbit.svg", &plot);
+ *
+ * The file's name chooses the format: .svg, .png or .pdf. It is written whole, then renamed: on failure nothing has
+ * changed. The user's gnuplot start-up files and the locale have no influence.
+ */
+#ifndef ISOROLL_PLOT_H
+#define ISOROLL_PLOT_H
+
+#include <stdint.h>
+
+#include "base/record.h"
+#include "model/params.h"
+
+/* The two models on one orbit. Records are as iso_compare makes them; further columns are not read. */
+typedef struct iso_plot {
+    const char *title;            /* one line, any characters; NULL: none                                        */
+    const iso_record *ball;       /* what the backend `ball` found: columns n1..3 and gamma1..3, a row or more   */
+    const iso_record *point;      /* the same from the backend `point`                                           */
+    const iso_record *difference; /* a clock, then non-negative differences; "omega", "M", "t", ... get symbols,
+                                     "ball - exact", "point - exact" lines of their own                          */
+    double tolerance;             /* a line drawn among the differences for comparison; 0: none                  */
+} iso_plot;
+
+/* Whether a picture can have this name, to ask before the work. Errors: ISO_BAD_ARGUMENT. */
+iso_status iso_plot_check_format(iso_context *ctx, const char *path);
+
+/* Above: the ball's path n and the point's path gamma, each on its unit sphere seen from the same side, the backend
+ * `ball` as a line, the backend `point` as markers on it. Below: their difference over time, zeros at 1e-17.
+ * At most 5000 rows of a record are drawn.
+ * Errors: ISO_BAD_ARGUMENT (name, missing columns or rows), ISO_NUMERICAL (a number that is not finite),
+ * ISO_FILE_TROUBLE (no gnuplot, or what it said; the file cannot be written), ISO_NO_MEMORY. */
+iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plot *plot);
+
+/* The path of a ball in space. If the columns do not tell where the support is, it is not drawn. */
+typedef struct iso_plot_space {
+    const iso_record *rows; /* columns centre1..3, or contact1..3, or both; pressure: where contact is lost       */
+    const double *up;       /* upward vertical, a unit vector in axes of space; NULL: not known. Then nothing is
+                               called up: the eye is on axis 3 of space, or on the normal of the plane            */
+    bool plane;             /* the support is a plane; else a sphere about 0                                      */
+} iso_plot_space;
+
+/* One trajectory, in one model or both. */
+typedef struct iso_plot_orbit {
+    const char *title;
+    const iso_record *ball, *point; /* columns n1..3, and gamma1..3; NULL: not known                              */
+    const iso_record *drift;        /* a clock, then non-negative drifts of integrals; NULL: none                 */
+    const iso_record *clocks;       /* a clock, then one other; NULL: only one is known                           */
+    const iso_record *energies;     /* a clock, then "h", "kinetic", "potential"; NULL: not known                 */
+    const iso_plot_space *space;    /* NULL: not known                                                            */
+} iso_plot_orbit;
+
+/* A sheet of panels, as many as there is something to show in:
+ * - the path in space, from above and from the side, with the support, the ball at the start and at the end, and
+ *   where contact is lost (pressure 0, or the support would have to pull);
+ * - the paths on their spheres, start and end marked: gamma of the point, n of the ball, or trace1..3 of a ball that
+ *   is drawn without its point;
+ * - energies over time, unless they are constant; pressure and mu, if the ball has these columns;
+ * - the integrals' drift; if all drifts are rounding (below 1000 DBL_EPSILON = 2.2e-13), one line of text instead;
+ * - the one clock over the other.
+ * Errors: as iso_plot_comparison. */
+iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot);
+
+/* Column y over column x; equal: one unit is equally long on both axes. Of many rows not all are drawn: over a clock
+ * the least and the largest number in each of 1000 slots, else 5000 rows. Errors: ISO_BAD_ARGUMENT (name, columns, no
+ * rows), ISO_NUMERICAL (a number that is not finite), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_plot_columns(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
+                                    const char *x, const char *y, bool equal);
+
+/* A map of kinds of motion over the energy h and a second integral F. */
+enum { ISO_PLOT_PARTS = 4, ISO_PLOT_LINES = 4 };
+typedef struct iso_plot_map {
+    const char *title, *F; /* F: as gnuplot writes it, "F_{shell}"                                    */
+    int parts, lines;      /* at most ISO_PLOT_PARTS, ISO_PLOT_LINES                                  */
+    const char *part[ISO_PLOT_PARTS], *line[ISO_PLOT_LINES]; /* their names                                       */
+    const iso_record *bounds; /* columns h > 0, low and high F of each part, F of each line; NaN: none */
+    double at[2];             /* (h, F) of an orbit, h > 0                                               */
+} iso_plot_map;
+
+/* On the left F over h, on the right F/h over h, where thin parts can be told apart.
+ * Errors: ISO_BAD_ARGUMENT (name, columns, no rows, nothing in them), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_plot_momentum(iso_context *ctx, const char *path, const iso_plot_map *map);
+
+/* The lines of two signals, the pair of components across `axis` (0 to 2) and the one along it: columns frequency,
+ * amplitude > 0, signal (0, 1), and m and n of the combination that a line is (NaN: of none).
+ * Errors: as iso_plot_momentum. */
+iso_status iso_plot_lines(iso_context *ctx, const char *path, const char *title, int axis,
+                                  const iso_record *lines);
+
+/* The indicators of chaos against the turns. The records have the columns turn, t, growth, megno, mean and gali2, as
+ * in iso_chaos. Above: ln D. Below: MEGNO and its mean on the left, GALI_2 on the right. A record that is NULL or
+ * empty is left out.
+ * Errors: as iso_plot_momentum. */
+iso_status iso_plot_indicators(iso_context *ctx, const char *path, const char *title, const iso_record *ball,
+                                       const iso_record *point);
+
+/* The section n_axis = 0 (axis: 0 to 2), with one spot for each row. The columns are l, x and exponent: > 0 chaotic,
+ * 0 regular, NaN undecided. Errors: as iso_plot_momentum. */
+iso_status iso_plot_exponents(iso_context *ctx, const char *path, const char *title, int axis,
+                                      const iso_record *spots);
+
+/* The splitting of the separatrix. On the left |m| over k or the level, as spots with errors, blue for m > 0,
+ * vermillion for m < 0, triangles where m is not distinguished from 0: they are upper bounds. On the right, if there
+ * is a curve, W^u(O) and its mirror W^s(O') on the section. rows: columns k or level, m, error; NULL or empty: only
+ * the right one. curve: columns u and x, as iso_separatrix_curve has them; NULL: none. at: the k or level of the
+ * curve. axis: of its section, 0 to 2. Errors: as iso_plot_momentum. */
+iso_status iso_plot_splitting(iso_context *ctx, const char *path, const char *title, const iso_record *rows,
+                                      const iso_record *curve, double at, int axis);
+
+/* One method's line of a work-precision diagram. */
+typedef struct iso_plot_series {
+    const char *panel, *name; /* a name looks the same in every panel; NULL: a thin grey line, one of the others */
+    int count;
+    const double *error, *seconds; /* points with an error that is not finite, or seconds not above 0, are left out */
+} iso_plot_series;
+
+enum { ISO_PLOT_PANELS = 3, ISO_PLOT_NAMES = 10, ISO_PLOT_SERIES = 128 };
+typedef struct iso_plot_work {
+    const char *title;
+    int count; /* at most ISO_PLOT_SERIES, in at most ISO_PLOT_PANELS panels, of at most ISO_PLOT_NAMES names */
+    const iso_plot_series *series;
+    double closed[2];   /* error and seconds of the closed solution, in every panel; NaN: none */
+    double uncertainty; /* of the errors: up to there a band; 0: none */
+} iso_plot_work;
+
+/* A work-precision diagram, time over error, both logarithmic, small errors on the right; panels side by side in the
+ * order of the series. Errors: as iso_plot_momentum. */
+iso_status iso_plot_cost(iso_context *ctx, const char *path, const iso_plot_work *work);
+
+/* Crossings of one section n_a = 0 by both models, as points (l, x) of the chart (map/section.h). */
+typedef struct iso_plot_section {
+    const char *title; /* one line, any characters; NULL: none                                          */
+    const iso_params *params;
+    double eps, energy;       /* coupling, > 0, and level H, if nothing acts but a level; eps 0: x is drawn, not L */
+    int axis;                 /* a, 0 to 2                                                                     */
+    size_t count;             /* crossings, 1 or more                                                          */
+    const uint32_t *orbit;    /* of each: the orbit it belongs to                                              */
+    const double (*ball)[2];  /* (l, x) of each by the ball ...                                                */
+    const double (*point)[2]; /* ... and by the point; the same array where there is only one                  */
+    size_t orbits;
+    const bool *grey;       /* of each orbit: it is drawn in grey, behind the others; NULL: none             */
+    const char *grey_means; /* what the key says of grey, such as "chaotic"; NULL: there is no key           */
+} iso_plot_section;
+
+/* Left: the section of the ball. Its axes are the angle of n in the plane n_a = 0, and omega_a/|omega|. Right: that
+ * of the point. Its axes are l and L = M_a, and its boundaries are L = +-G(l). Each orbit has one colour.
+ * Errors: ISO_BAD_ARGUMENT (name, no crossing, a wrong axis or orbit), ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
+iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *section);
+
+/* A value over one number: a curve, and the band of its error. rows: columns x, value, low, high, by growing x; low
+ * and high may be NaN. name, value: of the axes. An axis that has the name k has marks at +-1. If values of both
+ * signs or of very different sizes are there, |value| has a logarithmic axis. Errors: as iso_plot_momentum. */
+iso_status iso_plot_sweep_curve(iso_context *ctx, const char *path, const char *title, const char *name,
+                                        const char *value, const iso_record *rows);
+
+/* A value over two numbers: maps side by side, with one scale of colours. A NaN is grey. An axis that has the name k
+ * has marks at +-1. */
+enum { ISO_PLOT_MAPS = 6 };
+typedef struct iso_plot_panels {
+    const char *title, *x, *y, *value; /* of the picture, of the axes, of the scale */
+    int count;                         /* of panels, at most ISO_PLOT_MAPS          */
+    const char *const *name;           /* of each; "": none                         */
+    const iso_record *const *rows;     /* of each: columns x, y, value              */
+} iso_plot_panels;
+iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const iso_plot_panels *panels);
+
+/* Where the rotations about the axes of least and greatest moment are stable: the records of study/periodic/stability_chart.h.
+ * moment: the name of the one that varies. Errors: as iso_plot_momentum. */
+iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const char *moment,
+                                      const iso_record *grid, const iso_record *borders);
+
+/* Followed orbits: columns branch (0, 1, ...), value, x, trace, by branch and along it; x is |x|, or on x = 0 the
+ * part 2 l/pi. parameter: the name of what varies. Errors: as iso_plot_momentum. */
+iso_status iso_plot_branches(iso_context *ctx, const char *path, const char *title, const char *parameter,
+                                     const iso_record *points);
+
+#endif

@@ -1,0 +1,154 @@
+/* plot_chart.c - a chart of differences over a clock, below the spheres of a picture.
+ *
+ * Each column of a record is one line on a logarithmic axis. A key on the right gives its symbol and its largest
+ * value.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "plot/gnuplot.h"
+#include "plot/plot_parts.h"
+
+enum {
+    LOWEST = -17,
+    SLOTS = 450 /* of the time axis; each shows its largest difference, so that thinning hides none */
+};
+#define FLOOR                                                                                                        \
+    1e-17 /* 10^LOWEST, stands for 0 on the logarithmic axis; below any difference of doubles of order one */
+
+/* How a column of differences looks; every other name is drawn as the last. In grey they differ by their dashes: the
+ * ball's are solid, the point's dashed, clocks dotted. */
+typedef struct look {
+    const char *name, *symbol, *line;
+} look;
+
+/* clang-format off */
+static const look looks[] = {
+    {"omega", "ω", "dt 1 lw 1.8 lc rgb " ISO_PLOT_BLUE},
+    {"n",     "n", "dt 1 lw 1.8 lc rgb " ISO_PLOT_VERMILLION},
+    {"M",     "M", "dt (8,4) lw 1.8 lc rgb '#56B4E9'"},
+    {"gamma", "γ", "dt (8,4) lw 1.8 lc rgb '#E69F00'"},
+    {"t",     "t", "dt (2,3) lw 1.8 lc rgb '#009E73'"},
+    {"tau",   "τ", "dt (2,3) lw 1.8 lc rgb '#009E73'"},
+    {"s",     "s", "dt (8,3,2,3) lw 1.8 lc rgb '#CC79A7'"},
+    {"ball - exact",  "ball−exact",  "dt 1 lw 1.2 lc rgb 'black'"},
+    {"point - exact", "point−exact", "dt (8,4) lw 1.2 lc rgb 'black'"},
+    {NULL,    NULL, "dt 4 lw 1.8 lc rgb 'black'"},
+};
+/* clang-format on */
+
+static const look *find_look(const char *name)
+{
+    const look *l = looks;
+    while (l->name && strcmp(l->name, name) != 0) l++;
+    return l;
+}
+
+const char *iso_plot_symbol(const char *name)
+{
+    const look *l = find_look(name);
+    return l->name ? l->symbol : name;
+}
+
+/* One column over the first: in each slot of rows the largest, at its own time. Answers the largest of all. */
+static double put_differences(FILE *f, const iso_record *r, int column)
+{
+    const size_t rows = iso_record_rows(r), slots = rows < SLOTS ? rows : SLOTS;
+    double largest = 0;
+    fprintf(f, "$difference%d << EOD\n", column);
+    for (size_t slot = 0; slot < slots; slot++) {
+        const double *worst = iso_record_const_row(r, slot * rows / slots);
+        for (size_t i = slot * rows / slots; i < (slot + 1) * rows / slots; i++)
+            if (iso_record_const_row(r, i)[column] > worst[column]) worst = iso_record_const_row(r, i);
+        iso_gnuplot_pair(f, worst[0], fmax(worst[column], FLOOR));
+        largest = fmax(largest, worst[column]);
+    }
+    fputs("EOD\n", f);
+    return largest;
+}
+
+#define LEVEL "dt (3,3) lw 1.2 lc rgb '#707070'"
+
+/* A line across. */
+static void put_level(FILE *f, int tag, double level)
+{
+    fprintf(f, "set arrow %d from graph 0, first ", tag);
+    iso_gnuplot_number(f, level);
+    fputs(" to graph 1, first ", f);
+    iso_gnuplot_number(f, level);
+    fputs(" nohead back " LEVEL "\n", f);
+}
+
+/* Axes of the chart. Its lowest tick stands for 0 as well. */
+static void put_axes(FILE *f, const iso_record *r, double top, const iso_plot_chart *chart)
+{
+    const double a = iso_record_const_row(r, 0)[0], b = iso_record_const_row(r, iso_record_rows(r) - 1)[0];
+    const int highest = (int)ceil(log10(fmax(top, 1e-15)) + 0.3);
+    const iso_plot_axis clock = {.which = "x",
+                                 .low = fmin(a, b),
+                                 .high = fmax(a, b),
+                                 .most = chart->box.right - chart->box.left > 0.4 ? 8 : 4,
+                                 .name = iso_plot_symbol(iso_record_name(r, 0)),
+                                 .units = chart->units,
+                                 .label = true};
+    char name[ISO_PLOT_NAME];
+    fputs("unset label; unset arrow; unset object; set size noratio; set border 3 lc rgb '#606060'; set logscale y\n"
+          "set grid ytics back lt 1 lw 0.8 lc rgb '#DDE1E5'; unset ylabel\n"
+          "set key left top Left reverse vertical maxrows 16 samplen 2 spacing 1.2 noenhanced title 'largest' left "
+          "enhanced\nset key at screen ",
+          f);
+    iso_gnuplot_number(f, chart->box.right + 0.015);
+    fputc(',', f);
+    iso_gnuplot_number(f, chart->box.top + 0.015);
+    fprintf(f, "\nunset title; set label 1 '%s' left at graph 0,1.09\nset yrange [5e-18:1e%d]\n", chart->title,
+            highest);
+    iso_plot_place(f, &chart->box);
+    iso_plot_powers(f, LOWEST, highest, 8);
+    iso_plot_ticks(f, &clock, name);
+}
+
+/* In the key: the column's symbol and its largest number. */
+static void put_name(FILE *f, const char *name, double largest)
+{
+    char words[64], number[16];
+    snprintf(number, sizeof number, "%.0e", largest); /* no decimal mark, which is the locale's */
+    snprintf(words, sizeof words, "%s  %s", iso_plot_symbol(name), largest > 0 ? number : "0");
+    iso_gnuplot_text(f, words, 60);
+}
+
+/* A line for names that have no look of their own. */
+static const char *line_of(const char *name, int c)
+{
+    static const char *const lines[] = {
+        "dt 1 lw 1.5 lc rgb " ISO_PLOT_BLUE, "dt 1 lw 1.5 lc rgb " ISO_PLOT_VERMILLION,
+        "dt 1 lw 1.5 lc rgb '#009E73'",      "dt 1 lw 1.5 lc rgb '#CC79A7'",
+        "dt (8,4) lw 1.5 lc rgb '#56B4E9'",  "dt (8,4) lw 1.5 lc rgb '#E69F00'",
+        "dt (2,3) lw 1.5 lc rgb 'black'",
+    };
+    const look *l = find_look(name);
+    return l->name ? l->line : lines[c % (int)(sizeof lines / sizeof *lines)];
+}
+
+void iso_plot_differences(FILE *f, const iso_record *r, double tolerance, const iso_plot_chart *chart)
+{
+    const int columns = (int)iso_record_columns(r);
+    double top = tolerance, largest[ISO_PLOT_DIFFERENCES + 1];
+    for (int c = 1; c < columns; c++) {
+        largest[c] = put_differences(f, r, c);
+        top = fmax(top, largest[c]);
+    }
+    put_axes(f, r, top, chart);
+    if (tolerance > 0) put_level(f, 2, tolerance);
+    for (int c = 1; c < columns; c++) {
+        const char *name = iso_record_name(r, (size_t)c), *line = line_of(name, c - 1);
+        fprintf(f, "%s $difference%d with ", c == 1 ? "plot" : ",", c);
+        fprintf(f, iso_record_rows(r) > 1 ? "lines %s title " : "points pt 7 %s title ",
+                iso_record_rows(r) > 1 ? line : strstr(line, "lc"));
+        put_name(f, name, largest[c]);
+    }
+    if (tolerance > 0) {
+        fputs(", NaN w l " LEVEL " title ", f);
+        put_name(f, "tolerance", tolerance);
+    }
+    fputc('\n', f);
+}

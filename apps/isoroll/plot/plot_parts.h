@@ -1,0 +1,152 @@
+/* plot_parts.h - what the parts of a picture share. */
+#ifndef ISOROLL_PLOT_PARTS_H
+#define ISOROLL_PLOT_PARTS_H
+
+#include <stdio.h>
+
+#include "base/record.h"
+
+enum {
+    ISO_PLOT_ROWS = 5000,     /* rows of a record that are drawn, at most */
+    ISO_PLOT_DIFFERENCES = 16 /* lines of a chart, at most                */
+};
+
+/* Okabe & Ito's colours, for all kinds of sight, and paler twins for the far side of a sphere. */
+#define ISO_PLOT_BLUE "'#0072B2'"
+#define ISO_PLOT_VERMILLION "'#D55E00'"
+#define ISO_PLOT_FAR_BLUE "'#A9CDE2'"
+#define ISO_PLOT_FAR_VERMILLION "'#F0BE9B'"
+
+/* The signs of the first and the last row. */
+#define ISO_PLOT_START "pt 7 ps 1.1"
+#define ISO_PLOT_END "pt 9 ps 1.3"
+
+/* Where the contact is lost: on a path, and over a clock. */
+#define ISO_PLOT_LOST "pt 2 ps 1.7 lw 3 lc rgb " ISO_PLOT_VERMILLION
+#define ISO_PLOT_LOST_LINE "dt (6,4) lw 1.5 lc rgb " ISO_PLOT_VERMILLION
+
+/* A rectangle in parts of the page: 0 and 1 are its edges, (0, 0) is its lower left corner. */
+typedef struct iso_plot_box {
+    double left, right, bottom, top;
+} iso_plot_box;
+
+/* The next plot's axes fill the box. */
+void iso_plot_place(FILE *script, const iso_plot_box *box);
+
+/* An axis from low to high with about `most` ticks. `name`: what the numbers are; units may follow it. */
+typedef struct iso_plot_axis {
+    const char *which; /* "x", "y", "y2" */
+    double low, high;  /* equal: a single number, which gets room on both sides */
+    int most;
+    const char *name, *units; /* units NULL: none */
+    bool label;               /* whether the name stands at the axis */
+} iso_plot_axis;
+
+enum { ISO_PLOT_NAME = 160 };
+
+/* Sets the range, the ticks and the label. Writes into `name` what the ticks mean, such as "t / 10⁶". */
+void iso_plot_ticks(FILE *script, const iso_plot_axis *axis, char name[static ISO_PLOT_NAME]);
+
+/* The ticks of a logarithmic y axis, from 10^lowest on; that tick stands for all below it. */
+void iso_plot_powers(FILE *script, int lowest, int highest, int most);
+
+/* A chart of differences: its axes, a title above them, a key on the right. */
+typedef struct iso_plot_chart {
+    iso_plot_box box;
+    const char *title, *units; /* units: said after the name of the clock */
+} iso_plot_chart;
+
+/* Column 0 is a clock, the others are drawn over it on a logarithmic axis. */
+void iso_plot_differences(FILE *script, const iso_record *record, double tolerance, const iso_plot_chart *chart);
+
+/* A symbol for the name of a column: "γ" for "gamma"; the name itself if there is none. */
+const char *iso_plot_symbol(const char *name);
+
+/* A plot of the unit sphere with a path, `line`, and markers on it (NULL: none): three columns of unit vectors
+ * each. */
+void iso_plot_sphere(FILE *script, const iso_plot_box *box, const iso_record *line, int line_column,
+                     const iso_record *markers, int marker_column, bool fine);
+
+/* Whether a path has so many turns that it wants a fine line. */
+bool iso_plot_is_long(const iso_record *record, int column);
+
+/* The rows that are drawn: all, or ISO_PLOT_ROWS of them with the first and the last. */
+size_t iso_plot_drawn_rows(const iso_record *record);
+const double *iso_plot_drawn_row(const iso_record *record, size_t i);
+
+/* A plot that is only the title of the page, at the height y. */
+void iso_plot_heading(FILE *script, const char *title, double y);
+
+/* A plot that is only a key, in one line: its entries, as gnuplot's `plot` takes them, at (x, y). */
+void iso_plot_key(FILE *script, double x, double y, const char *entries);
+
+/* --- curves over a column --------------------------------------------------------------------------------------- */
+
+typedef struct iso_plot_curve {
+    int column;
+    const char *name, *colour; /* name NULL: not in the key   */
+    bool right;                /* it has the axis on the right */
+} iso_plot_curve;
+
+enum { ISO_PLOT_CURVES = 3, ISO_PLOT_MARKS = 20 };
+
+/* Curves of a record over its column `over`. */
+typedef struct iso_plot_panel {
+    iso_plot_box box; /* of the axes */
+    const iso_record *rows;
+    int over, count;
+    const iso_plot_curve *curve;
+    const char *title;  /* on the left above; NULL: none */
+    double top[2];      /* the left and the right axis are cut off there; 0: as far as the curves go */
+    const size_t *mark; /* rows at which contact is lost ... */
+    int marks;          /* ... how many, at most ISO_PLOT_MARKS ... */
+    const char *marked; /* ... and what they are called */
+    bool equal;         /* one unit is equally long on both axes */
+} iso_plot_panel;
+
+void iso_plot_curves(FILE *script, const iso_plot_panel *panel);
+
+/* --- space ------------------------------------------------------------------------------------------------------ */
+
+struct iso_plot_space;
+
+/* What plot_space.c knows about a path in space. */
+typedef struct iso_plot_scenery {
+    const iso_record *rows;
+    int centre, contact;             /* first columns, -1: not there                                        */
+    bool plane, level;               /* the support is a plane; a plane that is level, or up is not known   */
+    bool normal;                     /* the columns tell its normal                                         */
+    bool vertical;                   /* whether up[] is the vertical                                        */
+    double right[3], away[3], up[3]; /* of the view from the side; `away` is up in the view from above      */
+    double ball, support;            /* radii, 0: not known                                                 */
+    double low[3], high[3];          /* of the path along right, away, up                                   */
+    size_t lost[ISO_PLOT_MARKS];     /* rows where the contact is lost                                      */
+    int losses;
+    const char *right_name, *away_name, *up_name;
+    const char *from_above, *from_side; /* titles of the two views                                           */
+} iso_plot_scenery;
+
+/* Errors: ISO_BAD_ARGUMENT (no columns), ISO_NUMERICAL. */
+iso_status iso_plot_look_around(iso_context *ctx, const struct iso_plot_space *space, iso_plot_scenery *scenery);
+
+/* The rows at which contact is lost: `pressure` falls to 0, or becomes negative (the support would have to pull). At
+ * most ISO_PLOT_MARKS; returns how many. */
+int iso_plot_losses(const iso_record *rows, size_t lost[ISO_PLOT_MARKS]);
+
+/* What they are called: "contact lost" if the rows end there, else "pressure 0", as of a ball that is held on both
+ * sides. NULL: there are none. */
+const char *iso_plot_loss_name(const iso_record *rows, const size_t lost[], int losses);
+
+/* Whether the path is so long and narrow that it gets a wide panel, with a larger scale across it. */
+bool iso_plot_is_narrow(const iso_plot_scenery *scenery);
+
+/* The two views. A narrow path has one, in a wide box. */
+void iso_plot_view(FILE *script, const iso_plot_box *box, const iso_plot_scenery *scenery, bool from_above);
+
+/* The height of the higher of the two views, as a part of its width. */
+double iso_plot_view_shape(const iso_plot_scenery *scenery);
+
+/* The entries of their key, into text. */
+void iso_plot_view_key(const iso_plot_scenery *scenery, char text[static 512]);
+
+#endif

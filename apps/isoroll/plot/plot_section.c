@@ -1,0 +1,190 @@
+/* plot_section.c - the picture of a section: the ball's on the left, the point's on the right.
+ *
+ * Both sides are drawn from points (l, x) of the chart. At (l, x), for a = 3,
+ *
+ *     gamma = (cos l, -sin l, 0),     M/|M| = (sqrt(1-x^2) sin l, sqrt(1-x^2) cos l, x)
+ *     n ~ J^(1/2) gamma,              omega ~ J^(-1/2) M, for k < 0 against it                                 (18)
+ *
+ * The ball's coordinates are the angle psi of n = (cos psi, -sin psi, 0) and omega_a/|omega|. The point's are l and
+ * L = G(l) x.
+ */
+#include <math.h>
+
+#include "map/section.h"
+#include "plot/gnuplot.h"
+#include "plot/plot.h"
+#include "plot/plot_parts.h"
+#include "plot/vectors.h"
+
+enum { WIDTH = 900, HEIGHT = 470, BOUNDARY = 240 };
+#define TOP 1.05 /* of the axis of L, by the largest L */
+
+/* --- colours ---------------------------------------------------------------------------------------------------- */
+
+/* From 0 to 255, of a hue in [0, 1): a colour that is neither pale nor dark. */
+static int part_of(double hue, double shift)
+{
+    const double turn = 2 * M_PI * (hue + shift), light = 0.47 + 0.36 * cos(turn) - 0.03 * cos(2 * turn);
+    return (int)(255 * fmin(fmax(light, 0), 1));
+}
+
+/* The hues of successive orbits differ by the golden section of the circle. The first is a strong blue. */
+static long colour_of(const iso_plot_section *s, uint32_t orbit)
+{
+    if (s->grey && s->grey[orbit]) return 0xB0B0B0;
+    const double hue = fmod(0.6 + orbit * 0.61803398874989485, 1);
+    return (long)part_of(hue, 0) << 16 | (long)part_of(hue, -1.0 / 3) << 8 | part_of(hue, -2.0 / 3);
+}
+
+/* --- data ------------------------------------------------------------------------------------------------------- */
+
+typedef struct spot {
+    double right, up;
+} spot;
+
+static spot of_ball(const iso_plot_section *s, const double chart[2])
+{
+    const iso_params *p = s->params;
+    const int a = s->axis, b = (a + 1) % 3, c = (a + 2) % 3;
+    const double l = chart[0], x = chart[1], across = sqrt((1 - x) * (1 + x)), sign = copysign(1, p->k);
+    const double omega[3] = {sign * across * sin(l) / p->root_J[b], sign * across * cos(l) / p->root_J[c],
+                             sign * x / p->root_J[a]};
+    return (spot){atan2(p->root_J[c] * sin(l), p->root_J[b] * cos(l)), omega[2] / norm(omega)};
+}
+
+/* G(l). If more acts than a level, 1: then x is drawn in place of L. */
+static double largest_momentum(const iso_plot_section *s, double l)
+{
+    return s->eps > 0 ? iso_section_momentum((iso_point_motion){s->params, s->eps, s->energy}, s->axis, l) : 1;
+}
+
+static spot of_point(const iso_plot_section *s, const double chart[2])
+{
+    return (spot){chart[0], chart[1] * largest_momentum(s, chart[0])};
+}
+
+/* A block of crossings. The grey ones come first, so that they lie behind the others. */
+static void put_crossings(FILE *f, const iso_plot_section *s, bool ball)
+{
+    fprintf(f, "$%s << EOD\n", ball ? "ball" : "point");
+    for (int grey = 1; grey >= 0; grey--)
+        for (size_t i = 0; i < s->count; i++) {
+            if ((s->grey && s->grey[s->orbit[i]]) != grey) continue;
+            const spot at = ball ? of_ball(s, s->ball[i]) : of_point(s, s->point[i]);
+            if (!isfinite(at.right) || !isfinite(at.up)) continue;
+            fprintf(f, "%.5f %.6g %ld\n", at.right, at.up, colour_of(s, s->orbit[i]));
+        }
+    fputs("EOD\n", f);
+}
+
+/* Writes the boundary L = G(l). Gives the largest G. */
+static double put_boundary(FILE *f, const iso_plot_section *s)
+{
+    double most = 0;
+    fputs("$boundary << EOD\n", f);
+    for (int i = 0; i <= BOUNDARY; i++) {
+        const double l = M_PI * (2.0 * i / BOUNDARY - 1), G = largest_momentum(s, l);
+        fprintf(f, "%.5f %.6g\n", l, G);
+        most = fmax(most, G);
+    }
+    fputs("EOD\n", f);
+    return most;
+}
+
+/* --- the picture ------------------------------------------------------------------------------------------------ */
+
+/* The size of a spot: the more points, the smaller. */
+static double size_of(size_t count)
+{
+    return fmin(fmax(9 / sqrt((double)count), 0.05), 0.4);
+}
+
+static void put_heading(FILE *f, const iso_plot_section *s)
+{
+    fputs("set multiplot\nunset border; unset tics; set xrange [0:1]; set yrange [0:1]\n"
+          "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
+          "set key at screen 0.985,0.962 right center samplen 1\n"
+          "set label 1 ",
+          f);
+    iso_gnuplot_text(f, s->title ? s->title : "", 95);
+    fputs(" at screen 0.015,0.962 left noenhanced font ',12'\nplot NaN notitle", f);
+    if (s->grey_means) {
+        fputs(", NaN w p pt 7 ps 1 lc rgb '#B0B0B0' title ", f);
+        iso_gnuplot_text(f, s->grey_means, 60);
+    }
+    fputs("\nunset label 1; unset key\n"
+          "set border 15 lw 0.8 lc rgb '#606060'; set tics out scale 0.6 nomirror; set tmargin at screen 0.86\n"
+          "set bmargin at screen 0.14; set xrange [-pi:pi]\n"
+          "set xtics ('−π' -pi, '−π/2' -pi/2, '0' 0, 'π/2' pi/2, 'π' pi)\n",
+          f);
+}
+
+static void put_ball(FILE *f, const iso_plot_section *s, double size)
+{
+    const int a = s->axis + 1, b = (s->axis + 1) % 3 + 1, c = (s->axis + 2) % 3 + 1;
+    fprintf(f,
+            "set lmargin at screen 0.075; set rmargin at screen 0.485; set yrange [-1:1]; set ytics 0.5\n"
+            "set title 'ball: n_%d = 0, n_%d increasing' offset 0,-0.5\n"
+            "set xlabel 'ψ,  where n_%d = cos ψ, n_%d = −sin ψ' offset 0,0.3\n"
+            "set ylabel 'ω_%d / |ω|' offset 1,0\n"
+            "plot $ball using 1:2:3 with points pt 7 ps ",
+            a, a, b, c, a);
+    iso_gnuplot_number(f, size);
+    fputs(" lc rgb variable notitle\n", f);
+}
+
+static void put_point(FILE *f, const iso_plot_section *s, double size, double most)
+{
+    const int a = s->axis + 1, b = (s->axis + 1) % 3 + 1, c = (s->axis + 2) % 3 + 1;
+    fputs("set lmargin at screen 0.575; set rmargin at screen 0.985; set ytics autofreq; set yrange [", f);
+    iso_gnuplot_number(f, -TOP * most);
+    fputc(':', f);
+    iso_gnuplot_number(f, TOP * most);
+    fprintf(f,
+            "]\nset title '%s: γ_%d = 0, γ_%d increasing'\n"
+            "set xlabel 'l,  where γ_%d = cos l, γ_%d = −sin l'\n",
+            s->eps > 0 ? "point" : "directions of γ and M", a, a, b, c);
+    fprintf(f, s->eps > 0 ? "set ylabel 'L = M_%d, in the units of the scene'\n" : "set ylabel 'x = M_%d / |M|'\n",
+            a);
+    fputs("plot ", f);
+    for (int side = 1; side >= -1; side -= 2) { /* outside of the boundaries */
+        fprintf(f, "$boundary using 1:(%d*$2):(", side);
+        iso_gnuplot_number(f, side * TOP * most);
+        fputs(") with filledcurves fc rgb '#ECEFF1' notitle, "
+              "$boundary using 1:(",
+              f);
+        fprintf(f, "%d*$2) with lines lw 1 lc rgb '#606060' notitle, ", side);
+    }
+    fputs("$point using 1:2:3 with points pt 7 ps ", f);
+    iso_gnuplot_number(f, size);
+    fputs(" lc rgb variable notitle\n", f);
+}
+
+static iso_status check(iso_context *ctx, const iso_plot_section *s)
+{
+    if (s->count == 0 || s->axis < 0 || s->axis > 2)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
+                                "a picture of a section n_a = 0 needs at least one crossing, and a = 1, 2 or 3");
+    for (size_t i = 0; i < s->count; i++)
+        if (s->orbit[i] >= s->orbits)
+            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture of a section: there is no orbit %lu",
+                                    (unsigned long)s->orbit[i]);
+    return ISO_OK;
+}
+
+iso_status iso_plot_sections(iso_context *ctx, const char *path, const iso_plot_section *s)
+{
+    iso_gnuplot *g;
+    iso_status status = check(ctx, s);
+    if (status == ISO_OK) status = iso_gnuplot_open(ctx, path, WIDTH, HEIGHT, &g);
+    if (status != ISO_OK) return status;
+    FILE *f = iso_gnuplot_script(g);
+    put_crossings(f, s, true);
+    put_crossings(f, s, false);
+    const double most = put_boundary(f, s), size = size_of(s->count);
+    put_heading(f, s);
+    put_ball(f, s, size);
+    put_point(f, s, size, most);
+    fputs("unset multiplot\nunset output\n", f);
+    return iso_gnuplot_close(ctx, g, true);
+}

@@ -1,0 +1,216 @@
+/* plot_sphere.c - one sphere of a picture, with a path on it.
+ *
+ * Spheres are projected here and drawn in two dimensions, because gnuplot's own 3D cannot show the far side through
+ * the near one. The projection is orthographic, along d: a point x of the unit sphere is drawn at ((x,right),
+ * (x,up)), and lies on the near side where (x,d) > 0. The far side is drawn first, in pale colours, then the near
+ * side.
+ *
+ *          3 |                right = (-sin a, cos a, 0)                  a  azimuth of the eye, from axis 1 to axis
+ *          2
+ *            |  . eye         up    = (-sin e cos a, -sin e sin a, cos e)
+ *            |.               d     = ( cos e cos a,  cos e sin a, sin e)
+ *            /------ 2                                                    e  its elevation over the plane of both
+ *          1
+ */
+#include <math.h>
+#include <string.h>
+
+#include "plot/gnuplot.h"
+#include "plot/plot_parts.h"
+
+enum {
+    MARKERS = 48, /* of the second backend on each path  */
+    FEW = 500     /* rows that are drawn as larger dots  */
+};
+#define ARC 0.1    /* longest straight piece of a path, in radians                     */
+#define JOINED 0.6 /* rows farther apart than this are no path: they are drawn as dots */
+#define LONG 40.0  /* a path of more radians is drawn with a finer line                */
+
+size_t iso_plot_drawn_rows(const iso_record *r)
+{
+    const size_t rows = iso_record_rows(r);
+    return rows < ISO_PLOT_ROWS ? rows : ISO_PLOT_ROWS;
+}
+
+const double *iso_plot_drawn_row(const iso_record *r, size_t i)
+{
+    const size_t rows = iso_record_rows(r), drawn = iso_plot_drawn_rows(r);
+    if (rows == drawn) return iso_record_const_row(r, i);
+    return iso_record_const_row(r, (size_t)((double)i * (double)(rows - 1) / (double)(drawn - 1) + 0.5));
+}
+
+/* --- paths on the sphere ---------------------------------------------------------------------------------------- */
+
+typedef struct spot {
+    double x, y, depth;
+} spot;
+
+static spot project(const double v[3])
+{
+    static const double right[3] = {-0.42261826174069944, 0.90630778703664996, 0}; /* a = 25, e = 24 degrees */
+    static const double up[3] = {-0.36862823570066146, -0.17189417172037236, 0.91354545764260087};
+    static const double d[3] = {0.82795218756063110, 0.38608045045127610, 0.40673664307580021};
+    return (spot){v[0] * right[0] + v[1] * right[1] + v[2] * right[2], v[0] * up[0] + v[1] * up[1] + v[2] * up[2],
+                  v[0] * d[0] + v[1] * d[1] + v[2] * d[2]};
+}
+
+/* Angle between two vectors of about unit length. */
+static double angle(const double a[3], const double b[3])
+{
+    const double half =
+        0.5 * sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+    return 2 * asin(fmin(half, 1));
+}
+
+/* The great circle from a to b, as far as it lies on one side; *open: whether the last piece did. */
+static void put_arc(FILE *f, const double a[3], const double b[3], bool near, bool *open)
+{
+    const int pieces = 1 + (int)(angle(a, b) / ARC);
+    spot from = project(a);
+    for (int i = 1; i <= pieces; i++) {
+        const double part = (double)i / pieces;
+        double v[3], length = 0;
+        for (int j = 0; j < 3; j++) v[j] = (1 - part) * a[j] + part * b[j];
+        for (int j = 0; j < 3; j++) length += v[j] * v[j];
+        for (int j = 0; j < 3; j++) v[j] /= sqrt(length);
+        const spot to = project(v);
+        const bool seen = (from.depth + to.depth > 0) == near;
+        if (seen && !*open) iso_gnuplot_pair(f, from.x, from.y);
+        if (seen) iso_gnuplot_pair(f, to.x, to.y);
+        if (!seen && *open) fputc('\n', f);
+        *open = seen;
+        from = to;
+    }
+}
+
+static bool is_joined(const iso_record *r, int column)
+{
+    for (size_t i = 1; i < iso_plot_drawn_rows(r); i++)
+        if (angle(iso_plot_drawn_row(r, i - 1) + column, iso_plot_drawn_row(r, i) + column) > JOINED) return false;
+    return true;
+}
+
+/* Begins a block of data called `name` with the number of the side. Its first point is NaN, so that no block is
+ * empty. */
+static void begin_block(FILE *f, const char *name, bool near)
+{
+    fprintf(f, "$%s%d << EOD\nNaN NaN\n\n", name, near);
+}
+
+static void put_path(FILE *f, const iso_record *r, int column, bool near)
+{
+    const bool joined = is_joined(r, column);
+    bool open = false;
+    begin_block(f, "path", near);
+    for (size_t i = 0; i < iso_plot_drawn_rows(r); i++) {
+        const double *v = iso_plot_drawn_row(r, i) + column;
+        const spot s = project(v);
+        if (joined && i > 0) put_arc(f, iso_plot_drawn_row(r, i - 1) + column, v, near, &open);
+        if (!joined && (s.depth > 0) == near) iso_gnuplot_pair(f, s.x, s.y);
+    }
+    fputs("EOD\n", f);
+}
+
+static void put_markers(FILE *f, const iso_record *r, int column, bool near)
+{
+    const size_t rows = iso_record_rows(r), count = rows < MARKERS ? rows : MARKERS;
+    begin_block(f, "marker", near);
+    for (size_t i = 0; i < count; i++) {
+        const spot s = project(iso_record_const_row(r, (2 * i + 1) * rows / (2 * count)) + column);
+        if ((s.depth > 0) == near) iso_gnuplot_pair(f, s.x, s.y);
+    }
+    fputs("EOD\n", f);
+}
+
+/* A sign for the first or the last row. It is a label, so that it stays visible where both are at the same place. */
+static void put_end(FILE *f, const double v[3], const char *type)
+{
+    const spot s = project(v);
+    const char *colour = s.depth > 0 ? "'black'" : "'#909090'";
+    fputs("set label '' at ", f);
+    iso_gnuplot_number(f, s.x);
+    fputc(',', f);
+    iso_gnuplot_number(f, s.y);
+    fprintf(f, " front point %s lc rgb %s\n", type, colour);
+}
+
+static void put_graticule(FILE *f, bool near)
+{
+    const double degree = M_PI / 180;
+    begin_block(f, "grid", near);
+    for (int circle = 0; circle < 11; circle++) { /* 6 meridians, 5 parallels, 30 degrees apart */
+        const double angle0 = (circle < 6 ? circle : circle - 8) * 30 * degree;
+        double last[3] = {0, 0, 0};
+        bool open = false;
+        for (int i = 0; i <= 360; i += 5) {
+            const double lat = circle < 6 ? i * degree : angle0, lon = circle < 6 ? angle0 : i * degree;
+            const double v[3] = {cos(lat) * cos(lon), cos(lat) * sin(lon), sin(lat)};
+            if (i > 0) put_arc(f, last, v, near, &open);
+            memcpy(last, v, sizeof v);
+        }
+        fputc('\n', f);
+    }
+    fputs("EOD\n", f);
+}
+
+/* The principal axes of inertia, where they leave the sphere. */
+static void put_axes(FILE *f)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        double v[3] = {0, 0, 0};
+        v[axis] = 1;
+        const spot s = project(v);
+        const double end = 1 + 0.14 / fmax(hypot(s.x, s.y), 0.5), label = end + 0.07 / fmax(hypot(s.x, s.y), 0.5);
+        fprintf(f, "set arrow %d nohead back lw 1.2 lc rgb '#606060' from ", axis + 1);
+        iso_gnuplot_number(f, s.x);
+        fputc(',', f);
+        iso_gnuplot_number(f, s.y);
+        fputs(" to ", f);
+        iso_gnuplot_number(f, s.x * end);
+        fputc(',', f);
+        iso_gnuplot_number(f, s.y * end);
+        fprintf(f, "\nset label %d '%d' center tc rgb '#404040' at ", axis + 1, axis + 1);
+        iso_gnuplot_number(f, s.x * label);
+        fputc(',', f);
+        iso_gnuplot_number(f, s.y * label);
+        fputc('\n', f);
+    }
+}
+
+static const char *const setup =
+    "unset border; unset tics; unset key; unset label; unset arrow; set size ratio -1\n"
+    "set xrange [-1.2:1.2]; set yrange [-1.07:1.2]\n"
+    "set object 1 circle at 0,0 size 1 back fillcolor rgb '#F4F6F8' fillstyle solid border lc rgb '#8A939B'\n";
+
+bool iso_plot_is_long(const iso_record *r, int column)
+{
+    double length = 0;
+    for (size_t i = 1; i < iso_plot_drawn_rows(r); i++)
+        length += angle(iso_plot_drawn_row(r, i - 1) + column, iso_plot_drawn_row(r, i) + column);
+    return length > LONG;
+}
+
+void iso_plot_sphere(FILE *f, const iso_plot_box *box, const iso_record *line, int line_column,
+                     const iso_record *markers, int marker_column, bool fine)
+{
+    const char *near_style = fine ? "lines lw 0.8" : "lines lw 1.8";
+    const char *far_style = "lines lw 0.8";
+    if (!is_joined(line, line_column))
+        near_style = far_style = iso_plot_drawn_rows(line) > FEW ? "points pt 7 ps 0.2" : "points pt 7 ps 0.5";
+    for (int near = 0; near < 2; near++) {
+        put_graticule(f, near);
+        put_path(f, line, line_column, near);
+        if (markers) put_markers(f, markers, marker_column, near);
+    }
+    fputs(setup, f);
+    iso_plot_place(f, box);
+    put_axes(f);
+    put_end(f, iso_plot_drawn_row(line, 0) + line_column, ISO_PLOT_START);
+    put_end(f, iso_plot_drawn_row(line, iso_plot_drawn_rows(line) - 1) + line_column, ISO_PLOT_END);
+    fputs("plot $grid0 w l lw 0.6 lc rgb '#DDE1E5',", f);
+    fprintf(f, " $path0 w %s lc rgb " ISO_PLOT_FAR_BLUE ",", far_style);
+    if (markers) fputs(" $marker0 w p pt 6 ps 0.8 lw 1 lc rgb " ISO_PLOT_FAR_VERMILLION ",", f);
+    fprintf(f, " $grid1 w l lw 0.8 lc rgb '#B9C0C7', $path1 w %s lc rgb " ISO_PLOT_BLUE, near_style);
+    if (markers) fputs(", $marker1 w p pt 6 ps 0.85 lw 1.5 lc rgb " ISO_PLOT_VERMILLION, f);
+    fputs("\n", f);
+}

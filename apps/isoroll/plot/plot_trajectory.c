@@ -1,0 +1,365 @@
+/* plot_trajectory.c - the picture of one trajectory: a sheet of panels, in rows of two.
+ *
+ * Square panels come first: the path in space, the spheres. Charts follow. A square that would stand alone has charts
+ * on its right, and a chart that would stand alone is as wide as the sheet: no part of the sheet is empty.
+ */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "plot/gnuplot.h"
+#include "plot/plot.h"
+#include "plot/plot_parts.h"
+#include "plot/vectors.h"
+
+/* In pixels. */
+enum { WIDTH = 900, TITLE = 50, SQUARE = 420, VIEW = 320, WIDE = 270, CHART = 260, LINE = 40, FOOT = 12 };
+
+typedef enum square { FROM_ABOVE, FROM_SIDE, ON_BALL, ON_POINT, SQUARES } square;
+typedef enum chart { ENERGIES, PRESSURE, DRIFT, CLOCKS, CHARTS } chart;
+
+typedef struct sheet {
+    FILE *f;
+    const iso_plot_orbit *plot;
+    iso_plot_scenery scenery;
+    iso_record *trace; /* of a ball without its point: unit vectors; NULL: n is drawn */
+    int ball, point;   /* first columns of n or the trace, and of gamma; -1: not there */
+    square square[SQUARES];
+    chart chart[CHARTS];
+    int squares, charts, beside; /* beside: charts on the right of the last square */
+    bool narrow, noise;
+    size_t lost[ISO_PLOT_MARKS];
+    int losses;
+    int height, y; /* of the sheet; of the next row, from above */
+} sheet;
+
+/* --- what there is ---------------------------------------------------------------------------------------------- */
+
+/* Where a record has three columns side by side; all rows finite. -1, and *status says why, if not. */
+static int find_path(iso_context *ctx, const iso_record *r, const char *const names[3], iso_status *status)
+{
+    int column[3];
+    const char *missing;
+    if (iso_record_rows(r) == 0)
+        *status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs at least one row");
+    else if (!iso_record_find_all(r, 3, names, column, &missing) || column[1] != column[0] + 1 ||
+             column[2] != column[0] + 2)
+        *status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, names[0], "a picture: no columns %s, %s, %s side by side",
+                                   names[0], names[1], names[2]);
+    for (size_t i = 0; *status == ISO_OK && i < iso_record_rows(r); i++)
+        for (int c = 0; c < 3; c++)
+            if (!isfinite(iso_record_const_row(r, i)[column[c]]))
+                *status = iso_context_fail(ctx, ISO_NUMERICAL, names[c], "a picture: %s is not finite in row %zu",
+                                           names[c], i + 1);
+    return *status == ISO_OK ? column[0] : -1;
+}
+
+/* The contact on the ball as unit vectors, if the ball has the columns trace1..3. */
+static iso_status find_trace(iso_context *ctx, sheet *s)
+{
+    static const char *const names[] = {"trace1", "trace2", "trace3"};
+    const iso_record *r = s->plot->ball;
+    int column[3];
+    if (s->plot->point || !iso_record_find_all(r, 3, names, column, NULL)) return ISO_OK;
+    iso_status status = iso_record_create(ctx, 3, names, &s->trace);
+    for (size_t i = 0; status == ISO_OK && i < iso_record_rows(r); i++) {
+        double *to;
+        status = iso_record_append(ctx, s->trace, &to);
+        if (status != ISO_OK) break;
+        for (int c = 0; c < 3; c++) to[c] = iso_record_const_row(r, i)[column[c]];
+        if (norm(to) == 0)
+            status = iso_context_fail(ctx, ISO_NUMERICAL, names[0], "a picture: the trace is 0 in row %zu", i + 1);
+        scale(to, 1 / norm(to));
+    }
+    if (status == ISO_OK) s->ball = find_path(ctx, s->trace, names, &status);
+    return status;
+}
+
+static bool is_constant(const iso_record *r)
+{
+    const size_t columns = iso_record_columns(r);
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, size = 0;
+    for (size_t i = 0; i < iso_record_rows(r); i++)
+        for (size_t c = 1; c < columns && c < 4; c++) {
+            const double x = iso_record_const_row(r, i)[c];
+            low[c - 1] = fmin(low[c - 1], x), high[c - 1] = fmax(high[c - 1], x), size = fmax(size, fabs(x));
+        }
+    for (size_t c = 1; c < columns && c < 4; c++)
+        if (high[c - 1] - low[c - 1] > 1e-9 * size) return false;
+    return true;
+}
+
+static double largest_drift(const iso_record *r)
+{
+    double largest = 0;
+    for (size_t i = 0; i < iso_record_rows(r); i++)
+        for (size_t c = 1; c < iso_record_columns(r); c++) largest = fmax(largest, iso_record_const_row(r, i)[c]);
+    return largest;
+}
+
+/* The first clock of a record, or -1. */
+static int clock_of(const iso_record *r)
+{
+    static const char *const clocks[] = {"t", "tau", "s"};
+    int column = -1;
+    for (int i = 0; column < 0 && i < 3; i++) column = iso_record_find(r, clocks[i]);
+    return column;
+}
+
+static bool has_pressure(const iso_plot_orbit *plot)
+{
+    return plot->ball && iso_record_find(plot->ball, "pressure") >= 0 && clock_of(plot->ball) >= 0;
+}
+
+static void choose_panels(sheet *s)
+{
+    const iso_plot_orbit *p = s->plot;
+    if (p->space && !s->narrow) s->square[s->squares++] = FROM_ABOVE;
+    if (p->space && !(s->scenery.plane && s->scenery.level)) s->square[s->squares++] = FROM_SIDE;
+    if (s->ball >= 0) s->square[s->squares++] = ON_BALL;
+    if (s->point >= 0) s->square[s->squares++] = ON_POINT;
+    s->noise = p->drift && largest_drift(p->drift) < 1000 * DBL_EPSILON;
+    if (p->energies && !is_constant(p->energies)) s->chart[s->charts++] = ENERGIES;
+    if (has_pressure(p)) s->chart[s->charts++] = PRESSURE;
+    const bool drift = p->drift && !s->noise, odd = s->squares % 2;
+    if (drift && !odd) s->chart[s->charts++] = DRIFT;
+    if (p->clocks) s->chart[s->charts++] = CLOCKS;
+    s->beside = !odd ? 0 : s->charts < 2 ? s->charts : 2;
+    if (drift && odd) s->chart[s->charts++] = DRIFT; /* its key needs room: not beside a square */
+    if (p->ball) s->losses = iso_plot_losses(p->ball, s->lost);
+}
+
+static bool is_view(square which)
+{
+    return which == FROM_ABOVE || which == FROM_SIDE;
+}
+
+/* The height of a row of squares: that of two views can be less. */
+static int row_height(const sheet *s, int first)
+{
+    const bool views = is_view(s->square[first]) && first + 1 < s->squares && is_view(s->square[first + 1]);
+    return views ? SQUARE - (int)(VIEW * (1 - iso_plot_view_shape(&s->scenery))) : SQUARE;
+}
+
+static void choose_height(sheet *s)
+{
+    int rows = 0;
+    for (int i = 0; i < s->squares; i += 2) rows += row_height(s, i);
+    s->height = TITLE + (s->narrow ? WIDE : 0) + rows + (s->charts - s->beside + 1) / 2 * CHART +
+                (s->noise ? LINE : 0) + FOOT;
+}
+
+/* --- where it stands -------------------------------------------------------------------------------------------- */
+
+/* Pixels from the left and from above as parts of the sheet. */
+static iso_plot_box box_of(const sheet *s, int left, int right, int top, int bottom)
+{
+    return (iso_plot_box){(double)left / WIDTH, (double)right / WIDTH, 1 - (double)bottom / s->height,
+                          1 - (double)top / s->height};
+}
+
+/* --- squares ---------------------------------------------------------------------------------------------------- */
+
+static void put_key(const sheet *s, square which, double x, int from_above)
+{
+    char text[512];
+    if (is_view(which)) iso_plot_view_key(&s->scenery, text);
+    iso_plot_key(s->f, x, 1 - (double)from_above / s->height,
+                 is_view(which) ? text
+                                : "NaN w l lw 1.8 lc rgb " ISO_PLOT_BLUE " title 'near side',"
+                                  " NaN w l lw 1.8 lc rgb " ISO_PLOT_FAR_BLUE " title 'far side',"
+                                  " NaN w p " ISO_PLOT_START " lc rgb 'black' title 'start',"
+                                  " NaN w p " ISO_PLOT_END " lc rgb 'black' title 'end'");
+}
+
+static void put_sphere(const sheet *s, const iso_plot_box *box, const iso_record *r, int column, const char *title)
+{
+    fprintf(s->f, "unset grid; unset object; unset xlabel; unset ylabel; set title '%s' offset 0,0\n", title);
+    iso_plot_sphere(s->f, box, r, column, NULL, 0, iso_plot_is_long(r, column));
+}
+
+static void put_square(const sheet *s, square which, int left, int height)
+{
+    const int y = s->y;
+    const iso_plot_box view = box_of(s, left + 75, left + 435, y + 25, y + height - 75);
+    const iso_plot_box sphere = box_of(s, left + 9, left + 441, y + 25, y + height - 40);
+    if (is_view(which))
+        iso_plot_view(s->f, &view, &s->scenery, which == FROM_ABOVE);
+    else if (which == ON_POINT)
+        put_sphere(s, &sphere, s->plot->point, s->point, "point: its place γ");
+    else
+        put_sphere(s, &sphere, s->trace ? s->trace : s->plot->ball, s->ball,
+                   s->trace ? "on the ball: where it touched the support" : "ball: the normal n at the contact");
+}
+
+/* --- charts ----------------------------------------------------------------------------------------------------- */
+
+static void put_energies(const sheet *s, const iso_plot_box *box)
+{
+    static const iso_plot_curve curve[] = {{1, "energy h", "'black'", false},
+                                           {2, "kinetic", ISO_PLOT_BLUE, false},
+                                           {3, "potential", "'#E69F00'", false}};
+    const int count = (int)iso_record_columns(s->plot->energies) - 1;
+    iso_plot_curves(s->f, &(iso_plot_panel){.box = *box,
+                                            .rows = s->plot->energies,
+                                            .count = count < 3 ? count : 3,
+                                            .curve = curve,
+
+                                            .mark = s->lost,
+                                            .marks = s->losses,
+                                            .marked = iso_plot_loss_name(s->plot->ball, s->lost, s->losses)});
+}
+
+/* mu grows without bound where the pressure falls to 0: then its axis ends at about 3 times its usual size. 0: all of
+ * mu is drawn. */
+static double top_of_mu(const iso_record *r, int mu)
+{
+    const size_t rows = iso_record_rows(r);
+    double sum = 0, most = 0;
+    for (size_t i = 0; i < rows; i++) {
+        const double x = iso_record_const_row(r, i)[mu];
+        sum += x / (1 + x), most = fmax(most, x); /* the mean of x/(1+x) stays below 1 */
+    }
+    const double middle = sum / (double)rows, usual = middle / (1 - fmin(middle, 0.9));
+    return most > 5 * usual ? fmax(3 * usual, 2 * iso_record_const_row(r, 0)[mu]) : 0;
+}
+
+static void put_pressure(const sheet *s, const iso_plot_box *box)
+{
+    const iso_record *r = s->plot->ball;
+    const int pressure = iso_record_find(r, "pressure"), mu = iso_record_find(r, "mu");
+    const iso_plot_curve curve[] = {{pressure, "pressure", ISO_PLOT_BLUE, false},
+                                    {mu, "mu (right)", "'#CC79A7'", true}};
+    iso_plot_curves(s->f, &(iso_plot_panel){.box = *box,
+                                            .rows = r,
+                                            .over = clock_of(r),
+                                            .count = mu < 0 ? 1 : 2,
+                                            .curve = curve,
+                                            .top = {0, mu < 0 ? 0 : top_of_mu(r, mu)},
+                                            .mark = s->lost,
+                                            .marks = s->losses,
+                                            .marked = iso_plot_loss_name(s->plot->ball, s->lost, s->losses)});
+}
+
+static void put_clocks(const sheet *s, const iso_plot_box *box)
+{
+    const iso_record *r = s->plot->clocks;
+    const iso_plot_curve curve = {1, NULL, ISO_PLOT_BLUE, false};
+    char title[120];
+    snprintf(title, sizeof title, "the clock %s over the clock %s", iso_plot_symbol(iso_record_name(r, 1)),
+             iso_plot_symbol(iso_record_name(r, 0)));
+    iso_plot_curves(s->f, &(iso_plot_panel){.box = *box, .rows = r, .count = 1, .curve = &curve, .title = title});
+}
+
+/* A chart in this part of the sheet, with its title above and its numbers around it. */
+static void put_chart(const sheet *s, chart which, int left, int right, int top, int height)
+{
+    const iso_plot_box box = box_of(s, left + 75, right - 55, top + 40, top + height - 52);
+    const iso_plot_box beside_key = box_of(s, left + 75, right - 180, top + 40, top + height - 52);
+    if (which == ENERGIES) put_energies(s, &box);
+    if (which == PRESSURE) put_pressure(s, &box);
+    if (which == CLOCKS) put_clocks(s, &box);
+    if (which == DRIFT)
+        iso_plot_differences(s->f, s->plot->drift, 0,
+                             &(iso_plot_chart){beside_key, "relative drift of the integrals", ""});
+}
+
+/* "integrals hold up to rounding; largest relative drift: h 3e-16, ..." */
+static void put_noise(const sheet *s)
+{
+    const iso_record *r = s->plot->drift;
+    char text[400];
+    int used = snprintf(text, sizeof text, "integrals hold up to rounding; largest relative drift: ");
+    for (size_t c = 1; c < iso_record_columns(r); c++) {
+        double largest = 0;
+        for (size_t i = 0; i < iso_record_rows(r); i++) largest = fmax(largest, iso_record_const_row(r, i)[c]);
+        if (used >= 300) continue;
+        used +=
+            snprintf(text + used, sizeof text - (size_t)used, "%s%.31s ", c > 1 ? ",  " : "", iso_record_name(r, c));
+        used += largest > 0 ? snprintf(text + used, sizeof text - (size_t)used, "%.0e", largest)
+                            : snprintf(text + used, sizeof text - (size_t)used, "0");
+    }
+    fputs("unset border; unset tics; unset key; unset label; unset arrow; unset object; unset title; unset grid\n"
+          "unset logscale; unset xlabel; unset ylabel; set xrange [0:1]; set yrange [0:1]; set size noratio\n"
+          "set lmargin at screen 0; set rmargin at screen 1; set tmargin at screen 1; set bmargin at screen 0\n"
+          "set label 1 ",
+          s->f);
+    iso_gnuplot_text(s->f, text, 130);
+    fputs(" at screen 0.5,", s->f);
+    iso_gnuplot_number(s->f, 1 - (s->y + LINE / 2.0) / s->height);
+    fputs(" center noenhanced tc rgb '#404040'\nplot NaN notitle\nunset label\n", s->f);
+}
+
+/* --- the sheet -------------------------------------------------------------------------------------------------- */
+
+static void put_squares(sheet *s)
+{
+    for (int i = 0; i < s->squares; i += 2) {
+        const int height = row_height(s, i);
+        const bool pair = i + 1 < s->squares, alike = pair && is_view(s->square[i]) == is_view(s->square[i + 1]);
+        const int beside = pair ? 0 : s->beside, left = pair || beside ? 0 : WIDTH / 4;
+        put_square(s, s->square[i], left, height);
+        if (pair) put_square(s, s->square[i + 1], WIDTH / 2, height);
+        put_key(s, s->square[i], alike ? 0.5 : (left + WIDTH / 4.0) / WIDTH, s->y + height - 19);
+        if (pair && !alike) put_key(s, s->square[i + 1], 0.75, s->y + height - 19);
+        for (int c = 0; c < beside; c++)
+            put_chart(s, s->chart[c], WIDTH / 2, WIDTH, s->y + c * SQUARE / 2 - (beside == 1 ? 0 : 8),
+                      beside == 1 ? SQUARE - 50 : SQUARE / 2);
+        s->y += height;
+    }
+}
+
+static void put_sheet(sheet *s)
+{
+    s->y = TITLE;
+    if (s->narrow) {
+        const iso_plot_box wide = box_of(s, 75, WIDTH - 35, s->y + 30, s->y + WIDE - 80);
+        iso_plot_view(s->f, &wide, &s->scenery, true);
+        put_key(s, FROM_ABOVE, 0.5, s->y + WIDE - 20);
+        s->y += WIDE;
+    }
+    put_squares(s);
+    for (int used = s->beside; used < s->charts; used += 2, s->y += CHART) {
+        const bool pair = used + 1 < s->charts;
+        put_chart(s, s->chart[used], 0, pair ? WIDTH / 2 : WIDTH, s->y, CHART);
+        if (pair) put_chart(s, s->chart[used + 1], WIDTH / 2, WIDTH, s->y, CHART);
+    }
+    if (s->noise) put_noise(s);
+}
+
+static iso_status look_at(iso_context *ctx, sheet *s)
+{
+    static const char *const normal[] = {"n1", "n2", "n3"}, *const place[] = {"gamma1", "gamma2", "gamma3"};
+    const iso_plot_orbit *plot = s->plot;
+    iso_status status = ISO_OK;
+    if (plot->ball) s->ball = find_path(ctx, plot->ball, normal, &status);
+    if (status == ISO_OK && plot->ball) status = find_trace(ctx, s);
+    if (status == ISO_OK && plot->point) s->point = find_path(ctx, plot->point, place, &status);
+    if (status == ISO_OK && plot->space) status = iso_plot_look_around(ctx, plot->space, &s->scenery);
+    if (status == ISO_OK && s->ball < 0 && s->point < 0 && !plot->space)
+        status = iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "a picture needs the path of the ball or of the point");
+    if (status != ISO_OK) return status;
+    s->narrow = plot->space && iso_plot_is_narrow(&s->scenery);
+    choose_panels(s);
+    choose_height(s);
+    return ISO_OK;
+}
+
+iso_status iso_plot_trajectory(iso_context *ctx, const char *path, const iso_plot_orbit *plot)
+{
+    iso_gnuplot *g = NULL;
+    sheet s = {.plot = plot, .ball = -1, .point = -1};
+    iso_status status = look_at(ctx, &s);
+    if (status == ISO_OK) status = iso_gnuplot_open(ctx, path, WIDTH, s.height, &g);
+    if (status == ISO_OK) {
+        s.f = iso_gnuplot_script(g);
+        fputs("set multiplot\n", s.f);
+        iso_plot_heading(s.f, s.plot->title, 1 - 22.0 / s.height);
+        put_sheet(&s);
+        fputs("unset multiplot\nunset output\n", s.f);
+        status = iso_gnuplot_close(ctx, g, true);
+    }
+    iso_record_free(s.trace);
+    return status;
+}

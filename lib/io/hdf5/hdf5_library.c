@@ -1,0 +1,42 @@
+/* hdf5_library.c - loads the HDF5 library when it is first needed (hdf5_library_impl.h). The table is the library's:
+ * there is one in a process, as there is one HDF5. */
+#define ISO_HDF5_TABLE
+#include "io/hdf5/hdf5_library_impl.h"
+
+#include <dlfcn.h>
+#include <pthread.h>
+#include <string.h>
+
+iso_hdf5_library iso_hdf5;
+
+static pthread_once_t once = PTHREAD_ONCE_INIT;
+static char trouble[256]; /* "": the table is full */
+
+/* Finds the address of a function or a variable of the library. */
+static void find(void *library, const char *name, void *pointer)
+{
+    void *const address = library ? dlsym(library, name) : NULL;
+    memcpy(pointer, &address, sizeof address);
+    if (address || *trouble) return;
+    const char *why = dlerror();
+    strncat(trouble, why ? why : name, sizeof trouble - 1);
+}
+
+static void load(void)
+{
+    void *const library = dlopen(ISO_HDF5_SONAME, RTLD_NOW | RTLD_LOCAL);
+#define FIND(name) find(library, #name, &iso_hdf5.name);
+    ISO_HDF5_NAMES(FIND)
+}
+
+bool iso_hdf5_is_there(void)
+{
+    pthread_once(&once, load);
+    return !*trouble;
+}
+
+iso_status iso_hdf5_load(iso_context *ctx)
+{
+    if (iso_hdf5_is_there()) return ISO_OK;
+    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "no HDF5 library, which files in .h5 need: %s", trouble);
+}

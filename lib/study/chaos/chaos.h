@@ -1,0 +1,137 @@
+/* chaos.h - which orbits of a scene are chaotic: exponents, MEGNO, GALI_2 and a verdict, by each model.
+ *
+ *     iso_chaos *c;
+ *     iso_chaos_options o = iso_chaos_defaults();
+ *     status = iso_chaos_run(ctx, &scene, &o, &c);     c->own.verdict, c->own.told[ISO_BALL].exponent[ISO_CLOCK_T]
+ *     iso_chaos_free(c);
+ *
+ * An orbit is followed from turn to turn, with two deviations beside it (orbit/crossings.h), until the indicators
+ * (indicators.h) decide, or for at most `turns`. The exponent of so short an orbit is rough, and its error is not
+ * known: with `exponent_turns` a chaotic orbit goes on. A turn is a return to the section n_a = 0 (map/section.h), on
+ * every level of the point's energy. If effects beyond a level act that keep the energy, a turn is the time
+ * 2 pi/|k omega|, with omega at the start; in a potential |omega| is not taken less than the orbit's own unit of it.
+ * The deviations have no part along the flow and none along the energy, since these parts tell nothing about chaos.
+ *
+ * A rotation in a principal plane is periodic. So it is regular, even if its neighbours leave it exponentially. It is
+ * not followed.
+ *
+ * With `starts`, more orbits of the scene's energy begin on the section, spread evenly by the area dL dl. The share
+ * of them that is chaotic estimates the chaotic part of the area. Its confidence interval of 95 % comes from the
+ * starts themselves: they are 16 copies of one even sequence, each with a random shift of its own, and the scatter of
+ * the copies tells the error (share_impl.h). An orbit that stays undecided may be either: at the low end of the
+ * interval it counts as not chaotic, at the high end as chaotic. Orbits that were not followed, because they failed
+ * or because the call was stopped, do not count. After a stop the orbits that have made a turn count, so that an
+ * early verdict has no advantage; those without a verdict are undecided.
+ */
+#ifndef ISO_STUDY_CHAOS_H
+#define ISO_STUDY_CHAOS_H
+
+#include <math.h>
+#include <stdint.h>
+
+#include "../../base/api.h"
+#include "../../base/record.h"
+#include "../../orbit/crossings.h"
+#include "../../orbit/scene.h"
+#include "indicators.h"
+
+ISO_C_BEGIN
+
+typedef struct iso_chaos_options {
+    size_t size;           /* set by iso_chaos_defaults; see isoroll.h */
+    long turns;            /* at most, of each orbit; 1 or more                                          */
+    long exponent_turns;   /* an orbit that is chaotic goes on to so many turns, for its exponent; 0: it ends */
+    size_t starts;         /* orbits spread over the section                                             */
+    uint64_t seed;         /* another seed spreads them in another way                                   */
+    const double (*at)[2]; /* (l, x) of further starts, |x| < 1; they are not in the share */
+    size_t at_count;
+    iso_models models;    /* that are integrated; ISO_SHOW_START: both if the ball has a twin           */
+    int axis;            /* of the section, 0 to 2, which must be global; ISO_AXIS_AUTO: the global one */
+    double tolerance;    /* NAN: the scene's                                                           */
+    int threads;         /* 0: as many as there are processors to run on                               */
+    const char *vectors; /* see batch.h                                       */
+    /* Called with the part of the work that is done, in [0, 1]. May be NULL. */
+    void (*progress)(double part, void *data);
+    void *data;
+} iso_chaos_options;
+
+/* 3000 turns of the scene's own orbit. */
+static inline iso_chaos_options iso_chaos_defaults(void)
+{
+    iso_chaos_options o = ISO_ALL_ZERO;
+    o.size = sizeof o;
+    o.turns = 3000;
+    o.models = ISO_SHOW_START;
+    o.axis = ISO_AXIS_AUTO;
+    o.tolerance = NAN;
+    return o;
+}
+
+/* One orbit. told[ISO_BALL], told[ISO_POINT]: what each model has found. A model that was not integrated, or that
+ * failed, has the verdict ISO_UNDECIDED. */
+typedef struct iso_chaos_orbit {
+    double l, x;         /* where it begins on the section; NaN: the scene's own                              */
+    iso_verdict verdict; /* of both models. If one is undecided, the other one's verdict counts. If they disagree,
+                             the orbit is undecided                                                            */
+    bool disagree;       /* one model says regular, the other one says chaotic                                */
+    iso_indication told[2];
+    iso_status status[2]; /* ISO_OK, or why it was not followed to its verdict                                 */
+} iso_chaos_orbit;
+
+/* Counts of the orbits that were spread over the section. */
+typedef struct iso_chaos_fraction {
+    size_t asked, count, failed; /* of `asked` starts, `count` were followed, `failed` failed         */
+    size_t chaotic, regular, undecided,
+        disagree;            /* of those followed; undecided includes those that disagree         */
+    double share, low, high; /* chaotic/count, and the confidence interval of 95 % of the chaotic part, with undecided
+                                ones counted both ways; NaN: no orbit was followed */
+} iso_chaos_fraction;
+
+typedef struct iso_chaos {
+    bool with[2]; /* whether the ball, the point was integrated                           */
+    int axis;     /* of the section n_a = 0; -1: turns are equal steps of time             */
+    double turn;  /* ... of this length in t; NaN: the section's                           */
+    int plane;    /* 0 to 2: the scene's orbit is the rotation about this axis, in a principal plane; it
+                               is periodic, and not followed. -1: it is no such rotation             */
+    const iso_integral
+        *integral;          /* a further integral, which excludes chaos: then no verdict is "chaotic"; NULL: none
+                                     is known, or effects act */
+    iso_chaos_orbit own;    /* the scene's orbit                                                    */
+    size_t starts;          /* other orbits that were followed: spread ones, then given ones */
+    iso_chaos_orbit *start; /* these orbits */
+    iso_chaos_fraction share;
+    /* The indicators of the scene's orbit against the turns: columns turn, t (for a point without a ball: s), growth
+     * (ln D), megno (Y), mean and gali2. At most some thousand rows, evenly spread. NULL: not integrated. */
+    iso_record *trace[2];
+    iso_status failure; /* of the first orbit that failed (0: the scene's; i: start i - 1), with its words */
+    char words[512];
+} iso_chaos;
+
+/* Orbits that fail are counted in the result. The call fails only if no model can follow the scene's own orbit.
+ * options NULL: iso_chaos_defaults().
+ * Errors:
+ * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "turns" (below 1), "exponent_turns" (below 0), "at"
+ *   (outside of the chart);
+ * - ISO_BAD_INPUT: an effect that takes energy or lets the ball roll away (about its name); a ball at rest; `starts`
+ *   or `at` with effects beyond a level (about the effect), since (l, x) does not determine an orbit there; `at`
+ *   where the level closes the circle of l (about "at"), `starts` where it closes all of it; about "axis": orbits
+ *   can stay away from its section;
+ * - those of iso_orbit_create: ISO_NOT_MAPPED if the point is asked for and there is none;
+ * - ISO_STOPPED by the context's monitor: *chaos has what is known by then. */
+ISO_API iso_status iso_chaos_run(iso_context *ctx, const iso_scene *scene, const iso_chaos_options *options,
+                                 iso_chaos **chaos);
+ISO_API void iso_chaos_free(iso_chaos *chaos);
+
+/* The own orbits of many scenes, followed together: as fast as the starts of one scene. options: no starts, no axis.
+ * scene[i] may be NULL. chaos[i], status[i]: what iso_chaos_run gives for scene i, to the bit, but without a trace.
+ * After a failure of scene i, chaos[i]->words says why (chaos[i] may be NULL). The caller frees each chaos[i].
+ * Errors of the call: ISO_NO_MEMORY, ISO_STOPPED, and those of iso_crossings_create: then every chaos[i] is NULL. */
+ISO_API iso_status iso_chaos_run_many(iso_context *ctx, size_t count, const iso_scene *const scene[],
+                                      const iso_chaos_options *options, iso_chaos *chaos[], iso_status status[]);
+
+/* Whether at least one model has followed this orbit for a turn, and none failed before there was a verdict. */
+ISO_API bool iso_chaos_followed(const iso_chaos_orbit *orbit);
+
+ISO_C_END
+
+#endif

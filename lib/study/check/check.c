@@ -1,0 +1,363 @@
+/* Does a trajectory solve its model? See check.h. This file takes the rows one after the other, in constant memory,
+ * and puts the residuals together. check_impl.h says which files look at what. */
+#include "study/check/check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/vec3_impl.h"
+#include "map/state.h"
+#include "study/check/check_impl.h"
+
+/* --- what the others ask ---------------------------------------------------------------------------------------- */
+
+/* The residual of a name; it is made if it is new. NULL: there are too many. */
+static iso_residual *find_residual(iso_residuals *r, const char *name, const char *what)
+{
+    int i = 0;
+    while (i < r->count && strcmp(r->residual[i].name, name) != 0) i++;
+    if (i == ISO_MAX_RESIDUALS) return NULL;
+    iso_residual *at = &r->residual[i];
+    if (i < r->count) return at;
+    r->count++;
+    *at = (iso_residual){.what = what};
+    snprintf(at->name, sizeof at->name, "%s", name);
+    return at;
+}
+
+void iso_checker_note(iso_residuals *found, const char *name, const char *what, double value, size_t row)
+{
+    iso_residual *at = find_residual(found, name, what);
+    if (!at || (!(fabs(value) > at->worst) && !isnan(value))) return;
+    at->worst = isnan(value) ? INFINITY : fabs(value);
+    at->row = row;
+}
+
+void iso_checker_state(const checker *c, const checked_model *m, const double row[], double y[ISO_STATE])
+{
+    for (int i = 0; i < ISO_STATE; i++) y[i] = iso_checker_at(c, row, m->first + i);
+}
+
+void iso_checker_sample(const checker *c, const double row[], iso_sample *sample)
+{
+    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
+        iso_sample_set_column(sample, i, c->columns[i] < 0 ? NAN : row[c->columns[i]]);
+}
+
+iso_effects iso_checker_effects(const checker *c, iso_model_kind kind)
+{
+    if (kind == ISO_BALL) return c->effects;
+    iso_effects effects = iso_effects_acting(&c->effects);
+    if (iso_record_get(c->record, "eps") || iso_record_get(c->record, "h"))
+        iso_effects_set_level(&effects, iso_effects_have_level(&effects), NAN);
+    return effects;
+}
+
+double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE])
+{
+    double d[ISO_STATE];
+    const double size = fmax(largest(a), largest(b));
+    for (int i = 0; i < 3; i++) {
+        d[i] = size > 0 ? a[i] / size - b[i] / size : 0;
+        d[3 + i] = a[3 + i] - b[3 + i];
+    }
+    return fmax(norm(d), norm(d + 3));
+}
+
+/* --- beginning -------------------------------------------------------------------------------------------------- */
+
+static bool has_model(const checker *c, int first)
+{
+    for (int i = 0; i < ISO_STATE; i++)
+        if (c->columns[first + i] < 0) return false;
+    return true;
+}
+
+/* The clock to follow: the model's own if the record has it, else the first one there; -1: the record has none. */
+static int clock_to_follow(const checker *c, const iso_system *system)
+{
+    if (c->columns[system->clock] >= 0) return (int)system->clock;
+    for (int k = 0; k < ISO_CLOCKS; k++)
+        if (c->columns[k] >= 0) return k;
+    return -1;
+}
+
+static iso_status find_model(checker *c, iso_model_kind kind)
+{
+    checked_model *m = &c->model[kind];
+    iso_status status = ISO_OK;
+    m->kind = kind;
+    m->system = kind == ISO_BALL ? &iso_system_ball : &iso_system_point;
+    m->first = kind == ISO_BALL ? ISO_COLUMN_BALL : ISO_COLUMN_POINT;
+    m->there = has_model(c, m->first);
+    m->clock = clock_to_follow(c, m->system);
+    m->has_eps = m->there && kind == ISO_POINT && iso_record_coupling(c->ctx, c->record, c->params, &m->eps, &status);
+    return status;
+}
+
+iso_status iso_checker_begin(checker *c)
+{
+    for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
+        c->columns[i] = i < iso_columns_count() ? iso_record_find(c->record, iso_column_name(i)) : -1;
+    c->width = iso_record_columns(c->record);
+    iso_status status = iso_record_effects(c->ctx, c->record, &c->effects);
+    if (status != ISO_OK) return status;
+    c->stated = c->effects;
+    iso_checker_choose_observers(c);
+    for (int k = 0; status == ISO_OK && k < 2; k++) status = find_model(c, (iso_model_kind)k);
+    if (status != ISO_OK || c->model[0].there || c->model[1].there) return status;
+    return iso_context_fail(c->ctx, ISO_BAD_INPUT, "columns",
+                            "the trajectory has neither a ball's six columns "
+                            "(omega1 ... n3) nor a point's (M1 ... gamma3)");
+}
+
+/* --- rows ------------------------------------------------------------------------------------------------------- */
+
+static iso_status measure_clocks(checker *c, const double row[])
+{
+    for (int k = 0; k < ISO_CLOCKS; k++) {
+        if (c->columns[k] < 0) continue;
+        const double time = iso_checker_at(c, row, k);
+        if (!isfinite(time))
+            return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "row %zu: %s is not finite", c->number,
+                                    iso_clock_name((iso_clock)k));
+        c->span[k] = fmax(c->span[k], fabs(time));
+    }
+    return ISO_OK;
+}
+
+/* A row as a start. Where nothing turns with the ball it is enough to look at the six numbers. */
+static iso_status find_start(const checker *c, const checked_model *m, const double row[], iso_start *start,
+                             iso_effects *effects)
+{
+    double y[ISO_STATE];
+    iso_checker_state(c, m, row, y);
+    const iso_status status = m->quadrature
+                                  ? iso_start_from_row(c->ctx, m->kind, y, m->has_eps ? &m->eps : NULL, false,
+                                                       iso_record_row_tolerance(c->record), start)
+                                  : iso_record_start_at(c->ctx, c->record, c->params, m->kind, row, start, effects);
+    if (status == ISO_OK) return ISO_OK;
+    return iso_context_fail(c->ctx, status, "", "row %zu: %s", c->number, iso_context_message(c->ctx));
+}
+
+static iso_status open_first(checker *c, checked_model *m, const double row[])
+{
+    iso_start start;
+    iso_effects effects = iso_checker_effects(c, m->kind);
+    iso_status status = find_start(c, m, row, &start, &effects);
+    if (status != ISO_OK) return status;
+    for (int e = 0; e < ISO_EFFECTS; e++) c->effects.idle[e] = c->effects.idle[e] || effects.idle[e];
+    iso_orbit_options o = iso_orbit_defaults(&start);
+    o.effects = &effects;
+    return iso_orbit_create(c->ctx, c->params, &start, &o, &m->orbit);
+}
+
+static void forget_flow(checked_model *m)
+{
+    iso_two_point_free(m->quadrature);
+    iso_orbit_free(m->way);
+    m->quadrature = NULL;
+    m->way = NULL;
+}
+
+/* What only the first row of an orbit is asked. */
+static iso_status begin_model(checker *c, checked_model *m, const double row[])
+{
+    for (int i = 0; i < ISO_STATE; i++) c->looked[m->first + i] = true;
+    forget_flow(m);
+    const iso_status status = iso_checker_energy(c, m, row);
+    return status == ISO_OK ? iso_checker_flow_begin(c, m, row) : status;
+}
+
+static iso_status check_model(checker *c, checked_model *m, const double row[])
+{
+    iso_start start;
+    iso_effects effects = iso_checker_effects(c, m->kind);
+    iso_status status = m->orbit ? find_start(c, m, row, &start, &effects) : open_first(c, m, row);
+    if (status != ISO_OK) return status;
+    if (c->begins) iso_checker_expect(c, m, row);
+    iso_checker_integrals(c, m, row);
+    if (m->kind == ISO_BALL) iso_checker_beginning(c, m, row);
+    return c->begins ? begin_model(c, m, row) : iso_checker_flow(c, m, row);
+}
+
+static void check_map(checker *c, const double row[])
+{
+    double ball[ISO_STATE], point[ISO_STATE];
+    iso_checker_state(c, &c->model[ISO_BALL], row, ball);
+    iso_checker_state(c, &c->model[ISO_POINT], row, point);
+    iso_ball_to_point(&c->units.own, ball, ball);
+    scale(ball, iso_unit(&c->units, iso_system_point.fast_dimension));
+    iso_checker_note(&c->map, "map", "the ball's point (18) against the record's", iso_checker_distance(ball, point),
+                     c->number);
+}
+
+iso_status iso_checking_put(iso_checking *checking, const double row[])
+{
+    ISO_DEFAULT_ARITHMETIC;
+    checker *c = &checking->all;
+    c->before = c->number;
+    c->number = ++c->rows + c->passed;
+    iso_status status = measure_clocks(c, row);
+    for (int k = 0; k < 2; k++)
+        if (status == ISO_OK && c->model[k].there) status = check_model(c, &c->model[k], row);
+    if (status != ISO_OK) return status;
+    if (c->model[0].there && c->model[1].there) check_map(c, row);
+    if (c->rows <= 2) memcpy(c->rows == 1 ? c->first : c->second, row, c->width * sizeof *row);
+    memcpy(c->last, row, c->width * sizeof *row);
+    c->begins = false;
+    return ISO_OK;
+}
+
+void iso_checking_begin_orbit(iso_checking *checking)
+{
+    checking->all.begins = true;
+}
+
+void iso_checking_pass(iso_checking *checking)
+{
+    checking->all.passed++;
+}
+
+/* --- the answer ------------------------------------------------------------------------------------------------- */
+
+/* The steps of a clock are measured by its whole length. */
+static double size_of(const checker *c, const iso_residual *r)
+{
+    for (int k = 0; k < ISO_CLOCKS; k++)
+        if (strncmp(r->name, "clock ", 6) == 0 && strcmp(r->name + 6, iso_clock_name((iso_clock)k)) == 0)
+            return c->span[k];
+    return 1;
+}
+
+static void add(const checker *c, const iso_residuals *found, iso_residuals *all)
+{
+    for (int i = 0; i < found->count; i++) {
+        const iso_residual *r = &found->residual[i];
+        const double size = size_of(c, r);
+        iso_residual *to = find_residual(all, r->name, r->what);
+        if (to && size > 0 && r->worst / size > to->worst) to->worst = r->worst / size, to->row = r->row;
+    }
+}
+
+iso_status iso_checking_end(iso_checking *checking, iso_residuals *residuals)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    const checker *c = &checking->all;
+    *residuals = (iso_residuals){.rows = c->rows + c->passed, .passed = c->passed};
+    if (c->rows == 0)
+        return iso_context_fail(c->ctx, ISO_BAD_INPUT, "",
+                                c->passed ? "all rows of the trajectory are nan" : "the trajectory has no rows");
+    for (int k = 0; k < 2; k++) add(c, &c->model[k].found, residuals);
+    add(c, &c->map, residuals);
+    return ISO_OK;
+}
+
+void iso_checking_free(iso_checking *checking)
+{
+    if (!checking) return;
+    for (int k = 0; k < 2; k++) {
+        forget_flow(&checking->all.model[k]);
+        iso_orbit_free(checking->all.model[k].orbit);
+    }
+    free(checking->all.last);
+    free(checking);
+}
+
+iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const iso_record *header, double tolerance,
+                               iso_checking **checking)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_checking *made = *checking = calloc(1, sizeof *made);
+    if (!made) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
+    made->all = (checker){.ctx = ctx, .params = params, .record = header, .tolerance = tolerance, .begins = true};
+    made->all.last = calloc(3 * iso_record_columns(header) + 1, sizeof *made->all.last);
+    made->all.first = made->all.last ? made->all.last + iso_record_columns(header) : NULL;
+    made->all.second = made->all.first ? made->all.first + iso_record_columns(header) : NULL;
+    iso_units_choose(params, 0, &made->all.units);
+    const iso_status status = made->all.last ? iso_checker_begin(&made->all)
+                                             : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
+    if (status == ISO_OK) return ISO_OK;
+    iso_checking_free(made);
+    *checking = NULL;
+    return status;
+}
+
+/* --- whole records ---------------------------------------------------------------------------------------------- */
+
+iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,
+                     iso_residuals *residuals)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_checking *c;
+    *residuals = (iso_residuals){.rows = 0};
+    iso_status status = iso_checking_create(ctx, params, record, tolerance, &c);
+    if (status != ISO_OK) return status;
+    const int orbit = iso_record_find(record, "orbit");
+    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(record); row++) {
+        const double *x = iso_record_const_row(record, row);
+        if (orbit >= 0 && row > 0 && x[orbit] != iso_record_const_row(record, row - 1)[orbit])
+            iso_checking_begin_orbit(c);
+        status = iso_checking_put(c, x);
+    }
+    if (status == ISO_OK) status = iso_checking_end(c, residuals);
+    iso_checking_free(c);
+    return status;
+}
+
+/* --- drifts over time ------------------------------------------------------------------------------------------- */
+
+static iso_status record_drifts(checker *c, const checked_model *m, const iso_record *rows, iso_record **drifts)
+{
+    const expectations *e = &m->expect;
+    const char *names[1 + ISO_MAX_INTEGRALS] = {m->clock < 0 ? "row" : iso_clock_name((iso_clock)m->clock)};
+    double own[ISO_MAX_STATE], *to;
+    for (int i = 0; i < e->count; i++) names[1 + i] = e->integral[i]->name;
+    iso_status status = iso_record_create(c->ctx, (size_t)(1 + e->count), names, drifts);
+    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(rows); row++) {
+        const double *x = iso_record_const_row(rows, row);
+        status = iso_record_append(c->ctx, *drifts, &to);
+        if (status != ISO_OK) break;
+        to[0] = m->clock < 0 ? (double)row + 1 : iso_checker_at(c, x, m->clock);
+        iso_checker_own(c, e, x, own);
+        for (int i = 0; i < e->count; i++) to[1 + i] = fabs(iso_checker_drift(e, i, own));
+    }
+    return status;
+}
+
+/* Every row must be a state; the first one says what to expect. */
+static iso_status look_at_rows(checker *c, checked_model *m, const iso_record *rows)
+{
+    iso_start start;
+    iso_status status = ISO_OK;
+    if (iso_record_rows(rows) == 0) return iso_context_fail(c->ctx, ISO_BAD_INPUT, "", "the trajectory has no rows");
+    for (size_t row = 0; status == ISO_OK && row < iso_record_rows(rows); row++) {
+        iso_effects effects = iso_checker_effects(c, m->kind);
+        c->number = row + 1;
+        status = measure_clocks(c, iso_record_const_row(rows, row));
+        if (status == ISO_OK) status = find_start(c, m, iso_record_const_row(rows, row), &start, &effects);
+    }
+    c->number = 1;
+    if (status == ISO_OK) status = open_first(c, m, iso_record_const_row(rows, 0));
+    if (status == ISO_OK) iso_checker_expect(c, m, iso_record_const_row(rows, 0));
+    return status;
+}
+
+iso_status iso_check_drifts(iso_context *ctx, const iso_params *params, const iso_record *record, iso_record **drifts)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_checking *checking;
+    *drifts = NULL;
+    iso_status status = iso_checking_create(ctx, params, record, 1e-12, &checking);
+    if (status != ISO_OK) return status;
+    checker *c = &checking->all;
+    checked_model *m = &c->model[c->model[ISO_BALL].there ? ISO_BALL : ISO_POINT];
+    status = look_at_rows(c, m, record);
+    if (status == ISO_OK) status = record_drifts(c, m, record, drifts);
+    iso_checking_free(checking);
+    if (status != ISO_OK) iso_record_free(*drifts), *drifts = NULL;
+    return status;
+}

@@ -1,0 +1,135 @@
+/* check_effects.c - the columns of effects: each row integrated to the next, and compared (check_impl.h). */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "study/check/check_impl.h"
+
+/* The first column of a group of an effect, in a trajectory; NULL: that of the first group that moves. -1: none. */
+static int column_of(iso_effect_id id, const char *name)
+{
+    int column = ISO_COLUMN_EFFECTS + iso_effect_first_column(id);
+    for (const iso_effect_column *g = iso_effect_list[id]->columns; g && g->name; column += g->count, g++)
+        if (name ? strcmp(g->name, name) == 0 : g->moves) return column;
+    return -1;
+}
+
+/* Groups that are side by side and have one name in the report: `count` columns from `first` on. */
+typedef struct checked {
+    const iso_effect_column *group;
+    iso_effect_id effect;
+    int first, count;
+} checked;
+
+/* The size of the group that errors are measured by as well, which the radius carries into the units of this one:
+ * forces times it are torques. */
+static double other_size(const checker *c, const checked *k, const iso_sample *flow)
+{
+    const double radius = c->params->body.radius > 0 ? c->params->body.radius : 1;
+    double size = 0;
+    if (!k->group->sized_by) return 0;
+    int first = ISO_COLUMN_EFFECTS + iso_effect_first_column(k->effect);
+    for (const iso_effect_column *g = iso_effect_list[k->effect]->columns; g->name; first += g->count, g++)
+        for (int i = 0; strcmp(g->name, k->group->sized_by) == 0 && i < g->count; i++)
+            size = fmax(size, fabs(iso_sample_column(flow, first + i)) * pow(radius, k->group->length - g->length));
+    return size;
+}
+
+/* What is compared: the number, or the angle of a ratio. */
+static double measured(const checked *k, double number)
+{
+    return k->group->ratio ? atan(number) : number;
+}
+
+static void check_columns(checker *c, iso_residuals *found, const checked *k, const iso_sample *flow,
+                          const double row[])
+{
+    bool any = false;
+    double error = 0, size = k->group->ratio ? 1 : other_size(c, k, flow);
+    char name[sizeof found->residual[0].name];
+    for (int i = k->first; i < k->first + k->count; i++) {
+        const double expected = measured(k, iso_sample_column(flow, i));
+        if (isnan(expected) || c->columns[i] < 0) continue;
+        const double there = measured(k, iso_checker_at(c, row, i));
+        any = c->looked[i] = true;
+        error = fmax(error, fabs(expected - there));
+        size = fmax(size, fmax(fabs(expected), fabs(there)));
+    }
+    snprintf(name, sizeof name, "%s flow", k->group->checked_as);
+    if (any && size > 0)
+        iso_checker_note(found, name, "effects' columns, each row integrated to the next", error / size, c->number);
+}
+
+static bool same_report(const iso_effect_column *a, const iso_effect_column *b)
+{
+    return b->name && a->checked_as && b->checked_as && strcmp(a->checked_as, b->checked_as) == 0;
+}
+
+void iso_checker_effects_flow(checker *c, iso_residuals *found, const iso_sample *flow, const double row[])
+{
+    int first = ISO_COLUMN_EFFECTS;
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; g++) {
+            checked k = {.group = g, .effect = e, .first = first, .count = g->count};
+            for (; same_report(g, g + 1); g++) k.count += g[1].count;
+            if (g->checked_as) check_columns(c, found, &k, flow, row);
+            first += k.count;
+        }
+}
+
+void iso_checker_go_on(const checker *c, const double row[], iso_sample *flow)
+{
+    int column = ISO_COLUMN_EFFECTS;
+    for (iso_effect_id e = 0; c->params->k == 1 && e < ISO_EFFECTS; e++)
+        for (const iso_effect_column *g = iso_effect_list[e]->columns; g && g->name; column += g->count, g++)
+            for (int i = 0; g->moves && i < g->count; i++) {
+                const int from = c->columns[column_of(e, NULL) + i]; /* the centre lacks only its height b n */
+                const double there = iso_sample_column(flow, column + i);
+                iso_sample_set_column(flow, column + i, from < 0 ? NAN : there + row[from]);
+            }
+}
+
+bool iso_checker_has_effects(const checker *c)
+{
+    for (int i = ISO_COLUMN_EFFECTS; i < ISO_TRAJECTORY_COLUMNS; i++)
+        if (c->columns[i] >= 0) return true;
+    return false;
+}
+
+bool iso_checker_has_group(const checker *c, iso_effect_id id, const char *name)
+{
+    const iso_effect_column *g = iso_effect_list[id]->columns;
+    while (name ? strcmp(g->name, name) != 0 : !g->moves) g++;
+    for (int i = 0; i < g->count; i++)
+        if (c->columns[column_of(id, name) + i] < 0) return false;
+    return true;
+}
+
+/* Whether the record has what an effect that acts on nothing begins with: the numbers that turn with the ball, and
+ * on a plane the displacement, without which the height is not known. */
+static bool has_beginning(const checker *c, iso_effect_id id)
+{
+    bool has = c->params->k != 1 || column_of(id, NULL) < 0 || iso_checker_has_group(c, id, NULL);
+    for (const iso_effect_number *n = iso_effect_list[id]->numbers; n && n->name; n++)
+        if (n->turns_with) has = has && iso_checker_has_group(c, id, n->turns_with);
+    return has;
+}
+
+/* Whether an effect that acts on nothing can be asked for because its columns are there: no line has to state a
+ * number. */
+static bool is_shown(const checker *c, iso_effect_id id)
+{
+    const iso_effect *effect = iso_effect_list[id];
+    bool stated = false, there = false;
+    for (const iso_effect_number *n = effect->numbers; n && n->name; n++) stated = stated || !n->scene_only;
+    for (int i = iso_effect_first_column(id); i < iso_effect_first_column((iso_effect_id)(id + 1)); i++)
+        there = there || c->columns[ISO_COLUMN_EFFECTS + i] >= 0;
+    return there && !stated && (!effect->needs_D || c->params->D > 0);
+}
+
+void iso_checker_choose_observers(checker *c)
+{
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++)
+        if (iso_effect_list[e]->observes)
+            c->effects.on[e] = (c->effects.on[e] && has_beginning(c, e)) || is_shown(c, e);
+}

@@ -1,0 +1,150 @@
+/* check_impl.h - what a check is made of. check.c is above the others, but check_unseen.c is above check.c. Of the
+ * others, check_flow.c calls check_effects.c. All call the notes of check.c.
+ *
+ *     check_unseen.c      which numbers no residual depends on
+ *     check.c             rows come in, residuals go out
+ *     check_integrals.c   constraints and integrals at each row
+ *     check_lines.c       what lines state of the energy and of the start, against a row
+ *     check_flow.c        from each row to the next: state and clocks
+ *     check_effects.c     the same for the columns of effects
+ */
+#ifndef ISO_STUDY_CHECK_IMPL_H
+#define ISO_STUDY_CHECK_IMPL_H
+
+#include "method/two_point.h"
+#include "orbit/description.h"
+#include "orbit/orbit_impl.h"
+#include "study/check/check.h"
+
+typedef struct checker checker;
+
+/* The integrals that hold for a model, and the value each should have. */
+typedef struct expectations {
+    const iso_system *system;
+    const iso_orbit *first;
+    iso_problem problem; /* with which integrals are computed */
+    int count;
+    const iso_integral *integral[ISO_MAX_INTEGRALS];
+    double value[ISO_MAX_INTEGRALS];
+    bool on_level; /* a point: its H is known, and is ... */
+    double level;
+} expectations;
+
+/* One of the two models, as the rows have it. */
+typedef struct checked_model {
+    iso_model_kind kind;
+    bool there;
+    const iso_system *system;
+    int first;    /* its first column, in a trajectory           */
+    int clock;    /* that is followed; -1: the record has none   */
+    bool has_eps; /* the lines state eps, for a point            */
+    double eps;
+    iso_orbit *orbit; /* of the first row */
+    expectations expect;
+    /* quadrature from row to row; NULL: each row is integrated */
+    iso_orbit *way;
+    iso_two_point *quadrature;
+    double seen, seen_clock[ISO_CLOCKS]; /* the largest it found, of the intervals that were integrated */
+    bool followed;                       /* an interval was integrated: the first one always is          */
+    iso_residuals found;
+} checked_model;
+
+struct checker {
+    iso_context *ctx;
+    const iso_params *params;
+    const iso_record *record;    /* its names, lines and row tolerance; no rows */
+    iso_effects stated, effects; /* by the lines; of these, what can be checked */
+    double tolerance;
+    int columns[ISO_TRAJECTORY_COLUMNS]; /* of the record, -1: not there           */
+    bool looked[ISO_TRAJECTORY_COLUMNS]; /* the column was compared with something */
+    size_t width;                        /* of a row                               */
+    size_t rows, passed, number,
+        before;              /* rows so far; passed over; the number of the row in hand, and of the last */
+    bool begins;             /* the row in hand is the first of its orbit */
+    double *last;            /* the last row                           */
+    double *first, *second;  /* the first two                          */
+    double span[ISO_CLOCKS]; /* largest |clock| so far                 */
+    iso_units units;         /* for the map                            */
+    checked_model model[2];
+    iso_residuals map;
+};
+
+struct iso_checking {
+    checker all;
+};
+
+/* --- check.c ---------------------------------------------------------------------------------------------------- */
+
+/* Reads the names and lines of the record, chooses effects, finds the models. Errors: those of iso_check. */
+iso_status iso_checker_begin(checker *c);
+
+/* Notes a value of the residual `name`, and makes the residual at its first value. A NaN counts as infinite. */
+void iso_checker_note(iso_residuals *found, const char *name, const char *what, double value, size_t row);
+
+/* A number of the row in the column of a trajectory. */
+static inline double iso_checker_at(const checker *c, const double row[], int column)
+{
+    return row[c->columns[column]];
+}
+
+void iso_checker_state(const checker *c, const checked_model *m, const double row[], double y[ISO_STATE]);
+
+/* The columns of the row as a sample; NaN for columns that are missing. */
+void iso_checker_sample(const checker *c, const double row[], iso_sample *sample);
+
+/* The effects of a model's orbit. A point shows nothing that belongs to the ball alone, and its level follows from
+ * each row if eps is known. */
+iso_effects iso_checker_effects(const checker *c, iso_model_kind kind);
+
+double iso_checker_distance(const double a[ISO_STATE], const double b[ISO_STATE]);
+
+/* --- check_integrals.c ------------------------------------------------------------------------------------------ */
+
+/* The first row of an orbit gives the values. */
+void iso_checker_expect(const checker *c, checked_model *m, const double first[]);
+
+void iso_checker_integrals(const checker *c, checked_model *m, const double row[]);
+
+/* The integral less its expected value, relative to the size of its terms, at a state of iso_checker_own. */
+double iso_checker_drift(const expectations *e, int i, const double own[]);
+void iso_checker_own(const checker *c, const expectations *e, const double row[], double own[ISO_MAX_STATE]);
+
+/* --- check_lines.c ---------------------------------------------------------------------------------------------- */
+
+/* The energy that lines state (h, eps, the level's c), against the first row of a model. Errors: ISO_BAD_INPUT about a
+ * line. */
+iso_status iso_checker_energy(checker *c, checked_model *m, const double first[]);
+
+/* The numbers of lines that turn with the ball, such as `# gravity.up`, against the columns of a row at time 0. */
+void iso_checker_beginning(checker *c, checked_model *ball, const double row[]);
+
+/* --- check_flow.c ----------------------------------------------------------------------------------------------- */
+
+/* The orbit of a row. The record's other clocks are computed, too, where the orbit has them: a point with H not 0 has
+ * no free ball and no time t. */
+iso_status iso_checker_open(const checker *c, const checked_model *m, const double row[], iso_orbit **orbit);
+
+/* At the first row. Errors: ISO_NO_MEMORY. */
+iso_status iso_checker_flow_begin(checker *c, checked_model *m, const double first[]);
+
+/* From the last row to this one. Errors: those of iso_check. */
+iso_status iso_checker_flow(checker *c, checked_model *m, const double row[]);
+
+/* --- check_effects.c -------------------------------------------------------------------------------------------- */
+
+/* Of the effects of the lines, and of those whose columns are there, keeps the observers that can be checked. */
+void iso_checker_choose_observers(checker *c);
+
+/* Whether any column of an effect is checked. */
+bool iso_checker_has_effects(const checker *c);
+
+/* Whether the record has all columns of a group of an effect; name NULL: of the first group that moves. */
+bool iso_checker_has_group(const checker *c, iso_effect_id id, const char *name);
+
+/* What moves along a plane goes on from the row in which the flow began. */
+void iso_checker_go_on(const checker *c, const double row[], iso_sample *flow);
+
+/* Compares the columns of effects in a row with the flow from the last row, relative to the group's largest. */
+void iso_checker_effects_flow(checker *c, iso_residuals *found, const iso_sample *flow, const double row[]);
+
+#endif

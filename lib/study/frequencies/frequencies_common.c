@@ -1,0 +1,121 @@
+/* frequencies_common.c - what the closed and the estimated frequencies share: the check of the options, the orbit at
+ * its start, where the motion lies in its family, and what follows from two frequencies (rotation number,
+ * resonances). */
+#include <math.h>
+
+#include "orbit/orbit_impl.h"
+#include "study/frequencies/frequencies_impl.h"
+
+iso_status iso_frequencies_check(iso_context *ctx, const iso_frequencies_options *o)
+{
+    if (o->samples > ISO_MOST_SAMPLES)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "samples", "an estimate takes %d samples at most",
+                                ISO_MOST_SAMPLES);
+    if (!(o->turns <= 0) && !(o->end <= 0) && !(o->samples <= 0)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "turns, the end and samples are numbers > 0");
+}
+
+void iso_frequencies_blank(iso_frequencies *f)
+{
+    *f = (iso_frequencies){
+        .kind = ISO_EXACT_KINDS, .h = NAN, .eps = NAN, .H = NAN, .F = NAN, .c = NAN, .rotation = NAN};
+    for (int c = 0; c < ISO_CLOCKS; c++) f->closed[c] = NAN;
+    for (int i = 0; i < 2; i++) {
+        iso_angle *a = &f->angle[i];
+        a->drift = a->action = NAN;
+        for (int c = 0; c < ISO_CLOCKS; c++) a->frequency[c] = a->period[c] = a->error[c] = NAN;
+    }
+    f->estimate.axis = -1;
+}
+
+/* --- rotation number and resonances ----------------------------------------------------------------------------- */
+
+/* A fraction q/p near the rotation number. Frequencies from the closed solution are known to rounding. */
+static iso_resonance resonance_of(const iso_frequencies *f, int p, int q)
+{
+    iso_resonance r = {.p = p, .q = q, .gap = INFINITY, .met = true};
+    for (int c = 0; c < ISO_CLOCKS; c++) {
+        const double one = p * f->angle[0].frequency[c], other = q * f->angle[1].frequency[c],
+                     gap = fabs(one - other);
+        const double errors = p * f->angle[0].error[c] + q * f->angle[1].error[c];
+        const bool met = gap <= 1e-14 * one + (f->estimated ? errors : 0);
+        r.beat[c] = isnan(gap) ? NAN : met ? INFINITY : 2 * ISO_PI / gap;
+        if (isnan(gap)) continue;
+        r.gap = fmin(r.gap, gap / one);
+        r.met = r.met && met;
+    }
+    return r;
+}
+
+/* The convergents of the rotation number's continued fraction. */
+static void find_resonances(iso_frequencies *f)
+{
+    double rest = f->rotation;
+    int q = 1, p = 0, q_before = 0, p_before = 1; /* q/p, from 1/0 and 0/1 */
+    while (f->resonances < ISO_MAX_RESONANCES && rest < 1e3) {
+        const int whole = (int)floor(rest), q_next = whole * q + q_before, p_next = whole * p + p_before;
+        if (q_next > 100 || p_next > 100) return;
+        q_before = q, p_before = p, q = q_next, p = p_next;
+        if (q > 0) f->resonance[f->resonances++] = resonance_of(f, p, q);
+        if (f->resonances > 0 && f->resonance[f->resonances - 1].met) return;
+        rest = 1 / (rest - whole);
+    }
+}
+
+/* An orbit is closed if it has one angle, or if a resonance is met exactly, which an estimate cannot decide. */
+static void find_closed(iso_frequencies *f)
+{
+    const iso_resonance *last = f->resonances > 0 ? &f->resonance[f->resonances - 1] : NULL;
+    const double turns = f->angles == 1 ? 1 : last && last->met ? last->q * 1.0 : (double)NAN;
+    for (int c = 0; c < ISO_CLOCKS && !f->estimated; c++) f->closed[c] = turns * f->angle[0].period[c];
+}
+
+/* Whether two frequencies explain most of the motion. */
+static bool is_steady(const iso_frequencies *f)
+{
+    static const double MOST_UNEXPLAINED = 0.5;
+    return !f->estimated || (f->estimate.verdict != ISO_CHAOTIC && !(f->estimate.unexplained > MOST_UNEXPLAINED));
+}
+
+void iso_frequencies_finish(iso_frequencies *f)
+{
+    for (int i = 0; i < f->angles; i++)
+        for (int c = 0; c < ISO_CLOCKS; c++) f->angle[i].period[c] = 2 * ISO_PI / f->angle[i].frequency[c];
+    if (f->angles == 2 && is_steady(f)) {
+        f->rotation = f->angle[0].frequency[ISO_CLOCK_T] / f->angle[1].frequency[ISO_CLOCK_T];
+        find_resonances(f);
+    }
+    find_closed(f);
+}
+
+/* --- where the motion lies in its family --------------------------------------------------------------------- */
+
+void iso_frequencies_place(const iso_orbit *orbit, const iso_sample *start, iso_frequencies *f)
+{
+    double size;
+    f->h = iso_orbit_energy(orbit);
+    f->eps = iso_orbit_has_twin(orbit) ? iso_orbit_coupling(orbit) : NAN;
+    if (iso_orbit_has_twin(orbit)) { /* then the model is the point's, and its level is H */
+        const iso_dimension M = iso_system_point.fast_dimension;
+        f->H = iso_orbit_model(orbit)->problem.energy *
+               iso_unit(iso_orbit_units(orbit), (iso_dimension){2 * M.J, 2 * M.J_2k, 2 * M.w});
+    }
+    f->integral = iso_orbit_additional_integral(orbit);
+    if (!f->integral) return;
+    f->F = iso_orbit_integral(orbit, &iso_system_ball, f->integral, start, &size);
+    f->F *= iso_unit(iso_orbit_units(orbit), f->integral->dimension);
+}
+
+iso_status iso_frequencies_open(iso_context *ctx, const iso_scene *scene, const iso_effects *effects,
+                                iso_orbit **orbit, iso_sample *sample)
+{
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    const bool twin = !iso_effects_breaking(effects);
+    *orbit = NULL;
+    o.effects = effects;
+    o.backend = twin ? ISO_BACKEND_POINT : ISO_BACKEND_BALL;
+    o.shown = twin ? ISO_SHOW_BOTH : ISO_SHOW_BALL;
+    iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, orbit);
+    if (status == ISO_OK) status = iso_orbit_at(*orbit, 0, sample);
+    return status;
+}

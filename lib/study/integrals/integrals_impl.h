@@ -1,0 +1,67 @@
+/* integrals_impl.h - what the parts of the search for first integrals share: samples, terms, one part of a space. */
+#ifndef ISO_STUDY_INTEGRALS_IMPL_H
+#define ISO_STUDY_INTEGRALS_IMPL_H
+
+#include "map/section.h"
+#include "study/integrals/integrals.h"
+
+enum { INTEGRAL_POWERS = ISO_INTEGRAL_DEGREE + 1, INTEGRAL_PARITIES = 8 };
+
+/* M^a gamma^b */
+typedef struct integral_term {
+    unsigned char exponent[ISO_STATE];
+} integral_term;
+
+/* The states at which functions are looked at: ISO_INTEGRAL_ROWS rows for each orbit. */
+typedef struct integral_samples {
+    iso_problem problem; /* the point on its level, in units with which |M| <= 1       */
+    int axis;            /* of the section on which orbits start                       */
+    iso_section_spread spread;
+    size_t orbits, rows;
+    double (*state)[ISO_STATE]; /* M, gamma */
+} integral_samples;
+
+/* A function: a sum of terms. */
+typedef struct integral_function {
+    size_t terms;
+    integral_term *term;
+    double *coefficient;
+} integral_function;
+
+/* One parity of V_d. Values grow. `basis` has an orthonormal column for each function found, `rows` numbers each. */
+typedef struct integral_part {
+    size_t terms, functions, found;
+    iso_integral_value *value;
+    integral_function *function;
+    double *basis;
+} integral_part;
+
+/* Everything but the states. */
+iso_status iso_integral_prepare(iso_context *ctx, iso_point_motion motion, uint64_t seed, size_t orbits,
+                                integral_samples *s);
+iso_point_motion iso_integral_motion(const integral_samples *s);
+
+/* The states; *energy: the root mean square of the energy's relative error. Errors: those of iso_batch_run;
+ * ISO_NUMERICAL where powers of q do not fit a double. */
+iso_status iso_integral_follow(iso_context *ctx, const iso_integral_search_options *options, integral_samples *s,
+                               double *energy);
+
+/* The terms of V_d of one parity. term: room for them, or NULL: they are only counted. */
+size_t iso_integral_terms(int degree, int coefficients, unsigned parity, integral_term term[]);
+
+/* The derivative of a function along a deviation of the state. */
+double iso_integral_slope(const integral_function *f, const double state[ISO_STATE],
+                          const double deviation[ISO_STATE]);
+
+/* The singular values of one parity of V_d on the samples, see integrals.h. Errors: ISO_NO_MEMORY, ISO_NUMERICAL. */
+iso_status iso_integral_search_part(iso_context *ctx, const integral_samples *samples, int degree, int coefficients,
+                                    unsigned parity, double delta, double within, integral_part *part);
+void iso_integral_free_part(integral_part *part);
+
+/* A value is that of an integral: below its error, which is small enough. */
+static inline bool integral_is_found(const iso_integral_value *v, double within)
+{
+    return v->value <= v->error && v->error <= within;
+}
+
+#endif

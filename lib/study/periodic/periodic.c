@@ -1,0 +1,154 @@
+/* periodic.c - the periodic orbits of a scene's ball, see periodic.h: what is refused, the order of work, the list.
+ */
+#define _GNU_SOURCE /* functions of _Float128 */
+#include "study/periodic/periodic.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
+#include "base/vec3_impl.h"
+#include "orbit/orbit.h"
+#include "study/level_impl.h"
+#include "study/periodic/periodic_impl.h"
+#include "study/periodic/stability_chart.h"
+
+const char *iso_stability_name(iso_stability stability)
+{
+    static const char *const names[] = {"stable", "unstable", "inverse", "degenerate", "undecided"};
+    return (int)stability >= 0 && stability <= ISO_STABILITY_UNDECIDED ? names[stability] : NULL;
+}
+
+/* --- what is refused -------------------------------------------------------------------------------------------- */
+
+static iso_status check_options(const iso_periodic_work *w)
+{
+    const iso_periodic_options *o = &w->options;
+    if (o->period < 1 || o->period > ISO_PERIODIC_MOST)
+        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "period", "a period of %d: give 1 to %d", o->period,
+                                ISO_PERIODIC_MOST);
+    if (o->grid < 1 || o->grid > 10000000)
+        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "grid", "a grid of %ld points: give 1 to 1e7", o->grid);
+    if (!iso_return_code_of(o->polish))
+        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "polish", "this build has no numbers of 128 bits");
+    return ISO_OK;
+}
+
+/* Beyond these bounds orbits pass so near to unstable rotations that no digits are left. */
+static iso_status check_numbers(const iso_periodic_work *w)
+{
+    const double k = w->scene->params.k, *J = w->scene->params.J, ratio = max3(J) / min3(J) / fabs(k);
+    if (fabs(k) < ISO_LEAST_K)
+        return iso_context_fail(w->ctx, ISO_BAD_INPUT, "k", "periodic orbits: k = %.12g: give |k| >= %g", k,
+                                ISO_LEAST_K);
+    if (ratio <= 1e5) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "J",
+                            "periodic orbits: max J/(min J |k|) is %.3g: give moments for which it is 1e5 at most",
+                            ratio);
+}
+
+static iso_status check_moments(const iso_periodic_work *w)
+{
+    for (int i = 0; i < 3; i++)
+        if (iso_params_symmetric(&w->scene->params, i))
+            return iso_context_fail(
+                w->ctx, ISO_BAD_INPUT, "J",
+                "J%d and J%d are equal: a rotation about axis %d carries every orbit along, so no "
+                "periodic orbit is isolated",
+                (i + 1) % 3 + 1, (i + 2) % 3 + 1, i + 1);
+    return ISO_OK;
+}
+
+/* Off H = 0 a motion may begin at rest. */
+static bool may_rest(const iso_start *start, const iso_effects *effects)
+{
+    return start->model == ISO_POINT ? !isnan(start->eps) : iso_effects_have_level(effects);
+}
+
+static iso_status check_scene(iso_periodic_work *w)
+{
+    static const char what[] = "periodic orbits are sought";
+    const iso_start *start = &w->scene->start;
+    const iso_effects effects = iso_scene_acting(w->scene);
+    iso_on_level on;
+    iso_status status = iso_level_check(w->ctx, &effects, what);
+    if (status == ISO_OK) status = check_numbers(w);
+    if (status == ISO_OK) status = check_moments(w);
+    if (status == ISO_OK && !(largest(start->y) > 0) && !may_rest(start, &effects))
+        status = iso_context_fail(w->ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
+                                  "a %s at rest has no periodic orbits of its energy",
+                                  iso_model_kind_name((int)start->model));
+    if (status == ISO_OK) status = iso_level_find(w->ctx, w->scene, what, &on);
+    if (status != ISO_OK) return status;
+    w->units = on.units, w->h = on.h, w->energy = on.energy, w->H = on.H;
+    w->out->level = iso_level_of(&w->units.own, w->energy);
+    const double slow = 1 / sqrt(iso_coupling(&w->units.own, w->h));
+    for (iso_clock c = 0; c < ISO_CLOCKS; c++) w->unit_clock[c] = slow * iso_unit(&w->units, iso_clock_dimension(c));
+    if (!isfinite(w->unit_clock[ISO_CLOCK_T]))
+        status = iso_context_fail(w->ctx, ISO_BAD_INPUT, "angular_velocity",
+                                  "the energy of this start is too large or too small for doubles");
+    return status;
+}
+
+/* --- the work --------------------------------------------------------------------------------------------------- */
+
+static int by_period(const void *a, const void *b)
+{
+    const iso_periodic_orbit *one = a, *other = b;
+    if (one->period != other->period) return one->period < other->period ? -1 : 1;
+    return (one->trace > other->trace) - (one->trace < other->trace);
+}
+
+/* Whether some place of the sphere, an end of an axis at worst, cannot be reached. */
+static bool is_closed(const iso_periodic_map *map)
+{
+    bool closed = false;
+    for (int axis = 0; axis < 3; axis++)
+        closed = closed || !iso_hill_has_rotation(map->p.k, map->p.J, map->energy, axis);
+    return closed;
+}
+
+static iso_status work(iso_periodic_work *w)
+{
+    iso_status status = check_options(w);
+    if (status == ISO_OK) status = check_scene(w);
+    if (status != ISO_OK) return status;
+    iso_periodic_map_prepare(w->ctx, &w->units.own, w->energy, w->options.threads, &w->map);
+    w->out->axis = w->map.axis;
+    w->out->closed = is_closed(&w->map);
+    status = iso_periodic_rotations(w);
+    if (w->options.rotations_alone) return status;
+    if (status == ISO_OK && !(w->options.all && w->options.no_lines)) status = iso_periodic_search(w);
+    if (status == ISO_OK && w->options.all) status = iso_periodic_from_grid(w);
+    if (w->out->count > 0) qsort(w->out->orbit, w->out->count, sizeof *w->out->orbit, by_period);
+    return status;
+}
+
+iso_status iso_periodic_run(iso_context *ctx, const iso_scene *scene, const iso_periodic_options *options,
+                            iso_periodic **found)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_periodic_work w = {.ctx = ctx, .scene = scene, .options = iso_periodic_defaults()};
+    *found = NULL;
+    iso_status status = iso_options_take(ctx, "iso_periodic_options", &w.options, sizeof w.options, options);
+    if (status != ISO_OK) return status;
+    w.out = calloc(1, sizeof *w.out);
+    if (!w.out) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for periodic orbits");
+    status = work(&w);
+    free(w.folded);
+    if (status == ISO_OK || status == ISO_STOPPED)
+        *found = w.out;
+    else
+        iso_periodic_free(w.out);
+    return status;
+}
+
+void iso_periodic_free(iso_periodic *found)
+{
+    if (!found) return;
+    for (size_t i = 0; i < found->count; i++) free(found->orbit[i].half);
+    free(found->orbit);
+    free(found);
+}

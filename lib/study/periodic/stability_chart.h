@@ -1,0 +1,50 @@
+/* stability_chart.h - where the rotations about the axes of least and greatest moment are stable, in the plane of k
+ * and one moment, or of k and the level (map/level.h): traces of Hill's equation (periodic.h) on a grid, and the
+ * borders, where a trace is 2 or -2.
+ */
+#ifndef ISO_STUDY_STABILITY_CHART_H
+#define ISO_STUDY_STABILITY_CHART_H
+
+#include "../../base/api.h"
+#include "../../base/record.h"
+
+ISO_C_BEGIN
+
+typedef struct iso_stability_options {
+    size_t size; /* set by iso_stability_defaults; see isoroll.h */
+    int moment;  /* which of J varies, 0 to 2; ISO_CHART_LEVEL: the level */
+    double J[3]; /* the others, > 0 */
+    /* Of k, and of the moment or level: from < to. |k| < ISO_LEAST_K is left out: there the trace has no limit. */
+    double from[2], to[2];
+    int steps;   /* of the grid, in both directions: 2 to 2000 */
+    int threads; /* 0: as many as there are processors to run on */
+    /* Is told the part of the work that is done, in [0, 1]; NULL: nobody is. */
+    void (*progress)(double part, void *data);
+    void *data;
+    double level; /* (H/eps) J2^(1/k), everywhere in the chart; 0: the free ball. Not read where it varies */
+} iso_stability_options;
+enum { ISO_CHART_LEVEL = 3 };
+#define ISO_LEAST_K 0.02
+
+static inline iso_stability_options iso_stability_defaults(void)
+{
+    iso_stability_options o = ISO_ALL_ZERO;
+    o.size = sizeof o;
+    o.moment = 1;
+    o.from[0] = -3;
+    o.to[0] = 3;
+    o.steps = 120;
+    return o;
+}
+
+/* grid: columns k, J (or the level), least, greatest (half-turn traces of the rotations about these axes; NaN: there
+ * is none on this level, see iso_hill_has_rotation). borders: columns axis (0: of the least moment, 1: of the
+ * greatest), trace (2 or -2), k, J (or the level): points of the border curves, where they cross the lines of the
+ * grid of equal J and of equal k. The caller frees both records. Errors: ISO_BAD_ARGUMENT about "k", "J", "level",
+ * "steps"; ISO_NO_MEMORY; ISO_STOPPED. */
+ISO_API iso_status iso_stability_chart(iso_context *ctx, const iso_stability_options *options, iso_record **grid,
+                                       iso_record **borders);
+
+ISO_C_END
+
+#endif

@@ -1,0 +1,91 @@
+/* measure_common.c - what the two tests of the measure share: options, the scene, shifts of clouds. */
+#include <math.h>
+
+#include "base/low_discrepancy_impl.h"
+#include "base/options_impl.h"
+#include "map/state.h"
+#include "study/section/measure_impl.h"
+
+static iso_status check_options(iso_context *ctx, iso_measure_options *o)
+{
+    if (o->count < ISO_MEASURE_LEAST || o->count > SIZE_MAX / 2)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "count", "a cloud has %d orbits or more", ISO_MEASURE_LEAST);
+    if (!isfinite(o->exponent) || fabs(o->exponent) > 10)
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "exponent", "exponent %g is not in [-10, 10]", o->exponent);
+    if (!(o->significance > 0 && o->significance < 1))
+        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "significance", "significance %g is not in (0, 1)",
+                                o->significance);
+    const size_t clouds = ISO_MEASURE_CLOUDS;
+    o->count = (o->count + clouds - 1) / clouds * clouds;
+    return ISO_OK;
+}
+
+/* A potential must depend on n only: then it has an image on the point, or is its level. */
+static iso_status check_effects(iso_context *ctx, measure_scene *s)
+{
+    s->free = true;
+    for (int i = 0; i < ISO_EFFECTS; i++) {
+        const iso_effect *e = iso_effect_list[i];
+        if (!s->effects.on[i]) continue;
+        s->free = false;
+        if (!e->potential) continue;
+        s->pulled = true;
+        if (e->breaks)
+            return iso_context_fail(ctx, ISO_NOT_MAPPED, e->name,
+                                    "the measure (10) is one of omega and n, but the potential of %s depends on "
+                                    "more than n",
+                                    e->name);
+    }
+    return ISO_OK;
+}
+
+double iso_measure_potential(const measure_scene *s, const double n[3])
+{
+    if (!s->pulled) return 0;
+    double y[ISO_MAX_STATE] = {0};
+    for (int i = 0; i < 3; i++) y[3 + i] = n[i];
+    return iso_effects_potential(&iso_orbit_model(s->orbit)->problem, y) *
+           iso_unit(iso_orbit_units(s->orbit), iso_dimension_h);
+}
+
+iso_status iso_measure_open(iso_context *ctx, const iso_scene *scene, const iso_measure_options *given,
+                            iso_measure_options *options, measure_scene *s)
+{
+    *options = iso_measure_defaults();
+    *s = (measure_scene){.params = &scene->params};
+    iso_status status = iso_options_take(ctx, "iso_measure_options", options, sizeof *options, given);
+    if (status == ISO_OK) status = check_options(ctx, options);
+    if (status != ISO_OK) return status;
+    iso_effects acting = iso_scene_acting(scene);
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    o.effects = &acting;
+    o.backend = ISO_BACKEND_BALL;
+    o.shown = ISO_SHOW_BALL;
+    iso_sample sample;
+    status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &s->orbit);
+    if (status == ISO_OK) status = iso_orbit_at(s->orbit, 0, &sample);
+    if (status != ISO_OK) return status;
+    s->effects = iso_orbit_effects(s->orbit);
+    s->kinetic = iso_ball_energy(s->params, sample.ball);
+    if (!(s->kinetic > 0))
+        return iso_context_fail(ctx, ISO_NOT_MAPPED, "", "the ball is at rest: no ball moves with this energy");
+    status = check_effects(ctx, s);
+    s->energy = s->kinetic + (status == ISO_OK ? iso_measure_potential(s, sample.ball + 3) : 0);
+    return status;
+}
+
+void iso_measure_shift(const iso_measure_options *o, int cloud, int count, uint64_t shift[])
+{
+    uint64_t number = iso_scatter(iso_scatter(o->seed) + (uint64_t)cloud);
+    for (int i = 0; i < count; i++) shift[i] = number = iso_scatter(number);
+}
+
+double iso_measure_floor(const iso_measure_options *o)
+{
+    return fmax(1e3 * o->tolerance, 1e-11);
+}
+
+void iso_measure_progress(const iso_measure_options *o, double share)
+{
+    if (o->progress) o->progress(share, o->data);
+}

@@ -1,0 +1,255 @@
+/* measure_returns.c - carries a cloud on the section by returns, and tests whether it stays uniform in dL dl. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/arithmetic_impl.h"
+#include "map/section.h"
+#include "map/state.h"
+#include "orbit/crossings.h"
+#include "study/section/measure_impl.h"
+
+enum { BLOCK = 4096, AT_ONCE = 16 }; /* orbits; crossings of one orbit that are kept at a time */
+
+/* --- test functions --------------------------------------------------------------------------------------------- */
+
+/* The energy, which is the same for all states; functions of l whose means are not 0; others, whose means are 0: they
+ * are odd under a symmetry of the measure, or have a factor x or x^2 - 1/3. */
+enum { ENERGY, LN_G, COS_2L, COS_4L, OTHERS, FUNCTIONS = 15 };
+static const char *const names[FUNCTIONS] = {
+    "h",
+    "ln G",
+    "cos 2l",
+    "cos 4l",
+    "cos l",
+    "sin l",
+    "sin 2l",
+    "x",
+    "x^2 - 1/3",
+    "x cos l",
+    "x sin l",
+    "x cos 2l",
+    "x sin 2l",
+    "(x^2 - 1/3) cos 2l",
+    "(x^2 - 1/3) sin 2l",
+};
+
+static void functions_of_l(const iso_params *p, int axis, double l, double value[OTHERS])
+{
+    value[LN_G] = log(iso_section_momentum(iso_free_point(p, 0.5), axis, l)); /* up to a constant */
+    value[COS_2L] = cos(2 * l);
+    value[COS_4L] = cos(4 * l);
+}
+
+/* kinetic: the energy, divided by that of the scene */
+static void functions(const iso_params *p, int axis, double l, double x, double kinetic, double value[FUNCTIONS])
+{
+    const double y = x * x - 1. / 3, c = cos(l), s = sin(l), c2 = cos(2 * l), s2 = sin(2 * l);
+    const double others[] = {c, s, s2, x, y, x * c, x * s, x * c2, x * s2, y * c2, y * s2};
+    value[ENERGY] = kinetic - 1;
+    functions_of_l(p, axis, l, value);
+    for (int i = OTHERS; i < FUNCTIONS; i++) value[i] = others[i - OTHERS];
+}
+
+/* Means with the density G^exponent, by the trapezoidal rule in u, tan l = e^u (map/quarter_impl.h). */
+static void expectations(const iso_params *p, int axis, double exponent, double mean[FUNCTIONS])
+{
+    double whole = 0;
+    for (int i = 0; i < FUNCTIONS; i++) mean[i] = 0;
+    for (double u = -46; u <= 46; u += 0.25) {
+        double value[OTHERS];
+        functions_of_l(p, axis, atan(exp(u)), value);
+        const double weight = exp(exponent * value[LN_G]) / cosh(u);
+        whole += weight;
+        for (int i = LN_G; i < OTHERS; i++) mean[i] += weight * value[i];
+    }
+    for (int i = LN_G; i < OTHERS; i++) mean[i] /= whole;
+}
+
+/* --- the cloud -------------------------------------------------------------------------------------------------- */
+
+typedef struct returner {
+    iso_context *ctx;
+    const iso_measure_options *options;
+    const measure_scene *scene;
+    int axis, returns[ISO_MEASURE_ROWS];
+    size_t lost;
+    measure_sums sums;
+    iso_start *start;
+    iso_batch_orbit *orbit;
+    iso_crossing *crossing;
+    iso_sample *sample;
+    size_t *done;
+    iso_status *status;
+    double *sharp; /* of each orbit, at the start */
+} returner;
+
+/* Draws orbits with the density G^exponent, which is G for k/exponent in the place of k. */
+static void draw_block(returner *r, int cloud, uint64_t first, size_t count)
+{
+    const iso_params *p = r->scene->params;
+    const double eps = iso_coupling(p, r->scene->energy);
+    iso_params drawn = *p;
+    drawn.k = p->k / r->options->exponent;
+    uint64_t seed;
+    iso_section_spread spread;
+    iso_measure_shift(r->options, cloud, 1, &seed);
+    iso_section_spread_prepare(&spread, iso_free_point(&drawn, 1), r->axis, seed);
+    for (size_t i = 0; i < count; i++) {
+        double l, x, point[ISO_STATE];
+        iso_section_spread_point(&spread, first + i, &l, &x);
+        iso_section_point(iso_free_point(p, eps), r->axis, l, x, point);
+        r->start[i] = (iso_start){.model = ISO_BALL, .eps = NAN};
+        iso_point_to_ball(p, point, r->start[i].y);
+        r->orbit[i] = (iso_batch_orbit){p, &r->start[i], r->scene->free ? NULL : &r->scene->effects};
+        r->sharp[i] = log(iso_section_momentum(iso_free_point(p, 0.5), r->axis, l));
+        double value[FUNCTIONS];
+        functions(p, r->axis, l, x, 1, value);
+        iso_measure_sums_start(&r->sums, r->sharp[i], value);
+    }
+}
+
+/* Adds the last crossing of each orbit, and the ball there, to the sums. */
+static void add_row(returner *r, int cloud, int row, size_t count)
+{
+    const iso_params *p = r->scene->params;
+    for (size_t i = 0; i < count; i++) {
+        const double kinetic = iso_ball_energy(p, r->sample[i].ball) / r->scene->energy;
+        double value[FUNCTIONS];
+        functions(p, r->axis, r->crossing[i].l, r->crossing[i].x, kinetic, value);
+        iso_measure_sums_add(&r->sums, cloud, row, r->sharp[i], value);
+    }
+}
+
+/* Finds the next `number` crossings of each orbit. The last of them stays in r->crossing and r->sample. */
+static iso_status go(returner *r, iso_crossings *c, int number)
+{
+    iso_status status = ISO_OK;
+    while (status == ISO_OK && number > 1) {
+        const int each = number - 1 < AT_ONCE ? number - 1 : AT_ONCE;
+        status = iso_crossings_go(c, NULL, (size_t)each, r->crossing, NULL, r->done, r->status);
+        number -= each;
+    }
+    return status == ISO_OK ? iso_crossings_go(c, NULL, 1, r->crossing, r->sample, r->done, r->status) : status;
+}
+
+static iso_status carry_block(returner *r, int cloud, size_t count)
+{
+    iso_crossings *c = NULL;
+    iso_crossings_options o = iso_crossings_defaults();
+    o.backend = r->options->backend;
+    o.axis = r->axis;
+    o.tolerance = r->options->tolerance;
+    o.threads = r->options->threads;
+    iso_status status = iso_crossings_create(r->ctx, r->orbit, count, &o, &c);
+    for (int row = 0; row < ISO_MEASURE_ROWS && status == ISO_OK; row++) {
+        status = go(r, c, r->returns[row] - (row > 0 ? r->returns[row - 1] : 0));
+        if (status == ISO_OK) add_row(r, cloud, row, count);
+    }
+    iso_crossings_free(c);
+    return status;
+}
+
+/* Effects may stop a ball before it returns: then there is no return map. One such block ends the test. */
+static void count_lost(returner *r, size_t count)
+{
+    for (size_t i = 0; i < count; i++) r->lost += r->status[i] != ISO_OK;
+}
+
+static iso_status carry(returner *r)
+{
+    const size_t each = r->options->count / ISO_MEASURE_CLOUDS;
+    for (int cloud = 0; cloud < ISO_MEASURE_CLOUDS; cloud++)
+        for (size_t first = 0; first < each; first += BLOCK) {
+            const size_t count = each - first < BLOCK ? each - first : BLOCK;
+            draw_block(r, cloud, first, count);
+            const iso_status status = carry_block(r, cloud, count);
+            if (status == ISO_NUMERICAL && !r->scene->free) return count_lost(r, count), ISO_OK;
+            if (status != ISO_OK) return status;
+            iso_measure_progress(r->options, (cloud + (double)(first + count) / (double)each) / ISO_MEASURE_CLOUDS);
+        }
+    return ISO_OK;
+}
+
+static iso_status allocate(returner *r)
+{
+    r->start = calloc(BLOCK, sizeof *r->start);
+    r->orbit = calloc(BLOCK, sizeof *r->orbit);
+    r->crossing = calloc((size_t)BLOCK * AT_ONCE, sizeof *r->crossing);
+    r->sample = calloc(BLOCK, sizeof *r->sample);
+    r->done = calloc(BLOCK, sizeof *r->done);
+    r->status = calloc(BLOCK, sizeof *r->status);
+    r->sharp = calloc(BLOCK, sizeof *r->sharp);
+    if (!r->start || !r->orbit || !r->crossing || !r->sample || !r->done || !r->status || !r->sharp)
+        return iso_context_fail(r->ctx, ISO_NO_MEMORY, "", "no memory for %d orbits", BLOCK);
+    return iso_measure_sums_create(r->ctx, FUNCTIONS, r->options->count, &r->sums);
+}
+
+static void release(returner *r)
+{
+    free(r->start);
+    free(r->orbit);
+    free(r->crossing);
+    free(r->sample);
+    free(r->done);
+    free(r->status);
+    free(r->sharp);
+    iso_measure_sums_free(&r->sums);
+}
+
+static iso_status check_section(returner *r)
+{
+    const int axis = r->options->axis;
+    if (axis < ISO_AXIS_AUTO || axis > 2)
+        return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "axis", "there is no axis %d", axis + 1);
+    if (r->options->returns < ISO_MEASURE_RETURNS || r->options->returns > 1000000)
+        return iso_context_fail(r->ctx, ISO_BAD_ARGUMENT, "returns", "%d returns are not in [%d, 1e6]",
+                                r->options->returns, ISO_MEASURE_RETURNS);
+    r->axis = axis == ISO_AXIS_AUTO ? iso_section_axis(iso_free_point(r->scene->params, 1)) : axis;
+    for (int i = 0; i < ISO_MEASURE_ROWS; i++) r->returns[i] = r->options->returns >> (ISO_MEASURE_ROWS - 1 - i);
+    if (r->scene->pulled)
+        return iso_context_fail(r->ctx, ISO_NOT_MAPPED, "effects",
+                                "the section of a ball in a potential has another chart: only the flow can be "
+                                "tested");
+    return ISO_OK;
+}
+
+/* The only line says that not every orbit returned. */
+static void judge_lost(const returner *r, iso_measure *m)
+{
+    m->count = r->options->count;
+    m->lost = r->lost;
+    m->resolution = NAN;
+    m->lines = 1;
+    m->line[0] = (iso_measure_entry){
+        .name = "orbits that return", .time = m->end, .mean = NAN, .expected = 1, .deviation = -INFINITY};
+}
+
+static void judge(returner *r, iso_measure *m)
+{
+    double expected[FUNCTIONS], number[ISO_MEASURE_ROWS];
+    expectations(r->scene->params, r->axis, r->options->exponent, expected);
+    for (int i = 0; i < ISO_MEASURE_ROWS; i++) number[i] = r->returns[i];
+    *m = (iso_measure){.axis = r->axis, .clock = r->options->clock, .end = number[ISO_MEASURE_ROWS - 1]};
+    if (r->lost > 0) {
+        judge_lost(r, m);
+        return;
+    }
+    iso_measure_judge(&r->sums, names, expected, number, iso_measure_floor(r->options), r->options->significance, m);
+}
+
+iso_status iso_measure_returns(iso_context *ctx, const iso_scene *scene, const iso_measure_options *options,
+                               iso_measure *measure)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_measure_options own;
+    measure_scene s;
+    returner r = {.ctx = ctx, .options = &own, .scene = &s};
+    iso_status status = iso_measure_open(ctx, scene, options, &own, &s);
+    if (status == ISO_OK) status = check_section(&r);
+    if (status == ISO_OK) status = allocate(&r);
+    if (status == ISO_OK) status = carry(&r);
+    if (status == ISO_OK) judge(&r, measure);
+    release(&r);
+    iso_orbit_free(s.orbit);
+    return status;
+}

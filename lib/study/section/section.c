@@ -1,0 +1,330 @@
+/* section.c - the Poincare section of a scene, see section.h: what kind of section it is, what is refused, the
+ * header, and the orbits group by group. */
+#include "study/section/section.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/arithmetic_impl.h"
+#include "base/options_impl.h"
+#include "base/pi_impl.h"
+#include "base/vec3_impl.h"
+#include "base/version.h"
+#include "orbit/description.h"
+#include "study/section/section_impl.h"
+
+/* --- which section is global ------------------------------------------------------------------------------------ */
+
+/* Which orbits cross, on which level, and how long a return takes. */
+static void name_global(const iso_orbit *orbit, iso_section_nature *n)
+{
+    const iso_units *units = iso_orbit_units(orbit);
+    const iso_point_motion m = iso_orbit_motion(orbit);
+    const double turn = 2 * ISO_PI * iso_unit(units, iso_clock_dimension(ISO_CLOCK_S));
+    const double unit_M = iso_unit(units, iso_system_point.fast_dimension);
+    char level[40] = "", except[40], longest[32] = "or more", returns[80];
+    double W[2];
+    iso_section_bounds(m, n->axis, W);
+    if (W[0] > 0) snprintf(longest, sizeof longest, "to %.4g", turn / W[0]);
+    snprintf(except, sizeof except, "the rotation about axis %d", n->axis + 1);
+    if (m.energy != 0) {
+        snprintf(level, sizeof level, " on the level H = %.4g", m.energy * unit_M * unit_M);
+        snprintf(except, sizeof except, "those in its plane");
+    }
+    if (iso_params_powers_fit(m.p))
+        snprintf(returns, sizeof returns, "a return takes %.4g %s in s", turn / W[1], longest);
+    else
+        snprintf(returns, sizeof returns, "k is so near 0 that s of a return need not fit a double");
+    snprintf(n->words, sizeof n->words, "n_%d = 0 is global%s: every orbit crosses it for ever, except %s; %s",
+             n->axis + 1, level, except, returns);
+}
+
+iso_section_nature iso_section_of(const iso_orbit *orbit, int axis)
+{
+    const iso_effects effects = iso_orbit_effects(orbit);
+    const iso_effect *effect = iso_effects_beyond_level(&effects);
+    const iso_point_motion m = iso_orbit_motion(orbit);
+    const int good = iso_section_axis(m);
+    iso_section_nature n = {.axis = axis == ISO_AXIS_AUTO ? good : axis};
+    n.global = !effect && iso_section_is_global(m, n.axis);
+    if (n.global)
+        name_global(orbit, &n);
+    else if (effect)
+        snprintf(n.words, sizeof n.words, "n_%d = 0 is not known to be global: '%s' acts on the ball", n.axis + 1,
+                 effect->name);
+    else
+        snprintf(n.words, sizeof n.words, "n_%d = 0 is not global: orbits can stay away from it; n_%d = 0 is global",
+                 n.axis + 1, good + 1);
+    return n;
+}
+
+bool iso_section_is_of_axis(int column, double value, int *axis)
+{
+    for (int a = 0; a < 3 && value == 0; a++)
+        if (column == ISO_COLUMN_BALL + 3 + a || column == ISO_COLUMN_POINT + 3 + a) return *axis = a, true;
+    return false;
+}
+
+/* --- what is refused -------------------------------------------------------------------------------------------- */
+
+static iso_status check_rest(const iso_section_walk *w)
+{
+    const iso_start *start = &w->scene->start;
+    const bool moves = largest(start->y) > 0 || iso_effects_pull(&w->effects);
+    if (moves || (start->model == ISO_POINT && start->eps != 0 && !isnan(start->eps))) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, start->model == ISO_BALL ? "angular_velocity" : "M",
+                            "a %s at rest crosses no section", iso_model_kind_name((int)start->model));
+}
+
+static iso_status check_losses(const iso_section_walk *w)
+{
+    const iso_effect *taking = iso_effects_taking_energy(&iso_orbit_model(w->orbit)->problem);
+    if (!taking) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, taking->name,
+                            "'%s' takes energy from the ball: its orbits do not come back to a section for ever",
+                            taking->name);
+}
+
+static iso_status check_starts(const iso_section_walk *w)
+{
+    const iso_section_options *o = &w->options;
+    const iso_effect *effect = iso_effects_beyond_level(&w->effects);
+    const char *why = !w->chart ? "an event has no chart"
+                      : effect  ? "the section has a chart only where nothing acts but a level"
+                                : NULL;
+    if (o->starts == 0 && o->at_count == 0) return ISO_OK;
+    if (why)
+        return iso_context_fail(w->ctx, ISO_BAD_INPUT, effect ? effect->name : "starts",
+                                "no other starts can be given here: %s%s%s", why, effect ? ", without " : "",
+                                effect ? effect->name : "");
+    for (size_t i = 0; i < o->at_count; i++)
+        if (iso_section_check_at(w->ctx, w->orbit, o->axis, o->at[i]) != ISO_OK) return ISO_BAD_INPUT;
+    return o->starts > 0 ? iso_section_check_open(w->ctx, w->orbit, o->axis) : ISO_OK;
+}
+
+static iso_status check_column(const iso_section_walk *w)
+{
+    const int column = w->options.column;
+    if (w->chart || column >= iso_columns_count() || column < ISO_COLUMN_EFFECTS) return ISO_OK;
+    const iso_effect_id effect = iso_column_effect(column);
+    if (w->scene->effects.on[effect]) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_BAD_INPUT, "columns", "column '%s' needs the effect '%s'",
+                            iso_column_name(column), iso_effect_list[effect]->name);
+}
+
+/* --- what is done ----------------------------------------------------------------------------------------------- */
+
+static void choose_section(iso_section_walk *w)
+{
+    iso_section_options *o = &w->options;
+    if (iso_section_is_of_axis(o->column, o->value, &o->axis)) o->column = -1;
+    w->chart = o->column < 0;
+}
+
+/* Observers cost time. They stay only where the column of an effect is used: one of them may need another. */
+static void choose_effects(iso_section_walk *w)
+{
+    const int column = w->options.column;
+    w->effects = iso_scene_acting(w->scene);
+    if (column >= ISO_COLUMN_EFFECTS && column < iso_columns_count()) w->effects = iso_scene_effects(w->scene);
+}
+
+static void choose_models(iso_section_walk *w)
+{
+    const iso_effects *e = &w->effects;
+    iso_models models = w->options.models;
+    if (models == ISO_SHOW_START)
+        models = iso_effects_breaking(e) || iso_effects_ball_only(e) ? ISO_SHOW_BALL : ISO_SHOW_BOTH;
+    w->result->models = models;
+    w->models = models == ISO_SHOW_BOTH ? 2 : 1;
+    w->model[0] = models == ISO_SHOW_POINT ? ISO_POINT : ISO_BALL;
+    w->model[1] = ISO_POINT;
+}
+
+/* The scene's own orbit, with all clocks if their numbers fit a double. */
+static iso_status open_orbit(iso_section_walk *w)
+{
+    iso_orbit_options o = iso_orbit_defaults(&w->scene->start);
+    const bool mapped = !iso_effects_breaking(&w->effects);
+    o.effects = &w->effects;
+    o.backend = (iso_backend)w->model[0];
+    o.clock = w->model[0] == ISO_POINT ? ISO_CLOCK_S : ISO_CLOCK_T;
+    o.shown = w->models == 2 ? ISO_SHOW_BOTH : (iso_models)w->model[0];
+    o.tolerance = w->options.tolerance;
+    o.memory = 0; /* it only goes on */
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = mapped;
+    iso_status status = iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit);
+    w->clocks = status == ISO_OK && iso_orbit_has_twin(w->orbit);
+    if (status != ISO_NUMERICAL || !mapped || w->models == 2) return status;
+    for (int c = 0; c < ISO_CLOCKS; c++) o.with_clock[c] = false;
+    return iso_orbit_create(w->ctx, &w->scene->params, &w->scene->start, &o, &w->orbit);
+}
+
+/* The states shown; with those of the ball, the columns of its effects. */
+static void choose_columns(iso_section_walk *w)
+{
+    const iso_models shown = w->options.shown;
+    const bool ball = shown == ISO_SHOW_BALL || shown == ISO_SHOW_BOTH;
+    const bool point = shown == ISO_SHOW_POINT || shown == ISO_SHOW_BOTH;
+    for (int c = ISO_COLUMN_BALL; c < iso_columns_count(); c++) {
+        const iso_effect_id effect = iso_column_effect(c);
+        const bool there = c < ISO_COLUMN_POINT     ? ball
+                           : c < ISO_COLUMN_EFFECTS ? point
+                                                    : ball && effect < ISO_EFFECTS && w->effects.on[effect];
+        if (there) w->columns[w->count++] = c;
+    }
+}
+
+/* --- the header ------------------------------------------------------------------------------------------------- */
+
+static iso_status create_header(const iso_section_walk *w, iso_record **header)
+{
+    const char *names[ISO_MAX_COLUMNS] = {"orbit", "crossing"};
+    size_t n = 2;
+    for (iso_clock c = 0; c < (w->clocks ? ISO_CLOCKS : 1); c++) names[n++] = iso_clock_name(c);
+    if (w->chart) names[n++] = "l";
+    if (w->chart) names[n++] = "x";
+    for (int c = 0; c < w->count; c++) names[n++] = iso_column_name(w->columns[c]);
+    iso_status status = iso_record_create(w->ctx, n, names, header);
+    if (status == ISO_OK)
+        status =
+            iso_record_describe(w->ctx, *header, iso_shown_name((int)w->result->models), &w->scene->params, w->orbit);
+    return status;
+}
+
+/* Numbers that are whole, as text. */
+static iso_status set_whole(const iso_section_walk *w, iso_record *r, const char *key, uint64_t value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%" PRIu64, value);
+    return iso_record_set(w->ctx, r, key, text);
+}
+
+static iso_status set_section(const iso_section_walk *w, iso_record *r)
+{
+    const iso_section_options *o = &w->options;
+    char text[96];
+    if (w->chart)
+        snprintf(text, sizeof text, "n%d = 0, increasing; %s", o->axis + 1,
+                 w->result->nature.global ? "global" : "not known to be global");
+    else
+        snprintf(text, sizeof text, "%s = %.17g, increasing", iso_column_name(o->column), o->value);
+    const iso_status status = iso_record_set(w->ctx, r, "section", text);
+    return status == ISO_OK && w->chart ? set_whole(w, r, "axis", (size_t)o->axis + 1) : status;
+}
+
+/* A line of a file has room for MOST points; of more points only the number is written. */
+static iso_status set_at(const iso_section_walk *w, iso_record *r)
+{
+    enum { MOST = 500 };
+    const iso_section_options *o = &w->options;
+    char text[64];
+    if (o->at_count <= MOST) return iso_record_set_numbers(w->ctx, r, "at", 2 * o->at_count, o->at[0]);
+    snprintf(text, sizeof text, "%zu points l, x", o->at_count);
+    return iso_record_set(w->ctx, r, "at", text);
+}
+
+static iso_status describe(const iso_section_walk *w, iso_record *r)
+{
+    const iso_section_options *o = &w->options;
+    iso_status status = iso_record_describe_start(w->ctx, r, &w->scene->start);
+    if (status == ISO_OK) status = set_section(w, r);
+    if (status == ISO_OK) status = set_whole(w, r, "crossings", o->crossings);
+    if (status == ISO_OK && o->starts > 0) status = set_whole(w, r, "starts", o->starts);
+    if (status == ISO_OK && o->starts > 0) status = set_whole(w, r, "seed", o->seed);
+    if (status == ISO_OK && o->at_count > 0) status = set_at(w, r);
+    if (status == ISO_OK) status = iso_record_set(w->ctx, r, "backend", iso_backend_name((int)w->model[0]));
+    if (status == ISO_OK) status = iso_record_set_numbers(w->ctx, r, "tolerance", 1, &o->tolerance);
+    return status == ISO_OK ? iso_record_set(w->ctx, r, "isoroll", ISO_VERSION) : status;
+}
+
+iso_status iso_section_give_header(iso_section_walk *w)
+{
+    iso_record *header = NULL;
+    iso_status status = create_header(w, &header);
+    if (status == ISO_OK) status = describe(w, header);
+    if (status == ISO_OK && w->sink->header) status = w->sink->header(w->sink->data, header);
+    iso_record_free(header);
+    w->begun = true;
+    return status;
+}
+
+/* --- the whole -------------------------------------------------------------------------------------------------- */
+
+static iso_status check(iso_section_walk *w)
+{
+    iso_section_options *o = &w->options;
+    if (o->crossings == 0) return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "crossings", "no crossing is asked for");
+    if (o->axis < ISO_AXIS_AUTO || o->axis > 2)
+        return iso_context_fail(w->ctx, ISO_BAD_ARGUMENT, "axis", "axis %d is none of 0, 1, 2", o->axis);
+    if (isnan(o->tolerance)) o->tolerance = w->scene->tolerance;
+    choose_section(w);
+    choose_effects(w);
+    choose_models(w);
+    w->result->orbits = 1 + o->starts + o->at_count;
+    const iso_status status = check_rest(w);
+    return status == ISO_OK ? check_column(w) : status;
+}
+
+static void tell_nature(iso_section_walk *w)
+{
+    iso_section_nature *n = &w->result->nature;
+    *n = iso_section_of(w->orbit, w->options.axis);
+    if (w->chart)
+        w->options.axis = n->axis;
+    else
+        *n = (iso_section_nature){.axis = -1, .words = "an event is not known to be a global section"};
+    if (!n->global && w->sink->note) w->sink->note(w->sink->data, n->words);
+}
+
+static iso_status set_up(iso_section_walk *w)
+{
+    iso_status status = check(w);
+    if (status == ISO_OK) status = open_orbit(w);
+    if (status == ISO_OK) status = check_losses(w);
+    if (status != ISO_OK) return status;
+    if (w->options.axis == ISO_AXIS_AUTO) w->options.axis = iso_section_axis(iso_orbit_motion(w->orbit));
+    status = check_starts(w);
+    if (status != ISO_OK) return status;
+    choose_columns(w);
+    iso_section_state_level(w->orbit, &w->effects);
+    if (w->options.starts > 0)
+        iso_section_spread_prepare(&w->spread, iso_orbit_motion(w->orbit), w->options.axis, w->options.seed);
+    status = iso_section_make_room(w);
+    return status == ISO_OK ? iso_section_open_group(w) : status;
+}
+
+static iso_status walk(iso_section_walk *w)
+{
+    iso_status status = ISO_OK;
+    while (status == ISO_OK) {
+        status = iso_section_walk_group(w);
+        iso_section_close_group(w);
+        w->first += w->members;
+        if (status != ISO_OK || w->first >= w->result->orbits) break;
+        status = iso_section_open_group(w);
+    }
+    return status;
+}
+
+iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
+                           const iso_section_sink *sink, iso_section_result *result)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    iso_section_result unused;
+    iso_section_walk w = {.ctx = ctx, .scene = scene, .sink = sink, .result = result ? result : &unused};
+    w.options = iso_section_defaults();
+    *w.result = (iso_section_result){.nature = {.axis = -1}};
+    iso_status status = iso_options_take(ctx, "iso_section_options", &w.options, sizeof w.options, options);
+    if (status == ISO_OK) status = set_up(&w);
+    if (status == ISO_OK) tell_nature(&w);
+    if (status == ISO_OK) status = walk(&w);
+    iso_section_free_room(&w);
+    iso_orbit_free(w.orbit);
+    if (status == ISO_OK && w.result->rows == 0 && w.result->failed > 0)
+        return iso_context_fail(ctx, w.result->failure, "", "%s", w.result->words);
+    return status;
+}

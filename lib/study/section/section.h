@@ -1,0 +1,132 @@
+/* section.h - the Poincare section of a scene: crossings of many orbits. Each crossing goes to a sink, as a row.
+ *
+ *     iso_status keep_row(void *data, const double row[], size_t count);
+ *     iso_section_sink sink = {.row = keep_row, .data = &rows};
+ *     iso_section_options o = iso_section_defaults();
+ *     o.starts = 100;
+ *     status = iso_section_run(ctx, &scene, &o, &sink, &result);
+ *
+ * The section is n_a = 0, n_a increasing, the same for ball and point (map/section.h); or an event: a column of the
+ * samples passes a value upwards. Orbit 0 is the scene's own. Then come `starts` orbits, spread evenly over the
+ * section by the area dL dl. Then come those that begin at the given points (l, x). All have the scene's energy h,
+ * eps and level H. Orbits 1, 2, ... begin on the section; this start is no crossing.
+ *
+ * Memory does not grow with the number of orbits. It grows with the number of crossings only up to a bound of about
+ * 100 MB.
+ */
+#ifndef ISO_STUDY_SECTION_H
+#define ISO_STUDY_SECTION_H
+
+#include <math.h>
+#include <stdint.h>
+
+#include "../../base/api.h"
+#include "../../base/record.h"
+#include "../../orbit/crossings.h"
+#include "../../orbit/scene.h"
+
+ISO_C_BEGIN
+
+/* Whether a section is global, and why. */
+typedef struct iso_section_nature {
+    int axis;        /* the axis that is asked for, or the global one; -1: an event                              */
+    bool global;     /* every orbit crosses for ever and none only touches, except the rotation in n_a = 0       */
+    char words[256]; /* one line: why it is global, or why it is not known to be                                */
+} iso_section_nature;
+
+/* The nature of n_a = 0 for this orbit (axis: 0 to 2, or ISO_AXIS_AUTO). */
+ISO_API iso_section_nature iso_section_of(const iso_orbit *orbit, int axis);
+
+/* Whether an event is a section n_a = 0: the column is n_a or gamma_a, and the value is 0. Sets *axis if so. */
+ISO_API bool iso_section_is_of_axis(int column, double value, int *axis);
+
+typedef struct iso_section_options {
+    size_t size;           /* set by iso_section_defaults; see isoroll.h */
+    size_t crossings;      /* of each orbit, 1 or more                                                           */
+    size_t starts;         /* orbits spread over the section                                                     */
+    uint64_t seed;         /* of their spreading                                                                 */
+    const double (*at)[2]; /* (l, x) of further starts                                                           */
+    size_t at_count;
+    int axis;   /* 0 to 2; ISO_AXIS_AUTO: the global one                                              */
+    int column; /* -1, or the column (iso_column_find) whose passing of `value` is looked for instead  */
+    double value;
+    iso_models
+        models;      /* the models that are integrated, each by itself; ISO_SHOW_START: both if the ball has a twin */
+    iso_models shown; /* the model whose states the rows have; ISO_SHOW_START: no states                      */
+    double tolerance;    /* NAN: the scene's                                                                   */
+    int threads;         /* 0: as many as there are processors to run on                                       */
+    const char *vectors; /* see batch.h                                                                        */
+} iso_section_options;
+
+/* 500 crossings of the global section by the scene's own orbit, both models, no states. */
+static inline iso_section_options iso_section_defaults(void)
+{
+    iso_section_options o = ISO_ALL_ZERO;
+    o.size = sizeof o;
+    o.crossings = 500;
+    o.axis = ISO_AXIS_AUTO;
+    o.column = -1;
+    o.models = ISO_SHOW_START;
+    o.shown = ISO_SHOW_START;
+    o.tolerance = NAN;
+    return o;
+}
+
+/* Takes the rows. A function that is NULL is not called. `header`, `row` and `pair` return ISO_OK to go on. Any other
+ * status ends the work, and iso_section_run returns it. */
+typedef struct iso_section_sink {
+    iso_status (*header)(void *data, const iso_record *header); /* columns and lines, once, before all rows        */
+    iso_status (*row)(void *data, const double row[], size_t count); /* by orbit, then by crossing                 */
+    /* if both models are integrated: called after each row with this crossing by both; the rows are the ball's    */
+    iso_status (*pair)(void *data, size_t orbit, const iso_crossing *ball, const iso_crossing *point);
+    void (*note)(void *data, const char *words); /* one line without a newline: the section is not global, ...      */
+    void (*progress)(void *data, double part);   /* the part done, in [0, 1]                                        */
+    void *data;
+} iso_section_sink;
+
+/* Two models part on an orbit when their distance passes this. On chaotic orbits the rounding errors of the models
+ * grow until they part. */
+#define ISO_SECTION_PARTED 1e-3
+
+/* The distance of two crossings in the chart: the larger one of |dl|, modulo 2 pi, and |dx|. */
+ISO_API double iso_section_distance(const iso_crossing *a, const iso_crossing *b);
+
+typedef struct iso_section_result {
+    iso_section_nature nature;
+    iso_models models;    /* that were integrated: ball, point or both                                            */
+    size_t orbits, rows; /* orbits asked for; rows that the sink has taken                                       */
+    size_t crossings[2]; /* found by the ball, by the point                                                      */
+    size_t failed;       /* orbits that have fewer crossings than asked for                                      */
+    iso_status failure;  /* of the first of them, with its words                                                 */
+    char words[512];
+    /* With both models. The distance of two crossings is the larger one of |dl| and |dx|. On an event it is |dt|,
+     * divided by the mean time between crossings. */
+    size_t unequal;  /* orbits with different numbers of crossings by the two models                         */
+    double distance; /* the largest one on orbits that do not part ...                                       */
+    size_t distance_orbit, distance_crossing; /* ... and where it is; crossings count from 1                       */
+    size_t parted; /* orbits that part: their distance passes ISO_SECTION_PARTED                           */
+    size_t parted_orbit, parted_crossing; /* the orbit that parts at the lowest crossing number, and the crossing */
+} iso_section_result;
+
+/* The rows have the columns orbit (from 0), crossing (from 1), t; tau and s if the orbit has both models; l and x
+ * unless the section is an event; then the states that are shown. The ball's states include the columns of effects.
+ * With both models the rows are the ball's.
+ * - If an orbit fails, its earlier rows stay, and the other orbits go on. If no orbit has a row, the call returns the
+ *   failure of the first one. Else it returns ISO_OK, and result->failed is the number of orbits that failed.
+ * - The context's monitor can stop the work: earlier rows stay.
+ * - options NULL: iso_section_defaults(). result may be NULL; else it is always filled, also after an error.
+ *
+ * Errors before the header:
+ * - ISO_BAD_ARGUMENT: those of iso_crossings_create; about "crossings" (0);
+ * - ISO_BAD_INPUT: an effect that takes energy (about its name), since its orbits do not return for ever; a ball at
+ *   rest; `at` with |x| >= 1 or a number that is not finite; `starts` or `at` with effects beyond a level, or with
+ *   an event, since (l, x) does not determine an orbit there, or where the level closes the section; a column of an
+ *   effect that the scene does not have;
+ * - those of iso_orbit_create: ISO_NOT_MAPPED if the point is asked for and there is none.
+ * Errors after the header: what the sink returns; ISO_STOPPED; ISO_NO_MEMORY. */
+ISO_API iso_status iso_section_run(iso_context *ctx, const iso_scene *scene, const iso_section_options *options,
+                                   const iso_section_sink *sink, iso_section_result *result);
+
+ISO_C_END
+
+#endif

@@ -1,0 +1,74 @@
+/* section_impl.h - what the files of iso_section_run share.
+ *
+ *     section.c           checks, the header, the groups of orbits
+ *     section_walk.c      one group: its starts, its crossings by one model or two, its rows
+ */
+#ifndef ISO_STUDY_SECTION_IMPL_H
+#define ISO_STUDY_SECTION_IMPL_H
+
+#include "map/section.h"
+#include "study/section/section.h"
+
+/* What is known of one orbit of the group. */
+typedef struct iso_section_member {
+    size_t found[2]; /* crossings, by the first model and by the second       */
+    bool failed, parted;
+    double distance; /* the largest so far between the models; its crossing   */
+    size_t crossing;
+} iso_section_member;
+
+typedef struct iso_section_walk {
+    iso_context *ctx;
+    const iso_scene *scene;
+    const iso_section_sink *sink;
+    iso_section_result *result;
+    iso_section_options options;
+    iso_effects effects; /* of the scene; observers only if a column needs them   */
+    iso_orbit *orbit;    /* the scene's own: its units, its energy                */
+    iso_section_spread spread;
+    bool clocks, chart;                  /* rows have tau and s; l and x                          */
+    int columns[ISO_MAX_COLUMNS], count; /* of the samples, behind those                   */
+    int models;                          /* 1 or 2 ... */
+    iso_model_kind model[2];             /* ... that are integrated; rows are the first one's     */
+    bool begun;                          /* the sink has the header */
+    /* the group */
+    size_t group, slice, slices; /* orbits in it; crossings asked for at a time; slices kept in memory */
+    size_t first, members;
+    iso_start *start;
+    iso_batch_orbit *batch;
+    iso_section_member *member;
+    iso_crossings *crossings[2];
+    iso_crossing *crossing[2]; /* [slice][orbit][crossing]                              */
+    iso_sample *sample;        /* likewise, of the first model; NULL: no column needs it */
+    size_t *done[2];           /* [slice][orbit]                                        */
+    iso_status *status[2];
+} iso_section_walk;
+
+/* Gives the header to the sink. This is done just before the first row: a scene without crossings opens no file. */
+iso_status iso_section_give_header(iso_section_walk *w);
+
+/* Room for a group. Errors: ISO_NO_MEMORY. */
+iso_status iso_section_make_room(iso_section_walk *w);
+void iso_section_free_room(iso_section_walk *w);
+
+/* Begins the group whose first orbit is w->first. Errors: those of iso_crossings_create. */
+iso_status iso_section_open_group(iso_section_walk *w);
+void iso_section_close_group(iso_section_walk *w);
+
+/* Finds the crossings of the group and gives the rows to the sink. Errors: of the sink, ISO_STOPPED,
+ * ISO_NO_MEMORY. */
+iso_status iso_section_walk_group(iso_section_walk *w);
+
+/* Whether a start can be given at (l, x), or anywhere, on the section n_axis = 0 of this orbit, on which nothing acts
+ * but a level. Errors: ISO_BAD_INPUT about "at" or "starts". */
+iso_status iso_section_check_at(iso_context *ctx, const iso_orbit *orbit, int axis, const double at[2]);
+iso_status iso_section_check_open(iso_context *ctx, const iso_orbit *orbit, int axis);
+
+/* States the level of the orbit among the effects: then every start is on it, not near it. */
+void iso_section_state_level(const iso_orbit *orbit, iso_effects *effects);
+
+/* The chart of start i, counted from 0: the first `starts` are spread, then come the given ones. */
+void iso_section_chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
+                                double *l, double *x);
+
+#endif

@@ -1,0 +1,333 @@
+/* section_walk.c - one group of orbits of a section: starts, crossings by one model or two, rows. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/finite_impl.h"
+#include "base/pi_impl.h"
+#include "base/vec3_impl.h"
+#include "map/state.h"
+#include "study/section/section_impl.h"
+
+/* Crossings that are kept in memory: about 50 MB for each model, and as much for samples. */
+enum { ROOM = 1 << 19, ROOM_WITH_SAMPLES = 1 << 17, MOST_IN_GROUP = 4096, SLICES = 32 };
+
+/* --- room ------------------------------------------------------------------------------------------------------- */
+
+static void plan(iso_section_walk *w)
+{
+    const size_t room = w->count > 0 ? ROOM_WITH_SAMPLES : ROOM, most = w->options.crossings;
+    const size_t fit = room / most, orbits = w->result->orbits;
+    w->group = fit < 1 ? 1 : fit > MOST_IN_GROUP ? MOST_IN_GROUP : fit;
+    if (w->group > orbits) w->group = orbits;
+    const size_t slice = (most + SLICES - 1) / SLICES, largest_slice = room / SLICES;
+    w->slice = slice > largest_slice ? largest_slice : slice;
+    w->slices = w->group == 1
+                    ? 1
+                    : (most + w->slice - 1) / w->slice; /* a single orbit's rows go to the sink slice by slice */
+}
+
+iso_status iso_section_make_room(iso_section_walk *w)
+{
+    plan(w);
+    const size_t cells = w->group * w->slice * w->slices;
+    bool room = true;
+    w->start = calloc(w->group, sizeof *w->start);
+    w->batch = calloc(w->group, sizeof *w->batch);
+    w->member = calloc(w->group, sizeof *w->member);
+    w->sample = w->count > 0 ? malloc(cells * sizeof *w->sample) : NULL;
+    for (int m = 0; m < w->models; m++) {
+        w->crossing[m] = malloc(cells * sizeof *w->crossing[m]);
+        w->done[m] = calloc(w->group * w->slices, sizeof *w->done[m]);
+        w->status[m] = calloc(w->group, sizeof *w->status[m]);
+        room = room && w->crossing[m] && w->done[m] && w->status[m];
+    }
+    if (room && w->start && w->batch && w->member && (w->sample || w->count == 0)) return ISO_OK;
+    return iso_context_fail(w->ctx, ISO_NO_MEMORY, "", "no memory for the crossings of %zu orbits", w->group);
+}
+
+void iso_section_free_room(iso_section_walk *w)
+{
+    iso_section_close_group(w);
+    free(w->start);
+    free(w->batch);
+    free(w->member);
+    free(w->sample);
+    for (int m = 0; m < w->models; m++) {
+        free(w->crossing[m]);
+        free(w->done[m]);
+        free(w->status[m]);
+    }
+}
+
+/* --- starts ----------------------------------------------------------------------------------------------------- */
+
+/* Of a closed part of the circle: where gamma is at l the point has not enough energy. */
+static iso_status refuse_closed(iso_context *ctx, const iso_orbit *orbit, int axis, const char *about,
+                                const char *where)
+{
+    const iso_point_motion m = iso_orbit_motion(orbit);
+    const double unit = iso_unit(iso_orbit_units(orbit), iso_system_point.fast_dimension);
+    return iso_context_fail(ctx, ISO_BAD_INPUT, about,
+                            "n_%d = 0 is closed %s on the level H = %.6g: the potential there is not below H",
+                            axis + 1, where, m.energy * unit * unit);
+}
+
+iso_status iso_section_check_open(iso_context *ctx, const iso_orbit *orbit, int axis)
+{
+    const iso_point_motion m = iso_orbit_motion(orbit);
+    if (iso_section_is_open(m, axis, 0) || iso_section_is_open(m, axis, ISO_PI / 2)) return ISO_OK;
+    return refuse_closed(ctx, orbit, axis, "starts", "everywhere");
+}
+
+iso_status iso_section_check_at(iso_context *ctx, const iso_orbit *orbit, int axis, const double at[2])
+{
+    const double l = at[0], x = at[1];
+    char where[48];
+    if (fabs(x) == 1)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "at",
+                                "l, x = %g, %g is on the boundary of the chart: it is the rotation about axis %d, in "
+                                "the plane n_%d = 0, which never crosses the section",
+                                l, x, axis + 1, axis + 1);
+    if (!isfinite(l) || !(fabs(x) < 1))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "at",
+                                "l, x = %g, %g is outside the chart: l is any angle, x is between -1 and 1", l, x);
+    if (iso_section_is_open(iso_orbit_motion(orbit), axis, l)) return ISO_OK;
+    snprintf(where, sizeof where, "at l = %g", l);
+    return refuse_closed(ctx, orbit, axis, "at", where);
+}
+
+void iso_section_state_level(const iso_orbit *orbit, iso_effects *effects)
+{
+    const iso_effects found = iso_orbit_effects(orbit);
+    const double c = iso_effects_level(&found);
+    if (iso_effects_have_level(&found) && isnormal(c)) iso_effects_set_level(effects, true, c);
+}
+
+void iso_section_chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
+                                double *l, double *x)
+{
+    if (i < starts) {
+        iso_section_spread_point(spread, i, l, x);
+    } else {
+        *l = at[i - starts][0];
+        *x = at[i - starts][1];
+    }
+}
+
+static iso_start start_of(const iso_section_walk *w, size_t orbit)
+{
+    const iso_section_options *o = &w->options;
+    double l, x;
+    if (orbit == 0) return w->scene->start;
+    iso_section_chart_of_start(&w->spread, o->starts, o->at, orbit - 1, &l, &x);
+    return iso_section_start(w->orbit, w->scene->start.model, o->axis, l, x);
+}
+
+static iso_crossings_options options_of(const iso_section_walk *w, int model)
+{
+    const iso_section_options *o = &w->options;
+    iso_crossings_options c = iso_crossings_defaults();
+    c.backend = (iso_backend)w->model[model];
+    c.kind = w->chart ? ISO_SECTION_AXIS : ISO_SECTION_COLUMN;
+    c.axis = w->chart ? o->axis : ISO_AXIS_AUTO;
+    c.column = o->column;
+    c.value = o->value;
+    c.tolerance = o->tolerance;
+    c.shown = o->shown == ISO_SHOW_START ? (iso_models)w->model[model] : o->shown;
+    c.threads = o->threads;
+    c.vectors = o->vectors;
+    return c;
+}
+
+iso_status iso_section_open_group(iso_section_walk *w)
+{
+    const size_t left = w->result->orbits - w->first;
+    iso_status status = ISO_OK;
+    w->members = left < w->group ? left : w->group;
+    for (size_t i = 0; i < w->members; i++) {
+        w->start[i] = start_of(w, w->first + i);
+        w->batch[i] = (iso_batch_orbit){&w->scene->params, &w->start[i], &w->effects};
+        w->member[i] = (iso_section_member){.failed = false};
+    }
+    for (int m = 0; m < w->models && status == ISO_OK; m++) {
+        const iso_crossings_options o = options_of(w, m);
+        status = iso_crossings_create(w->ctx, w->batch, w->members, &o, &w->crossings[m]);
+    }
+    return status;
+}
+
+void iso_section_close_group(iso_section_walk *w)
+{
+    for (int m = 0; m < w->models; m++) {
+        iso_crossings_free(w->crossings[m]);
+        w->crossings[m] = NULL;
+    }
+}
+
+/* --- failures --------------------------------------------------------------------------------------------------- */
+
+/* Counts an orbit that has failed, once. Keeps the words of the first. */
+static void note_failure(iso_section_walk *w, size_t i, iso_status status, const char *words)
+{
+    iso_section_result *r = w->result;
+    if (w->member[i].failed) return;
+    w->member[i].failed = true;
+    if (r->failed++ > 0) return;
+    r->failure = status;
+    snprintf(r->words, sizeof r->words, "orbit %zu: %s", w->first + i, words);
+}
+
+static void note_failures(iso_section_walk *w, int model)
+{
+    const iso_status *status = w->status[model];
+    for (size_t i = 0; i < w->members; i++)
+        if (status[i] != ISO_OK) note_failure(w, i, status[i], iso_crossings_why(w->crossings[model], i));
+}
+
+/* --- rows ------------------------------------------------------------------------------------------------------- */
+
+double iso_section_distance(const iso_crossing *a, const iso_crossing *b)
+{
+    return fmax(fabs(remainder(a->l - b->l, 2 * ISO_PI)), fabs(a->x - b->x));
+}
+
+/* The distance of the two models. An event has no chart: there it is |dt|, divided by the mean time between
+ * crossings. */
+static double distance_of(const iso_section_walk *w, const iso_crossing *a, const iso_crossing *b, size_t crossing)
+{
+    if (w->chart) return iso_section_distance(a, b);
+    const double t = a->clock[ISO_CLOCK_T];
+    return fabs(t - b->clock[ISO_CLOCK_T]) / (fabs(t) / (double)crossing);
+}
+
+/* Compares a crossing by both models, unless they have parted before. */
+static void compare(iso_section_walk *w, size_t i, const iso_crossing *a, const iso_crossing *b, size_t crossing)
+{
+    iso_section_member *member = &w->member[i];
+    iso_section_result *r = w->result;
+    const double distance = distance_of(w, a, b, crossing);
+    if (member->parted) return;
+    if (distance > member->distance) {
+        member->distance = distance;
+        member->crossing = crossing;
+    }
+    member->parted = distance > ISO_SECTION_PARTED;
+    if (!member->parted) return;
+    if (r->parted++ > 0 && crossing >= r->parted_crossing) return;
+    r->parted_orbit = w->first + i;
+    r->parted_crossing = crossing;
+}
+
+/* Adds a finished group to the result. */
+static void conclude(iso_section_walk *w)
+{
+    iso_section_result *r = w->result;
+    for (size_t i = 0; i < w->members && w->models == 2; i++) {
+        const iso_section_member *member = &w->member[i];
+        r->unequal += member->found[0] != member->found[1];
+        if (member->parted || !(member->distance > r->distance)) continue;
+        r->distance = member->distance;
+        r->distance_orbit = w->first + i;
+        r->distance_crossing = member->crossing;
+    }
+}
+
+static iso_status give_row(iso_section_walk *w, size_t i, const iso_crossing *at, const iso_sample *sample)
+{
+    double row[ISO_MAX_COLUMNS];
+    size_t n = 0;
+    row[n++] = (double)(w->first + i);
+    row[n++] = (double)(w->member[i].found[0] + 1);
+    for (int c = 0; c < (w->clocks ? ISO_CLOCKS : 1); c++) row[n++] = at->clock[c];
+    if (w->chart) row[n++] = at->l;
+    if (w->chart) row[n++] = at->x;
+    for (int c = 0; c < w->count; c++) row[n++] = iso_sample_column(sample, w->columns[c]);
+    if (!all_finite(row, (int)n)) {
+        note_failure(w, i, ISO_NUMERICAL, "a number of a crossing does not fit a double");
+        return ISO_OK;
+    }
+    iso_status status = w->begun ? ISO_OK : iso_section_give_header(w);
+    if (status == ISO_OK && w->sink->row) status = w->sink->row(w->sink->data, row, n);
+    w->result->rows += status == ISO_OK;
+    return status;
+}
+
+/* The rows of one orbit in one slice that is kept. */
+static iso_status give_cell(iso_section_walk *w, size_t slice, size_t i)
+{
+    const size_t cell = slice * w->group + i,
+                 *done[2] = {&w->done[0][cell], w->models == 2 ? &w->done[1][cell] : NULL};
+    iso_section_member *member = &w->member[i];
+    iso_status status = ISO_OK;
+    for (size_t j = 0; status == ISO_OK && (j < *done[0] || (done[1] && j < *done[1])); j++) {
+        const size_t at = cell * w->slice + j;
+        const bool both = done[1] && j < *done[0] && j < *done[1];
+        if (j < *done[0]) status = give_row(w, i, &w->crossing[0][at], w->sample ? &w->sample[at] : NULL);
+        if (status == ISO_OK && both && w->sink->pair)
+            status = w->sink->pair(w->sink->data, w->first + i, &w->crossing[0][at], &w->crossing[1][at]);
+        if (both) compare(w, i, &w->crossing[0][at], &w->crossing[1][at], member->found[0] + 1);
+        for (int m = 0; m < w->models; m++) {
+            member->found[m] += j < *done[m];
+            w->result->crossings[w->model[m]] += j < *done[m];
+        }
+    }
+    return status;
+}
+
+static iso_status give_rows(iso_section_walk *w, size_t slices)
+{
+    iso_status status = ISO_OK;
+    for (size_t i = 0; i < w->members; i++)
+        for (size_t k = 0; status == ISO_OK && k < slices; k++) status = give_cell(w, k, i);
+    return status;
+}
+
+/* --- crossings -------------------------------------------------------------------------------------------------- */
+
+/* Finds the next `each` crossings of all members. iso_crossings_go stores them `each` apart; rows want them w->slice
+ * apart. */
+static iso_status find_slice(iso_section_walk *w, size_t kept, size_t each)
+{
+    iso_status status = ISO_OK;
+    for (int m = 0; m < w->models; m++) memset(w->done[m] + kept * w->group, 0, w->group * sizeof *w->done[m]);
+    for (int m = 0; m < w->models && status == ISO_OK; m++) {
+        const size_t cell = kept * w->group;
+        iso_sample *sample = m == 0 && w->sample ? w->sample + cell * w->slice : NULL;
+        iso_crossing *crossing = w->crossing[m] + cell * w->slice;
+        status = iso_crossings_go(w->crossings[m], NULL, each, crossing, sample, w->done[m] + cell, w->status[m]);
+        for (size_t i = w->members; i-- > 0 && each < w->slice;) { /* the last slice may be shorter */
+            memmove(crossing + i * w->slice, crossing + i * each, each * sizeof *crossing);
+            if (sample) memmove(sample + i * w->slice, sample + i * each, each * sizeof *sample);
+        }
+        if (status == ISO_STOPPED || status == ISO_NO_MEMORY) break;
+        if (status != ISO_OK) note_failures(w, m);
+        status = ISO_OK;
+    }
+    return status;
+}
+
+static void show_progress(const iso_section_walk *w, size_t found)
+{
+    const double all = (double)w->result->orbits;
+    const double part = (double)found / (double)w->options.crossings;
+    if (w->sink->progress) w->sink->progress(w->sink->data, ((double)w->first + part * (double)w->members) / all);
+}
+
+iso_status iso_section_walk_group(iso_section_walk *w)
+{
+    const size_t most = w->options.crossings;
+    iso_status status = ISO_OK, given = ISO_OK;
+    for (size_t found = 0, kept = 0; status == ISO_OK && given == ISO_OK && found < most;) {
+        const size_t each = most - found < w->slice ? most - found : w->slice;
+        status = find_slice(w, kept++, each);
+        found += each;
+        show_progress(w, found);
+        if (status == ISO_OK && found < most && w->slices > 1) continue; /* kept until all are there */
+        if (status == ISO_OK || status == ISO_STOPPED) given = give_rows(w, kept);
+        kept = 0;
+    }
+    if (status == ISO_OK && given == ISO_OK) conclude(w);
+    return given == ISO_OK ? status : given;
+}

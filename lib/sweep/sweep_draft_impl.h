@@ -1,0 +1,95 @@
+/* sweep_draft_impl.h - a sweep's text, as its files share it: sweep_file.c reads its keys, sweep_vary.c and
+ * sweep_level.c what varies, sweep_point.c makes the points. */
+#ifndef ISO_IO_SWEEP_DRAFT_IMPL_H
+#define ISO_IO_SWEEP_DRAFT_IMPL_H
+
+#include "io/scene_draft_impl.h"
+#include "map/section.h"
+#include "sweep/sweep_file.h"
+
+enum { ISO_SWEEP_AXES = 24, ISO_SWEEP_NAMES = 64, ISO_SWEEP_DRAWN = 8 };
+
+/* Where the values of an axis go. */
+typedef enum iso_axis_target {
+    ISO_TO_NUMBER, /* numbers of the draft  */
+    ISO_TO_RATIO,  /* J[part] = value J[of] */
+    ISO_TO_LEVEL,  /* iso_scene_on_level    */
+    ISO_TO_CHART   /* l, x, or both         */
+} iso_axis_target;
+
+/* Where they come from. */
+typedef enum iso_axis_values {
+    ISO_FROM_LIST,
+    ISO_FROM_RANGE,
+    ISO_FROM_DRAWING, /* a range without a count */
+    ISO_FROM_TRIANGLE,
+    ISO_FROM_SPREAD
+} iso_axis_values;
+
+/* One key of `vary`. */
+typedef struct iso_sweep_axis {
+    char name[2 * ISO_NAME_SIZE]; /* as in the file                          */
+    iso_axis_target target;
+    iso_axis_values values;
+    int width;  /* numbers of one value: 1, 2 (l, x), 3 or 9                   */
+    int column; /* of its first number                                         */
+    size_t offset;
+    const yaml_node_t *node; /* ISO_TO_NUMBER: what it replaces in the scene's text ... */
+    int whole, part;         /* ... it has `whole` numbers; the axis sets those from number `part` on */
+    int of;                  /* ISO_TO_RATIO                                */
+    int chart;               /* ISO_TO_CHART: 0 l, 1 x, 2 both                     */
+    size_t count;            /* of values; 1 of those that are drawn               */
+    double *list;            /* count * width                                  */
+    double from, to;
+    bool logarithmic, ordered;
+    long sum; /* of a triangle */
+    uint64_t seed;
+    int drawn; /* its number among those that are drawn */
+} iso_sweep_axis;
+
+struct iso_sweep_file {
+    char *text, *scene_text; /* scene_text: the same as text, or that of the scene's own file */
+    size_t length, scene_length;
+    char *name, *scene_name;
+    iso_draft draft;     /* of the scene; its yaml is read by all threads, with contexts of their own  */
+    iso_yaml yaml;       /* of the sweep                                                               */
+    bool loaded, inside; /* `yaml` is there; the scene is part of it                                    */
+    bool scene_loaded;   /* draft.yaml is there */
+    iso_scene base;      /* of the text as it is */
+    int axes;
+    iso_sweep_axis axis[ISO_SWEEP_AXES];
+    bool on_section;             /* l and x are among them */
+    const iso_sweep_axis *level; /* NULL: it does not vary */
+    size_t samples;
+    bool random;
+    uint64_t seed;
+    int drawn;
+    uint64_t step[ISO_SWEEP_DRAWN], shift[ISO_SWEEP_DRAWN];
+    char (*column)[ISO_NAME_SIZE];
+    iso_sweep_plan plan;
+};
+
+/* sweep_vary.c: reads `vary` and `samples` (NULL: not there), after the scene. Errors: ISO_BAD_INPUT,
+ * ISO_NO_MEMORY. */
+iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples);
+
+/* sweep_level.c: whether an axis is that of the level; what it needs of the scene's text. Errors: ISO_BAD_INPUT. */
+bool iso_sweep_find_level(iso_sweep_axis *a);
+iso_status iso_sweep_check_level(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a);
+
+/* The keys of a mapping must be among `names`, each once. Errors: ISO_BAD_INPUT. */
+iso_status iso_sweep_check_keys(iso_yaml *y, const yaml_node_t *mapping, const char *what, size_t count,
+                                const char *const names[]);
+
+/* A whole number in [least, most]. Errors: ISO_BAD_INPUT. */
+iso_status iso_sweep_whole(iso_yaml *y, const yaml_node_t *node, const char *what, double least, double most,
+                           double *value);
+
+/* Value j of a range of a->count values; with equal steps 0.1, 0.2, ... are what one writes. */
+double iso_sweep_in_range(const iso_sweep_axis *a, size_t j);
+
+/* sweep_point.c: a draft with the numbers of point i in it, and these numbers. l and x are not in it. */
+iso_draft iso_sweep_draft(iso_context *ctx, const iso_sweep_file *f, size_t i, double numbers[]);
+iso_status iso_sweep_point(iso_context *ctx, const void *file, size_t i, iso_scene *scene, double numbers[]);
+
+#endif

@@ -1,0 +1,344 @@
+/* sweep_point.c - point i of a sweep: its numbers, its scene, and its scene as text. Everything is a pure function of
+ * i. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/low_discrepancy_impl.h"
+#include "base/arithmetic_impl.h"
+#include "base/number.h"
+#include "orbit/crossings.h"
+#include "sweep/sweep_draft_impl.h"
+
+/* --- the numbers ------------------------------------------------------------------------------------------------ */
+
+/* The number of 12 digits that x misses by rounding alone, by less than `most`, such as 0.3 for 0.1 + 2 0.1; else x.
+ * k = 1 must be 1. */
+static double tidy(double x, double most)
+{
+    char digits[ISO_NUMBER_SIZE];
+    double number;
+    iso_number_print_as(digits, x, 12);
+    return iso_number_read(digits, strlen(digits), &number) && fabs(number - x) < most ? number : x;
+}
+
+/* from (to/from)^part. Its rounding error is that of the power, which the logarithm of the ratio enlarges. */
+static double in_ratio(const iso_sweep_axis *a, double part)
+{
+    const double ratio = a->to / a->from, x = a->from * pow(ratio, part);
+    return tidy(x, 1e-15 * fabs(x) * (1 + fabs(log(ratio))));
+}
+
+/* Both ends are exact. */
+double iso_sweep_in_range(const iso_sweep_axis *a, size_t j)
+{
+    const double n = (double)a->count - 1, i = (double)j;
+    if (n <= 0 || j == 0) return a->from;
+    if (i == n) return a->to;
+    if (a->logarithmic) return in_ratio(a, i / n);
+    return tidy((a->from * (n - i) + a->to * i) / n, 1e-15 * fmax(fabs(a->from), fabs(a->to)));
+}
+
+/* Sample s of what is drawn. */
+static double drawn(const iso_sweep_file *f, const iso_sweep_axis *a, size_t s)
+{
+    const uint64_t at = iso_scatter(iso_scatter(f->shift[a->drawn] + 0x5851f42d4c957f2d) + s);
+    const double even = iso_recurrence(f->shift[a->drawn], f->step[a->drawn], s);
+    const double part = f->random ? iso_recurrence(at, 0, 0) : even;
+    if (a->logarithmic) return a->from * pow(a->to / a->from, part);
+    return a->from + (a->to - a->from) * part;
+}
+
+/* Value j of a triangle: by growing a, then growing b. */
+static void in_triangle(const iso_sweep_axis *axis, size_t j, double J[3])
+{
+    const long sum = axis->sum;
+    long a = 1, b;
+    for (;; a++) {
+        const long least = axis->ordered ? a + 1 : 1;
+        const long most = axis->ordered ? (sum - a - 1) / 2 : sum - a - 1;
+        const size_t row = most >= least ? (size_t)(most - least + 1) : 0;
+        b = least + (long)j;
+        if (j < row || a >= sum) break;
+        j -= row;
+    }
+    J[0] = (double)a / (double)sum;
+    J[1] = (double)b / (double)sum;
+    J[2] = (double)(sum - a - b) / (double)sum;
+}
+
+static void value_of(const iso_sweep_file *f, const iso_sweep_axis *a, size_t j, size_t sample, double value[])
+{
+    switch (a->values) {
+    case ISO_FROM_LIST: memcpy(value, a->list + j * (size_t)a->width, (size_t)a->width * sizeof *value); break;
+    case ISO_FROM_RANGE: *value = iso_sweep_in_range(a, j); break;
+    case ISO_FROM_DRAWING: *value = drawn(f, a, sample); break;
+    case ISO_FROM_TRIANGLE: in_triangle(a, j, value); break;
+    case ISO_FROM_SPREAD: value[0] = value[1] = NAN; break; /* needs k and J: see on_section */
+    }
+}
+
+/* Which value of each axis point i has; those that are drawn have sample *sample. */
+static void take_apart(const iso_sweep_file *f, size_t i, size_t index[], size_t *sample)
+{
+    *sample = f->drawn > 0 ? i % f->samples : 0;
+    if (f->drawn > 0) i /= f->samples;
+    for (int a = f->axes - 1; a >= 0; a--) {
+        index[a] = i % f->axis[a].count;
+        i /= f->axis[a].count;
+    }
+}
+
+iso_draft iso_sweep_draft(iso_context *ctx, const iso_sweep_file *f, size_t i, double numbers[])
+{
+    iso_draft d = f->draft;
+    size_t index[ISO_SWEEP_AXES], sample;
+    d.yaml.ctx = ctx;
+    take_apart(f, i, index, &sample);
+    for (int n = 0; n < f->axes; n++) {
+        const iso_sweep_axis *a = &f->axis[n];
+        double *value = numbers + a->column, *at = (double *)(void *)((char *)&d + a->offset);
+        value_of(f, a, index[n], sample, value);
+        if (a->target == ISO_TO_NUMBER) memcpy(at, value, (size_t)a->width * sizeof *value);
+        if (a->target == ISO_TO_RATIO) at[a->part] = *value * at[a->of];
+    }
+    return d;
+}
+
+/* --- starts on the section -------------------------------------------------------------------------------------- */
+
+/* The start as it is when it is read. */
+static iso_status read_again(iso_context *ctx, iso_start *start)
+{
+    const iso_start before = *start;
+    if (start->model == ISO_BALL) return iso_start_ball(ctx, before.y, before.y + 3, ISO_SPIN_REMOVE, start);
+    return iso_start_point(ctx, before.y, before.y + 3, isnan(before.eps) ? NULL : &before.eps, true, start);
+}
+
+/* A start that stays what it is, to the bit, when it is written and read again. Reading makes a unit vector of n, and
+ * takes the part along n away from omega. Done again and again, this ends, or goes round between neighbouring
+ * numbers. Then a neighbour of one of them stays what it is. */
+static iso_status settle(iso_context *ctx, iso_start *start)
+{
+    enum { ROUNDS = 4, NEIGHBOURS = 600 };
+    const iso_start given = *start;
+    iso_status status = ISO_OK;
+    for (int n = 0; n < NEIGHBOURS && status == ISO_OK; n++) {
+        const int which = n % 6, ulps = (n / 6 + 1) / 2, side = n / 6 % 2;
+        if (n > 0 && given.y[which] == 0) continue;
+        *start = given;
+        for (int i = 0; i < ulps; i++) start->y[which] = nextafter(start->y[which], side ? INFINITY : -INFINITY);
+        for (int i = 0; i < ROUNDS && status == ISO_OK; i++) {
+            const iso_start before = *start;
+            status = read_again(ctx, start);
+            if (memcmp(start->y, before.y, sizeof before.y) == 0) return status;
+        }
+    }
+    return status;
+}
+
+/* l and x of the point. Errors: ISO_BAD_INPUT outside of the chart. */
+static iso_status chart_of(iso_context *ctx, const iso_sweep_file *f, size_t i, const iso_orbit *orbit, int axis,
+                           double numbers[], double *l, double *x)
+{
+    size_t index[ISO_SWEEP_AXES], sample;
+    take_apart(f, i, index, &sample);
+    for (int n = 0; n < f->axes; n++) {
+        const iso_sweep_axis *a = &f->axis[n];
+        double *value = numbers + a->column;
+        if (a->target != ISO_TO_CHART) continue;
+        if (a->values == ISO_FROM_SPREAD) {
+            iso_section_spread spread;
+            iso_section_spread_prepare(&spread, iso_orbit_motion(orbit), axis, a->seed);
+            iso_section_spread_point(&spread, index[n], &value[0], &value[1]);
+        }
+        if (a->chart != 1) *l = value[0];
+        if (a->chart != 0) *x = value[a->width - 1];
+    }
+    if (!(fabs(*x) < 1)) return iso_context_fail(ctx, ISO_BAD_INPUT, "x", "x = %g is outside the chart: |x| < 1", *x);
+    if (iso_section_is_open(iso_orbit_motion(orbit), axis, *l)) return ISO_OK;
+    return iso_context_fail(ctx, ISO_BAD_INPUT, "l", "at l = %g the point cannot be on this level", *l);
+}
+
+/* Puts the start on the global section, with the energy that the scene's start has. */
+static iso_status on_section(iso_context *ctx, const iso_sweep_file *f, size_t i, iso_scene *scene, double numbers[])
+{
+    const iso_effects effects = iso_scene_acting(scene);
+    const double eps = scene->start.eps;
+    iso_orbit_options o = iso_orbit_defaults(&scene->start);
+    iso_orbit *orbit;
+    double l = 0, x = 0;
+    o.effects = &effects;
+    iso_status status = iso_orbit_create(ctx, &scene->params, &scene->start, &o, &orbit);
+    if (status != ISO_OK) return status;
+    const int axis = iso_section_axis(iso_orbit_motion(orbit));
+    if (!iso_orbit_has_twin(orbit))
+        status = iso_context_fail(ctx, ISO_BAD_INPUT, "angular_velocity", "a start on the section needs motion");
+    if (status == ISO_OK) status = chart_of(ctx, f, i, orbit, axis, numbers, &l, &x);
+    if (status == ISO_OK) {
+        scene->start = iso_section_start(orbit, scene->start.model, axis, l, x);
+        scene->start.eps = eps;
+        status = settle(ctx, &scene->start);
+    }
+    iso_orbit_free(orbit);
+    return status;
+}
+
+iso_status iso_sweep_point(iso_context *ctx, const void *file, size_t i, iso_scene *scene, double numbers[])
+{
+    ISO_DEFAULT_ARITHMETIC;
+    const iso_sweep_file *f = file;
+    iso_draft d = iso_sweep_draft(ctx, f, i, numbers);
+    iso_status status = iso_draft_make(&d);
+    if (status != ISO_OK) return status;
+    *scene = d.scene;
+    if (f->level) status = iso_scene_on_level(ctx, scene, numbers[f->level->column]);
+    if (status == ISO_OK && f->level && scene->start.model == ISO_POINT) status = settle(ctx, &scene->start);
+    if (status != ISO_OK) return status;
+    return f->on_section ? on_section(ctx, f, i, scene, numbers) : ISO_OK;
+}
+
+/* --- the scene as text ------------------------------------------------------------------------------------------ */
+
+/* A part of the scene's text and what stands in its place. */
+typedef struct patch {
+    size_t from, to; /* bytes */
+    char text[9 * (ISO_NUMBER_SIZE + 4)];
+} patch;
+
+typedef struct patches {
+    iso_sweep_file *f;
+    const char *text;
+    size_t length;
+    int count;
+    patch list[ISO_SWEEP_NAMES];
+} patches;
+
+/* libyaml counts characters. */
+static size_t byte_of(const patches *p, yaml_mark_t mark)
+{
+    size_t byte = 0;
+    for (size_t characters = 0; byte < p->length && characters < mark.index; characters++) {
+        byte++;
+        while (byte < p->length && (p->text[byte] & 0xC0) == 0x80) byte++;
+    }
+    return byte;
+}
+
+/* A list in lines of its own ends behind its last item; what libyaml calls its end is the next key. */
+static yaml_mark_t end_of(patches *p, const yaml_node_t *n)
+{
+    if (n->type != YAML_SEQUENCE_NODE || n->data.sequence.style != YAML_BLOCK_SEQUENCE_STYLE) return n->end_mark;
+    return end_of(p, iso_yaml_node(&p->f->draft.yaml, n->data.sequence.items.top[-1]));
+}
+
+static void print_numbers(const double number[], int count, char text[])
+{
+    const int rows = count == 9 ? 3 : 1, each = count / rows;
+    char *at = text;
+    at += sprintf(at, count == 9 ? "[" : "");
+    for (int r = 0; r < rows; r++) {
+        at += sprintf(at, "%s%s", r > 0 ? ", " : "", count > 1 ? "[" : "");
+        for (int i = 0; i < each; i++) {
+            at += sprintf(at, "%s", i > 0 ? ", " : "");
+            at += iso_number_print(at, number[r * each + i]);
+        }
+        at += sprintf(at, count > 1 ? "]" : "");
+    }
+    sprintf(at, count == 9 ? "]" : "");
+}
+
+static void add_patch(patches *p, const yaml_node_t *node, const double number[], int count)
+{
+    const bool block = node->type == YAML_SEQUENCE_NODE && node->data.sequence.style == YAML_BLOCK_SEQUENCE_STYLE;
+    const size_t from = byte_of(p, node->start_mark);
+    int i = p->count;
+    for (int j = 0; j < p->count; j++)
+        if (p->list[j].from == from) return;
+    while (i > 0 && p->list[i - 1].from > from) p->list[i] = p->list[i - 1], i--;
+    p->list[i] = (patch){from, byte_of(p, end_of(p, node)), ""};
+    if (block) p->list[i].text[0] = ' '; /* deeper than its key */
+    print_numbers(number, count, p->list[i].text + block);
+    p->count++;
+}
+
+static void add_start(patches *p, const iso_scene *scene)
+{
+    static const char *const names[2][2] = {{"angular_velocity", "normal"}, {"M", "gamma"}};
+    iso_draft *d = &p->f->draft;
+    const yaml_node_t *initial, *value;
+    iso_yaml_find(&d->yaml, d->root, "initial", NULL, &initial);
+    for (int v = 0; v < 2; v++)
+        if (iso_yaml_find(&d->yaml, initial, names[scene->start.model == ISO_POINT][v], NULL, &value))
+            add_patch(p, value, scene->start.y + 3 * v, 3);
+}
+
+/* The scene's part of the text: all of it, or the value of `scene`. */
+static void bounds(const patches *p, size_t *from, size_t *to)
+{
+    const yaml_node_t *root = p->f->draft.root;
+    *from = 0;
+    *to = p->length;
+    if (!p->f->inside) return;
+    *from = byte_of(p, root->start_mark);
+    *to = byte_of(p, root->end_mark);
+    while (*from > 0 && p->text[*from - 1] == ' ') --*from; /* the indentation of its first line */
+}
+
+static char *put_together(const patches *p)
+{
+    size_t at, end;
+    bounds(p, &at, &end);
+    char *text = malloc(end - at + (size_t)p->count * sizeof p->list[0].text + 2), *to = text;
+    if (!text) return NULL;
+    for (int i = 0; i < p->count; i++) {
+        const patch *one = &p->list[i];
+        memcpy(to, p->text + at, one->from - at);
+        to += one->from - at;
+        to += sprintf(to, "%s", one->text);
+        at = one->to;
+    }
+    memcpy(to, p->text + at, end - at);
+    to += end - at;
+    if (to > text && to[-1] != '\n') *to++ = '\n';
+    *to = '\0';
+    return text;
+}
+
+/* The text as libyaml counts it, without a byte order mark. */
+static void take_text(patches *p, const iso_sweep_file *f)
+{
+    p->text = f->inside ? f->text : f->scene_text;
+    p->length = f->inside ? f->length : f->scene_length;
+    if (p->length >= 3 && memcmp(p->text, "\xEF\xBB\xBF", 3) == 0) p->text += 3, p->length -= 3;
+}
+
+iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, size_t i, char **text)
+{
+    ISO_DEFAULT_ARITHMETIC;
+    double numbers[9 * ISO_SWEEP_AXES];
+    iso_scene scene;
+    *text = NULL;
+    const iso_status status = iso_sweep_point(ctx, file, i, &scene, numbers);
+    if (status != ISO_OK) return status;
+    if (file->level && scene.start.model == ISO_BALL && !iso_effects_have_level(&scene.effects))
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "level",
+                                "the ball of level 0 has no effect 'level': take it out of the scene's text");
+    patches *p = calloc(1, sizeof *p);
+    if (!p) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a scene");
+    const iso_draft d = iso_sweep_draft(ctx, file, i, numbers);
+    p->f = (iso_sweep_file *)file; /* libyaml's nodes are asked through pointers that are not const */
+    take_text(p, file);
+    for (int n = 0; n < file->axes; n++) {
+        const iso_sweep_axis *a = &file->axis[n];
+        const double *at = (const double *)(const void *)((const char *)&d + a->offset);
+        if (a->target == ISO_TO_NUMBER || a->target == ISO_TO_RATIO)
+            add_patch(p, a->node, at - a->part * (a->target == ISO_TO_NUMBER), a->whole);
+    }
+    if (file->on_section || (file->level && scene.start.model == ISO_POINT)) add_start(p, &scene);
+    const double c = iso_effects_level(&scene.effects);
+    if (file->level && scene.start.model == ISO_BALL) add_patch(p, file->level->node, &c, 1);
+    *text = put_together(p);
+    free(p);
+    return *text ? ISO_OK : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a scene");
+}

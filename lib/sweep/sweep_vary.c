@@ -1,0 +1,442 @@
+/* sweep_vary.c - reads what varies in a sweep: each key of `vary` becomes an axis, `samples` says how those without a
+ * count are drawn. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/low_discrepancy_impl.h"
+#include "io/text_impl.h"
+#include "sweep/sweep_draft_impl.h"
+
+static const double most_points = 1e12;
+enum { MOST_LISTED = 1000000 };
+
+/* --- where values go -------------------------------------------------------------------------------------------- */
+
+/* "J2" of "J": the number of the component, 0 to 2; -1: it is none. */
+static int component(const char *name, const char *vector)
+{
+    const size_t length = strlen(vector);
+    const bool one = strncmp(name, vector, length) == 0 && strlen(name) == length + 1;
+    return one && name[length] >= '1' && name[length] <= '3' ? name[length] - '1' : -1;
+}
+
+static bool find_number(const iso_draft_number list[], int count, iso_sweep_axis *a)
+{
+    for (int i = 0; i < count; i++) {
+        const int part = list[i].count == 3 ? component(a->name, list[i].name) : -1;
+        const bool all = strcmp(a->name, list[i].name) == 0;
+        if (!all && part < 0) continue;
+        a->target = ISO_TO_NUMBER;
+        a->node = list[i].value;
+        a->whole = list[i].count;
+        a->width = all ? list[i].count : 1;
+        a->part = all ? 0 : part;
+        a->offset = list[i].offset + (size_t)a->part * sizeof(double);
+        return true;
+    }
+    return false;
+}
+
+/* "J2/J1" */
+static bool find_ratio(const iso_draft_number list[], int count, iso_sweep_axis *a)
+{
+    char above[3] = {a->name[0], a->name[1], '\0'};
+    const int part = component(above, "J"), of = strlen(a->name) == 5 ? component(a->name + 3, "J") : -1;
+    if (part < 0 || of < 0 || a->name[2] != '/' || part == of) return false;
+    for (int i = 0; i < count; i++) {
+        if (strcmp(list[i].name, "J") != 0) continue;
+        *a = (iso_sweep_axis){.target = ISO_TO_RATIO, .node = list[i].value, .whole = 3, .width = 1, .part = part};
+        snprintf(a->name, sizeof a->name, "J%d/J%d", part + 1, of + 1);
+        a->of = of;
+        a->offset = list[i].offset;
+        return true;
+    }
+    return false;
+}
+
+static bool find_chart(iso_sweep_axis *a)
+{
+    static const char *const names[] = {"l", "x", "start"};
+    for (int i = 0; i < 3; i++)
+        if (strcmp(a->name, names[i]) == 0) {
+            a->target = ISO_TO_CHART;
+            a->chart = i;
+            a->width = i == 2 ? 2 : 1;
+            return true;
+        }
+    return false;
+}
+
+static iso_status find_target(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
+{
+    static const char *const others[] = {"l", "x", "start", "level", "J1", "J2", "J3", "J2/J1", "J3/J1"};
+    iso_draft_number list[ISO_SWEEP_NAMES];
+    const char *names[ISO_SWEEP_NAMES + 9];
+    size_t named = 0;
+    const int count = iso_draft_numbers(&f->draft, ISO_SWEEP_NAMES, list);
+    if (key->type != YAML_SCALAR_NODE || key->data.scalar.length >= ISO_NAME_SIZE)
+        return iso_yaml_fail(&f->yaml, key->start_mark, "a key should be the name of a number of the scene");
+    snprintf(a->name, sizeof a->name, "%s", (const char *)key->data.scalar.value);
+    if (find_chart(a) || iso_sweep_find_level(a) || find_number(list, count, a) || find_ratio(list, count, a))
+        return ISO_OK;
+    for (int i = 0; i < count; i++) names[named++] = list[i].name;
+    const bool moments = strstr(a->name, "J") != NULL;
+    for (size_t i = 0; i < (moments ? 9u : 4u); i++) names[named++] = others[i];
+    return iso_yaml_unknown(&f->yaml, key, "number of this scene", named, names);
+}
+
+/* --- where they come from --------------------------------------------------------------------------------------- */
+
+/* The numbers of one item of a list. A matrix is written as three rows. */
+static iso_status read_item(iso_sweep_file *f, const yaml_node_t *item, const iso_sweep_axis *a, double value[])
+{
+    iso_status status = ISO_OK;
+    if (a->width == 1) return iso_yaml_number(&f->yaml, item, a->name, value);
+    if (a->width < 9) return iso_yaml_numbers(&f->yaml, item, a->name, a->width, value);
+    if (item->type != YAML_SEQUENCE_NODE || item->data.sequence.items.top - item->data.sequence.items.start != 3)
+        return iso_yaml_expected(&f->yaml, item, a->name, "three rows of three numbers");
+    for (int i = 0; i < 3 && status == ISO_OK; i++)
+        status = iso_yaml_numbers(&f->yaml, iso_yaml_node(&f->yaml, item->data.sequence.items.start[i]), a->name, 3,
+                                  value + 3 * i);
+    return status;
+}
+
+static iso_status make_list(iso_sweep_file *f, iso_sweep_axis *a, size_t count)
+{
+    a->values = ISO_FROM_LIST;
+    a->count = count;
+    a->list = calloc(count + 1, (size_t)a->width * sizeof *a->list);
+    return a->list ? ISO_OK : iso_context_fail(f->yaml.ctx, ISO_NO_MEMORY, "", "no memory for '%s'", a->name);
+}
+
+static iso_status read_flag(iso_sweep_file *f, const yaml_node_t *mapping, const char *name, bool *flag)
+{
+    const yaml_node_t *value;
+    if (!iso_yaml_find(&f->yaml, mapping, name, NULL, &value)) return ISO_OK;
+    return iso_yaml_flag(&f->yaml, value, name, flag);
+}
+
+static iso_status read_end(iso_sweep_file *f, const yaml_node_t *node, const char *name, double *value)
+{
+    const yaml_node_t *end;
+    if (!iso_yaml_find(&f->yaml, node, name, NULL, &end))
+        return iso_yaml_fail(&f->yaml, node->start_mark, "missing '%s' in a range", name);
+    return iso_yaml_number(&f->yaml, end, name, value);
+}
+
+/* No value between the ends may overflow on its way. */
+static iso_status check_range(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
+{
+    const double ratio = a->to / a->from, most = fmax(fabs(a->from), fabs(a->to)) * fmax((double)a->count, 2);
+    if (a->logarithmic && !(copysign(1, a->from) * a->to > 0 && a->from != 0))
+        return iso_yaml_fail(&f->yaml, node->start_mark,
+                             "a logarithmic range from %g to %g: both ends must be above 0, or both below", a->from,
+                             a->to);
+    if (a->logarithmic ? isfinite(ratio) && ratio > 0 : isfinite(most)) return ISO_OK;
+    return iso_yaml_fail(&f->yaml, node->start_mark, "a range from %g to %g is too wide", a->from, a->to);
+}
+
+static iso_status read_range(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
+{
+    static const char *const names[] = {"from", "to", "count", "logarithmic"};
+    const yaml_node_t *value;
+    double count = 1;
+    if (a->width != 1) return iso_yaml_expected(&f->yaml, node, a->name, "a list of vectors");
+    iso_status status = iso_sweep_check_keys(&f->yaml, node, a->name, 4, names);
+    if (status == ISO_OK) status = read_end(f, node, "from", &a->from);
+    if (status == ISO_OK) status = read_end(f, node, "to", &a->to);
+    if (status == ISO_OK) status = read_flag(f, node, "logarithmic", &a->logarithmic);
+    a->values = ISO_FROM_DRAWING;
+    if (status == ISO_OK && iso_yaml_find(&f->yaml, node, "count", NULL, &value)) {
+        status = iso_sweep_whole(&f->yaml, value, "count", 1, 1e9, &count);
+        a->values = ISO_FROM_RANGE;
+    }
+    a->count = (size_t)count;
+    return status == ISO_OK ? check_range(f, node, a) : status;
+}
+
+/* A range with a count, as an item of a list. */
+static iso_status read_range_of_list(iso_sweep_file *f, const yaml_node_t *item, iso_sweep_axis *range)
+{
+    iso_status status = read_range(f, item, range);
+    if (status != ISO_OK || (range->values == ISO_FROM_RANGE && range->count <= MOST_LISTED)) return status;
+    return iso_yaml_fail(&f->yaml, item->start_mark, "a range in a list needs a 'count', at most %d", MOST_LISTED);
+}
+
+/* Values, and ranges of values. list NULL: only counts them. */
+static iso_status read_items(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a, size_t *count)
+{
+    iso_status status = ISO_OK;
+    *count = 0;
+    for (const yaml_node_item_t *i = node->data.sequence.items.start; i < node->data.sequence.items.top; i++) {
+        const yaml_node_t *item = iso_yaml_node(&f->yaml, *i);
+        iso_sweep_axis range = {.width = a->width, .count = 1};
+        double value[9], *to = a->list ? a->list + *count * (size_t)a->width : value;
+        snprintf(range.name, sizeof range.name, "%s", a->name);
+        if (item->type == YAML_MAPPING_NODE && a->width == 1) {
+            status = read_range_of_list(f, item, &range);
+            for (size_t j = 0; a->list && j < range.count && status == ISO_OK; j++)
+                to[j] = iso_sweep_in_range(&range, j);
+        } else {
+            status = read_item(f, item, a, to);
+        }
+        if (status != ISO_OK) return status;
+        *count += range.count;
+    }
+    return ISO_OK;
+}
+
+static iso_status read_list(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
+{
+    size_t count;
+    if (node->data.sequence.items.start == node->data.sequence.items.top)
+        return iso_yaml_expected(&f->yaml, node, a->name, "a list of at least one value");
+    iso_status status = read_items(f, node, a, &count);
+    if (status == ISO_OK) status = make_list(f, a, count);
+    return status == ISO_OK ? read_items(f, node, a, &count) : status;
+}
+
+/* All a + b + c = sum from 1 on; ordered: a < b < c. */
+static size_t triangle_count(long sum, bool ordered)
+{
+    if (!ordered) return (size_t)(sum - 1) * (size_t)(sum - 2) / 2;
+    size_t count = 0;
+    for (long a = 1; 3 * a + 3 <= sum; a++) count += (size_t)((sum - a - 1) / 2 - a);
+    return count;
+}
+
+static iso_status read_triangle(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
+{
+    static const char *const names[] = {"triangle", "ordered"};
+    const yaml_node_t *value;
+    double sum = 0;
+    iso_status status = iso_sweep_check_keys(&f->yaml, node, a->name, 2, names);
+    if (status != ISO_OK) return status;
+    if (strcmp(a->name, "J") != 0 || !iso_yaml_find(&f->yaml, node, "triangle", NULL, &value))
+        return iso_yaml_expected(&f->yaml, node, a->name, "a list of vectors");
+    status = iso_sweep_whole(&f->yaml, value, "triangle", 6, 100000, &sum);
+    if (status == ISO_OK) status = read_flag(f, node, "ordered", &a->ordered);
+    a->values = ISO_FROM_TRIANGLE;
+    a->sum = (long)sum;
+    a->count = triangle_count(a->sum, a->ordered);
+    return status;
+}
+
+static iso_status read_spread(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
+{
+    static const char *const names[] = {"spread", "seed"};
+    const yaml_node_t *value;
+    double count = 0, seed = 0;
+    iso_status status = iso_sweep_check_keys(&f->yaml, node, a->name, 2, names);
+    if (status != ISO_OK) return status;
+    if (!iso_yaml_find(&f->yaml, node, "spread", NULL, &value))
+        return iso_yaml_fail(&f->yaml, node->start_mark, "missing 'spread' in 'start': the number of starts");
+    status = iso_sweep_whole(&f->yaml, value, "spread", 1, 1e12, &count);
+    if (status == ISO_OK && iso_yaml_find(&f->yaml, node, "seed", NULL, &value))
+        status = iso_sweep_whole(&f->yaml, value, "seed", 0, 0x1p53, &seed);
+    a->values = ISO_FROM_SPREAD;
+    a->count = (size_t)count;
+    a->seed = (uint64_t)seed;
+    return status;
+}
+
+static iso_status read_values(iso_sweep_file *f, const yaml_node_t *node, iso_sweep_axis *a)
+{
+    if (node->type == YAML_SEQUENCE_NODE) return read_list(f, node, a);
+    if (node->type == YAML_MAPPING_NODE) {
+        if (a->target == ISO_TO_CHART && a->chart == 2) return read_spread(f, node, a);
+        return a->width == 3 ? read_triangle(f, node, a) : read_range(f, node, a);
+    }
+    if (a->width > 1)
+        return iso_yaml_expected(&f->yaml, node, a->name,
+                                 a->chart == 2 ? "a list of [l, x], or {spread: ...}" : "a list of vectors");
+    const iso_status status = make_list(f, a, 1);
+    return status == ISO_OK ? iso_yaml_number(&f->yaml, node, a->name, a->list) : status;
+}
+
+/* --- what must hold --------------------------------------------------------------------------------------------- */
+
+static iso_status check_tolerance(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
+{
+    bool good = true;
+    if (strcmp(a->name, "tolerance") != 0) return ISO_OK;
+    for (size_t i = 0; a->list && i < a->count; i++) good = good && a->list[i] >= 1e-15 && a->list[i] <= 0.1;
+    if (!a->list) good = fmin(a->from, a->to) >= 1e-15 && fmax(a->from, a->to) <= 0.1;
+    return good ? ISO_OK : iso_yaml_fail(&f->yaml, node->start_mark, "'tolerance' must be in [1e-15, 0.1]");
+}
+
+static iso_status check_chart(iso_sweep_file *f, const yaml_node_t *node, const iso_sweep_axis *a)
+{
+    const iso_effect *effect = iso_effects_beyond_level(&f->draft.scene.effects);
+    if (a->target != ISO_TO_CHART) return ISO_OK;
+    f->on_section = true;
+    if (effect)
+        return iso_yaml_fail(&f->yaml, node->start_mark,
+                             "'%s' acts: a start on the section needs a free motion, without it", effect->name);
+    for (size_t i = 0; a->list && a->chart > 0 && i < a->count; i++) {
+        const double x = a->list[i * (size_t)a->width + (size_t)a->width - 1];
+        if (!(fabs(x) < 1))
+            return iso_yaml_fail(&f->yaml, node->start_mark, "x = %g is outside the chart: |x| < 1", x);
+    }
+    if (!a->list && a->chart == 1 && !(fabs(a->from) < 1 && fabs(a->to) < 1))
+        return iso_yaml_fail(&f->yaml, node->start_mark, "x is from %g to %g: |x| < 1 in the chart", a->from, a->to);
+    return ISO_OK;
+}
+
+/* l and x are both there, once. */
+static iso_status check_start(iso_sweep_file *f, const yaml_node_t *vary)
+{
+    int have[2] = {0, 0};
+    for (int i = 0; i < f->axes; i++) {
+        const iso_sweep_axis *a = &f->axis[i];
+        for (int c = 0; c < 2; c++) have[c] += a->target == ISO_TO_CHART && (a->chart == c || a->chart == 2);
+    }
+    if (!f->on_section || (have[0] == 1 && have[1] == 1)) return ISO_OK;
+    return iso_yaml_fail(
+        &f->yaml, vary->start_mark,
+        "a start on the section is 'l' and 'x' (one of them may be a single number), or 'start' alone");
+}
+
+/* The moments that an axis sets, as bits. */
+static int moments_of(const iso_sweep_axis *a)
+{
+    if (a->target == ISO_TO_RATIO) return 1 << a->part;
+    if (a->target != ISO_TO_NUMBER) return 0;
+    return strcmp(a->name, "J") == 0 ? 7 : component(a->name, "J") >= 0 ? 1 << a->part : 0;
+}
+
+/* J2 and J2/J1 both set J2; and J1 behind J2/J1 changes the ratio that the row tells. */
+static iso_status check_moments(iso_sweep_file *f, const yaml_node_t *key, const iso_sweep_axis *a)
+{
+    for (const iso_sweep_axis *b = f->axis; b < a; b++) {
+        if (moments_of(a) & moments_of(b))
+            return iso_yaml_fail(&f->yaml, key->start_mark, "'%s' and '%s' set the same moment", b->name, a->name);
+        if (b->target == ISO_TO_RATIO && moments_of(a) & 1 << b->of)
+            return iso_yaml_fail(&f->yaml, key->start_mark, "'%s' changes '%s': write it first", a->name, b->name);
+    }
+    return ISO_OK;
+}
+
+/* The names of the columns of an axis. */
+static iso_status name_columns(iso_sweep_file *f, const yaml_node_t *key, iso_sweep_axis *a)
+{
+    a->column = f->plan.family.columns;
+    for (int i = 0; i < a->width; i++) {
+        char *name = f->column[f->plan.family.columns++], digit[2] = {a->width == 1 ? '\0' : (char)('1' + i), '\0'};
+        if (a->target == ISO_TO_CHART)
+            snprintf(name, ISO_NAME_SIZE, "%s", a->chart == 1 || i == 1 ? "x" : "l");
+        else if (a->target == ISO_TO_RATIO)
+            snprintf(name, ISO_NAME_SIZE, "J%d_over_J%d", a->part + 1, a->of + 1);
+        else
+            snprintf(name, ISO_NAME_SIZE, "%.29s%s", a->name, digit);
+        for (int c = 0; c < f->plan.family.columns - 1; c++)
+            if (strcmp(f->column[c], name) == 0)
+                return iso_yaml_fail(&f->yaml, key->start_mark, "'%s' varies twice", name);
+    }
+    return ISO_OK;
+}
+
+static iso_status read_axis(iso_sweep_file *f, const yaml_node_pair_t *pair)
+{
+    const yaml_node_t *key = iso_yaml_node(&f->yaml, pair->key), *value = iso_yaml_node(&f->yaml, pair->value);
+    if (f->axes == ISO_SWEEP_AXES)
+        return iso_yaml_fail(&f->yaml, key->start_mark, "more than %d numbers vary", ISO_SWEEP_AXES);
+    iso_sweep_axis *a = &f->axis[f->axes++];
+    iso_status status = find_target(f, key, a);
+    if (status == ISO_OK) status = read_values(f, value, a);
+    if (status == ISO_OK) status = check_tolerance(f, value, a);
+    if (status == ISO_OK) status = check_chart(f, value, a);
+    if (status == ISO_OK) status = iso_sweep_check_level(f, key, a);
+    if (status == ISO_OK) status = name_columns(f, key, a);
+    if (status == ISO_OK) status = check_moments(f, key, a);
+    if (status != ISO_OK || a->values != ISO_FROM_DRAWING) return status;
+    if (f->drawn == ISO_SWEEP_DRAWN)
+        return iso_yaml_fail(&f->yaml, key->start_mark, "more than %d numbers are drawn", ISO_SWEEP_DRAWN);
+    a->drawn = f->drawn++;
+    return ISO_OK;
+}
+
+/* --- samples ---------------------------------------------------------------------------------------------------- */
+
+/* Evenly: the additive recurrence of `dimension` steps 1/r, 1/r^2, ..., r^(dimension + 1) = r + 1 (M. Roberts). */
+static void prepare_drawing(iso_sweep_file *f)
+{
+    double r = 1.5;
+    for (int i = 0; i < 200; i++) {
+        double power = 1;
+        for (int j = 0; j <= f->drawn; j++) power *= r;
+        const double slope = (f->drawn + 1) * (power / r) - 1;
+        r -= (power - r - 1) / slope;
+    }
+    double step = 1;
+    uint64_t number = f->seed;
+    for (int j = 0; j < f->drawn; j++) {
+        step /= r;
+        f->step[j] = (uint64_t)(step * 0x1p64);
+        f->shift[j] = number = iso_scatter(number);
+    }
+}
+
+static iso_status read_samples(iso_sweep_file *f, const yaml_node_t *samples)
+{
+    static const char *const names[] = {"count", "kind", "seed"}, *const kinds[] = {"even", "random"};
+    const yaml_node_t *value;
+    double count = 0, seed = 0;
+    iso_status status = iso_sweep_check_keys(&f->yaml, samples, "samples", 3, names);
+    if (status != ISO_OK) return status;
+    if (!iso_yaml_find(&f->yaml, samples, "count", NULL, &value))
+        return iso_yaml_fail(&f->yaml, samples->start_mark, "missing 'count' in 'samples'");
+    status = iso_sweep_whole(&f->yaml, value, "count", 1, 1e12, &count);
+    f->samples = (size_t)count;
+    if (status == ISO_OK && iso_yaml_find(&f->yaml, samples, "seed", NULL, &value))
+        status = iso_sweep_whole(&f->yaml, value, "seed", 0, 0x1p53, &seed);
+    f->seed = (uint64_t)seed;
+    if (status != ISO_OK || !iso_yaml_find(&f->yaml, samples, "kind", NULL, &value)) return status;
+    f->random = iso_yaml_is(value, kinds[1]);
+    if (f->random || iso_yaml_is(value, kinds[0])) return ISO_OK;
+    if (value->type != YAML_SCALAR_NODE) return iso_yaml_expected(&f->yaml, value, "kind", "even or random");
+    return iso_yaml_unknown(&f->yaml, value, "kind", 2, kinds);
+}
+
+static iso_status check_samples(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples)
+{
+    if (f->drawn > 0 && !samples)
+        return iso_yaml_fail(&f->yaml, vary->start_mark,
+                             "a range without a count is drawn: 'samples: {count: ...}' is missing");
+    if (f->drawn == 0 && samples)
+        return iso_yaml_fail(&f->yaml, samples->start_mark,
+                             "'samples' draws numbers of ranges without a count, and there are none");
+    return ISO_OK;
+}
+
+static iso_status count_points(iso_sweep_file *f, const yaml_node_t *vary)
+{
+    double count = f->drawn > 0 ? (double)f->samples : 1;
+    f->plan.family.count = f->drawn > 0 ? f->samples : 1;
+    for (int i = 0; i < f->axes; i++) {
+        count *= (double)f->axis[i].count;
+        if (count > most_points) return iso_yaml_fail(&f->yaml, vary->start_mark, "more than %g points", most_points);
+        f->plan.family.count *= f->axis[i].count;
+    }
+    return ISO_OK;
+}
+
+iso_status iso_sweep_read_vary(iso_sweep_file *f, const yaml_node_t *vary, const yaml_node_t *samples)
+{
+    if (vary->type == YAML_MAPPING_NODE && vary->data.mapping.pairs.start == vary->data.mapping.pairs.top)
+        return iso_yaml_fail(&f->yaml, vary->start_mark, "'vary' names no number: write k: [0.5, 1], for example");
+    if (vary->type != YAML_MAPPING_NODE)
+        return iso_yaml_expected(&f->yaml, vary, "vary", "a mapping with the numbers that vary");
+    f->column = calloc(9 * ISO_SWEEP_AXES, sizeof *f->column);
+    if (!f->column) return iso_context_fail(f->yaml.ctx, ISO_NO_MEMORY, "", "no memory for a sweep");
+    iso_status status = ISO_OK;
+    const yaml_node_pair_t *end = vary->data.mapping.pairs.top;
+    for (const yaml_node_pair_t *p = vary->data.mapping.pairs.start; p < end && status == ISO_OK; p++)
+        status = read_axis(f, p);
+    if (status == ISO_OK) status = check_start(f, vary);
+    if (status == ISO_OK) status = check_samples(f, vary, samples);
+    if (status == ISO_OK && samples) status = read_samples(f, samples);
+    if (status == ISO_OK) prepare_drawing(f);
+    return status == ISO_OK ? count_points(f, vary) : status;
+}
