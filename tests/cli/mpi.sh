@@ -15,6 +15,7 @@ has "$mpirun" "all" || exit 0
 options=
 "$mpirun" --version 2>&1 | grep -q -i 'open *mpi\|openrte' && options='--oversubscribe --bind-to none -q'
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_mpi_yield_when_idle=1 # ranks that wait leave the processor to others
 export ASAN_OPTIONS=detect_leaks=0 # MPI keeps what it has got until the end
 
 # ranks STATUS N ARGUMENT...: isoroll-mpi on N ranks; words in err
