@@ -10,7 +10,4 @@ void iso_turn_to_space(const double Q[4], const double v[3], double in_space[3])
 /* The same as a formula. */
 iso_vector iso_in_space(iso_formula *F, const iso_problem *f, iso_vector v);
 
-/* On a plane: the displacement of the centre in space axes since time 0, in units of b. */
-const double *iso_displacement(const iso_problem *f, const double y[]);
-
 #endif

@@ -1,5 +1,5 @@
-/* conical.c - sphero-conical coordinates of a vector: from a vector to its two angles, and back (conical.h). */
-#include "model/conical.h"
+/* conical.c - sphero-conical coordinates of a vector: from a vector to its two angles, and back (conical_impl.h). */
+#include "model/conical_impl.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -33,7 +33,8 @@ iso_vector iso_in_space(iso_formula *F, const iso_problem *f, iso_vector v)
     return add_v(F, v, times_v(F, constant(F, 2), turned));
 }
 
-const double *iso_displacement(const iso_problem *f, const double y[])
+/* On a plane: the displacement of the centre in space axes since time 0, in units of b. */
+static const double *displacement(const iso_problem *f, const double y[])
 {
     return y + f->at[ISO_ATTITUDE] + 4;
 }
@@ -62,7 +63,7 @@ static void size(const iso_problem *f, const double y[], double size[])
 {
     const int at = f->at[ISO_ATTITUDE];
     for (int i = 0; i < 4; i++) size[at + i] = 1;
-    for (int i = 4; iso_is_plane(f) && i < 7; i++) size[at + i] = 1 + norm(iso_displacement(f, y));
+    for (int i = 4; iso_is_plane(f) && i < 7; i++) size[at + i] = 1 + norm(displacement(f, y));
 }
 
 static double unit_quaternion(const iso_problem *f, const double y[], double *value_size)
@@ -87,7 +88,7 @@ static void show(const iso_problem *f, const double y[], double columns[])
     copy(Q, columns, 4);
     iso_turn_to_space(Q, n, space_n);
     for (int i = 0; i < 3; i++) {
-        contact[i] = iso_is_plane(f) ? iso_displacement(f, y)[i] : radius_a(&f->p) * space_n[i];
+        contact[i] = iso_is_plane(f) ? displacement(f, y)[i] : radius_a(&f->p) * space_n[i];
         trace[i] = -b * n[i];
         centre[i] = contact[i] + b * space_n[i];
     }

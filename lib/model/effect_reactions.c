@@ -1,12 +1,18 @@
-/* effect_reactions.c - the forces of the contact. It only observes: the motion, which these forces make, stays as it
- * is. */
+/* effect_reactions.c - what the support does to the ball. It only observes: the motion, which these forces make, stays
+ * as it is.
+ *
+ *     a_c = b [ w' x n + w x n' + w x (w x n) ]          acceleration of the centre, in body axes
+ *     N = m a_c - F,   F = -m g e under gravity           contact force
+ *
+ * The twist torque lambda n acts as well: lambda of (9), or -c (w,n) of a contact that twists. With D = m b^2 all of
+ * this needs mass and radius only as b: columns are forces times |b|, which are energies.
+ */
 #include <float.h>
 
 #include "base/vec3_impl.h"
 #include "model/contact_impl.h"
 #include "model/effects_impl.h"
 #include "model/model.h"
-#include "model/reactions.h"
 
 /* Where its number is. */
 enum { TWO_SIDED = 0 };
@@ -17,7 +23,7 @@ enum { TWO_SIDED = 0 };
 
 /* w x n' + w x (w x n) = (1-k) w x (w x n) = (1-k) [ (w,n) w - w^2 n ]. The parts along n and across are found one by
  * one: on a plane without weight the first is exactly 0. */
-iso_reactions iso_reactions_at(const iso_problem *f, const double y[])
+static void show(const iso_problem *f, const double y[], double columns[])
 {
     const double *w = y, *n = y + 3, D = f->p.D, k = f->p.k, spin = dot(w, n);
     const double side = k > 1 ? -1 : 1; /* inside a sphere the support is on the other side of the centre */
@@ -39,20 +45,11 @@ iso_reactions iso_reactions_at(const iso_problem *f, const double y[])
     normal += D * (1 - k) * spin * spin;
     if (fabs(normal) <= ROUNDING * size) normal = 0;
     remove_along(across, n);
-    iso_reactions r = {.pressure = side * b * normal, .friction = norm(across), .twist = contact->twist(f, y, T)};
-    r.needed = r.friction / fabs(r.pressure);
-    for (int i = 0; i < 3; i++) r.force[i] = b * (across[i] + normal * n[i]);
-    return r;
-}
-
-static void show(const iso_problem *f, const double y[], double columns[])
-{
-    const iso_reactions r = iso_reactions_at(f, y);
-    copy(r.force, columns, 3);
-    columns[3] = r.pressure;
-    columns[4] = r.friction;
-    columns[5] = fmin(r.needed, DBL_MAX); /* where contact is lost the pressure may be 0 */
-    columns[6] = r.twist;
+    for (int i = 0; i < 3; i++) columns[i] = b * (across[i] + normal * n[i]);
+    columns[3] = side * b * normal; /* < 0: the support would have to pull */
+    columns[4] = norm(across);
+    columns[5] = fmin(columns[4] / fabs(columns[3]), DBL_MAX); /* where contact is lost the pressure may be 0 */
+    columns[6] = contact->twist(f, y, T);
 }
 
 /* mu only where something presses the ball to the support. */

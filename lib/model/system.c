@@ -3,18 +3,10 @@
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 #include "base/vec3_impl.h"
 
 const iso_system *const iso_systems[] = {&iso_system_ball, &iso_system_point, NULL};
-
-const iso_system *iso_system_find(const char *name)
-{
-    for (int i = 0; iso_systems[i]; i++)
-        if (strcmp(iso_systems[i]->name, name) == 0) return iso_systems[i];
-    return NULL;
-}
 
 const char *iso_clock_name(iso_clock clock)
 {

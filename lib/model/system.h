@@ -83,9 +83,6 @@ void iso_point_t_to_point(const iso_params *p, const double y[ISO_STATE], double
 /* The registry, ended by NULL. */
 ISO_API extern const iso_system *const iso_systems[];
 
-/* The system called `name`, or NULL. */
-ISO_API const iso_system *iso_system_find(const char *name);
-
 /* Whether powers q^(1/k) may range over more than ten decades along an orbit: series of (24) then overflow, and its
  * steps shrink. */
 bool iso_params_steep(const iso_params *p);

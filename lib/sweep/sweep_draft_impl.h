@@ -88,8 +88,7 @@ iso_status iso_sweep_whole(iso_yaml *y, const yaml_node_t *node, const char *wha
 /* Value j of a range of a->count values; with equal steps 0.1, 0.2, ... are what one writes. */
 double iso_sweep_in_range(const iso_sweep_axis *a, size_t j);
 
-/* sweep_point.c: a draft with the numbers of point i in it, and these numbers. l and x are not in it. */
-iso_draft iso_sweep_draft(iso_context *ctx, const iso_sweep_file *f, size_t i, double numbers[]);
+/* sweep_point.c: the scene of point i, and its numbers. */
 iso_status iso_sweep_point(iso_context *ctx, const void *file, size_t i, iso_scene *scene, double numbers[]);
 
 #endif

@@ -89,7 +89,8 @@ static void take_apart(const iso_sweep_file *f, size_t i, size_t index[], size_t
     }
 }
 
-iso_draft iso_sweep_draft(iso_context *ctx, const iso_sweep_file *f, size_t i, double numbers[])
+/* A draft with the numbers of point i in it, and these numbers. l and x are not in it. */
+static iso_draft draft_of(iso_context *ctx, const iso_sweep_file *f, size_t i, double numbers[])
 {
     iso_draft d = f->draft;
     size_t index[ISO_SWEEP_AXES], sample;
@@ -188,7 +189,7 @@ iso_status iso_sweep_point(iso_context *ctx, const void *file, size_t i, iso_sce
 {
     ISO_DEFAULT_ARITHMETIC;
     const iso_sweep_file *f = file;
-    iso_draft d = iso_sweep_draft(ctx, f, i, numbers);
+    iso_draft d = draft_of(ctx, f, i, numbers);
     iso_status status = iso_draft_make(&d);
     if (status != ISO_OK) return status;
     *scene = d.scene;
@@ -326,7 +327,7 @@ iso_status iso_sweep_scene_text(iso_context *ctx, const iso_sweep_file *file, si
                                 "the ball of level 0 has no effect 'level': take it out of the scene's text");
     patches *p = calloc(1, sizeof *p);
     if (!p) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a scene");
-    const iso_draft d = iso_sweep_draft(ctx, file, i, numbers);
+    const iso_draft d = draft_of(ctx, file, i, numbers);
     p->f = (iso_sweep_file *)file; /* libyaml's nodes are asked through pointers that are not const */
     take_text(p, file);
     for (int n = 0; n < file->axes; n++) {

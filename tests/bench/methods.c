@@ -23,7 +23,6 @@
 #include <string.h>
 
 #include "bench.h"
-#include "map/reduction.h"
 #include "map/state.h"
 #include "method/method.h"
 

@@ -4,7 +4,7 @@
 
 #include "exact/coordinates.h"
 #include "exact/exact.h"
-#include "map/reduction.h"
+#include "reduction.h"
 #include "map/state.h"
 #include "orbits.h"
 
@@ -100,7 +100,7 @@ static void check_round_trips(void)
             if (pass == 0)
                 note_round_trip(&p, y, iso_separation_coordinates, iso_separation_point, &point);
             else
-                note_round_trip(&p, y, iso_reduction_coordinates, iso_reduction_ball, &ball);
+                note_round_trip(&p, y, reduction_coordinates, reduction_ball, &ball);
         }
     }
     laws_report(&point, "point: there and back");
@@ -117,12 +117,12 @@ static void momenta_of_ball(const laws_case *c, laws_worst *worst)
     const iso_params *p = &c->problem.p;
     iso_conical at;
     double momenta[2], of_angles[2];
-    iso_reduction_coordinates(p, c->y, &at);
+    reduction_coordinates(p, c->y, &at);
     const double T = at.z[1] * pow(at.speed[0], 2) + at.z[0] * pow(at.speed[1], 2), h = c->problem.energy;
     laws_note(worst, fabs(T / (2 * p->k * p->k) - h), 16 * DBL_EPSILON * laws_spread(p) * h, p, "T");
     if (!laws_regular(c)) return;
-    iso_reduction_momenta(p, &at, momenta);
-    iso_reduction_angle_momenta(p, &at, of_angles);
+    reduction_momenta(p, &at, momenta);
+    reduction_angle_momenta(p, &at, of_angles);
     const double range[2] = {at.b[1] - at.b[0], at.b[1] - at.b[2]}, size = hypot(of_angles[0], of_angles[1]);
     for (int r = 0; r < 2; r++) {
         const double expected = momenta[r] * 2 * range[r] * at.sine[r] * at.cosine[r];
@@ -138,7 +138,7 @@ static void ball_and_point(const laws_case *c, laws_worst *worst)
     double point[ISO_STATE];
     iso_ball_to_point(p, c->y, point);
     iso_separation_coordinates(p, point, &of_point);
-    iso_reduction_coordinates(p, c->y, &of_ball);
+    reduction_coordinates(p, c->y, &of_ball);
     if (p->k != 1 || of_ball.b[0] == of_ball.b[1] || of_ball.b[1] == of_ball.b[2]) return;
     const double gap = fmin(of_ball.b[1] - of_ball.b[0], of_ball.b[2] - of_ball.b[1]); /* 1/J are rounded */
     const double tan_psi = fabs(of_ball.sine[1]) * sqrt(of_ball.b[1] / of_ball.b[2]);

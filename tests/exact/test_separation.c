@@ -7,7 +7,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "map/reduction.h"
+#include "reduction.h"
 #include "map/state.h"
 
 static double A(const double b[3], double z)
@@ -24,9 +24,9 @@ static void staeckel(const laws_case *c, laws_worst *worst)
     const iso_params *p = &c->problem.p;
     iso_conical at;
     double momenta[2];
-    iso_reduction_coordinates(p, c->y, &at);
-    iso_reduction_momenta(p, &at, momenta);
-    const double lam = at.z[0], mu = at.z[1], N = iso_reduction_multiplier(p, &at);
+    reduction_coordinates(p, c->y, &at);
+    reduction_momenta(p, &at, momenta);
+    const double lam = at.z[0], mu = at.z[1], N = reduction_multiplier(p, &at);
     const double left = c->problem.energy * (mu - lam) * N * N * lam * mu / (2 * p->k * p->k);
     const double right = -lam * A(p->J, lam) * momenta[0] * momenta[0] + mu * A(p->J, mu) * momenta[1] * momenta[1];
     const double power = p->det_J * pow(lam * mu / p->det_J, -1 + 1 / p->k);
@@ -42,8 +42,8 @@ static void ball_constants(const void *data, const double y[], double constant[]
     const double h = iso_ball_energy(p, y);
     iso_conical at;
     double momenta[2];
-    iso_reduction_coordinates(p, y, &at);
-    iso_reduction_momenta(p, &at, momenta);
+    reduction_coordinates(p, y, &at);
+    reduction_momenta(p, &at, momenta);
     for (int r = 0; r < 2; r++) {
         const double z = at.z[r];
         constant[r] = z * A(p->J, z) * momenta[r] * momenta[r] - h * p->det_J * z / 2;

@@ -8,7 +8,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "map/poisson.h"
+#include "poisson.h"
 #include "map/state.h"
 
 /* NN, rho of (18), from n */
@@ -80,7 +80,7 @@ static void energies(const laws_case *c, laws_worst *worst)
     laws_note(worst, fabs(iso_energy(p, eps) / h - 1), 4 * DBL_EPSILON, p, "h of eps");
     laws_note(worst, fabs(iso_energy(p, iso_coupling(p, h)) / h - 1), 4 * DBL_EPSILON, p, "h back");
     laws_note(worst, fabs(iso_point_energy(p, point) / h - 1), 2 * laws_rounding(p), p, "h of the point");
-    laws_note(worst, fabs(iso_hamiltonian(p, point, NULL) / h - 1), 2 * laws_rounding(p), p, "H (21)");
+    laws_note(worst, fabs(poisson_hamiltonian(p, point, NULL) / h - 1), 2 * laws_rounding(p), p, "H (21)");
 }
 
 /* The mapped point lives on the level H = 0, and has the ball's integrals (claimed or not: the axis ones agree as
@@ -165,7 +165,7 @@ static void hamiltonian_form(const laws_case *c, laws_worst *worst)
     const iso_problem f = {.p = *p, .eps = iso_coupling(p, c->problem.energy)};
     double point[ISO_STATE], dtau[ISO_STATE], ds[ISO_STATE];
     iso_ball_to_point(p, c->y, point);
-    iso_hamiltonian_rhs(p, point, dtau);
+    poisson_hamiltonian_rhs(p, point, dtau);
     iso_system_point.rhs(&f, point, ds);
     const double q = iso_system_point.q(p, point, NULL), G = p->k * p->k / p->det_J * pow(q, 1 / p->k);
     for (int i = 0; i < ISO_STATE; i++) ds[i] *= G;

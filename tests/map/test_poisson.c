@@ -6,7 +6,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "map/poisson.h"
+#include "poisson.h"
 #include "map/state.h"
 
 enum { N = ISO_STATE };
@@ -27,7 +27,7 @@ static void brackets(const laws_case *c, laws_worst *worst)
 {
     double y[N], B[N * N];
     anywhere(c, y);
-    iso_poisson_matrix(y, B);
+    poisson_matrix(y, B);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             double MM = 0, Mgamma = 0;
@@ -46,7 +46,7 @@ static void antisymmetric(const laws_case *c, laws_worst *worst)
 {
     double y[N], B[N * N];
     anywhere(c, y);
-    iso_poisson_matrix(y, B);
+    poisson_matrix(y, B);
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++) laws_note(worst, fabs(B[N * i + j] + B[N * j + i]), DBL_MIN, &c->problem.p, "");
 }
@@ -56,7 +56,7 @@ static void casimirs(const laws_case *c, laws_worst *worst)
 {
     double y[N], B[N * N];
     anywhere(c, y);
-    iso_poisson_matrix(y, B);
+    poisson_matrix(y, B);
     const double gradient[2][N] = {{y[3], y[4], y[5], y[0], y[1], y[2]}, {0, 0, 0, y[3], y[4], y[5]}};
     for (int casimir = 0; casimir < 2; casimir++)
         for (int i = 0; i < N; i++) {
@@ -76,7 +76,7 @@ static void derivatives(double dB[N][N * N])
     for (int m = 0; m < N; m++) {
         double unit[N] = {0};
         unit[m] = 1;
-        iso_poisson_matrix(unit, dB[m]);
+        poisson_matrix(unit, dB[m]);
     }
 }
 
@@ -85,7 +85,7 @@ static void jacobi(const laws_case *c, laws_worst *worst)
 {
     double y[N], B[N * N], dB[N][N * N];
     anywhere(c, y);
-    iso_poisson_matrix(y, B);
+    poisson_matrix(y, B);
     derivatives(dB);
     for (int i = 0; i < N; i++)
         for (int j = 0; j < N; j++)
@@ -100,14 +100,14 @@ static void jacobi(const laws_case *c, laws_worst *worst)
 
 static void hamiltonian(const void *data, const double y[], double H[])
 {
-    H[0] = iso_hamiltonian(data, y, NULL);
+    H[0] = poisson_hamiltonian(data, y, NULL);
 }
 
 static void gradient_of_h(const laws_case *c, laws_worst *worst)
 {
     const iso_params *p = &c->problem.p;
     double gradient[N], slope;
-    const double H = iso_hamiltonian(p, c->y, gradient);
+    const double H = poisson_hamiltonian(p, c->y, gradient);
     for (int j = 0; j < N; j++) {
         double direction[N] = {0};
         direction[j] = 1;
@@ -123,8 +123,8 @@ static void equations(const laws_case *c, laws_worst *worst)
     const iso_params *p = &c->problem.p;
     const double *M = c->y, *gamma = c->y + 3;
     double dH[N], dy[N], M_dM[3], gamma_dgamma[3], gamma_dM[3];
-    iso_hamiltonian(p, c->y, dH);
-    iso_hamiltonian_rhs(p, c->y, dy);
+    poisson_hamiltonian(p, c->y, dH);
+    poisson_hamiltonian_rhs(p, c->y, dy);
     cross(M, dH, M_dM);
     cross(gamma, dH + 3, gamma_dgamma);
     cross(gamma, dH, gamma_dM);
@@ -151,7 +151,7 @@ static void ball_in_tau(const laws_case *c, laws_worst *worst)
     c->system->rhs(&c->problem, c->y, dy);
     const double h = laws_step(c, dy);
     laws_slope(map_to_point, p, N, N, c->y, dy, h, carried);
-    iso_hamiltonian_rhs(p, point, expected);
+    poisson_hamiltonian_rhs(p, point, expected);
     const double multiplier = pow(iso_system_point.q(p, point, NULL), 1 - 1 / (2 * p->k));
     for (int i = 0; i < N; i++) expected[i] *= multiplier;
     laws_note(worst, laws_distance(carried, expected), laws_rounding(p) * norm(point) / h, p, "M");

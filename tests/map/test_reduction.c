@@ -6,7 +6,7 @@
 
 #include "base/vec3_impl.h"
 #include "laws.h"
-#include "map/reduction.h"
+#include "reduction.h"
 #include "map/state.h"
 
 /* A(z) = (J1 - z)(J2 - z)(J3 - z) */
@@ -22,7 +22,7 @@ static void as_written(const laws_case *c, laws_worst *worst)
     const iso_params *p = &c->problem.p;
     const double k = p->k;
     iso_conical at;
-    iso_reduction_coordinates(p, c->y, &at);
+    reduction_coordinates(p, c->y, &at);
     const double lam = at.z[0], mu = at.z[1], dlam = at.rate[0], dmu = at.rate[1];
     const double T = (mu - lam) / (8 * k * k) * (-mu * dlam * dlam / A(p, lam) + lam * dmu * dmu / A(p, mu));
     const double S = (2 * k - 1) / (8 * k * k * k) * (lam - mu) * (dlam / A(p, lam) + dmu / A(p, mu));
@@ -31,16 +31,16 @@ static void as_written(const laws_case *c, laws_worst *worst)
     const double N = iso_clock_rate(p, ISO_CLOCK_TAU, iso_system_ball.q(p, c->y, NULL), NULL);
     const double h = iso_ball_energy(p, c->y);
     laws_note(worst, fabs(T - h), laws_conditioning(p) * h, p, "T (14)");
-    laws_note(worst, fabs(iso_reduction_energy(p, &at) - h), laws_conditioning(p) * h, p, "T");
-    laws_note(worst, fabs(iso_reduction_force(p, &at) - S), laws_conditioning(p) * size, p, "S (15)");
-    laws_note(worst, fabs(iso_reduction_multiplier(p, &at) / N - 1), laws_conditioning(p), p, "N (16)");
+    laws_note(worst, fabs(reduction_energy(p, &at) - h), laws_conditioning(p) * h, p, "T");
+    laws_note(worst, fabs(reduction_force(p, &at) - S), laws_conditioning(p) * size, p, "S (15)");
+    laws_note(worst, fabs(reduction_multiplier(p, &at) / N - 1), laws_conditioning(p), p, "N (16)");
 }
 
 /* lam' and mu' are the derivatives of lam and mu along the flow. */
 static void coordinates_of(const void *data, const double y[], double z[])
 {
     iso_conical at;
-    iso_reduction_coordinates(data, y, &at);
+    reduction_coordinates(data, y, &at);
     copy(at.z, z, 2);
 }
 
@@ -50,7 +50,7 @@ static void rates(const laws_case *c, laws_worst *worst)
     const iso_params *p = &c->problem.p;
     double dy[ISO_STATE], slope[2];
     iso_conical at;
-    iso_reduction_coordinates(p, c->y, &at);
+    reduction_coordinates(p, c->y, &at);
     c->system->rhs(&c->problem, c->y, dy);
     /* lam and mu change on a way of the order of n_i and of the distance of the moments: a shorter step */
     const double h = laws_step(c, dy) / 8;
@@ -74,7 +74,7 @@ typedef double on_coordinates(const iso_params *p, const iso_conical *at, const 
 static double T_of(const iso_params *p, const iso_conical *at, const double unused[2])
 {
     (void)unused;
-    return iso_reduction_energy(p, at);
+    return reduction_energy(p, at);
 }
 
 typedef struct partial {
@@ -110,11 +110,11 @@ static void dT_drate(const void *data, const double y[], double momenta[])
 {
     const iso_params *p = data;
     iso_conical at;
-    iso_reduction_coordinates(p, y, &at);
+    reduction_coordinates(p, y, &at);
     for (int r = 0; r < 2; r++) {
         iso_conical up = at, down = at;
         up.rate[r] = 2 * at.rate[r], down.rate[r] = 0;
-        momenta[r] = (iso_reduction_energy(p, &up) - iso_reduction_energy(p, &down)) / (2 * at.rate[r]);
+        momenta[r] = (reduction_energy(p, &up) - reduction_energy(p, &down)) / (2 * at.rate[r]);
     }
 }
 
@@ -125,10 +125,10 @@ static void note_motion(const laws_case *c, double with_S, double allowed, laws_
     const iso_params *p = &c->problem.p;
     double dy[ISO_STATE], slope[2];
     iso_conical at;
-    iso_reduction_coordinates(p, c->y, &at);
+    reduction_coordinates(p, c->y, &at);
     c->system->rhs(&c->problem, c->y, dy);
     laws_slope_flow(dT_drate, p, 2, c, laws_step(c, dy) / 8, slope);
-    const double S = iso_reduction_force(p, &at), force[2] = {at.rate[1] * S, -at.rate[0] * S};
+    const double S = reduction_force(p, &at), force[2] = {at.rate[1] * S, -at.rate[0] * S};
     for (int r = 0; r < 2; r++) {
         const double dT = partial_derivative(T_of, p, &at, NULL, r);
         laws_note(worst, fabs(slope[r] - dT - with_S * force[r]), allowed * (fabs(dT) + fabs(slope[r])), p,
@@ -151,16 +151,16 @@ static void no_force_at_half(const laws_case *c, laws_worst *worst)
 {
     if (c->problem.p.k != 0.5) return;
     iso_conical at;
-    iso_reduction_coordinates(&c->problem.p, c->y, &at);
-    if (laws_regular(c)) laws_note(worst, fabs(iso_reduction_force(&c->problem.p, &at)), DBL_MIN, &c->problem.p, "S");
+    reduction_coordinates(&c->problem.p, c->y, &at);
+    if (laws_regular(c)) laws_note(worst, fabs(reduction_force(&c->problem.p, &at)), DBL_MIN, &c->problem.p, "S");
     note_motion(c, 0, 1024 / laws_reach(&c->problem.p) * laws_conditioning(&c->problem.p), worst);
 }
 
 static void momenta_of(const void *data, const double y[], double momenta[])
 {
     iso_conical at;
-    iso_reduction_coordinates(data, y, &at);
-    iso_reduction_momenta(data, &at, momenta);
+    reduction_coordinates(data, y, &at);
+    reduction_momenta(data, &at, momenta);
 }
 
 /* (17): dlam/dtau = dH/dp, dp/dtau = -dH/dlam, H = T; p = N dT/dlam' */
@@ -170,12 +170,12 @@ static void canonical(const laws_case *c, laws_worst *worst)
     const iso_params *p = &c->problem.p;
     double dy[ISO_STATE], momenta[2], slope[2], T_rate[2];
     iso_conical at;
-    iso_reduction_coordinates(p, c->y, &at);
-    iso_reduction_momenta(p, &at, momenta);
+    reduction_coordinates(p, c->y, &at);
+    reduction_momenta(p, &at, momenta);
     dT_drate(p, c->y, T_rate);
     c->system->rhs(&c->problem, c->y, dy);
     laws_slope_flow(momenta_of, p, 2, c, laws_step(c, dy) / 8, slope);
-    const double N = iso_reduction_multiplier(p, &at), H = iso_reduction_hamiltonian(p, &at, momenta);
+    const double N = reduction_multiplier(p, &at), H = reduction_hamiltonian(p, &at, momenta);
     laws_note(worst, fabs(H / iso_ball_energy(p, c->y) - 1), laws_conditioning(p), p, "H = T");
     for (int r = 0; r < 2; r++) {
         double up[2] = {momenta[0], momenta[1]};
@@ -183,11 +183,11 @@ static void canonical(const laws_case *c, laws_worst *worst)
         double down[2] = {momenta[0], momenta[1]};
         down[r] = 0;
         const double dp =
-            (iso_reduction_hamiltonian(p, &at, up) - iso_reduction_hamiltonian(p, &at, down)) / (2 * momenta[r]);
+            (reduction_hamiltonian(p, &at, up) - reduction_hamiltonian(p, &at, down)) / (2 * momenta[r]);
         const double size = H / fabs(momenta[r]) + fabs(dp);
-        const double dz = partial_derivative(iso_reduction_hamiltonian, p, &at, momenta, r);
+        const double dz = partial_derivative(reduction_hamiltonian, p, &at, momenta, r);
         laws_note(worst, fabs(momenta[r] / N - T_rate[r]),
-                  laws_conditioning(p) * (fabs(T_rate[r]) + iso_reduction_energy(p, &at) / fabs(at.rate[r])), p, "p");
+                  laws_conditioning(p) * (fabs(T_rate[r]) + reduction_energy(p, &at) / fabs(at.rate[r])), p, "p");
         laws_note(worst, fabs(at.rate[r] / N - dp), laws_conditioning(p) * size, p, "dH/dp");
         laws_note(worst, fabs(slope[r] / N + dz),
                   1024 / laws_reach(p) * laws_conditioning(p) * (fabs(dz) + fabs(slope[r] / N)), p, "dp/dtau");
@@ -201,8 +201,8 @@ static void second_form(const laws_case *c, laws_worst *worst)
     const iso_params *p = &c->problem.p;
     double momenta[2];
     iso_conical at;
-    iso_reduction_coordinates(p, c->y, &at);
-    iso_reduction_momenta(p, &at, momenta);
+    reduction_coordinates(p, c->y, &at);
+    reduction_momenta(p, &at, momenta);
     const double lam = at.z[0], mu = at.z[1], k = p->k;
     const double H = 2 * k * k / (lam - mu) * pow(lam * mu / p->det_J, (2 * k - 1) / k) *
                      (A(p, lam) * momenta[0] * momenta[0] / mu - A(p, mu) * momenta[1] * momenta[1] / lam);
@@ -224,8 +224,8 @@ static void near_planes(void)
             y[3 + axis] = near;
             make_unit(y + 3);
             for (int pass = 0; pass < 2; pass++) remove_along(y, y + 3);
-            iso_reduction_coordinates(&p, y, &at);
-            worst = fmax(worst, fabs(iso_reduction_energy(&p, &at) / iso_ball_energy(&p, y) - 1));
+            reduction_coordinates(&p, y, &at);
+            worst = fmax(worst, fabs(reduction_energy(&p, &at) / iso_ball_energy(&p, y) - 1));
         }
     gsl_test(!(worst < 1e-13), "T next to the coordinate planes is h (%.1e)", worst);
 }

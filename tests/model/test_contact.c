@@ -4,7 +4,6 @@
 
 #include "effects.h"
 #include "model/contact_impl.h"
-#include "model/reactions.h"
 #include "orbits.h"
 
 /* --- rigid ----------------------------------------------------------------------------------------------------- */
@@ -92,8 +91,9 @@ static void twisting_equation(const effects_case *c, laws_worst *worst)
 static double distance_to_rigid(const effects_case *c, double resistance)
 {
     iso_problem f = c->model.problem;
-    const double lambda = iso_reactions_at(&c->model.problem, c->y).twist;
-    double y[ISO_MAX_STATE], rigid[ISO_MAX_STATE], twisting[ISO_MAX_STATE];
+    double y[ISO_MAX_STATE], rigid[ISO_MAX_STATE], twisting[ISO_MAX_STATE], T[3];
+    iso_effects_torque(&c->model.problem, c->y, T, y);
+    const double lambda = iso_contact_rigid.twist(&c->model.problem, c->y, T);
     f.effects.on[ISO_TWIST] = true;
     TWIST_RESISTANCE(&f.effects) = resistance;
     const iso_model m = iso_model_assemble(&iso_system_ball, &f, ISO_CLOCK_T, (const bool[]){false, false, false});

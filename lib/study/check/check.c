@@ -98,7 +98,8 @@ static iso_status find_model(checker *c, iso_model_kind kind)
     return status;
 }
 
-iso_status iso_checker_begin(checker *c)
+/* Reads the names and lines of the record, chooses effects, finds the models. Errors: those of iso_check. */
+static iso_status begin(checker *c)
 {
     for (int i = 0; i < ISO_TRAJECTORY_COLUMNS; i++)
         c->columns[i] = i < iso_columns_count() ? iso_record_find(c->record, iso_column_name(i)) : -1;
@@ -278,7 +279,7 @@ iso_status iso_checking_create(iso_context *ctx, const iso_params *params, const
     made->all.first = made->all.last ? made->all.last + iso_record_columns(header) : NULL;
     made->all.second = made->all.first ? made->all.first + iso_record_columns(header) : NULL;
     iso_units_choose(params, 0, &made->all.units);
-    const iso_status status = made->all.last ? iso_checker_begin(&made->all)
+    const iso_status status = made->all.last ? begin(&made->all)
                                              : iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a check");
     if (status == ISO_OK) return ISO_OK;
     iso_checking_free(made);

@@ -75,9 +75,6 @@ struct iso_checking {
 
 /* --- check.c ---------------------------------------------------------------------------------------------------- */
 
-/* Reads the names and lines of the record, chooses effects, finds the models. Errors: those of iso_check. */
-iso_status iso_checker_begin(checker *c);
-
 /* Notes a value of the residual `name`, and makes the residual at its first value. A NaN counts as infinite. */
 void iso_checker_note(iso_residuals *found, const char *name, const char *what, double value, size_t row);
 

@@ -182,9 +182,6 @@ static inline double iso_periodic_apart(const double a[2], const double b[2])
 /* f's l modulo a turn into (-pi, pi]. */
 double iso_periodic_angle(double l);
 
-/* Whether two points of the section are the same, up to what tells orbits apart. */
-bool iso_periodic_meet(const double a[2], const double b[2]);
-
 /* Finds the orbit at a candidate: line, period, u, (l, x), trace, error, determinant, closure, multipliers, torus,
  * clocks in own units; and path[n - 1] = g^n z, n = 1 to 2 period. */
 typedef enum iso_periodic_answer {

@@ -24,7 +24,8 @@ double iso_periodic_angle(double l)
     return l <= -ISO_PI ? l + 2 * ISO_PI : l;
 }
 
-bool iso_periodic_meet(const double a[2], const double b[2])
+/* Whether two points of the section are the same, up to what tells orbits apart. */
+static bool meet(const double a[2], const double b[2])
 {
     return fabs(remainder(a[0] - b[0], 2 * ISO_PI)) < SAME && fabs(a[1] - b[1]) < SAME;
 }
@@ -68,7 +69,7 @@ static iso_status remember(iso_periodic_work *w, int period, const double (*path
 static bool lies_on(const double (*path)[2], int period, bool odd, const double z[2])
 {
     for (int n = odd ? 1 : 2; n <= 2 * period; n += 2)
-        if (iso_periodic_meet(path[n - 1], z)) return true;
+        if (meet(path[n - 1], z)) return true;
     return false;
 }
 
@@ -135,7 +136,7 @@ static bool has_less(const iso_periodic_orbit *o, const double (*path)[2])
 {
     const double z[2] = {o->l, o->x};
     for (int n = 1; n < o->period; n++)
-        if (o->period % n == 0 && iso_periodic_meet(path[2 * n - 1], z)) return true;
+        if (o->period % n == 0 && meet(path[2 * n - 1], z)) return true;
     return false;
 }
 

@@ -67,8 +67,4 @@ iso_status iso_section_check_open(iso_context *ctx, const iso_orbit *orbit, int 
 /* States the level of the orbit among the effects: then every start is on it, not near it. */
 void iso_section_state_level(const iso_orbit *orbit, iso_effects *effects);
 
-/* The chart of start i, counted from 0: the first `starts` are spread, then come the given ones. */
-void iso_section_chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
-                                double *l, double *x);
-
 #endif

@@ -105,7 +105,8 @@ void iso_section_state_level(const iso_orbit *orbit, iso_effects *effects)
     if (iso_effects_have_level(&found) && isnormal(c)) iso_effects_set_level(effects, true, c);
 }
 
-void iso_section_chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
+/* The chart of start i, counted from 0: the first `starts` are spread, then come the given ones. */
+static void chart_of_start(const iso_section_spread *spread, size_t starts, const double (*at)[2], size_t i,
                                 double *l, double *x)
 {
     if (i < starts) {
@@ -121,7 +122,7 @@ static iso_start start_of(const iso_section_walk *w, size_t orbit)
     const iso_section_options *o = &w->options;
     double l, x;
     if (orbit == 0) return w->scene->start;
-    iso_section_chart_of_start(&w->spread, o->starts, o->at, orbit - 1, &l, &x);
+    chart_of_start(&w->spread, o->starts, o->at, orbit - 1, &l, &x);
     return iso_section_start(w->orbit, w->scene->start.model, o->axis, l, x);
 }
 

@@ -60,9 +60,6 @@ iso_status iso_manifold_solve(iso_manifold *m);
 /* Another domain: the coefficients are 0 again. */
 void iso_manifold_resize(iso_manifold *m, iso_wide size, int terms);
 
-/* g at z, and the derivative. u of the image is in (-pi, pi]. */
-iso_status iso_manifold_map(const iso_manifold *m, const iso_wide z[2], iso_wide image[2], iso_wide A[2][2]);
-
 /* g^halves(W(theta)). |theta| <= 1. */
 iso_status iso_manifold_at(const iso_manifold *m, iso_wide theta, int halves, iso_manifold_point *p);
 

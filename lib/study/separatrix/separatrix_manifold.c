@@ -25,7 +25,8 @@ static iso_status no_return(const iso_manifold *m)
                             m->problem.p.k);
 }
 
-iso_status iso_manifold_map(const iso_manifold *m, const iso_wide z[2], iso_wide image[2], iso_wide A[2][2])
+/* g at z, and the derivative. u of the image is in (-pi, pi]. */
+static iso_status map_half(const iso_manifold *m, const iso_wide z[2], iso_wide image[2], iso_wide A[2][2])
 {
     iso_return r = {.from = {iso_fine_of(iso_wide_turned(m->corner + z[0])), iso_fine_of(z[1])},
                     .start = ISO_FROM_BELOW};
@@ -59,7 +60,7 @@ static iso_status find_direction(iso_manifold *m)
 {
     const iso_wide origin[2] = {0, 0};
     iso_wide image[2], A[2][2];
-    iso_status status = iso_manifold_map(m, origin, image, A);
+    iso_status status = map_half(m, origin, image, A);
     if (status != ISO_OK) return status;
     const iso_wide trace = A[0][0] + A[1][1];
     status = check_trace(m, (double)trace);
@@ -220,7 +221,7 @@ static iso_status set_rows(const iso_manifold *m, int j, linear *L)
     polynomials(inner, n, Ti, unused);
     polynomial_at(m, theta / m->lambda, &from);
     polynomial_at(m, theta, &to);
-    const iso_status status = iso_manifold_map(m, from.z, image, A);
+    const iso_status status = map_half(m, from.z, image, A);
     for (int d = 0; d < 2 && status == ISO_OK; d++) {
         const int row = 2 * j + d;
         L->b[row] = (image[d] - to.z[d]) / (theta * y);
@@ -280,7 +281,7 @@ iso_status iso_manifold_solve(iso_manifold *m)
 iso_status iso_manifold_go_on(const iso_manifold *m, iso_manifold_point *p)
 {
     iso_wide image[2], A[2][2];
-    const iso_status status = iso_manifold_map(m, p->z, image, A);
+    const iso_status status = map_half(m, p->z, image, A);
     if (status != ISO_OK) return status;
     const iso_wide t[2] = {A[0][0] * p->t[0] + A[0][1] * p->t[1], A[1][0] * p->t[0] + A[1][1] * p->t[1]};
     for (int i = 0; i < 2; i++) p->z[i] = image[i], p->t[i] = t[i];

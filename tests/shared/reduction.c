@@ -1,5 +1,5 @@
 /* reduction.c - energy, force and momenta of the ball in sphero-conical coordinates, (14)-(17) (reduction.h). */
-#include "map/reduction.h"
+#include "reduction.h"
 
 #include <math.h>
 
@@ -19,7 +19,7 @@ static void inertia(const iso_params *p, const iso_conical *c, double coefficien
     coefficient[1] = common * lam / A(c, 1);
 }
 
-void iso_reduction_coordinates(const iso_params *p, const double ball[ISO_STATE], iso_conical *c)
+void reduction_coordinates(const iso_params *p, const double ball[ISO_STATE], iso_conical *c)
 {
     double velocity[3];
     cross(ball + 3, ball, velocity);
@@ -28,7 +28,7 @@ void iso_reduction_coordinates(const iso_params *p, const double ball[ISO_STATE]
 }
 
 /* omega = n' x n/k */
-void iso_reduction_ball(const iso_params *p, const iso_conical *c, double ball[ISO_STATE])
+void reduction_ball(const iso_params *p, const iso_conical *c, double ball[ISO_STATE])
 {
     double velocity[3];
     iso_conical_to_vector(p->J, c, ball + 3, velocity);
@@ -36,40 +36,40 @@ void iso_reduction_ball(const iso_params *p, const iso_conical *c, double ball[I
     scale(ball, 1 / p->k);
 }
 
-double iso_reduction_energy(const iso_params *p, const iso_conical *c)
+double reduction_energy(const iso_params *p, const iso_conical *c)
 {
     double m[2];
     inertia(p, c, m);
     return m[0] * c->rate[0] * c->rate[0] + m[1] * c->rate[1] * c->rate[1];
 }
 
-double iso_reduction_force(const iso_params *p, const iso_conical *c)
+double reduction_force(const iso_params *p, const iso_conical *c)
 {
     const double k = p->k;
     return (2 * k - 1) / (8 * k * k * k) * (c->z[0] - c->z[1]) * (c->rate[0] / A(c, 0) + c->rate[1] / A(c, 1));
 }
 
-double iso_reduction_multiplier(const iso_params *p, const iso_conical *c)
+double reduction_multiplier(const iso_params *p, const iso_conical *c)
 {
     return pow(c->z[0] * c->z[1] / p->det_J, -1 + 1 / (2 * p->k));
 }
 
-void iso_reduction_momenta(const iso_params *p, const iso_conical *c, double momenta[2])
+void reduction_momenta(const iso_params *p, const iso_conical *c, double momenta[2])
 {
-    const double N = iso_reduction_multiplier(p, c);
+    const double N = reduction_multiplier(p, c);
     inertia(p, c, momenta);
     for (int r = 0; r < 2; r++) momenta[r] *= 2 * N * c->rate[r];
 }
 
-void iso_reduction_angle_momenta(const iso_params *p, const iso_conical *c, double momenta[2])
+void reduction_angle_momenta(const iso_params *p, const iso_conical *c, double momenta[2])
 {
-    const double N = iso_reduction_multiplier(p, c);
+    const double N = reduction_multiplier(p, c);
     for (int r = 0; r < 2; r++) momenta[r] = N * c->z[1 - r] * c->length[r] * c->speed[r] / (p->k * p->k);
 }
 
-double iso_reduction_hamiltonian(const iso_params *p, const iso_conical *c, const double momenta[2])
+double reduction_hamiltonian(const iso_params *p, const iso_conical *c, const double momenta[2])
 {
-    const double N = iso_reduction_multiplier(p, c);
+    const double N = reduction_multiplier(p, c);
     double m[2], H = 0;
     inertia(p, c, m);
     for (int r = 0; r < 2; r++) H += momenta[r] * momenta[r] / (4 * m[r] * N * N);

@@ -4,23 +4,18 @@
  *     H = (1/2) (k^2/det J) q^(1/k) M^2,    q = (gamma, J gamma)                                            (21)
  *     dM/dtau = M x dH/dM + gamma x dH/dgamma,     dgamma/dtau = gamma x dH/dM
  */
-#ifndef ISO_MAP_POISSON_H
-#define ISO_MAP_POISSON_H
+#ifndef ISO_TESTS_POISSON_H
+#define ISO_TESTS_POISSON_H
 
-#include "../base/api.h"
-#include "../model/system.h"
-
-ISO_C_BEGIN
+#include "model/system.h"
 
 /* The matrix B of the bracket at y = (M, gamma): {f,g} = (df, B dg); row-major. */
-void iso_poisson_matrix(const double y[ISO_STATE], double B[ISO_STATE * ISO_STATE]);
+void poisson_matrix(const double y[ISO_STATE], double B[ISO_STATE * ISO_STATE]);
 
 /* H of (21), equal to the ball's energy, and its gradient (may be NULL). */
-double iso_hamiltonian(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE]);
+double poisson_hamiltonian(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE]);
 
 /* dy/dtau = B dH. */
-void iso_hamiltonian_rhs(const iso_params *p, const double y[ISO_STATE], double dy[ISO_STATE]);
-
-ISO_C_END
+void poisson_hamiltonian_rhs(const iso_params *p, const double y[ISO_STATE], double dy[ISO_STATE]);
 
 #endif

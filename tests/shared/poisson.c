@@ -1,12 +1,12 @@
 /* poisson.c - the bracket (20) and the Hamiltonian (21) of the ball in the time tau (poisson.h). */
-#include "map/poisson.h"
+#include "poisson.h"
 
 #include <math.h>
 
 #include "base/vec3_impl.h"
 
 /* B = -[ hat(M) hat(gamma); hat(gamma) 0 ] with hat(a)_ij = eps_ijk a_k */
-void iso_poisson_matrix(const double y[ISO_STATE], double B[ISO_STATE * ISO_STATE])
+void poisson_matrix(const double y[ISO_STATE], double B[ISO_STATE * ISO_STATE])
 {
     for (int i = 0; i < ISO_STATE * ISO_STATE; i++) B[i] = 0;
     for (int i = 0; i < 3; i++) {
@@ -18,7 +18,7 @@ void iso_poisson_matrix(const double y[ISO_STATE], double B[ISO_STATE * ISO_STAT
     }
 }
 
-double iso_hamiltonian(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE])
+double poisson_hamiltonian(const iso_params *p, const double y[ISO_STATE], double gradient[ISO_STATE])
 {
     const double *M = y, *gamma = y + 3;
     const double q = dot_diag(gamma, p->J, gamma), G = p->k * p->k / p->det_J * pow(q, 1 / p->k);
@@ -31,11 +31,11 @@ double iso_hamiltonian(const iso_params *p, const double y[ISO_STATE], double gr
     return H;
 }
 
-void iso_hamiltonian_rhs(const iso_params *p, const double y[ISO_STATE], double dy[ISO_STATE])
+void poisson_hamiltonian_rhs(const iso_params *p, const double y[ISO_STATE], double dy[ISO_STATE])
 {
     double B[ISO_STATE * ISO_STATE], dH[ISO_STATE];
-    iso_poisson_matrix(y, B);
-    iso_hamiltonian(p, y, dH);
+    poisson_matrix(y, B);
+    poisson_hamiltonian(p, y, dH);
     for (int i = 0; i < ISO_STATE; i++) {
         dy[i] = 0;
         for (int j = 0; j < ISO_STATE; j++) dy[i] += B[ISO_STATE * i + j] * dH[j];

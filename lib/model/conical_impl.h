@@ -1,4 +1,4 @@
-/* conical.h - sphero-conical coordinates of a vector on the unit sphere (12)-(13), by angles that lose nothing.
+/* conical_impl.h - sphero-conical coordinates of a vector on the unit sphere (12)-(13), by angles that lose nothing.
  *
  * For b1 <= b2 <= b3 the roots z1 <= z2 of  sum x_i^2/(b_i - z) = 0  lie in b1 <= z1 <= b2 <= z2 <= b3, and
  *     x_i^2 = (b_i - z1)(b_i - z2) / prod_{j != i} (b_i - b_j).
@@ -20,12 +20,8 @@
  * it. For b1 = b2 the angles are the longitude phi and the latitude psi about axis 3, for b2 = b3 psi and phi about
  * axis 1, with longitude 0 or pi at the poles; three equal b are taken as b1 = b2.
  */
-#ifndef ISO_MODEL_CONICAL_H
-#define ISO_MODEL_CONICAL_H
-
-#include "../base/api.h"
-
-ISO_C_BEGIN
+#ifndef ISO_MODEL_CONICAL_IMPL_H
+#define ISO_MODEL_CONICAL_IMPL_H
 
 typedef struct iso_conical {
     double sine[2], cosine[2]; /* of phi and psi                                                     */
@@ -48,7 +44,5 @@ void iso_conical_from_vector(const double b[3], const double x[3], const double 
 
 /* The way back, to some units in the last place of each component of x, and of the size of the velocity. */
 void iso_conical_to_vector(const double b[3], const iso_conical *c, double x[3], double velocity[3]);
-
-ISO_C_END
 
 #endif
