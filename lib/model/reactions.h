@@ -16,8 +16,9 @@ ISO_C_BEGIN
 
 typedef struct iso_reactions {
     double force[3]; /* |b| N in body axes [energy]                                                        */
-    double pressure; /* |b| times the part of N by which the support pushes the ball [energy]; < 0: it
-                        would have to pull, contact is lost                                                 */
+    /* |b| times the part of N by which the support pushes the ball [energy]; < 0: it would have to pull, contact is
+     * lost. */
+    double pressure;
     double friction; /* |b| times the size of the tangential part [energy]                                 */
     double needed;   /* friction coefficient needed, friction/|pressure| (infinite where it is 0)        */
     double twist;    /* lambda [energy]                                                                     */
