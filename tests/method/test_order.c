@@ -164,8 +164,7 @@ static double sample_error(const sample samples[ORBITS], const iso_method *m, do
 
 /* The error after 20 radians is C times the tolerance, C about the number of steps: up to 300 for one-step methods,
  * up to 10^4 for multistep ones. It falls like the tolerance: slope 1, but 4/5 for rk4, whose step doubling estimates
- * the
- * fifth order of a fourth-order solution, and 5/6 for a BDF of order 5. */
+ * the fifth order of a fourth-order solution, and 5/6 for a BDF of order 5. */
 static void check_tolerance(const sample samples[ORBITS], const iso_method *m)
 {
     const int tightest = m->order == 2 ? 8 : TIGHTEST; /* 10^5 steps of order 2 */

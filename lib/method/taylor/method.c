@@ -8,8 +8,8 @@
  * the second integral are restored from defects computed exactly, so that their rounding has no bias.
  *
  * There is one source for all kinds of numbers, and variant.c compiles it for each. It has numbers, products and
- * recurrences (model/series), integrals of clocks (quadrature), what a model is expanded as (form), steps (step), what
- * is restored (restore); and around them one orbit (single), or many side by side (crew, for batches).
+ * recurrences (model/series), integrals of clocks (quadrature), what a model is expanded as (form), steps (step),
+ * what is restored (restore); and around them one orbit (single), or many side by side (crew, for batches).
  */
 #include <stdlib.h>
 
