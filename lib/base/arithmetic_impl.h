@@ -5,9 +5,9 @@
  *         ISO_DEFAULT_ARITHMETIC;
  *
  * From there to the function's end this thread, and those it starts, round to nearest, keep subnormal numbers and do
- * not trap: a step that is tried and given up, or a lane that has no orbit any more, may overflow or divide by 0, in
- * our code as in SUNDIALS, GSL and the C library. Then the host's rules are back. Every public function that computes
- * and answers an iso_status begins so; where the rules are the default ones that is 5 ns.
+ * not trap. They must not trap: a step that is given up, or a lane without an orbit, may overflow or divide by 0, in
+ * our code as in SUNDIALS, GSL and the C library. At the function's end the host's rules are back. Every public
+ * function that computes and answers an iso_status begins so. It costs 5 ns if the host's rules are the default ones.
  */
 #ifndef ISO_BASE_ARITHMETIC_IMPL_H
 #define ISO_BASE_ARITHMETIC_IMPL_H

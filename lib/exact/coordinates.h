@@ -33,10 +33,10 @@ ISO_API void iso_separation_point(const iso_params *p, const iso_conical *c, dou
  *
  *     k = -1:  R(z) = eps z (b1 + b2 + b3 - z) + H z,        k = 1, H = 0:  R(z) = -eps b1 b2 b3/z.
  *
- * `excess` (may be NULL) are the three R(b_j) + c, what c is above its values of bifurcation, without the
- * cancellation of that sum: excess[0] <= 0, and R + c has a root between b1 and b2 where excess[1] > 0 (u librates
- * below it), between b2 and b3 where excess[1] < 0 (v librates above it); excess[1] = 0 is the separatrix. NaN, c as
- * well, for other k and levels. */
+ * `excess` (may be NULL) are the three R(b_j) + c, computed without the cancellation of that sum. They are how far c
+ * is above its values of bifurcation. excess[0] <= 0 always. excess[1] = 0 is the separatrix. Where excess[1] > 0,
+ * R + c has a root between b1 and b2, and u librates below it. Where excess[1] < 0, it has one between b2 and b3, and
+ * v librates above it. For other k and levels all four numbers are NaN. */
 ISO_API double iso_separation_constant(const iso_problem *problem, const iso_conical *at, double excess[3]);
 
 /* A value of c at which the motion changes its kind. */

@@ -36,9 +36,9 @@ real iso_latitude_m(const latitude *r, real y);
 /* |y0 - root| for a root of P */
 real iso_latitude_distance(const latitude *r, real root);
 
-/* dx/ds of the argument x of the elliptic functions at y, where dn is given; and what the longitude grows by with x
- * beyond the elementary S dn/(1 - y), S = sqrt((1 - a)(1 - b)):
- * psi = (M_x/(dx/ds) - S dn)/(1 - y). psi may be NULL. */
+/* dx/ds at y, x being the argument of the elliptic functions; dn is its dn(x). *psi (may be NULL) is the rate of the
+ * longitude by x, without its elementary part S dn/(1 - y), S = sqrt((1 - a)(1 - b)):
+ * psi = (M_x/(dx/ds) - S dn)/(1 - y). */
 real iso_latitude_rate(const latitude *r, real y, real dn, real *psi);
 
 #endif

@@ -20,9 +20,9 @@ enum {
 typedef struct iso_exact_walk {
     long double trail[ISO_EXACT_TRAIL]; /* the places before, less an even motion */
     int known;                          /* how many of them there are             */
-    double longest;                     /* step from which a guess is made, in moments in which gamma turns by a
-                                           tenth of a radian at most                */
-    double time;                        /* of the last one                        */
+    /* Step from which a guess is made, in moments in which gamma turns by a tenth of a radian at most. */
+    double longest;
+    double time; /* of the last one */
 } iso_exact_walk;
 
 /* As iso_exact_at. One walk is in one clock. */

@@ -62,19 +62,19 @@ typedef enum iso_suits {
 /* A row of the registry: everything that the library knows of a method. methods_impl.h tells how to add one. */
 typedef struct iso_method {
     const char *name, *family, *doc;
-    int variant;        /* which of its family                                                         */
-    int order;          /* of the solution that is carried on; 0: varies from step to step             */
-    bool projects;      /* restores constraints after each step                                        */
-    bool fixed;         /* can take fixed steps                                                        */
-    int digits;         /* of the numbers it computes with; 0: those of a double, ISO_DOUBLE_DIGITS    */
-    bool reference;     /* exact to the rounding of doubles at any tolerance, and slow                 */
-    int witness;        /* place among the methods that confirm a reference (iso_method_witness), 1 is
-                           asked first; 0: none                                                        */
+    int variant;    /* which of its family                                                         */
+    int order;      /* of the solution that is carried on; 0: varies from step to step             */
+    bool projects;  /* restores constraints after each step                                        */
+    bool fixed;     /* can take fixed steps                                                        */
+    int digits;     /* of the numbers it computes with; 0: those of a double, ISO_DOUBLE_DIGITS    */
+    bool reference; /* exact to the rounding of doubles at any tolerance, and slow                 */
+    /* Place among the methods that confirm a reference (iso_method_witness), 1 is asked first; 0: none. */
+    int witness;
 
     /* What it needs of a model. iso_integrator_create refuses a model that lacks it, in words. */
-    bool implicit;      /* solves with the Jacobian, for stiff models: every effect must have its slopes  */
-    bool own_equations; /* has a form of its own of the equations of motion, and does not call model.rhs  */
-    bool steps_in_s;    /* all its steps have one length in the clock s, whatever the model's clock is    */
+    bool implicit;            /* solves with the Jacobian, for stiff models: every effect must have its slopes  */
+    bool own_equations;       /* has a form of its own of the equations of motion, and does not call model.rhs  */
+    bool steps_in_s;          /* all its steps have one length in the clock s, whatever the model's clock is    */
     const iso_system *system; /* the only system it serves; NULL: every one                               */
     const char *system_why;   /* why only that one                                                        */
 

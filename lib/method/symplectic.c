@@ -1,4 +1,4 @@
-/* splitting.c - symplectic compositions of two exact flows for the point (24), H = M^2/2 + V(gamma).
+/* symplectic.c - symplectic compositions of two exact flows for the point (24), H = M^2/2 + V(gamma).
  *
  *     M^2/2 alone:    M stays, gamma turns on a great circle:  gamma cos(x) + (gamma x M)/|M| sin(x),   x = |M| h
  *     V alone:        gamma stays, M += h gamma x dV/dgamma

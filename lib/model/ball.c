@@ -158,10 +158,10 @@ static double remove_spin(const iso_params *p, double y[])
     return spin;
 }
 
-/* The three relations are restored one after the other, none disturbing the one before: |n| = 1 by scaling n, (w,n) =
- * 0 by taking the spin out of w, h by scaling w. The spin is taken out along J^-1 n, as the contact's torque would:
- * along n a rounding error of a light axis would be a large one of a heavy one's Jw. h is left out where the ball
- * hardly moves: there a small error of h would be a large one of w. */
+/* The three relations are restored one after the other, and none disturbs the one before: |n| = 1 by scaling n,
+ * (w,n) = 0 by taking the spin out of w, h by scaling w. The spin is taken out along J^-1 n, as the contact's torque
+ * does it. Along n, a rounding error of w about a light axis would become a large error of Jw about a heavy one. h is
+ * not restored where the ball hardly moves, because there a small error of h is a large one of w. */
 static double project(const iso_problem *f, double y[])
 {
     const double length_error = make_unit(y + 3) - 1, moving = fmax(norm(y), largest(y));
@@ -178,8 +178,8 @@ static double project(const iso_problem *f, double y[])
     return fmax(correction, fabs(stretch - 1));
 }
 
-/* |w|, or the speed that the potentials can give, where that is larger: a ball may turn back, and |w| is then small.
- * `largest`: where resistance brings the ball to rest, the square of w soon is too small for a double. */
+/* The larger one of |w| and the speed that the potentials can give: |w| is small where a ball turns back. Where
+ * resistance brings the ball to rest, the square of w is too small for a double: `largest` needs none. */
 static double speed(const iso_problem *f, const double y[])
 {
     if (iso_effects_none(&f->effects)) return norm(y);

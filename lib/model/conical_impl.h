@@ -12,9 +12,9 @@
  *     b2 - z1 = (b2 - b1) cos^2 phi,   b3 - z2 = (b3 - b2) sin^2 psi,   x2 = cos phi cos psi,
  *                                                                       x3 = sin psi sqrt((b3 - z1)/(b3 - b1)).
  *
- * Their sines and cosines are exact to some units in the last place each, and have the octant of x in their signs,
- * that of a zero included. (phi, psi) and (pi - phi, pi - psi) are the same x; given is the one with cos psi >= 0. As
- * x crosses x2 = 0 where z2 = b2 (psi = +-pi/2), the one turns into the other.
+ * Their sines and cosines are exact to some units in the last place. Their signs, also those of zeros, are those of
+ * x. (phi, psi) and (pi - phi, pi - psi) are the same x, and the one with cos psi >= 0 is given. As x crosses
+ * x2 = 0 where z2 = b2 (psi = +-pi/2), the one turns into the other.
  *
  * Where something is free it is chosen. At an umbilic, z1 = b2 = z2, phi grows along the plane x2 = 0 and psi across
  * it. For b1 = b2 the angles are the longitude phi and the latitude psi about axis 3, for b2 = b3 psi and phi about
@@ -25,8 +25,8 @@
 
 typedef struct iso_conical {
     double sine[2], cosine[2]; /* of phi and psi                                                     */
-    double speed[2];           /* components of dx/dt in the directions, orthogonal, in which phi and
-                                  psi grow                                                           */
+    /* Components of dx/dt in the directions, orthogonal, in which phi and psi grow. */
+    double speed[2];
 
     /* What follows from them; not read on the way back. */
     double length[2];   /* |dx/dphi|, |dx/dpsi|: phi' = speed/length, 0 at an umbilic                 */

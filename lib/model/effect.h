@@ -42,8 +42,9 @@ typedef struct iso_effect_number {
     bool required;           /* a scene must have the key                                                           */
     bool scene_only;         /* not a line of trajectory files: the row's `complete` uses it, or only a run does    */
     const double *initially; /* count numbers, where a scene has no such key; NULL: zeros                           */
-    const char *turns_with;  /* the group of columns with these numbers at later times: a row of a file starts with
-                                them (`begin`); NULL: they are fixed                                                 */
+    /* The group of columns with these numbers at later times: a row of a file starts with them (`begin`); NULL: they
+     * are fixed. */
+    const char *turns_with;
 } iso_effect_number;
 
 /* Columns that an effect adds to a trajectory: one group is one number or vector, one dataset of HDF5 files. */

@@ -32,9 +32,9 @@ iso_dimension iso_clock_dimension(iso_clock clock);
  *     t: 1,   tau: N = q^(1 - 1/(2k)),   s: G N = (k^2/det J) q^(1 + 1/(2k)). */
 double iso_clock_rate(const iso_params *p, iso_clock clock, double q, double *exponent);
 
-/* A first integral. y is the state of the whole model, of which most integrals read six numbers. `value` gives I(y),
- * and in *size the magnitude of the terms it is made of, the measure for drift: |I(y) - I(y0)| / size is of the order
- * of the rounding error when I is conserved. */
+/* A first integral. y is the state of the whole model, of which most integrals read six numbers. `value` gives I(y)
+ * and, in *size, the magnitude of its terms. Drift is measured by this size: if I is conserved,
+ * |I(y) - I(y0)| / size is of the order of the rounding error. */
 typedef struct iso_integral {
     const char *name, *doc;
     iso_dimension dimension;

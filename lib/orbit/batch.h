@@ -25,10 +25,10 @@ typedef struct iso_batch_orbit {
 
 /* As in iso_orbit_options, for all orbits. */
 typedef struct iso_batch_options {
-    size_t size;         /* set by iso_batch_defaults; see isoroll.h */
-    iso_backend backend; /* ISO_BACKEND_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the
-                            start's own model; not ISO_BACKEND_EXACT, whose orbits have nothing to do together:
-                            iso_orbit                                                                           */
+    size_t size; /* set by iso_batch_defaults; see isoroll.h */
+    /* ISO_BACKEND_AUTO: the cheaper point, where the orbit has one and |k| >= 1/8; else the start's own model; not
+     * ISO_BACKEND_EXACT, whose orbits have nothing to do together: iso_orbit. */
+    iso_backend backend;
     double tolerance;
     long max_steps; /* of each orbit; 0: no bound                                                         */
     iso_clock clock;

@@ -50,23 +50,24 @@ typedef struct iso_stated {
 } iso_stated;
 
 typedef struct iso_conversion_summary {
-    size_t rows, bad;      /* all rows, and those that could not be converted                                */
-    iso_worst constraint;  /* ball: | |n| - 1 | and (omega,n)/|omega|; point: likewise                       */
-    iso_worst energy;      /* ball: h against that of the first row; point: H against its level; relative to
-                              the size of the terms                                                         */
-    iso_worst defect;      /* distance of a row from the orbit through the row before it, relative to the
-                              length of each vector. If the record has the other clock: also how far the unit
-                              vector moves in the time by which that clock is wrong                         */
-    iso_worst drift;       /* the defects added up while the unit vector moves by half a radian. It grows if
-                              the rows follow other equations, and averages out if they are only rounded    */
-    bool checked;          /* the record has a clock, so defect and drift are known                          */
+    size_t rows, bad;     /* all rows, and those that could not be converted                                */
+    iso_worst constraint; /* ball: | |n| - 1 | and (omega,n)/|omega|; point: likewise                       */
+    /* Ball: h against that of the first row; point: H against its level; relative to the size of the terms. */
+    iso_worst energy;
+    /* Distance of a row from the orbit through the row before it, relative to the length of each vector. If the
+     * record has the other clock: also how far the unit vector moves in the time by which that clock is wrong. */
+    iso_worst defect;
+    /* The defects added up while the unit vector moves by half a radian. It grows if the rows follow other equations,
+     * and averages out if they are only rounded. */
+    iso_worst drift;
+    bool checked;               /* the record has a clock, so defect and drift are known                          */
     size_t between, integrated; /* intervals by quadrature, and by integration                               */
-    bool computed;         /* the other clock was computed                                                   */
-    iso_clock clock;       /* the other clock                                                                */
-    double end, error;     /* its last value, and an estimate of its error: from the quadratures, the defects
-                              and the rounding of the sums. A wrong k or J is not part of this estimate; it
-                              shows as drift                                                                */
-    int stated_count;           /* how many lines the first row does not confirm                             */
+    bool computed;              /* the other clock was computed                                                   */
+    iso_clock clock;            /* the other clock                                                                */
+    /* Its last value, and an estimate of its error: from the quadratures, the defects and the rounding of the sums. A
+     * wrong k or J is not part of this estimate; it shows as drift. */
+    double end, error;
+    int stated_count; /* how many lines the first row does not confirm */
     iso_stated stated[3];
 } iso_conversion_summary;
 
@@ -75,9 +76,10 @@ typedef struct iso_conversion iso_conversion;
 typedef struct iso_conversion_options {
     size_t size;      /* set by iso_conversion_defaults; see isoroll.h */
     double tolerance; /* of the other clock's gain from row to row, relative                                  */
-    bool shift_J;     /* for points with k = -1 off the level H = 0. true: the point becomes the free ball with
-                         the moments J + E/eps, E being the energy of the first row; this is the same motion.
-                         false: it becomes a ball in the potential of the effect `level`                     */
+    /* For points with k = -1 off the level H = 0. true: the point becomes the free ball with the moments
+     * J + E/eps, where E is the energy of the first row: the same motion. false: it becomes a ball in the potential
+     * of the effect `level`. */
+    bool shift_J;
 } iso_conversion_options;
 
 /* Tolerance 1e-14, J as it is. */

@@ -69,13 +69,15 @@ static inline iso_crossings_options iso_crossings_defaults(void)
 /* One crossing, in the caller's units. Numbers that do not exist are NaN. */
 typedef struct iso_crossing {
     double clock[ISO_CLOCKS]; /* since the start; tau and s need the isomorphism                                 */
-    double l, x;              /* chart of ISO_SECTION_AXIS (map/section.h), from the directions of M and gamma.
-                                 Without the isomorphism J^(1/2) omega (for k < 0: -J^(1/2) omega) stands for M and
-                                 J^(-1/2) n for gamma; with it they have the same directions                    */
+    /* Chart of ISO_SECTION_AXIS (map/section.h), from the directions of M and gamma. Without the isomorphism
+     * J^(1/2) omega (for k < 0: -J^(1/2) omega) stands for M and J^(-1/2) n for gamma; with it the directions are the
+     * same. */
+    double l, x;
     double growth[ISO_DEVIATIONS]; /* ln of the length of d1 and d2; 0 at the start                              */
-    double area;        /* sine of the angle between d1 and d2, in [0, 1]: GALI_2                          */
-    double slope[2][2]; /* ISO_SECTION_AXIS, if the start lies on the section: the derivative of (l, x) at
-                                 this crossing (rows) by (l, x) at the start (columns)                           */
+    double area; /* sine of the angle between d1 and d2, in [0, 1]: GALI_2                          */
+    /* ISO_SECTION_AXIS, if the start lies on the section: the derivative of (l, x) at this crossing (rows) by (l, x)
+     * at the start (columns). */
+    double slope[2][2];
 } iso_crossing;
 
 typedef struct iso_crossings iso_crossings;

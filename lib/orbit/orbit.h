@@ -24,19 +24,21 @@ ISO_C_BEGIN
 typedef struct iso_orbit iso_orbit;
 
 typedef struct iso_orbit_options {
-    size_t size;                 /* set by iso_orbit_defaults; see isoroll.h */
-    const iso_effects *effects;  /* what acts on the ball, in the caller's units; NULL: nothing           */
-    iso_backend backend;         /* what finds the orbit; ISO_BACKEND_AUTO: steps of the model of the start,
-                                 of the ball where effects need it, of the model that the method is for    */
+    size_t size;                /* set by iso_orbit_defaults; see isoroll.h */
+    const iso_effects *effects; /* what acts on the ball, in the caller's units; NULL: nothing           */
+    /* What finds the orbit; ISO_BACKEND_AUTO: steps of the model of the start, of the ball where effects need it, of
+     * the model that the method is for. */
+    iso_backend backend;
     const iso_method *method;    /* NULL: iso_method_auto(); with ISO_BACKEND_EXACT always                    */
     double tolerance;            /* of the method                                                             */
     long max_steps;              /* after which a call fails with ISO_NUMERICAL; 0: no bound                  */
     iso_clock clock;             /* the clock in which times are asked                                        */
-    iso_models shown;             /* the models filled into samples, not ISO_SHOW_START                        */
+    iso_models shown;            /* the models filled into samples, not ISO_SHOW_START                        */
     bool gamma_alone;            /* of the point gamma is filled in, which always fits a double, but not M    */
     bool with_clock[ISO_CLOCKS]; /* other clocks filled into samples                                       */
-    size_t memory;               /* bytes for the ends of its steps, at most, for each direction of time;
-                                    0: keeps none, enough if times only move away from 0 (iso_orbit_at)    */
+    /* Bytes for the ends of its steps, at most, for each direction of time; 0: keeps none, enough if times only move
+     * away from 0 (iso_orbit_at). */
+    size_t memory;
 } iso_orbit_options;
 
 #define ISO_ORBIT_MEMORY ((size_t)1 << 23) /* 8 MB: 28000 turns of a free ball by taylor at 1e-12 */
@@ -72,13 +74,15 @@ ISO_API double iso_sample_column(const iso_sample *sample, int column);
 void iso_sample_set_column(iso_sample *sample, int column, double value);
 
 /* A point's orbit has a ball at every energy: off the level H = 0 in the potential of the effect `level`, which is
- * then added. Errors: ISO_NOT_MAPPED where the other model is needed and has no such orbit: a free ball at rest
- * (h = 0) has no point, nor a ball with an effect that breaks the isomorphism (named by iso_context_about);
- * ISO_BAD_INPUT for numbers of effects that make no sense (iso_effects_check); ISO_NUMERICAL where M or a clock asked
- * for does not fit a double in the caller's units, or k is too extreme for powers q^(1/(2k)) of them, or q^(1/k) of a
- * point off H = 0 and of methods that are for (24) alone: the ball and gamma in t, free, can be had by all others for
- * every k; ISO_BAD_ARGUMENT, for ISO_BACKEND_EXACT about "method", or what the closed solution is not for
- * (iso_exact_create); and its ISO_NUMERICAL; ISO_NO_MEMORY. */
+ * then added. Errors:
+ * - ISO_NOT_MAPPED if the other model is needed and has no such orbit. A free ball at rest (h = 0) has no point, and
+ *   neither has a ball with an effect that breaks the isomorphism (iso_context_about names it).
+ * - ISO_BAD_INPUT if numbers of effects make no sense (iso_effects_check).
+ * - ISO_NUMERICAL if M or a clock that is asked for does not fit a double in the caller's units. For an extreme k the
+ *   powers q^(1/(2k)) in M and in the clocks do not fit. Nor does q^(1/k), which only points off H = 0 and methods
+ *   for (24) alone need. A free ball, and gamma in t, can be had for every k by all other methods.
+ * - Of ISO_BACKEND_EXACT: ISO_BAD_ARGUMENT about "method", and the errors of iso_exact_create.
+ * - ISO_NO_MEMORY. */
 ISO_API iso_status iso_orbit_create(iso_context *ctx, const iso_params *params, const iso_start *start,
                                     const iso_orbit_options *options, iso_orbit **orbit);
 ISO_API void iso_orbit_free(iso_orbit *orbit);
@@ -141,8 +145,7 @@ ISO_API bool iso_orbit_has_twin(const iso_orbit *orbit);
 /* The effects that act, in the caller's units: those asked for, and the level of a point off H = 0. */
 ISO_API iso_effects iso_orbit_effects(const iso_orbit *orbit);
 
-/* Energy h of the ball and coupling eps of the point in the caller's units (infinite
- * or 0 where they do not fit). */
+/* Energy h of the ball and coupling eps of the point in the caller's units (infinite or 0 where they do not fit). */
 ISO_API double iso_orbit_energy(const iso_orbit *orbit);
 ISO_API double iso_orbit_coupling(const iso_orbit *orbit);
 

@@ -43,8 +43,9 @@ ISO_API const char *iso_shown_name(int shown);
 typedef struct iso_start {
     iso_model_kind model; /* of y                                                                        */
     double y[ISO_STATE];  /* omega [1/time], n; or M, gamma                                               */
-    double eps;           /* coupling of the point's potential (24); NAN: the one with which H = 0, where
-                            the point has a free ball; not read for a ball                               */
+    /* Coupling of the point's potential (24); NAN: the one with which H = 0, where the point has a free ball; not
+     * read for a ball. */
+    double eps;
 } iso_start;
 
 /* What to do with the spin about the normal, (omega, n): a rubber ball has none. */
@@ -102,9 +103,9 @@ iso_effects iso_scene_effects(const iso_scene *scene);
  * on, as the weight on a horizontal plane does. */
 ISO_API iso_effects iso_scene_acting(const iso_scene *scene);
 
-/* Puts "name:line:column: " before the context's message where the failure is about a key that the scene was read
- * with, or one that follows from it (k from `surface`); what is then a mistake in the file is ISO_BAD_INPUT, no
- * longer ISO_BAD_ARGUMENT. Gives the status. */
+/* Puts "name:line:column: " before the context's message if the failure is about a key that the scene was read with,
+ * or about one that follows from it (k from `surface`). Then it is a mistake in the file, and ISO_BAD_ARGUMENT
+ * becomes ISO_BAD_INPUT. Gives the status. */
 ISO_API iso_status iso_scene_blame(iso_context *ctx, const iso_scene *scene, const char *name, iso_status status);
 
 /* The value of this key no longer comes from the file: iso_scene_blame puts no place before failures about it. */
@@ -138,15 +139,13 @@ ISO_API int iso_scene_columns(const iso_scene *scene, int columns[]);
  *     t tau s   omega1..3 n1..3   M1..3 gamma1..3
  *     e1..3                        gravity: vertical, in body axes
  *     q0..3                        attitude: quaternion from body to space axes
- *     contact1..3                  attitude: contact point in space: a R n from the fixed sphere's centre; on a
- *                                  plane from
- *                                  the first contact
+ *     contact1..3                  attitude: contact point in space: a R n from the fixed sphere's centre, or,
+ *                                  on a plane, its way from the first contact
  *     trace1..3                    attitude: contact point on the ball, -b n in body axes
  *     centre1..3                   attitude: centre of the ball in space, likewise
  *     N1..3                        reactions: contact force, in body axes
- *     pressure friction mu lambda  reactions: its part that pushes the ball off the support, the size of the rest,
- *                                  the
- *                                  friction coefficient needed, the twist torque
+ *     pressure friction mu lambda  reactions: the part of N that pushes the ball off the support, the size of the
+ *                                  rest, the friction coefficient needed, the twist torque
  * Lengths and forces of a reduced scene are those of a ball with |b| = 1. */
 enum {
     ISO_COLUMN_BALL = ISO_CLOCKS,

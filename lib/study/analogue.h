@@ -34,8 +34,8 @@ typedef struct iso_analogue_problem {
     double c[3];
     double k, J[3], eps; /* V = -eps (gamma, J gamma)^(-1/k): c is not read                            */
     double energy;       /* E = M^2/2 + V                                                              */
-    bool level;          /* k = -1: a ball in the potential `level` although there is a free one; which
-                            then has a body                                                            */
+    /* For k = -1: a ball in the potential `level` although there is a free one. Such a ball always has a body. */
+    bool level;
 } iso_analogue_problem;
 
 /* How J was found. */

@@ -30,12 +30,13 @@ ISO_API const char *iso_scene_why_backend(const iso_scene *scene, const iso_orbi
 /* --- a run ------------------------------------------------------------------------------------------------------ */
 
 typedef struct iso_run_options {
-    size_t size;         /* set by iso_run_defaults; see isoroll.h */
-    const double *times; /* in any order, before and after the start; in t for a ball's scene, in s for a point's.
-                            NULL: the scene's own grid                                                           */
-    size_t count;        /* of times                                                                             */
-    bool errors;         /* also find the largest error of the rows (study/error.h); this takes many times as
-                            long as the rows alone                                                               */
+    size_t size; /* set by iso_run_defaults; see isoroll.h */
+    /* In any order, before and after the start; in t for a ball's scene, in s for a point's. NULL: the scene's own
+     * grid. */
+    const double *times;
+    size_t count; /* of times */
+    /* Also find the largest error of the rows (study/error.h); this takes many times as long as the rows alone. */
+    bool errors;
 } iso_run_options;
 
 /* The scene's own grid, no errors. */

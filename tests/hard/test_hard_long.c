@@ -3,8 +3,7 @@
  *
  * A spin is 1/|omega| at the start, the time in which the ball turns by a radian. At full length (length.h) the
  * fastest methods go a million spins, at short length 1e5; the others go less far. `test_hard_long 1e6 600` takes
- * every
- * method at k = -1 to 1e6 spins, or as far as 600 seconds of processor time go, and says how far.
+ * every method at k = -1 to 1e6 spins, or as far as 600 seconds of processor time go, and says how far.
  */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>

@@ -84,8 +84,7 @@ static void against_quad(const char *name, const char *why, double c, double tim
 
 /* Implicit methods reach the rubber ball; the distance is about 1/c (theory), and lambda that of (9), but for 1e4
  * steps' errors: in a fast variable they are of lower order (order reduction), and do not add up. Explicit ones say
- * that
- * they would crawl. */
+ * that they would crawl. */
 static void large(const char *name, double c)
 {
     const iso_start start = he_start();

@@ -101,8 +101,7 @@ static void check_order(const iso_method *m, bool no_projection)
 
 /* bsimp extrapolates over seven columns, formally of order 13 (measured in 60 digits on a pendulum: 3 for two
  * columns, 5 for three). In doubles its error falls from 1e-6 to rounding while the step is halved: there is room to
- * see that
- * its order is high, not to measure it, so it claims none. */
+ * see that its order is high, not to measure it, so it claims none. */
 static void check_extrapolation(void)
 {
     const iso_method *bsimp = iso_method_find("bsimp");
@@ -164,8 +163,7 @@ static double sample_error(const sample samples[ORBITS], const iso_method *m, do
 }
 
 /* The error after 20 radians is C times the tolerance, C about the number of steps: up to 300 for one-step methods,
- * up to 10^4 for multistep ones. It falls like the tolerance: slope 1, but 4/5 for rk4, whose step doubling
- * estimates
+ * up to 10^4 for multistep ones. It falls like the tolerance: slope 1, but 4/5 for rk4, whose step doubling estimates
  * the fifth order of a fourth-order solution, and 5/6 for a BDF of order 5. */
 static void check_tolerance(const sample samples[ORBITS], const iso_method *m)
 {

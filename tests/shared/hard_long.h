@@ -151,7 +151,7 @@ static inline bool long_is(const hard_road *way, const char *family)
 }
 
 /* The bound on the drift of a quantity:
- * - Splittings: splitting.c chooses a step whose error is half a tolerance in each of the first 12 radians, 6
+ * - Splittings: symplectic.c chooses a step whose error is half a tolerance in each of the first 12 radians, 6
  *   tolerances in all. The energy's error is twice that. Later turns are at most twice as bad: 24 tolerances.
  * - taylor restores F, except for a tenth of the error of a step, where F hardly depends on omega.
  * - A quantity that is not restored drifts by the errors of all steps, F by that times the ratio of the moments. */

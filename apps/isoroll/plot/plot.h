@@ -18,12 +18,13 @@
 
 /* The two models on one orbit. Records are as iso_compare makes them; further columns are not read. */
 typedef struct iso_plot {
-    const char *title;            /* one line, any characters; NULL: none                                        */
-    const iso_record *ball;       /* what the backend `ball` found: columns n1..3 and gamma1..3, a row or more   */
-    const iso_record *point;      /* the same from the backend `point`                                           */
-    const iso_record *difference; /* a clock, then non-negative differences; "omega", "M", "t", ... get symbols,
-                                     "ball - exact", "point - exact" lines of their own                          */
-    double tolerance;             /* a line drawn among the differences for comparison; 0: none                  */
+    const char *title;       /* one line, any characters; NULL: none                                        */
+    const iso_record *ball;  /* what the backend `ball` found: columns n1..3 and gamma1..3, a row or more   */
+    const iso_record *point; /* the same from the backend `point`                                           */
+    /* A clock, then non-negative differences; "omega", "M", "t", ... get symbols, "ball - exact", "point - exact"
+     * lines of their own. */
+    const iso_record *difference;
+    double tolerance; /* a line drawn among the differences for comparison; 0: none */
 } iso_plot;
 
 /* Whether a picture can have this name, to ask before the work. Errors: ISO_BAD_ARGUMENT. */
@@ -39,9 +40,10 @@ iso_status iso_plot_comparison(iso_context *ctx, const char *path, const iso_plo
 /* The path of a ball in space. If the columns do not tell where the support is, it is not drawn. */
 typedef struct iso_plot_space {
     const iso_record *rows; /* columns centre1..3, or contact1..3, or both; pressure: where contact is lost       */
-    const double *up;       /* upward vertical, a unit vector in axes of space; NULL: not known. Then nothing is
-                               called up: the eye is on axis 3 of space, or on the normal of the plane            */
-    bool plane;             /* the support is a plane; else a sphere about 0                                      */
+    /* Upward vertical, a unit vector in axes of space; NULL: not known. Then nothing is called up: the eye is on axis
+     * 3 of space, or on the normal of the plane. */
+    const double *up;
+    bool plane; /* the support is a plane; else a sphere about 0 */
 } iso_plot_space;
 
 /* One trajectory, in one model or both. */
@@ -168,8 +170,8 @@ typedef struct iso_plot_panels {
 } iso_plot_panels;
 iso_status iso_plot_sweep_maps(iso_context *ctx, const char *path, const iso_plot_panels *panels);
 
-/* Where the rotations about the axes of least and greatest moment are stable: the records of study/periodic/stability_chart.h.
- * moment: the name of the one that varies. Errors: as iso_plot_momentum. */
+/* Where the rotations about the axes of least and greatest moment are stable: the records of
+ * study/periodic/stability_chart.h. moment: the name of the one that varies. Errors: as iso_plot_momentum. */
 iso_status iso_plot_stability(iso_context *ctx, const char *path, const char *title, const char *moment,
                                       const iso_record *grid, const iso_record *borders);
 

@@ -5,12 +5,11 @@
  * (x,up)), and lies on the near side where (x,d) > 0. The far side is drawn first, in pale colours, then the near
  * side.
  *
- *          3 |                right = (-sin a, cos a, 0)                  a  azimuth of the eye, from axis 1 to axis
- *          2
+ *          3 |                right = (-sin a, cos a, 0)
  *            |  . eye         up    = (-sin e cos a, -sin e sin a, cos e)
  *            |.               d     = ( cos e cos a,  cos e sin a, sin e)
- *            /------ 2                                                    e  its elevation over the plane of both
- *          1
+ *            /------ 2
+ *          1                  a: azimuth of the eye, from axis 1 to axis 2;  e: its elevation over both
  */
 #include <math.h>
 #include <string.h>

@@ -46,11 +46,12 @@ typedef struct crew {
     doubles head, tail;       /* the time at the step's left end, as iso_instant                           */
     doubles row;              /* the time of the next row, or infinite in the orbit's direction            */
     doubles steps;            /* since the last row                                                        */
-    doubles since, longest;   /* distance of the variable since the last crossing, and the largest possible one;
-                                 infinite where rows are asked for */
-    bool fresh[LANES];        /* its first deviations are not set yet                                      */
-    long seen[LANES];         /* crossings in this step ...                                                */
-    long known[LANES];        /* ... of these, the number that an earlier call has stored                  */
+    /* Distance of the variable since the last crossing, and the largest possible one; infinite where rows are asked
+     * for. */
+    doubles since, longest;
+    bool fresh[LANES]; /* its first deviations are not set yet                                      */
+    long seen[LANES];  /* crossings in this step ...                                                */
+    long known[LANES]; /* ... of these, the number that an earlier call has stored                  */
     real direction, zeros;
     bool ended;     /* a lane has stored its last row, or has an error */
     bool crossings; /* jobs ask for crossings, of `axis` */

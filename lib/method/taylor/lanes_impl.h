@@ -31,13 +31,14 @@ typedef struct iso_lane_event {
 typedef struct iso_lane_job {
     const iso_model *model;
     double start[ISO_MAX_STATE];
-    size_t rows;           /* or crossings */
-    const double *time;    /* NULL: crossings                                                           */
-    int axis;              /* 0 to 2                                                                    */
-    double zeros, longest; /* in the variable of the series (iso_lane_clock): n_axis has at most one zero within
-                              1/zeros; two crossings are less than `longest` apart                      */
-    double unit;           /* time[i]/unit is in the model's units                                      */
-    double *states;        /* NULL, or: model->dim numbers at states[row stride]                        */
+    size_t rows;        /* or crossings */
+    const double *time; /* NULL: crossings                                                           */
+    int axis;           /* 0 to 2                                                                    */
+    /* In the variable of the series (iso_lane_clock): n_axis has at most one zero within 1/zeros; two crossings are
+     * less than `longest` apart. */
+    double zeros, longest;
+    double unit;    /* time[i]/unit is in the model's units                                      */
+    double *states; /* NULL, or: model->dim numbers at states[row stride]                        */
     size_t stride;
     iso_lane_event *event; /* NULL, or: one for each row                                                */
     bool on_section;       /* the start lies on the section: it is no crossing, whatever the sign of n_axis */

@@ -7,10 +7,9 @@
  * of q over the step. What stands between the steps is the series itself. Constraints, energy and, for k = 1 and -1,
  * the second integral are restored from defects computed exactly, so that their rounding has no bias.
  *
- * The source is one: numbers, products and recurrences (model/series), integrals of clocks (quadrature), what a model
- * is expanded as (form), steps (step), what is restored (restore); around them one orbit (single), or many side by
- * side
- * (crew, for batches). variant.c compiles it for each kind of number.
+ * There is one source for all kinds of numbers, and variant.c compiles it for each. It has numbers, products and
+ * recurrences (model/series), integrals of clocks (quadrature), what a model is expanded as (form), steps (step),
+ * what is restored (restore); and around them one orbit (single), or many side by side (crew, for batches).
  */
 #include <stdlib.h>
 

@@ -1,11 +1,10 @@
 /* quadrature_impl.h - integrals of a power of a series, by the rule of Gauss and Legendre with NODES nodes.
  *
- * A clock's rate is a power of q or g, whose series is there already: the integral of that over a step needs a few
- * values of a polynomial, side by side, where a series of the clock itself would need two more products a
- * coefficient. The rule has order 2 NODES. From the values f_i it also has the last Legendre coefficients they show,
+ * A clock's rate is a power of q or g. The series of q or g is there already, so its values at the nodes, side by
+ * side, give the integral of the rate over a step. A series of the clock itself would need two more products a
+ * coefficient. The rule has order 2 NODES. Its values f_i also give the last Legendre coefficients,
  *     c_n = (2 n + 1) sum_i w_i P_n(x_i) f_i,   n = NODES - 1, NODES - 2
- * (one may be 0 by symmetry), and as coefficients fall geometrically, its error is of the order of c_n^2, relative to
- * f.
+ * (one may be 0 by symmetry). Coefficients fall geometrically, so its error, relative to f, is about c_n^2.
  */
 #include "model/series/number_impl.h"
 

@@ -70,10 +70,10 @@ static inline iso_chaos_options iso_chaos_defaults(void)
 /* One orbit. told[ISO_BALL], told[ISO_POINT]: what each model has found. A model that was not integrated, or that
  * failed, has the verdict ISO_UNDECIDED. */
 typedef struct iso_chaos_orbit {
-    double l, x;         /* where it begins on the section; NaN: the scene's own                              */
-    iso_verdict verdict; /* of both models. If one is undecided, the other one's verdict counts. If they disagree,
-                             the orbit is undecided                                                            */
-    bool disagree;       /* one model says regular, the other one says chaotic                                */
+    double l, x; /* where it begins on the section; NaN: the scene's own */
+    /* Of both models. If one is undecided, that of the other counts. If they disagree, the orbit is undecided. */
+    iso_verdict verdict;
+    bool disagree; /* one model says regular, the other one says chaotic */
     iso_indication told[2];
     iso_status status[2]; /* ISO_OK, or why it was not followed to its verdict                                 */
 } iso_chaos_orbit;
@@ -81,21 +81,21 @@ typedef struct iso_chaos_orbit {
 /* Counts of the orbits that were spread over the section. */
 typedef struct iso_chaos_fraction {
     size_t asked, count, failed; /* of `asked` starts, `count` were followed, `failed` failed         */
-    size_t chaotic, regular, undecided,
-        disagree;            /* of those followed; undecided includes those that disagree         */
-    double share, low, high; /* chaotic/count, and the confidence interval of 95 % of the chaotic part, with undecided
-                                ones counted both ways; NaN: no orbit was followed */
+    size_t chaotic, regular, undecided, disagree; /* of those followed; undecided includes disagree   */
+    /* The share chaotic/count, and the confidence interval of 95 % of the chaotic part, with undecided ones counted
+     * both ways; NaN: no orbit was followed. */
+    double share, low, high;
 } iso_chaos_fraction;
 
 typedef struct iso_chaos {
     bool with[2]; /* whether the ball, the point was integrated                           */
     int axis;     /* of the section n_a = 0; -1: turns are equal steps of time             */
     double turn;  /* ... of this length in t; NaN: the section's                           */
-    int plane;    /* 0 to 2: the scene's orbit is the rotation about this axis, in a principal plane; it
-                               is periodic, and not followed. -1: it is no such rotation             */
-    const iso_integral
-        *integral;          /* a further integral, which excludes chaos: then no verdict is "chaotic"; NULL: none
-                                     is known, or effects act */
+    /* 0 to 2: the scene's orbit is the rotation about this axis, in a principal plane; it is periodic, and not
+     * followed. -1: it is no such rotation. */
+    int plane;
+    /* A further integral, which excludes chaos: then no verdict is "chaotic"; NULL: none is known, or effects act. */
+    const iso_integral *integral;
     iso_chaos_orbit own;    /* the scene's orbit                                                    */
     size_t starts;          /* other orbits that were followed: spread ones, then given ones */
     iso_chaos_orbit *start; /* these orbits */

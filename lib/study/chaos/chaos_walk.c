@@ -23,7 +23,7 @@ typedef struct runner {
 
 typedef struct group {
     iso_chaos_walk *w;
-    iso_chaos_walk *const *each; /* of each orbit, the scene whose own orbit it is; NULL: all are of one scene */
+    iso_chaos_walk *const *each; /* the scene of each orbit, which is its own orbit; NULL: all have one scene */
     size_t first, count;         /* orbits; orbit 0 is the scene's own, orbit i is start i - 1 */
     iso_start start[GROUP];
     iso_batch_orbit orbit[GROUP];

@@ -27,19 +27,17 @@ typedef struct iso_residuals {
 /* A record with the column `orbit` holds several orbits of one energy; another begins where that number changes.
  * Looks at every model whose six columns the record has:
  * - constraints (|n| = 1, (w,n) = 0; |gamma| = 1, (M,gamma) = 0), relative to the lengths of the vectors;
- * - integrals that hold for k and J: |I(row) - I(first row of the orbit)| / size (iso_integral); of the energy the
- *   first row of all. H of a point must be 0, not its
- *   first value, if the record has a ball's columns or clocks;
+ * - integrals that hold for k and J: |I(row) - I(first row of the orbit)| / size (iso_integral); of the energy
+ *   the first row of all. H of a point must be 0, not its first value, if the record has a ball's columns or clocks;
  * - flow: each row is integrated to the time of the next row (at `tolerance`) and compared with it, relative to the
  *   largest component of omega or M, and to 1 for n and gamma. The record must have a clock for this;
  * - the columns of effects (e, q, contact, trace, centre, N, pressure, friction, lambda): the same, relative to the
  *   largest number of the vector; forces and torques also to N; mu as the angle atan mu;
  * - the map: if the record has both models, each row's point against the point that belongs to its ball;
- * - clocks: if the record has two of t, tau, s, the steps of the second along the first, relative to its whole
- *   length;
- * - lines: h, eps and c of a level against the first row of each orbit, relative to the size of the terms of the energy; numbers
- *   that turn with the ball (`# gravity.up`, `# attitude.quaternion`) against a row at time 0. Other lines are the
- *   numbers of the equations that all this is done with.
+ * - clocks: if the record has two of t, tau, s, the steps of the second along the first, relative to its length;
+ * - lines: h, eps and c of a level against the first row of each orbit, relative to the size of the energy's terms;
+ *   numbers that turn with the ball (`# gravity.up`, `# attitude.quaternion`) against a row at time 0. Other lines
+ *   are the numbers of the equations that all this is done with.
  * Errors, with the row: ISO_BAD_INPUT (no model's columns, a row that is no state, a time that is not finite),
  * ISO_NOT_MAPPED (a point with H not 0 in the times of a ball), ISO_NUMERICAL, ISO_NO_MEMORY. */
 ISO_API iso_status iso_check(iso_context *ctx, const iso_params *params, const iso_record *record, double tolerance,

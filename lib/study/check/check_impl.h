@@ -58,8 +58,8 @@ struct checker {
     int columns[ISO_TRAJECTORY_COLUMNS]; /* of the record, -1: not there           */
     bool looked[ISO_TRAJECTORY_COLUMNS]; /* the column was compared with something */
     size_t width;                        /* of a row                               */
-    size_t rows, passed, number,
-        before;              /* rows so far; passed over; the number of the row in hand, and of the last */
+    size_t rows, passed;     /* so far; passed over                                           */
+    size_t number, before;   /* of the row in hand, and of the last                           */
     bool begins;             /* the row in hand is the first of its orbit */
     double *last;            /* the last row                           */
     double *first, *second;  /* the first two                          */

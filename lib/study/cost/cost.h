@@ -112,9 +112,10 @@ typedef struct iso_cost_growth {
     double end[ISO_COST_HORIZONS], error[ISO_COST_HORIZONS], seconds[ISO_COST_HORIZONS]; /* median, of stepping */
     double uncertainty[ISO_COST_HORIZONS]; /* of the closed solution's error, which has no other measure: NaN */
     double power, time_power; /* error ~ end^power and seconds ~ end^time_power, fitted; NaN: too few        */
-    bool chaotic;             /* the indicators of chaos.h call the orbit chaotic; or, if they do not decide, the
-                                 error grows exponentially rather than by a power ...                        */
-    double lyapunov_time;     /* ... e-fold in this time, in the scene's unit; NaN                           */
+    /* The indicators of chaos.h call the orbit chaotic; or, if they do not decide, the error grows exponentially
+     * rather than by a power ... */
+    bool chaotic;
+    double lyapunov_time; /* ... e-fold in this time, in the scene's unit; NaN */
     char reference[120], second[120];
     char why[160]; /* it ends before `horizons`; "": it does not                                  */
 } iso_cost_growth;

@@ -1,5 +1,5 @@
 /* frequencies.c - the frequencies of a motion, see frequencies.h: from the closed solution where there is one, else
- * the estimate of estimate.c. */
+ * the estimate of frequencies_estimate.c. */
 #include "study/frequencies/frequencies.h"
 
 #include <math.h>

@@ -91,8 +91,8 @@ enum { ISO_MAX_RESONANCES = 8, ISO_SEPARATRICES = 2 };
 /* Where a motion changes its kind, at a root that meets b2 (and b3). */
 typedef struct iso_separatrix {
     char what[96];
-    double distance; /* (c - c of the separatrix)/(the larger |c| of both); 0: on it; > 0: u turns back before b2, and
-                        v goes through b3 */
+    /* (c - c of the separatrix)/(the larger |c| of both). 0: on it; > 0: u turns back before b2, v passes b3. */
+    double distance;
 } iso_separatrix;
 
 typedef struct iso_frequencies {
@@ -110,12 +110,13 @@ typedef struct iso_frequencies {
     iso_separatrix separatrix[ISO_SEPARATRICES];
     int angles; /* 0, 1 or 2                                                                            */
     iso_angle angle[2];
-    double rotation; /* angle[0].frequency/angle[1].frequency, the same in every clock; NaN: the motion is chaotic,
-                        or two frequencies explain less than half of it                                   */
-    int resonances;  /* best approximations of `rotation` by fractions q/p with p, q <= 100             */
+    /* angle[0].frequency/angle[1].frequency, the same in every clock; NaN: the motion is chaotic, or two frequencies
+     * explain less than half of it. */
+    double rotation;
+    int resonances; /* best approximations of `rotation` by fractions q/p with p, q <= 100 */
     iso_resonance resonance[ISO_MAX_RESONANCES];
-    double closed[ISO_CLOCKS]; /* the period of a closed orbit: one angle, or a resonance that is met; NaN: it is
-                                  open, or only estimated                                                 */
+    /* The period of a closed orbit: one angle, or a resonance that is met; NaN: it is open, or only estimated. */
+    double closed[ISO_CLOCKS];
     iso_estimate estimate;
 } iso_frequencies;
 

@@ -1,4 +1,4 @@
-/* basis.c - from the lines of n(t) to the two frequencies of which they are combinations, see basis_impl.h. */
+/* frequencies_basis.c - from the lines of n(t) to the two frequencies that they are combinations of. */
 #include "study/frequencies/frequencies_basis_impl.h"
 
 #include <limits.h>

@@ -1,4 +1,4 @@
-/* basis_impl.h - the two frequencies of which the lines of n(t) are combinations. */
+/* frequencies_basis_impl.h - the two frequencies of which the lines of n(t) are combinations. */
 #ifndef ISO_STUDY_BASIS_IMPL_H
 #define ISO_STUDY_BASIS_IMPL_H
 

@@ -1,4 +1,4 @@
-/* estimate.c - the frequencies of a motion from the lines of its n(t), see frequencies.h. */
+/* frequencies_estimate.c - the frequencies of a motion from the lines of its n(t), see frequencies.h. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

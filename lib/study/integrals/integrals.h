@@ -123,9 +123,10 @@ typedef struct iso_integral_known {
 typedef struct iso_integral_search {
     iso_integral_verdict verdict;
     int independent; /* integrals that do not depend on each other, nor on the energy: 0, 1 or 2 */
-    bool near;       /* a neighbour is integrable: two moments differ by less than 1e-6 of them, or |k| and 1 by less
-                        than 1e-9, or lower degrees than that of the first integral have others below 1e-3. What is
-                        found and not known can then be the neighbour's: `undecided`                             */
+    /* A neighbour is integrable: two moments differ by less than 1e-6 of them, or |k| and 1 by less than 1e-9, or
+     * lower degrees than that of the first integral have others below 1e-3. What is found and not known can then be
+     * the neighbour's: `undecided`. */
+    bool near;
     int coefficients;
     size_t orbits;
     double level;  /* of the energy H on which it was searched (map/level.h); 0: H = 0 */

@@ -1,4 +1,4 @@
-/* periodic_follow.c - follows symmetric periodic orbits along k or a moment, see periodic_follow.h: the call, the two
+/* continuation.c - follows symmetric periodic orbits along k or a moment, see continuation.h: the call, the two
  * directions of a branch, and the branches that are switched to. */
 #define _GNU_SOURCE /* functions of _Float128 */
 #include "study/periodic/continuation.h"

@@ -1,4 +1,4 @@
-/* periodic_follow.h - follows a symmetric periodic orbit while k, a moment or the level changes.
+/* continuation.h - follows a symmetric periodic orbit while k, a moment or the level changes.
  *
  * The orbit passes its symmetry line at u (periodic.h), and again half an orbit later: there F(u, value), the
  * distance from the line, is 0. The curve F = 0 is followed by its arc length, through folds, in steps that adapt. D

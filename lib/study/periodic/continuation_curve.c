@@ -1,4 +1,4 @@
-/* follow_curve.c - the curve F(u, value) = 0 of a symmetric periodic orbit: evaluation, corrector, one step. */
+/* continuation_curve.c - the curve F(u, value) = 0 of a symmetric periodic orbit: evaluation, corrector, one step. */
 #define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 

@@ -1,4 +1,4 @@
-/* follow_events.c - what happens to a followed orbit between two points of its curve, and exactly where. */
+/* continuation_events.c - what happens to a followed orbit between two points of its curve, and exactly where. */
 #define _GNU_SOURCE /* functions of _Float128 */
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
-/* follow_impl.h - what the files of followed orbits share.
+/* continuation_impl.h - what the files of followed orbits share.
  *
- *     periodic_follow.c   the call, the two directions, the branches that are switched to
- *     follow_curve.c      the curve F(u, value) = 0: one evaluation, the corrector, one step
- *     follow_events.c     what happens between two points of the curve, and exactly where
- *     follow_switch.c     the orbits that branch off
+ *     continuation.c          the call, the two directions, the branches that are switched to
+ *     continuation_curve.c    the curve F(u, value) = 0: one evaluation, the corrector, one step
+ *     continuation_events.c   what happens between two points of the curve, and exactly where
+ *     continuation_switch.c   the orbits that branch off
  */
 #ifndef ISO_STUDY_FOLLOW_IMPL_H
 #define ISO_STUDY_FOLLOW_IMPL_H

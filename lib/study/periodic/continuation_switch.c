@@ -1,4 +1,4 @@
-/* follow_switch.c - the orbits that branch off where a followed orbit doubles its period or loses a symmetry.
+/* continuation_switch.c - the orbits that branch off where a followed orbit doubles its period or loses a symmetry.
  *
  * They begin next to the orbit. So beside each of its points on a symmetry line, F of the new period is sampled at a
  * value of the parameter a little to each side. There it has three zeros where branches are: the orbit itself, in the

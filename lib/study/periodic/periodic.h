@@ -42,7 +42,7 @@ ISO_C_BEGIN
 typedef enum iso_stability {
     ISO_STABLE,             /* |trace| < 2: exp(+-i angle), of first order stable                             */
     ISO_UNSTABLE,           /* trace > 2: a saddle                                                            */
-    ISO_INVERSE_HYPERBOLIC,            /* trace < -2: a saddle with two negative multipliers                             */
+    ISO_INVERSE_HYPERBOLIC, /* trace < -2: a saddle with two negative multipliers                             */
     ISO_DEGENERATE,         /* |trace| is 2 within 4 errors                                                   */
     ISO_STABILITY_UNDECIDED /* the same, and the error is above 2.5e-4: too large to tell                     */
 } iso_stability;
@@ -52,8 +52,9 @@ ISO_API const char *iso_stability_name(iso_stability stability);
 typedef struct iso_multipliers {
     iso_stability stability;
     double value[2][2]; /* real and imaginary part of each; the larger one first                                 */
-    int krein; /* of exp(i angle), 0 < angle < pi: 1 if neighbours turn from l to x, of a rotation from gamma_i to
-                  dgamma_i/dphi (the same sense), by this angle; -1: the other way; 0: the multipliers are real  */
+    /* Of exp(i angle), 0 < angle < pi: 1 if neighbours turn from l to x, of a rotation from gamma_i to dgamma_i/dphi
+     * (the same sense), by this angle; -1: the other way; 0: the multipliers are real. */
+    int krein;
 } iso_multipliers;
 
 /* The rotation about axis i, in the plane gamma_i = 0: Hill's equation. With q = J_a cos^2 phi + J_b sin^2 phi, for
@@ -68,15 +69,15 @@ typedef struct iso_multipliers {
 typedef struct iso_rotation {
     int axis; /* 0 to 2 */
     double half_turn_trace;
-    double error;             /* of it, or with `polish` of half_turn_trace + tail                                  */
-    double tail;              /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
-    double by_section;        /* the same by the derivative of g at the fixed point, of the section's own axis by
-                                 another section                                                               */
+    double error; /* of it, or with `polish` of half_turn_trace + tail                                  */
+    double tail;  /* half_turn_trace + tail has 30 digits where there are numbers of 128 bits           */
+    /* The same by the derivative of g at the fixed point, of the section's own axis by another section. */
+    double by_section;
     double turn_trace;        /* half_turn_trace^2 - 2: of a whole turn                                             */
     iso_multipliers half;     /* of half a turn                                                                    */
     double clock[ISO_CLOCKS]; /* of a whole turn, in the scene's units                                            */
     double l, x;              /* its fixed point; x = 1: the boundary of the section                               */
-    bool oscillates; /* there is no rotation: see above. Then the other numbers are NaN */
+    bool oscillates;          /* there is no rotation: see above. Then the other numbers are NaN */
 } iso_rotation;
 
 enum { ISO_PERIODIC_MOST = 64 }; /* the longest period that can be asked for */
@@ -85,21 +86,22 @@ enum { ISO_PERIODIC_MOST = 64 }; /* the longest period that can be asked for */
 enum { ISO_S1 = 1, ISO_S2 = 2, ISO_S3 = 4, ISO_TS1 = 8, ISO_TS2 = 16, ISO_TS3 = 32 };
 
 typedef struct iso_periodic_orbit {
-    int line;                 /* a symmetry line that it passes, as in iso_symmetry_line_name; -1: none                     */
-    double u;                 /* where: 0 to pi/2                                                                */
-    int period;               /* returns to the section                                                          */
-    double l, x;              /* a point of it: on the line, or the first one behind a line half way              */
+    int line;    /* a symmetry line that it passes, as in iso_symmetry_line_name; -1: none                     */
+    double u;    /* where: 0 to pi/2                                                                */
+    int period;  /* returns to the section                                                          */
+    double l, x; /* a point of it: on the line, or the first one behind a line half way              */
     double l_tail, x_tail;    /* l + l_tail: more digits                                                         */
     double trace, trace_tail; /* of the derivative of f^period                                                   */
     double error;             /* of the trace                                                                    */
     double determinant;       /* of the same derivative, minus 1                                                 */
-    double closure;           /* |f^period z - z| in (l, x), with all digits of z, by the largest number of the
-                                 derivative of f^period if that is above 1                                         */
+    /* |f^period z - z| in (l, x), with all digits of z, by the largest number of the derivative of f^period if that
+     * is above 1. */
+    double closure;
     iso_multipliers multipliers;
-    bool torus;               /* k = 1 or -1: on a torus that is full of such orbits                             */
-    int symmetry;             /* which reversors map it to itself: bits                                          */
-    int copies;               /* orbits that R, S1 S2, T (and S1, of an orbit without symmetry) make of it, itself
-                                 among them                                                                      */
+    bool torus;   /* k = 1 or -1: on a torus that is full of such orbits                             */
+    int symmetry; /* which reversors map it to itself: bits                                          */
+    /* Orbits that R, S1 S2, T (and S1, of an orbit without symmetry) make of it, itself among them. */
+    int copies;
     double clock[ISO_CLOCKS]; /* its period in t, tau and s, in the scene's units                                */
     double ball[ISO_STATE], point[ISO_STATE]; /* its start at (l, x), with the scene's energy                    */
     double copy[16][2]; /* a point (l, x) of each copy                                                     */

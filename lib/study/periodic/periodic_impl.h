@@ -112,9 +112,9 @@ void iso_periodic_reverse(int reversor, const double z[2], double to[2]);
 iso_status iso_periodic_place(const iso_periodic_map *map, int line, size_t count, const double u[], double (*z)[2],
                               double (*by_u)[2]);
 
-/* F_n(u), a number that changes its sign where the orbit is on the line again after n half returns; before, at:
- * g^(n-1) z and g^n z. *slope: by u. *there: its mirror image is itself, as an orbit of the line must be; F_n has
- * other zeros too, of lines half way. */
+/* F_n(u), a number that changes its sign where the orbit is on the line again after n half returns. before and at are
+ * g^(n-1) z and g^n z. *slope: of F_n by u. *there: the orbit is its own mirror image, as each orbit of the line is.
+ * F_n of lines half way has other zeros as well. */
 double iso_periodic_miss(int line, const iso_periodic_point *before, const iso_periodic_point *at,
                          const double by_u[2], double *slope, bool *there);
 
@@ -126,8 +126,8 @@ typedef struct iso_periodic_shot {
     /* On the line at the end, the crossing behind it is S of the crossing before it (on the section they are one).
      * miss: how far that is from true, and its derivative by u. */
     iso_wide miss[2], miss_by_u[2];
-    iso_wide off;     /* F: what the reversor turns over, of the middle of the two crossings: 0 on the line */
-    iso_wide D[2][2]; /* row 0: of the other coordinate of this middle; row 1: of F */
+    iso_wide off;     /* F: the coordinate of the middle of both crossings that S turns over: 0 on the line */
+    iso_wide D[2][2]; /* row 0: slopes of the middle's other coordinate; row 1: of F */
     iso_wide trace;   /* of the whole orbit, if miss is 0 */
     double terms;     /* the trace is a sum of terms of this size: so large are its rounding errors */
     iso_wide clock[ISO_CLOCKS];

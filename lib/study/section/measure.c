@@ -14,8 +14,9 @@ enum { BLOCK = 4096 }; /* orbits that are carried at a time */
 
 /* --- test functions --------------------------------------------------------------------------------------------- */
 
-/* The energy, which is the same for all states; functions of n only, three of which have means other than 0;
- * functions of n and of v = J^(1/2) omega/|..|, with u = gamma x v, whose means over theta are 0 at each n. */
+/* The test functions: first the energy, which is the same for all states. Then functions of n alone, of which three
+ * have means other than 0. Then functions of n and of v = J^(1/2) omega/|..|, with u = gamma x v. Their means over
+ * theta are 0 at each n. */
 enum { ENERGY, LN_G, N1_SQUARE, N2_SQUARE, OTHERS, FUNCTIONS = 23 };
 static const char *const names[FUNCTIONS] = {
     "h",

@@ -52,14 +52,17 @@ typedef struct iso_measure_options {
     size_t size;  /* set by iso_measure_defaults; see isoroll.h                                        */
     size_t count; /* orbits, ISO_MEASURE_LEAST or more; rounded up to a multiple of ISO_MEASURE_CLOUDS */
     unsigned long seed;
-    double exponent;     /* the measure is g^(exponent/(2k)) dw dn, for returns G^exponent dx dl. 1 is (10). No
-                            other measure is kept, unless all moments are equal                               */
-    double turns;        /* about how many turns of n the flow carries the cloud. It is tested after 1/64, 1/16,
-                            1/4 of them, and at the end                                                       */
-    double end;          /* the end as a time of the clock; NaN: given by `turns`                             */
-    iso_clock clock;     /* the flow carries the cloud in equal times of this clock                           */
-    int returns;         /* number of returns to the section, ISO_MEASURE_RETURNS or more. The cloud is tested
-                            after 1/8, 1/4, 1/2 of them, and at the end                                       */
+    /* The measure is g^(exponent/(2k)) dw dn, for returns G^exponent dx dl. 1 is (10). No other measure is kept,
+     * unless all moments are equal. */
+    double exponent;
+    /* About how many turns of n the flow carries the cloud. It is tested after 1/64, 1/16, 1/4 of them, and at the
+     * end. */
+    double turns;
+    double end;      /* the end as a time of the clock; NaN: given by `turns`                             */
+    iso_clock clock; /* the flow carries the cloud in equal times of this clock                           */
+    /* Number of returns to the section, ISO_MEASURE_RETURNS or more. The cloud is tested after 1/8, 1/4, 1/2 of them,
+     * and at the end. */
+    int returns;
     int axis;            /* of the section: 0 to 2; ISO_AXIS_AUTO (orbit/crossings.h): the global one         */
     double significance; /* the measure counts as not kept if p is less than this                             */
     double tolerance;    /* of the integration                                                                */
@@ -102,18 +105,20 @@ typedef struct iso_measure_entry {
 enum { ISO_MEASURE_FUNCTIONS = 24, ISO_MEASURE_LINES = ISO_MEASURE_FUNCTIONS * ISO_MEASURE_ROWS };
 
 typedef struct iso_measure {
-    size_t count;     /* orbits of the cloud                                                              */
-    size_t lost;      /* if an effect stops orbits before they return: how many, among the first few thousand
-                         orbits where this happens. Then there is one line, with p = 0, and the test ends  */
+    size_t count; /* orbits of the cloud */
+    /* If an effect stops orbits before they return: how many, among the first few thousand orbits where this happens.
+     * Then there is one line, with p = 0, and the test ends. */
+    size_t lost;
     int axis;         /* of the section; flow: -1                                                              */
     iso_clock clock;  /* flow                                                                                  */
     double end;       /* the last time, or the number of the last return                                       */
     int lines, worst; /* number of lines; the line that deviates most                                          */
     iso_measure_entry line[ISO_MEASURE_LINES];
-    double p;          /* the probability that a measure that is kept deviates as much as the worst line        */
-    bool kept;         /* p >= significance                                                                     */
-    double resolution; /* see above; infinite if the three moments (for returns: the two beside the axis) are
-                          equal, since every exponent is right then                                             */
+    double p;  /* the probability that a measure that is kept deviates as much as the worst line        */
+    bool kept; /* p >= significance                                                                     */
+    /* See above; infinite if the three moments (for returns: the two beside the axis) are equal, since every exponent
+     * is right then. */
+    double resolution;
 } iso_measure;
 
 /* The scene gives the ball, the energy and the effects. Of its start only the energy matters. With a potential that

@@ -50,9 +50,8 @@ typedef struct iso_section_options {
     int axis;   /* 0 to 2; ISO_AXIS_AUTO: the global one                                              */
     int column; /* -1, or the column (iso_column_find) whose passing of `value` is looked for instead  */
     double value;
-    iso_models
-        models;      /* the models that are integrated, each by itself; ISO_SHOW_START: both if the ball has a twin */
-    iso_models shown; /* the model whose states the rows have; ISO_SHOW_START: no states                      */
+    iso_models models; /* those integrated, each by itself; ISO_SHOW_START: both if the ball has a twin       */
+    iso_models shown;  /* the model whose states the rows have; ISO_SHOW_START: no states                      */
     double tolerance;    /* NAN: the scene's                                                                   */
     int threads;         /* 0: as many as there are processors to run on                                       */
     const char *vectors; /* see batch.h                                                                        */

@@ -1,4 +1,4 @@
-/* splitting.c - the splitting at one k on one level: x* and m, with errors. */
+/* separatrix.c - the splitting at one k on one level: x* and m, with errors. */
 #define _GNU_SOURCE /* functions of _Float128 */
 #include "study/separatrix/separatrix.h"
 

@@ -1,4 +1,4 @@
-/* splitting.h - the splitting of the separatrix, which is 0 at k = 1 and k = -1, where the ball is integrable.
+/* separatrix.h - the splitting of the separatrix, which is 0 at k = 1 and k = -1, where the ball is integrable.
  *
  * The rotation about the middle axis is a hyperbolic fixed point O of the return map (map/section.h), with its mirror
  * O', half a turn of l away. At k = +-1 the unstable manifold of O is the stable manifold of O'. At other k they
@@ -45,11 +45,12 @@ typedef struct iso_separatrix_splitting {
     double error, x_error;       /* of m, and of x                                                               */
     int section;                 /* axis of the global section, on which all is computed: a, or another one        */
     double section_x, section_m; /* x and m there                                                        */
-    double next_l, next_x, next_m; /* there: the next point at which the manifolds meet, and half the difference
-                                      of their slopes; NaN: not asked for, or not found                    */
-    int digits;                    /* decimal digits of the numbers: 19 or 32                                       */
-    bool from_zero;                /* |m| > 100 errors                                                              */
-    bool is_zero; /* a zero of m between two rows of a scan, to k_error or level_error; next_... are there   */
+    /* On it, the next point at which the manifolds meet, and half the difference of their slopes; NaN: not asked for,
+     * or not found. */
+    double next_l, next_x, next_m;
+    int digits;     /* decimal digits of the numbers: 19 or 32                                       */
+    bool from_zero; /* |m| > 100 errors                                                              */
+    bool is_zero;   /* a zero of m between two rows of a scan, to k_error or level_error; next_... are there   */
     double k_error, level_error; /* one of them is 0: that of the number in which both rows agree                */
     iso_status status;           /* ISO_OK, or why there is nothing                                               */
     char words[200];             /* of a failure; with ISO_OK: "", or why 128 bits failed where 64 did not         */
@@ -73,8 +74,8 @@ typedef struct iso_separatrix_options {
     const double *k; /* the values, in any order                                              */
     size_t count;
     double J[3];
-    const iso_scene *scene; /* no effect but a level may act on its ball; its k and J are read for its level alone.
-                               NULL: a free ball                                           */
+    /* No effect but a level may act on its ball; its k and J are read for its level alone. NULL: a free ball. */
+    const iso_scene *scene;
     iso_separatrix_digits digits;
     bool zeros;  /* look for zeros of m between neighbours of this list                    */
     int threads; /* 0: as many as there are processors to run on                           */

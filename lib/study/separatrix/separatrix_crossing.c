@@ -1,4 +1,4 @@
-/* splitting_crossing.c - the unstable manifold beyond its polynomial, and where it crosses its lines of symmetry.
+/* separatrix_crossing.c - the unstable manifold beyond its polynomial, and where it crosses its lines of symmetry.
  *
  * The part 1/lambda < theta <= 1 is a fundamental domain: its images under g are the whole branch, piece by piece. A
  * piece is held as samples so close together that no turn is missed. */

@@ -1,14 +1,14 @@
-/* splitting_impl.h - what the files of the splitting share: the unstable manifold of the middle axis' rotation.
+/* separatrix_impl.h - what the files of the splitting share: the unstable manifold of the middle axis' rotation.
  *
- *     splitting_manifold.c   the manifold near its fixed point, as a polynomial
- *     splitting_crossing.c   the manifold farther out, and where it crosses its symmetry lines
- *     splitting.c            one k, with its error
- *     splitting_scan.c       many k, and the zeros between them
+ *     separatrix_manifold.c  the manifold near its fixed point, as a polynomial
+ *     separatrix_crossing.c  the manifold farther out, and where it crosses its symmetry lines
+ *     separatrix.c           one k, with its error
+ *     separatrix_scan.c      many k, and the zeros between them
  *
  * Coordinates are z = (u, x): u = l - l0, so that the fixed point is 0. The map is g, half a return
- * (return_map_impl.h): here lambda is its multiplier, the square root of iso_separatrix_splitting.lambda. It is above 1, as the
- * half-turn trace of the middle axis is below -2 (lib/doc/theory.md) and g turns its sign over. (g commutes with z ->
- * -z.)
+ * (return_map_impl.h). Here lambda is its multiplier, the square root of iso_separatrix_splitting.lambda. It is above
+ * 1, because the half-turn trace of the middle axis is below -2 (lib/doc/theory.md) and g turns its sign over. g and
+ * z -> -z commute.
  */
 #ifndef ISO_STUDY_SPLITTING_IMPL_H
 #define ISO_STUDY_SPLITTING_IMPL_H

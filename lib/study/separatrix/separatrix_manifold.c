@@ -1,4 +1,4 @@
-/* splitting_manifold.c - the unstable manifold of the middle axis' rotation near its fixed point, as a polynomial.
+/* separatrix_manifold.c - the unstable manifold of the middle axis' rotation near its fixed point, as a polynomial.
  *
  * With P(y) = sum c_i T*_i(y) the equation g(W(theta/lambda)) = W(theta) is solved at nodes y_j by Newton's method:
  *

@@ -1,4 +1,4 @@
-/* splitting_scan.c - the splitting at many k or levels on all threads, and the zeros of m between them. */
+/* separatrix_scan.c - the splitting at many k or levels on all threads, and the zeros of m between them. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -104,9 +104,9 @@ static iso_status search(iso_pool_worker *w, const scan *c, bracket *b, double *
     return status;
 }
 
-/* The zero of the search, and steps of the secant method farther, with the digits that were asked for, until m is not
- * distinguished from 0, or as small as doubles of k or the level allow: the next crossing's slope must be seen beside
- * it. */
+/* Goes on from the zero of the search by the secant method, with the digits that were asked for. It ends where m is
+ * not distinguished from 0, or is as small as doubles of k or the level allow: the slope of the next crossing, which
+ * is shown beside m, must be larger. */
 static iso_status find_zero(iso_pool_worker *w, const scan *c, bracket b, iso_separatrix_splitting *zero)
 {
     enum { MOST = 8 };
