@@ -1,12 +1,14 @@
-/* record.c - a table of a trajectory in memory: named columns, rows, and "# key: value" lines (record.h). */
+/* record.c - a table in memory: named columns, rows, words, and "# key: value" lines (record.h). */
 #include "base/record.h"
 
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/number.h"
 
-#define NAME_SIZE 32
+enum { NAME_SIZE = 64, KIND_SIZE = 32 };
 
 typedef struct line {
     char *key, *value;
@@ -19,11 +21,16 @@ struct iso_record {
     size_t lines;
     line *line;
     double row_tolerance;
+    char kind[KIND_SIZE];
+    bool *has_words;       /* of each column */
+    size_t words, buckets; /* buckets: 0, or a power of 2 above twice the words */
+    char **word;           /* by its number, from 1 on */
+    size_t *bucket;        /* the number of a word whose hash leads here; 0: none */
 };
 
 static iso_status no_memory(iso_context *ctx)
 {
-    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a trajectory record");
+    return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a table");
 }
 
 iso_status iso_record_create(iso_context *ctx, size_t columns, const char *const names[], iso_record **record)
@@ -42,7 +49,8 @@ iso_status iso_record_create(iso_context *ctx, size_t columns, const char *const
     r->columns = columns;
     r->row_tolerance = ISO_ROW_TOLERANCE;
     r->names = calloc(columns ? columns : 1, sizeof *r->names);
-    if (!r->names) return iso_record_free(r), no_memory(ctx);
+    r->has_words = calloc(columns + 1, sizeof *r->has_words);
+    if (!r->names || !r->has_words) return iso_record_free(r), no_memory(ctx);
     for (size_t i = 0; i < columns; i++) memcpy(r->names[i], names[i], strlen(names[i]) + 1);
     *record = r;
     return ISO_OK;
@@ -55,10 +63,39 @@ void iso_record_free(iso_record *r)
         free(r->line[i].key);
         free(r->line[i].value);
     }
+    for (size_t i = 1; i <= r->words; i++) free(r->word[i]);
+    free(r->word);
+    free(r->bucket);
+    free(r->has_words);
     free(r->line);
     free(r->names);
     free(r->data);
     free(r);
+}
+
+iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, size_t columns,
+                                  const char *const names[], iso_record **record)
+{
+    iso_status status = iso_record_create(ctx, columns, names, record);
+    if (status != ISO_OK) return status;
+    (*record)->row_tolerance = other->row_tolerance;
+    iso_record_set_kind(*record, other->kind);
+    for (size_t i = 0; status == ISO_OK && i < other->lines; i++)
+        status = iso_record_set(ctx, *record, other->line[i].key, other->line[i].value);
+    if (status != ISO_OK) iso_record_free(*record), *record = NULL;
+    return status;
+}
+
+const char *iso_record_kind(const iso_record *r)
+{
+    return r->kind;
+}
+
+void iso_record_set_kind(iso_record *r, const char *kind)
+{
+    char copy[KIND_SIZE];
+    snprintf(copy, sizeof copy, "%s", kind);
+    memcpy(r->kind, copy, sizeof copy);
 }
 
 size_t iso_record_columns(const iso_record *r)
@@ -128,6 +165,65 @@ iso_status iso_record_append(iso_context *ctx, iso_record *r, double **row)
     memset(*row, 0, r->columns * sizeof **row);
     return ISO_OK;
 }
+
+/* --- words ------------------------------------------------------------------------------------------------------ */
+
+void iso_record_set_words(iso_record *r, size_t column)
+{
+    r->has_words[column] = true;
+}
+
+bool iso_record_has_words(const iso_record *r, size_t column)
+{
+    return r->has_words[column];
+}
+
+/* Where the word is, or would be. */
+static size_t *find_word(const iso_record *r, const char *word)
+{
+    uint64_t hash = 0xcbf29ce484222325; /* FNV-1a */
+    for (const char *c = word; *c; c++) hash = (hash ^ (unsigned char)*c) * 0x100000001b3;
+    size_t at = (size_t)(hash ^ hash >> 32);
+    while (r->bucket[at &= r->buckets - 1] > 0 && strcmp(r->word[r->bucket[at]], word) != 0) at++;
+    return &r->bucket[at];
+}
+
+/* Room for one more word. */
+static bool grow_words(iso_record *r)
+{
+    if (2 * (r->words + 1) < r->buckets) return true;
+    const size_t buckets = r->buckets ? 2 * r->buckets : 16;
+    char **word = realloc(r->word, (buckets / 2 + 1) * sizeof *word);
+    if (word) r->word = word;
+    size_t *bucket = word ? calloc(buckets, sizeof *bucket) : NULL;
+    if (!bucket) return false;
+    free(r->bucket);
+    r->bucket = bucket;
+    r->buckets = buckets;
+    for (size_t i = 1; i <= r->words; i++) *find_word(r, r->word[i]) = i;
+    return true;
+}
+
+iso_status iso_record_intern(iso_context *ctx, iso_record *r, const char *word, double *number)
+{
+    *number = 0;
+    if (!*word) return ISO_OK;
+    if (!grow_words(r)) return no_memory(ctx);
+    size_t *const at = find_word(r, word);
+    if (*at == 0) {
+        if (!(r->word[r->words + 1] = strdup(word))) return no_memory(ctx);
+        *at = ++r->words;
+    }
+    *number = (double)*at;
+    return ISO_OK;
+}
+
+const char *iso_record_word(const iso_record *r, double number)
+{
+    return number >= 1 && number <= (double)r->words ? r->word[(size_t)number] : "";
+}
+
+/* --- lines ------------------------------------------------------------------------------------------------------ */
 
 static line *find_line(const iso_record *r, const char *key)
 {

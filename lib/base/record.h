@@ -1,7 +1,7 @@
-/* record.h - a trajectory in memory: named columns of doubles, and `key: value` lines that travel with them.
+/* record.h - a table in memory: named columns of doubles or words, and `key: value` lines that travel with them.
  *
- * A record is what a trajectory file holds, no more: it knows nothing of balls. Column names and their units are
- * those of the trajectory file (lib/doc/formats.md); rows are stored one after another.
+ * A record is what a file of a table holds, no more: it knows nothing of balls. Column names and their units are
+ * those of the files (lib/doc/formats.md); rows are stored one after another.
  */
 #ifndef ISO_BASE_RECORD_H
 #define ISO_BASE_RECORD_H
@@ -16,11 +16,19 @@ ISO_C_BEGIN
 
 typedef struct iso_record iso_record;
 
-/* An empty record with the given column names (copied; up to 31 characters each, all different).
+/* An empty record with the given column names (copied; up to 63 characters each, all different).
  * Errors: ISO_BAD_ARGUMENT, ISO_NO_MEMORY. */
 ISO_API iso_status iso_record_create(iso_context *ctx, size_t columns, const char *const names[],
                                      iso_record **record);
 ISO_API void iso_record_free(iso_record *record);
+
+/* The same with the lines, the kind and the row tolerance of another record. */
+iso_status iso_record_create_like(iso_context *ctx, const iso_record *other, size_t columns,
+                                  const char *const names[], iso_record **record);
+
+/* What the table holds: "trajectory", "section", "chaos", ... (up to 31 characters); "" until it is set. */
+ISO_API const char *iso_record_kind(const iso_record *record);
+ISO_API void iso_record_set_kind(iso_record *record, const char *kind);
 
 ISO_API size_t iso_record_columns(const iso_record *record);
 ISO_API size_t iso_record_rows(const iso_record *record);
@@ -39,6 +47,14 @@ ISO_API const double *iso_record_const_row(const iso_record *record, size_t row)
 
 /* Adds a row and gives it in *row, filled with zeros. Errors: ISO_NO_MEMORY. */
 ISO_API iso_status iso_record_append(iso_context *ctx, iso_record *record, double **row);
+
+/* Columns of words, such as a verdict. A row holds a number for each word; 0 is the empty word. The record owns the
+ * words: iso_record_intern gives the number of one (the same number for equal words) and iso_record_word the word of a
+ * number ("" if there is none). Errors: ISO_NO_MEMORY. */
+ISO_API void iso_record_set_words(iso_record *record, size_t column);
+ISO_API bool iso_record_has_words(const iso_record *record, size_t column);
+ISO_API iso_status iso_record_intern(iso_context *ctx, iso_record *record, const char *word, double *number);
+ISO_API const char *iso_record_word(const iso_record *record, double number);
 
 /* How far a row may be from a valid state: from a unit vector, and from a right angle. It follows from the digits
  * that the numbers were written with. It is no part of a file; a new record has ISO_ROW_TOLERANCE. The caller sets a

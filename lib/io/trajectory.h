@@ -18,6 +18,7 @@
 
 #include "../base/api.h"
 #include "../base/record.h"
+#include "table.h"
 
 ISO_C_BEGIN
 
@@ -46,7 +47,7 @@ ISO_API iso_status iso_trajectory_write(iso_context *ctx, const char *path, cons
  *     iso_trajectory_reader_close(r);
  *
  * Memory does not grow with the file. */
-typedef struct iso_trajectory_reader iso_trajectory_reader;
+typedef struct iso_table_reader iso_trajectory_reader;
 
 /* Opens a file and reads on to its first row. columns: names of the file's columns from left to right, with commas
  * between, "-" for one to be passed over; NULL: the file's own header line.
@@ -92,7 +93,7 @@ ISO_API const char *iso_trajectory_ignored(const iso_trajectory_reader *reader);
  * same folder. What is no regular file (/dev/stdout, a fifo) is written as the rows come.
  * A write that fails is ISO_FILE_TROUBLE, or ISO_CLOSED_PIPE when the reader of a pipe has gone (the program must
  * ignore SIGPIPE to see it). */
-typedef struct iso_trajectory_writer iso_trajectory_writer;
+typedef struct iso_table_writer iso_trajectory_writer;
 
 /* Errors: ISO_BAD_ARGUMENT, ISO_FILE_TROUBLE, ISO_NO_MEMORY; *writer is then NULL. */
 ISO_API iso_status iso_trajectory_open(iso_context *ctx, const char *path, iso_trajectory_writer **writer);

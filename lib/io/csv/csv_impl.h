@@ -1,6 +1,7 @@
-/* csv_impl.h - what reading a trajectory from text is made of.
+/* csv_impl.h - what reading a table from text is made of.
  *
- *     csv_reader.c   the header: lines of #, the names of the columns
+ *     csv_reader.c   lines of #, the names of the columns of trajectories
+ *     csv_table.c    the cells of other tables: numbers, nan among them, and words
  *     csv_lines.c    the lines of the file, in blocks; rows are read ahead by other threads
  *     csv_row.c      the numbers of one line
  */
@@ -10,10 +11,14 @@
 #include <locale.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdio.h>
 
-#include "base/context.h"
+#include "base/record.h"
 
-enum { ISO_LONGEST_LINE = 1 << 16, ISO_MOST_FIELDS = 1024 };
+/* LONGEST_TEXT: a line of a table of isoroll, which may have the text of a sweep. */
+enum { ISO_LONGEST_LINE = 1 << 16, ISO_LONGEST_TEXT = 1 << 25, ISO_MOST_FIELDS = 1024 };
+
+#define ISO_TABLE_TEXT "sweep" /* the text with this key has lines "# | ..." */
 
 /* --- csv_row.c -------------------------------------------------------------------------------------------------- */
 
@@ -36,10 +41,38 @@ typedef struct iso_csv_mistake {
 /* Reads the numbers of a line, which ends with '\0'. It writes e in the place of d in exponents. */
 iso_csv_wrong iso_csv_read_row(const iso_csv_format *format, char *line, double row[], iso_csv_mistake *mistake);
 
+/* Reads a finite number at *at and moves *at behind it. False: there is none. */
+bool iso_csv_read_number(locale_t plain, char **at, double *value);
+
 static inline bool iso_is_blank(char x)
 {
     return x == ' ' || x == '\t';
 }
+
+/* --- csv_table.c ------------------------------------------------------------------------------------------------ */
+
+/* Takes the next cell of *rest, which then begins behind it (NULL after the last): without quotes, ended with '\0'.
+ * NULL: it has no closing quote. */
+char *iso_csv_next_cell(char **rest);
+
+/* Reads a cell as a number: finite, nan, inf, or empty, which is nan. */
+bool iso_csv_read_cell(locale_t plain, char *cell, double *value);
+
+/* Writes a cell. words: the record that has the words of its column, if there are any; else NULL. */
+void iso_csv_print_cell(FILE *to, const iso_record *words, size_t column, double value, int digits);
+
+/* Lines of a text so far, each with its end, and the key of the text. */
+enum { ISO_TEXT_KEY = 32 };
+typedef struct iso_csv_text {
+    char *text, key[ISO_TEXT_KEY];
+    size_t length, room;
+} iso_csv_text;
+
+/* The text in "# KEY | TEXT", and its key; NULL: the line is another one. */
+const char *iso_csv_text_line(const char *line, char key[ISO_TEXT_KEY]);
+
+/* Adds a line. False: no memory. */
+bool iso_csv_text_add(iso_csv_text *text, const char *key, const char *line);
 
 /* --- csv_lines.c ------------------------------------------------------------------------------------------------ */
 
@@ -49,7 +82,7 @@ typedef struct iso_csv_line {
     char *text;        /* without its end                                                                  */
     size_t length;     /* of the text, which may hold '\0' and has one behind it; not set with a row       */
     const double *row; /* its numbers; NULL: the line is no row, has a mistake, or was not read ahead      */
-    bool too_long;     /* ISO_LONGEST_LINE or more: the text is a part of it                               */
+    bool too_long;     /* longer than a line may be: the text is a part of it                              */
 } iso_csv_line;
 
 /* Errors: ISO_FILE_TROUBLE, ISO_NO_MEMORY. name: what messages call the file; it must outlive the lines. */
@@ -58,6 +91,9 @@ void iso_csv_lines_close(iso_csv_lines *lines);
 
 /* Lines that are not yet in memory are read as rows from now on, ahead. The format must outlive the lines. */
 void iso_csv_lines_read_rows(iso_csv_lines *lines, const iso_csv_format *format);
+
+/* From now on lines may be as long as ISO_LONGEST_TEXT. */
+void iso_csv_lines_allow_texts(iso_csv_lines *lines);
 
 /* The next line; it is valid until the next call. *more false: there is none. Errors: ISO_FILE_TROUBLE; ISO_STOPPED,
  * if a signal comes while a pipe is waited for and the monitor of ctx says so. */

@@ -23,7 +23,8 @@ enum { BLOCKS = 8, MOST_ROWS = 4096 }; /* MOST_ROWS: lines of a block that are r
 typedef struct block {
     iso_task task;
     const iso_csv_format *format;
-    char *text;         /* 2 ISO_LONGEST_LINE + 1 characters */
+    char *text; /* room + 1 characters */
+    size_t room;
     size_t length, at;  /* of whole lines; start of the first line that was not read ahead */
     bool too_long;      /* it is a part of one line                                          */
     size_t known, next; /* lines that were read ahead; the next of these to be taken        */
@@ -42,7 +43,8 @@ struct iso_csv_lines {
     block *ring[BLOCKS];
     int first, count; /* blocks that hold lines: count from first on */
     char *tail;       /* the beginning of the next block             */
-    size_t tail_length;
+    size_t tail_length, tail_room;
+    size_t longest; /* a line may be shorter than this */
 };
 
 /* --- a block's rows, by a thread -------------------------------------------------------------------------------- */
@@ -88,7 +90,8 @@ static block *create_block(void)
     block *b = calloc(1, sizeof *b);
     if (!b) return NULL;
     b->task = (iso_task){.work = read_block, .data = b};
-    b->text = malloc(2 * ISO_LONGEST_LINE + 1);
+    b->room = 2 * ISO_LONGEST_LINE;
+    b->text = malloc(b->room + 1);
     b->row = malloc((ISO_LONGEST_LINE + ISO_MOST_FIELDS) * sizeof *b->row);
     if (b->text && b->row) return b;
     free_block(b);
@@ -119,6 +122,20 @@ static iso_status read_more(iso_context *ctx, iso_csv_lines *c, char *to, size_t
     }
 }
 
+/* Room for one more reading behind `length` characters, and for all of them in the tail. */
+static iso_status make_room(iso_context *ctx, iso_csv_lines *c, block *b, size_t length)
+{
+    const size_t room = 2 * (length + ISO_LONGEST_LINE);
+    if (length + ISO_LONGEST_LINE <= b->room) return ISO_OK;
+    char *tail = c->tail_room < room ? realloc(c->tail, room) : c->tail;
+    if (tail) c->tail = tail, c->tail_room = room;
+    char *text = tail ? realloc(b->text, room + 1) : NULL;
+    if (!text) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", c->name);
+    b->text = text;
+    b->room = room;
+    return ISO_OK;
+}
+
 /* Keeps what stands behind the whole lines for the next block. */
 static void keep_tail(iso_csv_lines *c, const char *from, size_t length)
 {
@@ -146,14 +163,18 @@ static iso_status skip_line(iso_context *ctx, iso_csv_lines *c, block *b)
 static iso_status fill(iso_context *ctx, iso_csv_lines *c, block *b)
 {
     size_t length = c->tail_length, got;
+    iso_status status = make_room(ctx, c, b, length);
+    if (status != ISO_OK) return status;
     memcpy(b->text, c->tail, length);
     c->tail_length = b->length = b->at = b->known = b->next = 0;
     b->next_row = b->row;
     b->too_long = false;
     const char *end = memrchr(b->text, '\n', length);
     while (!c->ended && (!end || (length < ISO_LONGEST_LINE / 2 && is_ready(c)))) {
-        if (!end && length >= ISO_LONGEST_LINE) return skip_line(ctx, c, b);
-        const iso_status status = read_more(ctx, c, b->text + length, &got);
+        if (!end && length >= c->longest) return skip_line(ctx, c, b);
+        got = 0;
+        status = make_room(ctx, c, b, length);
+        if (status == ISO_OK) status = read_more(ctx, c, b->text + length, &got);
         const char *later = memrchr(b->text + length, '\n', got);
         if (later) end = later;
         length += got;
@@ -221,11 +242,11 @@ static void take_known(const iso_csv_lines *c, block *b, iso_csv_line *line)
     b->next_row += c->format->columns;
 }
 
-static void take_unknown(block *b, iso_csv_line *line)
+static void take_unknown(const iso_csv_lines *c, block *b, iso_csv_line *line)
 {
     char *const text = b->text + b->at, *end = memchr(text, '\n', b->length - b->at);
     *line = (iso_csv_line){.text = text, .length = (size_t)((end ? end : b->text + b->length) - text)};
-    line->too_long = b->too_long || line->length >= ISO_LONGEST_LINE;
+    line->too_long = b->too_long || line->length >= c->longest;
     b->at += line->length + (end != NULL);
     text[line->length] = '\0';
 }
@@ -236,7 +257,7 @@ iso_status iso_csv_lines_next(iso_context *ctx, iso_csv_lines *c, iso_csv_line *
         block *b = c->ring[c->first];
         *more = c->count > 0;
         if (*more && b->next < b->known) return take_known(c, b, line), ISO_OK;
-        if (*more && b->at < b->length) return take_unknown(b, line), ISO_OK;
+        if (*more && b->at < b->length) return take_unknown(c, b, line), ISO_OK;
         if (!*more && c->ended && c->error == 0) return ISO_OK;
         const iso_status status = next_block(ctx, c);
         if (status != ISO_OK) return status;
@@ -246,6 +267,11 @@ iso_status iso_csv_lines_next(iso_context *ctx, iso_csv_lines *c, iso_csv_line *
 void iso_csv_lines_read_rows(iso_csv_lines *c, const iso_csv_format *format)
 {
     c->format = format;
+}
+
+void iso_csv_lines_allow_texts(iso_csv_lines *c)
+{
+    c->longest = ISO_LONGEST_TEXT;
 }
 
 /* --- opening and closing ---------------------------------------------------------------------------------------- */
@@ -268,7 +294,9 @@ iso_status iso_csv_lines_open(iso_context *ctx, const char *path, const char *na
     if (!c) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", name);
     c->name = name;
     c->tasks = iso_tasks_create();
-    c->tail = malloc(2 * ISO_LONGEST_LINE);
+    c->tail_room = 2 * ISO_LONGEST_LINE;
+    c->tail = malloc(c->tail_room);
+    c->longest = ISO_LONGEST_LINE;
     if (!c->tasks || !c->tail || !has_room(c))
         return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", name);
     c->file = iso_text_open(ctx, path);

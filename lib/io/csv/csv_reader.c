@@ -1,5 +1,5 @@
-/* csv_reader.c - reads trajectories from text: files of isoroll and of other programs. csv_writer.c writes them.
- * This file knows the header and the messages, csv_lines.c reads lines, csv_row.c the numbers in them. */
+/* csv_reader.c - reads tables from text: files of isoroll, and trajectories of other programs. csv_writer.c writes them.
+ * This file knows the header and the messages, csv_lines.c reads lines, csv_row.c and csv_table.c what is in them. */
 #define _GNU_SOURCE /* strtod_l */
 #include <ctype.h>
 #include <locale.h>
@@ -12,15 +12,15 @@
 #include "base/number.h"
 #include "base/place_impl.h"
 #include "io/csv/csv_impl.h"
+#include "io/table_impl.h"
 #include "io/text_impl.h"
-#include "io/trajectory_impl.h"
 #include "orbit/scene.h"
 
 enum { MOST_KEYS = 4096 };
 
 typedef struct csv {
     iso_context *ctx;
-    iso_trajectory_reader *r;
+    iso_table_reader *r;
     iso_csv_lines *lines;
     iso_csv_format format;
     bool ours, again;               /* the file has our first line; the line is to be read once more */
@@ -30,6 +30,7 @@ typedef struct csv {
     size_t length, number;          /* number: of the line, from 1                                   */
     const double *row;              /* the line's numbers, if it was read ahead                      */
     char comment[ISO_LONGEST_LINE]; /* the last line of # that is no key: perhaps names              */
+    iso_csv_text text;
 } csv;
 
 /* A part of a line without the blanks around it, and the quotes. */
@@ -94,6 +95,59 @@ static iso_status read_key_line(csv *c)
     return iso_record_set(c->ctx, c->r->header, key.text, value.text);
 }
 
+/* --- the lines of tables of isoroll ----------------------------------------------------------------------------- */
+
+/* The text that has come so far is a line of the header. */
+static iso_status end_text(csv *c)
+{
+    if (c->text.length == 0) return ISO_OK;
+    c->text.length = 0;
+    return iso_record_set(c->ctx, c->r->header, c->text.key, c->text.text);
+}
+
+/* "# KEY | LINE". *is_text false: it is no line of a text. */
+static iso_status read_text_line(csv *c, bool *is_text)
+{
+    char key[ISO_TEXT_KEY];
+    const char *line = iso_csv_text_line(c->line, key);
+    *is_text = line != NULL;
+    const iso_status status = line && strcmp(key, c->text.key) == 0 ? ISO_OK : end_text(c);
+    if (status != ISO_OK || !line) return status;
+    if (iso_csv_text_add(&c->text, key, line)) return ISO_OK;
+    return iso_context_fail(c->ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", c->r->name);
+}
+
+/* "# isoroll KIND 1" */
+static iso_status read_kind(csv *c)
+{
+    static const char begin[] = "# isoroll ";
+    char quoted[ISO_QUOTE_SIZE], kind[32], message[128];
+    char *const at = c->line + strlen(begin), *version = strrchr(c->line, ' ');
+    if (strncmp(c->line, begin, strlen(begin)) != 0 || version < at || version - at >= (ptrdiff_t)sizeof kind)
+        return fail(c, NULL, "expected '# isoroll KIND 1', the first line of a table of isoroll", "");
+    *version++ = '\0';
+    snprintf(kind, sizeof kind, "%s", at);
+    iso_text_quote(quoted, strcmp(version, "1") == 0 ? at : version,
+                   strlen(strcmp(version, "1") == 0 ? at : version));
+    snprintf(message, sizeof message, "expected version 1 of the format, not ");
+    if (strcmp(version, "1") != 0) return fail(c, version, message, quoted);
+    snprintf(message, sizeof message, "expected a table of the kind '%.32s', not ", c->r->kind ? c->r->kind : kind);
+    if (c->r->kind && strcmp(kind, c->r->kind) != 0) return fail(c, at, message, quoted);
+    iso_record_set_kind(c->r->header, kind);
+    iso_csv_lines_allow_texts(c->lines);
+    return ISO_OK;
+}
+
+static iso_status read_line_of_table(csv *c)
+{
+    bool text;
+    if (c->number == 1) return read_kind(c);
+    const iso_status status = read_text_line(c, &text);
+    if (status != ISO_OK || text) return status;
+    if (strchr(c->line, ':')) return read_key_line(c);
+    return fail(c, NULL, "expected '# key: value'", "");
+}
+
 static iso_status read_magic(csv *c)
 {
     const char *version = c->line + strlen(ISO_TRAJECTORY_MAGIC);
@@ -112,6 +166,11 @@ static iso_status next_data(csv *c, bool *more)
         if (c->row) return ISO_OK;
         if (c->line[0] != '#') {
             if (trim(c->line, c->length).length > 0) return ISO_OK;
+            continue;
+        }
+        if (!c->r->trajectory) {
+            status = read_line_of_table(c);
+            if (status != ISO_OK) return status;
             continue;
         }
         const bool magic = strncmp(c->line, ISO_TRAJECTORY_MAGIC, strlen(ISO_TRAJECTORY_MAGIC)) == 0;
@@ -195,7 +254,7 @@ static iso_status read_names(csv *c, char *line, char separator, bool named)
     char *first = line;
     const field f = next_field(separator, &first);
     if (status == ISO_OK && count == 0) status = skip_column(c, &f, true);
-    return status == ISO_OK ? iso_trajectory_name_columns(c->ctx, c->r, count, names) : status;
+    return status == ISO_OK ? iso_table_name_columns(c->ctx, c->r, count, names) : status;
 }
 
 static bool begins_with_number(csv *c)
@@ -232,6 +291,30 @@ static iso_status read_header(csv *c, const char *columns)
     return status;
 }
 
+/* Names of columns of a table of isoroll. */
+static iso_status read_header_of_table(csv *c)
+{
+    const char *names[ISO_MOST_COLUMNS];
+    bool more;
+    size_t count = 0;
+    iso_status status = next_data(c, &more);
+    if (status == ISO_OK) status = end_text(c);
+    if (status != ISO_OK) return status;
+    if (!more || c->number == 1) return more ? read_kind(c) : fail(c, NULL, "expected a line of column names", "");
+    for (char *rest = c->line, *name; rest; names[count++] = name) {
+        if (count == ISO_MOST_COLUMNS) return fail(c, rest, "more than 5000 columns", "");
+        char *const at = rest;
+        name = iso_csv_next_cell(&rest);
+        if (!name || !*name) return fail(c, at, "expected the name of a column", "");
+    }
+    status = iso_table_name_columns(c->ctx, c->r, count, names);
+    if (status == ISO_BAD_ARGUMENT) return fail(c, NULL, "expected names of columns, all different", "");
+    for (size_t i = 0; status == ISO_OK && i < count; i++)
+        if (iso_table_has_words(names[i])) iso_record_set_words(c->r->header, i);
+    c->format.fields = count;
+    return status;
+}
+
 /* --- rows ------------------------------------------------------------------------------------------------------- */
 
 static iso_status fail_count(const csv *c, const char *at, size_t found)
@@ -265,6 +348,25 @@ static iso_status read_row(const csv *c, double row[])
     return ISO_OK;
 }
 
+static iso_status read_row_of_table(csv *c, double row[])
+{
+    iso_record *const r = c->r->header;
+    char *rest = c->line, quoted[ISO_QUOTE_SIZE], message[160];
+    for (size_t i = 0; i < c->format.fields; i++) {
+        char *const at = rest ? rest : c->line + c->length;
+        if (!rest) return fail(c, at, "expected more cells, one for each column", "");
+        char *const cell = iso_csv_next_cell(&rest);
+        if (!cell) return fail(c, at, "expected a closing quote", "");
+        const bool words = iso_record_has_words(r, i);
+        const iso_status status = words ? iso_record_intern(c->ctx, r, cell, &row[i]) : ISO_OK;
+        if (status != ISO_OK) return status;
+        snprintf(message, sizeof message, "expected a number for %s, not ", iso_record_name(r, i));
+        if (!words && !iso_csv_read_cell(c->format.plain, cell, &row[i]))
+            return fail(c, at, message, iso_text_quote(quoted, cell, strlen(cell)));
+    }
+    return rest ? fail(c, rest, "expected one cell for each column, found more", "") : ISO_OK;
+}
+
 /* Whether every field of the line is nan. */
 static bool is_nan_row(const csv *c)
 {
@@ -277,7 +379,7 @@ static bool is_nan_row(const csv *c)
     return fields == c->format.fields;
 }
 
-static iso_status csv_next(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more)
+static iso_status csv_next(iso_context *ctx, iso_table_reader *r, double row[], bool *more)
 {
     csv *c = r->data;
     double own[ISO_TRAJECTORY_COLUMNS + 1];
@@ -287,7 +389,9 @@ static iso_status csv_next(iso_context *ctx, iso_trajectory_reader *r, double ro
     for (; status == ISO_OK && *more && !c->row && r->passes && is_nan_row(c); r->passed++)
         status = next_data(c, more);
     r->line = c->number;
-    if (status != ISO_OK || !*more) return status;
+    if (status == ISO_OK && !*more) return end_text(c);
+    if (status != ISO_OK) return status;
+    if (!r->trajectory) return read_row_of_table(c, row);
     if (c->row)
         numbers = c->row;
     else
@@ -301,16 +405,17 @@ static iso_status csv_next(iso_context *ctx, iso_trajectory_reader *r, double ro
 
 /* --- opening and closing ---------------------------------------------------------------------------------------- */
 
-static void csv_close(iso_trajectory_reader *r)
+static void csv_close(iso_table_reader *r)
 {
     csv *c = r->data;
     if (!c) return;
     iso_csv_lines_close(c->lines);
     if (c->format.plain) freelocale(c->format.plain);
+    free(c->text.text);
     free(c);
 }
 
-static iso_status csv_open(iso_context *ctx, iso_trajectory_reader *r, const char *columns)
+static iso_status csv_open(iso_context *ctx, iso_table_reader *r, const char *columns)
 {
     csv *c = r->data = calloc(1, sizeof *c);
     if (c) {
@@ -322,12 +427,12 @@ static iso_status csv_open(iso_context *ctx, iso_trajectory_reader *r, const cha
     if (!c || !c->format.plain) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
     iso_status status = iso_csv_lines_open(ctx, r->path, r->name, &c->lines);
     if (status == ISO_OK) status = iso_record_create(ctx, 0, NULL, &r->header);
-    if (status == ISO_OK) status = read_header(c, columns);
-    if (status != ISO_OK) return status;
+    if (status == ISO_OK) status = r->trajectory ? read_header(c, columns) : read_header_of_table(c);
+    if (status != ISO_OK || !r->trajectory) return status;
     c->format.columns = iso_record_columns(r->header);
     if (c->orbit > 0) c->format.column[c->orbit - 1] = (short)c->format.columns++;
     iso_csv_lines_read_rows(c->lines, &c->format);
     return ISO_OK;
 }
 
-const iso_trajectory_reading iso_csv_reading = {csv_open, csv_next, csv_close};
+const iso_table_reading iso_csv_reading = {csv_open, csv_next, csv_close};

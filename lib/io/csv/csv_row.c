@@ -13,9 +13,8 @@ static const unsigned char digit[256] = {
     ['+'] = 3, ['-'] = 3, ['.'] = 3, ['e'] = 3, ['E'] = 3, ['d'] = 3, ['D'] = 3, ['a'] = 2, ['b'] = 2, ['c'] = 2,
     ['f'] = 2, ['A'] = 2, ['B'] = 2, ['C'] = 2, ['F'] = 2, ['x'] = 2, ['X'] = 2, ['p'] = 2, ['P'] = 2};
 
-/* Reads a number at *at and moves *at behind it. False: there is none. An exponent may have the letter D, as Fortran
- * writes it. strtod would also take "nan" and "infinity"; their letters are not in the table above. */
-static bool read_number(locale_t plain, char **at, double *value)
+/* An exponent may have the letter D, as Fortran writes it. strtod would also take "nan" and "infinity"; their letters are not in the table above. */
+bool iso_csv_read_number(locale_t plain, char **at, double *value)
 {
     char *const start = *at, *end = start, *seen;
     const char *first = start + (*start == '-' || *start == '+');
@@ -53,7 +52,7 @@ iso_csv_wrong iso_csv_read_row(const iso_csv_format *c, char *line, double row[]
         if (c->column[i] < 0) {
             if (quote) at = strchr(at, quote);
             at += strcspn(at, separator == ' ' ? " \t" : (char[]){separator, '\0'});
-        } else if (!read_number(c->plain, &at, &row[c->column[i]]) || (quote && *at++ != quote)) {
+        } else if (!iso_csv_read_number(c->plain, &at, &row[c->column[i]]) || (quote && *at++ != quote)) {
             return mistake(ISO_CSV_NO_NUMBER, start, i, m);
         }
         const char *number_end = at;

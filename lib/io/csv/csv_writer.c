@@ -1,4 +1,4 @@
-/* csv_writer.c - writes trajectories as text: into a temporary file, which is renamed when it is complete.
+/* csv_writer.c - writes tables as text: into a temporary file, which is renamed when it is complete.
  *
  * Rows are collected in blocks. A few threads print them, and the caller writes the text of one block after the
  * other. */
@@ -9,11 +9,10 @@
 #include <unistd.h>
 
 #include "base/number.h"
+#include "io/csv/csv_impl.h"
 #include "io/output.h"
-#include "io/table.h"
+#include "io/table_impl.h"
 #include "io/tasks_impl.h"
-#include "io/trajectory_impl.h"
-#include "orbit/scene.h"
 
 /* Rows of a block. A block holds LEAST rows at first, later a quarter of the rows before it, at most MOST. */
 enum { BLOCKS = 8, LEAST = 32, MOST = 512 };
@@ -119,11 +118,11 @@ static FILE *stream_behind_rows(csv *c)
 
 /* --- the file --------------------------------------------------------------------------------------------------- */
 
-static iso_status csv_open(iso_context *ctx, iso_trajectory_writer *w, const char *path)
+static iso_status csv_open(iso_context *ctx, iso_table_writer *w, const char *path)
 {
     csv *c = w->data = calloc(1, sizeof *c);
     if (c) c->tasks = iso_tasks_create();
-    if (!c || !c->tasks) return free(c), iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write a trajectory");
+    if (!c || !c->tasks) return free(c), iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path);
     const iso_status status = iso_output_open(ctx, path, &c->out);
     if (status != ISO_OK) return iso_tasks_free(c->tasks), free(c), status;
     w->name = iso_output_name(c->out);
@@ -132,23 +131,37 @@ static iso_status csv_open(iso_context *ctx, iso_trajectory_writer *w, const cha
     return ISO_OK;
 }
 
-static iso_status csv_line(iso_context *ctx, iso_trajectory_writer *w, const char *key, const char *value)
+static iso_status csv_line(iso_context *ctx, iso_table_writer *w, const char *key, const char *value)
 {
     csv *c = w->data;
     const iso_status status = iso_table_line(ctx, stream_behind_rows(c), key, value);
     return status == ISO_OK ? iso_output_check(ctx, c->out) : status;
 }
 
-static iso_status csv_header(iso_context *ctx, iso_trajectory_writer *w, const iso_record *header)
+static iso_status csv_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
     csv *c = w->data;
     const iso_status status = iso_table_begin(ctx, iso_output_stream(c->out), w->kind, header);
     return status == ISO_OK ? iso_output_check(ctx, c->out) : status;
 }
 
-static iso_status csv_row(iso_context *ctx, iso_trajectory_writer *w, const double row[])
+/* Rows with words are written as they come. */
+static void write_words(iso_table_writer *w, FILE *to, const double row[])
+{
+    const size_t columns = iso_record_columns(w->header);
+    for (size_t i = 0; i < columns; i++) {
+        iso_csv_print_cell(to, w->words, i, row[i], w->digits);
+        putc(i + 1 < columns ? ',' : '\n', to);
+    }
+}
+
+static iso_status csv_row(iso_context *ctx, iso_table_writer *w, const double row[])
 {
     csv *c = w->data;
+    if (w->words) {
+        write_words(w, iso_output_stream(c->out), row);
+        return iso_output_check(ctx, c->out);
+    }
     block *b = &c->block[(c->first + c->count) % BLOCKS];
     const size_t columns = iso_record_columns(w->header);
     if (!has_room(b, columns)) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for rows of '%s'", w->name);
@@ -160,10 +173,11 @@ static iso_status csv_row(iso_context *ctx, iso_trajectory_writer *w, const doub
     return iso_output_check(ctx, c->out);
 }
 
-static iso_status csv_close(iso_context *ctx, iso_trajectory_writer *w, bool keep)
+static iso_status csv_close(iso_context *ctx, iso_table_writer *w, bool keep)
 {
     csv *c = w->data;
     stream_behind_rows(c);
+    if (w->fresh) iso_output_keep_others(c->out);
     const iso_status status = iso_output_close(ctx, c->out, keep);
     iso_tasks_free(c->tasks);
     for (int i = 0; i < BLOCKS; i++) free(c->block[i].row), free(c->block[i].text);
@@ -171,4 +185,4 @@ static iso_status csv_close(iso_context *ctx, iso_trajectory_writer *w, bool kee
     return status;
 }
 
-const iso_trajectory_writing iso_csv_writing = {csv_open, csv_header, csv_row, csv_line, csv_close};
+const iso_table_writing iso_csv_writing = {csv_open, csv_header, csv_row, csv_line, csv_close};

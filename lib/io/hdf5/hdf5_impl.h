@@ -16,7 +16,7 @@
 
 #include "io/hdf5/hdf5_library_impl.h"
 #include "io/replacement_impl.h"
-#include "io/trajectory_impl.h"
+#include "io/table_impl.h"
 #include "orbit/scene.h"
 
 enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */ };

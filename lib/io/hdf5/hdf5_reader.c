@@ -7,13 +7,13 @@
 #include "base/place_impl.h"
 #include "io/hdf5/hdf5_impl.h"
 
-static iso_status bad_file(iso_context *ctx, const iso_trajectory_reader *r, const char *what, const char *name)
+static iso_status bad_file(iso_context *ctx, const iso_table_reader *r, const char *what, const char *name)
 {
     return iso_context_placed(ctx, iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s: %s%s", r->name, what, name));
 }
 
 /* Makes one attribute a line of the header. */
-static iso_status read_attribute(iso_context *ctx, iso_trajectory_reader *r, hid_t file, const char *key)
+static iso_status read_attribute(iso_context *ctx, iso_table_reader *r, hid_t file, const char *key)
 {
     double numbers[ISO_HDF5_NUMBERS];
     char text[1024] = "";
@@ -49,7 +49,7 @@ static iso_status read_attribute(iso_context *ctx, iso_trajectory_reader *r, hid
     return status;
 }
 
-static iso_status read_attributes(iso_context *ctx, iso_trajectory_reader *r, hid_t file)
+static iso_status read_attributes(iso_context *ctx, iso_table_reader *r, hid_t file)
 {
     char key[256];
     iso_status status = ISO_OK;
@@ -76,7 +76,7 @@ static hid_t open_set(hid_t file, const char *group, const char *name)
 }
 
 /* Adds a dataset of `count` columns (id < 0: there is none). It must have as many rows as the others. */
-static iso_status add_set(iso_context *ctx, iso_trajectory_reader *r, hid_t id, const char *name, int first,
+static iso_status add_set(iso_context *ctx, iso_table_reader *r, hid_t id, const char *name, int first,
                           int count, const char *names[], size_t *columns)
 {
     iso_hdf5_store *s = r->data;
@@ -97,7 +97,7 @@ static iso_status add_set(iso_context *ctx, iso_trajectory_reader *r, hid_t id, 
 }
 
 /* The datasets that only sections have. Of these the numbers of the orbits are read, behind the others of a row. */
-static iso_status find_orbit(iso_context *ctx, iso_trajectory_reader *r, const char *names[], size_t *columns)
+static iso_status find_orbit(iso_context *ctx, iso_table_reader *r, const char *names[], size_t *columns)
 {
     static const char *const group = "section", *const sets[] = {ISO_ORBIT_COLUMN, "crossing", "l", "x"};
     const iso_hdf5_store *s = r->data;
@@ -111,7 +111,7 @@ static iso_status find_orbit(iso_context *ctx, iso_trajectory_reader *r, const c
     return add_set(ctx, r, open_set(s->file, group, ISO_ORBIT_COLUMN), ISO_ORBIT_COLUMN, 0, 1, names, columns);
 }
 
-static iso_status find_sets(iso_context *ctx, iso_trajectory_reader *r)
+static iso_status find_sets(iso_context *ctx, iso_table_reader *r)
 {
     iso_hdf5_store *s = r->data;
     const char *names[ISO_TRAJECTORY_COLUMNS + 1];
@@ -133,13 +133,13 @@ static iso_status find_sets(iso_context *ctx, iso_trajectory_reader *r)
     size_t numbers = columns;
     if (status == ISO_OK) status = find_orbit(ctx, r, names, &numbers);
     if (status != ISO_OK) return status;
-    status = iso_trajectory_name_columns(ctx, r, columns, names);
+    status = iso_table_name_columns(ctx, r, columns, names);
     if (status == ISO_OK && !iso_hdf5_store_room(s, numbers))
         status = iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
     return status;
 }
 
-static iso_status hdf5_open(iso_context *ctx, iso_trajectory_reader *r, const char *columns)
+static iso_status hdf5_open(iso_context *ctx, iso_table_reader *r, const char *columns)
 {
     iso_status status = iso_hdf5_load(ctx);
     if (status != ISO_OK) return status;
@@ -165,7 +165,7 @@ static iso_status hdf5_open(iso_context *ctx, iso_trajectory_reader *r, const ch
     return status;
 }
 
-static iso_status read_block(iso_context *ctx, iso_trajectory_reader *r)
+static iso_status read_block(iso_context *ctx, iso_table_reader *r)
 {
     iso_hdf5_store *s = r->data;
     const hsize_t left = s->rows - s->begun;
@@ -182,7 +182,7 @@ static iso_status read_block(iso_context *ctx, iso_trajectory_reader *r)
 }
 
 /* The next row as it stands. */
-static iso_status take_row(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more)
+static iso_status take_row(iso_context *ctx, iso_table_reader *r, double row[], bool *more)
 {
     iso_hdf5_store *s = r->data;
     const iso_status status = s->next == s->filled ? read_block(ctx, r) : ISO_OK;
@@ -203,7 +203,7 @@ static bool is_nan_row(const double row[], size_t columns)
     return true;
 }
 
-static iso_status hdf5_next(iso_context *ctx, iso_trajectory_reader *r, double row[], bool *more)
+static iso_status hdf5_next(iso_context *ctx, iso_table_reader *r, double row[], bool *more)
 {
     const size_t columns = iso_record_columns(r->header);
     iso_status status = take_row(ctx, r, row, more);
@@ -217,7 +217,7 @@ static iso_status hdf5_next(iso_context *ctx, iso_trajectory_reader *r, double r
     return ISO_OK;
 }
 
-static void hdf5_close(iso_trajectory_reader *r)
+static void hdf5_close(iso_table_reader *r)
 {
     if (!r->data) return;
     H5E_BEGIN_TRY
@@ -227,4 +227,4 @@ static void hdf5_close(iso_trajectory_reader *r)
     H5E_END_TRY
 }
 
-const iso_trajectory_reading iso_hdf5_reading = {hdf5_open, hdf5_next, hdf5_close};
+const iso_table_reading iso_hdf5_reading = {hdf5_open, hdf5_next, hdf5_close};

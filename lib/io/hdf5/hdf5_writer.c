@@ -5,7 +5,7 @@
 #include "base/number.h"
 #include "io/hdf5/hdf5_impl.h"
 
-static iso_status hdf5_create(iso_context *ctx, iso_trajectory_writer *w, const char *path)
+static iso_status hdf5_create(iso_context *ctx, iso_table_writer *w, const char *path)
 {
     iso_status status = iso_hdf5_load(ctx);
     if (status != ISO_OK) return status;
@@ -42,7 +42,7 @@ static int numbers_of(const char *value, double numbers[ISO_HDF5_NUMBERS])
     return 0;
 }
 
-static iso_status hdf5_line(iso_context *ctx, iso_trajectory_writer *w, const char *key, const char *value)
+static iso_status hdf5_line(iso_context *ctx, iso_table_writer *w, const char *key, const char *value)
 {
     const iso_hdf5_store *s = w->data;
     double numbers[ISO_HDF5_NUMBERS];
@@ -111,7 +111,7 @@ static bool create_others(iso_hdf5_store *s, const iso_record *header)
     return good;
 }
 
-static iso_status hdf5_header(iso_context *ctx, iso_trajectory_writer *w, const iso_record *header)
+static iso_status hdf5_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
     iso_hdf5_store *s = w->data;
     const char *key, *value;
@@ -135,7 +135,7 @@ static iso_status hdf5_header(iso_context *ctx, iso_trajectory_writer *w, const 
     return status;
 }
 
-static iso_status flush_block(iso_context *ctx, iso_trajectory_writer *w)
+static iso_status flush_block(iso_context *ctx, iso_table_writer *w)
 {
     iso_hdf5_store *s = w->data;
     bool good;
@@ -149,14 +149,14 @@ static iso_status flush_block(iso_context *ctx, iso_trajectory_writer *w)
     return good ? ISO_OK : iso_hdf5_trouble(ctx, "write", w->name);
 }
 
-static iso_status hdf5_row(iso_context *ctx, iso_trajectory_writer *w, const double row[])
+static iso_status hdf5_row(iso_context *ctx, iso_table_writer *w, const double row[])
 {
     iso_hdf5_store *s = w->data;
     memcpy(s->block + s->filled * s->columns, row, s->columns * sizeof *row);
     return ++s->filled == ISO_HDF5_BLOCK ? flush_block(ctx, w) : ISO_OK;
 }
 
-static iso_status hdf5_finish(iso_context *ctx, iso_trajectory_writer *w, bool keep)
+static iso_status hdf5_finish(iso_context *ctx, iso_table_writer *w, bool keep)
 {
     iso_hdf5_store *s = w->data;
     iso_replacement replacement = s->replacement;
@@ -174,4 +174,4 @@ static iso_status hdf5_finish(iso_context *ctx, iso_trajectory_writer *w, bool k
     return status == ISO_OK ? renamed : status;
 }
 
-const iso_trajectory_writing iso_hdf5_writing = {hdf5_create, hdf5_header, hdf5_row, hdf5_line, hdf5_finish};
+const iso_table_writing iso_hdf5_writing = {hdf5_create, hdf5_header, hdf5_row, hdf5_line, hdf5_finish};

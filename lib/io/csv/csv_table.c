@@ -1,0 +1,83 @@
+/* csv_table.c - what only tables of isoroll have: cells with nan and words, perhaps in quotes; texts in lines of #. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/number.h"
+#include "io/csv/csv_impl.h"
+
+/* Takes a cell in quotes, in which two quotes are one. A quote that no comma follows is none of the two. */
+static char *take_quoted(char **rest)
+{
+    char *const text = *rest + 1, *to = text;
+    for (const char *at = text; *at; at++) {
+        if (*at == '"' && (at[1] == ',' || !at[1])) {
+            *rest = at[1] ? *rest + (at + 2 - *rest) : NULL;
+            *to = '\0';
+            return text;
+        }
+        at += at[0] == '"' && at[1] == '"';
+        *to++ = *at;
+    }
+    return NULL;
+}
+
+char *iso_csv_next_cell(char **rest)
+{
+    char *const text = *rest, *const end = strchr(text, ',');
+    if (*text == '"') return take_quoted(rest);
+    if (end) *end = '\0';
+    *rest = end ? end + 1 : NULL;
+    return text;
+}
+
+bool iso_csv_read_cell(locale_t plain, char *cell, double *value)
+{
+    const bool minus = *cell == '-';
+    char *end = cell;
+    *value = !*cell || strcmp(cell + minus, "nan") == 0 ? (double)NAN : minus ? -INFINITY : INFINITY;
+    return isnan(*value) || strcmp(cell + minus, "inf") == 0 || (iso_csv_read_number(plain, &end, value) && !*end);
+}
+
+void iso_csv_print_cell(FILE *to, const iso_record *words, size_t column, double value, int digits)
+{
+    char text[ISO_NUMBER_SIZE] = "nan";
+    if (words && iso_record_has_words(words, column)) {
+        const char *word = iso_record_word(words, value);
+        const bool empty_line = !*word && iso_record_columns(words) == 1;
+        const bool quoted = strpbrk(word, ", \"\r\n") || *word == '#' || empty_line;
+        if (quoted) putc('"', to);
+        for (; *word; word++) fprintf(to, quoted && *word == '"' ? "\"%c" : "%c", *word);
+        if (quoted) putc('"', to);
+        return;
+    }
+    if (!isnan(value)) iso_number_print_as(text, value, digits);
+    fputs(text, to);
+}
+
+/* --- texts ------------------------------------------------------------------------------------------------------ */
+
+const char *iso_csv_text_line(const char *line, char key[ISO_TEXT_KEY])
+{
+    const char *begin = line + 1 + (line[1] == ' ');
+    const size_t length = strcspn(begin, " \t:|");
+    const char *bar = begin + length + (length > 0 && begin[length] == ' ');
+    if (*bar != '|' || length >= ISO_TEXT_KEY || (bar[1] && bar[1] != ' ')) return NULL;
+    snprintf(key, ISO_TEXT_KEY, "%.*s", length ? (int)length : ISO_TEXT_KEY, length ? begin : ISO_TABLE_TEXT);
+    return bar + 1 + (bar[1] == ' ');
+}
+
+bool iso_csv_text_add(iso_csv_text *t, const char *key, const char *line)
+{
+    const size_t length = strlen(line), room = t->length + length + 2;
+    char *text = room > t->room ? realloc(t->text, 2 * room) : t->text;
+    if (!text) return false;
+    if (room > t->room) t->room = 2 * room;
+    t->text = text;
+    memcpy(text + t->length, line, length);
+    memcpy(text + t->length + length, "\n", 2);
+    t->length += length + 1;
+    strcpy(t->key, key);
+    return true;
+}

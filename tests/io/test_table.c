@@ -1,0 +1,272 @@
+/* test_table.c - files of tables of every kind, as CSV and as HDF5: what is written reads back exactly, numbers, nan,
+ * words, lines and texts; damaged files are refused with the place. */
+#include <float.h>
+#include <gsl/gsl_math.h>
+#include <gsl/gsl_test.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "io/table.h"
+
+static iso_context *ctx;
+static char folder[] = "/tmp/isoroll-test-XXXXXX";
+
+static const char *in_folder(const char *name)
+{
+    static char paths[4][128];
+    static int next;
+    char *path = paths[next++ % 4];
+    snprintf(path, sizeof paths[0], "%s/%s", folder, name);
+    return path;
+}
+
+static void put(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "wb");
+    gsl_test(!file || fputs(text, file) < 0, "cannot write %s", path);
+    if (file) fclose(file);
+}
+
+static char *load(const char *path)
+{
+    char *text = calloc(1, 1 << 20);
+    FILE *file = fopen(path, "rb");
+    if (file && text) text[fread(text, 1, (1 << 20) - 1, file)] = '\0';
+    if (file) fclose(file);
+    return text;
+}
+
+/* --- there and back --------------------------------------------------------------------------------------------- */
+
+/* A kind of table with its columns: @ stands before those of words, of which `reason` is empty in most rows. */
+static const struct {
+    const char *kind, *columns;
+} tables[] = {
+    {"section", "orbit,crossing,t,tau,s,l,x,omega1,omega2,omega3,n1,n2,n3"},
+    {"section", "orbit,crossing,t,n3"},
+    {"chaos", "orbit,l,x,@verdict,@ball_verdict,ball_turns,ball_megno"},
+    {"periodic", "orbit,period,l,x,trace,error,@stability,@symmetry,t,tau,s,M1,M2,M3,gamma1,gamma2,gamma3"},
+    {"periodic follow", "branch,@line,period,k,l,x,trace,@event"},
+    {"periodic chart", "@kind,k,J2,least,greatest"},
+    {"splitting", "k,x,m,error,x_error,multiplier,digits,zero,level"},
+    {"cost", "@backend,@method,tolerance,error,steps,@failure"},
+    {"something new", "a,b,omega2"},
+    {"something new", "@method"},
+};
+
+static iso_record *make(const char *kind, const char *columns, size_t rows)
+{
+    static const double numbers[] = {0.1, -1e-300, DBL_MAX, 4.9e-324, 1e22, -0.0, 1.0 / 3, M_PI, 7};
+    static const char *const words[] = {"", "chaotic", "R, S1 S2 and T", "it \"said\" so", "nan", "12", "#a"};
+    char text[512], *rest = text;
+    const char *names[64];
+    bool is_word[64];
+    iso_record *r;
+    size_t count = 0;
+    snprintf(text, sizeof text, "%s", columns);
+    for (char *name; (name = strsep(&rest, ",")); count++) {
+        is_word[count] = *name == '@';
+        names[count] = name + is_word[count];
+    }
+    if (iso_record_create(ctx, count, names, &r) != ISO_OK) exit(1);
+    iso_record_set_kind(r, kind);
+    for (size_t c = 0; c < count; c++)
+        if (is_word[c]) iso_record_set_words(r, c);
+    iso_record_set(ctx, r, "model", "both: ball and point");
+    iso_record_set_numbers(ctx, r, "J", 3, numbers);
+    iso_record_set(ctx, r, "isoroll", "0.1.0");
+    iso_record_set(ctx, r, "scene", "one: 1\n\n  two | three\n# four\n");
+    for (size_t i = 0; i < rows; i++) {
+        double *row;
+        if (iso_record_append(ctx, r, &row) != ISO_OK) exit(1);
+        for (size_t c = 0; c < count; c++)
+            if (is_word[c])
+                iso_record_intern(ctx, r, words[(3 * i + c) % 7], &row[c]);
+            else
+                row[c] = (i + c) % 5 == 4 ? (double)NAN : (i + c) % 11 == 3 ? -INFINITY : numbers[(i + c) % 9];
+    }
+    return r;
+}
+
+static bool same_cell(const iso_record *a, const iso_record *b, size_t row, size_t c)
+{
+    const double x = iso_record_const_row(a, row)[c], y = iso_record_const_row(b, row)[c];
+    if (iso_record_has_words(a, c)) return strcmp(iso_record_word(a, x), iso_record_word(b, y)) == 0;
+    return (isnan(x) && isnan(y)) || (x == y && signbit(x) == signbit(y));
+}
+
+/* Lines in any order: HDF5 has none. */
+static bool same_lines(const iso_record *a, const iso_record *b)
+{
+    const char *key, *value, *other;
+    bool same = true;
+    for (size_t i = 0; iso_record_line(a, i, &key, &value); i++)
+        same = same && (other = iso_record_get(b, key)) && strcmp(value, other) == 0;
+    return same;
+}
+
+static bool same(const iso_record *a, const iso_record *b)
+{
+    bool good = strcmp(iso_record_kind(a), iso_record_kind(b)) == 0 && same_lines(a, b) && same_lines(b, a) &&
+                iso_record_columns(a) == iso_record_columns(b) && iso_record_rows(a) == iso_record_rows(b);
+    for (size_t c = 0; good && c < iso_record_columns(a); c++) {
+        good = strcmp(iso_record_name(a, c), iso_record_name(b, c)) == 0 &&
+               iso_record_has_words(a, c) == iso_record_has_words(b, c);
+        for (size_t i = 0; good && i < iso_record_rows(a); i++) good = same_cell(a, b, i, c);
+    }
+    return good;
+}
+
+/* Writes, reads, and writes what was read: the same record, and the same text. */
+static void there_and_back(const iso_record *r, const char *name)
+{
+    const char *path = in_folder(name), *again = in_folder("again.csv"), *first = in_folder("first.csv");
+    iso_record *read = NULL;
+    iso_status status = iso_table_write(ctx, path, r);
+    if (status == ISO_OK) status = iso_table_read(ctx, path, iso_record_kind(r), &read);
+    if (status == ISO_BAD_ARGUMENT && strstr(iso_context_message(ctx), "no HDF5")) return;
+    gsl_test(status != ISO_OK, "%s, %s: %s", name, iso_record_kind(r), iso_context_message(ctx));
+    if (status != ISO_OK) return;
+    gsl_test(!same(r, read), "%s, %s of %zu rows: it reads back exactly", name, iso_record_kind(r),
+             iso_record_rows(r));
+    if (strstr(name, ".csv") && iso_table_write(ctx, again, read) == ISO_OK &&
+        iso_table_write(ctx, first, r) == ISO_OK) {
+        char *a = load(again), *b = load(first);
+        gsl_test(strcmp(a, b) != 0, "%s: the same text again", iso_record_kind(r));
+        free(a), free(b);
+    }
+    iso_record_free(read);
+    gsl_test(iso_table_read(ctx, path, "orbit of nobody", &read) != ISO_BAD_INPUT || read,
+             "%s: another kind is wanted", name);
+}
+
+static void test_kinds(void)
+{
+    static const size_t rows[] = {0, 1, 40, 9000};
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
+        for (size_t n = 0; n < sizeof rows / sizeof *rows; n++) {
+            iso_record *r = make(tables[i].kind, tables[i].columns, rows[n]);
+            there_and_back(r, "table.csv");
+            iso_record_free(r);
+        }
+}
+
+/* --- words ------------------------------------------------------------------------------------------------------ */
+
+static void test_words(void)
+{
+    enum { MANY = 3000 };
+    static const char *const names[] = {"verdict", "new"};
+    iso_record *r;
+    double number[MANY], again;
+    char word[32];
+    if (iso_record_create(ctx, 2, names, &r) != ISO_OK) exit(1);
+    int bad = 0;
+    for (int i = 0; i < MANY; i++) {
+        snprintf(word, sizeof word, "word %d", i);
+        bad += iso_record_intern(ctx, r, word, &number[i]) != ISO_OK;
+    }
+    for (int i = 0; i < MANY; i++) {
+        snprintf(word, sizeof word, "word %d", i);
+        bad += iso_record_intern(ctx, r, word, &again) != ISO_OK || again != number[i] ||
+               strcmp(iso_record_word(r, again), word) != 0;
+    }
+    gsl_test(bad, "%d of %d words are not found again", bad, MANY);
+    gsl_test(iso_record_intern(ctx, r, "", &again) != ISO_OK || again != 0 || *iso_record_word(r, 0) ||
+                 *iso_record_word(r, -1) || *iso_record_word(r, MANY + 1) || *iso_record_word(r, NAN),
+             "numbers of no word are the empty word");
+    iso_record_set_kind(r, "test");
+    iso_record_set_words(r, 1);
+    gsl_test(iso_table_write(ctx, in_folder("words.csv"), r) != ISO_BAD_ARGUMENT,
+             "a column of words that a reader would not know is refused");
+    iso_record_free(r);
+}
+
+/* --- damaged files ---------------------------------------------------------------------------------------------- */
+
+static void refuse(const char *text, const char *words)
+{
+    iso_record *r;
+    const char *path = in_folder("bad.csv");
+    put(path, text);
+    const iso_status status = iso_table_read(ctx, path, NULL, &r);
+    const char *message = iso_context_message(ctx);
+    const char *found = status == ISO_BAD_INPUT && !r ? strstr(message, words) : NULL;
+    gsl_test(!found || strncmp(message, path, strlen(path)) != 0, "'%s' is wanted: status %d, %s", words, (int)status,
+             message);
+    iso_record_free(r);
+}
+
+static void test_damaged(void)
+{
+#define HEAD "# isoroll chaos 1\n# k: 1\norbit,l,verdict\n"
+    refuse("", ":1:1: expected a line of column names");
+    refuse("orbit,l,verdict\n0,1,x\n", ":1:1: expected '# isoroll KIND 1'");
+    refuse("# isoroll\norbit\n", ":1:1: expected '# isoroll KIND 1'");
+    refuse("# isoroll chaos 2\norbit\n", ":1:17: expected version 1 of the format, not 2");
+    refuse("# isoroll chaos 1\n", "expected a line of column names");
+    refuse("# isoroll chaos 1\n# no key\norbit\n", ":2:1: expected '# key: value'");
+    refuse("# isoroll chaos 1\n# k: 1\n# k: 2\norbit\n", ":3:3: duplicate key k");
+    refuse("# isoroll chaos 1\norbit,,l\n", ":2:7: expected the name of a column");
+    refuse("# isoroll chaos 1\norbit,orbit\n", ":2:1: expected names of columns, all different");
+    refuse(HEAD "0,1.5\n", ":4:6: expected more cells");
+    refuse(HEAD "0,1.5,regular,2\n", ":4:15: expected one cell for each column, found more");
+    refuse(HEAD "0,1.5,regular\n0,1.5x,regular\n", ":5:3: expected a number for l, not 1.5x");
+    refuse(HEAD "0,1.5,\"regular\n", ":4:7: expected a closing quote");
+    refuse(HEAD "0,infinity,regular\n", ":4:3: expected a number for l, not infinity");
+    refuse(HEAD "0,0x,regular\n", ":4:3: expected a number for l");
+#undef HEAD
+}
+
+/* What isoroll wrote is read with the ends of lines of other systems, empty lines, and lines behind the rows. */
+static void test_tolerated(void)
+{
+    iso_record *r;
+    const char *path = in_folder("good.csv");
+    put(path, "# isoroll cost 1\r\n# k: 1\r\nbackend,error,failure\r\n\r\nball,,\"a \"\"b\"\"\"\r\npoint,-nan,\r\n"
+              "# later: yes\r\n# | text\r\n# |\r\n# | more");
+    gsl_test(iso_table_read(ctx, path, "cost", &r) != ISO_OK, "%s", iso_context_message(ctx));
+    if (!r) return;
+    const double *row = iso_record_const_row(r, 0);
+    gsl_test(iso_record_rows(r) != 2 || !isnan(row[1]) || !isnan(row[4]) ||
+                 strcmp(iso_record_word(r, row[2]), "a \"b\"") != 0 ||
+                 strcmp(iso_record_word(r, row[3]), "point") != 0,
+             "cells of a text of another system");
+    const char *later = iso_record_get(r, "later"), *text = iso_record_get(r, "sweep");
+    gsl_test(!later || strcmp(later, "yes") != 0, "a line behind the rows");
+    gsl_test(!text || strcmp(text, "text\n\nmore\n") != 0, "a text behind the rows");
+    iso_record_free(r);
+}
+
+/* A text may have lines of megabytes. */
+static void test_long_lines(void)
+{
+    enum { LONG = 3000000 };
+    char *text = malloc(LONG + 2);
+    iso_record *r = make("sweep", "k,@reason", 3);
+    if (!text) exit(1);
+    memset(text, 'x', LONG);
+    memcpy(text + LONG, "\n", 2);
+    iso_record_set(ctx, r, "sweep", text);
+    there_and_back(r, "long.csv");
+    free(text);
+    iso_record_free(r);
+}
+
+int main(void)
+{
+    ctx = iso_context_create();
+    if (!ctx || !mkdtemp(folder)) return 1;
+    test_kinds();
+    test_words();
+    test_damaged();
+    test_tolerated();
+    test_long_lines();
+    static const char *const files[] = {"table.csv", "again.csv", "first.csv", "bad.csv", "good.csv", "long.csv"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) unlink(in_folder(files[i]));
+    gsl_test(rmdir(folder) != 0, "nothing is left over");
+    iso_context_free(ctx);
+    return gsl_test_summary();
+}
