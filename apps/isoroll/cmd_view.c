@@ -5,9 +5,9 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/section_file.h"
+#include "io/table.h"
 #include "scene_options.h"
-#include "view_section.h"
+#include "view.h"
 
 /* What view can be told. */
 typedef struct options {
@@ -42,10 +42,11 @@ static iso_status make_seekable(iso_context *ctx)
 static view_kind kind_of(const file_options *from)
 {
     static const char *const endings[] = {".h5", ".csv", ".txt", ".dat", ".tsv"};
-    char text[64];
+    char text[64], kind[ISO_KIND_SIZE] = "";
     read_beginning(from->file, text, sizeof text);
     if (strncmp(text, "# isoroll section ", 18) == 0) return SECTION;
-    if (ends_with(from->file, ".h5") && iso_section_file_is_hdf5(from->file)) return SECTION;
+    if (ends_with(from->file, ".h5")) iso_table_kind(from->file, kind);
+    if (strcmp(kind, "section") == 0) return SECTION;
     if (strncmp(text, "# isoroll trajectory ", 21) == 0) return TRAJECTORY;
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i++)
         if (ends_with(from->file, endings[i])) return TRAJECTORY;

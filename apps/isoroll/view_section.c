@@ -3,7 +3,7 @@
  * An orbit is computed from its first crossing in the file: from the states of that row, or from (l, x), which
  * determine a free orbit (map/section.h).
  */
-#include "view_section.h"
+#include "io/table.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,6 +11,7 @@
 
 #include "map/section.h"
 #include "map/state.h"
+#include "view.h"
 
 enum { LEAST_ROWS = 60, MOST_ROWS = 1500, ORBIT_NUMBERS = 13 /* of a row: t tau s, M, gamma, q */ };
 /* About how far the ball, n or gamma turns from row to row, in radians. LONG: if there are many orbits, each has few
@@ -57,7 +58,7 @@ static iso_status check(builder *b)
     return ISO_OK;
 }
 
-/* Numbers of orbits are whole; l and x are drawn. */
+/* Numbers of orbits are whole; all others are finite. */
 static iso_status check_rows(const builder *b)
 {
     for (size_t i = 0; i < iso_record_rows(b->in); i++) {
@@ -66,9 +67,13 @@ static iso_status check_rows(const builder *b)
             return iso_context_fail(b->ctx, ISO_BAD_INPUT, "",
                                     "row %zu: expected a whole number of 0 or more for orbit, found %.17g", i + 1,
                                     orbit);
-        if (!isfinite(row[b->l]) || !isfinite(row[b->x]))
-            return iso_context_fail(b->ctx, ISO_BAD_INPUT, "", "row %zu: expected finite numbers for l and x", i + 1);
+        for (size_t c = 0; c < iso_record_columns(b->in); c++)
+            if (!isfinite(row[c]))
+                return iso_context_fail(b->ctx, ISO_BAD_INPUT, "", "row %zu: expected a finite number for %s", i + 1,
+                                        iso_record_name(b->in, c));
     }
+    if (iso_record_rows(b->in) == 0)
+        return iso_context_fail(b->ctx, ISO_BAD_INPUT, "", "expected rows of crossings, found the end of the file");
     return ISO_OK;
 }
 
@@ -231,7 +236,7 @@ iso_status view_of_section(iso_context *ctx, const file_options *from, view_page
     iso_record *in = NULL;
     page->section = calloc(1, sizeof *page->section);
     if (!page->section) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for a section");
-    iso_status status = view_section_read(ctx, from->file, &in); /* its messages already name the file */
+    iso_status status = iso_table_read(ctx, from->file, "section", &in); /* its messages already name the file */
     if (status != ISO_OK) return status;
     status = of_record(ctx, from, in, page);
     if (status != ISO_OK) status = name_the_file(ctx, from->file, status);

@@ -218,6 +218,14 @@ iso_status iso_record_intern(iso_context *ctx, iso_record *r, const char *word, 
     return ISO_OK;
 }
 
+void iso_record_forget_words(iso_record *r)
+{
+    for (; r->words > 0; r->words--) {
+        *find_word(r, r->word[r->words]) = 0; /* the last one of its hash: no other is sought beyond it */
+        free(r->word[r->words]);
+    }
+}
+
 const char *iso_record_word(const iso_record *r, double number)
 {
     return number >= 1 && number <= (double)r->words ? r->word[(size_t)number] : "";
@@ -238,8 +246,17 @@ const char *iso_record_get(const iso_record *r, const char *key)
     return l ? l->value : NULL;
 }
 
+static void remove_line(iso_record *r, line *l)
+{
+    if (!l) return;
+    free(l->key);
+    free(l->value);
+    memmove(l, l + 1, (size_t)(r->line + --r->lines - l) * sizeof *l);
+}
+
 iso_status iso_record_set(iso_context *ctx, iso_record *r, const char *key, const char *value)
 {
+    if (!value) return remove_line(r, find_line(r, key)), ISO_OK;
     char *copy = strdup(value);
     if (!copy) return no_memory(ctx);
     line *l = find_line(r, key);

@@ -56,6 +56,9 @@ ISO_API bool iso_record_has_words(const iso_record *record, size_t column);
 ISO_API iso_status iso_record_intern(iso_context *ctx, iso_record *record, const char *word, double *number);
 ISO_API const char *iso_record_word(const iso_record *record, double number);
 
+/* Forgets all words: for rows that pass by. */
+void iso_record_forget_words(iso_record *record);
+
 /* How far a row may be from a valid state: from a unit vector, and from a right angle. It follows from the digits
  * that the numbers were written with. It is no part of a file; a new record has ISO_ROW_TOLERANCE. The caller sets a
  * number > 0, at most 0.1. */
@@ -63,7 +66,8 @@ ISO_API const char *iso_record_word(const iso_record *record, double number);
 ISO_API void iso_record_set_row_tolerance(iso_record *record, double tolerance);
 ISO_API double iso_record_row_tolerance(const iso_record *record);
 
-/* The value of a `key: value` line, or NULL; setting an existing key replaces its value.
+/* The value of a `key: value` line, or NULL; setting an existing key replaces its value, NULL takes
+ * the line away.
  * Numbers are stored as text in %.17g, vectors with one blank between. */
 ISO_API const char *iso_record_get(const iso_record *record, const char *key);
 ISO_API iso_status iso_record_set(iso_context *ctx, iso_record *record, const char *key, const char *value);

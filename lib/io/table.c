@@ -11,6 +11,9 @@
 #include "io/table_impl.h"
 #include "io/text_impl.h"
 
+/* Of a record. Unwritten rows take no room in a file: a small file can promise more than memory holds. */
+#define MOST_NUMBERS 1e8
+
 /* --- formats ---------------------------------------------------------------------------------------------------- */
 
 static bool ends_in(const char *path, const char *ending)
@@ -19,7 +22,7 @@ static bool ends_in(const char *path, const char *ending)
     return length > end && strcasecmp(path + length - end, ending) == 0;
 }
 
-static bool is_hdf5(const char *path)
+bool iso_table_is_hdf5(const char *path)
 {
     return ends_in(path, ".h5") || ends_in(path, ".hdf5");
 }
@@ -29,7 +32,7 @@ static bool begins_as_hdf5(const char *path)
 {
     char begin[8] = "";
     struct stat s;
-    if (is_hdf5(path)) return true;
+    if (iso_table_is_hdf5(path)) return true;
     FILE *file = stat(path, &s) == 0 && S_ISREG(s.st_mode) ? fopen(path, "re") : NULL;
     const bool read = file && fread(begin, 1, sizeof begin, file) == sizeof begin;
     if (file) fclose(file);
@@ -53,7 +56,7 @@ static iso_status check(iso_context *ctx, const char *path, bool hdf5)
 
 iso_status iso_table_check_format(iso_context *ctx, const char *path)
 {
-    return check(ctx, path, is_hdf5(path));
+    return check(ctx, path, iso_table_is_hdf5(path));
 }
 
 bool iso_table_has_words(const char *name)
@@ -72,7 +75,7 @@ iso_status iso_table_reader_make(iso_context *ctx, const char *path, const char 
                                  iso_table_reader **reader)
 {
     *reader = NULL;
-    const bool hdf5 = how->trajectory ? is_hdf5(path) : begins_as_hdf5(path);
+    const bool hdf5 = how->trajectory ? iso_table_is_hdf5(path) : begins_as_hdf5(path);
     iso_status status = check(ctx, path, hdf5);
     if (status != ISO_OK) return status;
     iso_table_reader *r = malloc(sizeof *r);
@@ -102,6 +105,11 @@ void iso_table_reader_close(iso_table_reader *r)
     free(r);
 }
 
+void iso_table_pass_words(iso_table_reader *r)
+{
+    r->forgets = true;
+}
+
 iso_record *iso_table_header(iso_table_reader *r)
 {
     return r->header;
@@ -116,9 +124,13 @@ iso_status iso_table_next(iso_context *ctx, iso_table_reader *r, double row[], b
 iso_status iso_table_read_all(iso_context *ctx, iso_table_reader *r, iso_record **record)
 {
     const size_t columns = iso_record_columns(r->header);
+    const double numbers = (double)r->rows * (double)columns;
+    *record = NULL;
+    if (!r->trajectory && numbers > MOST_NUMBERS)
+        return iso_context_fail(ctx, ISO_BAD_INPUT, "", "%s: %zu rows of %zu columns are more than %g numbers",
+                                r->name, r->rows, columns, MOST_NUMBERS);
     double *row = malloc((columns + 1) * sizeof *row), *to;
     bool more = true;
-    *record = NULL;
     if (!row) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to read '%s'", r->name);
     iso_status status;
     while ((status = iso_table_next(ctx, r, row, &more)) == ISO_OK && more) {
@@ -139,6 +151,18 @@ iso_status iso_table_read(iso_context *ctx, const char *path, const char *kind, 
     if (status == ISO_OK) status = iso_table_read_all(ctx, r, record);
     iso_table_reader_close(r);
     return status;
+}
+
+void iso_table_kind(const char *path, char kind[ISO_KIND_SIZE])
+{
+    iso_context *ctx = iso_context_create();
+    iso_table_reader *r = NULL;
+    struct stat s;
+    *kind = '\0';
+    if (ctx && stat(path, &s) == 0 && S_ISREG(s.st_mode) && iso_table_reader_open(ctx, path, NULL, &r) == ISO_OK)
+        snprintf(kind, ISO_KIND_SIZE, "%s", iso_record_kind(r->header));
+    iso_table_reader_close(r);
+    iso_context_free(ctx);
 }
 
 iso_status iso_table_name_columns(iso_context *ctx, iso_table_reader *r, size_t count, const char *const names[])
@@ -166,7 +190,7 @@ iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char 
     if (status != ISO_OK) return status;
     iso_table_writer *w = calloc(1, sizeof *w);
     if (!w) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", path);
-    w->format = is_hdf5(path) ? HDF5(iso_hdf5_writing) : &iso_csv_writing;
+    w->format = iso_table_is_hdf5(path) ? HDF5(iso_hdf5_writing) : &iso_csv_writing;
     w->digits = 17;
     w->kind = kind;
     w->expected = SIZE_MAX;
@@ -188,6 +212,11 @@ void iso_table_writer_keep_others(iso_table_writer *w)
     w->fresh = true;
 }
 
+bool iso_table_writer_waits(const iso_table_writer *w)
+{
+    return w->waits;
+}
+
 /* Keeps the header's columns, and where their words are. */
 static iso_status keep_columns(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
@@ -196,21 +225,28 @@ static iso_status keep_columns(iso_context *ctx, iso_table_writer *w, const iso_
     if (!names) return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory to write '%s'", w->name);
     for (size_t i = 0; i < columns; i++) {
         names[i] = iso_record_name(header, i);
-        if (!iso_record_has_words(header, i)) continue;
-        w->words = header;
-        if (iso_table_has_words(names[i])) continue;
-        free(names);
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the column '%s' cannot have words", names[i]);
+        if (iso_record_has_words(header, i)) w->words = header;
     }
     const iso_status status = iso_record_create(ctx, columns, names, &w->header);
     free(names);
     return status;
 }
 
+/* Readers of CSV know columns of words by their names. */
+static iso_status check_words(iso_context *ctx, const iso_record *header)
+{
+    for (size_t i = 0; i < iso_record_columns(header); i++)
+        if (iso_record_has_words(header, i) && !iso_table_has_words(iso_record_name(header, i)))
+            return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the column '%s' cannot have words",
+                                    iso_record_name(header, i));
+    return ISO_OK;
+}
+
 iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *w, const iso_record *header)
 {
     if (w->header) return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "the header is already written");
-    const iso_status status = keep_columns(ctx, w, header);
+    iso_status status = check_words(ctx, header);
+    if (status == ISO_OK) status = keep_columns(ctx, w, header);
     return status == ISO_OK ? w->format->header(ctx, w, header) : status;
 }
 

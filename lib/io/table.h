@@ -12,7 +12,6 @@
 #ifndef ISO_IO_TABLE_H
 #define ISO_IO_TABLE_H
 
-#include <stdbool.h>
 #include <stdio.h>
 
 #include "../base/api.h"
@@ -30,30 +29,9 @@ ISO_API iso_status iso_table_read(iso_context *ctx, const char *path, const char
 /* Writes a whole record of the kind that it has. Errors: those of the writer below. */
 ISO_API iso_status iso_table_write(iso_context *ctx, const char *path, const iso_record *record);
 
-/* --- row by row ------------------------------------------------------------------------------------------------- */
-
-typedef struct iso_table_reader iso_table_reader;
-typedef struct iso_table_writer iso_table_writer;
-
-/* The same row by row, as trajectories are read (io/trajectory.h says more). Words are those of the header. */
-iso_status iso_table_reader_open(iso_context *ctx, const char *path, const char *kind, iso_table_reader **reader);
-iso_record *iso_table_header(iso_table_reader *reader);
-iso_status iso_table_next(iso_context *ctx, iso_table_reader *reader, double row[], bool *more);
-void iso_table_reader_close(iso_table_reader *reader);
-
-/* The kind is kept by address. A header with columns of words must live until the last row is written.
- * Errors: ISO_BAD_ARGUMENT: a key or value that is no single line, a column whose name is not known as one of words;
- * ISO_FILE_TROUBLE, ISO_NO_MEMORY. */
-iso_status iso_table_writer_open(iso_context *ctx, const char *path, const char *kind, iso_table_writer **writer);
-iso_status iso_table_write_header(iso_context *ctx, iso_table_writer *writer, const iso_record *header);
-iso_status iso_table_write_row(iso_context *ctx, iso_table_writer *writer, const double row[]);
-iso_status iso_table_write_line(iso_context *ctx, iso_table_writer *writer, const char *key, const char *value);
-iso_status iso_table_writer_close(iso_context *ctx, iso_table_writer *writer, bool keep);
-
-/* Of a new writer: how many rows come (HDF5 then takes no more room than these); a file that has the name when this one
- * ends is not replaced. */
-void iso_table_writer_expect(iso_table_writer *writer, size_t rows);
-void iso_table_writer_keep_others(iso_table_writer *writer);
+/* What kind of table of isoroll a file is, "" if none that can be read. "-" is never looked at. */
+enum { ISO_KIND_SIZE = 32 };
+ISO_API void iso_table_kind(const char *path, char kind[ISO_KIND_SIZE]);
 
 /* --- the beginning of a text ------------------------------------------------------------------------------------ */
 

@@ -18,7 +18,6 @@
 
 #include "../base/api.h"
 #include "../base/record.h"
-#include "table.h"
 
 ISO_C_BEGIN
 

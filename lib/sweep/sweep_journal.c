@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "io/replacement_impl.h"
+#include "io/table_impl.h"
 #include "sweep/sweep_store_impl.h"
 
 typedef struct journal_head {
@@ -296,9 +297,8 @@ static iso_status open_journal(iso_context *ctx, iso_sweep_journal *j, bool resu
     if (j->share.count > ISO_SWEEP_MOST_SHARES)
         return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "", "--shard: n is %zu, it must be at most %d", j->share.count,
                                 ISO_SWEEP_MOST_SHARES);
-    if (!iso_sweep_writing_of(j->path))
-        return iso_context_fail(ctx, ISO_BAD_ARGUMENT, "",
-                                "'%s': this build has no HDF5: give a name that ends in .csv", j->path);
+    const iso_status status = iso_table_check_format(ctx, j->path);
+    if (status != ISO_OK) return status;
     if (strcmp(j->path, "-") == 0) return open_unnamed(ctx, j);
     if (stat(j->path, &s) != 0) return open_named(ctx, j, resume);
     return S_ISREG(s.st_mode) ? look_at_result(ctx, j, resume) : open_unnamed(ctx, j);
@@ -406,8 +406,7 @@ iso_status iso_sweep_journal_add(iso_context *ctx, iso_sweep_journal *j, size_t 
     return ISO_OK;
 }
 
-static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, const iso_sweep_writing *kind, void *file,
-                               uint64_t *sum)
+static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, iso_sweep_writer *writer, uint64_t *sum)
 {
     iso_sweep_rows rows;
     *sum = 0;
@@ -420,7 +419,7 @@ static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, const iso
             status = trouble(ctx, j, "read");
         } else {
             *sum = iso_sweep_sum(*sum, &rows);
-            status = kind->rows(ctx, file, &rows);
+            status = iso_sweep_writer_rows(ctx, writer, &rows);
         }
     }
     iso_sweep_rows_free(&rows);
@@ -429,14 +428,13 @@ static iso_status write_chunks(iso_context *ctx, iso_sweep_journal *j, const iso
 
 iso_status iso_sweep_journal_finish(iso_context *ctx, iso_sweep_journal *j)
 {
-    const iso_sweep_writing *kind = iso_sweep_writing_of(j->path);
+    iso_sweep_writer *writer;
     uint64_t sum;
-    void *file;
     if (j->complete) return ISO_OK;
-    iso_status status = kind->create(ctx, j->path, j->head, j->share, &file);
+    iso_status status = iso_sweep_writer_open(ctx, j->path, j->head, j->share, &writer);
     if (status != ISO_OK) return status;
-    status = write_chunks(ctx, j, kind, file, &sum);
-    const iso_status closed = kind->close(ctx, file, status == ISO_OK ? &sum : NULL);
+    status = write_chunks(ctx, j, writer, &sum);
+    const iso_status closed = iso_sweep_writer_close(ctx, writer, status == ISO_OK ? &sum : NULL);
     if (status == ISO_OK) status = closed;
     if (status == ISO_OK && j->name) unlink(j->name);
     return status;

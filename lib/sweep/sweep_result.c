@@ -1,56 +1,13 @@
-/* sweep_result.c - results of sweeps of any kind: which kind a file is, reading it, and merging parts. */
-#include <errno.h>
+/* sweep_result.c - what readers and writers of results share: shards, hashes, columns; and merging parts. */
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
-#include "io/replacement_impl.h"
 #include "sweep/sweep_store_impl.h"
 
-enum { MOST_COLUMNS = 4096, MOST_CHUNK = 1 << 16 }; /* of files; a sweep has about 1000 and 4096 at most */
-
-/* --- kinds ------------------------------------------------------------------------------------------------------ */
-
-static bool ends_in(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), end = strlen(ending);
-    return length >= end && strcasecmp(path + length - end, ending) == 0;
-}
-
-const iso_sweep_writing *iso_sweep_writing_of(const char *path)
-{
-    if (!ends_in(path, ".h5") && !ends_in(path, ".hdf5")) return &iso_sweep_csv_writing;
-#ifdef ISO_HDF5
-    return &iso_sweep_hdf5_writing;
-#else
-    return NULL;
-#endif
-}
-
-/* By its first bytes. */
-static const iso_sweep_reading *reading_of(const char *path)
-{
-    char begin[8] = "";
-    FILE *file = fopen(path, "re");
-    if (!file) return NULL;
-    const size_t got = fread(begin, 1, sizeof begin, file);
-    fclose(file);
-    if (got < sizeof begin || memcmp(begin, "\x89HDF\r\n\x1a\n", 8) != 0) return &iso_sweep_csv_reading;
-#ifdef ISO_HDF5
-    return &iso_sweep_hdf5_reading;
-#else
-    return NULL;
-#endif
-}
-
-iso_status iso_sweep_damaged(iso_context *ctx, const char *path, const char *why)
-{
-    return iso_context_fail(ctx, ISO_FILE_TROUBLE, "", "cannot read '%s': %s", path, why);
-}
+enum { MOST_COLUMNS = 4096 }; /* of files; a sweep has about 1000 */
 
 /* --- shares, hashes, columns ------------------------------------------------------------------------------------ */
 
@@ -83,6 +40,13 @@ bool iso_sweep_hash_scan(const char *text, uint64_t hash[2])
     return strlen(text) == ISO_HASH_SIZE - 1 && sscanf(text, "%16" SCNx64 "%16" SCNx64, &hash[0], &hash[1]) == 2;
 }
 
+const char *iso_sweep_column_name(const iso_sweep_column *c, char name[ISO_SWEEP_NAME])
+{
+    const bool vary = strcmp(c->group, "vary") == 0;
+    snprintf(name, ISO_SWEEP_NAME, "%s%s%s", vary ? "" : c->group, vary ? "" : "_", c->name);
+    return name;
+}
+
 char *iso_sweep_columns_print(const iso_sweep_head *head)
 {
     char *text = malloc((size_t)(head->columns + 1) * 2 * ISO_NAME_SIZE), *at = text;
@@ -110,116 +74,6 @@ iso_sweep_column *iso_sweep_columns_scan(const char *text, int *count)
     return columns;
 }
 
-/* --- reading ---------------------------------------------------------------------------------------------------- */
-
-struct iso_sweep_reader {
-    const iso_sweep_reading *kind;
-    void *file;
-    iso_sweep_begin begin;
-    size_t next, points; /* the row that is read next; rows in the file */
-    uint64_t sum;        /* of the rows that were read */
-    char *path;
-};
-
-/* Numbers that cannot be: the file is damaged. They come from outside: no sum or product of them may overflow, and
- * no memory is asked for that a sweep does not need. */
-static bool makes_sense(const iso_sweep_begin *b)
-{
-    const iso_sweep_head *h = &b->head;
-    return h->count > 0 && h->count <= (size_t)1 << 53 && h->chunk > 0 && h->chunk <= MOST_CHUNK && h->columns > 0 &&
-           b->column && b->share.count > 0 && b->share.count <= ISO_SWEEP_MOST_SHARES &&
-           b->share.index < b->share.count;
-}
-
-static iso_status check_sum(iso_context *ctx, const iso_sweep_reader *r)
-{
-    uint64_t sum;
-    if (!r->kind->sum(r->file, &sum))
-        return iso_sweep_damaged(ctx, r->path, "its end is missing, or there is more behind it");
-    if (sum != r->sum) return iso_sweep_damaged(ctx, r->path, "its rows were changed after it was written");
-    return ISO_OK;
-}
-
-iso_status iso_sweep_reader_open(iso_context *ctx, const char *path, iso_sweep_reader **reader)
-{
-    *reader = NULL;
-    iso_sweep_reader *r = calloc(1, sizeof *r);
-    if (r) r->path = strdup(path);
-    if (!r || !r->path) {
-        free(r);
-        return iso_context_fail(ctx, ISO_NO_MEMORY, "", "no memory for '%s'", path);
-    }
-    r->kind = access(path, R_OK) == 0 ? reading_of(path) : NULL;
-    iso_status status = ISO_OK;
-    if (access(path, R_OK) != 0)
-        status = iso_file_trouble(ctx, "open", path);
-    else if (!r->kind)
-        status = iso_sweep_damaged(ctx, path, "this build has no HDF5");
-    if (status == ISO_OK) status = r->kind->open(ctx, path, &r->begin, &r->file);
-    r->begin.head.column = r->begin.column;
-    r->begin.head.scene = r->begin.scene;
-    r->begin.head.text = r->begin.text ? r->begin.text : "";
-    if (status == ISO_OK && !makes_sense(&r->begin)) status = iso_sweep_damaged(ctx, path, "its head is damaged");
-    if (status == ISO_OK) {
-        r->points = iso_sweep_shard_points(&r->begin.head, r->begin.share);
-        if (r->points == 0) status = check_sum(ctx, r);
-    }
-    if (status == ISO_OK) {
-        *reader = r;
-    } else {
-        iso_sweep_reader_close(r);
-    }
-    return status;
-}
-
-void iso_sweep_reader_close(iso_sweep_reader *r)
-{
-    if (!r) return;
-    if (r->file) r->kind->close(r->file);
-    free(r->begin.column);
-    free(r->begin.text);
-    free(r->begin.scene);
-    free(r->path);
-    free(r);
-}
-
-const iso_sweep_head *iso_sweep_reader_head(const iso_sweep_reader *r)
-{
-    return &r->begin.head;
-}
-
-iso_sweep_shard iso_sweep_reader_share(const iso_sweep_reader *r)
-{
-    return r->begin.share;
-}
-
-iso_status iso_sweep_reader_rows(iso_context *ctx, iso_sweep_reader *r, size_t count, iso_sweep_rows *rows)
-{
-    if (r->points - r->next < count) return iso_sweep_damaged(ctx, r->path, "it has no more rows");
-    rows->first = iso_sweep_shard_point(&r->begin.head, r->begin.share, r->next);
-    rows->count = count;
-    r->next += count;
-    const iso_status status = r->kind->rows(ctx, r->file, count, rows);
-    if (status != ISO_OK) return status;
-    r->sum = iso_sweep_sum(r->sum, rows);
-    return r->next < r->points ? ISO_OK : check_sum(ctx, r);
-}
-
-iso_status iso_sweep_reader_failures(iso_context *ctx, iso_sweep_reader *r, iso_sweep_failures *failures)
-{
-    const size_t chunk = r->begin.head.chunk;
-    iso_sweep_rows rows;
-    *failures = (iso_sweep_failures){.count = 0};
-    iso_status status = iso_sweep_rows_create(ctx, r->begin.head.columns, chunk, &rows);
-    if (status != ISO_OK) return status;
-    while (r->next < r->points && status == ISO_OK) {
-        status = iso_sweep_reader_rows(ctx, r, r->points - r->next < chunk ? r->points - r->next : chunk, &rows);
-        if (status == ISO_OK) iso_sweep_failures_add(failures, &rows);
-    }
-    iso_sweep_rows_free(&rows);
-    return status;
-}
-
 /* --- merging ---------------------------------------------------------------------------------------------------- */
 
 typedef struct merger {
@@ -233,7 +87,7 @@ static iso_status same_sweep(const merger *m, const iso_sweep_reader *one, const
 {
     const iso_sweep_reader *first = NULL;
     for (size_t i = 0; i < m->count && !first; i++) first = m->part[i];
-    const iso_sweep_head *a = first ? &first->begin.head : &one->begin.head, *b = &one->begin.head;
+    const iso_sweep_head *a = first ? &first->head : &one->head, *b = &one->head;
     if (memcmp(a->hash, b->hash, sizeof a->hash) == 0 && a->count == b->count && a->chunk == b->chunk &&
         a->columns == b->columns)
         return ISO_OK;
@@ -246,7 +100,7 @@ static iso_status add_part(merger *m, const char *path)
     iso_sweep_reader *r;
     iso_status status = iso_sweep_reader_open(m->ctx, path, &r);
     if (status != ISO_OK) return status;
-    const iso_sweep_shard share = r->begin.share;
+    const iso_sweep_shard share = r->share;
     status = same_sweep(m, r, path);
     if (status == ISO_OK && share.count == 1)
         status = iso_context_fail(m->ctx, ISO_FILE_TROUBLE, "", "'%s' is a whole sweep, not a part", path);
@@ -278,35 +132,31 @@ static iso_status check_parts(const merger *m)
     for (size_t i = 0; i < m->count; i++) {
         if (!m->part[i])
             return iso_context_fail(m->ctx, ISO_FILE_TROUBLE, "", "part %zu of %zu is missing", i + 1, m->count);
-        if (m->part[i]->begin.share.count != m->count)
+        if (m->part[i]->share.count != m->count)
             return iso_context_fail(m->ctx, ISO_FILE_TROUBLE, "", "'%s' is part %zu of %zu, others are parts of %zu",
-                                    m->part[i]->path, i + 1, m->part[i]->begin.share.count, m->count);
+                                    m->part[i]->path, i + 1, m->part[i]->share.count, m->count);
     }
     return ISO_OK;
 }
 
 static iso_status write_parts(const merger *m, const char *path, iso_sweep_failures *failures)
 {
-    const iso_sweep_head *head = &m->part[0]->begin.head;
-    const iso_sweep_writing *kind = iso_sweep_writing_of(path);
+    const iso_sweep_head *head = &m->part[0]->head;
+    iso_sweep_writer *writer = NULL;
     iso_sweep_rows rows;
     uint64_t sum = 0;
-    void *file;
-    if (!kind) return iso_context_fail(m->ctx, ISO_BAD_ARGUMENT, "", "'%s': this build has no HDF5", path);
     iso_status status = iso_sweep_rows_create(m->ctx, head->columns, head->chunk, &rows);
-    if (status != ISO_OK) return status;
-    status = kind->create(m->ctx, path, head, (iso_sweep_shard){0, 1}, &file);
-    const bool created = status == ISO_OK;
+    if (status == ISO_OK) status = iso_sweep_writer_open(m->ctx, path, head, (iso_sweep_shard){0, 1}, &writer);
     for (size_t c = 0; c < iso_sweep_chunks(head) && status == ISO_OK; c++) {
         status = iso_sweep_reader_rows(m->ctx, m->part[c % m->count], iso_sweep_chunk_points(head, c), &rows);
         if (status != ISO_OK) break;
         iso_sweep_failures_add(failures, &rows);
         sum = iso_sweep_sum(sum, &rows);
-        status = kind->rows(m->ctx, file, &rows);
+        status = iso_sweep_writer_rows(m->ctx, writer, &rows);
     }
     iso_sweep_rows_free(&rows);
-    if (!created) return status;
-    const iso_status closed = kind->close(m->ctx, file, status == ISO_OK ? &sum : NULL);
+    if (!writer) return status;
+    const iso_status closed = iso_sweep_writer_close(m->ctx, writer, status == ISO_OK ? &sum : NULL);
     return status == ISO_OK ? closed : status;
 }
 

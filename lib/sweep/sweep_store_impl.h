@@ -1,46 +1,36 @@
-/* sweep_store_impl.h - results of sweeps as files of several kinds: what a kind must be able to do.
+/* sweep_store_impl.h - what journals and results of sweeps share.
  *
  *     sweep_journal.c   the journal; sweep_record.c: its records
- *     sweep_result.c    results of any kind: opening, reading, merging
- *     sweep_csv.c, hdf5_sweep.c   the kinds
+ *     sweep_writer.c, sweep_reader.c   results, which are tables
+ *     sweep_result.c    shards, hashes, columns; merging
  */
 #ifndef ISO_IO_SWEEP_STORE_IMPL_H
 #define ISO_IO_SWEEP_STORE_IMPL_H
 
 #include "sweep/sweep_store.h"
 
-#define ISO_SWEEP_FORMAT "isoroll sweep 1"
-#define ISO_SWEEP_PART_FORMAT "isoroll sweep part 1"
+#define ISO_SWEEP_KIND "sweep"
+#define ISO_SWEEP_PART_KIND "sweep part"
 
 /* A result being written. Rows come by growing number. If a file of this name exists at the closing, it is kept. The
  * sum of all rows stands in the file: a result that was changed or damaged later is found out. */
-typedef struct iso_sweep_writing {
-    iso_status (*create)(iso_context *ctx, const char *path, const iso_sweep_head *head, iso_sweep_shard share,
-                         void **file);
-    iso_status (*rows)(iso_context *ctx, void *file, const iso_sweep_rows *rows);
-    /* Releases the file also after an error. sum: of all rows; NULL: the new file is thrown away. */
-    iso_status (*close)(iso_context *ctx, void *file, const uint64_t *sum);
-} iso_sweep_writing;
+typedef struct iso_sweep_writer iso_sweep_writer;
+iso_status iso_sweep_writer_open(iso_context *ctx, const char *path, const iso_sweep_head *head,
+                                 iso_sweep_shard share, iso_sweep_writer **writer);
+iso_status iso_sweep_writer_rows(iso_context *ctx, iso_sweep_writer *writer, const iso_sweep_rows *rows);
 
-/* What is read of a file before its rows. The text and the columns are released by iso_sweep_reader_close. */
-typedef struct iso_sweep_begin {
-    iso_sweep_head head;
+/* Frees the writer. sum: of all rows; NULL: the new file is thrown away. */
+iso_status iso_sweep_writer_close(iso_context *ctx, iso_sweep_writer *writer, const uint64_t *sum);
+
+struct iso_sweep_reader {
+    struct iso_table_reader *table;
+    iso_sweep_head head; /* its texts are lines of the table */
     iso_sweep_shard share;
-    iso_sweep_column *column;
-    char *text, *scene;
-} iso_sweep_begin;
-
-typedef struct iso_sweep_reading {
-    /* Errors: ISO_FILE_TROUBLE. *begin is released by the caller in any case, after close. The caller looks whether
-     * its numbers make sense before it reads rows. */
-    iso_status (*open)(iso_context *ctx, const char *path, iso_sweep_begin *begin, void **file);
-    iso_status (*rows)(iso_context *ctx, void *file, size_t count, iso_sweep_rows *rows);
-    bool (*sum)(void *file, uint64_t *sum); /* behind the last row; false: there is none, or more than that */
-    void (*close)(void *file);
-} iso_sweep_reading;
-
-extern const iso_sweep_writing iso_sweep_csv_writing, iso_sweep_hdf5_writing;
-extern const iso_sweep_reading iso_sweep_csv_reading, iso_sweep_hdf5_reading;
+    size_t lines, next, points; /* lines before the rows; the row that is read next; rows in the file */
+    uint64_t sum;               /* of the rows that were read */
+    double *row;
+    char *path;
+};
 
 /* Of bytes; another salt gives another number. */
 uint64_t iso_sweep_checksum(const void *bytes, size_t length, uint64_t salt);
@@ -61,9 +51,6 @@ uint64_t iso_sweep_record_sum(const iso_sweep_record *r, const unsigned char byt
 /* Whether a whole record begins somewhere in these bytes. */
 bool iso_sweep_record_inside(const iso_sweep_head *head, const unsigned char bytes[], size_t length);
 
-/* By the ending of the name; for reading also by the first bytes. NULL: this build has no HDF5. */
-const iso_sweep_writing *iso_sweep_writing_of(const char *path);
-
 /* Points of a share, the number in the sweep of its i-th point, and whether it is all. */
 size_t iso_sweep_shard_points(const iso_sweep_head *head, iso_sweep_shard share);
 size_t iso_sweep_shard_point(const iso_sweep_head *head, iso_sweep_shard share, size_t i);
@@ -74,11 +61,12 @@ enum { ISO_HASH_SIZE = 33 };
 void iso_sweep_hash_print(char text[ISO_HASH_SIZE], const uint64_t hash[2]);
 bool iso_sweep_hash_scan(const char *text, uint64_t hash[2]);
 
-/* "vary.k chaos.verdict": all columns, as text; and back. NULL: no memory, or no such text. */
+/* The name of a column in a table: k, chaos_verdict. */
+enum { ISO_SWEEP_NAME = 2 * ISO_NAME_SIZE };
+const char *iso_sweep_column_name(const iso_sweep_column *column, char name[ISO_SWEEP_NAME]);
+
+/* "vary/k chaos/verdict": all columns, as text; and back. NULL: no memory, or no such text. */
 char *iso_sweep_columns_print(const iso_sweep_head *head);
 iso_sweep_column *iso_sweep_columns_scan(const char *text, int *count);
-
-/* "cannot read 'path': WHY" */
-iso_status iso_sweep_damaged(iso_context *ctx, const char *path, const char *why);
 
 #endif

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "io/csv/csv_impl.h"
-#include "io/table.h"
+#include "io/table_impl.h"
 
 /* Whether reading the line back gives the same key and value. */
 static bool is_line(const char *key, const char *value)

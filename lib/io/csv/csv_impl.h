@@ -18,8 +18,6 @@
 /* LONGEST_TEXT: a line of a table of isoroll, which may have the text of a sweep. */
 enum { ISO_LONGEST_LINE = 1 << 16, ISO_LONGEST_TEXT = 1 << 25, ISO_MOST_FIELDS = 1024 };
 
-#define ISO_TABLE_TEXT "sweep" /* the text with this key has lines "# | ..." */
-
 /* --- csv_row.c -------------------------------------------------------------------------------------------------- */
 
 /* How a row is read. */

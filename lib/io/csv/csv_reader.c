@@ -391,6 +391,7 @@ static iso_status csv_next(iso_context *ctx, iso_table_reader *r, double row[], 
     r->line = c->number;
     if (status == ISO_OK && !*more) return end_text(c);
     if (status != ISO_OK) return status;
+    if (r->forgets) iso_record_forget_words(r->header);
     if (!r->trajectory) return read_row_of_table(c, row);
     if (c->row)
         numbers = c->row;

@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "io/csv/csv_impl.h"
+#include "io/table_impl.h"
 
 /* Takes a cell in quotes, in which two quotes are one. A quote that no comma follows is none of the two. */
 static char *take_quoted(char **rest)

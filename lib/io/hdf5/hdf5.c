@@ -1,4 +1,4 @@
-/* hdf5.c - what the reader and the writer of trajectories as HDF5 share. */
+/* hdf5.c - what the reader and the writer of tables as HDF5 share. */
 #include "io/hdf5/hdf5_impl.h"
 
 #include <errno.h>
@@ -44,9 +44,26 @@ iso_hdf5_store *iso_hdf5_store_create(void)
     H5dont_atexit();
     iso_hdf5_store *s = calloc(1, sizeof *s);
     if (!s) return NULL;
-    s->file = -1;
+    s->file = s->failed.point = s->failed.reason = -1;
     s->descriptor = -1;
     return s;
+}
+
+bool iso_hdf5_is_sweep(const char *kind)
+{
+    return strcmp(kind, "sweep") == 0 || strcmp(kind, "sweep part") == 0;
+}
+
+bool iso_hdf5_store_add(iso_hdf5_store *s, iso_hdf5_set set)
+{
+    iso_hdf5_set *more = set.id < 0 ? NULL : realloc(s->set, ((size_t)s->sets + 1) * sizeof *more);
+    if (more) {
+        s->set = more;
+        s->set[s->sets++] = set;
+    } else if (set.id >= 0) {
+        H5Dclose(set.id);
+    }
+    return more != NULL;
 }
 
 bool iso_hdf5_store_room(iso_hdf5_store *s, size_t columns)
@@ -62,12 +79,17 @@ bool iso_hdf5_store_free(iso_hdf5_store *s)
     bool good = true;
     if (!s) return true;
     for (int i = 0; i < s->sets; i++) good = H5Dclose(s->set[i].id) >= 0 && good;
+    if (s->failed.point >= 0) good = H5Dclose(s->failed.point) >= 0 && good;
+    if (s->failed.reason >= 0) good = H5Dclose(s->failed.reason) >= 0 && good;
+    free(s->set);
     if (s->file >= 0) good = H5Fclose(s->file) >= 0 && good;
     free(s->block);
     free(s->packed);
     free(s);
     return good;
 }
+
+/* --- rows ------------------------------------------------------------------------------------------------------- */
 
 /* Without HDF5's own lock: on some network file systems it would meet the one that a replacement holds. */
 hid_t iso_hdf5_create(const char *path)
@@ -86,34 +108,103 @@ hid_t iso_hdf5_access(void)
     return plan;
 }
 
-/* One dataset's part, in s->packed. */
-static bool transfer_set(const iso_hdf5_store *s, const iso_hdf5_set *d, hsize_t first, bool write)
+/* Rows `first` to `first` + `rows` of a dataset, which a writer lets grow. */
+static bool move(const iso_hdf5_set *d, hid_t type, hsize_t first, hsize_t rows, void *data, bool write)
 {
-    const hsize_t start[2] = {first, 0}, size[2] = {s->filled, (hsize_t)d->count};
-    const hsize_t end[2] = {first + s->filled, size[1]};
-    if (write && H5Dset_extent(d->id, end) < 0) return false;
+    const hsize_t start[2] = {first, 0}, size[2] = {rows, (hsize_t)d->count}, end[2] = {first + rows, size[1]};
+    if (write && d->grows && H5Dset_extent(d->id, end) < 0) return false;
     const hid_t there = H5Dget_space(d->id), here = H5Screate_simple(d->count > 1 ? 2 : 1, size, NULL);
     bool good = H5Sselect_hyperslab(there, H5S_SELECT_SET, start, NULL, size, NULL) >= 0;
-    if (good && write) good = H5Dwrite(d->id, H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, s->packed) >= 0;
-    if (good && !write) good = H5Dread(d->id, H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, s->packed) >= 0;
+    if (good && write) good = H5Dwrite(d->id, type, here, there, H5P_DEFAULT, data) >= 0;
+    if (good && !write) good = H5Dread(d->id, type, here, there, H5P_DEFAULT, data) >= 0;
     H5Sclose(here);
     H5Sclose(there);
     return good;
 }
 
-bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write)
+static bool move_numbers(const iso_hdf5_store *s, const iso_hdf5_set *d, hsize_t first, bool write)
 {
-    for (int i = 0; i < s->sets && s->filled > 0; i++) {
-        const iso_hdf5_set *d = &s->set[i];
-        const size_t width = (size_t)d->count;
-        for (size_t row = 0; write && row < s->filled; row++)
-            memcpy(s->packed + row * width, s->block + row * s->columns + d->first, width * sizeof *s->packed);
-        if (!transfer_set(s, d, first, write)) return false;
-        for (size_t row = 0; !write && row < s->filled; row++)
-            memcpy(s->block + row * s->columns + d->first, s->packed + row * width, width * sizeof *s->packed);
-    }
+    const size_t width = (size_t)d->count, bytes = width * sizeof *s->packed;
+    double *const column = s->block + d->first;
+    for (size_t row = 0; write && row < s->filled; row++)
+        memcpy(s->packed + row * width, column + row * s->columns, bytes);
+    if (!move(d, H5T_NATIVE_DOUBLE, first, s->filled, s->packed, write)) return false;
+    for (size_t row = 0; !write && row < s->filled; row++)
+        memcpy(column + row * s->columns, s->packed + row * width, bytes);
     return true;
 }
+
+/* --- words ------------------------------------------------------------------------------------------------------ */
+
+/* Words of one column: texts of variable length, or of the length that the dataset has. */
+static bool move_texts(const iso_hdf5_store *s, const iso_hdf5_set *d, hsize_t first, size_t count,
+                       double *const number[], bool write)
+{
+    const hid_t type = H5Dget_type(d->id);
+    const bool varies = H5Tis_variable_str(type) > 0;
+    const size_t size = varies ? sizeof(char *) : H5Tget_size(type);
+    char *text = calloc(count + 1, size), **texts = (char **)(void *)text;
+    bool good = text && (varies || size > 0);
+    for (size_t i = 0; good && write && i < count; i++) {
+        const char *word = iso_record_word(s->words, *number[i]);
+        if (varies)
+            memcpy(&texts[i], &word, sizeof word);
+        else
+            snprintf(text + i * size, size, "%s", word);
+    }
+    good = good && move(d, type, first, count, text, write);
+    for (size_t i = 0; good && !write && i < count; i++) {
+        if (!varies) text[(i + 1) * size - 1] = '\0';
+        const char *word = varies ? texts[i] : text + i * size;
+        good = iso_record_intern(s->ctx, s->interned, word ? word : "", number[i]) == ISO_OK;
+    }
+    for (size_t i = 0; text && varies && !write && i < count; i++)
+        if (texts[i]) H5free_memory(texts[i]);
+    free(text);
+    H5Tclose(type);
+    return good;
+}
+
+static bool move_words(const iso_hdf5_store *s, const iso_hdf5_set *d, hsize_t first, bool write)
+{
+    double *number[ISO_HDF5_BLOCK];
+    for (size_t i = 0; i < s->filled; i++) number[i] = s->block + i * s->columns + d->first;
+    return move_texts(s, d, first, s->filled, number, write);
+}
+
+/* The reasons of rows of a sweep that have failed. */
+static bool move_failures(iso_hdf5_store *s, bool write)
+{
+    iso_hdf5_failures *f = &s->failed;
+    const iso_hdf5_set point = {.id = f->point, .count = 1, .grows = true};
+    const iso_hdf5_set reason = {.id = f->reason, .count = 1, .grows = true};
+    double *number[ISO_HDF5_BLOCK];
+    size_t count = 0;
+    for (size_t i = 0; f->reason >= 0 && i < s->filled; i++) {
+        double *const row = s->block + i * s->columns;
+        if (!write) row[f->reason_column] = 0;
+        if (row[f->status_column] == 0) continue;
+        s->packed[count] = row[f->point_column];
+        number[count++] = &row[f->reason_column];
+    }
+    if (count == 0) return true;
+    const bool good = !write || move(&point, H5T_NATIVE_DOUBLE, f->done, count, s->packed, true);
+    f->done += count;
+    return good && move_texts(s, &reason, f->done - count, count, number, write);
+}
+
+bool iso_hdf5_transfer(iso_hdf5_store *s, hsize_t first, bool write)
+{
+    bool good = true;
+    for (int i = 0; good && i < s->sets && s->filled > 0; i++) {
+        const iso_hdf5_set *d = &s->set[i];
+        good = d->words ? move_words(s, d, first, write) : move_numbers(s, d, first, write);
+    }
+    for (size_t i = 0; s->counts && !write && i < s->filled; i++) s->block[i * s->columns] = (double)(first + i);
+    return good && move_failures(s, write);
+}
+
+/* --- attributes ------------------------------------------------------------------------------------------------- */
 
 static bool write_attribute(hid_t at, const char *key, hid_t type, hid_t space, const void *value)
 {

@@ -1,15 +1,23 @@
-/* hdf5_impl.h - trajectories as HDF5: the layout of a file, and what its reader and its writer share. All three are
+/* hdf5_impl.h - tables as HDF5: the layout of a file, and what its reader and its writer share. All three are
  * compiled where the build has HDF5 (ISO_HDF5).
  *
- *     /             attributes: "format" = "isoroll trajectory 1", and one for each line "# key: value" of the
- *                   record:
- *                   an array of numbers if the value is numbers, else text
+ *     /             attributes: "format" = "isoroll KIND 1", and one for each line "# key: value" of the
+ *                   record: an array of numbers if the value is numbers, else text; "columns": the names of all
+ *                   columns, with commas between (not of trajectories)
  *     /clock        t, tau, s                 rows
  *     /ball         omega, n, e, q, ...       rows x 3 (q: 4); if a column is missing, omega1 ... for each one there
  *     /point        M, gamma                  rows x 3
- *     /section      orbit, crossing, l, x     rows; in files of sections, whose "format" is "isoroll section 1"
+ *     /KIND         all other columns, such as /section/orbit: doubles, or texts of variable length
  *
- * All numbers are doubles, in chunks of ISO_HDF5_BLOCK rows. Datasets of these names at the root are read as well.
+ * Numbers are doubles. If the number of rows is known before them, a dataset has just their room; else it has chunks of
+ * ISO_HDF5_BLOCK rows. Trajectories and sections of version 0.1 have no "columns"; their datasets may stand at the root.
+ *
+ * The result of a sweep has the line "columns" of its own, which names datasets:
+ *
+ *     /GROUP/NAME   doubles, as "columns" says: GROUP/NAME ...
+ *     /status       integers
+ *     /point        integers; in a part only: else the rows are points 0, 1, ...
+ *     /failed       point, reason: of the rows whose status is not 0
  */
 #ifndef ISO_IO_HDF5_IMPL_H
 #define ISO_IO_HDF5_IMPL_H
@@ -19,8 +27,8 @@
 #include "io/table_impl.h"
 #include "orbit/scene.h"
 
-enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */ };
-#define ISO_HDF5_FORMAT "isoroll " ISO_TRAJECTORY_KIND " " ISO_TRAJECTORY_VERSION
+enum { ISO_HDF5_BLOCK = 4096, ISO_HDF5_NUMBERS = 16 /* of an attribute */, ISO_HDF5_REASON = 200 };
+#define ISO_HDF5_COLUMNS "columns"
 
 /* A dataset of the layout: it holds columns first ... first + count - 1 of a trajectory (iso_column_name). */
 typedef struct iso_hdf5_part {
@@ -36,23 +44,42 @@ int iso_hdf5_parts(iso_hdf5_part parts[ISO_HDF5_PARTS]);
 typedef struct iso_hdf5_set {
     hid_t id;
     int first, count; /* count adjacent columns of the record */
+    bool words, grows;
 } iso_hdf5_set;
+
+/* The failed points of a sweep: two datasets, and the columns of the record. */
+typedef struct iso_hdf5_failures {
+    hid_t point, reason; /* < 0: there are none */
+    hsize_t done;        /* read or written so far */
+    int point_column, status_column, reason_column;
+} iso_hdf5_failures;
 
 /* A file, and a block of its rows. */
 typedef struct iso_hdf5_store {
     hid_t file;
     int sets;
-    iso_hdf5_set set[ISO_TRAJECTORY_COLUMNS + 1]; /* the last: the orbits of a section */
-    size_t columns, filled, next;                 /* rows in the block; the one read next       */
-    hsize_t rows;                                 /* in the file: to be read, or written so far */
-    hsize_t begun;                                /* of the block that is being read            */
-    double *block, *packed;                       /* rows; a dataset's part of them             */
-    iso_replacement replacement;                  /* of a writer                                */
+    iso_hdf5_set *set;
+    iso_hdf5_failures failed;
+    bool counts;                  /* column 0 is the number of the row, without a dataset       */
+    size_t columns, filled, next; /* rows in the block; the one read next                       */
+    hsize_t rows;                 /* in the file: to be read, or written so far                 */
+    hsize_t begun;                /* of the block that is being read                            */
+    double *block, *packed;       /* rows; a dataset's part of them                             */
+    const iso_record *words;      /* of a writer: whose words the rows have                     */
+    iso_record *interned;         /* of a reader: the record that gets the words                */
+    iso_context *ctx;             /* of the reader                                              */
+    iso_replacement replacement;  /* of a writer                                                */
     int descriptor;
 } iso_hdf5_store;
 
+/* Whether a kind has the layout of sweeps. */
+bool iso_hdf5_is_sweep(const char *kind);
+
 /* NULL: no memory. */
 iso_hdf5_store *iso_hdf5_store_create(void);
+
+/* Adds a dataset, which is closed if that fails: an invalid one, or no memory. */
+bool iso_hdf5_store_add(iso_hdf5_store *s, iso_hdf5_set set);
 
 /* For so many columns; false: no memory. */
 bool iso_hdf5_store_room(iso_hdf5_store *s, size_t columns);

@@ -26,10 +26,11 @@
 #define ISO_HDF5_NAMES(X)                                                                                            \
     ISO_HDF5_OLD(X)                                                                                                  \
     X(H5Aclose)                                                                                                      \
-    X(H5Acreate2) X(H5Aget_name) X(H5Aget_name_by_idx) X(H5Aget_space) X(H5Aget_type) X(H5Aopen) X(H5Aopen_by_idx)   \
-        X(H5Aread) X(H5Awrite) X(H5Dclose) X(H5Dcreate2) X(H5Dget_space) X(H5Dopen2) X(H5Dread) X(H5Dset_extent) X(  \
-            H5Dwrite) X(H5Eget_auto2) X(H5Eset_auto2) X(H5Fclose) X(H5Fcreate) X(H5Fopen) X(H5Gclose) X(H5Gget_info) \
-            X(H5Gopen2) X(H5Lexists) X(H5Lget_name_by_idx) X(H5Oget_info2) X(H5Pclose) X(H5Pcreate)                  \
+    X(H5Acreate2)                                                                                                    \
+    X(H5Aget_name_by_idx)                                                                                            \
+    X(H5Aget_space) X(H5Aget_type) X(H5Aopen) X(H5Aread) X(H5Awrite) X(H5Dclose) X(H5Dcreate2) X(H5Dget_space)       \
+        X(H5Dget_type) X(H5Dopen2) X(H5Dread) X(H5Dset_extent) X(H5Dwrite) X(H5Eget_auto2) X(H5Eset_auto2)           \
+            X(H5Fclose) X(H5Fcreate) X(H5Fopen) X(H5Lexists) X(H5Oget_info2) X(H5Pclose) X(H5Pcreate)                \
                 X(H5Pset_alloc_time) X(H5Pset_chunk) X(H5Pset_chunk_cache) X(H5Pset_create_intermediate_group)       \
                     X(H5Pset_file_locking) X(H5Pset_fill_time) X(H5Pset_obj_track_times) X(H5Sclose) X(H5Screate)    \
                         X(H5Screate_simple) X(H5Sget_simple_extent_dims) X(H5Sget_simple_extent_ndims)               \
@@ -61,17 +62,16 @@ bool iso_hdf5_is_there(void);
 #define H5Eset_auto1 iso_hdf5.H5Eset_auto1
 #define H5Aclose iso_hdf5.H5Aclose
 #define H5Acreate2 iso_hdf5.H5Acreate2
-#define H5Aget_name iso_hdf5.H5Aget_name
 #define H5Aget_name_by_idx iso_hdf5.H5Aget_name_by_idx
 #define H5Aget_space iso_hdf5.H5Aget_space
 #define H5Aget_type iso_hdf5.H5Aget_type
 #define H5Aopen iso_hdf5.H5Aopen
-#define H5Aopen_by_idx iso_hdf5.H5Aopen_by_idx
 #define H5Aread iso_hdf5.H5Aread
 #define H5Awrite iso_hdf5.H5Awrite
 #define H5Dclose iso_hdf5.H5Dclose
 #define H5Dcreate2 iso_hdf5.H5Dcreate2
 #define H5Dget_space iso_hdf5.H5Dget_space
+#define H5Dget_type iso_hdf5.H5Dget_type
 #define H5Dopen2 iso_hdf5.H5Dopen2
 #define H5Dread iso_hdf5.H5Dread
 #define H5Dset_extent iso_hdf5.H5Dset_extent
@@ -81,11 +81,7 @@ bool iso_hdf5_is_there(void);
 #define H5Fclose iso_hdf5.H5Fclose
 #define H5Fcreate iso_hdf5.H5Fcreate
 #define H5Fopen iso_hdf5.H5Fopen
-#define H5Gclose iso_hdf5.H5Gclose
-#define H5Gget_info iso_hdf5.H5Gget_info
-#define H5Gopen2 iso_hdf5.H5Gopen2
 #define H5Lexists iso_hdf5.H5Lexists
-#define H5Lget_name_by_idx iso_hdf5.H5Lget_name_by_idx
 #define H5Oget_info2 iso_hdf5.H5Oget_info2
 #if !H5_VERSION_GE(1, 12, 0) /* what H5Oget_info2 fills has this name since */
 #define H5O_info1_t H5O_info_t
