@@ -46,6 +46,21 @@ json_t *json_columns(const iso_record *r)
     return o;
 }
 
+json_t *json_effects(const iso_effects *effects)
+{
+    json_t *o = json_object();
+    for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
+        if (!effects->on[e]) continue;
+        json_t *numbers = json_object();
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++)
+            if (!n->scene_only)
+                json_object_set_new(numbers, n->name,
+                                    json_numbers((size_t)n->count, iso_effect_values(effects, e, n)));
+        json_object_set_new(o, iso_effect_list[e]->name, numbers);
+    }
+    return o;
+}
+
 /* --- results ----------------------------------------------------------------------------------------------------- */
 
 static json_t *value_of(const iso_field *f, const void *row, int i)
@@ -85,9 +100,11 @@ static json_t *member_of(const iso_field *f, const void *row)
 {
     if (f->there && !f->there(row)) return json_null();
     if (f->type == ISO_FIELD_STRUCT) {
-        const void *at = (const char *)row + f->offset, *inner = f->pointer ? *(const void *const *)at : at;
+        const void *inner = iso_field_struct(f, row);
         return inner ? struct_of(f->fields, inner) : json_null();
     }
+    if (f->type == ISO_FIELD_RECORD)
+        return json_columns(*(iso_record *const *)(const void *)((const char *)row + f->offset));
     if (f->type != ISO_FIELD_LIST) return f->count > 1 ? values_of(f, row) : value_of(f, row, 0);
     json_t *list = json_array();
     const void *item;

@@ -29,6 +29,9 @@ void json_put(json_t *o, const char *name, json_t *value);
 json_t *json_numbers(size_t count, const double x[]);
 json_t *json_columns(const iso_record *r);
 
+/* The effects that act, with their numbers. */
+json_t *json_effects(const iso_effects *effects);
+
 /* Memory for what goes into JSON; release it by free(). NULL: no memory. Then json_whole() and json_print() return
  * false. */
 void *json_allocate(size_t size);

@@ -20,6 +20,7 @@ static void read_member(const iso_field *f, const char *at, int i, iso_value *v)
     case ISO_FIELD_TEXT: v->text = at; break;
     case ISO_FIELD_NAME: v->text = *(const char *const *)(const void *)at; break;
     case ISO_FIELD_STRUCT:
+    case ISO_FIELD_RECORD:
     case ISO_FIELD_LIST: break;
     }
 }
@@ -42,6 +43,13 @@ void iso_field_read(const iso_field *f, const void *row, int i, iso_value *v)
     if (!(f->how & ISO_FROM_ONE)) return;
     v->there = v->number >= 0;
     v->number++;
+}
+
+const void *iso_field_struct(const iso_field *f, const void *row)
+{
+    if (!row || (f->there && !f->there(row))) return NULL;
+    const void *at = (const char *)row + f->offset;
+    return f->pointer ? *(const void *const *)at : at;
 }
 
 static size_t count_of(const iso_field *f, const char *row)
@@ -88,11 +96,10 @@ static void visit_columns(const char *outer, const iso_field *fields, const void
     char name[ISO_COLUMN_SIZE];
     iso_value value;
     for (const iso_field *f = fields; f->name; f++) {
-        if (f->how & ISO_IN_TREE || f->type == ISO_FIELD_LIST) continue;
+        if (f->how & ISO_IN_TREE || f->type >= ISO_FIELD_RECORD) continue;
         if (f->type == ISO_FIELD_STRUCT) {
-            const bool there = row && (!f->there || f->there(row));
             name_column(name, outer, f, 0);
-            visit_columns(name, f->fields, there ? (const char *)row + f->offset : NULL, visit, data);
+            visit_columns(name, f->fields, iso_field_struct(f, row), visit, data);
         }
         for (int i = 0; f->type != ISO_FIELD_STRUCT && (i == 0 || i < f->count); i++) {
             name_column(name, outer, f, i);

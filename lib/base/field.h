@@ -19,6 +19,7 @@
 #include <stdio.h>
 
 #include "api.h"
+#include "record.h"
 
 ISO_C_BEGIN
 
@@ -31,6 +32,7 @@ typedef enum iso_field_type {
     ISO_FIELD_TEXT,   /* char[]: "" is none                                                   */
     ISO_FIELD_NAME,   /* const char *: NULL is none                                           */
     ISO_FIELD_STRUCT, /* another struct, with fields of its own                               */
+    ISO_FIELD_RECORD, /* iso_record *; no column                                              */
     ISO_FIELD_LIST    /* structs, one after the other; pointers in their place: ISO_LIST_AT   */
 } iso_field_type;
 
@@ -141,14 +143,16 @@ typedef struct iso_field {
 /* clang-format off */
 #define ISO_TYPE_OF(x) _Generic((x), double: ISO_FIELD_REAL, double *: ISO_FIELD_REAL, int: ISO_FIELD_INT,           \
                                      unsigned: ISO_FIELD_INT, long: ISO_FIELD_LONG, size_t: ISO_FIELD_SIZE,           \
-                                     bool: ISO_FIELD_BOOL, char *: ISO_FIELD_TEXT, const char *: ISO_FIELD_NAME)
+                                     bool: ISO_FIELD_BOOL, char *: ISO_FIELD_TEXT, const char *: ISO_FIELD_NAME,  \
+                                     iso_record *: ISO_FIELD_RECORD)
 /* clang-format on */
 #define ISO_COUNT_OF(x) _Generic((x), double * : (int)(sizeof(x) / sizeof(double)), default : 1)
 
 /* Value i of a field that is no struct and no list, i from 0 to its count - 1. row NULL: there is none. */
 ISO_API void iso_field_read(const iso_field *field, const void *row, int i, iso_value *value);
 
-/* The i-th struct of a list. NULL: there are no more. */
+/* The struct of a field, and the i-th of a list. NULL: there is none, or there are no more. */
+ISO_API const void *iso_field_struct(const iso_field *field, const void *row);
 ISO_API const void *iso_field_item(const iso_field *field, const void *row, size_t i);
 
 /* Copies fields, all but those called `without` (NULL: none is), to change them. At most ISO_MOST_FIELDS - 1. */
