@@ -142,7 +142,7 @@ static bool print_json(const iso_scene *scene, const iso_comparison *c)
 {
     json_t *o = json_of_scene(scene, iso_comparison_fields, c);
     json_put(o, "tolerance", json_number(scene->tolerance));
-    json_put(o, "effects", json_effects(&c->effects));
+    json_put(o, "effects", json_effects(&c->effects, false));
     put_worst(o, c, "", c->worst);
     if (c->runs == ISO_BACKENDS) {
         put_worst(o, c, "from_exact.ball.", c->worst_from_exact[ISO_BALL]);

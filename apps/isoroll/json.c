@@ -27,11 +27,18 @@ json_t *json_number(double x)
     return isfinite(x) ? json_real(x) : json_null();
 }
 
-json_t *json_numbers(size_t count, const double x[])
+/* A text in which bytes that are no UTF-8 become question marks: JSON has only UTF-8. */
+static json_t *text_of(const char *text)
 {
-    json_t *list = json_array();
-    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_number(x[i]));
-    return list;
+    json_t *made = json_string(text);
+    if (made) return made;
+    char *copy = json_allocate(strlen(text) + 1);
+    if (copy) memcpy(copy, text, strlen(text) + 1);
+    for (char *c = copy; c && *c; c++)
+        if ((unsigned char)*c >= 0x80) *c = '?';
+    made = copy ? json_string(copy) : NULL;
+    free(copy);
+    return made;
 }
 
 json_t *json_columns(const iso_record *r)
@@ -46,16 +53,19 @@ json_t *json_columns(const iso_record *r)
     return o;
 }
 
-json_t *json_effects(const iso_effects *effects)
+json_t *json_effects(const iso_effects *effects, bool all)
 {
     json_t *o = json_object();
     for (iso_effect_id e = 0; e < ISO_EFFECTS; e++) {
         if (!effects->on[e]) continue;
         json_t *numbers = json_object();
-        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++)
-            if (!n->scene_only)
-                json_object_set_new(numbers, n->name,
-                                    json_numbers((size_t)n->count, iso_effect_values(effects, e, n)));
+        for (const iso_effect_number *n = iso_effect_list[e]->numbers; n && n->name; n++) {
+            json_t *list = json_array();
+            const double *x = iso_effect_values(effects, e, n);
+            for (int i = 0; i < n->count; i++) json_array_append_new(list, json_number(x[i]));
+            if (all || !n->scene_only) json_object_set(numbers, n->name, list);
+            json_decref(list);
+        }
         json_object_set_new(o, iso_effect_list[e]->name, numbers);
     }
     return o;
@@ -68,14 +78,15 @@ static json_t *value_of(const iso_field *f, const void *row, int i)
     iso_value v;
     iso_field_read(f, row, i, &v);
     if (!v.there) return json_null();
-    if (v.text) return json_string(v.text);
+    if (v.text) return text_of(v.text);
     if (f->type == ISO_FIELD_BOOL) return json_boolean(v.number != 0);
     return f->type == ISO_FIELD_REAL ? json_number(v.number) : json_integer((json_int_t)v.number);
 }
 
-/* Several numbers: an object if each has a name, else an array. */
+/* Several numbers are an object if each has a name, else an array. */
 static json_t *values_of(const iso_field *f, const void *row)
 {
+    if (f->count <= 1) return value_of(f, row, 0);
     json_t *all = f->word ? json_object() : json_array();
     for (int i = 0; i < f->count; i++)
         if (f->word)
@@ -85,13 +96,11 @@ static json_t *values_of(const iso_field *f, const void *row)
     return all;
 }
 
+/* A struct of one member without a name is that member. */
 static json_t *struct_of(const iso_field *fields, const void *row)
 {
+    if (!*fields->name && !fields[1].name) return values_of(fields, row);
     json_t *o = json_object();
-    if (!*fields->name && fields->type == ISO_FIELD_REAL) { /* a struct that is nothing but numbers */
-        json_decref(o);
-        return values_of(fields, row);
-    }
     json_add(o, fields, row);
     return o;
 }
@@ -105,7 +114,7 @@ static json_t *member_of(const iso_field *f, const void *row)
     }
     if (f->type == ISO_FIELD_RECORD)
         return json_columns(*(iso_record *const *)(const void *)((const char *)row + f->offset));
-    if (f->type != ISO_FIELD_LIST) return f->count > 1 ? values_of(f, row) : value_of(f, row, 0);
+    if (f->type != ISO_FIELD_LIST) return values_of(f, row);
     json_t *list = json_array();
     const void *item;
     for (size_t i = 0; (item = iso_field_item(f, row, i)); i++)

@@ -25,12 +25,11 @@ void json_add(json_t *o, const iso_field *fields, const void *row);
 /* Adds one member, "a.b": to the object a in o. */
 void json_put(json_t *o, const char *name, json_t *value);
 
-/* Numbers, and all columns of a record. */
-json_t *json_numbers(size_t count, const double x[]);
+/* All columns of a record. */
 json_t *json_columns(const iso_record *r);
 
-/* The effects that act, with their numbers. */
-json_t *json_effects(const iso_effects *effects);
+/* The effects that act, with their numbers: those of trajectory files, or all. */
+json_t *json_effects(const iso_effects *effects, bool all);
 
 /* Memory for what goes into JSON; release it by free(). NULL: no memory. Then json_whole() and json_print() return
  * false. */
